@@ -18,7 +18,7 @@ Source of the criterion: Deuflhard, Newton methods for nonlinear problems, chapt
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 from typing import Any
@@ -26,18 +26,35 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...board import Program, RecordingBoard
-from ...boards.batch import batch
+from ...board import Program, RecordingBoard, Step
+from ...boards.arrays import ArrayBoard
+from ...boards.batch import FEW, batch
 from ...boards.exact import ILL, SMALL, run
+from ...boards.template import ASTRAY, CLOSED, FOLDED
 from ...laws import TURN
+from ...names import role
 from ..chain import construct, named
-from ..mechanism import Driver, Mechanism
+from ..mechanism import Driver, Mechanism, start_names
+from ..parts import local_mark
 from ..structure import TRIAD, analyse
-from .courses import Course, Poses
 from .triad import Triad
 
 Array = NDArray[np.float64]
+Places = NDArray[np.intp]
+Poses = dict[str, Array]  # near_x, near_y, near_c, near_s of every central link, by name
+# arrays of one length by name: the poses, the signs of the links' determinants, and where the driver is, AT
+State = dict[str, Array]
 Legs = tuple[int, int]
+
+CRANK_GRID = math.radians(5.0)
+SLIDE_GRID = 1.0 / 16.0  # of a central link's length
+LEAST = 2.0**-30  # part of a step of the grid: shorter steps lead nowhere
+SURE = 0.25  # second correction over the first up to which Newton's method surely stays on its branch
+SETTLING = 6  # runs of the position plan that lay a template down from its rough start
+FAR = 0.75  # how far it may move from there: in its sizes, and as the sine of its turn
+SAME = 1e-6  # part of its size, and angle, up to which a link lies as before
+AT = "_followed_at"
+PARTS = ("place", "turn", "determinant", "apart", "doubt", "missing")
 
 
 class Follower:
@@ -48,16 +65,15 @@ class Follower:
 
     def __init__(self, mechanism: Mechanism, values: Mapping[str, Any]) -> None:
         self._turns = isinstance(mechanism.driver, Driver)
-        self._courses: list[Course] = []
+        self._courses: list[_Course] = []
         numbers = triads(mechanism)
         for count, number in enumerate(numbers, start=1):
-            course = Course(mechanism, values, numbers[:count])
+            course = _Course(mechanism, values, numbers[:count])
             start = mechanism.start(number)
             assert start is not None
             at = np.atleast_1d(np.asarray(values.get(start.driver, 0.0), float))
             at = np.broadcast_to(at, max(len(at), course.count))
-            # from where the central links lie that are followed already
-            course.settle(at, {name: value for name, value in self.near(at).items() if "astray" not in name})
+            course.settle(at, self.near(at))  # from where the central links lie that are followed already
             self._courses.append(course)
 
     def near(self, at: Array) -> Poses:
@@ -74,7 +90,7 @@ class Follower:
     @property
     def places(self) -> Array:
         """Places of the driver that stand for all: around a crank's circle, a slide's start."""
-        start = self._courses[-1].start.at[:1]
+        start = self._courses[-1].start[AT][:1]
         return start + np.arange(-36, 37) * (TURN / 72) if self._turns else start
 
     def limits(self, range_of: float = TURN) -> tuple[float, float] | None:
@@ -84,10 +100,10 @@ class Follower:
         be laid down.
         """
         course = self._courses[-1]
-        start = float(course.start.at[0])
+        start = float(course.start[AT][0])
         if not math.isfinite(start):
             return None
-        low, high = course.go(np.array([start - range_of, start + range_of])).at
+        low, high = course.go(np.array([start - range_of, start + range_of]), np.arange(2))[AT]
         return float(low), float(high)
 
 
@@ -109,6 +125,247 @@ def followed(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
     if all(len(array) == 1 for array in found.values()) and not at.ndim:
         return {name: float(array[0]) for name, array in found.items()}
     return found
+
+
+class _Course:
+    """The position plan of a mechanism up to the last of some groups of class III, whose central links are `numbers`.
+
+    `count` is the number of mechanisms: one, unless `values` has arrays for their dimensions.
+    """
+
+    def __init__(self, mechanism: Mechanism, values: Mapping[str, Any], numbers: Sequence[int]) -> None:
+        driver = mechanism.driver
+        own = replace(driver, angle=AT) if isinstance(driver, Driver) else replace(driver, travel=AT)
+        self._mechanism = replace(mechanism, driver=own, loads=(), couples=())
+        self._names = {number: start_names(number) for number in numbers}
+        self._last = numbers[-1]
+        program = construct(self._mechanism, ("position",))[1]
+        templates = {step.operands[1]: step.operands for step in reversed(program.which(("template",)))}
+        first = {number: templates[names[0]] for number, names in self._names.items()}
+        self._joints = tuple(first[self._last][ASTRAY + i] for i in (2, 6, 10))  # of the last link, on its own drawing
+        extra = [Step(f"template_{part}", f"_{part}_{n}", first[n][1:]) for n in numbers for part in PARTS]
+        self._wanted = [step.name for step in extra]
+        self._program = Program((*program.steps, *extra)).needed_for(self._wanted)
+        self._rough = self._starting()
+        needed = {name for step in (*self._program, *self._rough) for name in step.operands}
+        self._values: dict[str, Any] = {  # a number that stands alone in an array is one for all
+            name: float(value[0]) if np.ndim(value) and len(value) == 1 else value
+            for name, value in values.items()
+            if name in needed
+        }
+        self.count = max((len(value) for value in self._values.values() if np.ndim(value)), default=1)
+        self._nodes: dict[int, State] = {}
+        self.start: State  # one for all mechanisms, or one for each: see `settle`
+        sides = self._run(self._rough, self._joints, {}, np.arange(self.count))
+        a, b, c = (sides[name] for name in self._joints)  # the largest distance of two joints, for each mechanism
+        self._size = np.array(np.broadcast_to(np.max(np.abs([a - b, b - c, c - a]), axis=0), self.count))
+        self._turns = isinstance(driver, Driver)
+        self._steps = np.full(self.count, CRANK_GRID) if self._turns else SLIDE_GRID * self._size
+
+    def _starting(self) -> Program:
+        """Record where the last central link's first joint and x axis are at the start, and its joints on it."""
+        start, board = self._mechanism.start(self._last), RecordingBoard()
+        assert start is not None
+        for opposite, length in self._mechanism.opposites.items():
+            board.calc(opposite, "opposite", length)
+        board.place("_start", start.x, start.y)
+        board.turn("_start_turn", start.angle)
+        for joint in self._joints:
+            local_mark(board, self._mechanism.link(self._last), role(joint).of)
+        board.incline("_start_arm", "_start_turn", self._joints[0])
+        board.chain("_start_joint", "_start", "_start_arm")
+        return Program(board.steps)
+
+    def _run(self, program: Program, wanted: Sequence[str], more: Mapping[str, Array], which: Places) -> dict[str, Any]:
+        """Run a program for some mechanisms; the results have the shape of what varies."""
+        values = self._values
+        if self.count > 1:
+            values = {name: value[which] if isinstance(value, np.ndarray) else value for name, value in values.items()}
+        values = {**values, **more}
+        size = len(which) if more or self.count > 1 else 1
+        if size == 1:
+            one = {name: float(value[0]) if isinstance(value, np.ndarray) else value for name, value in values.items()}
+            board = run(program, one)
+            return {name: np.array([board.values[name]]) for name in wanted}
+        if size > FEW:
+            return batch(program, values, wanted)[0]
+        many = ArrayBoard(values, size)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            program.run(many)
+        return {name: many.values[name] for name in wanted}
+
+    def _of(self, each: Array, which: Places) -> Array:
+        """Return what there is one of for each mechanism, for some of them."""
+        return each[which] if self.count > 1 else np.broadcast_to(each, len(which))
+
+    # What a run of the position plan says of every central link.
+
+    def _look(self, at: Array, poses: Mapping[str, Array], which: Places) -> dict[str, Array]:
+        """Lay all templates down with the driver at `at`, from where they lie; return what the plan says of them."""
+        near = {AT: at}
+        for names in self._names.values():
+            near |= {name: poses[name] for name in names[:4]}
+            near[names[4]] = np.zeros(len(at))
+        look = self._run(self._program, self._wanted, near, which)
+        if len(at) > 1:
+            look = {name: np.broadcast_to(value, len(at)) for name, value in look.items()}
+        for number, (x, y, c, s, _) in self._names.items():
+            place, turn = look[f"_place_{number}"], look[f"_turn_{number}"]
+            look |= {x: place.real, y: place.imag, c: turn.real, s: turn.imag}
+            look[f"_sign_{number}"] = np.sign(look[f"_determinant_{number}"])
+        return look
+
+    def _state(self, look: Mapping[str, Array], at: Array) -> State:
+        """Return the links as they were seen, with the driver at `at`."""
+        names = [name for of in self._names.values() for name in of[:4]] + [f"_sign_{n}" for n in self._names]
+        return {AT: np.array(at), **{name: np.array(look[name]) for name in names}}
+
+    def _all(self, look: Mapping[str, Array], part: str, most: float) -> NDArray[np.bool_]:
+        held: NDArray[np.bool_] = np.logical_and.reduce([look[f"_{part}_{n}"] <= most for n in self._names])
+        return held
+
+    # Where the last group comes from, and how far it goes.
+
+    def settle(self, at: Array, poses: Poses) -> None:
+        """Lay the last central link down near where the task says that it starts, those before lie as in `poses`.
+
+        Where that fails the driver is nowhere, and the link stays at its rough start.
+        """
+        which = np.arange(len(at))
+        found = self._run(self._rough, ("_start_joint", "_start_turn"), {}, which)
+        place, turn = (np.broadcast_to(found[name], len(at)) for name in ("_start_joint", "_start_turn"))
+        x, y, c, s, _ = self._names[self._last]
+        rough = {**poses, x: place.real, y: place.imag, c: turn.real, s: turn.imag}
+        look = self._look(at, rough, which)
+        for _ in range(SETTLING - 1):
+            look = self._look(at, look, which)
+        moved = np.abs(look[f"_place_{self._last}"] - place) / self._of(self._size, which)
+        turned = look[f"_turn_{self._last}"] * turn.conj()
+        held = self._all(look, "apart", CLOSED) & (moved <= FAR) & (np.abs(turned.imag) <= FAR) & (turned.real > 0.0)
+        self.start = self._state(look, np.where(held, at, np.nan))
+        _put(self.start, np.flatnonzero(~held), _part({**self.start, **rough}, ~held))
+
+    def near(self, goal: Array) -> Poses:
+        """Return the givens of the last group of the course, at any positions of the driver."""
+        goal = np.broadcast_to(goal, max(len(goal), len(self.start[AT])))
+        within = self._within(goal)
+        state = self.go(within, np.arange(len(goal)))
+        lost = np.flatnonzero(state[AT] != within)
+        if self._turns and len(lost):
+            self._other_way(state, within, lost)
+            lost = lost[state[AT][lost] != within[lost]]
+        astray = np.zeros(len(goal))
+        if len(lost):
+            astray[lost] = self._astray(state, goal, lost)
+        *pose, way = self._names[self._last]
+        return {**{name: state[name] for name in pose}, way: astray}
+
+    def _within(self, goal: Array) -> Array:
+        """Return positions of a crank less whole turns, where the group comes back after one or cannot make it."""
+        if not self._turns:
+            return goal
+        whole = np.trunc((goal - self.start[AT]) / TURN)
+        far = np.flatnonzero(np.abs(whole) >= 1.0)
+        if not len(far):
+            return goal
+        goal, start = goal.copy(), self._start(far)
+        once = start[AT] + np.copysign(TURN, whole[far])
+        after = self.go(once, far)
+        size = self._of(self._size, far)  # the last link may lie as before, or nearly
+        x, y, c, s = (np.abs(after[name] - start[name]) for name in self._names[self._last][:4])
+        same = np.max([x / size, y / size, c, s], axis=0) <= SAME
+        goal[far] -= np.where((after[AT] != once) | same, whole[far] * TURN, 0.0)
+        return goal
+
+    def _start(self, which: Places) -> State:
+        return _part(self.start, np.zeros(len(which), int) if len(self.start[AT]) == 1 else which)
+
+    def _other_way(self, state: State, within: Array, lost: Places) -> None:
+        """Try to come round the other way, where that way does not lead past the place at which this one ends.
+
+        If it does, the crank has two positions for that angle, and a sweep would jump from one to the other.
+        """
+        within = within[lost]
+        back = np.copysign(TURN, within - self._start(lost)[AT])
+        found, end = self.go(within - back, lost), self.go(state[AT][lost] - back, lost)
+        there = (found[AT] == within - back) & (end[AT] != state[AT][lost] - back)
+        _put(state, lost[there], _part({**found, AT: within}, there))
+
+    def go(self, goal: Array, which: Places) -> State:
+        """Follow from the start as far towards `goal` as it goes; `which` are the mechanisms."""
+        start, grid = self._start(which), self._of(self._steps, which)
+        ahead = np.trunc((goal - start[AT]) / grid)
+        ahead = np.where(np.isfinite(ahead), ahead, 0.0).astype(int)
+        if len(self.start[AT]) == 1 and self.count == 1:
+            state = self._from_nodes(ahead)
+        else:
+            state, passed = _part(start, np.arange(len(goal))), np.zeros(len(goal), int)
+            for node in range(1, int(np.max(np.abs(ahead), initial=0)) + 1):
+                before, passed = passed, np.sign(ahead) * np.minimum(node, np.abs(ahead))
+                self._advance(state, start[AT] + before * grid, start[AT] + passed * grid, which)
+        self._advance(state, start[AT] + ahead * grid, goal, which)
+        return state
+
+    def _from_nodes(self, ahead: NDArray[np.int_]) -> State:
+        """Return states at nodes of the grid, each found once."""
+        one = np.zeros(1, int)
+        self._nodes.setdefault(0, self.start)
+        for last in (int(np.max(ahead, initial=0)), int(np.min(ahead, initial=0))):
+            sense = 1 if last > 0 else -1
+            for node in range(sense, last + sense, sense):
+                if node not in self._nodes:
+                    state = _part(self._nodes[node - sense], one)
+                    before, there = (self.start[AT] + number * self._steps for number in (node - sense, node))
+                    self._advance(state, before, there, one)
+                    self._nodes[node] = state
+        states = [self._nodes[node] for node in ahead.tolist()]
+        return {name: np.concatenate([state[name] for state in states]) for name in self.start}
+
+    def _advance(self, state: State, before: Array, goal: Array, which: Places) -> None:
+        """Move states on to `goal`, in steps that keep the branch, as far as they go.
+
+        A state that has not come as far as `before` stands in a dead position, and stays there.
+        """
+        least = LEAST * self._of(self._steps, which)
+        active = np.flatnonzero((state[AT] != goal) & (state[AT] == before))
+        step = (goal - state[AT])[active]
+        while len(active):
+            here, rest = _part(state, active), goal[active] - state[AT][active]
+            ahead = np.where(np.abs(step) >= np.abs(rest), goal[active], here[AT] + step)
+            look = self._look(ahead, here, which[active])
+            sure = self._all(look, "apart", CLOSED) & self._all(look, "doubt", SURE)
+            for number in self._names:
+                sure = sure & (look[f"_sign_{number}"] == here[f"_sign_{number}"])
+            _put(state, active[sure], _part(self._state(look, ahead), sure))
+            step = np.where(sure, step * 2.0, (ahead - here[AT]) * 0.5)
+            going = (state[AT][active] != goal[active]) & (np.abs(step) > least[active])
+            active, step = active[going], step[going]
+
+    def _astray(self, state: State, goal: Array, lost: Places) -> Array:
+        """Return how far the legs of the last group are from its joints, where the driver stands at `goal` in vain.
+
+        Just at a dead position it is zero, and the pose is refined: it is singular, not out of reach.
+        """
+        here, there = _part(state, lost), goal[lost]
+        look = self._look(there, here, lost)
+        missing = look[f"_missing_{self._last}"]
+        for _ in range(SETTLING):
+            look = self._look(there, look, lost)
+        near = np.abs(there - here[AT]) <= 8.0 * LEAST * self._of(self._steps, lost)
+        dead = near & (np.abs(look[f"_determinant_{self._last}"]) < FOLDED)  # the legs of the last one concur
+        _put(state, lost[dead], _part(self._state(look, there), dead))
+        return np.where(dead, 0.0, np.where(missing > 0.0, missing, np.nan))
+
+
+def _part(state: State, which: Any) -> State:
+    """Return part of the positions, by a mask or by places."""
+    return {name: array[which] for name, array in state.items()}
+
+
+def _put(state: State, places: Places, other: State) -> None:
+    """Write the positions of another state into some places."""
+    for name, array in state.items():
+        array[places] = other[name]
 
 
 def with_special_points(
@@ -143,36 +400,25 @@ def _sines(
 
     Where the mechanism cannot be assembled all are one.
     """
-    if not any(start.legs is None for start in mechanism.starts):
-        return {}
-    free = mechanism.without_loads
-    triads = [group for group in named(free, analyse(free))[0] if isinstance(group, Triad)]
-    board, by_triad = RecordingBoard(), {}
-    for triad in triads:
-        start = mechanism.start(triad.central.number)
-        if start is not None and start.legs is None:
-            by_triad[triad.central.number] = dict(_pairs(board, triad))
+    unnamed = {start.link for start in mechanism.starts if start.legs is None}
+    free, board = mechanism.without_loads, RecordingBoard()
+    groups = named(free, analyse(free))[0] if unnamed else ()
+    triads = [group for group in groups if isinstance(group, Triad) and group.central.number in unnamed]
+    by_triad = {triad.central.number: dict(_pairs(board, triad)) for triad in triads}
     if not by_triad:
         return {}
-    _, position = construct(free, ("position",))
-    program = Program((*position.steps, *board.steps))
     wanted = [name for pairs in by_triad.values() for names in pairs.values() for name in names]
-    found = _run(program.needed_for(wanted), {**values, **(near or followed(mechanism, values))}, wanted)
-    return {number: (list(pairs), _rows(found, pairs.values())) for number, pairs in by_triad.items()}
-
-
-def _rows(found: Mapping[str, Any], pairs: Iterable[tuple[str, str]]) -> Array:
-    rows = np.stack([np.min([np.atleast_1d(np.abs(found[name])) for name in names], axis=0) for names in pairs])
-    apart = np.isnan(rows).all(axis=0)
-    return np.where(apart, 1.0, np.nan_to_num(rows, nan=0.0))
-
-
-def _run(program: Program, values: Mapping[str, Any], wanted: list[str]) -> Mapping[str, Any]:
-    needs = program.needs
-    values = {name: value for name, value in values.items() if name in needs}
-    if any(np.ndim(value) for value in values.values()):
-        return batch(program, values, wanted)[0]
-    return run(program, values).values
+    program = Program((*construct(free, ("position",))[1].steps, *board.steps)).needed_for(wanted)
+    values = {**values, **(near or followed(mechanism, values))}
+    values = {name: value for name, value in values.items() if name in program.needs}
+    many = any(np.ndim(value) for value in values.values())
+    found = batch(program, values, wanted)[0] if many else run(program, values).values
+    sines = {}
+    for number, pairs in by_triad.items():
+        both = [[np.atleast_1d(np.abs(found[name])) for name in names] for names in pairs.values()]
+        rows = np.min(both, axis=1)
+        sines[number] = [*pairs], np.where(np.isnan(rows).all(axis=0), 1.0, np.nan_to_num(rows, nan=0.0))
+    return sines
 
 
 def _pairs(board: RecordingBoard, triad: Triad) -> Iterable[tuple[Legs, tuple[str, str]]]:
