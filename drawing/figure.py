@@ -13,6 +13,7 @@ from ..plans.names import is_shown
 from .view import Canvas, View
 
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
+GIVEN = "given"  # what is drawn before any step
 ANSWERS = "answers"  # what is drawn in no stage, but with all the work: what it comes to
 NUMBER = re.compile(r"\d+")
 

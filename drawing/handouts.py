@@ -9,17 +9,15 @@ from math import ceil
 
 from ..scales.packaged import packaged
 from .areas import beside
+from .figure import GIVEN
 from .formats import Format, drawing_area, reserved_boxes
 from .page import TASK_VIEWS, Layer, Page, extent
 from .pens import Norm
-from .shapes import Arrow, Group, Line, Pen, Polyline, Shape, Text, Vector, shifted
+from .shapes import Group, Line, Pen, Shape, Text, shifted
 from .table import cells
 from .view import View
 
 NUMBER = re.compile(r"[−-]?\d+(?:[.,]\d+)?(?: |$)")  # what a cell of units does not begin with
-ALWAYS = ("axis", "pivot", "frame")  # roles of what the task gives, not the work
-ENLARGED = ("window", "enlarged")  # roles of what is drawn when the whole view is: its crowded parts, larger
-TOGETHER = re.compile(r", | = ")  # between letters of marks at one place, and of vectors that are one
 SQUARE, LIGHT = 5.0, "#d9d9d9"  # of the grid: side in mm, colour
 ANSWER = "#0072B2"  # what the teacher's hand adds is blue
 ROUND = 30.0  # mm of free paper round a plan that stands alone: room for the rulers that prove the print
@@ -29,28 +27,20 @@ RULER, TICK, LONG = 100, 1.5, 3.0  # lengths of a ruler and of its marks, mm
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """What is drawn of a view: names of points, links, construction lines and quantities, and the letters.
+    """What a handout shows of a view: the shapes of these `stages`; of a table some rows and columns.
 
     `notes` are the lines under its heading, which may hold results. A table keeps its first `columns`, and the `rows`
-    with these first cells; without any said, its last column where that is one of units. Of a view that is drawn in
-    stages the shapes of these `stages` are drawn, whatever their names and letters. What is enlarged beside a view is
-    drawn when the view is drawn `whole`.
+    with these first cells; without any said, its last column where that is one of units.
     """
 
-    names: frozenset[str]
-    letters: frozenset[str]
-    notes: bool = True
+    stages: frozenset[str] = frozenset((GIVEN,))
+    notes: bool = False
     rows: frozenset[str] | None = None
     columns: int = 1
-    stages: frozenset[str] | None = None
-    whole: bool = False
-
-
-NOTHING = Shown(frozenset(), frozenset(), notes=False)
 
 
 def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str, Shown], steps: int = 0) -> list[Page]:
-    """Return pages on which so many steps are done, and views without stages show no more than is `shown` of them.
+    """Return pages on which so many steps are done, and views that name no stages show no more than is `shown` of them.
 
     Tables keep their heads and first columns. All of it is given to the student, and in that layer.
     """
@@ -62,7 +52,7 @@ def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str
 def begun_stages(view: View, steps: int) -> Shown:
     """Return what is drawn of a view in its first stages; what stands under its heading is known when all are done."""
     drawn = frozenset(list(view.stages)[: steps + 1])
-    return Shown(frozenset(), frozenset(), notes=drawn.issuperset({*view.parts, *view.stages} - {""}), stages=drawn)
+    return Shown(drawn, notes=drawn.issuperset({*view.parts, *view.stages} - {""}))
 
 
 def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Shown]) -> Shape:
@@ -72,18 +62,16 @@ def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Sho
     view = views.get(shape.name)
     if view is None or (view.name in TASK_VIEWS and view.name not in shown):
         return shape
-    kept = shown.get(view.name, NOTHING)
+    kept = shown.get(view.name, Shown())
     if view.rows:
         return replace(shape, shapes=tuple(_table(part, view, kept) for part in shape.shapes))
-    if view.lines:
-        return replace(shape, shapes=tuple(part for part in shape.shapes if getattr(part, "role", "") == "heading"))
     hidden = frozenset(() if kept.notes else view.notes)
     stages = view.parts or ("",) * len(shape.shapes)
 
     def is_kept(part: Shape, stage: str) -> bool:
         if isinstance(part, Text) and part.role == "heading":
             return part.markup not in hidden
-        return _is_shown(part, kept) if kept.stages is None else stage in kept.stages
+        return stage in kept.stages
 
     return replace(
         shape, shapes=tuple(part for part, stage in zip(shape.shapes, stages, strict=True) if is_kept(part, stage))
@@ -113,37 +101,6 @@ def _width(head: Sequence[str | None]) -> int:
     """Return the columns of a table, or of each half of one whose halves stand side by side under the same head."""
     half, odd = divmod(len(head), 2)
     return half if half and not odd and head[:half] == head[half:] else len(head)
-
-
-def _is_shown(shape: Shape, shown: Shown) -> bool:
-    match shape:
-        case Text(role="diameter", name=name):  # at the end of its circle, on a leader
-            return name in shown.names
-        case Text(markup=markup):
-            return _told(markup, shown)
-        case Vector(quantity=quantity):
-            return quantity in shown.names
-        case Arrow(name=name):
-            return bool(name) and name in shown.names
-        case Group(role=role, name=name):
-            own = f"link:{name}" if role == "guide" else f"{role}:{name}"
-            return role in ALWAYS or own in shown.names or name in shown.names or (role in ENLARGED and shown.whole)
-        case Line(role="leader", name=name):
-            return name in shown.names or _told(name, shown)
-        case Polyline(role=role) if role in ENLARGED:
-            return shown.whole
-        case Line(role="similarity", name=name):
-            return shown.names.issuperset(name.split())
-        case Line(name=name, pen=pen) | Polyline(name=name, pen=pen):
-            return name in shown.names or (not name and pen.name == "AXIS")
-        case _:
-            name = getattr(shape, "name", "")
-            return bool(name) and name in shown.names
-
-
-def _told(letters: str, shown: Shown) -> bool:
-    """Whether what is written is shown: as it stands, or each of the letters that stand together."""
-    return letters in shown.letters or shown.letters.issuperset(TOGETHER.split(letters))
 
 
 def gridded(page: Page, sheet: Format, norm: Norm, first: bool) -> Page:

@@ -71,7 +71,9 @@ class Canvas:
     bounds: Box | None = None  # letters stay inside of it
     coarse: float = 0.0  # mm by which letters may take a curve of many points for a shorter broken line
     parts: Mapping[str, str] = field(default_factory=dict)  # stages of a figure, with those in which they are drawn
-    stages: Mapping[str, str] = field(default_factory=dict)  # these, with the keys of their sentences
+    stages: Mapping[str, str] = field(
+        default_factory=dict
+    )  # these, with the keys of their sentences, where they have any
 
     def add(self, *shapes: Shape) -> None:
         """Draw shapes."""
@@ -86,7 +88,8 @@ class Canvas:
             The stage to which it belonged up to here.
         """
         before = self._begun[-1][1] if self._begun else ""
-        self._begun.append((len(self.shapes), self.parts[name]))
+        own = self.parts[name] if self.stages else self.parts.get(name, name)
+        self._begun.append((len(self.shapes), own))
         return before
 
     def keep_clear(self, *points: complex) -> None:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 
 from ...plans.cams.cam import PLATE
 from ...plans.cams.construction import ACCELERATION, OUTWARDS, PLATE_SIZES, ROCKER_SIZES, SIZES
 from ...plans.cams.course import analogue, permitted, pressed, rolling, rolls, theta, transmission, turning
 from ...plans.cams.rules import Rule, rules_of
 from ...scales.scale import Scale
-from ..handouts import NOTHING
 from ..handouts import Shown as Begun
 from ..notes.blocks import Sentences, Story
 from ..printed import segment_decimals
@@ -39,7 +37,7 @@ def story(scene: CamScene, scales: Mapping[str, Scale], texts: Texts) -> Story:
 
 def begun(scene: CamScene, steps: int) -> dict[str, Begun]:
     """Return what handouts show of the table: section lines, and their angles from the first step on."""
-    return {"motion": replace(NOTHING, columns=2 if steps else 1)}
+    return {"motion": Begun(columns=2 if steps else 1)}
 
 
 def _said(scene: CamScene, texts: Texts) -> Said:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from ...plans.gears.blocking import BLOCKING, CURVES, OF_CURVE, RATIOS, Plane, plane_of
 from ...scales.scale import Scale, steps
 from ..diagram import Axis, Field, divisions
+from ..figure import GIVEN
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from ..thinning import freest, thinned
 from ..view import Canvas, View
@@ -82,10 +83,12 @@ def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
             foot = field.at(x.low, value)
             canvas.add(Line(foot, foot + tick, Pen.THIN, role="division"))
             canvas.add(Text(foot - 0.6 * height - 0.5j * height, text, height, "right", role="number"))
+    before = canvas.part(GIVEN)
     if y.low < 0.0 < y.high:
         canvas.add(Line(field.at(x.low, 0.0), field.at(x.high, 0.0), Pen.AXIS, role="axis"))
     if x.low < 0.0 < x.high:
         canvas.add(Line(field.at(0.0, y.low), field.at(0.0, y.high), Pen.AXIS, role="axis"))
+    canvas.part(before)
     label = scene.style.label
     for end, along, letter, aside in (
         (corners[1], 1 + 0j, x.letter, complex(0.0, 0.6 * label)),

@@ -180,9 +180,8 @@ CENTRES: dict[str, Callable[[Symbol], str]] = {
 
 def begun(scene: GearScene, steps: int) -> dict[str, Begun]:
     """Return what handouts show of the tables: the rows of what is given."""
-    nothing = frozenset[str]()
-    found = {name: Begun(nothing, nothing, rows=nothing) for name in ("points", "checks")}
-    return found | {"data": Begun(nothing, nothing, rows=frozenset(_given(scene)), columns=2)}
+    found = {name: Begun(rows=frozenset()) for name in ("points", "checks")}
+    return found | {"data": Begun(rows=frozenset(_given(scene)), columns=2)}
 
 
 def _given(scene: GearScene) -> Iterator[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ...plans.check import Check
 from ...plans.hoist.forces import STRENGTH, strength
@@ -14,7 +14,7 @@ from ...plans.hoist.solve import SCALED, unit_of
 from ...plans.laws import form_of
 from ...plans.names import role
 from ...scales.scale import Scale
-from ..handouts import NOTHING, Shown
+from ..handouts import Shown
 from ..notes.blocks import Story
 from ..printed import Input, Symbol, calculation
 from ..table import givens_view, table, text_block
@@ -70,7 +70,7 @@ def checks_table(scene: HoistScene) -> View:
 
 def begun(scene: HoistScene, steps: int) -> dict[str, Shown]:
     """Return what handouts show of the tables: the two columns in which the checks are asked."""
-    return {"checks": replace(NOTHING, rows=frozenset(), columns=2)}
+    return {"checks": Shown(rows=frozenset(), columns=2)}
 
 
 def _check_row(scene: HoistScene, check: Check) -> list[str]:

@@ -79,6 +79,11 @@ class Reading:
         step = self.made[edge.tip]
         return step.verb in ("lay", "back", "chain") and step.operands[0] == edge.tail
 
+    def drawn_with(self, edge: Edge) -> str:
+        """Return the step that draws a vector: that of its end where it was hung, else the first that measures it."""
+        first = None if self.is_hung(edge) else self.between(edge.tail, edge.tip)
+        return edge.tip if first is None else first.name
+
     def visible(self, name: str) -> str:
         """Return the quantity that a calculated size is: `a_BA_n`, which the plan shows, of `_a_BA_n`."""
         if not role(name).hidden:

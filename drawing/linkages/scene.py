@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -14,9 +14,11 @@ from ...plans.linkages.structure import Structure
 from ...plans.names import inertia, rate, role
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
+from ..figure import ANSWERS
 from ..printed import segment_decimals
 from ..rungs import SubjectScene
 from ..shapes import Group, Pen, Vector
+from ..view import Canvas
 from ..words import Words
 from .layout.ladders import DRIVER
 from .reading import Edge, Reading, read
@@ -73,6 +75,19 @@ class Scene(SubjectScene[SolvedLinkage]):
     def reading(self) -> Reading:
         """What is looked up in the steps."""
         return read(self.solved.program)
+
+    def canvas(self, parts: Mapping[str, str] | None = None) -> Canvas:
+        """Return an empty canvas: what is drawn is an answer until it is a `part`, by the step of the program.
+
+        What some steps draw belongs to others, which `parts` names.
+        """
+        canvas = Canvas(self.style, parts=parts or {})
+        canvas.part(ANSWERS)
+        return canvas
+
+    def last(self, names: Iterable[str]) -> str:
+        """Return which of some names the program makes last: the step with which all of them are drawn."""
+        return max(names, key=lambda name: self.reading.number.get(name, len(self.reading.number)))
 
     def point(self, at: complex, name: str) -> Group:
         """Return the small circle of a point that is no joint."""

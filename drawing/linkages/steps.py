@@ -6,14 +6,14 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import chain
 
-from ...plans.board import POSITION, Step
+from ...plans.board import POSITION
 from ...plans.boards.exact import SMALL
 from ...plans.laws import dot
-from ...plans.linkages.legs import guide_letters
 from ...plans.linkages.mechanism import MOMENT, Driver
 from ...plans.linkages.solved import disagreement
 from ...plans.names import FORCES, role
 from ...plans.quantities import point_of
+from ..figure import GIVEN
 from ..handouts import Shown
 from ..notes.blocks import Block, Equations, Heading, Story
 from ..printed import value_text
@@ -21,10 +21,8 @@ from .calculations.equations import rate_of, sensed, size_of, stated
 from .calculations.forces import LOADS, force_lines, force_parts, lines_by_plan
 from .calculations.kinematics import kinematics_lines
 from .calculations.tables import printed_segment
-from .figures.inset import NUMERALS
-from .figures.scheme import angle_said
+from .figures.inset import ENLARGED
 from .layout.ladders import links_apart
-from .reading import Reading
 from .scene import Scene, is_at_point, plan_heading
 from .telling.compound import block_name, compound_lines, compound_told
 from .telling.marks import TOLD, lever_told
@@ -96,36 +94,19 @@ def begun(scene: Scene, steps: int) -> dict[str, Shown]:
 
 
 def _begun(teller: Teller, view: str, steps: int) -> Shown:
-    scene, names, letters = teller.scene, set[str](), set[str]()
-    every = list(told_of(teller, view))
-    for told in (told for number, told in enumerate(every, 1) if told.before or number <= steps):
-        vectors, step = set(told.vectors), told.step
-        if step.plan == view:
-            vectors |= _vectors_by(teller.reading, step)
-            lines = (step.name, f"arc_{step.name}")
-            names |= {*lines, *(f"{line}_{number}" for line in lines for number in (1, 2))}
-            letters |= {scene.words.mark(step.name)} if step.verb not in ("read", "tangent") else set()
-        names |= told.names | vectors
-        letters |= told.letters | {scene.letter(vector) for vector in vectors}
-    if view == POSITION:
-        links = [str(link.number) for link in scene.mechanism.links if names.issuperset(link.points)]
-        names |= {f"link:{number}" for number in links}
-        letters |= {*links, scene.words.frame, *guide_letters(scene.program).values()}
-        driver = scene.mechanism.driver
-        if isinstance(driver, Driver) and driver.point in names:
-            names.add(driver.angle)
-            letters.add(angle_said(scene, driver)[1])
-    # what is zero, or too short, is told when all is drawn, and drawn larger
+    every, before = list(told_of(teller, view)), ""
+    drawn = {
+        name: told.before or number <= steps
+        for number, told in enumerate(every, 1)
+        for name in (told.step.name, *told.others)
+    }
+    for step in teller.scene.program.on(view):  # what nothing is said of is drawn with what stands before it
+        before = step.name if step.name in drawn else before
+        drawn.setdefault(step.name, drawn.get(before, False))
     whole = len(every) <= steps
-    return Shown(frozenset(names), frozenset(letters | set(NUMERALS if whole else ())), notes=whole, whole=whole)
-
-
-def _vectors_by(reading: Reading, step: Step) -> set[str]:
-    """Return the vectors that a step draws; that of a point about another that rests is that of the point, too."""
-    if step.verb == "read":
-        steps = reading.program.on(step.plan)
-        return {same.name for same in steps if (same.verb, same.operands) == (step.verb, step.operands)}
-    return {edge.name for edge in reading.on(step.plan) if edge.tip == step.name and reading.is_hung(edge)}
+    # what is zero, or too short, is told when all is drawn, and drawn larger
+    done = {name for name, is_drawn in drawn.items() if is_drawn} | ({GIVEN, ENLARGED} if whole else {GIVEN})
+    return Shown(frozenset(done), notes=whole)
 
 
 def conclusions(teller: Teller) -> Iterator[str]:

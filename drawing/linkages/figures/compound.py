@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 
 from ....plans.board import POSITION
 from ....plans.linkages.compound import Coupler
+from ....plans.names import mark
+from ...figure import ANSWERS
 from ...shapes import Arrow, Group, Line, Pen, Shape, Vector
 from ...symbols import turning_arrow
 from ...view import Canvas, View
@@ -34,12 +36,13 @@ FAR = 0.75  # part of the mechanism's size within which an instant centre is dra
 
 def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
     """Draw v = v^e + v^r at every point of the couplers, instant centres with their rays, and all rates of turning."""
-    canvas = Canvas(scene.style)
+    canvas = scene.canvas()
     figures = _mechanism(canvas, scene, [link.number for link in scene.mechanism.links])
     points = [At(scene, c, point, "V") for c in couplers for point in c.letters]
     busy = _busy(scene, points, figures)
     shown = {at.point for at in points}  # a hinge may be a point of another coupler, which shows its velocity
     for hinge in dict.fromkeys(c.hinge for c in couplers if c.hinge not in shown):
+        canvas.part(ANSWERS)
         moved = scene.vector(Edge(f"V_{hinge}", "velocity.p", f"velocity.{hinge}"), at=scene.mm(hinge))
         _vector(canvas, scene, moved)
         busy.append((moved.tail, moved.tip))
@@ -57,7 +60,7 @@ def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
 
 def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     """Draw the accelerations of one point of a coupler: the chain of its parts, closed by the absolute one."""
-    canvas = Canvas(scene.style)
+    canvas = scene.canvas()
     at = At(scene, coupler, point, "a")
     group = next(g for g in scene.solved.structure.groups if coupler.number in g.links)
     # the link that carries the coupler, itself, the other of its group
@@ -86,6 +89,7 @@ def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Ske
     blocks = {p for p in joints if any(abs(centre - scene.mm(p)) < scene.style.pair for centre in centres)}
     for point in dict.fromkeys(p for number in numbers for p in scene.mechanism.link(number).points):
         at = scene.mm(point)
+        canvas.part(point)
         if point not in joints:
             canvas.add(scene.point(at, point))
         reach = scene.style.slider[1] / 2 if point in blocks else scene.style.pair
@@ -109,6 +113,7 @@ def _distance(canvas: Canvas, scene: Scene, at: At) -> None:
     if abs(end - start) > 4 * rim:
         e = (end - start) / abs(end - start)
         name = f"l_{at.coupler.pivot}{at.point}"
+        canvas.part(name)
         canvas.add(Line(start + e * rim, end - e * rim, Pen.AXIS, role="measured", name=name))
 
 
@@ -116,6 +121,7 @@ def _at_points(canvas: Canvas, scene: Scene, points: Sequence[At]) -> None:
     """Draw the construction lines and the vectors at the points; what an inset shows has its letters there."""
     for at in points:
         shown = windows(at)
+        canvas.part(mark(at.plan, at.letter))
         for i, (tail, found, end, said) in enumerate(at.lines()):
             canvas.add(Line(tail, end, Pen.DASHED, role="construction", name=f"{at.plan}_{i + 1}"))
             if not any(shows(window, (found,)) for window in shown):
@@ -123,6 +129,7 @@ def _at_points(canvas: Canvas, scene: Scene, points: Sequence[At]) -> None:
     for at in points:
         shown = windows(at)
         for vector in at.vectors():
+            canvas.part(at.drawn_with(vector.quantity))
             seen = any(shows(window, (vector.tail, vector.tip)) for window in shown)
             _vector(canvas, scene, vector, lettered=not seen)
 
@@ -148,6 +155,7 @@ def _sliding_sense(canvas: Canvas, scene: Scene, at: At, busy: list[Stroke]) -> 
     side = e if _room(busy, start + e * length) >= _room(busy, start - e * length) - scene.style.arrow else -e
     near, far = start + side * scene.style.pair, start + side * (length + scene.style.pair)
     tail, tip = (near, far) if side == e else (far, near)
+    canvas.part(ANSWERS)
     canvas.add(Arrow(tail, tip, Pen.THIN, name=name))
     canvas.label(scene.words.symbol(name, bar=True), ((near + far) / 2, far), clear=0.9)
     busy.append((near, far))
@@ -167,6 +175,7 @@ def _instant_centre(
     if min((abs(P - end) for end in ends), default=0.0) > FAR * size:
         yield scene.words["said.far_centre"].format(centre=symbol)
         return
+    canvas.part(c.centre)
     for joint in (c.hinge, c.span.end):
         way = P - scene.mm(joint)
         if abs(way) > 2 * scene.style.pair:  # it may stand in the joint itself
@@ -203,6 +212,7 @@ def _turn(canvas: Canvas, scene: Scene, rate: str, centre: str, busy: list[Strok
     if not value or value != value:
         return
     c, style = scene.mm(centre), scene.style
+    canvas.part(ANSWERS)
     places = [(style.pair + size * style.force, k * math.pi / 12) for size in SIZES for k in range(24)]
     # farthest from all strokes, rather a small one
     polar = np.array(places)

@@ -61,7 +61,7 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     motion = main_output(cycle)
     if motion is None:
         raise ValueError("no output has a stroke")
-    canvas, of, length = Canvas(scene.style), str(motion.output.link), LENGTH[scene.style.label]
+    canvas, of, length = scene.canvas(), str(motion.output.link), LENGTH[scene.style.label]
     drawn, dense = (diagrams(cycle, of, sections) for sections in (len(cycle.angles), DENSE))
     across = Scale("mu_t", rounded(float(drawn.times[-1]) / length, 6), "s")
     bands, fields, low = _bands(scene, drawn, dense, across, motion), list[Field](), 0.0
@@ -169,7 +169,7 @@ def _notes(scene: Scene, drawn: Diagrams, bands: Sequence[Band]) -> tuple[str, .
 
 def load_diagram(scene: Scene, diagram: Diagram) -> View:
     """Draw what the task gives: the diagram with its scale factors, and the ordinate of the calculated position."""
-    canvas, words = Canvas(scene.style), scene.words
+    canvas, words = scene.canvas(), scene.words
     every: Sequence[Load | Couple] = (*scene.mechanism.loads, *scene.mechanism.couples)
     loads = [load for load in every if load.magnitude == diagram.name]
     forth, back = (_points(scene, diagram, names) for names in (diagram.values, diagram.back or ()))

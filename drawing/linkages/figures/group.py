@@ -14,7 +14,7 @@ from ....plans.names import role
 from ...shapes import Arrow, Head, Line, Pen, Shape
 from ...shapes import Group as Shapes
 from ...symbols import turning_arrow
-from ...view import Canvas, View
+from ...view import View
 from ..layout.ladders import DRIVER
 from ..scene import Scales, Scene
 from ..skeleton import NEAR, Skeleton, guide_of
@@ -135,7 +135,7 @@ class Sketch(Arrows):
 
 def _sketch(scene: Scene, numbers: Sequence[int], framed: bool = False) -> Sketch:
     """Draw these links apart, with the pivots on which they turn where they are `framed`."""
-    canvas = Canvas(scene.style)
+    canvas = scene.canvas()
     figures = draw_links(canvas, scene, numbers, framed)
     if framed:
         draw_frame(canvas, scene, numbers, figures)

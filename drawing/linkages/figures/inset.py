@@ -31,6 +31,7 @@ LEAST_FRAME = 5.0  # mm, the least side of the frame around what an inset shows
 TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
 NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
 NARROWEST_FORCES = 45.0  # mm, the least side of an inset of forces
+ENLARGED = "enlarged"  # the stage of insets: all that a figure has is there before them
 PAST = 6.0  # mm by which a construction line runs past the point that it finds
 FEW = 1  # forces too short to be read that a plan shows as points, said in words
 VELOCITIES, ACCELERATIONS = "compound_velocity", "compound_a_"  # names of the views
@@ -58,6 +59,7 @@ def with_insets(
     for i, (plan, window) in enumerate(shown):
         framed = [(shown[k][1].box, numerals[k]) for k, host in enumerate(hosts) if host == i]
         insets.append(_inset(plan, window, name, numerals[i], framed))
+    canvas.part(ENLARGED)
     for k, host in enumerate(hosts):
         if host is None:
             _framed(canvas, shown[k][1].box, 1.0, f"{name}_{numerals[k]}", numerals[k])
@@ -213,7 +215,9 @@ def _together(
 
     shapes = min((beside, under), key=area)
     x0, y0, x1, y1 = write_above(shapes, heading, notes, style)
-    return View(figure.name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes)
+    parts = (*figure.parts, *(ENLARGED for _ in insets))
+    parts = (*parts, *("" for _ in shapes[len(parts) :]))
+    return View(figure.name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes, parts=parts)
 
 
 def _shapes(figure: View, insets: Sequence[View], right: bool) -> Iterator[Shape]:
@@ -223,7 +227,7 @@ def _shapes(figure: View, insets: Sequence[View], right: bool) -> Iterator[Shape
     for inset in insets:
         width, height = inset.size
         corner = complex(x - inset.box[0], y - inset.box[1] - (0.0 if right else height))
-        yield Group(tuple(shifted(shape, corner) for shape in inset.shapes), "enlarged", inset.name)
+        yield Group(tuple(shifted(shape, corner) for shape in inset.shapes), ENLARGED, inset.name)
         x, y = (x, y + height + GAP) if right else (x + width + GAP, y)
 
 
@@ -343,15 +347,18 @@ def letter_marks(
         return
     middle = sum(places.values()) / len(places)
     at: dict[complex, list[str]] = {}
-    for mark, letter in letters.items():
+    for mark in letters:
         near = next((place for place in at if abs(place - places[mark]) < TOGETHER), places[mark])
-        at.setdefault(near, []).append(letter)
+        at.setdefault(near, []).append(mark)
     for mark in poles:
+        canvas.part(mark)
         canvas.add(scene.point(places[mark], mark))
-    for place, names in at.items():
-        canvas.label(", ".join(names), place, prefer=place - middle, clear=1.0, priority=1)
+    for place, marks in at.items():
+        canvas.part(scene.last(canvas.parts.get(mark, mark) for mark in marks))
+        canvas.label(", ".join(letters[mark] for mark in marks), place, prefer=place - middle, clear=1.0, priority=1)
     for mark in letters:
         if mark not in poles:
+            canvas.part(mark)
             canvas.add(Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
 
 
@@ -387,6 +394,11 @@ class At:
         for edge in sorted(edges, key=lambda edge: edge.name == total):
             plain = vector_named(self.kind, self.point) if edge.name == total else edge.name
             yield self.scene.vector(replace(edge, name=plain), at=self.scene.mm(self.point))
+
+    def drawn_with(self, quantity: str) -> str:
+        """Return the step that draws the vector of a quantity; what the closed figure shows has steps of its own."""
+        edges = (edge for edge in self.scene.reading.on(self.plan) if edge.name == quantity)
+        return next(map(self.scene.reading.drawn_with, edges), quantity)
 
     def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
         """Go through the construction lines: whence, the point that they find, their end, their direction in words."""

@@ -8,7 +8,7 @@ from math import cos, radians
 
 from ....plans.names import COUPLE, lever_arm, role, spelled
 from ...shapes import Line, Pen
-from ...view import Canvas, View
+from ...view import View
 from ..reading import Edge
 from ..scene import Scene
 from ..skeleton import rays_of
@@ -23,30 +23,56 @@ STEP = 2.4  # heights of an arm's letters between arms that are staggered
 
 def lever_view(scene: Scene) -> View:
     """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
-    canvas = Canvas(scene.style)
+    canvas = scene.canvas(drawn_with(scene))
     words, point = scene.words, scene.mechanism.driver.point
     marks = dict.fromkeys(("lever.p", *images(scene)))
     lines, hung = lines_of_lever(scene), hung_on_lever(scene)
     strokes = [(image(scene, line.tail), image(scene, line.tip)) for line in lines]
     for stroke, line in zip(strokes, lines, strict=True):
+        canvas.part(scene.last(canvas.parts.get(mark, mark) for mark in (line.tail, line.tip)))
         canvas.add(Line(*stroke, Pen.MAIN, role="lever", name=line.name))
     arrows = Arrows(canvas, scene, strokes)
     for name, mark in hung:
         at = image(scene, mark)
+        canvas.part(name)
         arrows.bar(at, rays_of(at, strokes))
         arrows.hang(name, at)
     places = {mark: image(scene, mark) for mark in marks}
     pole, arms = image(scene, "lever.p"), arms_on_lever(scene)
     shifts = staggered(pole, arms, sum(places.values()) / len(places), STEP * scene.style.text)
     for number, arm in enumerate(arms):
+        canvas.part(scene.last(canvas.parts[force] for force in arm.forces))
         arm.draw(canvas, scene, pole, shifts.get(number, 0j))
     text, ends = driven(scene), (pole, image(scene, f"lever.{point}"))
+    canvas.part(hung[-1][0])
     canvas.label(text, ends, clear=0.9, height=scene.style.text, spare=text)
     letters = {mark: letter_of(scene, mark) for mark in marks} | {"lever.p": words.mark("lever.p")}
     letter_marks(canvas, scene, letters, places, ("lever.p",))
     gone = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]
     zero = zeros(scene, [*arrows.zero, *gone])
     return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"], *zero))
+
+
+def drawn_with(scene: Scene) -> dict[str, str]:
+    """Return the step in which each force and each image is drawn that is drawn with another.
+
+    A force is hung with the first one on its mark; an image on which nothing hangs is turned with the last one.
+    """
+    first: dict[str, str] = {}
+    found: dict[str, str] = {}
+    for step in scene.program.which(("moment",)):
+        force, mark, about = step.operands
+        if about == "lever.p":
+            found[force] = first.setdefault(mark, step.name)
+    couples = {role(name).of: stage for name, stage in reversed(found.items()) if role(name).part == COUPLE}
+    found |= {
+        name: couples[role(name).of]
+        for name, _ in hung_on_lever(scene)
+        if role(name).of in couples and name not in found
+    }
+    last = [step.name for step in scene.program.on("lever") if step.verb == "normal"][-1]
+    marks = (*images(scene), *(end for line in lines_of_lever(scene) for end in (line.tail, line.tip)))
+    return found | {mark: last for mark in marks if mark not in scene.reading.made}
 
 
 def driven(scene: Scene) -> str:

@@ -16,6 +16,7 @@ from itertools import pairwise
 from ....plans.board import POSITION
 from ....plans.linkages.mechanism import FRAME, Prismatic, Revolute
 from ....plans.names import role
+from ...figure import GIVEN
 from ...shapes import Group, Line, Pen
 from ...symbols import block, bridge, centre_of_mass, fixed_pivot, guide, revolute, rigid_corner, slider_up
 from ...view import Canvas
@@ -53,11 +54,14 @@ def draw_links(
     """
     figures = [skeleton(scene, number) for number in numbers]
     for figure in figures:
+        canvas.part(drawn_with(scene, figure))
         _strokes(canvas, scene, figure, figure.guides)
-    blocks = [drawn for figure in figures for drawn in _blocks(scene, figure, framed, whole)]
-    for _, shapes in sorted(blocks, key=lambda drawn: -drawn[0]):
+    blocks = [(figure, *drawn) for figure in figures for drawn in _blocks(scene, figure, framed, whole)]
+    for figure, _, shapes in sorted(blocks, key=lambda drawn: -drawn[1]):
+        canvas.part(drawn_with(scene, figure))
         canvas.add(*shapes)
     for figure in figures:
+        canvas.part(drawn_with(scene, figure))
         _strokes(canvas, scene, figure, figure.bars)
         for at, u, w in figure.corners:
             if spread_of(u, w) > STRAIGHT:
@@ -68,8 +72,15 @@ def draw_links(
                 canvas.add(rigid_corner(at, u, w, scene.style, pin=_is_in(at, figure.pins)))
     pins = dict.fromkeys(point for number in numbers for point in pins_of(scene, number))
     held = scene.mechanism.frame_points if framed else ()
-    canvas.add(*(revolute(scene.mm(point), point, scene.style) for point in pins if point not in held))
+    for point in (point for point in pins if point not in held):
+        canvas.part(point)
+        canvas.add(revolute(scene.mm(point), point, scene.style))
     return figures
+
+
+def drawn_with(scene: Scene, figure: Skeleton) -> str:
+    """Return the step with which a link is drawn: that of its last point."""
+    return scene.last(scene.mechanism.link(figure.number).points)
 
 
 def _strokes(canvas: Canvas, scene: Scene, figure: Skeleton, strokes: Iterable[Stroke]) -> None:
@@ -121,7 +132,7 @@ def rays_at(at: complex, figures: Iterable[Skeleton]) -> list[complex]:
 
 def draw_frame(canvas: Canvas, scene: Scene, numbers: Iterable[int], figures: Sequence[Skeleton]) -> None:
     """Draw the pivots on the frame of these links, each with its foot where no link is in the way."""
-    wanted = set(numbers)
+    wanted, before = set(numbers), canvas.part(GIVEN)
     pairs = [p for p in scene.mechanism.pairs if isinstance(p, Revolute) and FRAME in p.links]
     for point in dict.fromkeys(pair.point for pair in pairs if wanted & set(pair.links)):
         at, down = scene.mm(point), foot_of(scene, point, figures)
@@ -129,6 +140,7 @@ def draw_frame(canvas: Canvas, scene: Scene, numbers: Iterable[int], figures: Se
         _, height, base = scene.style.pivot
         far = at + down * (height + scene.style.pair + scene.style.hatch[0])
         canvas.keep_clear(at - down * 1j * (base / 2), far + down * 1j * (base / 2))
+    canvas.part(before)
 
 
 def foot_of(scene: Scene, point: str, figures: Sequence[Skeleton]) -> complex:
@@ -162,6 +174,7 @@ def letter_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], figures: 
             if point in lettered:
                 continue
             lettered.add(point)
+            canvas.part(point)
             running = (p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and p.links[0] == number)
             if point in pins_of(scene, number) or point in {pair.point for pair in running}:
                 links = ",".join(map(str, several.get(point, ())))
@@ -170,6 +183,7 @@ def letter_links(canvas: Canvas, scene: Scene, numbers: Sequence[int], figures: 
             else:
                 _letter_point(canvas, scene, figure, point)
     for figure in figures:
+        canvas.part(drawn_with(scene, figure))
         _number(canvas, scene, figure, figures)
 
 

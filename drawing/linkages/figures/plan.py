@@ -24,13 +24,14 @@ LARGE = 1e4  # above it a number is written with a power of ten
 
 def plan_view(scene: Scene, plan: str) -> View:
     """Draw a plan from the steps that made it: construction lines, vectors, letters; of forces also insets."""
-    canvas = Canvas(scene.style)
+    canvas = scene.canvas()
     vectors = scene.reading.on(plan)
     forces = ForcePlan(scene, plan)
     shown = forces.windows() if role(plan).kind == FORCES else []
     left = [edge for edge in vectors if not in_inset(scene, shown, scene.ends(edge))]
     for step, number, start, direction in meetings(scene.program.on(plan)):
         begin, _, end = construction_line(scene, step, start, direction)
+        canvas.part(step.name)
         canvas.add(Line(begin, end, Pen.DASHED, role="construction", name=f"{step.name}_{number}"))
     draw_sides(canvas, scene, plan, map(scene.ends, vectors))
     _vectors(canvas, scene, vectors, left)
@@ -48,6 +49,7 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: Sequence[Edge], lettered: Se
     named: dict[frozenset[complex], None] = {}
     for edge in vectors:
         vector = scene.vector(edge)
+        canvas.part(scene.reading.drawn_with(edge))
         short = abs(vector.tip - vector.tail) < SHORT
         # an arrowhead would be longer than the vector
         canvas.add(replace(vector, head="none") if short else vector)
@@ -113,6 +115,7 @@ def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke])
             for second in marks[:i]:
                 side = scene.mm(second), scene.mm(first)
                 if abs(side[1] - side[0]) > NEAR and not any(_covers(line, side) for line in lines):
+                    canvas.part(scene.last((first, second)))
                     canvas.add(Line(*side, Pen.THIN, role="similarity", name=f"{second} {first}"))
                     lines.append(side)
 

@@ -43,7 +43,7 @@ def main_output(cycle: Cycle) -> OutputMotion | None:
 
 def positions_view(scene: Scene, cycle: Cycle) -> View:
     """Draw N positions thin, the calculated one in main lines, dead positions dash-two-dot, and all paths."""
-    canvas = Canvas(scene.style)
+    canvas = scene.canvas()
     numbers = [link.number for link in scene.mechanism.links]
     for name, path in paths(scene, cycle):
         canvas.add(Polyline(path, Pen.AXIS, role="curve", name=name))
@@ -202,7 +202,7 @@ def _grid(scene: Scene, link: int) -> tuple[int, int]:
 
 def field_view(scene: Scene, link: int) -> View:
     """Draw a link with the velocities of a grid of its points, at a scale factor at which they do not cross."""
-    canvas = Canvas(scene.style)
+    canvas = scene.canvas()
     places, velocities = velocity_field(scene.solved, link, *_grid(scene, link))
     per_mm = 1.0 / scene.scales[POSITION].mu
     nearest = min(abs(places[0, 1] - places[0, 0]), abs(places[1, 0] - places[0, 0])) * per_mm

@@ -10,6 +10,7 @@ from ....plans.board import POSITION, Step
 from ....plans.linkages.legs import guide_letters
 from ....plans.linkages.mechanism import FRAME, ZERO, Driver, Prismatic, SlidingDriver
 from ....plans.names import role
+from ...figure import ANSWERS, GIVEN
 from ...shapes import Arc, Arrow, Line, Pen
 from ...symbols import angle_dimension, turning_arrow
 from ...view import Canvas, View
@@ -27,8 +28,9 @@ CROSS = 8.0  # mm by which arcs and lines run past the joint that they find
 
 def scheme(scene: Scene) -> View:
     """Draw the plan of the mechanism in the given position."""
-    canvas = Canvas(scene.style)
+    canvas = scene.canvas()
     numbers = [link.number for link in scene.mechanism.links]
+    canvas.part(GIVEN)
     axes(canvas, scene)
     points = {point for link in scene.mechanism.links for point in link.points}
     for step in scene.program.on(POSITION):
@@ -40,11 +42,13 @@ def scheme(scene: Scene) -> View:
     figures = draw_links(canvas, scene, numbers)
     draw_frame(canvas, scene, numbers, figures)
     driver = scene.mechanism.driver
+    canvas.part(driver.point)
     if isinstance(driver, Driver):
         _angle(canvas, scene, driver)
     else:
         _speed(canvas, scene, driver)
     senses(canvas, scene, figures)
+    canvas.part(GIVEN)
     _frame_number(canvas, scene, figures)
     moving_guides(canvas, scene, figures)
     letter_links(canvas, scene, numbers, figures)
@@ -83,6 +87,7 @@ def turning_of_driver(
 ) -> None:
     """Draw the arrows of omega_1 and epsilon_1 about the pivot where there is room, near the direction `wanted`."""
     o, words = scene.mm(driver.pivot), scene.words
+    canvas.part(ANSWERS)
     omega = scene.solved.values.get(f"omega_{driver.link}")
     sense = math.copysign(1.0, omega) if omega else scene.solved.values[driver.sense]
     arrows = [(f"omega_{driver.link}", sense)]
@@ -102,6 +107,7 @@ def _speed(canvas: Canvas, scene: Scene, driver: SlidingDriver) -> None:
     at, u = scene.mm(pair.point), guide_of(scene, pair)
     speed = scene.solved.values[driver.speed]
     if speed:
+        canvas.part(ANSWERS)
         up, e = guide_up(scene, pair), u * math.copysign(1.0, speed)
         tail = at + up * (scene.style.slider[1] / 2 + 3.0) - e * (0.3 * scene.style.force)
         canvas.add(Arrow(tail, tail + e * 0.6 * scene.style.force, Pen.THIN, name=driver.speed))
@@ -169,6 +175,7 @@ def found_by(canvas: Canvas, scene: Scene, step: Step) -> None:
     if role(step.name).hidden:
         return
     name = f"arc_{step.name}"
+    canvas.part(step.name)
     if step.verb == "arc":
         _arc(canvas, scene, step.operands[0], step.name, 1.2 * scene.style.slider[1] + 2.0, name)
     elif step.verb == "arcs":

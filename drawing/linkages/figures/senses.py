@@ -12,6 +12,7 @@ import numpy as np
 
 from ....plans.linkages.compound import is_relative
 from ....plans.names import role
+from ...figure import ANSWERS
 from ...shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from ...symbols import turning_arrow
 from ...view import Canvas
@@ -47,6 +48,7 @@ def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
 
     All else but letters has been drawn: the arcs keep clear of it.
     """
+    canvas.part(ANSWERS)
     taken: dict[tuple[complex, complex], float] = {}
     shown: dict[int, list[Turn]] = {}
     for step in scene.program:

@@ -34,10 +34,8 @@ def compound_told(teller: Teller, view: str) -> Iterator[Told]:
     """Go through the steps of one figure: the mechanism once more, then the vectors of every point."""
     scene, points = teller.scene, teller.figures[view]
     first = scene.program.on(points[0].plan)[0]
-    links = scene.mechanism.links
-    marks, names = {p for link in links for p in link.points}, {f"link:{link.number}" for link in links}
-    letters = frozenset(map(teller.mark, marks))
-    yield Told(first, teller.say("compound_mechanism"), names=frozenset(names | marks), letters=letters)
+    marks = (point for link in scene.mechanism.links for point in link.points)
+    yield Told(first, teller.say("compound_mechanism"), others=tuple(marks))
     for at in points:
         if at.kind == "V":
             yield _distance(teller, at)
@@ -54,7 +52,7 @@ def _distance(teller: Teller, at: At) -> Told:
     step = teller.reading.made[name]
     start, end = (teller.mark(mark) for mark in step.operands)
     said = " ".join(measured(teller.scene, name, POSITION))
-    return Told(step, teller.say("compound_distance", start=start, end=end, sum=said), names=frozenset((name,)))
+    return Told(step, teller.say("compound_distance", start=start, end=end, sum=said))
 
 
 def _hung(teller: Teller, at: At, step: Step) -> Iterator[Told]:
@@ -65,7 +63,7 @@ def _hung(teller: Teller, at: At, step: Step) -> Iterator[Told]:
         yield Told(step, teller.say("compound_zero", vector=letter))
         return
     parts = {"start": _start(teller, at, start), "line": teller.along(vector), "mm": teller.drawn(vector, at.plan)}
-    yield Told(step, teller.say("compound_vector", vector=letter, **parts), vectors=(vector,))
+    yield Told(step, teller.say("compound_vector", vector=letter, **parts))
 
 
 def _start(teller: Teller, at: At, mark: str) -> str:
@@ -83,8 +81,7 @@ def _met(teller: Teller, at: At, step: Step) -> Iterator[Told]:
     (one, first), (other, second) = lines
     whole = teller.scene.letter(f"{at.kind}_{at.point}")
     text = teller.say("compound_meet", one=one, first=first, other=other, second=second, whole=whole)
-    letters = frozenset(said for *_, said in at.lines())
-    yield Told(step, text, names=frozenset(f"{at.plan}_{i}" for i in (1, 2)), letters=letters)
+    yield Told(step, text)
 
 
 def _measured(teller: Teller, at: At, step: Step) -> Iterator[Told]:
@@ -97,7 +94,7 @@ def _measured(teller: Teller, at: At, step: Step) -> Iterator[Told]:
     for name, key in found.items():
         said = " ".join(measured(teller.scene, name, at.plan))
         text = teller.say(key, vector=teller.scene.letter(name), sum=said, point=teller.mark(at.point))
-        yield Told(step, text, vectors=(name,))
+        yield Told(step, text, others=(name,))
 
 
 POINT_STEPS = {"chain": _hung, "meet": _met, "read": _measured}
@@ -108,8 +105,7 @@ def _centre_told(teller: Teller, c: Coupler) -> Told:
     scene, line = teller.scene, f"{teller.mark(c.pivot)}{teller.mark(c.hinge)}"
     symbol, said = scene.words.symbol(c.centre), " ".join(measured(scene, f"l_{c.hinge}P{c.number}", POSITION))
     text = teller.say("compound_centre", line=line, point=symbol, sum=said)
-    names = frozenset((c.centre, *(f"{c.centre}_{joint}" for joint in (c.hinge, c.span.end))))
-    return Told(teller.reading.made[c.centre], text, names=names, letters=frozenset((symbol,)))
+    return Told(teller.reading.made[c.centre], text)
 
 
 def block_name(coupler: Coupler, kind: str) -> str:

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 
 from ....plans.board import POSITION, Step
 from ....plans.linkages.legs import guide_letters
-from ....plans.names import COUPLE, ORIGIN, role
+from ....plans.names import ORIGIN, role
 from ..calculations.equations import size_of
 from ..calculations.kinematics import triangles
 from ..calculations.tables import printed_segment
-from ..figures.acting import Arm
-from ..figures.lever import arms_on_lever, driven, hung_on_lever, images, letter_of, lines_of_lever
+from ..figures.lever import hung_on_lever, letter_of
 from .teller import Teller, Told
 
 LINES = ("lay", "back")
@@ -207,30 +206,21 @@ def lever_told(teller: Teller) -> Iterator[Told]:
     for step in teller.scene.program.which(("moment",)):
         if step.operands[2] == "lever.p":
             hung.setdefault(step.operands[1], []).append(step)
-    told, left = set[str](), arms_on_lever(teller.scene)
     for mark, moments in hung.items():
-        told.update(moment.operands[0] for moment in moments)
-        drawn = [arm for arm in left if told.issuperset(arm.forces)]
-        left = [arm for arm in left if arm not in drawn]
-        yield _hung(teller, mark, moments, drawn)
+        yield _hung(teller, mark, moments)
     yield from _balance(teller)
 
 
 def _turned(teller: Teller) -> Iterator[Told]:
-    """Tell which segments are turned; a line is there with both its ends, the rest of the plan with the last one."""
-    scene, told = teller.scene, {"lever.p"}
-    lines, marks = lines_of_lever(scene), images(scene)
-    steps = [step for step in scene.program.on("lever") if step.verb == "normal"]
-    for step in steps:
-        told |= set(marks) if step is steps[-1] else {step.name}
-        drawn = {line.name for line in lines if step is steps[-1] or told.issuperset((line.tail, line.tip))}
-        segment = f"{teller.mark('velocity.p')}{teller.mark(step.operands[0])}"
-        letters = frozenset(letter_of(scene, mark) for mark in told & set(marks))
-        yield Told(step, teller.say("turned", segment=segment), names=frozenset(drawn | told), letters=letters)
+    """Tell which segments are turned."""
+    for step in teller.scene.program.on("lever"):
+        if step.verb == "normal":
+            segment = f"{teller.mark('velocity.p')}{teller.mark(step.operands[0])}"
+            yield Told(step, teller.say("turned", segment=segment))
 
 
-def _hung(teller: Teller, mark: str, moments: list[Step], drawn: Iterable[Arm]) -> Told:
-    """Tell the forces on one end of the lever, and their arms about its pole; those `drawn` have all their forces."""
+def _hung(teller: Teller, mark: str, moments: list[Step]) -> Told:
+    """Tell the forces on one end of the lever, and their arms about its pole."""
     scene = teller.scene
     words, forces = scene.words, [moment.operands[0] for moment in moments]
     arms = [user.name for moment in moments for user in teller.reading.users(moment.name) if user.verb == "arm"]
@@ -242,11 +232,7 @@ def _hung(teller: Teller, mark: str, moments: list[Step], drawn: Iterable[Arm]) 
         forces=", ".join(map(scene.letter, forces)),
         arms=", ".join(f"{words.symbol(arm)} = {size}" for arm, size in zip(arms, sizes, strict=True)),
     )
-    couples = {role(force).of for force in forces if role(force).part == COUPLE}
-    at_pole = [name for name, at in hung_on_lever(scene) if at == "lever.p" and role(name).part == COUPLE]
-    hung = (*forces, *(name for name in at_pole if role(name).of in couples))
-    names = frozenset(name for arm in drawn for name in (arm.line, *arm.names))
-    return Told(moments[0], text, names=names, letters=frozenset(arm.said(scene) for arm in drawn), vectors=hung)
+    return Told(moments[0], text)
 
 
 def _balance(teller: Teller) -> Iterator[Told]:
@@ -255,6 +241,6 @@ def _balance(teller: Teller) -> Iterator[Told]:
     step = teller.reading.made.get(f"lever.{point}")
     if step is not None and step.verb == "normal":
         segment = f"{teller.mark('velocity.p')}{teller.mark(f'velocity.{point}')}"
-        vector = teller.scene.letter(balance := hung_on_lever(teller.scene)[-1][0])
-        text = teller.say("lever_balance", point=teller.mark(f"velocity.{point}"), segment=segment, vector=vector)
-        yield Told(step, text, letters=frozenset((driven(teller.scene),)), vectors=(balance,))
+        balance = teller.reading.made[hung_on_lever(teller.scene)[-1][0]]
+        said = {"segment": segment, "vector": teller.scene.letter(balance.name)}
+        yield Told(balance, teller.say("lever_balance", point=teller.mark(f"velocity.{point}"), **said))

@@ -22,18 +22,15 @@ DOWN = 270.0  # degrees
 
 @dataclass(frozen=True, slots=True)
 class Told:
-    """A sentence, the step that it tells of, and what it draws beside the mark that the step makes.
+    """A sentence, the step that it tells of, and `others` that draw in it beside this one.
 
-    `vectors` have their letters; `letters` are those of all else that it `names`. What is there `before` only sets a
-    drawing up, as a pole does: a handout shows it from the start.
+    What is there `before` only sets a drawing up, as a pole does: a handout shows it from the start.
     """
 
     step: Step
     text: str
     before: bool = False
-    names: frozenset[str] = frozenset()
-    letters: frozenset[str] = frozenset()
-    vectors: tuple[str, ...] = ()
+    others: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
