@@ -98,26 +98,22 @@ def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: s
     places : {"rad", "m", "s"}
         SI unit of the places of entries: of angles the steps are angles, too.
     """
-
-    def draw(figure: Figure) -> None:
-        shown = [
-            field(figure, place, contest, kind.name, words) for kind, place in zip(contest.kinds, FIELDS, strict=False)
-        ]
+    with page(title, note) as figure:
+        placed = list(zip(contest.kinds, FIELDS, strict=False))
+        shown = [field(figure, place, contest, kind.name, words) for kind, place in placed]
         _align(shown)
-        for axes, kind, place in zip(shown, contest.kinds, FIELDS, strict=False):
+        for axes, (kind, place) in zip(shown, placed, strict=True):
             _hands(axes, place, [e for e in contest.of(kind.name) if e.method == HAND and e.error], words)
             letter(axes, contest, kind.name, words)
         left, bottom = FIELDS[len(shown)]
         _key(box(figure, left, bottom - 8.0, SIZE[0], SIZE[1] + BAND + 8.0), words, hand, contest, places)
-
-    return page(title, note, draw)
+    return figure
 
 
 def field(figure: Figure, place: tuple[float, float], contest: Contest, kind: str, words: Words) -> Axes:
     """Draw the points and lines of one kind of quantities."""
     axes = box(figure, *place, *SIZE)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     axes.set_title(words[f"chart.kind.{kind}"], fontsize=TEXT + 1.5, pad=4.0 + BAND * 72.0 / 25.4)
     for method, look in LOOKS.items():
         xs, ys = _coordinates(drawable(contest.of(kind), method))
@@ -126,8 +122,7 @@ def field(figure: Figure, place: tuple[float, float], contest: Contest, kind: st
     axes.plot(xs, ys, "o", ms=9.5, mfc="none", mec=BLACK, mew=0.7, zorder=2)
     if xs:
         axes.step(xs, ys, where="post", color=BLACK, lw=0.5, zorder=1)
-    axes.set_xlabel(words[ERRORS.get(kind, "chart.error")])
-    axes.set_ylabel(words[TIMES.get(kind, "chart.time")])
+    axes.set(xlabel=words[ERRORS.get(kind, "chart.error")], ylabel=words[TIMES.get(kind, "chart.time")])
     return axes
 
 
@@ -214,9 +209,7 @@ def _hands(axes: Axes, place: tuple[float, float], entries: Sequence[Entry], wor
         return
     left, bottom = place
     band = box(axes.figure, left, bottom + SIZE[1], SIZE[0], BAND)  # type: ignore[arg-type]
-    band.set_xscale("log")
-    band.set_ylim(BAND, 0.0)
-    band.set_yticks([])
+    band.set(xscale="log", ylim=(BAND, 0.0), yticks=[])
     band.set_xticks(axes.get_xticks(), minor=False)
     band.set_xlim(axes.get_xlim())
     band.minorticks_off()
@@ -232,8 +225,7 @@ def _hands(axes: Axes, place: tuple[float, float], entries: Sequence[Entry], wor
 def _key(axes: Axes, words: Words, hand: str, contest: Contest, places: str) -> None:
     """Say what markers and numbers mean."""
     axes.set_axis_off()
-    axes.set_xlim(0.0, 126.0)
-    axes.set_ylim(SIZE[1] + BAND + 8.0, 0.0)
+    axes.set(xlim=(0.0, 126.0), ylim=(SIZE[1] + BAND + 8.0, 0.0))
     present = {entry.method for entry in contest.entries}
     rows = [(look, look.words) for method, look in LOOKS.items() if method in present and method != EXTENDED]
     y = 6.0

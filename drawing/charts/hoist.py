@@ -50,6 +50,11 @@ SHOWN = 50  # evaluations
 FLOOR = 3e-17
 
 LEAST, MOST = 1e-3, 1e3  # per cent
+ERRORS: Mapping[tuple[str, str], tuple[Any, str]] = {  # lines and markers by the key and the name of an error
+    ("at_drum", "at_drum"): ("-", "o"),
+    ("at_load", "at_load"): ((0, (6, 2)), "s"),
+    ("of_t_1", "t_1"): ((0, (1, 1.2)), "D"),
+}
 
 BETA_0 = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5)  # of the curves, where the grid has them
 LINES: tuple[Any, ...] = ((0, (1, 1.2)), (0, (3, 1, 1, 1)), (0, (6, 1.5, 1, 1.5)), (0, (5, 2)), (0, (10, 3)), "-")
@@ -58,19 +63,16 @@ LINE = 3.0  # pixels on either side of a line that stay free
 
 def steps_page(found: StepLimits, words: Words, title: str, note: str) -> Figure:
     """Draw what steps of what size do: errors over the step with their orders, and by what a period grows."""
-
-    def draw(figure: Figure) -> None:
+    with page(title, note) as figure:
         _errors(box(figure, LEFT, 32.0, 126.0, 150.0), found, words)
         _growths(box(figure, 170.0, 32.0, 104.0, 150.0), found, words)
-
-    return page(title, note, draw)
+    return figure
 
 
 def _errors(axes: Axes, found: StepLimits, words: Words) -> None:
     """Draw errors over steps; crosses at the top are runs that are refused."""
-    axes.set_title(words["chart.hoist.errors"])
-    axes.set_xlabel(words["chart.hoist.step"])
-    axes.set_ylabel(words["chart.error.course"])
+    said = {"title": "chart.hoist.errors", "xlabel": "chart.hoist.step", "ylabel": "chart.error.course"}
+    axes.set(**{name: words[key] for name, key in said.items()})
     for limit in {found.limit(method) for method in INTEGRATORS}:
         if 0.0 < limit < math.inf:
             axes.axvline(limit, color=GREY, lw=0.8, ls=(0, (4, 2)), zorder=1)
@@ -78,85 +80,70 @@ def _errors(axes: Axes, found: StepLimits, words: Words) -> None:
         order = np.argsort(found.steps[method])
         z, error = found.steps[method][order], found.errors[method][order]
         power = found.order(method)
-        said = label = words[f"chart.{method}"]
+        name = label = words[f"chart.{method}"]
         if power is not None:
-            label = words["chart.hoist.of_order"].format(method=said, order=words.number(power, 2))
+            label = words["chart.hoist.of_order"].format(method=name, order=words.number(power, 2))
         axes.plot(z, error, ls=line, marker=marker, ms=4.0, zorder=3, label=label, **LOOK)
         refused = z[np.isnan(error)]
         if refused.size:
             height = REFUSED * ROW**row
             axes.plot(refused, np.full(refused.shape, height), "x", color=BLACK, ms=3.6, mew=0.8)
             first = float(refused.min()), height  # whose runs are refused stands to the left of it
-            axes.annotate(said, first, (-5.0, 0.0), ha="right", fontsize=SMALL, bbox=WHITE, **OFFSET)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_ylim(1e-9, 3e3)
-    axes.set_xlim(axes.get_xlim()[0] * 0.9, 6.0)
-    axes.set_xticks([0.01, 0.1, 1.0])
-    axes.set_yticks([10.0**n for n in range(-9, 1)])
+            axes.annotate(name, first, (-5.0, 0.0), ha="right", fontsize=SMALL, bbox=WHITE, **OFFSET)
+    axes.set(xscale="log", yscale="log", ylim=(1e-9, 3e3))
+    axes.set(xlim=(axes.get_xlim()[0] * 0.9, 6.0), xticks=[0.01, 0.1, 1.0], yticks=[10.0**n for n in range(-9, 1)])
     axes.yaxis.minorticks_off()
-    decimals(axes.xaxis, words)
+    decimals(words, axes.xaxis)
     axes.legend(loc="lower right", frameon=False, handlelength=4.0, borderaxespad=0.8, **LEGEND)
 
 
 def _growths(axes: Axes, found: StepLimits, words: Words) -> None:
     """Draw by what an oscillation grows in a period, over the step."""
-    axes.set_title(words["chart.hoist.growths"])
-    axes.set_xlabel(words["chart.hoist.step_any"])
+    axes.set(title=words["chart.hoist.growths"], xlabel=words["chart.hoist.step_any"])
     z = np.linspace(0.002, FARTHEST, 2000)
     for i, (method, (line, marker)) in enumerate(INTEGRATORS.items()):
         grown = growth(method, z) ** (2.0 * math.pi / z)
-        look = {**LOOK, "ls": line, "marker": marker, "markevery": (40 * i, 200), "ms": 4.0}
-        axes.plot(z, grown, label=words[f"chart.{method}"], **look)
+        every, label = (40 * i, 200), words[f"chart.{method}"]
+        axes.plot(z, grown, label=label, ls=line, marker=marker, markevery=every, ms=4.0, **LOOK)
     for method, (dx, dy, side) in LIMITED.items():
         limit = found.limit(method)
         axes.plot(limit, 1.0, "o", ms=6.0, mfc=BLACK, mec=BLACK, zorder=4)
         text = words["chart.hoist.limit"].format(value=words.short(limit, 4))
         axes.annotate(text, (limit, 1.0), (dx, dy), ha=side, fontsize=TEXT, **OFFSET)
-    axes.set_yscale("log")
-    axes.set_ylim(1e-1, 1e3)
-    axes.set_xlim(0.0, FARTHEST)
-    decimals(axes.xaxis, words)
-    decimals(axes.yaxis, words)
+    axes.set(yscale="log", ylim=(1e-1, 1e3), xlim=(0.0, FARTHEST))
+    decimals(words, axes.xaxis, axes.yaxis)
     axes.legend(loc="upper left", frameon=False, handlelength=4.0, borderaxespad=0.8, **LEGEND)
 
 
-def roots_page(found: RootRace, words: Words, title: str) -> Figure:
+def roots_page(found: RootRace, words: Words, title: str, note: str) -> Figure:
     """Draw the error over the evaluations of all ways, at the hoist's own root and at one that is nearly triple."""
-
-    def draw(figure: Figure) -> None:
+    with page(title, note) as figure:
         _ways(box(figure, LEFT, 30.0, 116.0, 152.0), found.own, words, "chart.hoist.own_root", "right")
         _ways(box(figure, 158.0, 30.0, 116.0, 152.0), found.triple, words, "chart.hoist.triple_root", "lower left")
-
-    return page(title, words["chart.hoist.roots_note"], draw)
+    return figure
 
 
 def _ways(axes: Axes, ways: Ways, words: Words, key: str, corner: Any) -> None:
     axes.set_title(words[key].format(x=words.short(ways.root, 5)))
-    axes.set_xlabel(words["chart.hoist.evaluations"])
-    axes.set_ylabel(words["chart.error.lift_off"])
+    axes.set(xlabel=words["chart.hoist.evaluations"], ylabel=words["chart.error.lift_off"])
     for method, (line, marker) in FINDERS.items():
         found = ways.found[method]
         error = np.maximum(ways.errors[method][: min(found.evaluations + 1, SHOWN)], FLOOR)
         said = "chart.hoist.fails" if np.isnan(found.root) else "chart.hoist.stops"
         label = words[said].format(method=words[f"chart.{method}"], n=found.evaluations)
         axes.plot(np.arange(1, len(error) + 1), error, ls=line, marker=marker, ms=3.8, label=label, **LOOK)
-    axes.set_yscale("log")
-    axes.set_ylim(1e-17, 1e2)
-    axes.set_xlim(0.0, SHOWN)
+    axes.set(yscale="log", ylim=(1e-17, 1e2), xlim=(0.0, SHOWN))
     axes.legend(loc=corner, handlelength=4.0, **ON_WHITE)
 
 
-def depth_page(found: HoistDepth, words: Words, title: str) -> Figure:
+def depth_page(found: HoistDepth, words: Words, title: str, note: str) -> Figure:
     """Draw how deep the model must be: what simplifications change, and one mass beside a rope of many."""
-
-    def draw(figure: Figure) -> None:
+    with page(title, note) as figure:
         _simplified(box(figure, 58.0, 52.0, 84.0, 128.0), found, words)
         if found.one_mass:
             _ropes(box(figure, 172.0, 52.0, 104.0, 128.0), found, words)
         _below(figure, 52.0 - 18.0, "\n".join(depth_verdict(found, words)), TEXT + 0.5)
-
-    return page(title, words["chart.hoist.depth_note"], draw)
+    return figure
 
 
 def _below(figure: Figure, y: float, text: str, size: float) -> None:
@@ -185,15 +172,13 @@ def _simplified(axes: Axes, found: HoistDepth, words: Words) -> None:
     head = words["chart.hoist.change"].format(force=force, time=time).replace("F_max", "$F_{max}$")
     axes.set_title(head, fontsize=TEXT, linespacing=1.4)
     axes.grid(False, axis="y")
-    axes.set_xscale("log")
-    axes.set_xlim(LEAST, MOST)
-    axes.set_ylim(len(found.simpler) - 0.4, -0.6)
+    axes.set(xscale="log", xlim=(LEAST, MOST), ylim=(len(found.simpler) - 0.4, -0.6))
     axes.axvline(PERCENT * found.tolerance, **LIMIT)
     for row, one in enumerate(found.simpler):
         _row(axes, row, one, words)
     names = [words[f"chart.hoist.without.{one.key}"] for one in found.simpler]
     axes.set_yticks(range(len(names)), names, fontsize=TEXT)
-    decimals(axes.xaxis, words)
+    decimals(words, axes.xaxis)
     axes.minorticks_off()
 
 
@@ -204,9 +189,8 @@ def _row(axes: Axes, row: int, one: Simplification, words: Words) -> None:
     at = min(max(PERCENT * abs(force), LEAST), MOST)
     axes.plot([LEAST, at], [row, row], color=GREY, lw=2.4, solid_capstyle="butt", zorder=2)
     if time is not None:
-        axes.plot(
-            min(max(PERCENT * abs(time), LEAST), MOST), row, "o", mfc="white", mec=BLACK, ms=5.0, mew=0.8, zorder=3
-        )
+        hollow: Any = {"mfc": "white", "mec": BLACK, "ms": 5.0, "mew": 0.8}
+        axes.plot(min(max(PERCENT * abs(time), LEAST), MOST), row, "o", zorder=3, **hollow)
     axes.plot(at, row, "D", mfc=BLACK, mec=BLACK, ms=4.6, zorder=3)
     text = f"{'+' if force > 0.0 else '−'}{words.short(PERCENT * abs(force), 3)}"
     axes.annotate(text, (at, row), (0.0, 7.0), textcoords="offset points", ha="center", fontsize=SMALL, bbox=WHITE)
@@ -218,39 +202,24 @@ def _ropes(axes: Axes, found: HoistDepth, words: Words) -> None:
     axes.set_title(head, fontsize=TEXT)
     axes.set_xlabel(words["chart.hoist.ratio"])
     ratios = [one.ratio for one in found.one_mass]
-    curves = (
-        ("at_drum", "-", "o", [one.at_drum for one in found.one_mass]),
-        ("at_load", (0, (6, 2)), "s", [one.at_load for one in found.one_mass]),
-        ("of_t_1", (0, (1, 1.2)), "D", [one.t_1 for one in found.one_mass]),
-    )
-    for key, line, marker, errors in curves:
-        shown = [max(PERCENT * abs(error), LEAST) for error in errors]
-        axes.plot(ratios, shown, label=words[f"chart.hoist.{key}"], **{**LOOK, "ls": line, "marker": marker, "ms": 4.0})
+    for (key, error), (line, marker) in ERRORS.items():
+        shown = [max(PERCENT * abs(getattr(one, error)), LEAST) for one in found.one_mass]
+        axes.plot(ratios, shown, label=words[f"chart.hoist.{key}"], ls=line, marker=marker, ms=4.0, **LOOK)
     axes.axhline(PERCENT * found.tolerance, **LIMIT)
     if found.ratio > 0.0:
         axes.axvline(found.ratio, color=GREY, lw=1.6, zorder=1, label=words["chart.hoist.this_rope"])
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    decimals(axes.xaxis, words)
-    decimals(axes.yaxis, words)
+    axes.set(xscale="log", yscale="log")
+    decimals(words, axes.xaxis, axes.yaxis)
     axes.legend(loc="upper left", handlelength=3.5, **ON_WHITE)
 
 
-def choice_page(found: Choice, S: float, words: Words, title: str) -> Figure:
-    """Draw the greatest force over beta_0 and beta_2, what is permitted, the way of the loop.
-
-    Parameters
-    ----------
-    S : float
-        Area of the rope, m^2.
-    """
-
-    def draw(figure: Figure) -> None:
+def choice_page(found: Choice, words: Words, title: str, note: str, S: float) -> Figure:
+    """Draw the greatest force over beta_0 and beta_2, what is permitted, the way of the loop; S is the rope's, m^2."""
+    with page(title, note) as figure:
         _map(box(figure, LEFT, 46.0, 112.0, 132.0), found, words)
         _curves(box(figure, 164.0, 46.0, 92.0, 132.0), found, S, words)
         _below(figure, 46.0 - 17.0, "\n".join(choice_said(found, words)).replace("F_max", "$F_{max}$"), TEXT)
-
-    return page(title, "", draw)
+    return figure
 
 
 def choice_said(found: Choice, words: Words) -> list[str]:
@@ -281,8 +250,7 @@ def _permitted(found: Choice) -> float:
 def _map(axes: Axes, found: Choice, words: Words) -> None:
     """Draw lines of equal force, and hatch the places that are not safe."""
     axes.set_title(words["chart.hoist.grid"].replace("F_max", "$F_{max}$"), pad=9.0)
-    axes.set_xlabel(words["chart.hoist.beta_2"])
-    axes.set_ylabel(words["chart.hoist.beta_0"])
+    axes.set(xlabel=words["chart.hoist.beta_2"], ylabel=words["chart.hoist.beta_0"])
     axes.grid(False)
     axes.set_axisbelow("line")
     grid, limit = found.spectrum, _permitted(found)
@@ -299,8 +267,7 @@ def _map(axes: Axes, found: Choice, words: Words) -> None:
     odd = np.argwhere(~grid.formulas)
     axes.plot(x[odd[:, 1]], y[odd[:, 0]], ".", color=BLACK, ms=2.5)
     _places(axes, found, words)
-    decimals(axes.xaxis, words)
-    decimals(axes.yaxis, words)
+    decimals(words, axes.xaxis, axes.yaxis)
 
 
 def _places(axes: Axes, found: Choice, words: Words) -> None:
@@ -321,8 +288,8 @@ def _places(axes: Axes, found: Choice, words: Words) -> None:
 def _curves(axes: Axes, found: Choice, S: float, words: Words) -> None:
     """Draw the force over the place of the drum, for some places of the load; stresses stand on the right."""
     axes.set_title(words["chart.hoist.spectrum"].replace("F_max", "$F_{max}$"), pad=9.0)
-    axes.set_xlabel(words["chart.hoist.beta_2"])
-    axes.set_ylabel(words["chart.hoist.force_axis"].replace("F_max", "$F_{max}$"))
+    axes.set(xlabel=words["chart.hoist.beta_2"])
+    axes.set(ylabel=words["chart.hoist.force_axis"].replace("F_max", "$F_{max}$"))
     grid, limit = found.spectrum, _permitted(found)
     labels, points = [], []
     rows = [int(np.abs(grid.beta_0 - beta).argmin()) for beta in BETA_0]
@@ -336,16 +303,13 @@ def _curves(axes: Axes, found: Choice, S: float, words: Words) -> None:
         axes.axhline(limit, color=GREY, lw=2.0, zorder=1)
         axes.set_ylim(min(low, limit - 0.05 * (high - low)), max(high, limit + 0.05 * (high - low)))
         labels.append(Label(0.61, limit, words["chart.hoist.permitted"], (-1, 1), must=True))
-    axes.set_xlim(float(grid.beta_2[0]), 0.62)
-    axes.set_xticks([0.1, 0.2, 0.3, 0.4, 0.5])
+    axes.set(xlim=(float(grid.beta_2[0]), 0.62), xticks=[0.1, 0.2, 0.3, 0.4, 0.5])
     per_force = KILO / S / MEGA
-    right = axes.secondary_yaxis(
-        "right", functions=(lambda f: np.asarray(f) * per_force, lambda s: np.asarray(s) * (1.0 / per_force))
-    )
+    stresses = lambda force: np.asarray(force) * per_force, lambda stress: np.asarray(stress) * (1.0 / per_force)
+    right = axes.secondary_yaxis("right", functions=stresses)
     right.grid(False)
     right.set_ylabel(words["chart.hoist.stress_axis"].replace("σ_max", "$σ_{max}$"), labelpad=2.0)
-    for axis in (axes.xaxis, axes.yaxis, right.yaxis):
-        decimals(axis, words)
+    decimals(words, axes.xaxis, axes.yaxis, right.yaxis)
     frame = axes.get_window_extent()
     at = float(axes.transData.transform((0.0, limit))[1])
     put(axes, labels, points, [(frame.x0, at - LINE, frame.x1, at + LINE)])

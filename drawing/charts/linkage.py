@@ -68,14 +68,13 @@ class Abscissa:
     def limit(self, axes: Axes, x: Array) -> None:
         """Let a field show a turn, or all travels `x`."""
         if self.turns:
-            axes.set_xlim(0.0, 360.0)
-            axes.set_xticks(range(0, 361, 30))
+            axes.set(xlim=(0.0, 360.0), xticks=range(0, 361, 30))
         else:
             axes.set_xlim(float(x.min()), float(x.max()))
 
 
 def stability_page(
-    found: Stability, apart: Sequence[Arc], words: Words, title: str, along: Abscissa, note: str
+    found: Stability, words: Words, title: str, note: str, apart: Sequence[Arc], along: Abscissa
 ) -> Figure:
     """Draw what is lost over a cycle: the worst intersection, the condition, the error of drawing.
 
@@ -84,16 +83,13 @@ def stability_page(
     apart : sequence of Arc
         Where the mechanism cannot be assembled.
     """
-    missed = {
-        key: [name for name, mm in found.in_mm.items() if mm == in_mm]
-        for key, in_mm in (("millimetres", True), ("per_cent", False))
-    }
-    missed = {key: names for key, names in missed.items() if names}
-
-    def draw(figure: Figure) -> None:
-        x = along.shown(found.places)
-        order = np.argsort(x, kind="stable")
-        looks = dict(zip(found.conditions, LOOKS * 4, strict=False))
+    missed: dict[str, list[str]] = {}
+    for name, in_mm in sorted(found.in_mm.items(), key=lambda item: not item[1]):
+        missed.setdefault("millimetres" if in_mm else "per_cent", []).append(name)
+    x = along.shown(found.places)
+    order = np.argsort(x, kind="stable")
+    looks = dict(zip(found.conditions, LOOKS * 4, strict=False))
+    with page(title, note) as figure:
         fields = _fields(figure, 2 + len(missed))
         _angles(fields[0], x[order], found.angles[order], words)
         _curves(fields[1], x[order], {n: c[order] for n, c in found.conditions.items()}, looks, words)
@@ -108,8 +104,7 @@ def stability_page(
             _special(axes, found.spots, apart, along)
         _named(fields[0], found.spots, along, words)
         fields[-1].set_xlabel(along.label)
-
-    return page(title, note, draw)
+    return figure
 
 
 def _fields(figure: Figure, count: int) -> list[Axes]:
@@ -127,9 +122,8 @@ def _angles(axes: Axes, x: Array, angles: Array, words: Words) -> None:
     axes.axhline(small, color=GREY, lw=0.7, ls=(0, (4, 2)))
     at: Any = {"transform": axes.get_yaxis_transform(), "fontsize": SMALL, "va": "center", "wrap": True}
     axes.text(1.005, small, words["chart.small"], **at)
-    axes.set_ylim(0.0, 92.0)
-    axes.set_yticks(range(0, 91, 30))
-    _titled(axes, words["chart.angle"])
+    axes.set(ylim=(0.0, 92.0), yticks=range(0, 91, 30))
+    axes.set_title(words["chart.angle"], fontsize=TEXT, pad=3.0)
 
 
 def _curves(
@@ -186,14 +180,9 @@ def _log(axes: Axes, label: str, words: Words | None = None) -> None:
     axes.yaxis.set_major_locator(LogLocator(10.0, subs=subs, numticks=20))
     axes.yaxis.set_minor_formatter(NullFormatter())
     if decades < 5.0 and words is not None:
-        decimals(axes.yaxis, words)
+        decimals(words, axes.yaxis)
     elif decades < 5.0:
         axes.yaxis.set_major_formatter("{x:g}")
-    _titled(axes, label)
-
-
-def _titled(axes: Axes, label: str) -> None:
-    """Say above a field what it shows."""
     axes.set_title(label, fontsize=TEXT, pad=3.0)
 
 
@@ -264,7 +253,7 @@ def _named(axes: Axes, spots: Sequence[Spot], along: Abscissa, words: Words) -> 
         last = x
 
 
-def depth_page(found: Depth, words: Words, title: str) -> Figure:
+def depth_page(found: Depth, words: Words, title: str, note: str) -> Figure:
     """Draw what each simplification changes, one row each, on a logarithmic scale of per cents."""
     tall = min(HEIGHT - BELOW - ABOVE, ROW * (len(found.costs) + 1))
     height = BELOW + tall + ABOVE
@@ -273,8 +262,7 @@ def depth_page(found: Depth, words: Words, title: str) -> Figure:
     if found.reaction:
         changes.append([(c.reaction or 0.0, c.reaction_rms or 0.0) for c in found.costs])
         heads.append(_change_of("chart.change_of_reactions", found.reaction, found.largest_reaction or 0.0, words))
-
-    def draw(figure: Figure) -> None:
+    with page(title, note, height) as figure:
         for i, (head, pairs) in enumerate(zip(heads, changes, strict=True)):
             axes = box(figure, MARGIN + i * (COLUMN + APART), BELOW, COLUMN * (3 - len(heads)), tall, height)
             axes.set_title(head, fontsize=TEXT)
@@ -285,8 +273,7 @@ def depth_page(found: Depth, words: Words, title: str) -> Figure:
                 axes.set_yticks(range(len(pairs)), [_simplified(cost, words) for cost in found.costs], fontsize=TEXT)
         below, said = (BELOW - 16.0) / height, depth_verdict(found, words)
         figure.text(MARGIN / WIDTH, below, said, fontsize=TEXT + 0.5, va="top", linespacing=1.5)
-
-    return page(title, words["chart.whole"], draw, height)
+    return figure
 
 
 def _change_of(key: str, name: str, value: float, words: Words) -> str:
@@ -318,9 +305,7 @@ def depth_verdict(found: Depth, words: Words, plain: bool = False) -> str:
 
 def _rows(axes: Axes, pairs: Sequence[tuple[float, float]], tolerance: float, words: Words) -> None:
     """Draw a row for each simplification: the largest change filled, the root of the mean square hollow."""
-    axes.set_xscale("log")
-    axes.set_xlim(LEAST, MOST)
-    axes.set_ylim(len(pairs) - 0.4, -0.6)
+    axes.set(xscale="log", xlim=(LEAST, MOST), ylim=(len(pairs) - 0.4, -0.6))
     axes.grid(False, axis="y")
     axes.axvline(tolerance, **TOLERANCE)
     text = words["chart.tolerance"].format(value=words.short(tolerance))
@@ -329,7 +314,7 @@ def _rows(axes: Axes, pairs: Sequence[tuple[float, float]], tolerance: float, wo
     axes.annotate(text, (tolerance, 0.0), (0.0, -17.0), fontsize=SMALL, arrowprops=line, **below)
     for row, (most, mean) in enumerate(pairs):
         _row(axes, row, most, mean, words)
-    decimals(axes.xaxis, words)
+    decimals(words, axes.xaxis)
     axes.minorticks_off()
 
 

@@ -8,14 +8,13 @@ from __future__ import annotations
 import math
 import re
 import textwrap
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,13 +63,6 @@ SUFFIXES = tuple(METADATA)
 HOLLOW: Mapping[str, Any] = {"mfc": "white", "mew": 0.8}  # markers
 LOOK: Mapping[str, Any] = {"color": BLACK, "lw": 0.9, **HOLLOW}  # of a curve with such markers
 LIMIT: Mapping[str, Any] = {"color": BLACK, "lw": 0.9, "ls": (0, (6, 2))}  # of the line at a tolerance
-RING: Mapping[str, Any] = {"ms": 9.0, "mfc": "none", "mec": BLACK, "mew": 0.8, "zorder": 4}
-HANDS: Mapping[str, tuple[Any, str]] = {  # line and marker of the curve of each
-    "cad": ((0, (1, 1.2)), "D"),
-    "careful": ((0, (6, 1.5, 1, 1.5)), "s"),
-    "normal": ("-", "o"),
-    "lenient": ((0, (5, 2)), "^"),
-}
 
 Box = tuple[float, float, float, float]
 POINT = 4.0  # pixels around a point that stay free
@@ -91,8 +83,9 @@ def _styled() -> Iterator[None]:
         yield
 
 
-def page(title: str, note: str, draw: Callable[[Figure], None], height: float = HEIGHT) -> Figure:
-    """Return a page, `height` mm tall, with its title, what `draw` draws between, and a note at its foot."""
+@contextmanager
+def page(title: str, note: str, height: float = HEIGHT) -> Iterator[Figure]:
+    """Draw a page, `height` mm tall, between its title and a note at its foot."""
     with _styled():
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
@@ -102,8 +95,7 @@ def page(title: str, note: str, draw: Callable[[Figure], None], height: float = 
         figure.text(LEFT / WIDTH, 1.0 - (TOP - 4.0) / height, title, fontsize=TEXT + 2.5, va="center")
         lines = "\n".join(line for part in note.split("\n") for line in textwrap.wrap(part, 175) or [""])
         figure.text(LEFT / WIDTH, BOTTOM / height, lines, fontsize=SMALL, va="center", linespacing=1.35)
-        draw(figure)
-    return figure
+        yield figure
 
 
 def box(figure: Figure, left: float, bottom: float, width: float, height: float, tall: float = HEIGHT) -> Axes:
@@ -111,36 +103,20 @@ def box(figure: Figure, left: float, bottom: float, width: float, height: float,
     return figure.add_axes((left / WIDTH, bottom / tall, width / WIDTH, height / tall))
 
 
-def logarithmic(axes: Axes, counts: Sequence[float], words: Words) -> None:
-    """Give axes logarithmic scales, with these numbers along the abscissa."""
-    from matplotlib.ticker import NullLocator
-
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.set_xticks(counts, [words.short(n) for n in counts])
-    axes.yaxis.set_minor_locator(NullLocator())
-    decimals(axes.yaxis, words)
-
-
 def saved(figures: Sequence[Figure], suffix: str) -> list[bytes]:
     """Return the files of pages: one for all as PDF, one for each otherwise."""
     with _styled():
+        streams = [BytesIO() for _ in figures]
         if suffix != ".pdf":
-            return [_bytes(figure, suffix) for figure in figures]
+            for figure, stream in zip(figures, streams, strict=True):
+                figure.savefig(stream, format=suffix.removeprefix("."), metadata=METADATA[suffix])
+            return [stream.getvalue() for stream in streams]
         from matplotlib.backends.backend_pdf import PdfPages
 
-        stream = BytesIO()
-        with PdfPages(stream, metadata=METADATA[suffix]) as pages:
+        with PdfPages(streams[0], metadata=METADATA[suffix]) as pages:
             for figure in figures:
                 pages.savefig(figure)
-        return [stream.getvalue()]
-
-
-def _bytes(figure: Figure, suffix: str) -> bytes:
-    stream = BytesIO()
-    figure.savefig(stream, format=suffix.removeprefix("."), metadata=METADATA[suffix])
-    return stream.getvalue()
+        return [streams[0].getvalue()]
 
 
 def mathtext(markup: str) -> str:
@@ -154,11 +130,12 @@ def mathtext(markup: str) -> str:
     return "$" + markup.replace(r"\bar", r"\overline") + "$"
 
 
-def decimals(axis: Axis, words: Words) -> None:
-    """Write the numbers of an axis in the language's way."""
+def decimals(words: Words, *axes: Axis) -> None:
+    """Write the numbers of axes in the language's way."""
     from matplotlib.ticker import FuncFormatter
 
-    axis.set_major_formatter(FuncFormatter(lambda value, _: words.short(float(f"{value:.10g}"))))
+    for axis in axes:
+        axis.set_major_formatter(FuncFormatter(lambda value, _: words.short(float(f"{value:.10g}"))))
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,27 +217,3 @@ def _write(axes: Axes, label: Label, at: tuple[float, float], middle: tuple[floa
         zorder=5,
         arrowprops=arrow if reach >= LONG else None,
     )
-
-
-def curves_of_hands(
-    axes: Axes,
-    x: NDArray[Any],
-    errors: Mapping[str, NDArray[Any]],
-    ringed: Mapping[str, tuple[float, float] | None],
-    words: Words,
-) -> tuple[list[Label], list[tuple[float, float]]]:
-    """Draw what every hand keeps of a quantity, per cent, one place of each in a ring.
-
-    Returns
-    -------
-    labels, points
-        For `put`; the labels stand at the ends of the curves.
-    """
-    labels, points = [], []
-    for hand, (line, marker) in HANDS.items():
-        axes.plot(x, errors[hand], ls=line, marker=marker, ms=3.6, zorder=3, **LOOK)
-        if (place := ringed[hand]) is not None:
-            axes.plot(*place, "o", **RING)
-        points += list(zip(x.tolist(), errors[hand].tolist(), strict=True))
-        labels.append(Label(float(x[-1]), float(errors[hand][-1]), words[f"hand.{hand}"], must=True))
-    return labels, points

@@ -97,7 +97,7 @@ def test_the_picture_of_accuracy_names_what_it_shows(tmp_path: Path, capsys: pyt
 
 
 def test_a_hand_stands_above_the_times_of_the_others(all_three: Charts) -> None:
-    entries = all_three["accuracy"].contest.entries  # type: ignore[union-attr]
+    entries = all_three["accuracy"].found.entries  # type: ignore[union-attr]
 
     axes = all_three["accuracy"].figure(all_three.words.speaking("uk")).axes
 
@@ -212,7 +212,7 @@ def test_all_rows_of_accuracy_are_in_the_csv(all_three: Charts, tmp_path: Path) 
     with path.open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
 
-    entries = all_three["accuracy"].contest.entries  # type: ignore[union-attr]
+    entries = all_three["accuracy"].found.entries  # type: ignore[union-attr]
     assert path.name == "a-accuracy.csv"
     assert [(row["method"], row["kind"], float(row["error"])) for row in rows] == [
         (e.method, e.kind, e.error) for e in entries

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any
 
-from ...drawing.charts.cam import sections_page, stability_page
+from ...drawing.charts.hands import closing_page, sections_page
 from ...drawing.words import Words
 from ...plans.cams.chords import DRAWINGS, ROUNDING, WAYS, Convergence, Robustness, compared, convergence, robustness
 from ...plans.cams.rivals import rivals
@@ -16,7 +15,7 @@ from ...plans.contest import FULL, Effort
 from ..case import all_known
 from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
-from .data import (
+from .charts import (
     HANDS,
     PERCENT,
     AccuracyChart,
@@ -25,21 +24,17 @@ from .data import (
     Gallery,
     Scene,
     error_rows,
-    finite,
     per_cent,
     short,
     wrapped,
 )
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 NOBODY = "exact"  # draws chords without errors
 EVERY = 5  # of the places of a line beside a jump stands in the table
 ORDINATES = ("speed_top", "speed_last", "stroke_last")
 
 
-def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
+def make(name: str, scene: Scene, asked: ChartRequest) -> Chart[Any]:
     """Make one of the charts of a cam."""
     solved = SolvedCam.of(scene.case.solved)
     if name == "accuracy":
@@ -56,15 +51,13 @@ CHARTS = Gallery(("sections", "accuracy", "stability"), {"quantities": ("section
 def cam_accuracy_chart(scene: Scene, solved: SolvedCam, effort: Effort = FULL) -> AccuracyChart:
     """Let all ways to the motion of a cam compete."""
     found = rivals(solved, time.process_time, HANDS[scene.hand], effort)
-    return AccuracyChart(scene, "rad", found, "chart.cam_compared")
+    return AccuracyChart(scene, found, "rad", "chart.cam_compared")
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class SectionsChart(Chart):
+class SectionsChart(Chart[Convergence]):
     """Errors of the diagrams by chords against the number of sections, with and without errors of drawing."""
 
-    heading: ClassVar[str] = "chart.sections"
-    found: Convergence
+    heading, page = "chart.sections", staticmethod(sections_page)
 
     def table(self, words: Words) -> str:
         """Return errors without those of drawing and their orders, then what each hand keeps, and its best number."""
@@ -80,8 +73,11 @@ class SectionsChart(Chart):
             last = [words["chart.best"], *(str(found.best(hand, name)[0]) for name in names)]
             errors = [found.hands[hand, name] for name in names]
             by_hand += error_rows(words[f"hand.{hand}"], [*map(str, found.drawn)], errors, last, words)
-        said = wrapped(words["chart.sections_note"].format(n=DRAWINGS))
-        return "\n\n".join((aligned(rows), aligned(by_hand), said))
+        return "\n\n".join((aligned(rows), aligned(by_hand), wrapped(self.note(words))))
+
+    def note(self, words: Words) -> str:
+        """Return how often hands have drawn."""
+        return words["chart.sections_note"].format(n=DRAWINGS)
 
     def _items(self) -> Iterator[tuple[str, str, int, str, float, float | None, bool | None]]:
         found = self.found
@@ -102,29 +98,24 @@ class SectionsChart(Chart):
         for by, where, n, name, error, order, best in self._items():
             yield by, where, n, name, PERCENT * error, order, None if best is None else int(best)
 
-    def to_json(self) -> dict[str, Any]:
-        """Return all errors as data, in parts of the exact values."""
+    def _data(self) -> dict[str, Any]:
+        """Return all errors, in parts of the exact values."""
         found, names = self.found, self.found.quantities
         return {
             "exact": {name: {"value": value, "unit": unit_of(name)} for name, value in found.exact.items()},
-            "orders": {where: {name: finite(found.order(where, name)) for name in names} for where in found.sections},
+            "orders": {where: {name: found.order(where, name) for name in names} for where in found.sections},
             "best": {hand: {name: found.best(hand, name)[0] for name in names} for hand in HANDS},
             "errors": [
-                {"drawn_by": by, "jumps": where, "sections": n, "quantity": name, "error": finite(error)}
+                {"drawn_by": by, "jumps": where, "sections": n, "quantity": name, "error": error}
                 for by, where, n, name, error, _, _ in self._items()
             ],
         }
 
-    def _page(self, words: Words, title: str) -> Figure:
-        return sections_page(self.found, words, title)
 
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class CamStabilityChart(Chart):
+class CamStabilityChart(Chart[Robustness]):
     """What a line beside a jump does, and by how much drawings do not close."""
 
-    heading: ClassVar[str] = "chart.cam_stability"
-    found: Robustness
+    heading, page = "chart.cam_stability", staticmethod(closing_page)
 
     def table(self, words: Words) -> str:
         """Return errors of lines beside jumps, then for every hand what does not close, and what closing brings."""
@@ -163,23 +154,16 @@ class CamStabilityChart(Chart):
             for way, error in closing.errors.items():
                 yield "travel", hand, n, None, way, "s", PERCENT * error, None
 
-    def to_json(self) -> dict[str, Any]:
-        """Return all of it as data: errors in parts, ordinates in metres of paper."""
-
-        def metres(millimetres: float | None) -> float | None:
-            return None if millimetres is None else 1e-3 * millimetres
-
+    def _data(self) -> dict[str, Any]:
+        """Return errors in parts, ordinates in metres of paper."""
         missed, closings = self.found.missed.items(), self.found.closings.items()
         return {
             "late": list(self.found.beside),
             "missed": [{"sections": n, "quantity": name, "error": errors.tolist()} for (n, name), errors in missed],
             "sections": self.found.sections,
             "hands": {
-                hand: {name: metres(getattr(closing, name)) for name in ORDINATES}
+                hand: {name: None if (size := getattr(closing, name)) is None else 1e-3 * size for name in ORDINATES}
                 | {"travel_error": dict(closing.errors)}
                 for hand, closing in closings
             },
         }
-
-    def _page(self, words: Words, title: str) -> Figure:
-        return stability_page(self.found, words, title, self.note(words))

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any
 
-from ...drawing.charts.gear import scales_page
-from ...drawing.gears.scene import lettered
+from ...drawing.charts.hands import scales_page
 from ...drawing.words import Words
 from ...plans.gears.gear import unit_of
 from ...plans.gears.scale_errors import DRAWINGS, MILLI, ScaleErrors, compared, scale_errors
@@ -16,10 +14,7 @@ from ...plans.hands.hand import PRESETS
 from ..case import all_known
 from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
-from .data import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, error_rows, finite, wrapped
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from .charts import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, error_rows, wrapped
 
 PARTS = {hand: preset.tolerance.part for hand, preset in PRESETS.items()}  # that are let pass
 
@@ -34,12 +29,10 @@ def make(name: str, scene: Scene, asked: ChartRequest) -> ScaleChart:
 CHARTS = Gallery(("scale",), {"quantities": ("scale",)}, make)
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ScaleChart(Chart):
+class ScaleChart(Chart[ScaleErrors]):
     """What hands make of the meshing at one scale after the other."""
 
-    heading: ClassVar[str] = "chart.scale"
-    found: ScaleErrors
+    heading, page = "chart.scale", staticmethod(scales_page)
 
     def table(self, words: Words) -> str:
         """Return what each hand keeps at every scale, then from which scale on it keeps what is let pass of it."""
@@ -54,7 +47,14 @@ class ScaleChart(Chart):
             last = [enough, *(said(found.enough(hand, name, part)) for name in names)]
             errors = [found.errors[hand, name] for name in names]
             rows += error_rows(words[f"hand.{hand}"], [*map(said, found.ratios)], errors, last, words)
-        return "\n\n".join((aligned(rows, (0, 1)), wrapped(words["chart.scale_note"].format(n=DRAWINGS))))
+        return "\n\n".join((aligned(rows, (0, 1)), wrapped(self.note(words))))
+
+    def note(self, words: Words) -> str:
+        """Return how often hands have drawn."""
+        return words["chart.scale_note"].format(n=DRAWINGS)
+
+    def _shown(self, words: Words) -> tuple[Any, ...]:
+        return (PARTS,)
 
     def _items(self) -> Iterator[tuple[str, float, str, float]]:
         for hand in PARTS:
@@ -69,8 +69,8 @@ class ScaleChart(Chart):
         for hand, ratio, name, error in self._items():
             yield hand, ratio, MILLI / ratio, tooth * ratio, name, PERCENT * error
 
-    def to_json(self) -> dict[str, Any]:
-        """Return all errors as data, in parts of the exact values."""
+    def _data(self) -> dict[str, Any]:
+        """Return all errors, in parts of the exact values."""
         found = self.found
         return {
             "exact": {name: {"value": value, "unit": unit_of(name)} for name, value in found.exact.items()},
@@ -80,10 +80,7 @@ class ScaleChart(Chart):
                 for hand, part in PARTS.items()
             },
             "errors": [
-                {"drawn_by": hand, "scale": ratio, "quantity": name, "error": finite(error)}
+                {"drawn_by": hand, "scale": ratio, "quantity": name, "error": error}
                 for hand, ratio, name, error in self._items()
             ],
         }
-
-    def _page(self, words: Words, title: str) -> Figure:
-        return scales_page(self.found, lettered(words), title, PARTS)

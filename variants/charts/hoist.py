@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -24,17 +24,14 @@ from ...scales.errors import InputError
 from ...scales.units import format_unit, unit
 from ..spreadsheets.cells_out import Cell
 from ..tables import aligned
-from .data import HANDS, PERCENT, AccuracyChart, Chart, ChartRequest, Gallery, Scene, finite, per_cent, short, wrapped
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from .charts import HANDS, PERCENT, AccuracyChart, Chart, ChartRequest, Gallery, Scene, per_cent, short, wrapped
 
 ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE = "accuracy", "stability", "roots", "depth", "choice"
 EVERY = 5  # of the places stands in the tables
 TABLED = (("F_max", "kN"), ("sigma_max", "MPa"))
 
 
-def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
+def make(name: str, scene: Scene, asked: ChartRequest) -> Chart[Any]:
     """Make one of the charts of a hoist."""
     return hoist_chart(name, scene, asked.tolerance)
 
@@ -42,7 +39,7 @@ def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
 CHARTS = Gallery((ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE), {"tolerance": (DEPTH,), "hand": (ACCURACY,)}, make)
 
 
-def hoist_chart(name: str, scene: Scene, tolerance: float, effort: Effort = FULL) -> Chart:
+def hoist_chart(name: str, scene: Scene, tolerance: float, effort: Effort = FULL) -> Chart[Any]:
     """Make a chart of a hoist; the tolerance of a simpler model is in per cent."""
     solved = SolvedHoist.of(scene.case.solved)
     givens = complete(solved.givens)
@@ -68,15 +65,13 @@ def _accuracy(scene: Scene, solved: SolvedHoist, givens: Mapping[str, float], ef
     mus = {plan: scale.mu for plan, scale in case.kind.first_scales(solved, case.choosers, case.plans)[1].items()}
     drawn = (*by_board(solved, time.process_time), *by_hand(solved, mus, HANDS[scene.hand]))
     whole = replace(found, entries=(*found.entries, *drawn))
-    return AccuracyChart(scene, "s", whole, "chart.hoist_compared")
+    return AccuracyChart(scene, whole, "s", "chart.hoist_compared")
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class HoistStepsChart(Chart):
+class HoistStepsChart(Chart[StepLimits]):
     """Errors over the step of every method that integrates: orders, limits of stability, refusals."""
 
-    heading: ClassVar[str] = "chart.hoist_stability"
-    found: StepLimits
+    heading, page = "chart.hoist_stability", staticmethod(steps_page)
 
     def table(self, words: Words) -> str:
         """Return order and limit of every method, then errors over the step; a dash where a run is refused."""
@@ -101,56 +96,42 @@ class HoistStepsChart(Chart):
         grown = words.short(PERCENT * (GROWN - 1.0), 3)
         return words["chart.hoist.limits_note"].format(grown=grown, ratio=words.short(self.found.ratio, 3))
 
-    def _items(self) -> Iterator[tuple[str, float, float | None, float | None]]:
-        """Go through all runs: method, step, error (none where it is refused), growth."""
+    def _items(self) -> Iterator[tuple[str, float, float, float, bool]]:
+        """Go through all runs: method, step, error, growth, whether it is refused: then it has no error."""
         found = self.found
         for method in ORDERS:
             columns = (found.steps[method], found.errors[method], found.grown[method])
             for z, error, grown in zip(*(column.tolist() for column in columns), strict=True):
-                yield method, z, finite(error), finite(grown)
+                yield method, z, error, grown, not math.isfinite(error)
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         yield "method", "step [rad]", "error", "grown", "refused", "order", "limit"
-        for method, z, error, grown in self._items():
-            yield (
-                method,
-                z,
-                error,
-                grown,
-                int(error is None),
-                self.found.order(method),
-                finite(self.found.limit(method)),
-            )
+        for method, *numbers, refused in self._items():
+            yield method, *numbers, int(refused), self.found.order(method), self.found.limit(method)
 
-    def to_json(self) -> dict[str, Any]:
-        """Return all of it as data."""
+    def _data(self) -> dict[str, Any]:
         found = self.found
         return {
             "methods": {
                 method: {
                     "order": found.order(method),
-                    "limit": finite(found.limit(method)),
+                    "limit": found.limit(method),
                     "stable": math.isinf(found.limit(method)),
                     "refused_from": found.refused_from(method),
                 }
                 for method in ORDERS
             },
             "runs": [
-                {"method": method, "step": z, "error": error, "grown": grown, "refused": error is None}
-                for method, z, error, grown in self._items()
+                {"method": method, "step": z, "error": error, "grown": grown, "refused": refused}
+                for method, z, error, grown, refused in self._items()
             ],
         }
 
-    def _page(self, words: Words, title: str) -> Figure:
-        return steps_page(self.found, words, title, self.note(words))
 
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class HoistRootsChart(Chart):
+class HoistRootsChart(Chart[RootRace]):
     """Ways to the root of the hoist, and to one that is nearly triple."""
 
-    heading: ClassVar[str] = "chart.roots"
-    found: RootRace
+    heading, page = "chart.roots", staticmethod(roots_page)
 
     @property
     def _of_roots(self) -> dict[str, Ways]:
@@ -169,7 +150,11 @@ class HoistRootsChart(Chart):
                     rows.append([said, str(found.evaluations), short(words, ways.error(method))])
             head = words[f"chart.hoist.{name}_root"].format(x=words.short(ways.root, 7))
             parts.append(f"{head}\n{aligned(rows)}")
-        return "\n\n".join((*parts, wrapped(words["chart.hoist.roots_note"])))
+        return "\n\n".join((*parts, wrapped(self.note(words))))
+
+    def note(self, words: Words) -> str:
+        """Return what is counted."""
+        return words["chart.hoist.roots_note"]
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         """Go through all evaluations."""
@@ -178,18 +163,17 @@ class HoistRootsChart(Chart):
             for method in FINDERS:
                 found = ways.found[method]
                 for i, error in enumerate(ways.errors[method].tolist(), 1):
-                    yield name, method, i, finite(error), found.evaluations, int(math.isnan(found.root))
+                    yield name, method, i, error, found.evaluations, int(math.isnan(found.root))
 
-    def to_json(self) -> dict[str, Any]:
-        """Return all of it as data."""
+    def _data(self) -> dict[str, Any]:
         return {
             name: {
                 "root": ways.root,
                 "methods": {
                     method: {
                         "evaluations": ways.found[method].evaluations,
-                        "error": finite(ways.error(method)),
-                        "errors": [finite(error) for error in ways.errors[method].tolist()],
+                        "error": ways.error(method),
+                        "errors": ways.errors[method],
                     }
                     for method in FINDERS
                 },
@@ -197,16 +181,11 @@ class HoistRootsChart(Chart):
             for name, ways in self._of_roots.items()
         }
 
-    def _page(self, words: Words, title: str) -> Figure:
-        return roots_page(self.found, words, title)
 
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class HoistDepthChart(Chart):
+class HoistDepthChart(Chart[HoistDepth]):
     """What simplifications change, and one mass beside ropes of many."""
 
-    heading: ClassVar[str] = "chart.hoist_depth"
-    found: HoistDepth
+    heading, page = "chart.hoist_depth", staticmethod(depth_page)
 
     def table(self, words: Words) -> str:
         """Return what every simplification changes, ropes of more and more masses, one mass over the rope's weight."""
@@ -215,7 +194,11 @@ class HoistDepthChart(Chart):
             cells = [short(words, per_cent(one.changes[name])) for name in COMPARED]
             rows.append([words[f"chart.hoist.without.{one.key}"], *cells])
         parts = [aligned(rows), self._ropes(words), self._one_mass(words), "\n".join(depth_verdict(self.found, words))]
-        return "\n\n".join(part for part in (*parts, wrapped(words["chart.hoist.depth_note"])) if part)
+        return "\n\n".join(part for part in (*parts, wrapped(self.note(words))) if part)
+
+    def note(self, words: Words) -> str:
+        """Return what is left out, and beside what."""
+        return words["chart.hoist.depth_note"]
 
     def _ropes(self, words: Words) -> str:
         if not self.found.ropes:
@@ -252,8 +235,8 @@ class HoistDepthChart(Chart):
             at_load, at_drum = PERCENT * mass.at_load, PERCENT * mass.at_drum
             yield "one_mass", "", MANY, mass.ratio, PERCENT * mass.t_1, None, None, at_load, at_drum
 
-    def to_json(self) -> dict[str, Any]:
-        """Return all of it as data, changes and errors in parts."""
+    def _data(self) -> dict[str, Any]:
+        """Return changes and errors in parts."""
         found = self.found
         return {
             "full": dict(found.full),
@@ -264,19 +247,15 @@ class HoistDepthChart(Chart):
             "ratio": found.ratio,
             "one_mass": [asdict(one) for one in found.one_mass],
             "here": None if found.here is None else asdict(found.here),
-            "enough_to": finite(found.enough_to),
+            "enough_to": found.enough_to,
         }
-
-    def _page(self, words: Words, title: str) -> Figure:
-        return depth_page(self.found, words, title)
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class HoistChoiceChart(Chart):
+class HoistChoiceChart(Chart[Choice]):
     """The spectrum of forces and stresses over the places of load and drum; `S` is the area of the rope, m^2."""
 
-    heading: ClassVar[str] = "chart.choice"
-    found: Choice
+    heading, page = "chart.choice", staticmethod(choice_page)
     S: float
 
     def table(self, words: Words) -> str:
@@ -306,8 +285,7 @@ class HoistChoiceChart(Chart):
             judged = (int(column[i, j]) for column in (grid.permitted, grid.formulas))
             yield round(float(grid.beta_0[i]), 6), round(float(grid.beta_2[j]), 6), *numbers, *judged
 
-    def to_json(self) -> dict[str, Any]:
-        """Return all of it as data."""
+    def _data(self) -> dict[str, Any]:
         found, grid = self.found, self.found.spectrum
         columns = ("beta_0", "beta_2", "F_max", "sigma_max", "safety", "permitted", "formulas")
         return {
@@ -316,8 +294,8 @@ class HoistChoiceChart(Chart):
             "safety_required": found.K,
             "found": found.found,
             "trials": [asdict(trial) for trial in found.trials],
-            "spectrum": {name: getattr(grid, name).tolist() for name in columns},
+            "spectrum": {name: getattr(grid, name) for name in columns},
         }
 
-    def _page(self, words: Words, title: str) -> Figure:
-        return choice_page(self.found, self.S, words, title)
+    def _shown(self, words: Words) -> tuple[Any, ...]:
+        return (self.S,)

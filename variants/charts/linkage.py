@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -32,14 +32,13 @@ from ..case import Case, all_known
 from ..spreadsheets.cells_out import Cell
 from ..sweeps.cycles import driver_name
 from ..tables import aligned
-from .data import (
+from .charts import (
     HANDS,
     AccuracyChart,
     Chart,
     ChartRequest,
     Gallery,
     Scene,
-    finite,
     place_column,
     place_si,
     place_value,
@@ -47,15 +46,13 @@ from .data import (
     wrapped,
 )
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 POSITIONS = {"accuracy": 36, "stability": 360, "depth": 360}
 LINES = 24  # of the table of stability
 LOOKED = 12  # positions at which scale factors are looked for
+Found = TypeVar("Found", Depth, Stability)
 
 
-def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
+def make(name: str, scene: Scene, asked: ChartRequest) -> Chart[Any]:
     """Make one of the charts of a linkage; a cycle of so many positions is looked at once for all of them."""
     count = asked.positions or POSITIONS[name]
     if count not in scene.cycles:
@@ -67,8 +64,8 @@ def make(name: str, scene: Scene, asked: ChartRequest) -> Chart:
     if name == "stability":
         mus = scales_of_cycle(scene, whole)
         found = stability(whole, asked.quantities or usual(whole), mus, HANDS[scene.hand])
-        return StabilityChart(scene, whole, found, mus)
-    return DepthChart(scene, whole, depth(whole, asked.tolerance))
+        return StabilityChart(scene, found, whole, mus)
+    return DepthChart(scene, depth(whole, asked.tolerance), whole)
 
 
 CHARTS = Gallery(
@@ -85,9 +82,8 @@ CHARTS = Gallery(
 
 def _cycle(case: Case, positions: int) -> Cycle:
     """Return the cycle with the plans of the case."""
-    wanted = with_needs((*case.plans, "position"), NEEDS)
-    plans = tuple(plan for plan in wanted if plan not in ("cycle", "compound"))
-    found = cycle(case.task.mechanism, case.task.values(case.variant, case.settings), plans, positions)
+    plans = (plan for plan in with_needs((*case.plans, "position"), NEEDS) if plan not in ("cycle", "compound"))
+    found = cycle(case.task.mechanism, case.task.values(case.variant, case.settings), tuple(plans), positions)
     if not found.reach.stretches:
         raise _unreachable(case)
     return found
@@ -109,34 +105,25 @@ def accuracy_chart(scene: Scene, cycle: Cycle, names: Sequence[str], effort: Eff
     found = contest(cycle, len(cycle.angles), time.process_time, names, effort)
     if not found.kinds:
         raise InputError("chart-no-rivals")
-    hands = tuple(_hands(scene, cycle, found))
-    places = "rad" if cycle.drive.turns else "m"
-    return AccuracyChart(scene, places, replace(found, entries=found.entries + hands))
+    whole = replace(found, entries=(*found.entries, *_hands(scene, cycle, found)))
+    return AccuracyChart(scene, whole, "rad" if cycle.drive.turns else "m")
 
 
 def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
-    """Go through the errors of a hand on the sheets of all formats."""
-    for name in SIZES:
-        mus = _mus(scene, name)
-        if mus is not None:
-            drawn = DrawnSheet(name, SolvedLinkage.of(scene.case.solved), mus)
-            yield from by_hand(cycle, drawn, HANDS[scene.hand], found.kinds)
-
-
-def _mus(scene: Scene, name: str) -> Mapping[str, float] | None:
-    """Return the scale factors, by plan, that a format takes by the extents; None where a plan has no room on it."""
+    """Go through the errors of a hand on the sheets of the formats that have room for every plan."""
     case = scene.case
-    if case.solved.trouble is not None:
-        return None
-    try:
-        _, scales = first_scales(SolvedLinkage.of(case.solved), case.choosers, case.plans, format_named(name))
-    except InputError:  # too small for a plan, or for a scale factor that was asked for
-        return None
-    return {plan: scale.mu for plan, scale in scales.items()}
+    for name in SIZES if case.solved.trouble is None else ():
+        solved = SolvedLinkage.of(case.solved)
+        try:
+            _, scales = first_scales(solved, case.choosers, case.plans, format_named(name))
+        except InputError:  # too small for a plan, or for a scale factor that was asked for
+            continue
+        sheet = DrawnSheet(name, solved, {plan: scale.mu for plan, scale in scales.items()})
+        yield from by_hand(cycle, sheet, HANDS[scene.hand], found.kinds)
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class _OfCycle(Chart):
+class _OfCycle(Chart[Found]):
     """A chart with places of the driver: how they are shown and called."""
 
     cycle: Cycle
@@ -157,12 +144,10 @@ class _OfCycle(Chart):
         return f"{driver_name(self.cycle)}, {format_unit('deg' if self.cycle.drive.turns else 'mm', words.language)}"
 
 
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class DepthChart(_OfCycle):
+class DepthChart(_OfCycle[Depth]):
     """What simplifications cost over the cycle."""
 
-    heading: ClassVar[str] = "chart.depth"
-    found: Depth
+    heading, page = "chart.depth", staticmethod(depth_page)
 
     def table(self, words: Words) -> str:
         """Return a row for every simplification, then what the scene needs."""
@@ -179,6 +164,10 @@ class DepthChart(_OfCycle):
             rows.append([named, *(short(words, value) for value in tidy), self._place(words, cost.place)])
         return "\n".join((aligned(rows), "", depth_verdict(found, words, plain=True)))
 
+    def note(self, words: Words) -> str:
+        """Return what all is compared with."""
+        return words["chart.whole"]
+
     def _rows(self) -> Iterator[Sequence[Cell]]:
         errors = ("balance_max [%]", "balance_rms [%]", "reaction_max [%]", "reaction_rms [%]")
         yield "without", "parts", *errors, place_column(self._places)
@@ -186,8 +175,7 @@ class DepthChart(_OfCycle):
             found = (c.balance, c.balance_rms, c.reaction, c.reaction_rms)
             yield c.key, " ".join(c.parts), *found, place_value(self._places, c.place)
 
-    def to_json(self) -> dict[str, Any]:
-        """Return all simplifications as data."""
+    def _data(self) -> dict[str, Any]:
         found = self.found
         largest = {found.balance: {"value": found.largest_balance, "unit": unit_of(found.balance)}}
         if found.reaction:
@@ -208,20 +196,16 @@ class DepthChart(_OfCycle):
             "without": cost.key,
             "parts": list(cost.parts),
             "balance": {"max": cost.balance, "rms": cost.balance_rms},
-            "reaction": None if cost.reaction is None else {"max": cost.reaction, "rms": finite(cost.reaction_rms)},
+            "reaction": None if cost.reaction is None else {"max": cost.reaction, "rms": cost.reaction_rms},
             "at": place_si(self._places, cost.place),
         }
 
-    def _page(self, words: Words, title: str) -> Figure:
-        return depth_page(self.found, words, title)
-
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class StabilityChart(_OfCycle):
+class StabilityChart(_OfCycle[Stability]):
     """What is lost over the cycle; `scales` are the scale factors of the hand, by plan."""
 
-    heading: ClassVar[str] = "chart.stability"
-    found: Stability
+    heading, page = "chart.stability", staticmethod(stability_page)
     scales: Mapping[str, float]
 
     def _unit(self, name: str) -> str:
@@ -236,7 +220,7 @@ class StabilityChart(_OfCycle):
         step = max(len(found.places) // LINES, 1)
         rows = [head, *(self._row(i, words) for i in range(0, len(found.places), step))]
         worst = filter(None, (self._worst(name, words) for name in names))
-        return "\n".join((aligned(rows, ()), "", *worst, *self._spots(words), wrapped(self._note(words))))
+        return "\n".join((aligned(rows, ()), "", *worst, *self._spots(words), wrapped(self.note(words))))
 
     def _row(self, i: int, words: Words) -> list[str]:
         found, status = self.found, self.found.statuses[i]
@@ -266,7 +250,7 @@ class StabilityChart(_OfCycle):
             texts.setdefault(at, []).append(words["chart.dead"].format(links=", ".join(links)))
         return [f"{at}: {'; '.join(dict.fromkeys(said))}" for at, said in texts.items()]
 
-    def _note(self, words: Words) -> str:
+    def note(self, words: Words) -> str:
         """Return what the columns are."""
         return words["chart.drawn"].format(hand=words[f"hand.{self.scene.hand}"])
 
@@ -283,21 +267,20 @@ class StabilityChart(_OfCycle):
             head = place_value(self._places, at), found.statuses[i], float(found.sines[i]), float(found.angles[i])
             yield *head, found.worst[i], *(float(column[i]) for column in columns)
 
-    def to_json(self) -> dict[str, Any]:
-        """Return all positions as data."""
+    def _data(self) -> dict[str, Any]:
         found = self.found
         return {
             "hand": self.scene.hand,
             "scales": dict(self.scales),
             "places": [place_si(self._places, at) for at in found.places],
             "statuses": list(found.statuses),
-            "sines": [finite(value) for value in found.sines],
+            "sines": found.sines,
             "worst": list(found.worst),
             "quantities": {
                 name: {
-                    "condition": [finite(value) for value in found.conditions[name]],
-                    "digits": [finite(value) for value in found.digits(name)],
-                    "miss": [finite(value) for value in found.misses[name]],
+                    "condition": found.conditions[name],
+                    "digits": found.digits(name),
+                    "miss": found.misses[name],
                     "unit": self._unit(name),
                 }
                 for name in found.conditions
@@ -307,12 +290,12 @@ class StabilityChart(_OfCycle):
             ],
         }
 
-    def _page(self, words: Words, title: str) -> Figure:
+    def _shown(self, words: Words) -> tuple[Any, ...]:
         name = driver_name(self.cycle)
         kind = role(name).kind or name
         unit = "°" if self.cycle.drive.turns else words.unit("mm")
         along = Abscissa(f"{GREEK.get(kind, kind)}, {unit}", self.cycle.drive.turns)
-        return stability_page(self.found, self.cycle.reach.apart, words, title, along, self._note(words))
+        return self.cycle.reach.apart, along
 
 
 def usual(cycle: Cycle) -> tuple[str, ...]:

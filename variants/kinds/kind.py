@@ -34,7 +34,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case
-    from ..charts.data import Gallery
+    from ..charts.charts import Gallery
     from ..sweeps.sweeps import SweepRequest, Swept
 
 TRIED_FOR = 1.3  # seconds of processor time in which a file is read and its variants are tried
