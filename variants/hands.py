@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, astuple, dataclass
 from types import MappingProxyType
 from typing import Any
 
 from ..drawing.words import Words
 from ..plans.board import Program, Step
-from ..plans.hands.expectations import DRAWINGS, SEED, Expectation, as_data, expectations
 from ..plans.hands.hand import PRESETS, Hand, Tolerance, preset
 from ..plans.hands.shaky import Paper
+from ..plans.hands.spread import DRAWINGS, SEED, Expectation, expectations
 from ..plans.linkages.legs import guide_letters
 from ..plans.names import role
 from ..plans.quantities import Quantity
@@ -46,17 +46,12 @@ class Drawing:
 
     def head(self) -> dict[str, Any]:
         """Return as JSON whose hand draws, and how often."""
-        return {
-            "name": self.name,
-            **asdict(self.hand),
-            "tolerance": asdict(self.tolerance),
-            "drawings": DRAWINGS,
-            "seed": SEED,
-        }
+        often = {"drawings": DRAWINGS, "seed": SEED}
+        return {"name": self.name, **asdict(self.hand), "tolerance": asdict(self.tolerance), **often}
 
     def item(self, name: str) -> dict[str, Any]:
         """Return as JSON what the hand makes of a quantity; nothing for what is given."""
-        return {"hand": dict(as_data(self.expected[name]))} if name in self.expected else {}
+        return {"hand": self.expected[name].as_data()} if name in self.expected else {}
 
 
 def is_own(text: str) -> bool:
@@ -71,7 +66,7 @@ def hand_of(text: str | Hand) -> tuple[str, Hand, Tolerance]:
     ----------
     text : str or Hand
         `normal`, or the errors of marks, directions and readings, `0.2 mm, 0.5 deg, 0.2 mm`. Of one's own hand that is
-        let pass which is of the first preset that errs no less.
+        let pass which is of the first preset that errs no less, of the last one where none does.
 
     Raises
     ------
@@ -83,7 +78,8 @@ def hand_of(text: str | Hand) -> tuple[str, Hand, Tolerance]:
         found = preset(text.strip())
         return text.strip(), found.hand, found.tolerance
     hand = _own(text) if isinstance(text, str) else text
-    return OWN, hand, _tolerance(hand)
+    no_less = (p for p in PRESETS.values() if all(a <= b for a, b in zip(astuple(hand), astuple(p.hand), strict=True)))
+    return OWN, hand, next(no_less, [*PRESETS.values()][-1]).tolerance
 
 
 def _own(text: str) -> Hand:
@@ -93,15 +89,6 @@ def _own(text: str) -> Hand:
     mm, degree = unit("mm"), unit("deg")
     point, direction, reading = (parse(part, own, own) for part, own in zip(parts, (mm, degree, mm), strict=True))
     return Hand(mm.from_si(point), degree.from_si(direction), mm.from_si(reading))
-
-
-def _tolerance(hand: Hand) -> Tolerance:
-    """Return what is let pass of the first preset that errs no less, of the last one where none does."""
-    for found in PRESETS.values():
-        like = found.hand
-        if hand.point <= like.point and hand.direction <= like.direction and hand.reading <= like.reading:
-            return found.tolerance
-    return [*PRESETS.values()][-1].tolerance
 
 
 def drawing(
@@ -145,8 +132,11 @@ def table(
                 rows[-1][STEP:STEP] = conditions.get(quantity.name, ("", ""))
     if conditions:
         rows[0][STEP:STEP] = ("K", "sin")
-    lines = aligned(rows, (0, len(rows[0]) - 1))
-    return "\n".join((_heading(drawn, words), "", lines, *_undrawn(drawn, words)))
+    lines = ["", aligned(rows, (0, len(rows[0]) - 1))]
+    worst = max((item.spread.undrawn for item in drawn.expected.values() if item.spread.exact is not None), default=0.0)
+    if 0.0 < worst < math.inf:
+        lines += ["", words["hand.undrawn"].format(percent=words.short(100.0 * worst, 2))]
+    return "\n".join((_heading(drawn, words), *lines))
 
 
 def _heading(drawn: Drawing, words: Words) -> str:
@@ -161,7 +151,7 @@ def _row(quantity: Quantity, expected: Expectation, program: Program, words: Wor
     def shown(value: float | None) -> str:
         return "–" if value is None else words.short(words.display.value(value, quantity.unit) + 0.0, DIGITS)
 
-    spread, si = expected.spread, quantity.unit
+    spread = expected.spread
     value = _place(quantity, words) if quantity.kind == "point" else shown(quantity.value)
     if quantity.kind == "point":
         interval = ""
@@ -174,16 +164,8 @@ def _row(quantity: Quantity, expected: Expectation, program: Program, words: Wor
     part = "" if expected.percent is None or not errs else _two(expected.percent, words)
     degrees = "" if expected.degrees is None else f"; {_two(expected.degrees, words)}°"
     allowed = f"{shown(expected.allowed)}{degrees}" if expected.allowed is not None and errs else ""
-    return [
-        quantity.name,
-        value,
-        format_unit(words.display.unit(si), words.language),
-        interval,
-        paper,
-        part,
-        allowed,
-        _worst(expected, program, words),
-    ]
+    unit = format_unit(words.display.unit(quantity.unit), words.language)
+    return [quantity.name, value, unit, interval, paper, part, allowed, _worst(expected, program, words)]
 
 
 def _two(value: float, words: Words) -> str:
@@ -221,21 +203,10 @@ def _worst(expected: Expectation, program: Program, words: Words) -> str:
 
 def _line(step: Step, program: Program) -> str:
     """Return the name of a line: of a link by its ends, of a guide by its letters, or by the pins on it."""
-    letters = guide_letters(program)
-    if step.name in letters:
-        return letters[step.name]
-    name = role(step.name).shown
-    return "".join(step.operands[:2]) if step.verb == "tangent" else name.letters
+    own = "".join(step.operands[:2]) if step.verb == "tangent" else role(step.name).shown.letters
+    return guide_letters(program).get(step.name, own)
 
 
 def _plain(markup: str) -> str:
     """Return a letter without the signs that lower and raise its indices."""
     return re.sub(r"[_^{}]", "", markup)
-
-
-def _undrawn(drawn: Drawing, words: Words) -> list[str]:
-    """Say how many drawings fail, where some do."""
-    worst = max((item.spread.undrawn for item in drawn.expected.values() if item.spread.exact is not None), default=0.0)
-    if not worst > 0.0 or not math.isfinite(worst):
-        return []
-    return ["", words["hand.undrawn"].format(percent=words.short(100.0 * worst, 2))]

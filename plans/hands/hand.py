@@ -69,8 +69,6 @@ class Preset:
     tolerance: Tolerance
 
 
-MARKS_IN, DEGREES_IN = 8.0, 2.0  # how many standard deviations of the usual hand its tolerance has
-
 # What rulers and protractors can: a ruler with marks of 0.5 mm is read to 0.25 mm, dividers and a scale to 0.1 or
 # 0.2 mm, a protractor to half a degree, set squares keep a quarter to half a degree. What departments ask: 5 % is the
 # usual limit between a plan and a calculation, 3 % that of careful work, 10 % the upper one; plans drawn by a computer
@@ -81,14 +79,6 @@ PRESETS: Mapping[str, Preset] = {
     "normal": Preset(Hand(0.25, 0.5, 0.25), 80.0, Tolerance(2.0, 0.05, 1.0)),
     "lenient": Preset(Hand(0.5, 1.0, 0.5), 50.0, Tolerance(3.0, 0.1, 2.0)),
 }
-
-
-def hand_within(tolerance: Tolerance) -> Hand:
-    """Return the hand that goes with a tolerance: of a preset its own, else one that errs by parts of the tolerance."""
-    for found in PRESETS.values():
-        if found.tolerance == tolerance:
-            return found.hand
-    return Hand(tolerance.mm / MARKS_IN, tolerance.degrees / DEGREES_IN, tolerance.mm / MARKS_IN)
 
 
 def preset(name: str) -> Preset:

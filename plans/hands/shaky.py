@@ -144,27 +144,17 @@ class ShakyBoard(ArrayBoard):
 
     # What is on the paper, and what is not.
 
-    def _first(self, mark: str) -> str:
-        """Return the mark itself of one that has several letters."""
-        step = self._steps.get(mark)
-        while step is not None and step.verb == "same":
-            mark = step.operands[0]
-            step = self._steps.get(mark)
-        return mark
-
-    def _apart_by_name(self, first: str, second: str) -> bool:
-        return self._first(first) != self._first(second)
-
-    def _is_made_by(self, name: str, verb: str) -> bool:
-        return name in self._steps and self._steps[name].verb == verb
+    def _apart_by_name(self, *marks: str) -> bool:
+        """Whether two marks are not letters of the same one."""
+        found = [*marks]
+        for i, mark in enumerate(marks):
+            while (step := self._steps.get(mark)) is not None and step.verb == "same":
+                found[i] = mark = step.operands[0]
+        return found[0] != found[1]
 
     def _aside_of_paper(self, name: str) -> bool:
         """Whether a name is a mark or a direction on a drawing of a link alone."""
         return role(name).hidden and not (name in self._steps and role(name).plan != POSITION)
-
-    def _lies_there(self, direction: str) -> bool:
-        """Whether a line of this direction lies on the plan already: only directions of links do, on the mechanism."""
-        return role(self._name).plan == POSITION and not self._is_made_by(direction, "normal")
 
     # Templates: Newton's method looks at the paths of all legs at once.
 
@@ -187,19 +177,15 @@ def _none(error: Any) -> bool:
 
 def swung(direction: Any, angle: Any) -> Any:
     """Return a direction turned by a small angle, the very same for none."""
-    if _none(angle):
-        return direction
-    return direction * np.cos(angle) + (direction * 1j) * np.sin(angle)
+    return direction if _none(angle) else direction * np.cos(angle) + (direction * 1j) * np.sin(angle)
 
 
 # The verbs as a hand does them: (board, the exact operation, operands).
 
 
 def _place(b: ShakyBoard, exact: Operate, x: Any, y: Any) -> Any:
-    mark, name = exact(x, y), b._name
-    if role(name).hidden or b._operands == (ZERO, ZERO):  # a place on a drawing of the link alone; the origin
-        return mark
-    return b._off(mark, name)
+    aside = role(b._name).hidden or b._operands == (ZERO, ZERO)  # a place on a drawing of the link alone; the origin
+    return exact(x, y) if aside else b._off(exact(x, y), b._name)
 
 
 def _turn(b: ShakyBoard, exact: Operate, angle: Any) -> Any:
@@ -219,9 +205,7 @@ def _incline(b: ShakyBoard, exact: Operate, direction: Any, slope: Any) -> Any:
 def _direction(b: ShakyBoard, exact: Operate, start: Any, end: Any, length: Any) -> Any:
     """Lay the ruler on two marks; their distance as it is drawn is not that of the data."""
     found = exact(start, end, length)
-    if b.missed.isdisjoint(b._operands):
-        return found
-    return found * (1.0 / np.sqrt(dot(found, found)))
+    return found if b.missed.isdisjoint(b._operands) else found * (1.0 / np.sqrt(dot(found, found)))
 
 
 def _normal(b: ShakyBoard, exact: Operate, vector: Any) -> Any:
@@ -231,7 +215,8 @@ def _normal(b: ShakyBoard, exact: Operate, vector: Any) -> Any:
 
 
 def _lay(b: ShakyBoard, exact: Operate, start: Any, direction: Any, length: Any) -> Any:
-    if not b._lies_there(b._operands[1]):
+    line = b._steps.get(b._operands[1])  # of directions only those of links lie on the paper already, on the mechanism
+    if role(b._name).plan != POSITION or (line is not None and line.verb == "normal"):
         direction = b._parallel(direction, b._operands[1])
     return b._off(exact(start, direction, length), b._name)
 
@@ -271,10 +256,8 @@ def _mark(b: ShakyBoard, exact: Operate, *operands: Any) -> Any:
 
 def _similar(b: ShakyBoard, exact: Operate, start: Any, end: Any, along: Any, across: Any) -> Any:
     """Draw a similar figure: its side is there, the line to the third point is not."""
-    arm = exact(start, end, along, across) - start
-    error = b._direction_error()
-    found = exact(start, end, along, across) if _none(error) else start + swung(arm, error)
-    return b._off(found, b._name)
+    point, error = exact(start, end, along, across), b._direction_error()
+    return b._off(point if _none(error) else start + swung(point - start, error), b._name)
 
 
 def _measure(b: ShakyBoard, exact: Operate, start: Any, end: Any) -> Any:

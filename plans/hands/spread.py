@@ -1,4 +1,4 @@
-"""What honest drawings give: the interval of each quantity, on paper and beside its plan; and which step errs most."""
+"""What honest drawings give: the interval of each quantity, the step that errs most, what is let pass, what fails."""
 
 from __future__ import annotations
 
@@ -13,14 +13,17 @@ from numpy.typing import NDArray
 
 from ..boards.exact import run
 from ..laws import cross, dot
-from ..quantities import POINTS, plans_of, references, results
-from .hand import Hand, Tolerance, hand_within
+from ..marking.key import answer_key
+from ..names import role
+from ..quantities import POINTS, RESULTS, plans_of, references, results
+from .hand import PRESETS, Hand, Tolerance
 from .shaky import Paper, ShakyBoard, Shape, draw
 
 Array = NDArray[Any]
-DRAWINGS = 1000
+DRAWINGS, SEED = 4000, 1  # of what is told of a hand
 SHARE = 0.95  # of all drawings: what most of them keep
 NOTHING = 1e-12  # part of the largest vector that is rounding
+ROUNDING = 1e-9  # part of a tolerance
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,34 +32,34 @@ class Spread:
 
     Parameters
     ----------
-    exact, low, high : float or None
-        The exact value (of a vector its magnitude), and the ends of the interval of drawn ones, SI; None for a point.
+    undrawn : float
+        Part of the drawings in which it cannot be drawn.
     deviation : float
         Standard deviation, SI; of a point that of its distance from the exact place, from zero.
     miss : float
         What a vector or point misses by, direction and all: not more in the part `share` of all drawings, SI; NaN where
         fewer can be drawn.
+    exact, low, high : float or None
+        The exact value (of a vector its magnitude), and the ends of the interval of drawn ones, SI; None for a point.
     mm, mm_miss : float or None
         Deviation and miss on paper, where a plan shows the quantity.
     percent, of_largest : float or None
         Deviation in per cent of the value, and of the largest vector of its plan.
-    undrawn : float
-        Part of the drawings in which it cannot be drawn.
     degrees : float or None
         What a vector turns by at most, in the part `share` of all drawings, NaN where fewer can be drawn; None for one
         that is zero.
     """
 
-    exact: float | None
-    low: float | None
-    high: float | None
-    deviation: float
-    miss: float
-    mm: float | None
-    mm_miss: float | None
-    percent: float | None
-    of_largest: float | None
     undrawn: float
+    deviation: float = math.nan
+    miss: float = math.nan
+    exact: float | None = None
+    low: float | None = None
+    high: float | None = None
+    mm: float | None = None
+    mm_miss: float | None = None
+    percent: float | None = None
+    of_largest: float | None = None
     degrees: float | None = None
 
 
@@ -87,8 +90,7 @@ class Drawn:
         values = drawings[~np.isnan(drawings)]
         undrawn = 1.0 - values.size / self.board.codes.size
         if not values.size or not np.isfinite(exact):  # infinite is what a rigid beam has
-            nothing = float("nan")
-            return Spread(None, None, None, nothing, nothing, None, None, None, None, undrawn)
+            return Spread(undrawn)
         misses = np.abs(values - exact)
         miss = float(kept(drawings, exact, share))
         if point:
@@ -98,19 +100,27 @@ class Drawn:
             value = abs(exact) if isinstance(exact, complex) else float(exact)
             low, high = map(float, np.quantile(numbers, (0.5 - share / 2.0, 0.5 + share / 2.0)))
             deviation = float(np.std(numbers)) if name in self.board.missed else 0.0
-        return Spread(
-            value,
-            low,
-            high,
-            deviation,
-            miss,
-            None if mu is None else deviation / mu,
-            None if mu is None else miss / mu,
-            _per_cent(deviation, value, size),
-            _per_cent(deviation, size, size),
-            undrawn,
-            None if point else _turning(drawings, exact, size, share),
-        )
+        mm, mm_miss = (None, None) if mu is None else (deviation / mu, miss / mu)
+        parts = _per_cent(deviation, value, size), _per_cent(deviation, size, size)
+        turned = None if point else _turning(drawings, exact, size, share)
+        return Spread(undrawn, deviation, miss, value, low, high, mm, mm_miss, *parts, turned)
+
+    def failing(self, allowed: Mapping[str, float]) -> dict[str, float]:
+        """Return for each quantity the part of the drawings that a tolerance would fail, undrawn ones among them.
+
+        Of vectors the magnitudes are compared, of points the places. What is undefined or infinite is not marked.
+        """
+        found = {}
+        for step in results(self.paper.program):
+            values, exact = self[step.name], self.exact[step.name]
+            if not np.isfinite(exact):
+                found[step.name] = 0.0
+                continue
+            if step.verb in RESULTS and np.iscomplexobj(values):
+                values, exact = np.sqrt(dot(values, values)), abs(exact)
+            wrong = ~(abs(values - exact) <= allowed[step.name] * (1.0 + ROUNDING))
+            found[step.name] = float(np.mean(wrong))
+        return found
 
 
 def kept(drawings: Array, exact: Any, share: float = SHARE) -> Array:
@@ -149,7 +159,7 @@ def _per_cent(part: float, whole: float | None, size: float) -> float | None:
     return None if whole is None or abs(whole) <= NOTHING * size else part / abs(whole) * 100.0
 
 
-def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = DRAWINGS) -> Drawn:
+def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = 1000) -> Drawn:
     """Draw a construction many times with a shaky hand.
 
     >>> import numpy as np
@@ -247,6 +257,7 @@ def _misses(values: Array, exact: Any) -> Array:
 
 
 MOST = 2.0  # standard deviations that nearly all honest hands keep
+MARKS_IN, DEGREES_IN = 8.0, 2.0  # how many standard deviations of the usual hand its tolerance has
 
 
 def added_up(paper: Paper, tolerance: Tolerance, names: Iterable[str]) -> dict[str, float]:
@@ -256,5 +267,122 @@ def added_up(paper: Paper, tolerance: Tolerance, names: Iterable[str]) -> dict[s
     drawn chord by chord also misses by what all marks before it have missed.
     """
     wanted = tuple(names)
-    found = sensitivities(paper, hand_within(tolerance), wanted)
+    of_preset = (one.hand for one in PRESETS.values() if one.tolerance == tolerance)
+    mm, degrees = tolerance.mm / MARKS_IN, tolerance.degrees / DEGREES_IN
+    found = sensitivities(paper, next(of_preset, None) or Hand(mm, degrees, mm), wanted)
     return {name: MOST * found.deviation(name) for name in wanted}
+
+
+@dataclass(frozen=True, slots=True)
+class Expectation:
+    """What a hand makes of one quantity.
+
+    Parameters
+    ----------
+    spread : Spread
+        Where the part `SHARE` of its drawings lie.
+    step, share : str and float, or None
+        The step whose errors come through most, and its part of the variance; None for what does not err. Of a step
+        whose least error breaks the construction the part is None.
+    allowed : float, or None
+        What to let pass, SI.
+    degrees : float or None
+        What to let pass of a vector's direction.
+    failed : float
+        Part of this hand's drawings that would be marked wrong all the same.
+    mu : float or None
+        Value of a millimetre, where a plan shows the quantity.
+    errs : bool
+        Whether the quantity hangs on any error at all.
+    """
+
+    spread: Spread
+    step: str | None
+    share: float | None
+    allowed: float | None
+    degrees: float | None
+    failed: float
+    mu: float | None
+    errs: bool
+
+    @property
+    def half(self) -> float | None:
+        """Half the interval, SI; of a point how far its drawings miss it."""
+        spread = self.spread
+        if spread.low is None or spread.high is None:
+            return spread.miss if spread.miss == spread.miss else None
+        return 0.5 * (spread.high - spread.low)
+
+    @property
+    def mm(self) -> float | None:
+        """Half the interval on paper."""
+        return None if self.mu is None or self.half is None else self.half / self.mu
+
+    @property
+    def percent(self) -> float | None:
+        """Half the interval in per cents of the value, None where the value is nothing beside its plan."""
+        exact = self.spread.exact
+        if self.half is None or not exact or self.spread.percent is None:
+            return None
+        return 100.0 * self.half / abs(exact)
+
+    def as_data(self) -> dict[str, Any]:
+        """Return it as the command line's JSON has it, None for what is undefined."""
+        spread = self.spread
+        data = {
+            "low": spread.low,
+            "high": spread.high,
+            "mm": self.mm,
+            "percent": self.percent,
+            "miss": spread.miss,
+            "miss_mm": spread.mm_miss,
+            "degrees": spread.degrees,
+            "step": self.step,
+            "share": self.share,
+            "tolerance": self.allowed,
+            "tolerance_mm": None if self.allowed is None or self.mu is None else self.allowed / self.mu,
+            "tolerance_deg": self.degrees,
+            "failed": self.failed,
+            "undrawn": spread.undrawn,
+        }
+        return {name: None if isinstance(x, float) and not math.isfinite(x) else x for name, x in data.items()}
+
+
+def expectations(
+    paper: Paper, hand: Hand, tolerance: Tolerance, limits: Mapping[str, float] | None = None, drawings: int = DRAWINGS
+) -> dict[str, Expectation]:
+    """Draw a construction many times with a hand, the same drawings every time, and mark what comes out.
+
+    Parameters
+    ----------
+    limits : mapping of str to float, optional
+        Tolerances of single quantities in SI, in the place of the rule.
+
+    Returns
+    -------
+    dict of str to Expectation
+        For every quantity of the construction; what is only given does not err.
+    """
+    found = drawn(paper, hand, np.random.default_rng(SEED), drawings)
+    key = answer_key(paper, tolerance, limits)
+    parts, failed, plans = sensitivities(paper, hand), found.failing(key.allowed), plans_of(paper.program)
+    made = {}
+    for name, spread in found.spreads(SHARE).items():
+        # errors that a quantity hangs on may cancel: those of two scale factors in their ratio
+        cancelled = spread.exact is not None and spread.deviation <= NOTHING * abs(spread.exact)
+        errs = name in found.board.missed and not cancelled
+        step, share = next(iter(parts.parts(name).items()), (None, math.nan)) if errs else (None, math.nan)
+        allowed, angle = key.allowed[name], key.angles.get(name)
+        # of the difference of two values each is marked alone
+        marked = math.isfinite(allowed) and np.isfinite(key[name]) and role(name).kind != "delta"
+        made[name] = Expectation(
+            spread,
+            step,
+            share if math.isfinite(share) else None,
+            allowed if marked else None,
+            math.degrees(angle) if marked and angle is not None else None,
+            failed[name],
+            paper.mus.get(plans.get(name, "")),
+            errs,
+        )
+    return made

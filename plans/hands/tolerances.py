@@ -10,15 +10,13 @@ from typing import Any
 import numpy as np
 
 from ..board import POSITION, Step
-from ..laws import LAWS, dot
+from ..laws import LAWS
 from ..names import role
-from ..quantities import POINTS, RESULTS, results, worst_behind
+from ..quantities import POINTS, RESULTS, worst_behind
 from .hand import Tolerance
 from .shaky import Paper
-from .spread import Drawn
 
 READ = ("read", "measure", "distance")
-ROUNDING = 1e-9  # part of a tolerance
 MARKS = 0.35  # part of the tolerance in mm by which two marks miss each other: twice their standard deviation
 
 
@@ -168,23 +166,3 @@ def longer(value: Any, miss: float) -> tuple[Any, ...]:
 def same_plan(step: Step, operand: str) -> bool:
     """Whether a step draws on the plan of one of its operands."""
     return role(step.name).plan == role(operand).plan
-
-
-def failing(drawn: Drawn, allowed: Mapping[str, float]) -> dict[str, float]:
-    """Return for each quantity the part of the drawings that a tolerance would fail, undrawn ones among them.
-
-    Of vectors the magnitudes are compared, of points the places. What is undefined or infinite is not marked.
-    """
-    found = {}
-    for step in results(drawn.paper.program):
-        values, exact = drawn[step.name], drawn.exact[step.name]
-        if not np.isfinite(exact):
-            found[step.name] = 0.0
-            continue
-        if step.verb in RESULTS and np.iscomplexobj(values):
-            miss = abs(np.sqrt(dot(values, values)) - abs(exact))
-        else:
-            miss = abs(values - exact)
-        wrong = ~(miss <= allowed[step.name] * (1.0 + ROUNDING))
-        found[step.name] = float(np.mean(wrong))
-    return found

@@ -18,7 +18,6 @@ from kulman.plans.boards.exact import run
 from kulman.plans.hands.hand import PRESETS, Hand, preset
 from kulman.plans.hands.shaky import Paper, draw, paper_of
 from kulman.plans.hands.spread import drawn, sensitivities
-from kulman.plans.hands.tolerances import failing
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.quantities import references, results
@@ -171,7 +170,7 @@ def test_drawings_that_fail_are_counted() -> None:
     assert found.spreads(0.4)["B"].miss > 0.0
     assert found.spreads()["A"].undrawn == 0.0
     assert np.mean(found.board.codes == 3) == found.spreads()["B"].undrawn
-    assert failing(found, dict.fromkeys((step.name for step in results(program)), 1e9))["B"] > 0.4
+    assert found.failing(dict.fromkeys((step.name for step in results(program)), 1e9))["B"] > 0.4
 
 
 # Laws.

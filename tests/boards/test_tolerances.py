@@ -11,7 +11,7 @@ from kulman import solve
 from kulman.plans.hands.hand import PRESETS, Hand, Tolerance, preset
 from kulman.plans.hands.shaky import Paper, paper_of
 from kulman.plans.hands.spread import drawn
-from kulman.plans.hands.tolerances import failing, tolerances
+from kulman.plans.hands.tolerances import tolerances
 from kulman.scales.errors import InputError
 from kulman.tests.support.mechanisms import SEED
 from kulman.variants.solution import Solution
@@ -30,7 +30,7 @@ def test_a_tolerance_fails_few_hands_of_its_own(name: str, phi: int) -> None:
     drawing = paper(solution)
 
     allowed = tolerances(drawing, solution.solved.values, solution.solved.sines, found.tolerance)
-    shares = failing(drawn(drawing, found.hand, np.random.default_rng(SEED)), allowed)
+    shares = drawn(drawing, found.hand, np.random.default_rng(SEED)).failing(allowed)
 
     assert np.mean(list(shares.values())) < 0.05
     assert np.median(list(shares.values())) < 0.01
@@ -50,7 +50,7 @@ def test_an_arm_about_the_point_where_two_lines_cross_misses_as_that_point_does(
     drawing, found = paper(solution), preset("normal")
 
     allowed = tolerances(drawing, solution.solved.values, solution.solved.sines, found.tolerance)
-    shares = failing(drawn(drawing, found.hand, np.random.default_rng(SEED)), allowed)
+    shares = drawn(drawing, found.hand, np.random.default_rng(SEED)).failing(allowed)
 
     arms = [name for name in shares if name.startswith("h_") and name.endswith("_X3")]
     assert len(arms) > 5
@@ -82,7 +82,7 @@ def test_what_is_undefined_is_not_marked() -> None:
     drawing = paper(solution)
     allowed = tolerances(drawing, solution.solved.values, solution.solved.sines, preset("normal").tolerance)
 
-    shares = failing(drawn(drawing, preset("normal").hand, np.random.default_rng(SEED), 50), allowed)
+    shares = drawn(drawing, preset("normal").hand, np.random.default_rng(SEED), 50).failing(allowed)
 
     assert solution["h_03"].value is None
     assert shares["h_03"] == 0.0
