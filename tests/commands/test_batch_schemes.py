@@ -13,8 +13,9 @@ from kulman import batch, check, load_task
 from kulman.drawing import cells
 from kulman.scales.errors import InputError
 from kulman.variants import roster as rosters
+from kulman.variants import tables
 from kulman.variants.roster import Digits, Schemes, read_roster, variant_of_book
-from kulman.variants.spreadsheets import cells_out, headers
+from kulman.variants.spreadsheets import headers
 from kulman.variants.task import Task
 
 SCHEMES = ("scheme-01-compressor", "scheme-02-forging-press", "scheme-03-crank-rocker")
@@ -176,7 +177,7 @@ def _copy(task: Path, other: Path) -> Path:
     return other
 
 
-@pytest.mark.parametrize("module", [rosters, headers, cells_out, cells])
+@pytest.mark.parametrize("module", [rosters, headers, tables, cells])
 def test_examples_in_docstrings_say_what_comes_out(module: ModuleType) -> None:
     found = doctest.testmod(module)
 

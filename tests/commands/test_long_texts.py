@@ -31,7 +31,7 @@ from kulman.variants.sheets import variant_of_id
 from kulman.variants.shelf import _label, bundled_text
 from kulman.variants.solution import solve
 from kulman.variants.spreadsheets import headers
-from kulman.variants.spreadsheets.cells_out import harmless
+from kulman.variants.tables import harmless
 from kulman.variants.toml_places import Places
 
 _OF_LINE = dict.fromkeys(map(ord, "'\n"))

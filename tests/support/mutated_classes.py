@@ -37,7 +37,7 @@ from kulman.tests.support.mutated import (
 )
 from kulman.variants.kinds import KINDS
 from kulman.variants.shelf import bundled, bundled_text
-from kulman.variants.spreadsheets.cells_out import xlsx_bytes
+from kulman.variants.tables import xlsx_bytes
 
 XML = (
     "<",

@@ -21,8 +21,8 @@ from ..marking.wording import texts
 from ..reader import load_task
 from ..roster import SCHEME, VARIANT, WHO, Digits, Schemes, read_roster
 from ..sheets import said_of
-from ..spreadsheets.cells_out import Cell, csv_table, table_bytes
 from ..spreadsheets.grid import SUFFIXES
+from ..tables import Cell, csv_table, table_bytes
 from ..task import Task
 from .work import FORMS, NOTE, Batch, Crew, Making, Student, put, run
 

@@ -13,8 +13,7 @@ from ...plans.cams.rivals import rivals
 from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.contest import FULL, Effort
 from ..case import all_known
-from ..spreadsheets.cells_out import Cell
-from ..tables import aligned
+from ..tables import Cell, aligned
 from .charts import (
     HANDS,
     PERCENT,

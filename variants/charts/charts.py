@@ -31,8 +31,7 @@ from ...scales.numbers import quote
 from ...scales.units import parse, unit
 from ..case import Case, Settings, all_known, names_of, positions_of, solve_case
 from ..hands import is_own
-from ..spreadsheets.cells_out import Cell, csv_bytes, csv_text
-from ..tables import aligned
+from ..tables import Cell, aligned, csv_bytes, csv_text
 from ..task import LocatedError, Task
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ from ...plans.gears.scale_errors import DRAWINGS, MILLI, ScaleErrors, compared, 
 from ...plans.gears.solve import SolvedGear
 from ...plans.hands.hand import PRESETS
 from ..case import all_known
-from ..spreadsheets.cells_out import Cell
-from ..tables import aligned
+from ..tables import Cell, aligned
 from .charts import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, error_rows, wrapped
 
 PARTS = {hand: preset.tolerance.part for hand, preset in PRESETS.items()}  # that are let pass

@@ -22,8 +22,7 @@ from ...plans.hoist.roots import FINDERS
 from ...plans.hoist.solve import SolvedHoist
 from ...scales.errors import InputError
 from ...scales.units import format_unit, unit
-from ..spreadsheets.cells_out import Cell
-from ..tables import aligned
+from ..tables import Cell, aligned
 from .charts import HANDS, PERCENT, AccuracyChart, Chart, ChartRequest, Gallery, Scene, per_cent, short, wrapped
 
 ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE = "accuracy", "stability", "roots", "depth", "choice"

@@ -29,9 +29,8 @@ from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit
 from ..case import Case, all_known
-from ..spreadsheets.cells_out import Cell
 from ..sweeps.cycles import driver_name
-from ..tables import aligned
+from ..tables import Cell, aligned
 from .charts import (
     HANDS,
     AccuracyChart,

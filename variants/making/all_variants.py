@@ -22,9 +22,8 @@ from ..marking.checks import Check, check
 from ..marking.keyed import Keyed, keyed
 from ..marking.rubric import SIGNED
 from ..marking.wording import texts
-from ..spreadsheets.cells_out import Cell, table_bytes
 from ..spreadsheets.grid import SUFFIXES as CELLS
-from ..tables import aligned
+from ..tables import Cell, aligned, table_bytes
 from ..task import Task
 from .new_variants import NewVariants, import_variants, make_variants
 

@@ -15,8 +15,8 @@ from ..crew import Advance
 from ..kinds import kind_of
 from ..reader import load_task
 from ..roster import Digits, Roster, read_roster
-from ..spreadsheets.cells_out import table_bytes
 from ..spreadsheets.grid import SUFFIXES as TABLES
+from ..tables import table_bytes
 from ..task import Task
 from .answers import Answers, Asked
 from .class_run import Job, mark_class

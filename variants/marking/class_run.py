@@ -16,8 +16,8 @@ from ...drawing.writers import Files, save_all, slug, write_whole
 from ...scales.errors import InputError, KulmanError
 from ..crew import Advance, shared_out
 from ..journal import Journal, digest_of, remove_stale
-from ..spreadsheets.cells_out import csv_table, table_bytes
 from ..spreadsheets.grid import SUFFIXES
+from ..tables import csv_table, table_bytes
 from .answers import Answers
 from .marked import Desk, variant_of
 from .report import report

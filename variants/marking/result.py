@@ -16,7 +16,7 @@ from ...plans.marking.key import Key
 from ...plans.marking.verdicts import Verdict
 from ...scales.errors import KulmanError
 from ..roster import WHO, Entry, Who
-from ..spreadsheets.cells_out import Cell
+from ..tables import Cell
 from .answers import Answers, Line
 from .marked import Marked
 from .wording import mistake_texts, texts

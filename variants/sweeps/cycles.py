@@ -18,8 +18,7 @@ from ...plans.quantities import BALANCES, unit_of
 from ...plans.solved import Columned
 from ...plans.zeros import Extreme
 from ...scales.units import format_unit, unit
-from ..spreadsheets.cells_out import csv_text
-from ..tables import aligned
+from ..tables import aligned, csv_text
 from .sweeps import numbers
 
 Array = NDArray[Any]

@@ -19,8 +19,7 @@ from ...scales.errors import InputError, PositionError
 from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
 from ..case import Case, Settings, positions_of, solve_case
-from ..spreadsheets.cells_out import csv_bytes, csv_text
-from ..tables import aligned
+from ..tables import aligned, csv_bytes, csv_text
 from ..task import Task
 
 CSV = ".csv"
