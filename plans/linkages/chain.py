@@ -15,8 +15,8 @@ from .driver import driver_of
 from .legs import AssurGroup
 from .loads import Moving, hung, lay_loads, needs_stroke
 from .mechanism import FRAME, ZERO, Mechanism
-from .parts import Bodies, Ends, Forces, Span
-from .structure import TRIAD, Structure, analyse
+from .parts import Bodies, Forces, Span
+from .structure import KINDS, TRIAD, Structure, analyse
 
 NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, with those they are built on
     "structure": (),
@@ -31,12 +31,9 @@ NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, wit
 PLANS = tuple(NEEDS)
 USUAL = tuple(plan for plan in PLANS if plan not in ("compound", "cycle"))  # without a word on which are wanted
 _CONSTRUCTED = Kept[tuple[Structure, Program]](16)
-# modules that name the parts of a group of each kind, which a mechanism without such a group does without
-CONSTRUCTIONS = {
-    **dict.fromkeys(("RRR", "RRP", "PRP"), "dyads.pinned"),
-    **dict.fromkeys(("RPR", "RPP"), "dyads.sliding"),
-    TRIAD: "triads.triad",
-}
+Ends = tuple[str, str, str, str]  # two points that turn together, the normal to their line, their distance
+# modules with the groups of each kind, and their classes, which a mechanism without such a group does without
+CONSTRUCTIONS = {kind: ("dyads", kind) for kind in KINDS} | {TRIAD: ("triads.triad", "Triad")}
 
 
 def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Structure, Program]:
@@ -117,22 +114,16 @@ def named(mechanism: Mechanism, structure: Structure) -> tuple[tuple[AssurGroup,
         if group.kind not in CONSTRUCTIONS:
             raise InputError("no-construction", kind=group.kind, links=", ".join(map(str, group.links)))
     driver = driver_of(mechanism)
-    _have_lengths(driver.spans)
     bodies = {mechanism.driver.link: driver.body}
     groups: list[AssurGroup] = []
     for group in structure.groups:
-        module = import_module(f".{CONSTRUCTIONS[group.kind]}", __package__)
-        groups.append(module.named(mechanism, group, bodies))
-        _have_lengths(groups[-1].spans)
+        module, kind = CONSTRUCTIONS[group.kind]
+        groups.append(getattr(import_module(f".{module}", __package__), kind)(mechanism, group, bodies))
         bodies |= {body.link.number: body for body in groups[-1].bodies}
-    return tuple(groups), bodies
-
-
-def _have_lengths(spans: Iterable[Span]) -> None:
-    """Refuse a link whose joints coincide by form."""
-    for span in spans:
-        if span.link.points[span.start] == span.link.points[span.end]:
+    for span in (span for part in (driver, *groups) for span in part.spans):
+        if span.link.points[span.start] == span.link.points[span.end]:  # by the form of the mechanism
             raise InputError("joints-coincide", link=span.number, first=span.start, second=span.end)
+    return tuple(groups), bodies
 
 
 def _forces(board: RecordingBoard, mechanism: Mechanism, groups: Sequence[AssurGroup], bodies: Bodies) -> None:
@@ -143,7 +134,7 @@ def _forces(board: RecordingBoard, mechanism: Mechanism, groups: Sequence[AssurG
         for link in (body.link.number for body in group.bodies):
             forces[link] += reactions[link]
         group.forces(board, forces, couples)
-        for passed in group.passed():
+        for passed in group.passed:
             if passed.link != FRAME:
                 reactions[passed.link].append((passed.force, passed.point))
                 couples[passed.link] += [passed.couple] if passed.couple else []
@@ -155,68 +146,61 @@ def _forces(board: RecordingBoard, mechanism: Mechanism, groups: Sequence[AssurG
 def _lever(board: RecordingBoard, mechanism: Mechanism, spans: Mapping[int, Span], bodies: Bodies) -> None:
     """Hang all forces on the lever, and the couples: as pairs of forces where two points are known, else as powers."""
     forces, couples = hung(mechanism, bodies)
-    rates = {omega: span for number, span in spans.items() if (omega := bodies[number].omega)}
-    pairs: list[tuple[str, Span | Ends]] = [
-        (couple, span) for number, span in spans.items() for couple in couples[number]
-    ]
+    ends: dict[int, Ends] = {number: (span.start, span.end, span.n, span.length) for number, span in spans.items()}
+    by_rate = {omega: both for number, both in ends.items() if (omega := bodies[number].omega)}
+    pairs = [(couple, both) for number, both in ends.items() for couple in couples[number]]
     turning = []
     for number, omega in ((n, bodies[n].omega) for n in couples if n not in spans):
-        points = points_of(omega, board.steps, rates) if omega else None
+        points = _points_of(omega, board.steps, by_rate) if omega else None
         pairs += [(couple, points) for couple in couples[number] if points]
         turning += [(couple, omega) for couple in couples[number] if omega and not points]
-    moments = lever(board, mechanism, [force for link in forces.values() for force in link], pairs, turning)
+    moving = [force for link in forces.values() for force in link if force[1] not in mechanism.frame_points]
+    moments = _on_lever(board, mechanism, moving, pairs)
+    for turns, omega in turning:
+        moments.append(Name(f"_{turns}_p", "M", role(turns).of, "p"))
+        board.calc(moments[-1], "couple_on_lever", turns, omega)
     driver_of(mechanism).on_lever(board, moments)
 
 
-def lever(
-    board: Board,
-    mechanism: Mechanism,
-    forces: list[tuple[str, str]],
-    couples: list[tuple[str, Span | Ends]],
-    turning: list[tuple[str, str]],
+def _on_lever(
+    board: Board, mechanism: Mechanism, forces: list[tuple[str, str]], couples: list[tuple[str, Ends]]
 ) -> list[Name]:
     """Hang `forces` (name, point) and `couples` (moment, points A, B) on the turned plan; return their moments.
 
-    A couple hangs as two equal opposite forces M / l_AB at B and A, normal to AB. Those in `turning` (moment, omega) on
-    links of which no two points are known enter with their power.
+    A couple hangs as two equal opposite forces M / l_AB at B and A, normal to AB.
     """
-    driver, still = mechanism.driver, mechanism.frame_points
-    forces = [(force, at) for force, at in forces if at not in still]
+    still = mechanism.frame_points
     board.pole("lever.p")
-    points = [driver.point, *(at for _, at in forces), *(p for _, span in couples for p in (span.start, span.end))]
+    points = [mechanism.driver.point, *(at for _, at in forces), *(p for _, both in couples for p in both[:2])]
     for point in dict.fromkeys(point for point in points if point not in still):
         board.normal(f"lever.{point}", f"velocity.{point}")
     moments: list[Name] = []
     for force, at in forces:
         moments.append(moment(force, "p"))
         board.moment(moments[-1], lever_arm(force), force, f"lever.{at}", "lever.p")
-    for turns, span in couples:
-        A, B = span.start, span.end
+    for turns, (A, B, n, length) in couples:
         half = partial(couple, turns)
-        board.calc(half(), "couple", turns, span.length)
-        board.calc(half(B), "along", half(), span.n)
+        board.calc(half(), "couple", turns, length)
+        board.calc(half(B), "along", half(), n)
         board.calc(half(A), "opposite", half(B))
         for point in (p for p in (B, A) if p not in still):
             moments.append(moment(half(point), "p"))
             board.moment(moments[-1], lever_arm(turns, point), half(point), f"lever.{point}", "lever.p")
-    for turns, omega in turning:
-        moments.append(Name(f"_{turns}_p", "M", role(turns).of, "p"))
-        board.calc(moments[-1], "couple_on_lever", turns, omega)
     return moments
 
 
-def points_of(omega: str, steps: Iterable[Step], spans: Mapping[str, Span]) -> Span | Ends | None:
+def _points_of(omega: str, steps: Iterable[Step], known: Mapping[str, Ends]) -> Ends | None:
     """Return two points with images on the plan that turn with the angular velocity `omega`, if any are known.
 
-    They are the joints of a link that turns so, `spans` by angular velocity, or those from whose relative velocity it
-    was read: a sliding block turns with its guide, and the guide by the velocity of its point under the block's pin.
+    They are the joints of a link that turns so, or those from whose relative velocity it was read: a sliding block
+    turns with its guide, and the guide by the velocity of its point under the block's pin.
     """
     made = {step.name: step for step in steps}
-    while omega not in spans and omega in made and made[omega].law == "same_turning":
+    while omega not in known and omega in made and made[omega].law == "same_turning":
         omega = made[omega].operands[0]
-    if omega in spans or omega not in made or made[omega].law != "turning":
-        return spans.get(omega)
+    if omega in known or omega not in made or made[omega].law != "turning":
+        return known.get(omega)
     vector, normal, length = made[omega].operands
     start, end = made[made[normal].operands[0]].operands[:2]
     point = role(made[vector].operands[1]).of  # the pin itself, or the point of the link under it
-    return Ends(start, point if end in (point, role(point).of) else end, normal, length)
+    return start, point if end in (point, role(point).of) else end, normal, length

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 from ..board import Board, Program
 from ..names import Name, between, mark, pole, rate, role, scale_factor, spelled, vector
-from .dyads.pinned import RRP, RRR
+from .dyads import RRP, RRR
 from .legs import AssurGroup
 from .mechanism import FRAME, ZERO, Link, Mechanism, Revolute
 from .parts import Bodies, Body, Span
@@ -94,7 +94,7 @@ def _carrier(mechanism: Mechanism, span: Span, bodies: Bodies) -> Body | None:
 def _closing(mechanism: Mechanism, group: AssurGroup, span: Span) -> Closing | None:
     match group:
         case RRR(legs=(first, second)):
-            other = second if span == first else first
+            other = second if span is first else first
             if other.start in mechanism.frame_points:
                 return Closing(other.n, vector("a", *other.about(group.B), "n"))
         case RRP(legs=(_, slide)) if slide.known is None:

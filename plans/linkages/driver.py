@@ -12,7 +12,7 @@ from ...scales.errors import InputError
 from ..board import Board
 from ..names import NORMAL, Name, by_lever, mark, spelled, vector
 from ..quantities import F_BAL, M_BAL
-from .legs import Slide, slide_of
+from .legs import Slide
 from .mechanism import FRAME, MOMENT, ZERO, Driver, Mechanism, Prismatic, SlidingDriver
 from .parts import Body, Couples, Forces, Span, hang, moments_about
 
@@ -30,7 +30,7 @@ def driver_of(mechanism: Mechanism) -> Crank | SlidingBlock:
         return Crank(mechanism, driver, Span(mechanism.link(driver.link), driver.pivot, driver.point))
     for pair in mechanism.pairs:
         if isinstance(pair, Prismatic) and {*pair.links} == {FRAME, driver.link}:
-            return SlidingBlock(mechanism, driver, slide_of(mechanism, pair, driver.link, driver.point, {}))
+            return SlidingBlock(mechanism, driver, Slide(mechanism, pair, driver.link, driver.point, {}))
     raise InputError("driver-guide", link=driver.link)
 
 

@@ -11,9 +11,7 @@ the guide.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
-from typing import ClassVar
 
 from ...scales.errors import InputError
 from ..board import Board, Program
@@ -52,18 +50,15 @@ def guide_letters(program: Program) -> Mapping[str, str]:
     return letters
 
 
-@dataclass(frozen=True, slots=True)
 class Hinged(Span):
     """A leg with two revolute pairs: `start` is its joint with the link `before`, `end` the joint that it holds."""
 
-    mechanism: Mechanism
-    before: int
-    absolute: bool  # whether `start` is a pivot of the frame, and motion about it is called absolute
-
-    @property
-    def spans(self) -> tuple[Span, ...]:
-        """Itself, with its two joints."""
-        return (self,)
+    def __init__(self, mechanism: Mechanism, link: Link, joints: tuple[str, str], before: int) -> None:
+        super().__init__(link, *joints)
+        self.mechanism, self.before = mechanism, before
+        # whether `start` is a pivot of the frame, and motion about it is called absolute
+        self.absolute = self.start in mechanism.frame_points
+        self.passed = Passed(mechanism.pair("R", self.number, before), before, self.start)
 
     def path(self, board: Board) -> tuple[str, str, str]:
         """Lay down what it leaves to its joint: centre and radius of an arc, no line."""
@@ -104,67 +99,34 @@ class Hinged(Span):
         else:
             board.calc(self.epsilon, "turning", vector("a", *about, "t"), self.n, self.length)
 
-    def passed(self) -> Passed:
-        """Return the reaction on the link before, at the start."""
-        return Passed(self.mechanism.pair("R", self.number, self.before), self.before, self.start)
 
-
-@dataclass(frozen=True, slots=True)
 class Slide:
-    """Link `link` slides on `known` (None: the frame) along the direction `u`; `pin` is the point that runs."""
+    """Link `link` slides on `known` (None: the frame) along the direction `u`; `pin` is the point that runs.
 
-    pair: Prismatic
-    link: Link
-    pin: str
-    known: Body | None
-    carries: bool  # whether the link carries the guide, not the known one
-    mechanism: Mechanism
-    spans: ClassVar[tuple[Span, ...]] = ()  # it has one joint
+    The reaction of the guide is moved to the pin, with a couple.
 
-    @property
-    def number(self) -> int:
-        """Number of the sliding link."""
-        return self.link.number
+    Raises
+    ------
+    InputError
+        When the frame is said to be the slider.
+    """
 
-    @property
-    def before(self) -> int:
-        """Number of the known link."""
-        return self.pair.links[0] if self.carries else self.pair.links[1]
-
-    @property
-    def start(self) -> str:
-        """Its pin: the reaction of the guide is moved there, with a couple."""
-        return self.pin
-
-    @property
-    def end(self) -> str:
-        """Its pin, too."""
-        return self.pin
-
-    @property
-    def u(self) -> Name:
-        """Name of the guide's direction."""
-        return self.mechanism.pair("u", self.number, self.before)
-
-    @property
-    def e(self) -> Name:
-        """Direction of its line: the normal to the guide."""
-        return normal_of(self.u)
-
-    @property
-    def n(self) -> Name:
-        """Direction normal to its line: that of the guide."""
-        return self.u
-
-    @property
-    def under(self) -> Name:
-        """Letter of the known link's point that now lies under the pin."""
-        return self.mechanism.letter_on(self.pin, self.before)
-
-    @property
-    def own(self) -> Name:
-        """Letter of the pin as a point of the sliding link."""
-        return self.mechanism.letter_on(self.pin, self.number)
+    def __init__(self, mechanism: Mechanism, pair: Prismatic, number: int, pin: str, bodies: Bodies) -> None:
+        self.mechanism, self.pair, self.link, self.number = mechanism, pair, mechanism.link(number), number
+        self.pin = self.start = self.end = pin
+        self.carries = pair.links[1] == number  # whether the link carries the guide, not the known one
+        self.before = pair.links[0] if self.carries else pair.links[1]
+        if self.carries and self.before == FRAME:
+            raise InputError("moving-guide", links=f"{number}, {FRAME}")
+        self.known = None if self.before == FRAME else bodies[self.before]
+        self.u = self.n = mechanism.pair("u", number, self.before)  # direction of the guide, normal to its line
+        self.e = normal_of(self.u)  # direction of its line: the normal to the guide
+        self.under = mechanism.letter_on(pin, self.before)  # the known link's point that now lies under the pin
+        self.own = mechanism.letter_on(pin, number)  # the pin as a point of the sliding link
+        # angle of the guide on the sliding link; the x axis of a slider points along the guide
+        self.slope = pair.direction if self.carries else ZERO
+        reaction, couple = (mechanism.pair(kind, number, self.before) for kind in ("R", "M"))
+        self.passed = Passed(reaction, self.before, pin, couple)
 
     @property
     def body(self) -> Body:
@@ -172,11 +134,6 @@ class Slide:
         omega = rate("omega", self.number) if self.known and self.known.omega else None
         epsilon = rate("epsilon", self.number) if self.known and self.known.epsilon else None
         return slider_body(self.link, self.pin, self.u, self.slope, (omega, epsilon))
-
-    @property
-    def slope(self) -> str:
-        """Angle of the guide on the sliding link; the x axis of a slider points along the guide."""
-        return self.pair.direction if self.carries else ZERO
 
     def mark(self, plan: str) -> str:
         """Return the mark of the known link's point under the pin."""
@@ -253,28 +210,8 @@ class Slide:
     def turn(self, board: Board, plan: str) -> None:
         """Do nothing: it turns like the guide."""
 
-    def passed(self) -> Passed:
-        """Return the reaction on the guide, moved to the pin, with a couple."""
-        force, couple = (self.mechanism.pair(kind, self.number, self.before) for kind in ("R", "M"))
-        return Passed(force, self.before, self.pin, couple)
-
 
 Leg = Hinged | Slide
-
-
-def slide_of(mechanism: Mechanism, pair: Prismatic, number: int, pin: str, bodies: Bodies) -> Slide:
-    """Name the parts of the pair by which link `number` slides on a known one.
-
-    Raises
-    ------
-    InputError
-        When the frame is said to be the slider.
-    """
-    known = next(link for link in pair.links if link != number)
-    carries = pair.links[1] == number
-    if carries and known == FRAME:
-        raise InputError("moving-guide", links=f"{number}, {known}")
-    return Slide(pair, mechanism.link(number), pin, None if known == FRAME else bodies[known], carries, mechanism)
 
 
 def legs_of(mechanism: Mechanism, group: Group, bodies: Bodies) -> list[Leg]:
@@ -284,14 +221,12 @@ def legs_of(mechanism: Mechanism, group: Group, bodies: Bodies) -> list[Leg]:
     joints = group.joints if group.kind == TRIAD else group.joints * 2
     for number, joint, outer, before in zip(numbers, joints, group.outer, group.before, strict=True):
         if isinstance(outer, Prismatic):
-            legs.append(slide_of(mechanism, outer, number, joint, bodies))
+            legs.append(Slide(mechanism, outer, number, joint, bodies))
         else:
-            absolute = outer.point in mechanism.frame_points
-            legs.append(Hinged(mechanism.link(number), outer.point, joint, mechanism, before, absolute))
+            legs.append(Hinged(mechanism, mechanism.link(number), (outer.point, joint), before))
     return legs
 
 
-@dataclass(frozen=True, slots=True)
 class AssurGroup:
     """A group with the names that its constructions use.
 
@@ -299,23 +234,13 @@ class AssurGroup:
     `forces`.
     """
 
-    mechanism: Mechanism
-    name: str  # its links as a word
-    legs: tuple[Leg, ...]
+    bodies: tuple[Body, ...]  # its links for those attached to them
+    passed: tuple[Passed, ...]  # reactions on the links before
 
-    @property
-    def spans(self) -> tuple[Span, ...]:
-        """Its links with two joints."""
-        return tuple(span for leg in self.legs for span in leg.spans)
-
-    @property
-    def bodies(self) -> tuple[Body, ...]:
-        """Its links for those attached to them."""
-        return tuple(leg.body for leg in self.legs)
-
-    def passed(self) -> tuple[Passed, ...]:
-        """Reactions on the links before."""
-        return tuple(leg.passed() for leg in self.legs)
+    def __init__(self, mechanism: Mechanism, group: Group, legs: tuple[Leg, ...] = ()) -> None:
+        self.mechanism, self.name, self.legs = mechanism, group.name, legs
+        self.spans: tuple[Span, ...] = tuple(leg for leg in legs if isinstance(leg, Span))  # links with two joints
+        self.bodies, self.passed = tuple(leg.body for leg in legs), tuple(leg.passed for leg in legs)
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Draw its plans of forces; `loads` are (force, point) and `couples` moments, by link."""

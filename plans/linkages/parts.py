@@ -6,7 +6,7 @@ joint. A straight link whose points stand on one axis from the first joint needs
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from ..board import Board
@@ -83,22 +83,17 @@ class Body:
             radius = f"_r_{letter}_{self.pin}"
             if plan == "velocity":
                 board.read(radius, pin_at or self.pin, at)
-            for law, turning, part, end in self._parts(plan, letter):
+            parts = [("transport_speed", self.omega, vector("V", letter, self.pin), tip)]
+            if plan == "acceleration":
+                normal = tip if self.epsilon is None else mark(plan, letter, NORMAL, self.pin)
+                parts = [("transport_normal", self.omega, vector("a", letter, self.pin, "n"), normal)]
+                if self.epsilon is not None:
+                    parts.append(("transport_tangential", self.epsilon, vector("a", letter, self.pin, "t"), tip))
+            for law, turning, part, end in parts:
                 board.calc(part, law, turning, radius)
                 board.chain(end, start, part)
                 start = end
         board.read(vector(SYMBOLS[plan], letter), f"{plan}.p", tip)
-
-    def _parts(self, plan: str, letter: str) -> Iterator[tuple[str, str, Name, Name]]:
-        """Go through the vectors of a turn about the pin: law, rate, name, mark at its tip."""
-        tip = mark(plan, letter)
-        if plan == "velocity":
-            yield "transport_speed", str(self.omega), vector("V", letter, self.pin), tip
-            return
-        normal = tip if self.epsilon is None else mark(plan, letter, NORMAL, self.pin)
-        yield "transport_normal", str(self.omega), vector("a", letter, self.pin, "n"), normal
-        if self.epsilon is not None:
-            yield "transport_tangential", self.epsilon, vector("a", letter, self.pin, "t"), tip
 
 
 Bodies = Mapping[int, Body]
@@ -114,76 +109,33 @@ class Passed:
     couple: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
 class Span:
-    """A link between two of its joints, `start` and `end`."""
+    """A link between two of its joints, `start` and `end`, with the names that all plans use."""
 
-    link: Link
-    start: str
-    end: str
-
-    @property
-    def number(self) -> int:
-        """Number of the link."""
-        return self.link.number
-
-    @property
-    def straight(self) -> bool:
-        """Whether all points stand on the x axis, `start` at the origin."""
-        points = self.link.points
-        return not self.measured and points[self.end] != (ZERO, ZERO) and all(y == ZERO for _, y in points.values())
-
-    @property
-    def measured(self) -> bool:
-        """Whether the distance of the joints is measured: it is given where `end` stands on the x axis from `start`."""
-        start, (x, y) = self.link.points[self.start], self.link.points[self.end]
-        return start != (ZERO, ZERO) or y != ZERO or x != positive(x)
-
-    @property
-    def length(self) -> str:
-        """Name of the distance of the joints, a hidden one where a coordinate has taken that name."""
-        points = self.link.points
-        if not self.measured:
-            return points[self.end][0]
-        taken = {positive(xy) for place in points.values() for xy in place}
-        length = between("l", self.start, self.end)
-        return length.size if length in taken else length
-
-    @property
-    def e(self) -> Name:
-        """Name of the direction from start to end."""
-        return between("e", self.start, self.end)
-
-    @property
-    def n(self) -> Name:
-        """Name of the normal to it."""
-        return between("n", self.start, self.end)
-
-    @property
-    def omega(self) -> Name:
-        """Name of its angular velocity."""
-        return rate("omega", self.number)
-
-    @property
-    def epsilon(self) -> Name:
-        """Name of its angular acceleration."""
-        return rate("epsilon", self.number)
-
-    @property
-    def others(self) -> tuple[str, ...]:
-        """The points beside the joints."""
-        return tuple(point for point in self.link.points if point not in (self.start, self.end))
-
-    @property
-    def body(self) -> Body:
-        """Return the link for those attached to it."""
+    def __init__(self, link: Link, start: str, end: str) -> None:
+        self.link, self.start, self.end, self.number = link, start, end, link.number
+        self.e, self.n = between("e", start, end), between("n", start, end)  # direction from start to end, normal to it
+        self.omega, self.epsilon = rate("omega", link.number), rate("epsilon", link.number)
+        self.others = tuple(point for point in link.points if point not in (start, end))
+        # the distance of the joints is given where `end` stands on the x axis from `start`, else it is measured
+        origin, (x, y) = link.points[start], link.points[end]
+        self.measured = origin != (ZERO, ZERO) or y != ZERO or x != positive(x)
+        # whether all points stand on the x axis, `start` at the origin
+        self.straight = not self.measured and x != ZERO and all(y == ZERO for _, y in link.points.values())
+        length, taken = between("l", start, end), {positive(xy) for place in link.points.values() for xy in place}
+        # a hidden name where a coordinate has taken that name
+        self.length: str = x if not self.measured else length.size if length in taken else length
         local = f"_g_{self.number}" if self.measured else None
-        return Body(self.link, self.start, self.e, local, self.omega, self.epsilon)
+        self.body = Body(link, start, self.e, local, self.omega, self.epsilon)  # for those attached to it
+
+    def _on_drawing(self, board: Board) -> tuple[str, str]:
+        """Mark both joints on a drawing of the link alone."""
+        return local_mark(board, self.link, self.start), local_mark(board, self.link, self.end)
 
     def measure(self, board: Board) -> None:
         """Measure a link on a drawing of its own, where its length is not given."""
         if self.measured:
-            start, end = (local_mark(board, self.link, point) for point in (self.start, self.end))
+            start, end = self._on_drawing(board)
             board.measure(self.length, start, end)
             board.direction(f"_g_{self.number}", start, end, self.length)
 
@@ -196,7 +148,7 @@ class Span:
             board.direction(self.e, self.start, self.end, self.length)
         board.normal(self.n, self.e)
         if not self.straight:
-            start, end = (local_mark(board, self.link, point) for point in (self.start, self.end))
+            start, end = self._on_drawing(board)
             for point in self.others:
                 local = local_mark(board, self.link, point)
                 board.calc(f"_along_{point}", "part_along", start, end, local)
@@ -216,16 +168,6 @@ class Span:
             board.divide(mark, start, end, self.link.points[point][0], self.length)
         else:
             board.similar(mark, start, end, f"_along_{point}", f"_across_{point}")
-
-
-@dataclass(frozen=True, slots=True)
-class Ends:
-    """Two points that turn together, with the names of the normal to their line and of their distance."""
-
-    start: str
-    end: str
-    n: str
-    length: str
 
 
 def size_of(board: Board, mechanism: Mechanism) -> str:

@@ -17,17 +17,15 @@ Source: Artobolevsky, Theory of mechanisms and machines (groups of class III, sp
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from ....scales.errors import InputError
 from ...board import Board
 from ...names import NORMAL, POINT, Name, arm, between, mark, moment, spelled, vector
 from ..legs import AssurGroup, Hinged, Leg, Slide, legs_of
-from ..mechanism import ZERO, Mechanism, Revolute, start_names
+from ..mechanism import ZERO, Link, Mechanism, Revolute, start_names
 from ..parts import (
     SYMBOLS,
     Bodies,
-    Body,
     Couples,
     Forces,
     Span,
@@ -39,8 +37,18 @@ from ..parts import (
 from ..structure import Group, listed
 
 
-def named(mechanism: Mechanism, group: Group, bodies: Bodies) -> AssurGroup:
-    """Name the parts of a triad.
+class Central(Span):
+    """The central link between two of its joints; its `third` is found before the points of its figure."""
+
+    def __init__(self, link: Link, start: str, end: str, third: str) -> None:
+        super().__init__(link, start, end)
+        self.others = tuple(point for point in self.others if point != third)
+
+
+class Triad(AssurGroup):
+    """The names that the constructions of one triad use, and the constructions.
+
+    `legs` are in the order of construction: the lines of the first two meet in the special point, then the third.
 
     Raises
     ------
@@ -48,69 +56,33 @@ def named(mechanism: Mechanism, group: Group, bodies: Bodies) -> AssurGroup:
         When a leg slides on the central link, when the task does not say where that link starts, or names other links
         than two of the legs.
     """
-    central = mechanism.link(group.central)
-    if not all(isinstance(pair, Revolute) for pair in group.inner):
-        raise InputError("triad-slide", links=listed(group.links), link=central.number)
-    start = mechanism.start(central.number)
-    if start is None:
-        raise InputError("start-missing", links=listed(group.links), link=central.number)
-    legs = legs_of(mechanism, group, bodies)
-    first = legs[:2] if start.legs is None else [leg for number in start.legs for leg in legs if leg.number == number]
-    if len({leg.number for leg in first}) != 2:
-        raise InputError("start-legs", link=central.number, known=listed(group.legs))
-    third = next(leg for leg in legs if leg not in first)
-    B, C = [leg.end for leg in legs if leg != third]
-    return Triad(mechanism, group.name, (first[0], first[1], third), Central(central, B, C, third.end))
-
-
-@dataclass(frozen=True, slots=True)
-class Central(Span):
-    """The central link between two of its joints; its `third` is found before the points of its figure."""
-
-    third: str
-
-    @property
-    def others(self) -> tuple[str, ...]:
-        """The points beside the joints."""
-        return tuple(point for point in self.link.points if point not in (self.start, self.end, self.third))
-
-
-@dataclass(frozen=True, slots=True)
-class Triad(AssurGroup):
-    """The names that the constructions of one triad use, and the constructions.
-
-    `legs` are in the order of construction: the lines of the first two meet in the special point, then the third.
-    """
 
     legs: tuple[Leg, Leg, Leg]
-    central: Central
+
+    def __init__(self, mechanism: Mechanism, group: Group, bodies: Bodies) -> None:
+        number, links = group.central, listed(group.links)
+        if not all(isinstance(pair, Revolute) for pair in group.inner):
+            raise InputError("triad-slide", links=links, link=number)
+        start = mechanism.start(number)
+        if start is None:
+            raise InputError("start-missing", links=links, link=number)
+        legs = legs_of(mechanism, group, bodies)
+        first = legs[:2] if start.legs is None else [leg for own in start.legs for leg in legs if leg.number == own]
+        if len({leg.number for leg in first}) != 2:
+            raise InputError("start-legs", link=number, known=listed(group.legs))
+        third = next(leg for leg in legs if leg not in first)
+        super().__init__(mechanism, group, (first[0], first[1], third))
+        B, C = [leg.end for leg in legs if leg is not third]
+        self.central = Central(mechanism.link(number), B, C, third.end)
+        self.spans, self.bodies = (self.central, *self.spans), (self.central.body, *self.bodies)
+        # Assur's special point; its distance from the third leg's joint, the direction from it, the normal to that
+        X, D = Name(f"X{number}", POINT, f"X{number}", links=(number,)), third.end
+        self.X, self.XD = X, (between("l", X, D), between("e", X, D), between("n", X, D))
 
     @property
     def by_number(self) -> list[Leg]:
         """The legs in the order of their numbers."""
         return sorted(self.legs, key=lambda leg: leg.number)
-
-    @property
-    def X(self) -> Name:
-        """Letter of Assur's special point."""
-        letter = f"X{self.central.number}"
-        return Name(letter, POINT, letter, links=(self.central.number,))
-
-    @property
-    def XD(self) -> tuple[Name, Name, Name]:
-        """Names of the distance from the special point to the third leg's joint, of the direction, of its normal."""
-        X, D = self.X, self.legs[2].end
-        return between("l", X, D), between("e", X, D), between("n", X, D)
-
-    @property
-    def spans(self) -> tuple[Span, ...]:
-        """Its links with two joints."""
-        return self.central, *(span for leg in self.legs for span in leg.spans)
-
-    @property
-    def bodies(self) -> tuple[Body, ...]:
-        """The links for those attached to them."""
-        return self.central.body, *(leg.body for leg in self.legs)
 
     def position(self, board: Board) -> None:
         """B, C and D are where a template of the central link lies on the arcs, or the lines, of the three legs."""
