@@ -201,10 +201,7 @@ def rho_mu(solved: SolvedGear, letters: float, part: float = 1.0) -> float:
 def theta_mu(solved: SolvedGear, letters: float, part: float = 1.0) -> float:
     """Return the scale factor of specific sliding, the given one or a coarser one of its series, 1/mm.
 
-    Raises
-    ------
-    InputError
-        The given one is so coarse that the diagram is a line.
+    Raises InputError where the given one is so coarse that the diagram is a line.
     """
     wanted = float(solved.values["mu_theta"]) * PAPER_MM
     depth = 1.0 - cut_of(solved)

@@ -111,13 +111,7 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
         return None if last else self.placed(sheet, self.wanted, LAYOUTS, any_order=False)
 
     def on_pages(self, sheet: Format) -> Found:
-        """Take one page, with what is beside the meshing smaller where it must be, or several.
-
-        Raises
-        ------
-        InputError
-            When a view has no room on any page.
-        """
+        """Take one page, with what is beside the meshing smaller where it must be, or several."""
         first = self.fitted(sheet, self._least(sheet))
         smaller = [self._stepped(first, steps) for steps in SMALLER]
         one = smaller if self._may_fit(sheet, first) else []

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from ...plans.hoist.construction import EXTREMES, FORCES, LIFT_OFF, Roots
-from ...plans.hoist.course import end_of
 from ...plans.hoist.model import CIRCLE
 from ...plans.hoist.solve import POINTS, equation, forces_over
 from ...plans.solved import PAPER_MM
@@ -201,18 +200,15 @@ def forces_view(scene: HoistScene) -> View:
     return canvas.finish("forces", heading, tuple(notes))
 
 
-def _end(scene: HoistScene) -> float:
-    return end_of(scene.solved.forces.found, scene.solved.forces.motion)
-
-
 def _forces_field(scene: HoistScene) -> Field:
     """Return the axes: from -m g to beyond the greatest force, that of the article among them."""
     words, time, force = scene.words, scene.scale("mu_t"), scene.scale("mu_F")
     high = TALLEST * max(scene.size("F_max"), scene.size("P_12_max_printed"))
     low = min(-TALLEST * scene.size("P_st"), 0.0)
-    across = {t: words.short(round(t, 9)) for t in divisions(_end(scene), 0.0, time.mu, 16.0)}
+    end = scene.solved.forces.end
+    across = {t: words.short(round(t, 9)) for t in divisions(end, 0.0, time.mu, 16.0)}
     up = {F: words.short(round(F, 6)) for F in divisions(high, low, force.mu, 14.0)}
-    x = Axis(f"t, {words.unit('s')}", time, 0.0, _end(scene), across)
+    x = Axis(f"t, {words.unit('s')}", time, 0.0, end, across)
     return Field(0j, x, Axis(f"F, {words.unit('N')}", force, low, high, up))
 
 

@@ -96,13 +96,7 @@ FIXED_BY = (
 
 
 def impossible(values: Mapping[str, float]) -> Iterator[tuple[str, InputError]]:
-    """Go through what cannot be, each with the name of the number that is told of.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        In SI; what `STANDARD` has may be left out.
-    """
+    """Go through what cannot be, by the name of the number that is told of; SI, what `STANDARD` has may be left out."""
     found = {**STANDARD, **values}
     m = found["m"]
     if not (math.isfinite(m) and m > 0.0):

@@ -168,17 +168,8 @@ def _needed(wanted: tuple[str, ...]) -> Program:
 def geometry(values: Mapping[str, Any], wanted: Iterable[str] = ()) -> dict[str, Any]:
     """Return the quantities of a pair by name, in SI, angles in radians, after the givens.
 
-    Parameters
-    ----------
-    values : mapping of str to float or array
-        `m z_1 z_2 x_1 x_2 alpha h_a h_l c PW`, with any shapes that go together.
-    wanted : iterable of str
-        Names of the quantities wanted, with which those come that they need; by default all.
-
-    Returns
-    -------
-    dict of str to float or array
-        NaN where something is undefined, such as the angle on a circle inside the base circle.
+    The `values` are `m z_1 z_2 x_1 x_2 alpha h_a h_l c PW`, of any shapes that go together; the quantities `wanted`, by
+    default all, come with those that they need. NaN is what is undefined, such as the angle inside the base circle.
     """
     names = tuple(wanted)
     program = _needed(names) if names else geometry_program()

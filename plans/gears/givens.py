@@ -28,10 +28,7 @@ BASIC = ("a", "x_sum", "a_w", "alpha_w", "inv_alpha", "inv_alpha_w")
 def complete(values: Mapping[str, float]) -> dict[str, float]:
     """Return the givens with the standard rack where nothing else is given, and with both shifts.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        `m z_1 z_2` and, of `x_1 x_2 x_sum a_w`, what fixes the shifts; what `STANDARD` has may be left out.
+    The `values` are `m z_1 z_2` and, of `x_1 x_2 x_sum a_w`, what fixes the shifts; what `STANDARD` has may be missing.
 
     Raises
     ------
@@ -63,13 +60,7 @@ def shifts(values: Mapping[str, float]) -> tuple[float, float]:
 
 
 def sum_of_shifts(values: Mapping[str, float]) -> float:
-    """Return x_1 + x_2 of a pair with given x_sum or a_w.
-
-    Raises
-    ------
-    InputError
-        When the centres are nearer to each other than the base circles allow.
-    """
+    """Return x_1 + x_2 of a pair with given x_sum, or a_w, for which the base circles must leave room."""
     if "x_sum" in values:
         return float(values["x_sum"])
     z_1, z_2, alpha, a_w = (values[name] for name in ("z_1", "z_2", "alpha", "a_w"))
@@ -85,12 +76,7 @@ def balanced(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
     """Return x_1 and x_2 with the given sum by which both wheels slide alike.
 
     The larger x_1 is, the nearer A1 is to the pole and the farther A2: theta_12 at A1 only rises, theta_21 at A2 only
-    falls, between the shifts that put A1 into N1 and A2 into N2.
-
-    Raises
-    ------
-    InputError
-        When no shifts have both ends of the active line between N1 and N2.
+    falls, between the shifts that put A1 into N1 and A2 into N2; there may be none between.
     """
     least, most = _between(values, x_sum)
     low, high = least, most

@@ -157,12 +157,7 @@ class Tooth:
     def half(self, points: int = POINTS, arc: float = ARC) -> Points:
         """Return points of the upper half, from the middle of the tip to the middle of the space.
 
-        Parameters
-        ----------
-        points : int
-            Number of points of the flank, and of the fillet.
-        arc : float
-            Largest angle between points of the tip and the root, rad.
+        The flank has so many `points`, and the fillet; those of tip and root are at most `arc`, rad, apart.
         """
         end = 0.0 if self.pointed else float(self.half_angle(self.r_a))
         top = self.tip * np.exp(1j * _steps(0.0, end, arc))

@@ -55,19 +55,9 @@ def compared(solved: SolvedGear) -> tuple[str, ...]:
 def scale_errors(
     solved: SolvedGear, hands: Mapping[str, Hand], quantities: Sequence[str] = (), ratios: Iterable[float] = RATIOS
 ) -> ScaleErrors:
-    """Draw the meshing at one scale after the other.
+    """Draw the meshing at one scale after the other, by hands of some names; `quantities` of `compared`, or the usual.
 
-    Parameters
-    ----------
-    hands : mapping of str to Hand
-        Hands by their names.
-    quantities : sequence of str
-        Of `compared`; the usual ones when empty.
-
-    Raises
-    ------
-    InputError
-        With the key `chart-no-meshing`: the meshing is not among the plans.
+    Raises InputError with the key `chart-no-meshing` where the meshing is not among the plans.
     """
     if MESHING not in solved.scale_of_plan:
         raise InputError("chart-no-meshing")

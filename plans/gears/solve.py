@@ -172,16 +172,10 @@ class SolvedGear(Solved):
 
 
 def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedGear:
-    """Solve a gear pair.
+    """Solve a gear pair, whose senses and materials are chosen.
 
-    Parameters
-    ----------
-    pair : GearPair
-        Senses and materials, all chosen.
-    values : mapping of str to float
-        Its numbers in SI by name, as `givens.complete` takes them.
-    plans : iterable of str
-        Plans wanted, of `gear.PLANS`; those they need are built too, no others.
+    The `values` are its numbers in SI by name, as `complete` takes them; the `plans` wanted, of `gear.PLANS`, come with
+    those that they need.
 
     Raises
     ------

@@ -31,7 +31,6 @@ import numpy as np
 from ..board import Board, Program, RecordingBoard
 from ..laws import TURN
 from ..names import Name, role
-from . import formulas as formulas  # its laws of calculation
 from .forces import ROPE_1, Forces
 from .hoist import BEAMS_PART, CIRCLE_PART, DRAWN, FORCES_PART, LEFT, PLANS, ROOTS_PART, SCHEME_PART, Hoist
 from .model import CIRCLE, HORIZONTAL, ONE_SIDED, TWO_SIDED, rope_force

@@ -67,17 +67,9 @@ def rope_row(found: Mapping[str, float], n: int, lifted: bool) -> Row:
 
 
 def rope_of(found: Mapping[str, float], n: int) -> Heavy:
-    """Lift a load by a rope of n masses.
+    """Lift a load by a rope of n masses, with weight, on a support that yields.
 
-    Parameters
-    ----------
-    found : mapping of str to float
-        Quantities `G_1 G_2 g C_01 C_k C_2 V_t a k k_1 t_1`, SI: of a rope with weight, on a support that yields.
-
-    Raises
-    ------
-    TremblingError
-        It takes too long.
+    Needed are `G_1 G_2 g C_01 C_k C_2 V_t a k k_1 t_1`, SI. Raises TremblingError where that takes too long.
     """
     G_1, G_2, _, _, C_k, C_2, V_t, _ = (found[name] for name in NAMES)
     row = rope_row(found, n, False)
@@ -315,14 +307,9 @@ def depth(
     masses: Iterable[int] = MASSES,
     ratios: Iterable[float] = RATIOS,
 ) -> HoistDepth:
-    """Look at simpler models and at ropes of many masses.
+    """Look at simpler models of a hoist with complete givens, SI, and at ropes of many masses.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        The complete givens, SI.
-    tolerance : float
-        In parts: an error of the greatest force that does not count.
+    The `tolerance`, in parts, is an error of the greatest force that does not count.
     """
     whole = forces(values)
     found = whole.found

@@ -1,28 +1,35 @@
-"""The forces of a hoist as they are: by the formulas where these are valid, else by the motion; and where it may stand.
+"""The forces of a hoist as they are: by the formulas where these are valid, else by the motion; over time; its places.
 
 A hoist is judged by whether its formulas are valid, and whether its rope is strong enough. Where load and drum stand is
 chosen by the greatest force and stress over beta_0 and beta_2, and by what is permitted. The article's loop changes
 beta_0 and beta_2 until the rope is safe enough: it tries the places of a grid, the nearest to the given ones first.
 Where a rope that pushes or a support that pulls makes the formulas invalid, the motion of a one-sided rope and support
-is taken.
+is taken. Over time the travel, the height of the load, the forces, and how far the beams bend are known.
 
 Source: Karpenko, Muzyka, Gudym, figure 3.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..board import Board, Program, RecordingBoard
+from ..boards.exact import ExactBoard
 from ..check import AT_LEAST, MORE, Check
+from ..laws import LAWS, TURN
+from ..solved import Columned
 from .hoist import VALUES, complete, in_range
-from .model import model, motion_given
+from .model import model, motion_given, rope_force
 from .onesided import OneSided, one_sided
 
+Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 ROPE_1, ROPE_2, SUPPORT, STRENGTH = ("rope_phase_1", "rope_phase_2", "support", "strength")
 
 
@@ -37,31 +44,27 @@ def validity(found: Mapping[str, float], motion: OneSided | None) -> list[Check]
     A value is what the formulas give as long as the checks before it hold, else that of the motion.
     """
     pulls = found["F_12_min"] >= 0.0
-    checks = [_check(ROPE_1, "F_12_min", pulls, found["F_12_min"])]
     if pulls or motion is None:
         taut, least = found["P_12_min"] >= 0.0, found["P_12_min"]
     else:
         taut, least = not motion.slackens, motion.least_pull
-    checks.append(_check(ROPE_2, "P_12_min", taut, least))
     if motion is None or (pulls and taut):
         stays, lowest = found["s_min"] > 0.0, found["s_min"]
     else:
         stays, lowest = not motion.returns, motion.lowest
-    checks.append(_check(SUPPORT, "s_min", stays, lowest, MORE, "m"))
-    return checks
-
-
-def _check(name: str, quantity: str, ok: bool, value: float, relation: str = AT_LEAST, unit: str = "N") -> Check:
-    return Check(name=name, ok=bool(ok), value=value, unit=unit, limit=0.0, relation=relation, quantity=quantity)
+    rows = [(ROPE_1, "F_12_min", pulls, found["F_12_min"], AT_LEAST, "N")]
+    rows += [(ROPE_2, "P_12_min", taut, least, AT_LEAST, "N"), (SUPPORT, "s_min", stays, lowest, MORE, "m")]
+    return [
+        Check(name=name, ok=bool(ok), value=value, unit=unit, limit=0.0, relation=relation, quantity=quantity)
+        for name, quantity, ok, value, relation, unit in rows
+    ]
 
 
 def strength(values: Mapping[str, float]) -> Check:
     """Return whether the rope is as safe as is required."""
     value, limit = values["safety"], values["K"]
-    return Check(
-        name=STRENGTH, ok=bool(value >= limit), value=value, unit="1", limit=limit, relation=AT_LEAST,
-        quantity="safety", of="K",
-    )  # fmt: skip
+    judged = {"name": STRENGTH, "quantity": "safety", "of": "K", "unit": "1", "relation": AT_LEAST}
+    return Check(ok=bool(value >= limit), value=value, limit=limit, **judged)
 
 
 MOST_OF_MANY = 10_000.0  # pieces and swings of the motions of many hoists together
@@ -82,14 +85,26 @@ class Forces:
         """The verdicts by name."""
         return {check.name: check.ok for check in self.checks}
 
+    @property
+    def end(self) -> float:
+        """Until when a hoist is looked at: one period after the lift-off, or until its motion repeats itself."""
+        return self.found["t_1"] + TURN / self.found["k_1"] if self.motion is None else self.motion.pieces[-1].end
+
+    @property
+    def marks(self) -> dict[str, float]:
+        """The times of the lift-off and of the greatest and least forces after it, in order, s."""
+        t_1, T_1 = self.found["t_1"], self.found["T_1"]
+        if self.motion is None:
+            half = 0.5 * TURN / self.found["k_1"]
+            least = t_1 + T_1 + (half if half > T_1 else -half)
+        else:
+            least = self.motion.extremes(lifted=True)[1][0]
+        known = {"F_12_max": self.found["t_F12_max"], "t_1": t_1, "P_12_max": t_1 + T_1, "P_12_min": least}
+        return dict(sorted(known.items(), key=lambda mark: mark[1]))
+
 
 def forces(values: Mapping[str, Any]) -> Forces:
-    """Return the forces of one hoist.
-
-    Parameters
-    ----------
-    values : mapping of str to number
-        The givens in SI; what `USUAL` has may be left out.
+    """Return the forces of one hoist, whose givens are in SI; what `USUAL` has may be left out.
 
     Raises
     ------
@@ -129,17 +144,8 @@ def motion_givens(motion: OneSided) -> dict[str, float]:
 def forces_of_many(values: Mapping[str, Any], wanted: Iterable[str]) -> dict[str, Any]:
     """Return quantities of many hoists at once, each found as it is valid for it.
 
-    Parameters
-    ----------
-    values : mapping of str to float or array
-        The complete givens, admissible, with any shapes that go together.
-    wanted : iterable of str
-        Names of the quantities.
-
-    Raises
-    ------
-    InputError
-        Motions of more pieces and swings than anybody waits for.
+    The `values` are complete and admissible givens, of any shapes that go together. Raises InputError of motions of too
+    many pieces and swings.
     """
     names, left = tuple(wanted), MOST_OF_MANY
     found = model(values, (*names, *VALIDITY, *MOVED))
@@ -155,8 +161,95 @@ def forces_of_many(values: Mapping[str, Any], wanted: Iterable[str]) -> dict[str
     return kept
 
 
-Array = NDArray[np.float64]
-Flags = NDArray[np.bool_]
+# what is known over time, and in what; the forces of both phases are one
+COLUMN_UNITS = {"t": "s", "y": "m", "s": "m", "F_01": "N", "F_12": "N", "sigma": "Pa", "w_0": "m", "w_2": "m"}
+BOTH, ROPE, BEAM, NEITHER = ("both", "rope", "support", "neither")  # what bears the load
+BEARS = {(True, True): BOTH, (True, False): ROPE, (False, True): BEAM, (False, False): NEITHER}  # rope, support
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Course:
+    """A hoist at times of shape (N,): columns in SI, and what bears at each."""
+
+    columned: tuple[Columned, ...]
+    states: tuple[str, ...]
+
+    @property
+    def columns(self) -> dict[str, Array]:
+        """Values of the columns by name."""
+        return {column.name: column.values for column in self.columned}
+
+
+def _in_phases(board: Board) -> None:
+    """The forces of both phases at a time, each as if it were in its own."""
+    board.calc("_mu", "support_share", "C_12", "C_01")
+    board.calc("_C_osc", "product", "_mu", "C_12")
+    rope_force(board, "_rope_1", "t")
+    board.calc("_lagging", "lagging", "V_t", "a", "k", "t")
+    board.calc("_support_1", "support_force", "C", "_lagging", "P_st")
+    board.calc("_T", "excess", "t", "t_1")
+    board.calc("_swing", "swing", "D_0", "D_1", "k_1", "_T")
+    board.calc("_rope_2", "suspended_force", "P_m", "_swing")
+
+
+def _after(board: Board) -> None:
+    """What follows from the force of the rope in either phase."""
+    board.calc("y", "wound", "V_t", "a", "t")
+    board.calc("s", "height", "y", "P_st", "C_01", "F_12", "C_12")
+    board.calc("sigma", "stress", "F_12", "S")
+    board.calc("_pressed", "opposite", "F_01")
+    board.calc("w_0", "deflection", "_pressed", "C_01")
+    board.calc("w_2", "deflection", "F_12", "C_2")
+
+
+@cache
+def _program(part: Callable[[Board], None]) -> Program:
+    board = RecordingBoard()
+    part(board)
+    return Program(board.steps)
+
+
+def rope_forces(found: Mapping[str, Any], t: Any) -> tuple[Any, Any]:
+    """Return the forces of support and rope by the formulas of the phase that each time is in, N.
+
+    Needed are the quantities `V_t a k k_1 C C_01 C_12 P_st P_m D_0 D_1 t_1`, SI.
+    """
+    board = ExactBoard({**found, "t": t})
+    board.follow(_program(_in_phases))
+    resting = t < found["t_1"]
+    values = board.values
+    return np.where(resting, values["_support_1"], 0.0), np.where(resting, values["_rope_1"], values["_rope_2"])
+
+
+def course(forces: Forces, t: Array) -> Course:
+    """Look at a hoist at times from its beginning on, s, of shape (N,), none after the end of its motion."""
+    found, motion, better = forces.found, forces.motion, {}
+    if motion is None:
+        F_01, F_12 = rope_forces(found, t)
+        states = tuple(np.where(t < found["t_1"], BOTH, ROPE).tolist())
+    else:
+        F_12, height = (np.array([of(at) for at in t.tolist()]) for of in (motion.force, motion.height))
+        pieces = [motion.at(time) for time in t.tolist()]
+        states = tuple(BEARS[piece.rope, piece.support] for piece in pieces)
+        pressed = np.array([piece.support for piece in pieces])
+        F_01 = np.where(pressed, height, 0.0) * (found["C_01"] if np.isfinite(found["C_01"]) else 0.0)
+        better = {"s": height}
+    board = ExactBoard({**found, "t": t, "F_01": F_01, "F_12": F_12})
+    board.follow(_program(_after))
+    values = {**board.values, **better}
+    columned = (Columned(name, of, np.asarray(values[name], float)) for name, of in COLUMN_UNITS.items())
+    return Course(tuple(columned), states)
+
+
+def article_force(found: Mapping[str, Any], T: Any) -> Any:
+    """Return the force of the rope at times T after the lift-off as the article has it, N.
+
+    Needed are the quantities `m g a V_0 slack P_st C_12 k_1`, SI.
+    """
+    V = LAWS["article_speed"](*(found[name] for name in ("V_0", "a", "slack", "P_st", "C_12")))
+    return LAWS["article_force"](*(found[name] for name in ("m", "g", "a")), V, found["C_12"], found["k_1"], T)
+
+
 LEAST, MOST = 0.05, 0.5  # of beta: nearer to its end a beam is rigid
 PLACES, FEWER = 46, 16  # of each beta: steps of 0.01, or of 0.03 where many motions have to be followed
 MANY = 100  # places at which the formulas are not valid, and the motion takes a thousand times as long
@@ -205,13 +298,7 @@ class Choice:
 
 
 def spectrum(values: Mapping[str, float], beta_0: Array, beta_2: Array) -> Spectrum:
-    """Return the greatest forces at all pairs of places.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        The complete givens, SI; their own places do not count.
-    """
+    """Return the greatest forces at all pairs of places, of complete givens, whose own places do not count."""
     formulas = _formulas(values, beta_0, beta_2)
     F_max = forces_of_many(_placed(values, beta_0, beta_2), ("F_max",))["F_max"]
     shape = len(beta_0), len(beta_2)
@@ -239,14 +326,9 @@ def _grid(places: int) -> Array:
 
 
 def choose(values: Mapping[str, float], places: int = PLACES) -> Choice:
-    """Look for places that are safe, and for the best ones.
+    """Look for places that are safe, and for the best ones, of complete givens, SI.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        The complete givens, SI, `beta_0` and `beta_2` among them.
-    places : int
-        Of each beam, from `LEAST` to `MOST`; fewer where the formulas are not valid at many.
+    So many `places` of each beam from `LEAST` to `MOST` are tried, fewer where the formulas are not valid at many.
     """
     grid, fine = _grid(places), FINE
     if np.sum(~_formulas(values, grid, grid)) > MANY:

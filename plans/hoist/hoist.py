@@ -71,10 +71,7 @@ NEAREST = 0.5  # part of a span at most, from the nearer end
 def complete(values: Mapping[str, Any]) -> dict[str, float]:
     """Return the givens of one hoist as numbers, with what is usual where nothing else is given.
 
-    Parameters
-    ----------
-    values : mapping of str to number
-        Of the names of `VALUES`, in SI; `I_0` and `I_2` may be infinite: a rigid beam.
+    The `values` have the names of `VALUES`, in SI; `I_0` and `I_2` may be infinite: a rigid beam.
 
     Raises
     ------
@@ -113,10 +110,7 @@ def _number(name: str, values: Mapping[str, Any]) -> float:
 def in_range(found: Mapping[str, float]) -> None:
     """Refuse givens so far apart that a result has no number; only what a rigid beam has may be infinite.
 
-    Raises
-    ------
-    InputError
-        `hoist-range`, `hoist-stiff` of a load that swings so often before the lift-off that its phase is not known.
+    Raises InputError: `hoist-range`, `hoist-stiff` of a load that swings so often that its phase is not known.
     """
     for name, value in found.items():
         of_rigid = math.isinf(value) and name in RIGID and math.isinf(found[RIGID[name]])

@@ -24,7 +24,8 @@ from numpy.typing import NDArray
 from .roots import time_to_wind
 
 Array = NDArray[np.float64]
-State = tuple[Any, Any]  # u, m, and v, m/s
+State = tuple[Any, Any]  # u, m, displacement from the static place, and v, m/s
+Trace = tuple[Array, State]  # times, s, and states; of many steps a row a step, a column a hoist
 EXPLICIT, SYMPLECTIC, VERLET, TRAPEZOID, RK4 = "euler", "symplectic", "verlet", "trapezoid", "rk4"
 LEAST = 1e-4  # w h at which a method that grows has no stability limit at all
 STABLE = 1e-12  # growth in a step that is rounding
@@ -153,15 +154,6 @@ MARGIN = 1.5  # times as long as the exact lift-off can take
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Trace:
-    """States at the steps, a row a step, a column a hoist: times, s, displacements from the static one, velocities."""
-
-    t: Array
-    u: Array
-    v: Array
-
-
-@dataclass(frozen=True, slots=True, eq=False)
 class Run:
     """What an integrator finds, of N hoists; NaN where it is refused."""
 
@@ -243,19 +235,11 @@ class Hoists:
 
 
 def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool = True) -> Run:
-    """Integrate hoists until one period after lift-off.
+    """Integrate hoists, by one of `STEPPERS`, until one period after lift-off.
 
-    Parameters
-    ----------
-    values : mapping of str to float or array
-        `m C_01 C_12 V_t a g`, SI; C_01 may be infinite.
-    method : str
-        One of `STEPPERS`.
-    step : float or array
-        k h, rad; many steps of one hoist go at once, too.
-    located : bool
-        Whether lift-off and extrema are found within steps; else they are taken at the steps, as programs do that
-        know no events, and the support is one-sided. A finite C_01 is needed then, and a method that is not implicit.
+    The `values` are `m C_01 C_12 V_t a g`, SI; C_01 may be infinite. The `step` is k h, rad; many steps of one hoist go
+    at once, too. Lift-off and extrema are `located` within steps; else they are taken at the steps, as programs do that
+    know no events, and the support is one-sided: a finite C_01 is needed then, and a method that is not implicit.
     """
     hoists = Hoists({**values, "m": np.broadcast_arrays(values["m"], step)[0]})
     z = np.broadcast_to(np.asarray(step, float), hoists.m.shape)
@@ -268,7 +252,7 @@ def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
     take = STEPPERS[method]
     none = np.zeros_like(h)
     first, off = _until_lift_off(hoists, method, none, (none, none), h)
-    t_1, state = off[0], off[1:]
+    t_1, state = off
     last = np.ceil(2.0 * math.pi / (hoists.k_1 * h)).astype(np.int64) + 1
     second = _steps(take, hoists.lifted(), t_1, state, h, int(last.max()))
     F_12_t1 = hoists.force(t_1, state)
@@ -276,8 +260,8 @@ def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
     end = t_1 + 2.0 * math.pi / hoists.k_1
     P_12_max = np.maximum(F_12_t1, _peak(hoists, take, Hoists.lifted, second, end + h))
     counted = np.ceil(t_1 / h).astype(np.int64)
-    t = np.concatenate((first.t, second.t))
-    force = np.concatenate((hoists.force(first.t, (first.u, first.v)), hoists.force(second.t, (second.u, second.v))))
+    t = np.concatenate((first[0], second[0]))
+    force = np.concatenate((hoists.force(*first), hoists.force(*second)))
     return _judged(hoists, method, (z, counted, last), (t_1, F_12_t1, F_12_max, P_12_max), (t, force, end))
 
 
@@ -285,15 +269,15 @@ def _missed(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
     until = hoists.latest() + 2.0 * math.pi / hoists.k_1
     none = np.zeros_like(h)
     trace = _steps(STEPPERS[method], hoists.one_sided(), none, (none, none), h, int(np.ceil(until / h).max()) + 1)
-    force = hoists.force(trace.t, (trace.u, trace.v))
-    off = (hoists.lift(trace.t, (trace.u, trace.v)) >= 0.0).argmax(axis=0)
+    t, force = trace[0], hoists.force(*trace)
+    off = (hoists.lift(*trace) >= 0.0).argmax(axis=0)
     own = np.arange(len(off))
-    t_1 = trace.t[off, own]
+    t_1 = t[off, own]
     end = t_1 + 2.0 * math.pi / hoists.k_1
-    before, after = trace.t <= t_1, (trace.t >= t_1) & (trace.t <= end + h)
+    before, after = t <= t_1, (t >= t_1) & (t <= end + h)
     F_12_max, P_12_max = (np.max(force, axis=0, initial=-np.inf, where=part) for part in (before, after))
     steps = (z, off, np.ceil((end - t_1) / h).astype(np.int64))
-    return _judged(hoists, method, steps, (t_1, force[off, own], F_12_max, P_12_max), (trace.t, force, end))
+    return _judged(hoists, method, steps, (t_1, force[off, own], F_12_max, P_12_max), (t, force, end))
 
 
 def _judged(
@@ -315,12 +299,12 @@ def _judged(
     return Run(z, t_1, F_12_t1, F_12_max, P_12_max, highest, grown, refused, first + last, *masked)
 
 
-def _rows(take: Stepper, motion: Motion, t: Array, state: State, h: Array) -> Iterator[tuple[Array, Any, Any]]:
+def _rows(take: Stepper, motion: Motion, t: Array, state: State, h: Array) -> Iterator[Trace]:
     """Go through times and states, from the beginning on without an end."""
-    yield t, *state
+    yield t, state
     for i in itertools.count():
         state = take(motion, t + i * h, state, h)
-        yield t + (i + 1) * h, *state
+        yield t + (i + 1) * h, state
 
 
 def _steps(take: Stepper, motion: Motion, t: Array, state: State, h: Array, count: int) -> Trace:
@@ -328,7 +312,7 @@ def _steps(take: Stepper, motion: Motion, t: Array, state: State, h: Array, coun
     return _trace(itertools.islice(_rows(take, motion, t, state, h), count + 1))
 
 
-def _until_lift_off(hoists: Hoists, method: str, t: Array, state: State, h: Array) -> tuple[Trace, Any]:
+def _until_lift_off(hoists: Hoists, method: str, t: Array, state: State, h: Array) -> tuple[Trace, Trace]:
     """Step until every load has left its support; return the steps, and time and state where it does."""
     take, motion = STEPPERS[method], hoists.on_support()
     source = _rows(take, motion, t, state, h)
@@ -336,77 +320,60 @@ def _until_lift_off(hoists: Hoists, method: str, t: Array, state: State, h: Arra
     borne, going = np.zeros(h.shape, int), np.ones(h.shape, bool)
     while going.any() and len(rows) <= most:
         block = list(itertools.islice(source, min(BLOCK, most + 1 - len(rows))))
-        new = _trace(block)
-        bears = np.logical_and.accumulate(hoists.lift(new.t, (new.u, new.v)) < 0.0) & going
+        bears = np.logical_and.accumulate(hoists.lift(*_trace(block)) < 0.0) & going
         borne, going = borne + bears.sum(axis=0), bears[-1]
         rows += block
     rows = rows[: borne.max() + 2]
     found = _trace(rows)
     last, own = np.minimum(np.arange(len(rows))[:, None], borne), np.arange(len(h))
     held = _at(found, last, own)  # where the load has left, its last state on the support
-    begin = _at(found, borne, own)
-    lifted = _within(hoists.lift, _Step(take, motion, begin, h))
-    off = tuple(np.where(going, np.nan, one) for one in lifted)
-    whole = (held[0], *held[1])
-    return Trace(*(np.concatenate((one, end[None])) for one, end in zip(whole, off, strict=True))), off
+    t, (u, v) = _within(hoists.lift, take, motion, _at(found, borne, own), h)
+    off = np.where(going, np.nan, t), (np.where(going, np.nan, u), np.where(going, np.nan, v))
+    joined = [np.concatenate((one, end[None])) for one, end in zip((held[0], *held[1]), (off[0], *off[1]), strict=True)]
+    return (joined[0], (joined[1], joined[2])), off
 
 
-def _trace(rows: Iterable[Any]) -> Trace:
-    return Trace(*(np.stack(column) for column in zip(*rows, strict=True)))
+def _trace(rows: Iterable[Trace]) -> Trace:
+    t, u, v = (np.stack(column) for column in zip(*((t, *state) for t, state in rows), strict=True))
+    return t, (u, v)
 
 
 def _peak(hoists: Hoists, take: Stepper, phase: Callable[[Hoists], Motion], trace: Trace, end: Array) -> Array:
     """Return the highest maximum of the rope's force up to `end`, found within steps; minus infinity for none."""
-    rate = hoists.rate(trace.t, (trace.u, trace.v))
-    row, own = np.nonzero((rate[:-1] > 0.0) & (rate[1:] <= 0.0) & (trace.t[1:] <= end))
+    rate, times = hoists.rate(*trace), trace[0]
+    row, own = np.nonzero((rate[:-1] > 0.0) & (rate[1:] <= 0.0) & (times[1:] <= end))
     found = np.full(end.shape, -np.inf)
     if row.size:
         some = hoists.chosen(own)
-        begin, h = _at(trace, row, own), trace.t[row + 1, own] - trace.t[row, own]
-        t, u, v = _within(some.rate, _Step(take, phase(some), begin, h))
-        np.maximum.at(found, own, some.force(t, (u, v)))
+        h = times[row + 1, own] - times[row, own]
+        np.maximum.at(found, own, some.force(*_within(some.rate, take, phase(some), _at(trace, row, own), h)))
     return found
 
 
-def _at(trace: Trace, row: Any, own: Any) -> tuple[Array, State]:
-    return trace.t[row, own], (trace.u[row, own], trace.v[row, own])
+def _at(trace: Trace, row: Any, own: Any) -> Trace:
+    t, (u, v) = trace
+    return t[row, own], (u[row, own], v[row, own])
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Step:
-    """A step from a time and a state."""
-
-    take: Stepper
-    motion: Motion
-    begin: tuple[Array, State]
-    h: Array
-
-    def part(self, part: Array) -> tuple[Array, Any, Any]:
-        """Return time and state after a part of the step, by a step of that length."""
-        t, state = self.begin
-        return t + part * self.h, *self.take(self.motion, t, state, part * self.h)
-
-
-def _within(of: Callable[[Any, State], Any], step: _Step) -> tuple[Array, Any, Any]:
+def _within(of: Callable[[Any, State], Any], take: Stepper, motion: Motion, begin: Trace, h: Array) -> Trace:
     """Return time and state where `of` changes its sign in a step: by chords, as Illinois does."""
+    t, state = begin
 
-    def at(part: Array) -> Array:
-        t, u, v = step.part(part)
-        found: Array = of(t, (u, v))
-        return found
+    def after(part: Array) -> Trace:
+        return t + part * h, take(motion, t, state, part * h)
 
-    low, high = np.zeros_like(step.h), np.ones_like(step.h)
-    f_low, f_high = at(low), at(high)
-    part, stayed = low, np.zeros(step.h.shape, int)
+    low, high = np.zeros_like(h), np.ones_like(h)
+    f_low, f_high = of(*after(low)), of(*after(high))
+    part, stayed = low, np.zeros(h.shape, int)
     for _ in range(ROUNDS):
         chord = low + (high - low) * (f_low / (f_low - f_high + (f_low == f_high)))
         chord = np.where((chord > low) & (chord < high), chord, 0.5 * (low + high))
         if np.all(np.abs(chord - part) <= CLOSE):
             break
-        part, f = chord, at(chord)
+        part, f = chord, of(*after(chord))
         same = np.signbit(f) == np.signbit(f_low)
         f_high = np.where(same, np.where(stayed > 0, 0.5 * f_high, f_high), f)
         f_low = np.where(same, f, np.where(stayed < 0, 0.5 * f_low, f_low))
         low, high = np.where(same, part, low), np.where(same, high, part)
         stayed = np.where(same, 1, -1)
-    return step.part(part)
+    return after(part)

@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, pairwise
 
@@ -92,10 +92,7 @@ class Curve:
     def _nodes(self, begin: float, end: float) -> Iterator[float]:
         """Go through places after `begin`, `end` the last, between which the slope does not turn.
 
-        Raises
-        ------
-        InputError
-            They are in more swings than anybody wants to know, or so late that they cannot be told apart.
+        Raises InputError of more swings than anybody wants to know, or so late that they cannot be told apart.
         """
         size, psi = self.swing * self.w * self.w, math.atan2(self.B, self.A)
         part = 2.0 * self.p_2 / size if size else 2.0
@@ -118,7 +115,10 @@ class Curve:
         At the beginning it is above zero, or there and rising; `room` is by how much it may dip below for rounding.
         """
         if self.w == 0.0:
-            return self._falls_straight(end, room)
+            square, zeros = self._zeros()
+            if self.at(end) >= -room and (self.p_2 <= 0.0 or square <= 0.0):
+                return None
+            return min((t for t in zeros if 0.0 < t <= end and self.slope(t) < 0.0), default=None)
         for low, high in self._reached(end, room):
             begin, value = low, max(self.at(low), 0.0)
             for turning in chain(self.turnings(high, low), (high,)):
@@ -143,13 +143,6 @@ class Curve:
         larger = -(half + math.copysign(root, half))
         found = [larger / self.p_2] if self.p_2 else []
         return square, found + ([self.p_0 / larger] if larger else [])
-
-    def _falls_straight(self, end: float, room: float) -> float | None:
-        """Return the same of a parabola."""
-        square, zeros = self._zeros()
-        if self.at(end) >= -room and (self.p_2 <= 0.0 or square <= 0.0):
-            return None
-        return min((t for t in zeros if 0.0 < t <= end and self.slope(t) < 0.0), default=None)
 
 
 def zero_between(function: Real, slope: Real, low: float, high: float) -> float:
@@ -183,12 +176,10 @@ class Piece:
 
     begin: float
     time: float
-    # whether the rope pulls, and the support pushes
-    rope: bool
-    support: bool
-    # of the rope, and of the load above the unloaded support beam, m
-    stretch: Curve
-    height: Curve
+    rope: bool  # whether it pulls
+    support: bool  # whether it pushes
+    stretch: Curve  # of the rope, m
+    height: Curve  # of the load above the unloaded support beam, m
 
     @property
     def end(self) -> float:
@@ -219,25 +210,25 @@ class OneSided:
 
     def force(self, t: float) -> float:
         """Return the force of the rope at a time of the motion."""
-        piece = self._at(t)
+        piece = self.at(t)
         return piece.force(self.C_12, t - piece.begin)
 
     def rate(self, t: float) -> float:
         """Return how fast the force of the rope grows."""
-        piece = self._at(t)
+        piece = self.at(t)
         return self.C_12 * piece.stretch.slope(t - piece.begin) if piece.rope else 0.0
 
     def height(self, t: float) -> float:
         """Return how high the load is above the unloaded support beam."""
-        piece = self._at(t)
+        piece = self.at(t)
         return piece.height.at(t - piece.begin)
 
-    def _at(self, t: float) -> Piece:
-        return self.pieces[min(bisect_right(self.ends, t), len(self.pieces) - 1)]
+    def at(self, t: float) -> Piece:
+        """Return the piece to which a time of the motion belongs."""
+        return self.pieces[min(bisect_right(self._ends, t), len(self.pieces) - 1)]
 
     @cached_property
-    def ends(self) -> tuple[float, ...]:
-        """When its pieces end."""
+    def _ends(self) -> tuple[float, ...]:
         return tuple(piece.end for piece in self.pieces)
 
     @property
@@ -246,10 +237,7 @@ class OneSided:
         return sum(piece.events for piece in self.pieces)
 
     def extremes(self, lifted: bool) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Return time and force where it is greatest, and where least, before the first lift-off or from then on.
-
-        Of maxima that are alike, as those of a swing that goes on, it is the first one.
-        """
+        """Return time and force of the first maximum and of the minimum, before the first lift-off or from then on."""
         forces = [(self.t_1, self.force(self.t_1))]
         for piece in self.pieces:
             if (piece.begin >= self.t_1) == lifted:
@@ -265,11 +253,9 @@ class OneSided:
         heights = [self.height(math.nextafter(self.pieces[-1].end, 0.0))]
         for piece in self.pieces:
             if piece.begin >= self.t_1:
-                turnings = [t for t in piece.height.turnings(piece.time) if piece.height.bend(t) > 0.0]
-                lowest = [piece.height.at(t) for t in turnings]
-                heights += [
-                    height for height in lowest if abs(height) > ROUNDING * piece.height.swing
-                ]  # not t_1 itself
+                curve = piece.height
+                lowest = (curve.at(t) for t in curve.turnings(piece.time) if curve.bend(t) > 0.0)
+                heights += (height for height in lowest if abs(height) > ROUNDING * curve.swing)  # not t_1 itself
         return min(heights)
 
     @property
@@ -291,8 +277,7 @@ class OneSided:
     @property
     def returns(self) -> tuple[float, ...]:
         """When the load comes back to its support."""
-        pairs = zip(self.pieces, self.pieces[1:], strict=False)
-        return tuple(after.begin for before, after in pairs if after.support and not before.support)
+        return tuple(b.begin for a, b in pairwise(self.pieces) if b.support and not a.support)
 
 
 @dataclass(frozen=True, slots=True)
@@ -360,28 +345,21 @@ class Hoisting:
             sooner = end if at_rope is None else at_rope
             at_support = (-height if state.support else height).falls_through(sooner, room)
         time = min([end, *(t for t in (at_rope, at_support) if t is not None)])
-        moved = _State(state.t + time, stretch.at(time), height.at(time), height.slope(time), state.rope, state.support)
-        if time == at_rope:
-            moved = replace(moved, rope=not state.rope, stretch=0.0)
-        if time == at_support:
-            moved = replace(moved, support=not state.support, height=0.0)
-        return Piece(state.t, time, state.rope, state.support, stretch, height), moved
+        following = _State(
+            state.t + time,
+            0.0 if time == at_rope else stretch.at(time),
+            0.0 if time == at_support else height.at(time),
+            height.slope(time),
+            rope=state.rope != (time == at_rope),
+            support=state.support != (time == at_support),
+        )
+        return Piece(state.t, time, state.rope, state.support, stretch, height), following
 
 
 def one_sided(found: Mapping[str, float], most: float = MOST) -> OneSided:
     """Return the motion of a load on a one-sided support, by a one-sided rope.
 
-    Parameters
-    ----------
-    found : mapping of str to float
-        Quantities `m g C_01 C_12 V_t a` in SI.
-    most : float
-        Pieces and swings that it may have.
-
-    Raises
-    ------
-    InputError
-        A motion of more pieces and swings than that.
+    Needed are the quantities `m g C_01 C_12 V_t a`, SI. Raises InputError of more pieces and swings than `most`.
     """
     hoisting = Hoisting(*(found[name] for name in ("m", "g", "C_01", "C_12", "V_t", "a")))
     state, pieces, slack, events = hoisting.start(), list[Piece](), False, 0.0

@@ -30,7 +30,7 @@ from ..hands.shaky import Paper, draw
 from ..hands.spread import kept
 from ..laws import LAWS, TURN
 from .construction import FORCES, Roots, construct, drawn_name
-from .course import rope_forces
+from .forces import rope_forces
 from .hoist import CIRCLE_PART, FORCES_PART, ROOTS_PART
 from .integrators import EXPLICIT, ORDERS, RK4, STEPPERS, Run, integrate, stability_limit
 from .model import model, model_program
@@ -175,14 +175,9 @@ class _Race:
 
 
 def rivals(values: Mapping[str, float], clock: Clock, effort: Effort = FULL) -> Contest:
-    """Let closed forms and integrators compete.
+    """Let closed forms and integrators compete; the `clock`, best that of the processor, returns seconds.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        The complete givens of a hoist on a support that yields, whose formulas are valid, SI.
-    clock : function
-        Returns seconds, best those of the processor: `time.process_time`.
+    The `values` are complete givens, SI, of a hoist on a support that yields, whose formulas are valid.
     """
     right = exact(values)
     places = float(right["t_1"] + TURN / right["k_1"]) * ((np.arange(PLACES) + 0.5) / PLACES)
@@ -220,13 +215,7 @@ class RootRace:
 
 
 def root_race(values: Mapping[str, float]) -> RootRace:
-    """Follow all ways to both roots.
-
-    Parameters
-    ----------
-    values : mapping of str to float
-        The complete givens of a hoist on a support that yields, SI.
-    """
+    """Follow all ways to both roots, of a hoist on a support that yields with its complete givens, SI."""
     right = exact(values)
     k, height = float(right["k"]), float(right["P_st"] / right["C"])
     V = float(right["V_t"])
@@ -288,10 +277,7 @@ def step_limits(
 ) -> StepLimits:
     """Integrate a hoist with larger and larger steps, all of them at once.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        The complete givens of a hoist on a support that yields, whose formulas are valid, SI.
+    The `values` are complete givens, SI, of a hoist on a support that yields, whose formulas are valid.
     """
     right = exact(values)
     hoist = {name: float(right[name]) for name in COMPARED} | {"a": values["a"]}
@@ -339,10 +325,7 @@ def by_board(solved: SolvedHoist, clock: Clock) -> Iterator[Entry]:
 def by_hand(solved: SolvedHoist, mus: Mapping[str, float], hand: Hand) -> Iterator[Entry]:
     """Go through what 95 % of the drawings of a hand keep, on the sections that the sheet has.
 
-    Parameters
-    ----------
-    mus : mapping of str to float
-        Scale factors by plan, SI per mm.
+    `mus` are the scale factors by plan, SI per mm.
     """
     assert solved.layout.roots is not None
     found, before = solved.forces.found, solved.layout.roots.lift_off

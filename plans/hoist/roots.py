@@ -21,6 +21,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from itertools import islice
 from typing import Any
 
@@ -60,15 +61,10 @@ CLOSE = 2.0**-52
 
 
 def rising_zero(function: Function, low: Any, high: Any) -> Any:
-    """Return the zero of a function that only rises, between `low` and `high`.
+    """Return the zero of a function that only rises, which returns value and slope, between `low` and `high`.
 
     Newton's steps that stay inside the bracket and are at most half as long as the last but one; else the bracket is
     halved: nothing can make it fail. Each element of an array goes its own way, and stays where it has arrived.
-
-    Parameters
-    ----------
-    function : callable
-        Returns value and slope.
     """
     low, high = (np.array(end, float) for end in np.broadcast_arrays(low, high))
     x, step = 0.5 * (low + high), high - low
@@ -119,20 +115,20 @@ class Wave:
 
     def falling(self, n: Any) -> Any:
         """Return the zero on the way down to trough `n`."""
-        crest = self.crest
-        place = rising_zero(lambda z: self._at(z, n, -1.0), crest, math.pi - crest)
-        return self.psi + TURN * n + place
+        return self._zero(n, -1.0, self.crest, math.pi - self.crest)
 
     def rising(self, n: Any) -> Any:
         """Return the zero on the way up from trough `n`."""
-        crest = self.crest
-        place = rising_zero(lambda z: self._at(z, n, 1.0), math.pi - crest, TURN + crest)
-        return self.psi + TURN * n + place
+        return self._zero(n, 1.0, math.pi - self.crest, TURN + self.crest)
 
-    def _at(self, z: Any, n: Any, sign: float) -> tuple[Any, Any]:
-        """Return value and slope at z beyond psi + 2 pi n."""
-        value = self.amplitude * np.cos(z) + (self.c + self.d * (self.psi + TURN * n + z))
-        return sign * value, sign * (self.d - self.amplitude * np.sin(z))
+    def _zero(self, n: Any, sign: float, low: Any, high: Any) -> Any:
+        begin = self.psi + TURN * n
+
+        def beyond(z: Any) -> tuple[Any, Any]:
+            value = self.amplitude * np.cos(z) + (self.c + self.d * (begin + z))
+            return sign * value, sign * (self.d - self.amplitude * np.sin(z))
+
+        return begin + rising_zero(beyond, low, high)
 
 
 STANDING = 1e-9  # part of the speeds that is none
@@ -166,14 +162,8 @@ def bracket(V: Any, a: Any, k: Any, height: Any) -> tuple[Any, Any]:
 def lift_off(V: Any, a: Any, k: Any, height: Any) -> Any:
     """Return t_1, the root of (11): when the support carries nothing any more.
 
-    Parameters
-    ----------
-    V, a : float or array
-        Speed and acceleration of the rope's upper end, m/s, m/s^2; not both zero.
-    k : float or array
-        rad/s; infinite on a rigid support.
-    height : float or array
-        m g / C, m.
+    Speed V and acceleration a of the rope's upper end, m/s and m/s^2, are not both zero; k, rad/s, is infinite on a
+    rigid support; the `height` is m g / C, m. All are numbers or arrays.
     """
     V, a, k, height = np.broadcast_arrays(V, a, k, height)
     rigid = np.isinf(k)
@@ -229,13 +219,9 @@ def extremes(V: float, a: float, k: float, ratio: float, t_1: float, begin: floa
 def lowest_after(speed: Any, a: Any, k_1: Any, D_0: Any, D_1: Any, m: Any) -> Any:
     """Return after which time T the lifted load is lowest; a whole swing where it never sinks.
 
-    Its speed is V + a t_1 + a T - P'/C_12 with P' = k_1 (D_1 cos k_1 T - D_0 sin k_1 T), and C_12 = m k_1^2: at the
-    first time that it ceases to sink it is lowest, for a swing later it is always higher.
-
-    Parameters
-    ----------
-    speed : float or array
-        V + a t_1 of the rope's upper end at the lift-off.
+    With the `speed` V + a t_1 of the rope's upper end at the lift-off, that of the load is V + a t_1 + a T - P'/C_12
+    with P' = k_1 (D_1 cos k_1 T - D_0 sin k_1 T), and C_12 = m k_1^2: at the first time that it ceases to sink it is
+    lowest, for a swing later it is always higher.
     """
     part = 1.0 / (m * k_1)
     swing, psi = part * np.sqrt(D_0 * D_0 + D_1 * D_1), np.arctan2(D_0, -D_1)
@@ -253,12 +239,10 @@ BEYOND = 1e-9  # parts of a bracket by which a root on its end may be beyond it
 
 @dataclass(frozen=True, slots=True)
 class Equation:
-    """f(x) = 0 with its derivative, and a bracket of its root."""
+    """f(x) = 0 with its derivative f', and a bracket of its root: f(low) <= 0 <= f(high)."""
 
-    # f and f'
     value: Callable[[float], float]
     slope: Callable[[float], float]
-    # f(low) <= 0 <= f(high)
     low: float
     high: float
 
@@ -272,23 +256,10 @@ class Found:
 
 
 def lift_off_equation(V: float, a: float, k: float, height: float) -> Equation:
-    """Return (11) in x = k t: V (x - sin x) + (a/k) (x^2/2 - 1 + cos x) = k m g / C.
-
-    Parameters
-    ----------
-    V, a, k, height : float
-        Speed and acceleration of the rope's upper end, k finite, m g / C, SI.
-    """
+    """Return (11) in x = k t: V (x - sin x) + (a/k) (x^2/2 - 1 + cos x) = k m g / C, k finite, `height` m g / C."""
     u, wanted = a / k, k * height
-
-    def value(x: float) -> float:
-        return float(lag(V, u, x)) - wanted
-
-    def slope(x: float) -> float:
-        return float(lag_rate(V, u, x))
-
-    low, high = bracket(V, a, k, height)
-    return Equation(value, slope, float(low), float(high))
+    low, high = map(float, bracket(V, a, k, height))
+    return Equation(lambda x: float(lag(V, u, x)) - wanted, lambda x: float(lag_rate(V, u, x)), low, high)
 
 
 Guess = tuple[float, float]  # an approximation, and how far it is believed to be from the root
@@ -318,35 +289,24 @@ def newton(equation: Equation) -> Iterator[Guess]:
         yield x, abs(step)
 
 
-def secant(equation: Equation) -> Iterator[Guess]:
-    """Go along the chord of the two latest places, from the ends of the bracket."""
+def chords(equation: Equation, bracketed: bool) -> Iterator[Guess]:
+    """Go along the chord of the two latest places, from the ends of the bracket.
+
+    Illinois's rule keeps the root `bracketed`: an end that stays twice counts half.
+    """
     x, y = equation.low, equation.high
     f_x, f_y = equation.value(x), equation.value(y)
     yield x, math.inf
     yield y, y - x
     while True:
-        step = f_y * (y - x) / (f_x - f_y) if f_y != f_x else 0.0 if f_y == 0.0 else math.nan
-        x, f_x = y, f_y
-        y += step
-        f_y = equation.value(y)
-        yield y, abs(step)
-
-
-def illinois(equation: Equation) -> Iterator[Guess]:
-    """Go along the chord of the bracket; an end that stays twice counts half."""
-    x, y = equation.low, equation.high
-    f_x, f_y = equation.value(x), equation.value(y)
-    yield x, math.inf
-    yield y, y - x
-    while True:
-        step = f_y * (y - x) / (f_x - f_y) if f_y != f_x else 0.0
+        step = f_y * (y - x) / (f_x - f_y) if f_y != f_x else 0.0 if bracketed or f_y == 0.0 else math.nan
         z = y + step
         f_z = equation.value(z)
         yield z, abs(step)
-        if (f_z < 0.0) != (f_y < 0.0):
-            x, f_x = y, f_y
-        else:
+        if bracketed and (f_z < 0.0) == (f_y < 0.0):
             f_x = 0.5 * f_x
+        else:
+            x, f_x = y, f_y
         y, f_y = z, f_z
 
 
@@ -369,20 +329,22 @@ def brent(equation: Equation) -> Iterator[Guess]:
         if abs(half) <= least or f_b == 0.0:
             yield b, 0.0
             continue
-        before, step = _brent_step((a, b, c), (f_a, f_b, f_c), half, (before, step), least)
+        if abs(before) < least or abs(f_a) <= abs(f_b):
+            before = step = half
+        else:
+            before, step = _interpolated((a, b, c), (f_a, f_b, f_c), half, (before, step), least)
         a, f_a = b, f_b
         b += step if abs(step) > least else math.copysign(least, half)
         f_b = equation.value(b)
         yield b, abs(step)
 
 
-def _brent_step(
-    x: tuple[float, float, float], f: tuple[float, float, float], half: float, steps: tuple[float, float], least: float
-) -> tuple[float, float]:
+Three = tuple[float, float, float]
+
+
+def _interpolated(x: Three, f: Three, half: float, steps: tuple[float, float], least: float) -> tuple[float, float]:
     """Return the last step and the next: interpolated when that stays inside and shrinks, else half the bracket."""
     (a, b, c), (f_a, f_b, f_c), (before, step) = x, f, steps
-    if abs(before) < least or abs(f_a) <= abs(f_b):
-        return half, half
     s = f_b / f_a
     if a == c:
         p, q = 2.0 * half * s, 1.0 - s
@@ -399,16 +361,15 @@ def _brent_step(
 FINDERS: Mapping[str, Callable[[Equation], Iterator[Guess]]] = {
     BISECTION: bisection,
     NEWTON: newton,
-    SECANT: secant,
-    ILLINOIS: illinois,
+    SECANT: partial(chords, bracketed=False),
+    ILLINOIS: partial(chords, bracketed=True),
     BRENT: brent,
 }
 
 
 def approximations(finder: str, equation: Equation, count: int) -> list[float]:
     """Return what a finder has after each of `count` evaluations of f or f'."""
-    steps = FINDERS[finder](equation)
-    return [next(steps)[0] for _ in range(count)]
+    return [guess for guess, _ in islice(FINDERS[finder](equation), count)]
 
 
 def find(finder: str, equation: Equation, tolerance: float) -> Found:

@@ -50,8 +50,7 @@ from .construction import (
     seen,
 )
 from .construction import SECTIONS as BEAM_SECTIONS
-from .course import article_force, course, end_of, marks
-from .forces import Forces, forces, motion_givens
+from .forces import Forces, article_force, course, forces, motion_givens
 from .hoist import PLANS, VALUES, Hoist, complete
 from .model import CIRCLE, HORIZONTAL, SECTIONS, rest_of_root, section_of
 
@@ -69,7 +68,7 @@ def board_givens(forces: Forces, layout: Layout, part_of: float = 1.0) -> dict[s
     Diagrams have about `part_of` their usual size.
     """
     found, motion = forces.found, forces.motion
-    given: dict[str, Any] = {"_turn": TURN, "_t_P12_min": marks(found, motion)["P_12_min"]}
+    given: dict[str, Any] = {"_turn": TURN, "_t_P12_min": forces.marks["P_12_min"]}
     parts = {(i, n) for n in (layout.resting, layout.hanging, BEAM_SECTIONS) for i in range(n + 1)}
     if layout.roots is not None:
         parts |= {(i, 1) for i in range(layout.roots.sections + 1)}
@@ -96,7 +95,7 @@ def _ordinates(forces: Forces, layout: Layout) -> dict[str, float]:
     t_1 = found["t_1"]
     before = np.linspace(0.0, t_1, layout.resting + 1)
     after = np.linspace(t_1, end, layout.hanging + 1)
-    columns = course(found, forces.motion, np.concatenate((before, after))).columns
+    columns = course(forces, np.concatenate((before, after))).columns
     given: dict[str, float] = {}
     for i, t in enumerate(before.tolist()):
         values = t, float(columns["F_01"][i]), float(columns["F_12"][i])
@@ -202,18 +201,10 @@ class SolvedHoist(Solved):
 def solve_hoist(
     hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = PLANS, part_of: float = 1.0
 ) -> SolvedHoist:
-    """Solve a hoist.
+    """Solve a hoist, with its sides chosen.
 
-    Parameters
-    ----------
-    hoist : Hoist
-        With its sides chosen.
-    values : mapping of str to float
-        Its numbers in SI, as `hoist.complete` takes them.
-    plans : iterable of str
-        Plans wanted, of `hoist.PLANS`: the numbers, with the circle, need none of them.
-    part_of : float
-        How much of their usual size diagrams on paper have, about.
+    The `values` are its numbers in SI, as `hoist.complete` takes them, the `plans` wanted those of `hoist.PLANS`: the
+    numbers, with the circle, need none. Diagrams on paper have about `part_of` their usual size.
 
     Raises
     ------
@@ -330,9 +321,9 @@ def equation(solved: SolvedHoist, curve: str, about: float | None = None, half: 
 def forces_over(solved: SolvedHoist) -> dict[str, Places]:
     """Return the forces until the lift-off and the rope's after it, with the article's over one swing."""
     forces, found = solved.forces, solved.forces.found
-    t_1, end = found["t_1"], end_of(found, forces.motion)
+    t_1, end = found["t_1"], forces.end
     before, after = np.linspace(0.0, t_1 * INSIDE, POINTS), np.linspace(t_1, end * INSIDE, POINTS)
-    first, second = (course(found, forces.motion, t).columns for t in (before, after))
+    first, second = (course(forces, t).columns for t in (before, after))
     swing = after[after <= t_1 + TURN / found["k_1"]]
     curves = {"F_01": (before, first["F_01"]), "F_12": (before, first["F_12"]), "P_12": (after, second["F_12"])}
     curves["printed"] = swing, np.asarray(article_force(found, swing - t_1))

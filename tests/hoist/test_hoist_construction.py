@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.hoist.construction import BENT, EXTREMES, FORCES, LIFT_OFF, SCHEME
-from kulman.plans.hoist.course import course
-from kulman.plans.hoist.forces import forces
+from kulman.plans.hoist.forces import course, forces
 from kulman.plans.hoist.hoist import PLANS, Hoist
 from kulman.plans.hoist.model import CIRCLE
 from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
@@ -47,7 +46,7 @@ def test_both_forces_are_drawn_to_their_scales(solved: SolvedHoist) -> None:
         drawn = np.array([read(solved, FORCES, f"{letter}{i}", mus) for i in range(sections + 1)])
         inside = drawn[1:-1]  # at the lift-off itself both phases have a say
 
-        other = course(found, None, inside.real).columns[column]
+        other = course(solved.forces, inside.real).columns[column]
 
         assert np.max(np.abs(inside.imag - other)) < 1e-9 * found["P_st"]
     first, last = read(solved, FORCES, "S0", mus), read(solved, FORCES, f"S{solved.layout.resting}", mus)

@@ -14,8 +14,7 @@ from kulman.plans import contest as contests
 from kulman.plans.contest import Contest, Effort
 from kulman.plans.hands.hand import preset
 from kulman.plans.hoist import rivals as races
-from kulman.plans.hoist.course import BOTH, COLUMN_UNITS, NEITHER, ROPE, SUPPORT, course, end_of, marks
-from kulman.plans.hoist.forces import forces
+from kulman.plans.hoist.forces import BEAM, BOTH, COLUMN_UNITS, NEITHER, ROPE, course, forces
 from kulman.plans.hoist.hoist import Hoist
 from kulman.plans.hoist.integrators import EXPLICIT, ORDERS, RK4, SYMPLECTIC, TRAPEZOID, VERLET
 from kulman.plans.hoist.rivals import (
@@ -140,9 +139,9 @@ def test_steps_are_refused_beyond_their_limits() -> None:
 @pytest.mark.parametrize("values", [STEADY, STEADY | {"a": 0.3, "slack": 0.01}, PUSHING], ids=["a=0", "a>0", "slack"])
 def test_forces_over_time_move_the_load(values: dict[str, float]) -> None:
     found = forces(values)
-    t = np.linspace(0.0, end_of(found.found, found.motion), 4001)
+    t = np.linspace(0.0, found.end, 4001)
 
-    moved = course(found.found, found.motion, t)
+    moved = course(found, t)
 
     column = moved.columns
     m, step = found.found["m"], t[1] - t[0]
@@ -157,13 +156,13 @@ def test_forces_over_time_move_the_load(values: dict[str, float]) -> None:
 
 def test_states_say_what_bears() -> None:
     found = forces(PUSHING)
-    t = np.linspace(0.0, end_of(found.found, found.motion), 2001)
+    t = np.linspace(0.0, found.end, 2001)
 
-    moved = course(found.found, found.motion, t)
+    moved = course(found, t)
 
     states = np.array(moved.states)
-    assert {BOTH, ROPE, SUPPORT} <= set(moved.states) <= {BOTH, ROPE, SUPPORT, NEITHER}
-    assert np.all(moved.columns["F_12"][(states == SUPPORT) | (states == NEITHER)] == 0.0)
+    assert {BOTH, ROPE, BEAM} <= set(moved.states) <= {BOTH, ROPE, BEAM, NEITHER}
+    assert np.all(moved.columns["F_12"][(states == BEAM) | (states == NEITHER)] == 0.0)
     assert np.all(moved.columns["F_01"][(states == ROPE) | (states == NEITHER)] == 0.0)
     assert np.all(moved.columns["F_12"] >= 0.0)
     assert np.all(moved.columns["F_01"] <= 1e-9 * 25e3)
@@ -172,7 +171,7 @@ def test_states_say_what_bears() -> None:
 def test_beams_bend_as_they_are_loaded() -> None:
     found = forces(STEADY)
 
-    moved = course(found.found, None, np.array([0.0, found.found["t_1"] + found.found["T_1"]])).columns
+    moved = course(found, np.array([0.0, found.found["t_1"] + found.found["T_1"]])).columns
 
     assert moved["w_0"][0] == pytest.approx(found.found["P_st"] / found.found["C_01"], rel=1e-14)
     assert moved["w_0"][1] == 0.0
@@ -183,7 +182,7 @@ def test_beams_bend_as_they_are_loaded() -> None:
 def test_rigid_support_does_not_bend() -> None:
     found = forces(STEADY | {"I_0": math.inf})
 
-    moved = course(found.found, None, np.linspace(0.0, 0.2, 21)).columns
+    moved = course(found, np.linspace(0.0, 0.2, 21)).columns
 
     assert np.all(moved["w_0"] == 0.0)
     assert np.all(np.isfinite(moved["F_01"]))
@@ -193,10 +192,10 @@ def test_rigid_support_does_not_bend() -> None:
 @pytest.mark.parametrize("values", [STEADY, STEADY | {"a": 0.3}, PUSHING], ids=["a=0", "a>0", "slack"])
 def test_marks_are_where_forces_are_greatest_and_least(values: dict[str, float]) -> None:
     found = forces(values)
-    known = marks(found.found, found.motion)
-    end = end_of(found.found, found.motion)
+    known = found.marks
+    end = found.end
 
-    at = dict(zip(known, course(found.found, found.motion, np.array([*known.values()])).columns["F_12"], strict=True))
+    at = dict(zip(known, course(found, np.array([*known.values()])).columns["F_12"], strict=True))
 
     for name in ("F_12_max", "P_12_max", "P_12_min"):
         assert at[name] == pytest.approx(found.found[name], rel=1e-9, abs=1e-6)
