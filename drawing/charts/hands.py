@@ -21,7 +21,7 @@ from ...plans.cams.chords import (
     Convergence,
     Robustness,
 )
-from ...plans.gears.scale_errors import MILLI, ScaleErrors
+from ...plans.gears.solve import MILLI, ScaleErrors
 from ..gears.scene import lettered
 from ..words import Words
 from .paper import BLACK, GREY, LOOK, SMALL, TEXT, Label, box, decimals, mathtext, page, put

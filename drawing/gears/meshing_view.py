@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from ...plans.gears.construction import MESHING
-from ...plans.gears.meshing import CIRCLES, SHOWN, Wheel
+from ...plans.gears.teeth import CIRCLES, SHOWN, Wheel
 from ...plans.names import role
 from ..figure import ANSWERS, Figure, stages
 from ..page import extent

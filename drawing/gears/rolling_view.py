@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...plans.gears.course import Rack
-from ...plans.gears.meshing import Wheel
+from ...plans.gears.teeth import Wheel
 from ..figure import ANSWERS, Figure, stages
 from ..page import extent
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline

@@ -10,8 +10,8 @@ from typing import Any
 from ...plans.gears.construction import MESHING, SLIDING, THETA
 from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
 from ...plans.gears.geometry import POINTS
-from ...plans.gears.meshing import Meshing, Wheel, wheels
 from ...plans.gears.solve import SAME, SolvedGear
+from ...plans.gears.teeth import Meshing, Wheel, wheels
 from ...plans.solved import PAPER_MM
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, steps

@@ -17,9 +17,8 @@ from numpy.typing import NDArray
 
 from ..laws import LAWS
 from ..solved import Columned, Ends
-from .meshing import Array
-from .profile import Tooth
 from .solve import SolvedGear
+from .teeth import Array, Tooth
 
 NEAR = 1e-9  # part of the base pitch within which a contact begins or ends
 

@@ -15,10 +15,9 @@ import numpy as np
 
 from ...scales.errors import InputError
 from ..laws import LAWS
-from . import formulas as formulas  # its laws of calculation
 from .gear import SHIFTS, STANDARD, WHEELS, impossible
 from .geometry import geometry
-from .profile import tooth_of
+from .teeth import tooth_of
 
 HALVINGS = 200
 BALANCE = ("theta_12_A1", "theta_21_A2")

@@ -1,4 +1,4 @@
-"""A gear pair solved: its construction, values and quantities in sections, its teeth, and what it is judged by.
+"""A gear pair solved: quantities in sections, its teeth, what it is judged by, errors against the scale of a drawing.
 
 K is that of `plans.condition`, over Q; lengths that are drawn count beside the module at least. Numbers of teeth do not
 err. Source of the checks: GOST 16532-70, appendix on quality by geometry.
@@ -7,20 +7,22 @@ err. Source of the checks: GOST 16532-70, appendix on quality by geometry.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ...scales.errors import InputError
 from ...scales.scale import steps
 from ..boards.exact import run
 from ..check import AT_LEAST, AT_MOST, EQUAL, Check
 from ..condition import Condition, derivatives, ratio
-from ..hands.hand import Tolerance
-from ..hands.shaky import Paper
-from ..hands.spread import added_up
+from ..hands.hand import Hand, Tolerance
+from ..hands.shaky import Paper, draw, drawing_of
+from ..hands.spread import added_up, kept
 from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, shown_on, worst_behind
@@ -43,7 +45,7 @@ from .construction import (
 from .gear import PLANS, VALUES, WHEELS, GearPair, unit_of
 from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, SIZES, geometry
 from .givens import complete
-from .meshing import Meshing, meshing_of
+from .teeth import Meshing, meshing_of
 
 # of the calculated quantities, each the steps of one part of the geometry
 CALCULATED = ("sizes", "centres", "auxiliary", "quality", "engagement", "measures")
@@ -295,3 +297,60 @@ def _extremes(solved: SolvedGear, tolerance: Tolerance) -> Iterator[tuple[str, f
             if own > 0.0:
                 missed = (tolerance.of_segment(mate) + mate / own * tolerance.of_segment(own)) / own
                 yield name, max(float(missed), rounded(sizes[name], tolerance))
+
+
+# A hand errs by millimetres of paper, and by degrees; the larger the drawing, the less the former count, while the
+# latter do not change: teeth are drawn five times as large as they are, hardly ever larger.
+RATIOS = (1.0, 2.0, 2.5, 4.0, 5.0, 10.0, 20.0)  # millimetres of paper for one of the wheels, GOST 2.302
+USUAL = ("epsilon_alpha_drawn", "epsilon_alpha_arc1", "c_1")
+DRAWINGS, SEED = 400, 1
+MILLI = 1e-3
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ScaleErrors:
+    """What 95 % of drawings keep, in parts of the exact value, by hand and quantity: one for each of the `ratios`."""
+
+    exact: Mapping[str, float]  # the exact values, SI
+    ratios: tuple[float, ...]  # scales of the meshing, M k : 1
+    tooth: float  # depth of a tooth, m
+    errors: Mapping[tuple[str, str], NDArray[np.float64]]  # by hand and quantity, in the order of `ratios`
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """What is compared."""
+        return tuple(self.exact)
+
+    def enough(self, hand: str, quantity: str, part: float) -> float | None:
+        """Return the smallest scale at which a hand misses by no more than a part; None where no scale does."""
+        errors = zip(self.ratios, self.errors[hand, quantity], strict=True)
+        return next((k for k, error in errors if error <= part), None)
+
+
+def compared(solved: SolvedGear) -> tuple[str, ...]:
+    """Return what can be compared: all that is measured on the meshing, or calculated from that."""
+    return tuple(name for name in solved.program.names if name in solved.quantities and section_of(name) == DRAWN)
+
+
+def scale_errors(
+    solved: SolvedGear, hands: Mapping[str, Hand], quantities: Sequence[str] = (), ratios: Iterable[float] = RATIOS
+) -> ScaleErrors:
+    """Draw the meshing at one scale after the other, by hands of some names; `quantities` of `compared`, or the usual.
+
+    Raises InputError with the key `chart-no-meshing` where the meshing is not among the plans.
+    """
+    if MESHING not in solved.scale_of_plan:
+        raise InputError("chart-no-meshing")
+    wanted, ratios = tuple(quantities) or USUAL, tuple(ratios)
+    errors = {(hand, name): np.empty(len(ratios)) for hand in hands for name in wanted}
+    for i, k in enumerate(ratios):
+        paper = drawing_of(solved, dict.fromkeys(solved.scale_of_plan, MILLI / k))
+        paper = replace(paper, program=paper.program.needed_for(wanted))
+        for hand, own in hands.items():
+            board = draw(paper, own, np.random.default_rng(SEED), DRAWINGS)
+            for name in wanted:
+                exact = solved.values[name]
+                drawn = np.broadcast_to(board.values[name], board.codes.shape)
+                errors[hand, name][i] = float(kept(drawn, exact)) / abs(exact)
+    exact_values = {name: float(solved.values[name]) for name in wanted}
+    return ScaleErrors(exact_values, ratios, solved.sizes["h"], errors)

@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 
 import kulman.plans.cams.formulas
-import kulman.plans.gears.formulas
-import kulman.plans.hoist.formulas  # noqa: F401
+import kulman.plans.gears.geometry
+import kulman.plans.hoist.model  # noqa: F401
 from kulman.drawing.printed import Symbol, prints
-from kulman.plans.gears.formulas import involute
+from kulman.plans.gears.geometry import involute
 from kulman.plans.laws import FORMS, LAWS, Sign, bracketed, form_of
 
 # what is printed with millimetres of paper, or with degrees, is so many times what the law makes of SI

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 from kulman import chart, solve
-from kulman.plans.gears.scale_errors import RATIOS, USUAL, ScaleErrors, compared, scale_errors
-from kulman.plans.gears.solve import SolvedGear
+from kulman.plans.gears.solve import RATIOS, USUAL, ScaleErrors, SolvedGear, compared, scale_errors
 from kulman.plans.hands.hand import PRESETS, Hand
 from kulman.scales.errors import LANGUAGES, InputError
 

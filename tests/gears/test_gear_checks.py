@@ -11,10 +11,9 @@ from kulman.plans.check import Check
 from kulman.plans.gears.gear import HARDENED, GearPair
 from kulman.plans.gears.geometry import geometry
 from kulman.plans.gears.givens import complete
-from kulman.plans.gears.meshing import meshing_of
-from kulman.plans.gears.profile import tooth_of
 from kulman.plans.gears.solve import SAME_CENTRES, checks, judged
-from kulman.tests.support.gear_polygons import polygon
+from kulman.plans.gears.teeth import meshing_of, tooth_of
+from kulman.tests.support.gear_polygons import outlines, polygon
 from kulman.tests.support.gears import SEED, madi
 
 
@@ -80,9 +79,9 @@ def test_interference_is_where_wheels_overlap_when_they_roll(
     values = complete(madi(z_1=z_1, z_2=z_2, x_1=x_1, x_2=x_2))
     meshing = meshing_of(values)
     angles = np.linspace(-math.pi / z_1, math.pi / z_1, 16, endpoint=False)
-    outlines = (meshing.outlines(float(angle), 100, math.radians(0.3)) for angle in angles)
+    pairs = (outlines(meshing, float(angle), 100, math.radians(0.3)) for angle in angles)
 
-    worst = max(polygon(first).intersection(polygon(second)).area for first, second in outlines)
+    worst = max(polygon(first).intersection(polygon(second)).area for first, second in pairs)
 
     own = verdicts(values)
     assert {i for i in (1, 2) if not own[f"interference_{i}"].ok} == roots

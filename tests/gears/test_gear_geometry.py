@@ -7,9 +7,15 @@ import math
 import numpy as np
 import pytest
 
-from kulman.plans.gears.formulas import angle_of_involute, involute, tangent_of_involute
 from kulman.plans.gears.gear import STANDARD
-from kulman.plans.gears.geometry import POINTS, geometry, geometry_program
+from kulman.plans.gears.geometry import (
+    POINTS,
+    angle_of_involute,
+    geometry,
+    geometry_program,
+    involute,
+    tangent_of_involute,
+)
 from kulman.plans.gears.solve import SAME_CENTRES
 from kulman.tests.support.fifty_digits import mp
 from kulman.tests.support.gears import SEED, Flank, madi, random_pairs, second_route

@@ -9,9 +9,9 @@ import pytest
 
 from kulman.plans.gears.geometry import geometry
 from kulman.plans.gears.givens import complete
-from kulman.plans.gears.meshing import Meshing, meshing_of
-from kulman.tests.support.gear_polygons import flanks_touch, line, polygon
-from kulman.tests.support.gears import SEED, counted_ratio, madi, random_pairs
+from kulman.plans.gears.teeth import Meshing, meshing_of
+from kulman.tests.support.gear_polygons import flanks_touch, line, outlines, polygon
+from kulman.tests.support.gears import SEED, contacts, counted_ratio, madi, random_pairs
 
 STEPS = 25  # of a pitch, in which contacts are counted by polygons
 TOUCHING = 5e-6  # mm: less apart, two chords of flanks touch
@@ -31,7 +31,7 @@ def mesh(others: dict[str, float], sense: int = 1) -> Meshing:
 
 def overlap(meshing: Meshing, angle: float) -> float:
     """Return the area common to both wheels, mm2."""
-    first, second = (polygon(outline) for outline in meshing.outlines(angle, 300, math.radians(0.1)))
+    first, second = (polygon(outline) for outline in outlines(meshing, angle, 300, math.radians(0.1)))
     return float(first.intersection(second).area)
 
 
@@ -46,7 +46,7 @@ def test_wheels_roll_through_a_pitch_without_overlap(others: dict[str, float], s
 def test_wheels_of_which_one_is_turned_by_a_thousandth_overlap() -> None:
     meshing = mesh({})
 
-    first, second = meshing.outlines(0.0, 100)
+    first, second = outlines(meshing, 0.0, 100)
 
     for turn in (1e-3, -1e-3):  # there is no backlash
         turned = meshing.centres[0] + (first - meshing.centres[0]) * np.exp(1j * turn)
@@ -64,7 +64,7 @@ def test_contacts_counted_on_polygons_make_the_contact_ratio(others: dict[str, f
     angles = (np.arange(STEPS) + 0.37) * pitch / STEPS
     counted = [flanks_touch(meshing, float(angle), TOUCHING) for angle in angles]
 
-    assert counted == [len(meshing.contacts(float(angle))) for angle in angles]
+    assert counted == [len(contacts(meshing, float(angle))) for angle in angles]
     assert np.mean(counted) == pytest.approx(epsilon, abs=1.0 / STEPS + 1e-3)
     assert counted_ratio(meshing) == pytest.approx(epsilon, abs=1.5e-3)
 
@@ -90,13 +90,13 @@ def test_line_of_action_touches_both_base_circles_and_passes_the_pole(others: di
     meshing = mesh(others, sense)
     found = geometry(madi(**others))
 
-    for n, centre, tooth in zip(meshing.ends, meshing.centres, meshing.teeth, strict=True):
+    ends = first, second = meshing.place(0.0), meshing.place(found["l_N1N2"])
+    for n, centre, tooth in zip(ends, meshing.centres, meshing.teeth, strict=True):
         assert abs(n - centre) == pytest.approx(tooth.r_b, rel=1e-13)
         assert abs(((n - centre).conjugate() * meshing.along).real) < 1e-13 * tooth.r
-    first, second = meshing.ends
     assert abs((first.conjugate() * second).imag) < 1e-13 * abs(first) * abs(second)  # the pole is between them
     assert abs(second - first) == pytest.approx(found["l_N1N2"], rel=1e-13)
-    start, end = meshing.active
+    start, end = (meshing.place(found[rho]) for rho in ("rho_p1", "rho_a1"))
     assert abs(start - meshing.centres[1]) == pytest.approx(meshing.teeth[1].r_a, rel=1e-13)
     assert abs(end - meshing.centres[0]) == pytest.approx(meshing.teeth[0].r_a, rel=1e-13)
     assert abs(end - start) == pytest.approx(found["g_alpha"], rel=1e-12)
@@ -114,10 +114,10 @@ def test_flanks_touch_on_the_line_of_action_where_the_contact_is_said_to_be(
     for rho_1 in np.linspace(first, last, 5):
         angle = meshing.angle(float(rho_1))
         place = meshing.place(float(rho_1))
-        assert np.min(np.abs(meshing.contacts(angle) - rho_1)) < 1e-15
-        outlines = [line(np.append(outline, outline[0])) for outline in meshing.outlines(angle, 400)]
+        assert np.min(np.abs(contacts(meshing, angle) - rho_1)) < 1e-15
+        lines = [line(np.append(outline, outline[0])) for outline in outlines(meshing, angle, 400)]
         point = line(np.array([place, place + 1e-12]))
-        assert all(outline.distance(point) < 1e-4 for outline in outlines)
+        assert all(outline.distance(point) < 1e-4 for outline in lines)
 
 
 @pytest.mark.parametrize(("others", "sense"), PAIRS)
@@ -133,11 +133,11 @@ def test_both_roots_have_the_radial_clearance(others: dict[str, float], sense: i
 
 def test_single_contact_lies_between_two_double_ones() -> None:
     meshing = mesh({})
-    low, high = meshing.single
     first, last = meshing.touching
+    low, high = last - meshing.sizes["p_b"], first + meshing.sizes["p_b"]
 
     for rho_1, count in (((first + low) / 2, 2), ((low + high) / 2, 1), ((high + last) / 2, 2)):
-        assert len(meshing.contacts(meshing.angle(rho_1))) == count
+        assert len(contacts(meshing, meshing.angle(rho_1))) == count
 
 
 def test_undercut_and_pointed_teeth_touch_less_long() -> None:

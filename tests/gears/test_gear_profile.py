@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from kulman.plans.gears.geometry import geometry
-from kulman.plans.gears.profile import RIGHT_ANGLE, Tooth, tooth_of
-from kulman.tests.support.gear_polygons import cut_by_rack, polygon, sector_of
+from kulman.plans.gears.teeth import RIGHT_ANGLE, Tooth, tooth_of
+from kulman.tests.support.gear_polygons import cut_by_rack, polygon, sector_of, wheel_of
 from kulman.tests.support.gears import SEED, madi
 
 STEEP = {"alpha": math.radians(26.0)}  # the rack's tip is round
@@ -58,7 +58,7 @@ def test_teeth_of_many_racks_have_the_area_that_is_left() -> None:
 def test_outline_is_one_curve_without_gaps_or_loops(others: dict[str, float], what: str) -> None:
     tooth = tooth_of(madi(**others), 1)
 
-    half, whole = tooth.half(200), polygon(tooth.wheel(200))
+    half, whole = tooth.half(200), polygon(wheel_of(tooth, 200))
 
     assert whole.is_valid
     assert np.max(np.abs(np.diff(half))) < 0.03 * tooth.r
@@ -70,19 +70,24 @@ def test_outline_is_one_curve_without_gaps_or_loops(others: dict[str, float], wh
     assert what != "pointed" or abs(complex(tooth.flank(tooth.rho_end)).imag) < 1e-12 * tooth.r
 
 
+def normal(tooth: Tooth, rho: float | np.ndarray) -> np.ndarray:
+    """Return unit normals of the upper involute, out of the tooth: each lies on a tangent of the base circle."""
+    return 1j * np.exp(1j * (tooth.psi_b - np.asarray(rho) / tooth.r_b))
+
+
 @pytest.mark.parametrize(("others", "what"), CASES)
 def test_normals_of_the_flank_touch_the_base_circle(others: dict[str, float], what: str) -> None:
     tooth = tooth_of(madi(**others), 1)
     rho = np.linspace(tooth.rho_start, tooth.rho_end, 50)
 
-    points, normals = tooth.flank(rho), tooth.normal(rho)
+    points, normals = tooth.flank(rho), normal(tooth, rho)
 
     along = points - rho * normals  # the end of the radius of curvature
     assert np.max(np.abs(np.abs(along) - tooth.r_b)) < 1e-12 * tooth.r
     assert np.max(np.abs((along * normals.conj()).real)) < 1e-12 * tooth.r
     middles = 0.5 * (rho[1:] + rho[:-1])
     chords = np.diff(points)
-    slope = (chords * tooth.normal(middles).conj()).real / np.abs(chords)
+    slope = (chords * normal(tooth, middles).conj()).real / np.abs(chords)
     assert np.max(np.abs(slope)) < 1e-3  # and they are normals: of chords beside them
 
 
@@ -92,11 +97,11 @@ def test_fillet_leaves_flank_and_root_without_a_kink_unless_undercut(others: dic
     step = 1e-6
 
     start = np.diff(tooth.fillet(np.array([tooth.beta_start, tooth.beta_start + step])))[0]
-    normal = complex(tooth.normal(tooth.rho_start))
+    across = complex(normal(tooth, tooth.rho_start))
     end = np.diff(tooth.fillet(np.array([RIGHT_ANGLE - step, RIGHT_ANGLE])))[0]
     foot = complex(tooth.fillet(RIGHT_ANGLE))
 
-    kink = abs((start * normal.conjugate()).real) / abs(start)
+    kink = abs((start * across.conjugate()).real) / abs(start)
     assert (kink > 1e-2) == (what == "undercut")
     assert kink < 1e-4 or what == "undercut"
     assert abs((end * foot.conjugate()).real) / abs(end * foot) < 1e-4
@@ -156,6 +161,6 @@ def test_outlines_of_all_racks_and_shifts_are_valid(count: int) -> None:
         if (h_a + values["c"]) * math.tan(values["alpha"]) < 0.25 * math.pi and tooth.whole:
             seen[kind(tooth)] += 1
             seen["round"] += tooth.e_f == 0.0
-            assert polygon(tooth.wheel(24)).is_valid
+            assert polygon(wheel_of(tooth, 24)).is_valid
 
     assert min(seen.values()) > count // 30

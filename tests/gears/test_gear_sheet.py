@@ -10,8 +10,8 @@ import shapely
 
 from kulman.drawing.gears.scene import mu_ladder, near_ladder, rolled_ladder
 from kulman.plans.gears.gear import GearPair
-from kulman.plans.gears.meshing import meshing_of
 from kulman.plans.gears.solve import solve_gear
+from kulman.plans.gears.teeth import meshing_of
 from kulman.tests.support.gear_cases import GearCase, arc_of, crossings, mu, outline
 from kulman.tests.support.gear_points import POINTS
 from kulman.tests.support.overlaps import overlaps, view_faults

@@ -17,7 +17,7 @@ from kulman.plans.gears.course import columns, extremes, marks, pairs, zones
 from kulman.plans.gears.gear import CCW, CW, GearPair
 from kulman.plans.gears.solve import SolvedGear, solve_gear
 from kulman.scales.errors import InputError
-from kulman.tests.support.gears import counted_ratio, madi
+from kulman.tests.support.gears import contacts, counted_ratio, madi
 
 TASK = "madi-gear"
 CASES = [
@@ -58,7 +58,7 @@ def test_columns_are_what_turned_wheels_show(others: dict[str, float], rotation:
             assert found[f"r_{i}"][k] == pytest.approx(abs(place - centre), rel=1e-13)
         assert found["phi"][k] == pytest.approx(meshing.angle(rho), abs=1e-15)
         if 0 < k < 6:
-            assert found["pairs"][k] == len(meshing.contacts(meshing.angle(rho)))
+            assert found["pairs"][k] == len(contacts(meshing, meshing.angle(rho)))
 
 
 @pytest.mark.parametrize(("others", "rotation"), CASES)
@@ -73,7 +73,9 @@ def test_zones_follow_one_another_and_hold_as_many_pairs_as_touch(others: dict[s
     for zone in found:
         for part in (0.01, 0.5, 0.99):
             rho = zone.first + part * zone.length
-            assert len(solved.meshing.contacts(solved.meshing.angle(rho))) == zone.pairs == pairs(solved, np.array(rho))
+            assert (
+                len(contacts(solved.meshing, solved.meshing.angle(rho))) == zone.pairs == pairs(solved, np.array(rho))
+            )
     # as many pairs as touch on average over a pitch
     mean = sum(zone.length for zone in found) / solved.sizes["p_b"]
     assert mean == pytest.approx(counted_ratio(solved.meshing, 4000), abs=2e-3)

@@ -10,8 +10,7 @@ import math
 
 import pytest
 
-from kulman.plans.gears.formulas import angle_of_involute
-from kulman.plans.gears.geometry import POINTS, geometry
+from kulman.plans.gears.geometry import POINTS, angle_of_involute, geometry
 from kulman.tests.support.gears import madi
 
 FOUND = geometry(madi())

@@ -9,8 +9,7 @@ import numpy as np
 import shapely
 from shapely.geometry import LineString, Polygon
 
-from kulman.plans.gears.meshing import Meshing
-from kulman.plans.gears.profile import Tooth
+from kulman.plans.gears.teeth import ARC, Meshing, Tooth
 
 MM = 1e3
 
@@ -23,6 +22,19 @@ def polygon(points: np.ndarray) -> Polygon:
 def line(points: np.ndarray) -> LineString:
     """Return a broken line with its places given in metres."""
     return LineString(np.column_stack((points.real, points.imag)) * MM)
+
+
+def wheel_of(tooth: Tooth, points: int, arc: float = ARC) -> np.ndarray:
+    """Return points of a whole wheel counter-clockwise, closed without a repeated point."""
+    return tooth.teeth(round(tooth.z), points, arc)[:-1]
+
+
+def outlines(meshing: Meshing, angle: float, points: int, arc: float = ARC) -> list[np.ndarray]:
+    """Return the outlines of both wheels at an angle of the pinion."""
+    return [
+        centre + wheel_of(tooth, points, arc) * direction
+        for tooth, centre, direction in zip(meshing.teeth, meshing.centres, meshing.directions(angle), strict=True)
+    ]
 
 
 def rack(values: Mapping[str, float], x: float, z: float) -> np.ndarray:

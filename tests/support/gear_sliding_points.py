@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable
 from itertools import pairwise
 
-from kulman.plans.gears.meshing import meshing_of
+from kulman.plans.gears.teeth import meshing_of
 from kulman.tests.support.gear_cases import NEAR, WHEELS, Faults, GearCase, one, tips, unless
 from kulman.tests.support.gear_tables import NUMBER, calculations, last_digit, number, rows
 from kulman.tests.support.readback import Sheet, View

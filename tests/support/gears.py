@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from kulman.plans.gears.gear import STANDARD
-from kulman.plans.gears.meshing import Meshing
+from kulman.plans.gears.teeth import Meshing
 
 SEED = 1765
 HALVINGS = 70
@@ -26,10 +26,17 @@ def madi(**others: float) -> dict[str, float]:
     return {**STANDARD, **MADI, **others}
 
 
+def contacts(meshing: Meshing, angle: float) -> np.ndarray:
+    """Return rho_1 of all pairs that touch at an angle of the pinion, rising."""
+    first, last = meshing.touching
+    pitch, base = meshing.sizes["p_b"], meshing.sizes["rho_w1"] + meshing.teeth[0].r_b * angle
+    return base + pitch * np.arange(math.ceil((first - base) / pitch), math.floor((last - base) / pitch) + 1)
+
+
 def counted_ratio(meshing: Meshing, steps: int = 1000) -> float:
     """Return how many pairs touch on average over a pitch, counted in equal steps."""
     angles = 2.0 * math.pi / meshing.teeth[0].z * (np.arange(steps) + 0.5) / steps
-    return float(np.mean([len(meshing.contacts(float(angle))) for angle in angles]))
+    return float(np.mean([len(contacts(meshing, float(angle))) for angle in angles]))
 
 
 def random_pairs(random: np.random.Generator, count: int) -> dict[str, Array]:

@@ -8,8 +8,7 @@ from typing import Any
 from ...drawing.charts.hands import scales_page
 from ...drawing.words import Words
 from ...plans.gears.gear import unit_of
-from ...plans.gears.scale_errors import DRAWINGS, MILLI, ScaleErrors, compared, scale_errors
-from ...plans.gears.solve import SolvedGear
+from ...plans.gears.solve import DRAWINGS, MILLI, ScaleErrors, SolvedGear, compared, scale_errors
 from ...plans.hands.hand import PRESETS
 from ..case import all_known
 from ..tables import Cell, aligned

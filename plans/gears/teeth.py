@@ -1,20 +1,25 @@
-"""The profile of a tooth as a rack cuts it: involute flank, the fillet that the rack's corner leaves, root and tip.
+"""The teeth of a gear pair: the profile of a tooth as a rack cuts it, how the two wheels mesh, and both on paper.
 
-All points are complex numbers, m; the wheel's centre is the origin and the tooth's centre line the real axis. Only the
-upper flank is computed, the lower one is its mirror image. A point of the involute is known by its radius of curvature
-rho, the length of the line that touches the base circle. A point of the fillet is known by the angle beta at which
-the rack's corner is there inclined to the wheel's radius: a right angle at the root, alpha at the flank.
+All points are complex numbers, m. Of a tooth the wheel's centre is the origin and its centre line the real axis. Only
+the upper flank is computed, the lower one is its mirror image. A point of the involute is known by its radius of
+curvature rho, the length of the line that touches the base circle. A point of the fillet is known by the angle beta at
+which the rack's corner is there inclined to the wheel's radius: a right angle at the root, alpha at the flank.
 
 While the rack moves, the contact normal always passes the pole, so the corner's centre is h_0 cot(beta) beside the pole
 and h_0 below it when its arc touches the tooth at beta. The distance from the wheel's centre grows steadily
 from the root to the flank. Where the straight edge reaches below the end N of the line of action, rho_l is negative and
 the corner cuts away the involute's beginning: the flank then begins where both curves cross.
 
+Of a pair the pole is the origin, the line of centres the imaginary axis, the pinion below. A contact is known by rho_1,
+its distance from N1 along N1N2: the radius of curvature of the pinion's flank there. Angles of the pinion count from
+the contact at the pole in the sense in which it turns, so rho_1 grows by r_b1 times the angle.
+
 Source: Litvin, Gear geometry and applied theory (generation by rack-cutters); GOST 13755-81 (the rack).
 """
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -24,8 +29,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .formulas import tangent_of_involute, unrolled
-from .geometry import geometry
+from .gear import WHEELS
+from .geometry import geometry, tangent_of_involute, unrolled
 
 Array = NDArray[np.float64]
 Points = NDArray[Any]  # complex
@@ -135,11 +140,6 @@ class Tooth:
         points: Points = self.r_b * (1.0 + 1j * t) * np.exp(1j * (self.psi_b - t))
         return points
 
-    def normal(self, rho: Any) -> Points:
-        """Return unit normals of the upper involute, out of the tooth: each lies on a tangent of the base circle."""
-        direction: Points = 1j * np.exp(1j * (self.psi_b - np.asarray(rho, float) / self.r_b))
-        return direction
-
     def fillet(self, beta: Any) -> Points:
         """Return points of the upper fillet at angles from `beta_start` to a right angle, rad."""
         beta = np.asarray(beta, float)
@@ -177,10 +177,6 @@ class Tooth:
         outline = self.outline(points, arc)
         return np.append((outline[:-1] * turn[:, np.newaxis]).ravel(), outline[-1] * turn[-1])
 
-    def wheel(self, points: int = POINTS, arc: float = ARC) -> Points:
-        """Return points of the whole wheel counter-clockwise, closed without a repeated point."""
-        return self.teeth(round(self.z), points, arc)[:-1]
-
 
 def tooth_of(values: Mapping[str, Any], i: int) -> Tooth:
     """Return the tooth of the wheel `i`, 1 or 2, of a pair with its givens by name."""
@@ -205,3 +201,142 @@ def tooth_of(values: Mapping[str, Any], i: int) -> Tooth:
 def _steps(begin: float, end: float, most: float) -> Array:
     """Return angles from `begin` to `end`, at most `most` apart; one where both are the same."""
     return np.linspace(begin, end, math.ceil(abs(end - begin) / most) + 1)
+
+
+WANTED = ("a_w", "alpha_w", "d_w1", "d_w2", "d_b1", "d_b2", "rho_p1", "rho_a1", "l_N1N2", "p_b", "rho_w1", "rho_w2")
+
+
+@dataclass(frozen=True)
+class Meshing:
+    """A pair in mesh without backlash."""
+
+    teeth: tuple[Tooth, Tooth]  # of the pinion and of the wheel
+    sizes: Mapping[str, float]  # the quantities of the pair
+    sense: int = 1  # +1 when the pinion turns counter-clockwise, else -1
+
+    @property
+    def centres(self) -> tuple[complex, complex]:
+        """O1 and O2."""
+        return complex(0.0, -0.5 * self.sizes["d_w1"]), complex(0.0, 0.5 * self.sizes["d_w2"])
+
+    @property
+    def along(self) -> complex:
+        """The unit direction from N1 to N2, in which contacts move."""
+        alpha_w = self.sizes["alpha_w"]
+        return complex(-self.sense * math.cos(alpha_w), math.sin(alpha_w))
+
+    def place(self, rho_1: float) -> complex:
+        """Return the point of the line of action at the distance `rho_1` from N1."""
+        return self.along * (rho_1 - self.sizes["rho_w1"])
+
+    @property
+    def touching(self) -> tuple[float, float]:
+        """Between which rho_1 the flanks touch: the active line, less what undercut and pointed teeth lack."""
+        pinion, wheel = self.teeth
+        line = self.sizes["l_N1N2"]
+        return max(pinion.rho_start, line - wheel.rho_end), min(pinion.rho_end, line - wheel.rho_start)
+
+    def angle(self, rho_1: float) -> float:
+        """Return the pinion's angle from the contact at the pole to that at `rho_1`, rad."""
+        return (rho_1 - self.sizes["rho_w1"]) / self.teeth[0].r_b
+
+    def directions(self, angle: float) -> tuple[complex, complex]:
+        """Return from each centre the direction of the tooth that touches at the pole when the angle is zero."""
+        found = []
+        ratio_of_wheel = self.teeth[0].z / self.teeth[1].z
+        for tooth, side, ratio in zip(self.teeth, (1j, -1j), (1.0, -ratio_of_wheel), strict=True):
+            half = float(tooth.half_angle(tooth.r_b / math.cos(self.sizes["alpha_w"])))
+            turned = self.sense * (ratio * angle - half)
+            found.append(side * complex(math.cos(turned), math.sin(turned)))
+        return found[0], found[1]
+
+
+def meshing_of(values: Mapping[str, float], sense: int = 1) -> Meshing:
+    """Return a pair in mesh with its complete givens by name."""
+    return Meshing((tooth_of(values, 1), tooth_of(values, 2)), geometry(values, WANTED), sense)
+
+
+CIRCLES = ("a", "w", "", "b", "f")  # tip, rolling, reference, base, root: what stands in their names after d_
+SHOWN = 3  # teeth of each wheel
+FLANK = 40  # points of a flank that is drawn apart
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """One wheel on the paper."""
+
+    number: int  # 1 for the pinion, 2 for the wheel
+    tooth: Tooth  # its tooth, m
+    # its centre, mm; the unit direction from there to the pole
+    centre: complex
+    up: complex
+    facing: complex  # the unit direction from its centre in which the middle line of the tooth in contact points
+    side: int  # +1 where the active flank is the counter-clockwise one of a tooth, else -1
+    k: float  # millimetres of paper for a metre
+    sizes: Mapping[str, float]  # the quantities of the pair
+
+    def radius(self, circle: str) -> float:
+        """Return the radius of a circle of `CIRCLES`, mm."""
+        return 0.5 * self.sizes[f"d_{circle}{self.number}"] * self.k
+
+    @property
+    def pitch(self) -> float:
+        """The angular pitch, rad."""
+        return 2.0 * math.pi / self.tooth.z
+
+    @property
+    def direction(self) -> float:
+        """The angle from the x axis to the direction to the pole, rad."""
+        return cmath.phase(self.up)
+
+    def towards(self, point: complex, radius: float) -> complex:
+        """Return the point at a distance from the centre on the ray to another point."""
+        arm = point - self.centre
+        return self.centre + arm * (radius / abs(arm))
+
+    def on(self, radius: float, angle: float) -> complex:
+        """Return the point at a distance from the centre, at an angle from the direction to the pole."""
+        return self.centre + radius * self.up * cmath.rect(1.0, angle)
+
+    def angle(self, point: complex) -> float:
+        """Return the angle from the direction to the pole to that of a point, seen from the centre."""
+        return cmath.phase((point - self.centre) / self.up)
+
+    def placed(self, points: Any, turns: float = 0.0) -> tuple[complex, ...]:
+        """Return points of a tooth on the real axis, m, where the tooth in contact stands, or some pitches further."""
+        turned = self.facing * cmath.rect(self.k, turns * self.pitch)
+        return tuple((self.centre + np.asarray(points) * turned).tolist())
+
+    def outline(self, count: int = SHOWN) -> tuple[complex, ...]:
+        """Return the outline of neighbouring teeth counter-clockwise, the one in contact in their middle."""
+        return self.placed(self.tooth.teeth(count), -0.5 * (count - 1))
+
+    def flank(self, low: float, high: float, turns: float = 0.0, active: bool = True) -> tuple[complex, ...]:
+        """Return the active flank, or the other one, between two radii of curvature, m, from its root on."""
+        points = self.tooth.flank(np.linspace(low, high, FLANK))
+        return self.placed(points if (self.side > 0) == active else points.conj(), turns)
+
+    def at(self, radius: float, turns: float = 0.0, active: bool = True) -> complex:
+        """Return where a flank meets a circle about the wheel's centre, mm."""
+        half = float(self.tooth.half_angle(radius / self.k))
+        point = radius / self.k * cmath.rect(1.0, half if (self.side > 0) == active else -half)
+        return self.placed([point], turns)[0]
+
+    def inward(self, point: complex) -> complex:
+        """Return the unit normal of the active flank at a point of it, into the tooth."""
+        arm = point - self.centre
+        far = abs(arm)
+        # the normal touches the base circle: it leans from the radius by the angle whose cosine is r_b / r
+        lean = math.acos(min(1.0, self.radius("b") / far))
+        return -arm / far * cmath.rect(1.0, self.side * (0.5 * math.pi - lean))
+
+
+def wheels(meshing: Meshing, sizes: Mapping[str, float], mu: float, rho_1: float | None = None) -> tuple[Wheel, Wheel]:
+    """Return both wheels on the paper while they touch at `rho_1`, m from N1; by default at the pole."""
+    facing = meshing.directions(0.0 if rho_1 is None else meshing.angle(rho_1))
+    k = 1.0 / mu
+    first, second = (
+        Wheel(i, tooth, centre * k, 1j if i == 1 else -1j, direction, meshing.sense, k, sizes)
+        for i, tooth, centre, direction in zip(WHEELS, meshing.teeth, meshing.centres, facing, strict=True)
+    )
+    return first, second
