@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...plans.cams import course
-from ...plans.cams.course import dwelling, on_circle, pitch_curve, rests, theta, transmission, up_at
+from ...plans.cams.course import dwelling, on_circle, rests, theta, transmission, up_at
 from ...plans.cams.envelopes import Undercut
-from ...plans.cams.motion import LOWER, Motion
+from ...plans.cams.motion import LOWER
 from ...plans.cams.profile import RollerProfile
 from ..formats import Style
 from ..hardware import shaft, shaft_radius
@@ -46,8 +46,8 @@ def numbers(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
     """Write the number of each position on its line, at `radius`; that of position 0 beside the rod."""
     height, solved = scene.style.text, scene.solved
     written: list[complex] = []
-    for i, phi in enumerate(solved.angles.tolist()):
-        up = up_at(phi, solved.cam.sense)
+    for i in solved.layout.division.lines:
+        up = up_at(solved, i)
         at = on_circle(e, radius, up)
         if i == 0:  # beyond the cam's axis from there
             at = complex(-scene.style.label if e >= 0.0 else scene.style.label, at.imag)
@@ -103,7 +103,7 @@ def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: fl
         canvas.add(Line(a, b, Pen.AXIS, role="axis"))
     r = shaft_radius(reach, style, offset)
     canvas.add(shaft(0j, r, style))
-    middle = dwelling(scene.solved.motion, sense) + turned
+    middle = dwelling(scene.solved) + turned
     arrow, radius = middle - ARROW * sense, max(1.9 * r, offset + 0.6 * style.label)
     if polar(1.0, arrow).imag < -SIDEWAYS:  # the support is there
         arrow = -arrow
@@ -114,7 +114,7 @@ def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: fl
 def letter_centre(canvas: Canvas, scene: CamScene, reach: float, turned: float = 0.0, offset: float = 0.0) -> None:
     """Write the letter of the cam's centre, when all else is drawn: near the shaft, clear of all lines if it can be."""
     style, sense = scene.style, scene.solved.cam.sense
-    size, middle = max(shaft_radius(reach, style, offset), offset), dwelling(scene.solved.motion, sense) + turned
+    size, middle = max(shaft_radius(reach, style, offset), offset), dwelling(scene.solved) + turned
     turns = sorted(TURNS, key=lambda turn: abs(turn - BESIDE))
     far = (size + style.label * part for part in (0.8, 0.95, 1.1, 1.3, 1.6, 2.0))
     places = [polar(away, middle + turn * sense) for away in far for turn in turns]
@@ -159,9 +159,9 @@ def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: f
     return left
 
 
-def quiet(motion: Motion, sense: int) -> float:
+def quiet(scene: CamScene) -> float:
     """Return the direction along which a radius is dimensioned: in the lower dwell, beside the letter of the centre."""
-    return dwelling(motion, sense) - RADIUS * sense
+    return dwelling(scene.solved) - RADIUS * scene.solved.cam.sense
 
 
 def corners(canvas: Canvas, scene: CamScene, cuts: Sequence[Undercut]) -> None:
@@ -205,7 +205,8 @@ class Contact:
 
 def curves(canvas: Canvas, scene: CamScene, profile: RollerProfile) -> None:
     """Draw the pitch curve dash-dot and the practical profile in main lines; mark corners of the profile."""
-    pitch, outline = scene.curve(pitch_curve(scene.solved)), scene.curve(profile.outline().tolist())
+    pitch = scene.curve(profile.pitch(scene.solved.motion.samples()[:-1]).tolist())
+    outline = scene.curve(profile.outline().tolist())
     for points, pen, name, part in ((pitch, Pen.AXIS, "pitch", "pitch"), (outline, Pen.MAIN, "practical", "profile")):
         canvas.part(part)
         canvas.add(Group((Polyline(points, pen, closed=True),), "curve", name))
@@ -297,6 +298,6 @@ def roller_radius(canvas: Canvas, scene: CamScene, places: Sequence[complex], R:
     division, rest = solved.layout.division, rests(solved.motion)
     line = division.last if rest else division.leave
     at, aside = places[line], ASIDE if rest else -ASIDE
-    rim = at + up_at(float(solved.angles[line]) + aside, solved.cam.sense) * scene.drawn(R)
+    rim = at + up_at(solved, line, aside) * scene.drawn(R)
     canvas.add(Group((Line(at, rim, Pen.THIN), Head(rim, rim - at)), "dimension", "R_roller"))
     canvas.label(words.symbol("R_roller"), rim, prefer=rim - at, clear=1.0, height=scene.style.text)

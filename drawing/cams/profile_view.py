@@ -89,8 +89,8 @@ def roller_view(scene: CamScene) -> View:
 def _roller_positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -> None:
     """Draw the follower's line and the roller in each position; the line touches the circle of the offset."""
     solved, R = scene.solved, scene.drawn(float(scene.solved.values["R_roller"]))
-    for i, phi in enumerate(solved.angles.tolist()):
-        up = up_at(phi, solved.cam.sense)
+    for i in solved.layout.division.lines:
+        up = up_at(solved, i)
         foot, at = scene.mm(f"{PROFILE}.E{i}"), scene.mm(f"{PROFILE}.B{i}")
         canvas.part("lines")
         canvas.add(Line(foot, on_circle(e, reach, up), Pen.THIN, role="position", name=str(i)))
@@ -104,7 +104,7 @@ def _roller_positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -
 def _contact(scene: CamScene, i: int) -> Contact:
     """Return the position of a section line."""
     pole, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "PBK")
-    return Contact(i, at, touch, pole, up_at(float(scene.solved.angles[i]), scene.solved.cam.sense))
+    return Contact(i, at, touch, pole, up_at(scene.solved, i))
 
 
 def _roller_follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
@@ -119,7 +119,7 @@ def _roller_sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
     """Dimension r_0, e, the roller and the stroke; return what has no place in the figure."""
     solved, words = scene.solved, scene.words
     roller, sense = needed(solved.roller), solved.cam.sense
-    middle = quiet(solved.motion, sense)
+    middle = quiet(scene)
     r_0, R = scene.drawn(roller.sizes.r_0), scene.drawn(roller.profile.R)
     canvas.part("circles")
     left = radius_at(
@@ -137,7 +137,7 @@ def _roller_sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
         out = complex(-sense * max(R + OUT * scene.style.text, OUT * scene.style.label))
         ends = low, low + 1j * rod.stroke
     else:
-        up = up_at(float(solved.angles[division.top]), sense)
+        up = up_at(solved, division.top)
         out = up * (-1j * sense) * (0.5 * R)
         ends = on_circle(rod.x, r_0, up), scene.mm(f"{PROFILE}.B{division.top}")
     linear(canvas, ends, out, words.symbol("h"), "h")
@@ -192,7 +192,7 @@ def rocker_view(scene: CamScene) -> View:
     _rocker_normal(canvas, scene, line)
     canvas.part("follower")
     _rocker_follower(canvas, scene)
-    left = _rocker_sizes(canvas, scene, dwelling(solved.motion, solved.cam.sense) + turned)
+    left = _rocker_sizes(canvas, scene, dwelling(solved) + turned)
     canvas.part("shaft")
     letter_centre(canvas, scene, r_0, turned)
     edge = reach + 1.2 * label
@@ -341,8 +341,8 @@ def plate_view(scene: CamScene) -> View:
 def _plate_positions(canvas: Canvas, scene: CamScene, R: float, reach: float) -> None:
     """Draw the axis and the plate of each position, its centre, and where it touches the profile."""
     solved = scene.solved
-    for i, phi in enumerate(solved.angles.tolist()):
-        up = up_at(phi, solved.cam.sense)
+    for i in solved.layout.division.lines:
+        up = up_at(solved, i)
         at, contact = (scene.mm(f"{PLATE_PROFILE}.{letter}{i}") for letter in "BK")
         canvas.part("circles")
         canvas.add(Line(0j, up * reach, Pen.THIN, role="position", name=str(i)))
@@ -356,7 +356,7 @@ def _plate_positions(canvas: Canvas, scene: CamScene, R: float, reach: float) ->
 
 def _plate(scene: CamScene, i: int, R: float) -> tuple[complex, complex]:
     """Return the ends of the plate in a position."""
-    at, up = scene.mm(f"{PLATE_PROFILE}.B{i}"), up_at(float(scene.solved.angles[i]), scene.solved.cam.sense)
+    at, up = scene.mm(f"{PLATE_PROFILE}.B{i}"), up_at(scene.solved, i)
     return at + 1j * up * R, at - 1j * up * R
 
 
@@ -372,7 +372,7 @@ def _plate_sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[st
     """Dimension radii, the plate, how far to both sides it touches, the stroke; return what has no place there."""
     solved, words, sense = scene.solved, scene.words, scene.solved.cam.sense
     plate, motion = needed(solved.plate), solved.motion
-    middle, r_0 = quiet(motion, sense), scene.drawn(plate.sizes.r_0)
+    middle, r_0 = quiet(scene), scene.drawn(plate.sizes.r_0)
     canvas.part("circles")
     left_out = radius_at(canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (0.0, r_0, r_0))
     canvas.part("follower")
@@ -388,7 +388,7 @@ def _plate_sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[st
             linear(canvas, ends, ABOVE[0] * up, "" if same else ANALOGUE, name)
     canvas.part("centres")
     top = solved.layout.division.top
-    axis = up_at(float(solved.angles[top]), sense)
+    axis = up_at(solved, top)
     ends = axis * r_0, scene.mm(f"{PLATE_PROFILE}.B{top}")
     linear(canvas, ends, axis * (-1j * sense) * 4.0, words.symbol("h"), "h")
     return [left_out] if left_out else []

@@ -114,7 +114,7 @@ def is_aside(scene: CamScene) -> bool:
 
 def is_sharp(scene: CamScene) -> bool:
     """Whether a pitch curve is convex anywhere, so that it has a least radius of curvature."""
-    cam = scene.solved.roller or scene.solved.rocker
+    cam = scene.solved.rolling
     return cam is not None and 0.0 < cam.profile.sharpest.value < math.inf
 
 

@@ -8,7 +8,6 @@ from functools import partial
 from itertools import product
 
 from ...plans.cams.cam import DIAGRAMS_PART, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
-from ...plans.cams.course import rolls
 from ...plans.cams.solve import EQUAL, SolvedCam, reduced
 from ...scales.choose import Choosers, Fixed, From
 from ...scales.scale import Scale, rounded, steps
@@ -147,7 +146,7 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
             yield Figure("motion", text.motion_table)
             yield diagrams_view.DIAGRAMS_FIGURE
             yield Figure("equations_scales", partial(text.scales_block, width=width), ("reduction",))
-        elif plan == PRESSURE_PART and rolls(solved):
+        elif plan == PRESSURE_PART and solved.rolling is not None:
             yield diagrams_view.PRESSURE_FIGURE
         for follower in (ROLLER, ROCKER, PLATE):
             if getattr(solved, follower) is None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...plans.cams.construction import PLATE_SIZES, ROCKER_SIZES, SIZES, is_back, phase_of
+from ...plans.cams.construction import PLATE_SIZES, ROCKER_SIZES, SIZES
 from ...plans.cams.course import (
     Bound,
     analogue,
@@ -29,7 +29,7 @@ from ...plans.cams.course import (
 )
 from ...plans.cams.followers import RockerCam, RollerCam
 from ...plans.cams.motion import FALL, RISE
-from ...plans.cams.sizes import HalfPlane, wedge
+from ...plans.cams.sizes import PHASE_OF, HalfPlane, wedge
 from ..areas import hatched
 from ..diagram import small
 from ..figure import Figure, Stage
@@ -113,12 +113,12 @@ def _limit(canvas: Canvas, scene: CamScene, plane: HalfPlane, low: float) -> Non
     foot = at_level(touch, up, low)
     canvas.add(Line(touch + up * LINE, foot, Pen.THIN, role="limit", name=plane.name))
     canvas.add(scene.node(touch, plane.name, "touch", filled=True))
-    if is_back(plane.name) and scene.solved.roller and plane.name not in scene.solved.roller.sizes.on:
+    if PHASE_OF[plane.name] != plane.name and scene.solved.roller and plane.name not in scene.solved.roller.sizes.on:
         return
     axis = at_level(touch, up, 0.0)
     across = -1.0 + 0j if up.real >= 0.0 else 1.0 + 0j  # below the axis, on the side of the ordinates
     gamma = abs(swept(across, -up))
-    name, text = f"gamma_{plane.name}", f"{words.symbol(f'gamma_{phase_of(plane.name)}')} = {scene.degrees(gamma)}"
+    name, text = f"gamma_{plane.name}", f"{words.symbol(f'gamma_{PHASE_OF[plane.name]}')} = {scene.degrees(gamma)}"
     angle(canvas, axis, (across, -up), ARC * scene.style.label, name, text)
 
 
@@ -177,7 +177,7 @@ def on_lines(scene: CamScene) -> list[tuple[int, str]]:
 def permitted_offsets(canvas: Canvas, scene: CamScene) -> None:
     """Draw the circle of a given r_0 about the lowest place of the roller's centre, its permitted part thick."""
     places = offset_places(scene.solved)
-    if places is None:
+    if not places:
         return
     low, high, at = (scene.drawn(place, SIZES) for place in places)
     ends = sorted((low, high, at), key=lambda place: place.real)
@@ -358,9 +358,9 @@ def _bound(canvas: Canvas, scene: CamScene, bound: Bound, frame: Box) -> None:
     end = scene.drawn(bound.end)
     canvas.add(scene.node(end, limit.name, "touch", filled=True))
     canvas.add(Line(end, at_level(end, along, frame[1]), Pen.THIN, role="bound", name=limit.name))
-    if is_back(limit.name) and limit.name not in cam.sizes.on:
+    if PHASE_OF[limit.name] != limit.name and limit.name not in cam.sizes.on:
         return
-    text, radius = scene.words.symbol(f"gamma_{phase_of(limit.name)}"), 5.0 * scene.style.label
+    text, radius = scene.words.symbol(f"gamma_{PHASE_OF[limit.name]}"), 5.0 * scene.style.label
     start = nearer(arm, along)
     angle(canvas, end, (start, along), radius, f"gamma_{limit.name}", text, clear=0.8)
     if start == arm:  # beyond the rocker

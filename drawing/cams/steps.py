@@ -6,8 +6,9 @@ import math
 from collections.abc import Iterator, Mapping
 
 from ...plans.cams.cam import PLATE
-from ...plans.cams.construction import ACCELERATION, OUTWARDS, PLATE_SIZES, ROCKER_SIZES, SIZES
-from ...plans.cams.course import analogue, permitted, pressed, rolling, rolls, theta, transmission, turning
+from ...plans.cams.construction import ACCELERATION, PLATE_SIZES, ROCKER_SIZES, SIZES
+from ...plans.cams.course import analogue, permitted, pressed, theta, transmission, turning
+from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.rules import Rule, rules_of
 from ...scales.scale import Scale
 from ..handouts import Shown as Begun
@@ -44,7 +45,7 @@ def _said(scene: CamScene, texts: Texts) -> Said:
     """Return what sentences may name: quantities with letters and units, lengths on paper."""
     solved = scene.solved
     found = _of_task(scene) | _of_diagrams(scene, texts)
-    if rolls(solved):
+    if solved.rolling is not None:
         found |= _of_pressure(scene)
     if solved.roller is not None:
         found |= _of_roller(scene, texts)
@@ -115,8 +116,8 @@ def _of_pressure(scene: CamScene) -> Said:
     for name in ("gamma_rise_min", "gamma_fall_min"):
         found[name] = f"{words.symbol(name)} = {scene.degrees(solved.values[name])}"
     limits = {phase: abs(limit) for phase, limit in permitted(solved)}
-    found |= {f"theta_{phase}": f"[θ] = {scene.degrees(limits[phase])}" for phase in OUTWARDS}
-    return found | {"line": str(line), "rho_min": scene.stated("rho_min", rolling(solved)[0].rho_min)}
+    found |= {f"theta_{phase}": f"[θ] = {scene.degrees(limits[phase])}" for phase in (RISE, FALL)}
+    return found | {"line": str(line), "rho_min": scene.stated("rho_min", needed(solved.rolling).profile.rho_min)}
 
 
 def _of_roller(scene: CamScene, texts: Texts) -> Said:
@@ -183,7 +184,7 @@ def conclusions(scene: CamScene, texts: Texts) -> Iterator[str]:
     solved = scene.solved
     yield _motion(scene, texts)
     yield _chords(scene, texts)
-    if solved.roller is not None or solved.rocker is not None:
+    if solved.rolling is not None:
         yield from _roller(scene, texts)
     if solved.plate is not None:
         yield from _plate(scene, texts)
@@ -216,8 +217,7 @@ def _chords(scene: CamScene, texts: Texts) -> str:
 def _roller(scene: CamScene, texts: Texts) -> Iterator[str]:
     """Tell the sizes of a cam for a roller, the rules, and where the profile is undercut."""
     solved = scene.solved
-    cam = solved.roller or solved.rocker
-    assert cam is not None
+    cam = needed(solved.rolling)
     names = {"r_0": cam.sizes.r_0, "R_roller": cam.profile.R, "e": abs(cam.sizes.e)}
     if solved.rocker is not None:
         names["l_OC"] = solved.rocker.sizes.l_OC

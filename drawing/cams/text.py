@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from ...plans.cams.construction import ACCELERATION, PLATE_SIZES, SIZES
-from ...plans.cams.course import rolls, theta
+from ...plans.cams.course import theta
 from ...plans.cams.formulas import ARC
 from ...plans.cams.rules import Rule, rules_of
 from ...plans.cams.solve import SCALES
@@ -248,7 +248,7 @@ def motion_table(scene: CamScene) -> View:
     mm = words.unit("mm")
     head = [words["table.cam_row"], f"{words.symbol('phi')}, °"]
     head += [f"{words.symbol(name)}, {mm}" for name in ("s", "ds", "d2s")]
-    if rolls(solved):
+    if solved.rolling is not None:
         angles = [theta(solved, solved.angles, side) * DEGREES for side in (-1, 1)]
         columns.append(_column(scene, angles))
         head.append(f"{words.symbol('theta')}, °")

@@ -49,8 +49,8 @@ from ..board import Board, Program, RecordingBoard, with_needs
 from ..names import Name
 from .cam import DIAGRAMS_PART, PLANS, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
 from .formulas import ARC
-from .motion import Division
-from .sizes import BACK
+from .motion import FALL, RISE, Division
+from .sizes import PHASE_OF
 
 ACCELERATION, VELOCITY, TRAVEL = "diagram_a", "diagram_v", "diagram_s"
 DIAGRAMS = (ACCELERATION, VELOCITY, TRAVEL)
@@ -193,23 +193,6 @@ def plate_profile(board: Board, division: Division) -> None:
 
 
 SIZES, PLATE_SIZES = "sizes", "plate_sizes"
-PHASES = {f"{phase}{end}": phase for phase in ("rise", "fall") for end in ("", BACK)}  # of limits
-OUTWARDS = {"rise": 1, "fall": -1}  # to which side of the abscissas a phase lies when the cam turns counter-clockwise
-
-
-def phase_of(limit: str) -> str:
-    """Return the phase that a limit belongs to: `rise` or `fall`, both sides of the normal alike."""
-    return PHASES[limit]
-
-
-def is_back(limit: str) -> bool:
-    """Whether a limit is that of the side to which the cam does not push."""
-    return PHASES[limit] != limit
-
-
-def side_of(limit: str, sense: int) -> int:
-    """Return the side of the abscissas, +1 or -1, on which the tangent of a limit lies."""
-    return OUTWARDS[phase_of(limit)] * sense * (-1 if is_back(limit) else 1)
 
 
 def ordinates(board: Board, division: Division, given: str) -> None:
@@ -218,7 +201,7 @@ def ordinates(board: Board, division: Division, given: str) -> None:
         _ordinate(board, TRAVEL, f"_s{i}_drawn", "mu_s_chord", i)
         if given == ACCELERATION:
             _ordinate(board, VELOCITY, f"_ds{i}_drawn", "mu_ds_chord", i)
-    for phase, lines in (("rise", division.rise), ("fall", division.fall)):
+    for phase, lines in ((RISE, division.rise), (FALL, division.fall)):
         for i in lines:
             analogue = f"_ds{i}_drawn"
             if given == VELOCITY:
@@ -239,14 +222,15 @@ def roller_sizes(board: Board, division: Division, limits: Iterable[str], corner
     Limits are named as the half planes of `sizes.wedge`.
     """
     board.pole(f"{SIZES}.0")
-    for phase, lines in (("rise", division.rise), ("fall", division.fall)):
+    for phase, lines in ((RISE, division.rise), (FALL, division.fall)):
         for i in lines:
             board.place(f"{SIZES}.{i}_{phase}", f"_x{i}_{phase}_drawn", f"_s{i}_drawn")
     for limit in limits:
         slope, side, at = (f"_{word}_{limit}" for word in ("slope", "side", "touch"))
-        pieces = division.pieces(phase_of(limit))
+        phase = PHASE_OF[limit]
+        pieces = division.pieces(phase)
         for k, piece in enumerate(pieces):
-            coordinates = (*(f"_x{i}_{phase_of(limit)}_drawn" for i in piece), *(f"_s{i}_drawn" for i in piece))
+            coordinates = (*(f"_x{i}_{phase}_drawn" for i in piece), *(f"_s{i}_drawn" for i in piece))
             board.calc(f"{at}{k}", "touching", slope, side, *coordinates)
         board.calc(at, "outermost", side, *(f"{at}{k}" for k in range(len(pieces))))
         board.place(f"{SIZES}.T_{limit}", at, "zero")
@@ -266,7 +250,7 @@ def smallest_roller_cam(board: Board) -> None:
     board.pole(f"{SIZES}.0")
     board.place(f"{SIZES}.C", "e", "_below")
     board.distance("r_0", f"{SIZES}.0", f"{SIZES}.C")
-    for phase in OUTWARDS:
+    for phase in (RISE, FALL):
         board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
 
 
@@ -284,7 +268,7 @@ def plate_sizes(board: Board, division: Division) -> None:
             board.calc(f"_d2s{i}_{end}", "part_of_amplitude", "A_1", f"_part{i}_{end}")
             board.place(f"{PLATE_SIZES}.{i}_{end}", f"_d2s{i}_{end}", f"_s{i}_drawn")
     places: list[str] = []
-    for phase in OUTWARDS:
+    for phase in (RISE, FALL):
         for k, piece in enumerate(division.pieces(phase)):
             ends = ["after", *["before"] * (len(piece) - 1)]
             xs = [f"_d2s{i}_{end}" for i, end in zip(piece, ends, strict=True)]
@@ -330,7 +314,7 @@ def rocker_sizes(board: Board, division: Division) -> None:
     board.distance("r_0", f"{ROCKER_SIZES}.C", f"{ROCKER_SIZES}.B0")
     board.distance("l_OC", f"{ROCKER_SIZES}.0", f"{ROCKER_SIZES}.C")
     board.calc("psi_0", "angle_of_triangle", "l_rocker", "l_OC", "r_0")
-    for phase in OUTWARDS:
+    for phase in (RISE, FALL):
         board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
 
 

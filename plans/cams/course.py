@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -23,127 +23,72 @@ from numpy.typing import NDArray
 from ..solved import Columned, Ends
 from .cam import PLATE, ROCKER, ROLLER
 from .construction import ROCKER_SIZES
-from .envelopes import Undercut
-from .followers import Limit, RockerCam, rocker_pressure, tightest
-from .motion import FALL, RISE, TURN, Array, Function, Minimum, Motion, Phase, minima
+from .followers import RockerCam, tightest
+from .motion import FALL, RISE, TURN, Array, Motion, Phase, least
 from .profile import PlateProfile, RollerProfile
-from .sizes import SIDES, HalfPlane, Limits, pressure_angle
+from .sizes import RIGHT_ANGLE, HalfPlane, Limit
 from .solve import SolvedCam
 
-
-@dataclass(frozen=True, slots=True)
-class Sharpest:
-    """The least radius of curvature of a curve, m, and where."""
-
-    curve: str
-    rho: float
-    phi: float
+NEAR = 1e-9  # rad, from a section line, where a jump is on it
+FINE = np.radians(0.5)  # between points of a curve
+SAME, IN_DWELL = 1e-9, 0.25  # part of a radius; of the lower dwell, at which the radius of its arc is shown
 
 
 def columns(solved: SolvedCam, phi: Any, side: int = 1) -> list[Columned]:
     """Return the columns at the angles `phi` of the cam, rad; where something jumps, the limits from one side."""
-    phi = np.asarray(phi, float)
-    omega = solved.givens["omega"]
-    found = [Columned("phi", "rad", phi), Columned("t", "s", phi / omega), *_motion(solved, phi, side, omega)]
-    rolling, theta = solved.roller or solved.rocker, pressure_of(solved)
-    if rolling is not None and theta is not None:
-        of = "_rocker" * (solved.rocker is not None)
-        found += _angles(of, theta(phi, side)) + _of_roller(of, rolling.profile, phi, side)
+
+    def points(name: str, places: NDArray[Any]) -> list[tuple[str, str, Array]]:
+        return [(f"{name}.x", "m", places.real), (f"{name}.y", "m", places.imag)]
+
+    phi, omega = np.asarray(phi, float), solved.givens["omega"]
+    s, ds, d2s = solved.motion.at(phi, side)
+    found = [("phi", "rad", phi), ("t", "s", phi / omega), ("s", "m", s), ("ds", "m", ds), ("d2s", "m", d2s)]
+    found += [("v", "m/s", omega * ds), ("a", "m/s^2", omega * omega * d2s)]
+    if solved.rocker is not None:
+        found.append(("psi", "rad", solved.rocker.rocker.motion.at(phi, side)[0]))
+    if solved.rolling is not None:
+        of, profile = "_rocker" * (solved.rocker is not None), solved.rolling.profile
+        pressure = profile.pressure(phi, side)
+        with np.errstate(divide="ignore"):
+            rho = 1.0 / profile.curvature(phi, side)
+        found += [(f"theta{of}", "rad", pressure), (f"gamma{of}", "rad", RIGHT_ANGLE - np.abs(pressure))]
+        found += [*points(f"pitch{of}", profile.pitch(phi, side)), (f"rho_pitch{of}", "m", rho)]
+        found += [*points(f"profile{of}", profile.practical(phi, side)), (f"rho{of}", "m", rho - profile.R)]
     if solved.plate is not None:
         plate = solved.plate.profile
-        found += _point("profile_plate", plate.practical(phi, side))
-        found.append(Columned("rho_plate", "m", np.asarray(plate.bend(phi, side))))
-    return found
-
-
-def _motion(solved: SolvedCam, phi: Array, side: int, omega: float) -> list[Columned]:
-    s, ds, d2s = solved.motion.at(phi, side)
-    found = [Columned("s", "m", s), Columned("ds", "m", ds), Columned("d2s", "m", d2s)]
-    found += [Columned("v", "m/s", omega * ds), Columned("a", "m/s^2", omega * omega * d2s)]
-    if solved.rocker is not None:
-        found.append(Columned("psi", "rad", solved.rocker.rocker.motion.at(phi, side)[0]))
-    return found
-
-
-def _angles(of: str, theta: Array) -> list[Columned]:
-    return [Columned(f"theta{of}", "rad", theta), Columned(f"gamma{of}", "rad", 0.5 * math.pi - np.abs(theta))]
-
-
-def _of_roller(of: str, profile: RollerProfile, phi: Array, side: int) -> list[Columned]:
-    with np.errstate(divide="ignore"):
-        rho = 1.0 / profile.curvature(phi, side)
-    pitch = [*_point(f"pitch{of}", profile.pitch(phi, side)), Columned(f"rho_pitch{of}", "m", rho)]
-    return [*pitch, *_point(f"profile{of}", profile.practical(phi, side)), Columned(f"rho{of}", "m", rho - profile.R)]
-
-
-def _point(name: str, points: NDArray[Any]) -> list[Columned]:
-    return [Columned(f"{name}.x", "m", points.real), Columned(f"{name}.y", "m", points.imag)]
+        found += [*points("profile_plate", plate.practical(phi, side)), ("rho_plate", "m", plate.bend(phi, side))]
+    return [Columned(*column) for column in found]
 
 
 def extremes(solved: SolvedCam) -> list[Ends]:
     """Return the extremes of travel, velocity, acceleration and pressure angles; at jumps both limits count."""
     motion, omega = solved.motion, solved.givens["omega"]
-    weights = {
-        ("s", "m"): (1.0, 0.0, 0.0),
-        ("v", "m/s"): (0.0, omega, 0.0),
-        ("a", "m/s^2"): (0.0, 0.0, omega * omega),
-    }
+    weights = {("s", "m"): (1.0, 0.0, 0.0), ("v", "m/s"): (0.0, omega, 0.0), ("a", "m/s^2"): (0.0, 0.0, omega * omega)}
     found = []
     for (name, unit), parts in weights.items():
-        most, least = motion.maximum(*parts), motion.minimum(*parts)
-        found.append(Ends(name, unit, most.value, most.phi, least.value + 0.0, least.phi))
-    theta = pressure_of(solved)
-    if theta is not None:
-        low, high = (_least(theta, sign, motion.corners) for sign in (1.0, -1.0))
-        name = "theta" if solved.rocker is None else "theta_rocker"
+        most, lowest = motion.maximum(*parts), motion.minimum(*parts)
+        found.append(Ends(name, unit, most.value, most.phi, lowest.value + 0.0, lowest.phi))
+    if solved.rolling is not None:
+        pressure, name = solved.rolling.profile.pressure, "theta" if solved.rocker is None else "theta_rocker"
+        low, high = least(pressure, motion.corners), least(lambda phi, side: -pressure(phi, side), motion.corners)
         found.append(Ends(name, "rad", -high.value, high.phi, low.value, low.phi))
     return found
 
 
-def pressure_of(solved: SolvedCam) -> Function | None:
-    """Return the pressure angle of the roller, rad, as a function of the angle and the side; None without a roller."""
-    if solved.rocker is not None:
-        rocker, at = solved.rocker.rocker, solved.rocker.sizes
-        return lambda phi, side: np.asarray(rocker_pressure(rocker, at, phi, side))
-    if solved.roller is not None:
-        sizes, sense = solved.roller.sizes, solved.cam.sense
-        return lambda phi, side: pressure_angle(solved.motion, sizes, phi, sense, side)
-    return None
-
-
-def _least(theta: Function, sign: float, corners: Sequence[float]) -> Minimum:
-    found = minima(lambda phi, side: sign * theta(phi, side), corners)
-    return min(found, key=lambda minimum: minimum.value)
-
-
-def sharpest(solved: SolvedCam) -> list[Sharpest]:
-    """Return where the pitch curves and the profile of a plate are curved most."""
-    return [Sharpest(curve, profile.sharpest.value, profile.sharpest.phi) for curve, _, profile in profiles(solved)]
-
-
-def undercuts(solved: SolvedCam) -> list[tuple[str, Undercut]]:
-    """Return what profiles do not give of the motion, each with its follower."""
-    return [(follower, cut) for _, follower, profile in profiles(solved) for cut in profile.undercuts]
-
-
-def profiles(solved: SolvedCam) -> Iterator[tuple[str, str, RollerProfile | PlateProfile]]:
-    """Go through the profiles: the curve whose curvature counts, the follower, the profile."""
-    if solved.roller is not None:
-        yield "pitch", ROLLER, solved.roller.profile
-    if solved.rocker is not None:
-        yield "pitch_rocker", ROCKER, solved.rocker.profile
-    if solved.plate is not None:
-        yield "profile_plate", PLATE, solved.plate.profile
+def profiles(solved: SolvedCam) -> list[tuple[str, str, RollerProfile | PlateProfile]]:
+    """Return the profiles: the curve whose curvature counts, the follower, the profile."""
+    named = (("pitch", ROLLER), ("pitch_rocker", ROCKER), ("profile_plate", PLATE))
+    cams = zip(named, (solved.roller, solved.rocker, solved.plate), strict=True)
+    return [(curve, follower, cam.profile) for (curve, follower), cam in cams if cam is not None]
 
 
 def cut_at(solved: SolvedCam, phi: Array) -> list[str]:
     """Return for every angle the followers, joined by +, that rest on a corner of an undercut profile there."""
-    found: list[list[str]] = [[] for _ in phi]
-    for follower, cut in undercuts(solved):
-        inside = np.mod(phi - cut.start, TURN) < cut.end - cut.start
-        for i in np.flatnonzero(inside):
-            if follower not in found[i]:
-                found[i].append(follower)
+    found: list[dict[str, None]] = [{} for _ in phi]
+    for _, follower, profile in profiles(solved):
+        for cut in profile.undercuts:
+            for i in np.flatnonzero(np.mod(phi - cut.start, TURN) < cut.end - cut.start):
+                found[i][follower] = None
     return ["+".join(followers) for followers in found]
 
 
@@ -154,13 +99,6 @@ def lines(solved: SolvedCam) -> list[tuple[int, float, int]]:
         jumps = number > 0 and any(abs(jump.phi - phi) < NEAR for jump in solved.motion.jumps)
         found += [(number, phi, side) for side in ((-1, 1) if jumps else (1,))]
     return found
-
-
-NEAR = 1e-9  # rad, from a section line, where a jump is on it
-Side = tuple[complex, float]  # unit normal into an area, its least component
-FINE = np.radians(0.5)  # between points of a curve
-SAME, IN_DWELL = 1e-9, 0.25  # part of a radius; of the lower dwell, at which the radius of its arc is shown
-UPRIGHT = 0.5 * math.pi
 
 
 def pieces(solved: SolvedCam, phase: Phase) -> list[tuple[Array, Array, Array, Array]]:
@@ -187,10 +125,8 @@ def diagram(solved: SolvedCam, order: int, phases: tuple[Phase, ...]) -> list[li
 
 def over_velocity(solved: SolvedCam, phase: Phase) -> list[complex]:
     """Return S over ds/dphi, to the side to which the cam's sense turns it."""
-    found: list[complex] = []
-    for _, s, ds, _ in pieces(solved, phase):
-        found += (solved.cam.sense * ds + 1j * s).tolist()
-    return found
+    curves = [(solved.cam.sense * ds + 1j * s).tolist() for _, s, ds, _ in pieces(solved, phase)]
+    return [place for curve in curves for place in curve]
 
 
 def over_acceleration(solved: SolvedCam, phase: Phase) -> list[list[complex]]:
@@ -198,10 +134,15 @@ def over_acceleration(solved: SolvedCam, phase: Phase) -> list[list[complex]]:
     return [(d2s + 1j * s).tolist() for _, s, _, d2s in pieces(solved, phase)]
 
 
+def _limits_at(solved: SolvedCam, phi: float) -> list[list[float]]:
+    """Return s, s', s'' at an angle of the cam, after it and before it."""
+    return [[float(value) for value in solved.motion.at(phi, side)] for side in (1, -1)]
+
+
 def touch_of(solved: SolvedCam, plane: HalfPlane) -> complex:
     """Return where a limit touches S over ds/dphi: at a jump the side that reaches farther."""
     sense, normal = solved.cam.sense, plane.normal
-    ends = [[float(v) for v in solved.motion.at(np.array(plane.phi), side)] for side in (1, -1)]
+    ends = _limits_at(solved, plane.phi)
     s, ds, _ = min(ends, key=lambda at: normal.real * sense * -at[1] + normal.imag * at[0])
     return complex(sense * ds, s)
 
@@ -209,9 +150,8 @@ def touch_of(solved: SolvedCam, plane: HalfPlane) -> complex:
 def touch_of_plate(solved: SolvedCam) -> complex:
     """Return where the tangent at 45 degrees touches S over d2s/dphi2."""
     assert solved.plate is not None
-    ends = [solved.motion.at(solved.plate.sizes.phi, side) for side in (1, -1)]
-    s, _, d2s = min(ends, key=lambda at: float(at[0] + at[2]))
-    return complex(float(d2s), float(s))
+    s, _, d2s = min(_limits_at(solved, solved.plate.sizes.phi), key=lambda at: at[0] + at[2])
+    return complex(d2s, s)
 
 
 def outwards(solved: SolvedCam, line: int, phase: str) -> complex:
@@ -236,49 +176,28 @@ def analogue(solved: SolvedCam, line: int) -> complex:
 # The pressure angle.
 
 
-def rolls(solved: SolvedCam) -> bool:
-    """Whether a follower has a roller."""
-    return solved.roller is not None or solved.rocker is not None
-
-
-def rolling(solved: SolvedCam) -> tuple[RollerProfile, Limits]:
-    """Return the profile for a roller, and the limits of its pressure angle."""
-    cam = solved.roller or solved.rocker
-    assert cam is not None
-    return cam.profile, cam.limits
-
-
 def theta(solved: SolvedCam, phi: Any, side: int = 1) -> Array:
     """Return the pressure angle, rad; where the velocity jumps, the limit from one side."""
-    pressure = pressure_of(solved)
-    assert pressure is not None
-    return pressure(phi, side)
+    assert solved.rolling is not None
+    return solved.rolling.profile.pressure(phi, side)
 
 
 def transmission(pressure: float) -> float:
     """Return the transmission angle that goes with a pressure angle, rad."""
-    return UPRIGHT - abs(pressure)
+    return RIGHT_ANGLE - abs(pressure)
 
 
 def courses(solved: SolvedCam) -> list[list[tuple[float, float]]]:
     """Return the smooth pieces of theta over phi, with the limits at both their ends."""
-    found = []
-    for phase in solved.motion.phases[:3]:
-        for phi, *_ in pieces(solved, phase):
-            values = _from_before(partial(theta, solved), phi)
-            found.append(list(zip(phi.tolist(), values.tolist(), strict=True)))
-    return found
+    every = (phi for phase in solved.motion.phases[:3] for phi, *_ in pieces(solved, phase))
+    return [list(zip(phi.tolist(), _from_before(partial(theta, solved), phi).tolist(), strict=True)) for phi in every]
 
 
 def permitted(solved: SolvedCam) -> list[tuple[str, float]]:
     """Return the phases with what theta must not pass in them, rad."""
-    _, limits = rolling(solved)
-    gammas = {RISE: limits.gamma_rise, FALL: limits.gamma_fall}
-    return [
-        (phase, way * solved.cam.sense * (UPRIGHT - gamma))
-        for phase, gamma in gammas.items()
-        for way in SIDES[phase][: 1 + limits.two_sided]
-    ]
+    assert solved.rolling is not None
+    limits = sorted(solved.rolling.limits.each, key=lambda limit: limit.phase != RISE)
+    return [(limit.phase, limit.way * solved.cam.sense * (RIGHT_ANGLE - limit.gamma)) for limit in limits]
 
 
 def pressed(solved: SolvedCam, part: float) -> int:
@@ -296,15 +215,14 @@ def pressed(solved: SolvedCam, part: float) -> int:
 # A rocker about its pivot.
 
 
-def rocker_of(solved: SolvedCam) -> RockerCam:
-    """Return the cam for a rocker."""
+def _rocker(solved: SolvedCam) -> RockerCam:
     assert solved.rocker is not None
     return solved.rocker
 
 
 def analogues(solved: SolvedCam, phase: Phase) -> list[complex]:
     """Return the ends of the analogues, laid off along the rocker; at the last angle of a piece the limit before it."""
-    cam = rocker_of(solved)
+    cam = _rocker(solved)
     found: list[complex] = []
     for phi, *_ in pieces(solved, phase):
         psi, dpsi, _ = _from_before(cam.rocker.motion.at, phi)
@@ -323,13 +241,13 @@ def analogue_end(solved: SolvedCam, line: int, phase: str) -> complex:
 
 def limit_direction(solved: SolvedCam, line: int, phase: str) -> complex:
     """Return the direction of the limit on a section line, downwards."""
-    limits = rocker_of(solved).limits
-    gamma = limits.gamma_rise if phase == RISE else -limits.gamma_fall
-    return downwards(complex(solved.values[f"_arm{line}"]) * cmath.rect(1.0, -solved.cam.sense * gamma))
+    limit = _rocker(solved).limits.each[phase == FALL]
+    return _limit_along(complex(solved.values[f"_arm{line}"]), limit, solved.cam.sense)
 
 
-def downwards(direction: complex) -> complex:
-    """Return a direction or the opposite one, that which points down."""
+def _limit_along(arm: complex, limit: Limit, sense: int) -> complex:
+    """Return the direction of a limit that goes with that of the rocker, the way that points down."""
+    direction = arm * cmath.rect(1.0, -limit.way * sense * limit.gamma)
     return direction if direction.imag < 0.0 else -direction
 
 
@@ -345,32 +263,37 @@ class Bound:
 
 def bounds(solved: SolvedCam) -> Iterator[Bound]:
     """Go through the limits, each where it comes nearest to the centre."""
-    cam = rocker_of(solved)
+    cam = _rocker(solved)
     rocker = cam.rocker
-    for limit in rocker.limits(cam.limits):
+    for limit in cam.limits.each:
         at = tightest(rocker, limit, complex(cam.sizes.e, cam.sizes.s_0))
-        psi, dpsi, _ = (float(v) for v in rocker.motion.at(at, 1 if at < limit.phase.end else -1))
+        side = 1 if at < rocker.motion.phase(limit.phase).end else -1
+        psi, dpsi, _ = (float(v) for v in rocker.motion.at(at, side))
         arm = cmath.rect(1.0, psi)
-        along = downwards(arm * cmath.rect(1.0, -limit.way * rocker.sense * limit.gamma))
-        yield Bound(limit, arm * (cam.sizes.l * (1.0 - rocker.sense * dpsi)), arm, along)
+        end = arm * (cam.sizes.l * (1.0 - rocker.sense * dpsi))
+        yield Bound(limit, end, arm, _limit_along(arm, limit, rocker.sense))
 
 
-def half_planes(solved: SolvedCam) -> Iterator[Side]:
-    """Go through the half planes in which the cam's centre may lie, the rocker's pivot being the origin."""
-    cam = rocker_of(solved)
+def half_planes(solved: SolvedCam) -> Iterator[tuple[complex, float]]:
+    """Go through the half planes in which the cam's centre may lie, the rocker's pivot being the origin.
+
+    Each is the unit normal into it and its least component, m.
+    """
+    cam = _rocker(solved)
+    motion = cam.rocker.motion
     yield -1j, 0.0  # below the rocker's lowest position, and its highest one
-    yield -1j * cmath.rect(1.0, cam.rocker.motion.h), 0.0
-    for limit in cam.rocker.limits(cam.limits):
-        for phi, *_ in pieces(solved, limit.phase):
+    yield -1j * cmath.rect(1.0, motion.h), 0.0
+    for limit in cam.limits.each:
+        for phi, *_ in pieces(solved, motion.phase(limit.phase)):
             for places, side in ((phi[:-1], 1), (phi[-1:], -1)):
-                normal, least = cam.rocker.half_planes(limit, places, side)
-                for n, c in zip(normal.tolist(), least.tolist(), strict=True):
+                normal, lowest = cam.rocker.half_planes(limit, places, side)
+                for n, c in zip(normal.tolist(), lowest.tolist(), strict=True):
                     yield -n, c - n.real * cam.sizes.l
 
 
 def turning(solved: SolvedCam, line: int) -> float:
     """Return how fast a rocker turns on a section line beside the cam, dpsi/dphi, with the sense of the cam."""
-    return float(rocker_of(solved).rocker.motion.at(float(solved.angles[line]))[1]) * solved.cam.sense
+    return float(_rocker(solved).rocker.motion.at(float(solved.angles[line]))[1]) * solved.cam.sense
 
 
 def pole_share(solved: SolvedCam, line: int) -> float:
@@ -382,9 +305,13 @@ def pole_share(solved: SolvedCam, line: int) -> float:
 # The cam that stands still.
 
 
-def up_at(phi: float, sense: int) -> complex:
-    """Return the direction of the follower's axis in the position phi, on the cam that stands still."""
-    return cmath.rect(1.0, UPRIGHT - sense * phi)
+def up_at(solved: SolvedCam, line: int, turned: float = 0.0) -> complex:
+    """Return the direction of the follower's axis, rad past a section line, on the cam that stands still."""
+    return _up_at(float(solved.angles[line]) + turned, solved.cam.sense)
+
+
+def _up_at(phi: float, sense: int) -> complex:
+    return cmath.rect(1.0, RIGHT_ANGLE - sense * phi)
 
 
 def on_circle(e: float, radius: float, up: complex) -> complex:
@@ -397,22 +324,22 @@ def rests(motion: Motion) -> bool:
     return motion.lower.lasts and motion.lower.length >= motion.upper.length
 
 
-def dwelling(motion: Motion, sense: int) -> float:
+def dwelling(solved: SolvedCam) -> float:
     """Return the direction in the middle of the longer dwell, or of the rise where there is none, rad."""
+    motion = solved.motion
     longer = motion.lower if rests(motion) or not motion.upper.lasts else motion.upper
     low, high = (longer.start, longer.end) if longer.lasts else (0.0, motion.rise.end)
-    return cmath.phase(up_at(0.5 * (low + high), sense))
+    return cmath.phase(_up_at(0.5 * (low + high), solved.cam.sense))
 
 
-def offset_places(solved: SolvedCam) -> tuple[complex, complex, complex] | None:
+def offset_places(solved: SolvedCam) -> tuple[complex, ...]:
     """Return the cam's centre at the least and the greatest offset that a given r_0 permits, and at the chosen one."""
     roller = solved.roller
     if roller is None or roller.offsets is None:
-        return None
+        return ()
     radius = roller.sizes.r_0
-    angles = (math.asin(e / radius) - UPRIGHT for e in (roller.offsets.least, roller.offsets.most, roller.sizes.e))
-    low, high, at = (cmath.rect(radius, angle) for angle in angles)
-    return low, high, at
+    angles = (math.asin(e / radius) - RIGHT_ANGLE for e in (roller.offsets.least, roller.offsets.most, roller.sizes.e))
+    return tuple(cmath.rect(radius, angle) for angle in angles)
 
 
 @dataclass(frozen=True, slots=True)
@@ -430,7 +357,8 @@ class SharpestPlace:
 
 def sharpest_place(solved: SolvedCam) -> SharpestPlace | None:
     """Return the place of the least radius of curvature of the pitch curve, where it is convex anywhere."""
-    profile, lower = rolling(solved)[0], solved.motion.lower
+    assert solved.rolling is not None
+    profile, lower = solved.rolling.profile, solved.motion.lower
     found = profile.sharpest
     if not 0.0 < found.value < math.inf:
         return None
@@ -441,8 +369,3 @@ def sharpest_place(solved: SolvedCam) -> SharpestPlace | None:
     side = 1 if kappa[0] >= kappa[1] else -1
     place, normal = complex(profile.pitch(phi, side)), complex(profile.normal(phi, side))
     return SharpestPlace(place, normal, place - normal * found.value, phi != found.phi)
-
-
-def pitch_curve(solved: SolvedCam) -> tuple[complex, ...]:
-    """Return the pitch curve of a cam for a roller, closed without a repeated point."""
-    return tuple(rolling(solved)[0].pitch(solved.motion.samples()[:-1]).tolist())

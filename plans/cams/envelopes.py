@@ -13,16 +13,32 @@ A neck is where a position cuts what another, far from it in phi, has left, howe
 
 from __future__ import annotations
 
+import math
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Protocol
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..laws import cross
-from .motion import TURN, Motion, Places, minima, refined
+from .motion import TURN, Extreme, Motion, Places, minima, refined
 
+Array = NDArray[np.float64]
+Points = NDArray[Any]  # complex
+Ends = tuple[float, float]
+OUTLINE = math.radians(0.5)  # between points of a profile
+AROUND, CLOSE = 4.0, 160  # how far around a part that runs backwards it is looked at closely, in how many places
+LEAST = 1e-3  # rad, length of such a part that has none
+ARC = 24  # cells of an arc
+OUTWARD = 2  # cells beyond which no position between two that were looked at cuts
+MEETING = 1e-9  # part of the size within which two branches meet
+WITHIN = 400  # places between the ends of an undercut
+STEPS, HALVINGS, CHORDS = 30, 60, 32
+INSIDE = 1e-12  # part of the size by which a point is inside a position: less is rounding
+ROWS = 256  # points compared with all positions at once
 CELLS = 360  # of a turn, in which envelope and positions are looked at
 APART = 3  # cells from a position to those that are not next to it
 ZOOM = np.linspace(-1.0, 1.0, 5)
@@ -30,17 +46,73 @@ ROUNDS = 30  # by which a cell is halved: to 1e-11 rad
 HALVED = 0.5 ** np.arange(24)  # of a cell, around a neck that is looked at closely
 
 
-class Cut(Protocol):
-    """An envelope, and how deep points of it are inside the follower."""
+@dataclass(frozen=True, slots=True)
+class Undercut:
+    """A part of the motion that the profile does not give: from `start` to `end` the follower rests on a corner."""
 
+    # angles of the cam, rad; the start is within the turn, the end may be beyond it
+    start: float
+    end: float
+    corner: complex  # the corner of the profile, m, in the frame of the cam at phi = 0
+    along: tuple[float, float]  # where the profile leaves the envelope and comes back to it: places of the `Curve`
+    # the greatest travel that is lost, and where
+    lost: float
+    phi_lost: float
+
+
+class Envelope(ABC):
+    """What a follower's positions envelop on a cam that stands still; `side` is that of a jump, +1 the right."""
+
+    motion: Motion  # that the follower should have
+
+    @abstractmethod
     def practical(self, phi: Any, side: int = 1) -> Points:
-        """Return the points of the envelope, m."""
+        """Return the points of the envelope, m, loops and all."""
 
+    @abstractmethod
+    def tangent(self, phi: Any, side: int = 1) -> Points:
+        """Return their derivative."""
+
+    @abstractmethod
+    def bend(self, phi: Any, side: int = 1) -> Array:
+        """Return a number that is negative where the envelope runs backwards."""
+
+    @abstractmethod
     def depth(self, points: Any, phi: Any) -> Array:
         """Return how deep points of the cam are inside the follower at the angles `phi`, m; negative outside."""
 
+    @abstractmethod
+    def seat(self, corner: complex, phi: Any) -> Array:
+        """Return the travel at which the follower rests on a corner of the cam."""
 
-def necks(envelope: Cut, inside: float) -> list[tuple[float, float]]:
+    @abstractmethod
+    def across(self, phi: float, part: Any) -> tuple[Points, Points]:
+        """Return points by which the envelope goes on where the velocity jumps up, and their derivative.
+
+        They lie on an arc or a flat, at the `part` 0 ... 1 of it.
+        """
+
+    @cached_property
+    @abstractmethod
+    def sharpest(self) -> Extreme:
+        """The least radius of curvature of the pitch curve where it is convex, or under a plate, m, and where."""
+
+    @property
+    def rho_min(self) -> float:
+        """The least radius of curvature, m."""
+        return self.sharpest.value
+
+    @cached_property
+    def undercuts(self) -> list[Undercut]:
+        """What the profile does not give of the motion."""
+        return undercuts(self)
+
+    def outline(self, most: float = OUTLINE) -> Points:
+        """Return points of the profile as it is cut, in order of phi, at most `most` rad apart, without loops."""
+        return outline(self, self.undercuts, most)
+
+
+def necks(envelope: Envelope, inside: float) -> list[tuple[float, float]]:
     """Return the deepest cuts of positions into places of the envelope that are not next to them.
 
     The depth is looked at in all cells; where it is greatest among its neighbours, and might be positive between
@@ -66,7 +138,7 @@ def necks(envelope: Cut, inside: float) -> list[tuple[float, float]]:
     return [place for place, value in found if value > inside]
 
 
-def _deepest(envelope: Cut, place: float, position: float) -> tuple[tuple[float, float], float]:
+def _deepest(envelope: Envelope, place: float, position: float) -> tuple[tuple[float, float], float]:
     """Return where around a place and a position the depth is greatest, and the depth, m."""
     width, value = TURN / CELLS, -np.inf
     for _ in range(ROUNDS):
@@ -76,71 +148,6 @@ def _deepest(envelope: Cut, place: float, position: float) -> tuple[tuple[float,
         place, position, value = float(places[i]), float(positions[j]), float(depth[i, j])
         width *= 0.5
     return (place % TURN, position % TURN), value
-
-
-def around(found: list[tuple[float, float]]) -> Iterator[Array]:
-    """Go through the angles at which an envelope is looked at around its necks, ever closer to them."""
-    closer = (TURN / CELLS) * HALVED
-    for ends in found:
-        for phi in ends:
-            yield np.concatenate((phi - closer, [phi], phi + closer))
-
-
-Array = NDArray[np.float64]
-Points = NDArray[Any]  # complex
-Ends = tuple[float, float]
-AROUND, CLOSE = 4.0, 160  # how far around a part that runs backwards it is looked at closely, in how many places
-LEAST = 1e-3  # rad, length of such a part that has none
-ARC = 24  # cells of an arc
-OUTWARD = 2  # cells beyond which no position between two that were looked at cuts
-MEETING = 1e-9  # part of the size within which two branches meet
-WITHIN = 400  # places between the ends of an undercut
-STEPS, HALVINGS, CHORDS = 30, 60, 32
-INSIDE = 1e-12  # part of the size by which a point is inside a position: less is rounding
-ROWS = 256  # points compared with all positions at once
-
-
-class Envelope(Protocol):
-    """What a follower's positions envelop on a cam that stands still; `side` is that of a jump, +1 the right."""
-
-    @property
-    def motion(self) -> Motion:
-        """The motion that the follower should have."""
-
-    def practical(self, phi: Any, side: int = 1) -> Points:
-        """Return the points of the envelope, m."""
-
-    def tangent(self, phi: Any, side: int = 1) -> Points:
-        """Return their derivative."""
-
-    def bend(self, phi: Any, side: int = 1) -> Array:
-        """Return a number that is negative where the envelope runs backwards."""
-
-    def depth(self, points: Any, phi: Any) -> Array:
-        """Return how deep points of the cam are inside the follower at the angles `phi`, m; negative outside."""
-
-    def seat(self, corner: complex, phi: Any) -> Array:
-        """Return the travel at which the follower rests on a corner of the cam."""
-
-    def across(self, phi: float, part: Any) -> tuple[Points, Points]:
-        """Return points by which the envelope goes on where the velocity jumps up, and their derivative.
-
-        They lie on an arc or a flat, at the `part` 0 ... 1 of it.
-        """
-
-
-@dataclass(frozen=True, slots=True)
-class Undercut:
-    """A part of the motion that the profile does not give: from `start` to `end` the follower rests on a corner."""
-
-    # angles of the cam, rad; the start is within the turn, the end may be beyond it
-    start: float
-    end: float
-    corner: complex  # the corner of the profile, m, in the frame of the cam at phi = 0
-    along: tuple[float, float]  # where the profile leaves the envelope and comes back to it: places of the `Curve`
-    # the greatest travel that is lost, and where
-    lost: float
-    phi_lost: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -248,14 +255,11 @@ class _Traced:
         points = np.concatenate([places.values(envelope.practical), *(points for _, points in arcs)])
         order = np.argsort(t, kind="stable")
         t, points = t[order], points[order]
-        cut = _contained(envelope, points, places.phi)
+        inside = INSIDE * float(np.max(np.abs(points)))
+        blocks = (points[k : k + ROWS, np.newaxis] for k in range(0, len(points), ROWS))
+        cut = np.concatenate([np.max(envelope.depth(block, places.phi), axis=1) > inside for block in blocks])
         cut[np.argmin(np.abs(points))] = False
         return cls(curve, t, points, cut)
-
-    def place(self, i: int) -> float:
-        """Return a place by its number, which may be of another turn."""
-        turns, k = divmod(i, len(self.t))
-        return float(self.t[k]) + turns * self.curve.length
 
     def ring(self) -> list[tuple[float, float]]:
         """Return where the curve round the centre leaves the envelope and comes back, in order."""
@@ -285,9 +289,13 @@ class _Traced:
 
     def _crossing(self, last: int, first: int) -> tuple[float, tuple[float, float]]:
         """Return how far apart two branches stay, m, and where they cross, near their cut ends."""
-        before = self.place(last - OUTWARD), self.place(last + 1)
-        after = self.place(first - 1), self.place(first + OUTWARD)
-        middle = 0.5 * (self.place(last) + before[1]), 0.5 * (after[0] + self.place(first))
+
+        def place(i: int) -> float:  # it may be one of another turn
+            turns, k = divmod(i, len(self.t))
+            return float(self.t[k]) + turns * self.curve.length
+
+        before, after = (place(last - OUTWARD), place(last + 1)), (place(first - 1), place(first + OUTWARD))
+        middle = 0.5 * (place(last) + before[1]), 0.5 * (after[0] + place(first))
         gap, ends = _newton(self.curve, before, after, middle)
         if gap < MEETING * float(np.max(np.abs(self.points))):
             return gap, ends
@@ -321,13 +329,6 @@ def _chords(curve: Curve, before: Ends, after: Ends) -> Iterator[Ends]:
         yield 0.5 * float(a[i] + a[i + 1]), 0.5 * float(b[j] + b[j + 1])
 
 
-def _contained(envelope: Envelope, points: Points, phi: Array) -> NDArray[np.bool_]:
-    """Return which points of an envelope are inside the follower at some of the angles `phi`."""
-    inside = INSIDE * float(np.max(np.abs(points)))
-    blocks = (points[k : k + ROWS, np.newaxis] for k in range(0, len(points), ROWS))
-    return np.concatenate([np.max(envelope.depth(block, phi), axis=1) > inside for block in blocks])
-
-
 def undercuts(envelope: Envelope) -> list[Undercut]:
     """Return what the profile does not give of the motion, in order; nothing where no position cuts another's part."""
     parts, corners = backward(envelope), envelope.motion.corners
@@ -337,7 +338,9 @@ def undercuts(envelope: Envelope) -> list[Undercut]:
         return []
     rooms = [AROUND * max(end - begin, LEAST) for begin, end in parts]
     close = [np.linspace(a - room, b + room, CLOSE) for (a, b), room in zip(parts, rooms, strict=True)]
-    traced = _Traced.of(envelope, Places.between(corners, np.concatenate([*close, *around(narrow)])))
+    closer = (TURN / CELLS) * HALVED
+    close += [np.concatenate((phi - closer, [phi], phi + closer)) for ends in narrow for phi in ends]
+    traced = _Traced.of(envelope, Places.between(corners, np.concatenate(close)))
     ring = traced.ring()
     edges = [traced.curve.at(a, -1)[0] for a, _ in ring]
     found = [_undercut(traced.curve, ends, k, edges) for k, ends in enumerate(ring)]

@@ -21,22 +21,23 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...scales.errors import InputError
 from .cam import Cam
-from .construction import OUTWARDS, phase_of, side_of
-from .motion import FALL, RISE, Array, Division, Extreme, Minimum, Motion, Phase, minima, motion_of
-from .profile import PlateProfile, RollerProfile, StraightPath
+from .envelopes import Points
+from .motion import FALL, RISE, Array, Division, Extreme, Function, Motion, least, minima, motion_of
+from .profile import PlateProfile, RockerPath, RollerProfile, StraightPath
 from .sizes import (
-    BACK,
+    PHASE_OF,
     RIGHT_ANGLE,
     HalfPlane,
+    Limit,
     Limits,
     Nearest,
     NoOffset,
     Offsets,
     PlateSizes,
+    RockerSizes,
     RollerSizes,
     apex,
     central,
@@ -48,23 +49,9 @@ from .sizes import (
     wedge,
 )
 
-Points = NDArray[Any]  # complex
 ROUNDS = 40
 REACHED = 1e-12  # part of the rocker's length by which a position may be outside its limit
 LOWEST, HIGHEST = "lowest", "highest"  # the cam stays below the rocker
-
-
-@dataclass(frozen=True, slots=True)
-class RockerSizes:
-    """Sizes of a cam with a rocker of length l, m; `on` names the limits that it just reaches."""
-
-    r_0: float
-    l_OC: float
-    l: float
-    e: float
-    s_0: float
-    on: tuple[str, ...] = ()
-    r_0_most: float = math.inf  # the greatest r_0 that the limits permit at this l_OC
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,16 +59,6 @@ class NoPlace:
     """Limits, one alone or several together, that permit no place of the cam's centre."""
 
     limits: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Limit:
-    """A limit of the pressure angle in one phase; `way` is +1 where it is to the side of a rise, -1 of a fall."""
-
-    name: str
-    phase: Phase
-    gamma: float
-    way: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,39 +77,6 @@ class Rocker:
         least = self.l * (sine * way * (self.sense * (np.cos(psi) - 1.0) + dpsi) - cosine * np.sin(psi))
         return normal, least
 
-    def limits(self, limits: Limits) -> list[Limit]:
-        """Return the limits in rise and fall, and to the other sides if wanted."""
-        ways = ((1, ""), (-1, BACK))[: 1 + limits.two_sided]
-        phases = ((self.motion.rise, limits.gamma_rise, 1), (self.motion.fall, limits.gamma_fall, -1))
-        return [Limit(p.name + end, p, gamma, push * up) for push, end in ways for p, gamma, up in phases]
-
-
-@dataclass(frozen=True, slots=True)
-class RockerPath:
-    """The path of a rocker's roller, for `RollerProfile`."""
-
-    motion: Motion
-    sizes: RockerSizes
-
-    @property
-    def pivot(self) -> complex:
-        """The rocker's pivot, seen from the cam's centre."""
-        return complex(self.sizes.e - self.sizes.l, self.sizes.s_0)
-
-    def centre(self, phi: Any, side: int = 1) -> tuple[Points, Points, Points]:
-        """Return q, q', q''."""
-        psi, dpsi, d2psi = self.motion.at(phi, side)
-        arm = self.sizes.l * (np.cos(psi) + 1j * np.sin(psi))
-        return self.pivot + arm, 1j * dpsi * arm, (1j * d2psi - dpsi * dpsi) * arm
-
-    def seat(self, corner: Points, R: float) -> Array:
-        """Return the angle at which a roller of radius R rests on points of the frame; NaN where it passes them."""
-        reach = corner - self.pivot
-        far, l = np.abs(reach), self.sizes.l
-        with np.errstate(invalid="ignore"):
-            psi: Array = np.arctan2(reach.imag, reach.real) + np.arccos((l * l + far * far - R * R) / (2.0 * l * far))
-        return psi
-
 
 def smallest_rocker(rocker: Rocker, limits: Limits) -> RockerSizes | NoPlace:
     """Return the sizes with the least r_0, the place of the cam's centre being free, or why there is none.
@@ -143,10 +87,9 @@ def smallest_rocker(rocker: Rocker, limits: Limits) -> RockerSizes | NoPlace:
     swing, l = rocker.motion.h, rocker.l
     high = complex(-math.sin(swing), math.cos(swing))
     planes = [HalfPlane(LOWEST, 1j, 0.0), HalfPlane(HIGHEST, high, -l * math.sin(swing))]
-    wanted = rocker.limits(limits)
     found = Nearest(0j, ())
     for _ in range(ROUNDS):
-        further = [plane for limit in wanted for plane in _outside(rocker, limit, found.place)]
+        further = [plane for limit in limits.each for plane in _outside(rocker, limit, found.place)]
         if not further:
             break
         planes += further
@@ -170,15 +113,14 @@ def _opposed(planes: list[HalfPlane]) -> tuple[str, ...]:
 
 def _outside(rocker: Rocker, limit: Limit, place: complex) -> Iterator[HalfPlane]:
     """Go through the positions that most lack their limit."""
-
     for worst in _slacks(rocker, limit, place):
         if worst.value < -REACHED * rocker.l:
-            side = 1 if worst.phi < limit.phase.end else -1
+            side = 1 if worst.phi < rocker.motion.phase(limit.phase).end else -1
             normal, least = rocker.half_planes(limit, worst.phi, side)
             yield HalfPlane(limit.name, complex(normal), float(least), worst.phi)
 
 
-def _slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Minimum]:
+def _slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Extreme]:
     """Return the least distances of a place from the limit, m, negative outside of it, and where they are."""
 
     def slack(phi: Any, side: int) -> Array:
@@ -186,21 +128,19 @@ def _slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Minimum]:
         room: Array = normal.real * place.real + normal.imag * place.imag - least
         return room
 
-    return minima(slack, limit.phase.corners)
+    return minima(slack, rocker.motion.phase(limit.phase).corners)
 
 
 def tightest(rocker: Rocker, limit: Limit, place: complex) -> float:
     """Return the angle of the cam at which a place e + i s_0 comes nearest to a limit, rad."""
-    return min(_slacks(rocker, limit, place), key=lambda one: one.value).phi
+    return min(_slacks(rocker, limit, place), key=lambda slack: slack.value).phi
 
 
 def smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> RockerSizes | NoPlace:
     """Return the sizes with the least r_0 at a given distance of the pivot, or the limits that permit none."""
     least, most = (0.0, LOWEST), (math.pi - rocker.motion.h, HIGHEST)
-    for limit in rocker.limits(limits):
-        bounds = _Bounds(rocker, limit, l_OC)
-        ends = (bounds.free, bounds.low, bounds.high)
-        free, low, high = (min(one.value for one in minima(end, limit.phase.corners)) for end in ends)
+    for limit in limits.each:
+        free, low, high = _angles_permitted(rocker, limit, l_OC)
         if free < -1.0:
             return NoPlace((limit.name,))
         least, most = max(least, (-low, limit.name)), min(most, (high, limit.name))
@@ -211,61 +151,42 @@ def smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> RockerSiz
     return RockerSizes(abs(place), l_OC, rocker.l, place.real, place.imag, (name,), abs(farthest))
 
 
-@dataclass(frozen=True, slots=True)
-class _Bounds:
-    """Between which angles beta the positions of a rocker permit the cam's centre at the distance d of the pivot.
+def _angles_permitted(rocker: Rocker, limit: Limit, d: float) -> tuple[float, ...]:
+    """Return the least -q of the positions, and between which angles -beta and beta they permit the cam's centre.
 
-    With x = beta + psi a limit is sin(x - way sense gamma) >= q.
+    With x = beta + psi a limit at the distance d of the pivot is sin(x - way sense gamma) >= q; a -q below -1 permits
+    nothing.
     """
 
-    rocker: Rocker
-    limit: Limit
-    d: float
-
-    def sine(self, phi: Any, side: int = 1) -> Array:
-        """Return q."""
-        _, dpsi, _ = self.rocker.motion.at(phi, side)
-        way = self.limit.way
-        q: Array = (self.rocker.l / self.d) * math.sin(self.limit.gamma) * way * (dpsi - self.rocker.sense)
+    def sine(phi: Any, side: int) -> Array:
+        q: Array = (rocker.l / d) * math.sin(limit.gamma) * limit.way * (rocker.motion.at(phi, side)[1] - rocker.sense)
         return q
 
-    def free(self, phi: Any, side: int) -> Array:
-        """Return -q: below -1 nothing is permitted."""
-        return -self.sine(phi, side)
+    def shift(phi: Any, side: int) -> Array:
+        turned: Array = rocker.motion.at(phi, side)[0] - limit.way * rocker.sense * limit.gamma
+        return turned
 
-    def low(self, phi: Any, side: int) -> Array:
-        """Return the least beta of the positions, negative so that the greatest of them is a minimum."""
-        return self._shift(phi, side) - np.arcsin(np.clip(self.sine(phi, side), -1.0, 1.0))
+    def arc(phi: Any, side: int) -> Array:
+        return np.asarray(np.arcsin(np.clip(sine(phi, side), -1.0, 1.0)))
 
-    def high(self, phi: Any, side: int) -> Array:
-        """Return the greatest beta of the positions."""
-        return math.pi - self._shift(phi, side) - np.arcsin(np.clip(self.sine(phi, side), -1.0, 1.0))
-
-    def _shift(self, phi: Any, side: int) -> Array:
-        shift: Array = self.rocker.motion.at(phi, side)[0] - self.limit.way * self.rocker.sense * self.limit.gamma
-        return shift
-
-
-def rocker_pressure(rocker: Rocker, sizes: RockerSizes, phi: Any, side: int = 1) -> Array:
-    """Return the pressure angle theta, rad: from the roller's velocity in the rise to the normal, its sign as usual."""
-    psi, dpsi, _ = rocker.motion.at(phi, side)
-    cosine, sine = np.cos(psi), np.sin(psi)
-    x, y = sizes.e - sizes.l, sizes.s_0  # the pivot
-    across = rocker.l * (rocker.sense * dpsi - 1.0) - (x * cosine + y * sine)
-    theta: Array = np.arctan2(across, y * cosine - x * sine)
-    return theta
+    ends: tuple[Function, ...] = (
+        lambda phi, side: -sine(phi, side),
+        lambda phi, side: shift(phi, side) - arc(phi, side),
+        lambda phi, side: math.pi - shift(phi, side) - arc(phi, side),
+    )
+    corners = rocker.motion.phase(limit.phase).corners
+    return tuple(least(end, corners).value for end in ends)
 
 
-def least_rocker_transmission(rocker: Rocker, sizes: RockerSizes, phase: Phase, two_sided: bool = False) -> Extreme:
-    """Return the least transmission angle of the rise or the fall, rad, and where it is."""
-    way = rocker.sense * (1 if phase.name == RISE else -1)
+def least_rocker_transmission(profile: RollerProfile, phase: str, two_sided: bool = False) -> Extreme:
+    """Return the least transmission angle of the rise or the fall with a rocker, rad, and where it is."""
+    way = profile.sense * (1 if phase == RISE else -1)
 
     def gamma(phi: Any, side: int) -> Array:
-        theta = rocker_pressure(rocker, sizes, phi, side)
+        theta = profile.pressure(phi, side)
         return RIGHT_ANGLE - (np.abs(theta) if two_sided else way * theta)
 
-    least = min(minima(gamma, phase.corners), key=lambda one: one.value)
-    return Extreme(least.value, least.phi, phase.name)
+    return least(gamma, profile.motion.phase(phase).corners)
 
 
 Values = Mapping[str, float]
@@ -275,33 +196,40 @@ ROUNDING = 1e-12  # part of a length by which it may be less than another, and t
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RollerCam:
-    """A cam for a roller: its sizes, those where the limit tangents meet, and the offsets permitted at a given r_0.
+class RollingCam:
+    """A cam for a follower with a roller: its sizes, its profile, the limits of the pressure angle.
 
-    `permitted` is the least r_0 at an offset that is given together with r_0, and the greatest, which is infinite.
+    `permitted` is the least r_0 at the offset, or at the l_OC, that is given together with r_0, and the greatest; None
+    where they are not.
     """
 
     limits: Limits
-    sizes: RollerSizes
-    by_tangents: RollerSizes
+    sizes: RollerSizes | RockerSizes
     profile: RollerProfile
-    offsets: Offsets | None = None
     permitted: Range | None = None
 
-    def givens(self, cam: Cam) -> dict[str, float]:
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RollerCam(RollingCam):
+    """A cam for a roller on a line, the sizes where the limit tangents meet, the offsets permitted at a given r_0."""
+
+    sizes: RollerSizes
+    by_tangents: RollerSizes
+    offsets: Offsets | None = None
+
+    def givens(self) -> dict[str, float]:
         """Return the sizes as parts of the stroke, to which they are proportional, and the limits' tangents."""
-        motion, sizes = self.profile.motion, self.sizes
+        motion, sizes, sense = self.profile.motion, self.sizes, self.profile.sense
         found = {"_e_part": sizes.e / motion.h, "_s_0_part": sizes.s_0 / motion.h}
         found["_rho_part"] = self.profile.rho_min / motion.h
         if self.offsets is not None:
             found |= {"_e_least": self.offsets.least / motion.h, "_e_most": self.offsets.most / motion.h}
-        gammas = {RISE: self.limits.gamma_rise, FALL: self.limits.gamma_fall}
-        for limit in limits_of(cam):
-            gamma, side = gammas[phase_of(limit)], side_of(limit, cam.sense)
-            found |= {f"_slope_{limit}": side / math.tan(gamma), f"_side_{limit}": float(side)}
-            found[f"_inclination_{limit}"] = gamma if side > 0 else math.pi - gamma
+        for limit in self.limits.each:
+            name, gamma, side = limit.name, limit.gamma, limit.way * sense
+            found |= {f"_slope_{name}": side / math.tan(gamma), f"_side_{name}": float(side)}
+            found[f"_inclination_{name}"] = gamma if side > 0 else math.pi - gamma
         for phase in (RISE, FALL):
-            least = least_transmission(motion, sizes, phase, cam.sense, cam.two_sided)
+            least = least_transmission(motion, sizes, phase, sense, self.limits.two_sided)
             found[f"_gamma_{phase}_least"] = min(least.value, RIGHT_ANGLE)  # more: pressed to the other side alone
         return found
 
@@ -320,40 +248,30 @@ class PlateCam:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RockerCam:
-    """A cam for a rocker with a roller; `rocker` has the motion as angles, rad.
+class RockerCam(RollingCam):
+    """A cam for a rocker with a roller; `rocker` has the motion as angles, rad."""
 
-    `permitted` is the least and the greatest r_0 at an l_OC that is given together with r_0, None where no r_0 is.
-    """
-
-    limits: Limits
     rocker: Rocker
     sizes: RockerSizes
-    profile: RollerProfile
-    permitted: Range | None = None
 
-    def givens(self, cam: Cam, angles: Array, division: Division) -> dict[str, float]:
+    def givens(self, angles: Array, division: Division) -> dict[str, float]:
         """Return the rocker's positions, the directions of the limits, and sizes as parts of its length."""
         psi, dpsi, _ = self.rocker.motion.at(angles, -1)
-        pivot, length = RockerPath(self.rocker.motion, self.sizes).pivot, self.sizes.l
-        found = {"_centre_x_part": -pivot.real / length, "_centre_y_part": -pivot.imag / length}
+        sizes, length, sense = self.sizes, self.sizes.l, self.rocker.sense
+        x, y = sizes.e - length, sizes.s_0  # the pivot
+        found = {"_centre_x_part": -x / length, "_centre_y_part": -y / length}
         found["_rho_part"] = self.profile.rho_min / length
-        start = math.atan2(pivot.imag, pivot.real)
+        start = math.atan2(y, x)
         for i in division.lines:
-            turned = cam.sense * float(angles[i])
-            found |= {f"_swing{i}": float(psi[i]), f"_analogue{i}": cam.sense * float(dpsi[i])}
+            turned = sense * float(angles[i])
+            found |= {f"_swing{i}": float(psi[i]), f"_analogue{i}": sense * float(dpsi[i])}
             found |= {f"_arm_angle{i}": float(psi[i]) - turned, f"_pivot_angle{i}": start - turned}
-            way, gamma = (1, self.limits.gamma_rise) if i in division.rise else (-1, self.limits.gamma_fall)
-            found[f"_limit_angle{i}"] = float(psi[i]) - way * cam.sense * gamma
-        for phase in (self.rocker.motion.rise, self.rocker.motion.fall):
-            least = least_rocker_transmission(self.rocker, self.sizes, phase, cam.two_sided)
-            found[f"_gamma_{phase.name}_least"] = min(least.value, RIGHT_ANGLE)
+            limit = self.limits.each[i not in division.rise]
+            found[f"_limit_angle{i}"] = float(psi[i]) - limit.way * sense * limit.gamma
+        for phase in (RISE, FALL):
+            least = least_rocker_transmission(self.profile, phase, self.limits.two_sided)
+            found[f"_gamma_{phase}_least"] = min(least.value, RIGHT_ANGLE)
         return found
-
-
-def limits_of(cam: Cam) -> tuple[str, ...]:
-    """Return the names of the limits of the pressure angle."""
-    return (RISE, FALL, RISE + BACK, FALL + BACK) if cam.two_sided else (RISE, FALL)
 
 
 def roller_cam(cam: Cam, motion: Motion, values: Values) -> RollerCam:
@@ -438,7 +356,11 @@ def rocker_cam(cam: Cam, values: Values) -> RockerCam:
         found, best = _given_sizes(rocker.l, distance, r_0), smallest_rocker_at(rocker, limits, distance)
         permitted = None if isinstance(best, NoPlace) else (best.r_0, best.r_0_most)
     if isinstance(found, NoPlace):
-        raise _no_place(rocker, limits, distance, found)
+        free = found if distance is None else smallest_rocker(rocker, limits)
+        if distance is None or isinstance(free, NoPlace):
+            raise InputError("cam-no-place", limits=_names(found if isinstance(free, RockerSizes) else free))
+        at = {"l_OC": f"{distance * MILLI:.6g}", "best": f"{free.l_OC * MILLI:.6g}"}
+        raise InputError("cam-no-place-at", limits=_names(found), **at)
     profile = RollerProfile(RockerPath(rocker.motion, found), values["R_roller"], cam.sense)
     return RockerCam(limits=limits, rocker=rocker, sizes=found, profile=profile, permitted=permitted)
 
@@ -453,17 +375,7 @@ def _given_sizes(l: float, l_OC: float, r_0: float) -> RockerSizes:
     return RockerSizes(r_0, l_OC, l, place.real, place.imag)
 
 
-def _no_place(rocker: Rocker, limits: Limits, l_OC: float | None, found: NoPlace) -> InputError:
-    """Tell which limits leave no place, at a given l_OC the one that the smallest cam has."""
-    free = found if l_OC is None else smallest_rocker(rocker, limits)
-    if l_OC is None or isinstance(free, NoPlace):
-        assert isinstance(free, NoPlace)
-        return InputError("cam-no-place", limits=_names(free))
-    distances = {"l_OC": f"{l_OC * MILLI:.6g}", "best": f"{free.l_OC * MILLI:.6g}"}
-    return InputError("cam-no-place-at", limits=_names(found), **distances)
-
-
 def _names(found: NoPlace) -> str:
     """Return the givens that leave no place."""
-    names = (f"gamma_{phase_of(name)}" if phase_of(name) in OUTWARDS else "psi" for name in found.limits)
+    names = (f"gamma_{PHASE_OF[name]}" if name in PHASE_OF else "psi" for name in found.limits)
     return ", ".join(dict.fromkeys(names))

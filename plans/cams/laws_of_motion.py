@@ -15,10 +15,9 @@ Source: Artobolevsky, Theory of mechanisms and machines; Rothbart, Cam Design Ha
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise, zip_longest
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,16 +49,6 @@ class Smooth:
         """Whether there is a wave."""
         return self.sine != 0.0 or self.cosine != 0.0
 
-    def at(self, x: Any) -> Any:
-        """Return the values at the places `x`, also beyond the ends."""
-        t = np.asarray(x, float) - self.origin
-        value = np.full_like(t, self.coefficients[-1])
-        for coefficient in self.coefficients[-2::-1]:
-            value = value * t + coefficient
-        if self.waves:
-            value = value + (self.sine * np.sin(self.rate * t) + self.cosine * np.cos(self.rate * t))
-        return value
-
     def value(self, x: float) -> float:
         """Return the value at one place."""
         t, value = x - self.origin, 0.0
@@ -90,13 +79,8 @@ class Smooth:
     def plus(self, other: Smooth) -> Smooth:
         """Return the sum with another curve of the same piece."""
         powers = tuple(a + b for a, b in zip_longest(self.coefficients, other.coefficients, fillvalue=0.0))
-        return replace(
-            self,
-            coefficients=powers,
-            sine=self.sine + other.sine,
-            cosine=self.cosine + other.cosine,
-            rate=self.rate or other.rate,
-        )
+        sine, cosine = self.sine + other.sine, self.cosine + other.cosine
+        return replace(self, coefficients=powers, sine=sine, cosine=cosine, rate=self.rate or other.rate)
 
     def stretched(self, length: float, start: float) -> Smooth:
         """Return the curve over x = start + length * (the present x)."""
@@ -104,38 +88,40 @@ class Smooth:
         low, high, origin = (start + length * x for x in (self.low, self.high, self.origin))
         return replace(self, low=low, high=high, origin=origin, coefficients=powers, rate=self.rate / length)
 
-    def mirrored(self, span: float = 1.0) -> Smooth:
-        """Return the curve run through backwards: over x = span - (the present x)."""
+    def mirrored(self) -> Smooth:
+        """Return the curve run through backwards: over x = 1 - (the present x)."""
         powers = tuple(c * (-1.0) ** k for k, c in enumerate(self.coefficients))
-        low, high, origin = span - self.high, span - self.low, span - self.origin
+        low, high, origin = 1.0 - self.high, 1.0 - self.low, 1.0 - self.origin
         return replace(self, low=low, high=high, origin=origin, coefficients=powers, sine=-self.sine)
 
-    def roots(self) -> list[float]:
-        """Return the places of the piece where the curve changes its sign, its ends left out, in order."""
-        return [] if self.high <= self.low else list(self._roots())
+    def less_than_one(self) -> Smooth:
+        """Return 1 less the curve."""
+        back = self.times(-1.0)
+        return replace(back, coefficients=(1.0 + back.coefficients[0], *back.coefficients[1:]))
 
     def extreme_places(self) -> list[float]:
         """Return where the curve may have its extremes: the ends, and where its derivative changes sign."""
         return [self.low, *self.derivative().roots(), self.high]
 
-    def _roots(self) -> Iterator[float]:
-        slope = self.derivative()
-        steady = not any(self.coefficients[1:])
-        if steady and not self.waves:
-            return
-        turns = list(self._crests()) if steady else list(slope._roots())
-        for low, high in pairwise((self.low, *turns, self.high)):
-            if (self.value(low) < 0.0) != (self.value(high) < 0.0):
-                root = self._root(slope, low, high)
-                if self.low < root < self.high:
-                    yield root
+    def roots(self) -> list[float]:
+        """Return the places of the piece where the curve changes its sign, its ends left out, in order."""
+        slope, steady = self.derivative(), not any(self.coefficients[1:])
+        if self.high <= self.low or (steady and not self.waves):
+            return []
+        turns = self._crests() if steady else slope.roots()
+        changes = [
+            self._root(slope, low, high)
+            for low, high in pairwise((self.low, *turns, self.high))
+            if (self.value(low) < 0.0) != (self.value(high) < 0.0)
+        ]
+        return [root for root in changes if self.low < root < self.high]
 
-    def _crests(self) -> Iterator[float]:
-        """Go through the crests and troughs of the wave, where sine cos(rate t) = cosine sin(rate t)."""
+    def _crests(self) -> list[float]:
+        """Return the crests and troughs of the wave, where sine cos(rate t) = cosine sin(rate t)."""
         first = math.atan2(self.sine, self.cosine)
         a, b = sorted(self.rate * (x - self.origin) for x in (self.low, self.high))
         turns = range(math.ceil((a - first) / math.pi), math.floor((b - first) / math.pi) + 1)
-        yield from sorted(self.origin + (first + k * math.pi) / self.rate for k in turns)
+        return sorted(self.origin + (first + k * math.pi) / self.rate for k in turns)
 
     def _root(self, slope: Smooth, low: float, high: float) -> float:
         """Return the root between places at which the signs differ, by Newton's steps kept between them."""
@@ -157,7 +143,6 @@ Array = NDArray[np.float64]
 UNIFORM = "uniform"
 SAME = 1e-9  # part of the greatest acceleration within which two accelerations are equal
 CLOSED = 1e-9  # part of the greatest velocity within which it counts as returned to zero
-
 _TURN = 2.0 * math.pi
 
 
@@ -195,34 +180,18 @@ class LawOfMotion:
     pieces: tuple[Smooth, ...]  # the travel s; each piece begins where the one before ends
     u: float | None = None  # where the lobes of acceleration join; None for a law of one's own
 
-    def at(self, x: Any, order: int = 0) -> Array:
-        """Return s (order 0), s' (1) or s'' (2) at the places `x`; at a jump what follows it, at 1 what precedes."""
-        x = np.asarray(x, float)
-        curves = list(self.pieces)
-        for _ in range(order):
-            curves = [curve.derivative() for curve in curves]
-        which = np.clip(np.searchsorted([curve.low for curve in curves], x, side="right") - 1, 0, len(curves) - 1)
-        values: Array = np.choose(which, [curve.at(x) for curve in curves])
-        return values
-
     def mirrored(self) -> tuple[Smooth, ...]:
         """Return the way back run through backwards in time: s(1 - x)."""
         return tuple(piece.mirrored() for piece in reversed(self.pieces))
 
     def turned(self) -> tuple[Smooth, ...]:
         """Return the way back in the order of the law: 1 - s(x)."""
-        return tuple(_rest(piece) for piece in self.pieces)
+        return tuple(piece.less_than_one() for piece in self.pieces)
 
 
-def _rest(piece: Smooth) -> Smooth:
-    """Return 1 - s."""
-    back = piece.times(-1.0)
-    return replace(back, coefficients=(1.0 + back.coefficients[0], *back.coefficients[1:]))
-
-
-def integrated(pieces: Sequence[Smooth], start: float = 0.0) -> tuple[Smooth, ...]:
-    """Return the integral of pieces, each with its origin at its low end, that begins with `start`."""
-    found = []
+def integrated(pieces: Sequence[Smooth]) -> tuple[Smooth, ...]:
+    """Return the integral of pieces, each with its origin at its low end, that begins with zero."""
+    found, start = [], 0.0
     for piece in pieces:
         found.append(piece.integral(start))
         start = found[-1].value(piece.high)
@@ -255,7 +224,7 @@ def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
     first = [piece.times(u / whole).stretched(u, 0.0) for piece in lobe]
     second = [piece.times((1.0 - u) / whole).stretched(1.0 - u, 0.0).mirrored() for piece in reversed(lobe)]
     second[0] = replace(second[0], low=first[-1].high)  # not an ulp beside it
-    return LawOfMotion((*first, *(_rest(piece) for piece in second)), u)
+    return LawOfMotion((*first, *(piece.less_than_one() for piece in second)), u)
 
 
 def law_of_pieces(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
@@ -324,8 +293,7 @@ def law_of_points(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
 
 def law_of_curve(curve: Curve) -> LawOfMotion:
     """Return the law that a table of one's own gives."""
-    made = law_of_pieces if curve.kind == PIECES else law_of_points
-    return made(curve.at, curve.values)
+    return (law_of_pieces if curve.kind == PIECES else law_of_points)(curve.at, curve.values)
 
 
 def _spline(x: Array, s: Array) -> list[Smooth]:

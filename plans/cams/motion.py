@@ -72,11 +72,10 @@ class Division:
 
 @dataclass(frozen=True, slots=True)
 class Extreme:
-    """An extreme value, the angle of the cam there, and the phase that has it; at a jump one of its two limits."""
+    """An extreme value and the angle of the cam there; at a jump one of its two limits."""
 
     value: float
     phi: float
-    phase: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,19 +183,18 @@ class Motion:
         back = fall or rise
         falling = back.mirrored() if order == MIRROR else back.turned()
         self.h = h
-        self.rise = Phase(RISE, 0.0, top, _placed(rise.pieces, h, phi_rise, 0.0))
+        pieces = [piece.times(h).stretched(phi_rise, 0.0) for piece in rise.pieces]
+        self.rise = Phase(RISE, 0.0, top, tuple(pieces))
         self.upper = Phase(UPPER, top, leave, _dwell(top, leave, h))
-        self.fall = Phase(FALL, leave, last, _placed(falling, h, phi_fall, leave))
+        pieces = [piece.times(h).stretched(phi_fall, leave) for piece in falling]
+        self.fall = Phase(FALL, leave, last, tuple(pieces))
         self.lower = Phase(LOWER, last, TURN, _dwell(last, TURN, 0.0))
+        self.phases = self.rise, self.upper, self.fall, self.lower  # in order
+        self._pieces = [(phase, piece) for phase in self.phases for piece in phase.pieces]
 
-    @property
-    def phases(self) -> tuple[Phase, ...]:
-        """The four phases in order."""
-        return self.rise, self.upper, self.fall, self.lower
-
-    @cached_property
-    def _pieces(self) -> list[tuple[Phase, Smooth]]:
-        return [(phase, piece) for phase in self.phases for piece in phase.pieces]
+    def phase(self, name: str) -> Phase:
+        """Return a phase by its name."""
+        return self.phases[PHASES.index(name)]
 
     @cached_property
     def _derivatives(self) -> list[list[Smooth]]:
@@ -207,16 +205,10 @@ class Motion:
         return found
 
     @cached_property
-    def _tables(self) -> list[_Table]:
-        return [_Table.of(curves) for curves in self._derivatives]
-
-    @cached_property
-    def _starts(self) -> Array:
-        return np.array([piece.low for _, piece in self._pieces])
-
-    @cached_property
-    def _origins(self) -> Array:
-        return np.array([piece.origin for _, piece in self._pieces])
+    def _tables(self) -> tuple[Array, Array, list[_Table]]:
+        """Where the pieces begin, from where they are counted, and the tables of their derivatives."""
+        starts, origins = np.array([(piece.low, piece.origin) for _, piece in self._pieces]).T
+        return starts.copy(), origins.copy(), [_Table.of(curves) for curves in self._derivatives]
 
     def derivatives(self, phi: Any, side: int = 1, order: int = 2) -> tuple[Array, ...]:
         """Return s, s', ... up to the given order (at most 3) at the angles `phi`, rad, of any turn.
@@ -226,9 +218,10 @@ class Motion:
         phi = np.asarray(phi, float)
         turns = np.floor((phi + NEAR) / TURN) if side > 0 else -np.floor(1.0 - (phi - NEAR) / TURN)
         phi = phi - TURN * turns
-        which = np.maximum(np.searchsorted(self._starts, phi + side * NEAR) - 1, 0)
-        t = phi - self._origins[which]
-        return tuple(table.at(t, which) for table in self._tables[: order + 1])
+        starts, origins, tables = self._tables
+        which = np.maximum(np.searchsorted(starts, phi + side * NEAR) - 1, 0)
+        t = phi - origins[which]
+        return tuple(table.at(t, which) for table in tables[: order + 1])
 
     def at(self, phi: Any, side: int = 1) -> tuple[Array, Array, Array]:
         """Return s, ds/dphi, d2s/dphi2 at the angles `phi`; where they jump, the limits from one side (+1 right)."""
@@ -241,7 +234,7 @@ class Motion:
         At jumps both limits count.
         """
         wanted = tuple(phases)
-        best = Extreme(-math.inf, 0.0, RISE)
+        best = Extreme(-math.inf, 0.0)
         for (phase, piece), first, second in zip(self._pieces, *self._derivatives[1:3], strict=True):
             if phase.name not in wanted:
                 continue
@@ -249,25 +242,27 @@ class Motion:
             for place in curve.extreme_places():
                 value = curve.value(place)
                 if value > best.value:
-                    best = Extreme(value, place, phase.name)
+                    best = Extreme(value, place)
         return best
 
     def minimum(self, s: float, ds: float, d2s: float, phases: Iterable[str] = PHASES) -> Extreme:
         """Return the exact minimum likewise."""
         found = self.maximum(-s, -ds, -d2s, phases)
-        return Extreme(-found.value, found.phi, found.phase)
+        return Extreme(-found.value, found.phi)
+
+    def _greatest(self, ds: float, d2s: float) -> Extreme:
+        up, down = self.maximum(0.0, ds, d2s), self.maximum(0.0, -ds, -d2s)
+        return up if up.value >= down.value * (1.0 - SAME) else down
 
     @cached_property
     def ds_max(self) -> Extreme:
         """The greatest |ds/dphi|."""
-        up, down = self.maximum(0.0, 1.0, 0.0), self.maximum(0.0, -1.0, 0.0)
-        return up if up.value >= down.value * (1.0 - SAME) else down
+        return self._greatest(1.0, 0.0)
 
     @cached_property
     def d2s_max(self) -> Extreme:
         """The greatest |d2s/dphi2|."""
-        up, down = self.maximum(0.0, 0.0, 1.0), self.maximum(0.0, 0.0, -1.0)
-        return up if up.value >= down.value * (1.0 - SAME) else down
+        return self._greatest(0.0, 1.0)
 
     @cached_property
     def jumps(self) -> tuple[Jump, ...]:
@@ -360,10 +355,6 @@ def motion_of(cam: Cam, values: Mapping[str, float]) -> Motion:
     )
 
 
-def _placed(pieces: tuple[Smooth, ...], h: float, length: float, start: float) -> tuple[Smooth, ...]:
-    return tuple(piece.times(h).stretched(length, start) for piece in pieces)
-
-
 def _dwell(start: float, end: float, s: float) -> tuple[Smooth, ...]:
     return (Smooth(start, end, start, (s,)),) if end > start else ()
 
@@ -386,14 +377,6 @@ FINE = math.radians(0.25)  # between places
 FEWEST = 8  # cells of a piece
 APART = 2e-12  # rad, from a corner, where the side of a limit no longer matters
 GOLDEN, ROUNDS = 0.5 * (math.sqrt(5.0) - 1.0), 60
-
-
-@dataclass(frozen=True, slots=True)
-class Minimum:
-    """A least value and the angle of the cam there."""
-
-    value: float
-    phi: float
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -443,7 +426,12 @@ def refined(function: Function, low: Array, high: Array) -> tuple[Array, Array]:
     return np.minimum(left, right), np.where(left <= right, a, b)
 
 
-def minima(function: Function, corners: Sequence[float]) -> list[Minimum]:
+def least(function: Function, corners: Sequence[float]) -> Extreme:
+    """Return the least of all `minima`, the first of equal ones."""
+    return min(minima(function, corners), key=lambda minimum: minimum.value)
+
+
+def minima(function: Function, corners: Sequence[float]) -> list[Extreme]:
     """Return the minima of a function between corners of the motion, the limits there among them, in order of phi.
 
     Where it is constant its first place stands for all.
@@ -459,4 +447,4 @@ def minima(function: Function, corners: Sequence[float]) -> list[Minimum]:
     lower, where = refined(function, low, high)
     better = lower < values[at]
     found = np.where(better, lower, values[at]), np.where(better, where, phi[at])
-    return [Minimum(float(value), float(place)) for value, place in zip(*found, strict=True)]
+    return [Extreme(float(value), float(place)) for value, place in zip(*found, strict=True)]

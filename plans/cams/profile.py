@@ -14,36 +14,18 @@ Source: Artobolevsky, Theory of mechanisms and machines (inversion of motion).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..laws import cross, dot
-from .envelopes import Envelope, Undercut, outline, undercuts
-from .motion import Minimum, Motion, minima
-from .sizes import RollerSizes
+from .envelopes import Array, Envelope, Points
+from .motion import Extreme, Motion, least
+from .sizes import RockerSizes, RollerSizes
 
-Array = NDArray[np.float64]
-Points = NDArray[Any]  # complex
 OF_R_0, OF_RHO_MIN = 0.4, 0.7  # the roller's radius is at most these parts of r_0 and of the pitch curve's rho_min
-OUTLINE = math.radians(0.5)  # between points of a profile
-
-
-class Path(Protocol):
-    """How a roller's centre moves in the frame."""
-
-    @property
-    def motion(self) -> Motion:
-        """The follower's motion."""
-
-    def centre(self, phi: Any, side: int = 1) -> tuple[Points, Points, Points]:
-        """Return q, q', q'' of the roller's centre, seen from the cam's centre, m."""
-
-    def seat(self, corner: Points, R: float) -> Array:
-        """Return the travel at which a roller of radius R rests on points of the frame."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,57 +47,72 @@ class StraightPath:
             height: Array = corner.imag + np.sqrt(R * R - beside * beside) - self.sizes.s_0
         return height
 
-
-class _Bent(Envelope, Protocol):
-    """An envelope that knows where it is curved most, and where it is cut."""
-
-    @property
-    def sharpest(self) -> Minimum:
-        """The least radius of curvature, m, and where."""
-
-    @property
-    def undercuts(self) -> list[Undercut]:
-        """What the profile does not give of the motion."""
+    def pressure(self, sense: int, phi: Any, side: int = 1) -> Array:
+        """Return the pressure angle theta, rad."""
+        s, ds, _ = self.motion.at(phi, side)
+        theta: Array = np.arctan2(sense * ds - self.sizes.e, self.sizes.s_0 + s)
+        return theta
 
 
-class Profile:
-    """What profiles under a roller and under a plate have in common: they are envelopes that know their `sharpest`."""
+@dataclass(frozen=True, slots=True)
+class RockerPath:
+    """The path of a rocker's roller."""
+
+    motion: Motion
+    sizes: RockerSizes
 
     @property
-    def rho_min(self: _Bent) -> float:
-        """The least radius of curvature of the pitch curve where it is convex, or under a plate, m."""
-        return self.sharpest.value
+    def pivot(self) -> complex:
+        """The rocker's pivot, seen from the cam's centre."""
+        return complex(self.sizes.e - self.sizes.l, self.sizes.s_0)
 
-    @cached_property
-    def undercuts(self: Envelope) -> list[Undercut]:
-        """What the profile does not give of the motion."""
-        return undercuts(self)
+    def centre(self, phi: Any, side: int = 1) -> tuple[Points, Points, Points]:
+        """Return q, q', q''."""
+        psi, dpsi, d2psi = self.motion.at(phi, side)
+        arm = self.sizes.l * (np.cos(psi) + 1j * np.sin(psi))
+        return self.pivot + arm, 1j * dpsi * arm, (1j * d2psi - dpsi * dpsi) * arm
 
-    def outline(self: _Bent, most: float = OUTLINE) -> Points:
-        """Return points of the profile as it is cut, in order of phi, without loops."""
-        return outline(self, self.undercuts, most)
+    def seat(self, corner: Points, R: float) -> Array:
+        """Return the angle at which a roller of radius R rests on points of the frame; NaN where it passes them."""
+        reach = corner - self.pivot
+        far, l = np.abs(reach), self.sizes.l
+        with np.errstate(invalid="ignore"):
+            psi: Array = np.arctan2(reach.imag, reach.real) + np.arccos((l * l + far * far - R * R) / (2.0 * l * far))
+        return psi
+
+    def pressure(self, sense: int, phi: Any, side: int = 1) -> Array:
+        """Return the pressure angle, rad: from the roller's velocity in the rise to the normal, its sign as usual."""
+        psi, dpsi, _ = self.motion.at(phi, side)
+        cosine, sine = np.cos(psi), np.sin(psi)
+        x, y = self.pivot.real, self.pivot.imag
+        across = self.sizes.l * (sense * dpsi - 1.0) - (x * cosine + y * sine)
+        theta: Array = np.arctan2(across, y * cosine - x * sine)
+        return theta
 
 
 @dataclass(frozen=True)
-class RollerProfile(Profile):
-    """The profile of a cam for a roller of the radius R that moves along a path; `sense` +1 counter-clockwise."""
+class RollerProfile(Envelope):
+    """The profile of a cam for a roller of the radius R that moves along a path; `sense` +1 counter-clockwise.
 
-    path: Path
+    The `centre` of a path is q, q', q'' of the roller's centre, seen from the cam's centre, m.
+    """
+
+    path: StraightPath | RockerPath
     R: float
     sense: int = 1
+    motion: Motion = field(init=False)
 
-    @property
-    def motion(self) -> Motion:
-        """The motion that the roller should have."""
-        return self.path.motion
+    def __post_init__(self) -> None:
+        """Take the motion of the path."""
+        object.__setattr__(self, "motion", self.path.motion)
 
-    def inverted(self, phi: Any) -> Points:
-        """Return by what a vector of the frame is multiplied to have it on the cam."""
-        return turned_back(phi, self.sense)
+    def pressure(self, phi: Any, side: int = 1) -> Array:
+        """Return the pressure angle theta, rad, at the angles `phi` of the cam; where s' jumps, a limit."""
+        return self.path.pressure(self.sense, phi, side)
 
     def pitch(self, phi: Any, side: int = 1) -> Points:
         """Return points of the pitch curve."""
-        return self.path.centre(phi, side)[0] * self.inverted(phi)
+        return self.path.centre(phi, side)[0] * turned_back(phi, self.sense)
 
     def _velocity(self, phi: Any, side: int) -> tuple[Points, Points]:
         """Return the first and second derivative of the pitch curve, as seen in the frame."""
@@ -125,7 +122,7 @@ class RollerProfile(Profile):
     def unit(self, phi: Any, side: int = 1) -> Points:
         """Return the unit tangent of the pitch curve, in the sense of growing phi."""
         w, _ = self._velocity(phi, side)
-        return w / np.abs(w) * self.inverted(phi)
+        return w / np.abs(w) * turned_back(phi, self.sense)
 
     def normal(self, phi: Any, side: int = 1) -> Points:
         """Return the unit normal of the pitch curve, out of the cam."""
@@ -144,7 +141,7 @@ class RollerProfile(Profile):
     def tangent(self, phi: Any, side: int = 1) -> Points:
         """Return the derivative of `practical`."""
         w, _ = self._velocity(phi, side)
-        return w * self.inverted(phi) * self.bend(phi, side)
+        return w * turned_back(phi, self.sense) * self.bend(phi, side)
 
     def bend(self, phi: Any, side: int = 1) -> Array:
         """Return 1 - R / rho, negative where the envelope runs backwards."""
@@ -157,7 +154,7 @@ class RollerProfile(Profile):
 
     def seat(self, corner: complex, phi: Any) -> Array:
         """Return the travel at which the roller rests on a corner of the cam."""
-        return self.path.seat(corner * np.conj(self.inverted(phi)), self.R)
+        return self.path.seat(corner * np.conj(turned_back(phi, self.sense)), self.R)
 
     def across(self, phi: float, part: Any) -> tuple[Points, Points]:
         """Return the arc, of the roller's radius, by which the profile goes on where the velocity jumps up."""
@@ -167,13 +164,16 @@ class RollerProfile(Profile):
         return self.pitch(phi) - spoke, -1j * angle * spoke
 
     @cached_property
-    def sharpest(self) -> Minimum:
+    def sharpest(self) -> Extreme:
         """The least radius of curvature of the convex pitch curve, and where: zero where it has a corner."""
-        return _sharpest(self.motion, lambda phi, side: -self.curvature(phi, side))
+        if self.motion.drops:
+            return Extreme(0.0, self.motion.drops[0])
+        bent = least(lambda phi, side: -self.curvature(phi, side), self.motion.corners)
+        return Extreme(-1.0 / bent.value if bent.value < 0.0 else math.inf, bent.phi)
 
 
 @dataclass(frozen=True)
-class PlateProfile(Profile):
+class PlateProfile(Envelope):
     """The profile of a cam for a flat plate whose lowest height above the centre is r_0."""
 
     motion: Motion
@@ -201,16 +201,12 @@ class PlateProfile(Profile):
 
     def depth(self, points: Any, phi: Any) -> Array:
         """Return how far points of the cam are above the plate, m."""
-        depth: Array = self._height(points, phi) - self.r_0 - self.motion.at(phi)[0]
-        return depth
+        return self.seat(points, phi) - self.motion.at(phi)[0]
 
-    def seat(self, corner: complex, phi: Any) -> Array:
+    def seat(self, corner: Any, phi: Any) -> Array:
         """Return the travel at which the plate rests on a corner of the cam."""
-        return self._height(corner, phi) - self.r_0
-
-    def _height(self, points: Any, phi: Any) -> Array:
-        height: Array = (points * np.conj(turned_back(phi, self.sense))).imag
-        return height
+        travel: Array = (corner * np.conj(turned_back(phi, self.sense))).imag - self.r_0
+        return travel
 
     def across(self, phi: float, part: Any) -> tuple[Points, Points]:
         """Return the flat of the profile on which the plate lies where the velocity jumps up."""
@@ -219,11 +215,10 @@ class PlateProfile(Profile):
         return begin + along * part, along
 
     @cached_property
-    def sharpest(self) -> Minimum:
+    def sharpest(self) -> Extreme:
         """The least radius of curvature, m, and where; negative where the profile is undercut."""
-        found = self.motion.minimum(1.0, 0.0, 1.0)
-        drops = self.motion.drops
-        return Minimum(-math.inf, drops[0]) if drops else Minimum(self.r_0 + found.value, found.phi)
+        found, drops = self.motion.minimum(1.0, 0.0, 1.0), self.motion.drops
+        return Extreme(-math.inf, drops[0]) if drops else Extreme(self.r_0 + found.value, found.phi)
 
 
 def turned_back(phi: Any, sense: int) -> Points:
@@ -231,10 +226,3 @@ def turned_back(phi: Any, sense: int) -> Points:
     angle = np.asarray(phi, float)
     turn: Points = np.cos(angle) - 1j * (sense * np.sin(angle))
     return turn
-
-
-def _sharpest(motion: Motion, less_curved: Any) -> Minimum:
-    if motion.drops:
-        return Minimum(0.0, motion.drops[0])
-    least = min(minima(less_curved, motion.corners), key=lambda minimum: minimum.value)
-    return Minimum(-1.0 / least.value if least.value < 0.0 else math.inf, least.phi)

@@ -40,7 +40,7 @@ def rules_of(solved: SolvedCam) -> tuple[Rule, ...]:
     `roller_of_radius` and `roller_of_curvature` hold the roller against 0.4 r_0 and 0.7 rho_min, the latter where the
     pitch curve is convex anywhere; `gamma_rise` and `gamma_fall` the least transmission angles against those permitted.
     """
-    found = solved.roller or solved.rocker
+    found = solved.rolling
     if found is None:
         return ()
     profile, sizes = found.profile, found.sizes

@@ -18,10 +18,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from ..laws import cross, dot
 from .motion import FALL, RISE, Extreme, Motion
@@ -45,11 +41,6 @@ class HalfPlane:
     def lack(self, place: complex) -> float:
         """Return by how far a place is outside, negative inside."""
         return self.least - float(dot(self.normal, place))
-
-    @property
-    def foot(self) -> complex:
-        """The foot of the perpendicular from the origin on its line."""
-        return self.normal * self.least
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +67,7 @@ def nearest(planes: Sequence[HalfPlane]) -> Nearest | None:
     if all(plane.least <= 0.0 for plane in planes):
         return Nearest(0j, ())
     size = max(abs(plane.least) for plane in planes)
-    found = [Nearest(plane.foot, (plane,)) for plane in planes if plane.least > 0.0]
+    found = [Nearest(plane.normal * plane.least, (plane,)) for plane in planes if plane.least > 0.0]
     for first, second in combinations(planes, 2):
         if (place := meeting(first, second)) is not None:
             found.append(Nearest(place, (first, second)))
@@ -90,7 +81,18 @@ def nearest(planes: Sequence[HalfPlane]) -> Nearest | None:
 
 RIGHT_ANGLE = 0.5 * math.pi
 BACK = "_back"  # ends the name of a limit on the side to which the cam does not push
+PHASE_OF = {phase + end: phase for end in ("", BACK) for phase in (RISE, FALL)}  # of limits, by their names
 ON_CIRCLE = 1e-12  # part of r_0 by which a place on the circle may be outside: rounding
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A limit of the pressure angle in one phase; `way` is +1 where it is to the side of a rise, -1 of a fall."""
+
+    name: str
+    phase: str
+    gamma: float
+    way: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +103,13 @@ class Limits:
     gamma_fall: float
     two_sided: bool = False
 
+    @property
+    def each(self) -> list[Limit]:
+        """The limits of the rise and the fall, then, if wanted, those to the other sides."""
+        phases = ((RISE, self.gamma_rise, 1), (FALL, self.gamma_fall, -1))
+        pushes = ((1, ""), (-1, BACK))[: 1 + self.two_sided]
+        return [Limit(phase + end, phase, gamma, push * up) for push, end in pushes for phase, gamma, up in phases]
+
 
 @dataclass(frozen=True, slots=True)
 class RollerSizes:
@@ -110,6 +119,24 @@ class RollerSizes:
     e: float
     s_0: float
     on: tuple[str, ...] = ()
+
+    @classmethod
+    def at(cls, place: complex, on: tuple[str, ...]) -> RollerSizes:
+        """Return the sizes of the cam whose roller is at e + i s_0 in its lowest place."""
+        return cls(abs(place), place.real, place.imag, on)
+
+
+@dataclass(frozen=True, slots=True)
+class RockerSizes:
+    """Sizes of a cam with a rocker of length l, m; `on` names the limits that it just reaches."""
+
+    r_0: float
+    l_OC: float
+    l: float
+    e: float
+    s_0: float
+    on: tuple[str, ...] = ()
+    r_0_most: float = math.inf  # the greatest r_0 that the limits permit at this l_OC
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,24 +171,12 @@ class PlateSizes:
 
 
 def wedge(motion: Motion, limits: Limits, sense: int = 1) -> tuple[HalfPlane, ...]:
-    """Return the half planes of the permitted e + i s_0: of the rise and the fall, then the other sides if limited.
-
-    Parameters
-    ----------
-    motion : Motion
-        Travel in m.
-    limits : Limits
-        Permitted transmission angles, between 0 and a right angle.
-    sense : int
-        +1 when the cam turns counter-clockwise, -1 when clockwise.
-    """
+    """Return the half planes of the e + i s_0 that each limit permits; `sense` is +1 of a counter-clockwise cam."""
     planes = []
-    for end, push in (("", 1), (BACK, -1))[: 1 + limits.two_sided]:
-        for phase, gamma, up in ((RISE, limits.gamma_rise, 1), (FALL, limits.gamma_fall, -1)):
-            sine, cosine = math.sin(gamma), math.cos(gamma)
-            touch = motion.maximum(-cosine, push * up * sine, 0.0, (phase,))
-            normal = complex(push * up * sense * sine, cosine)
-            planes.append(HalfPlane(phase + end, normal, touch.value, touch.phi))
+    for limit in limits.each:
+        sine, cosine, way = math.sin(limit.gamma), math.cos(limit.gamma), limit.way
+        touch = motion.maximum(-cosine, way * sine, 0.0, (limit.phase,))
+        planes.append(HalfPlane(limit.name, complex(way * sense * sine, cosine), touch.value, touch.phi))
     return tuple(planes)
 
 
@@ -169,7 +184,7 @@ def smallest_roller(planes: Sequence[HalfPlane]) -> RollerSizes:
     """Return the sizes with the least r_0 that the half planes of `wedge` permit."""
     found = nearest(planes)
     assert found is not None, "half planes that all open upwards have places in common"
-    return _sizes(found.place, tuple(plane.name for plane in found.on))
+    return RollerSizes.at(found.place, tuple(plane.name for plane in found.on))
 
 
 def apex(planes: Sequence[HalfPlane]) -> RollerSizes:
@@ -184,7 +199,7 @@ def apex(planes: Sequence[HalfPlane]) -> RollerSizes:
         if (place := meeting(first, second)) is not None and first.normal.real * second.normal.real < 0.0
     ]
     place, on = max(corners, key=lambda corner: corner[0].imag)
-    return _sizes(place, on)
+    return RollerSizes.at(place, on)
 
 
 def central(planes: Sequence[HalfPlane], e: float = 0.0) -> RollerSizes:
@@ -193,7 +208,7 @@ def central(planes: Sequence[HalfPlane], e: float = 0.0) -> RollerSizes:
     name = max(needed, key=lambda key: needed[key])
     if needed[name] <= 0.0:
         return RollerSizes(abs(e), e, 0.0)
-    return _sizes(complex(e, needed[name]), (name,))
+    return RollerSizes.at(complex(e, needed[name]), (name,))
 
 
 def offsets(planes: Sequence[HalfPlane], r_0: float) -> Offsets | NoOffset:
@@ -220,35 +235,19 @@ def offsets(planes: Sequence[HalfPlane], r_0: float) -> Offsets | NoOffset:
     return Offsets(r_0 * math.sin(least), r_0 * math.sin(most), at_least, at_most)
 
 
-def convexity(motion: Motion) -> Extreme:
-    """Return the greatest -(s + s''): the r_0 at which a flat follower's cam is just convex, and where."""
-    return motion.maximum(-1.0, 0.0, -1.0)
-
-
 def smallest_plate(motion: Motion, rho_flat: float, margin: float) -> PlateSizes:
     """Return the sizes of a flat follower's cam with the least radius of curvature `rho_flat`.
 
-    The radius of curvature is r_0 + s + s''; the plate reaches `margin` beyond the contact, |s'| from the axis.
-    A velocity that jumps down makes r_0 infinite.
+    The radius of curvature is r_0 + s + s'', so that at r_0 = -(s + s'') the cam is just convex; the plate reaches
+    `margin` beyond the contact, |s'| from the axis. A velocity that jumps down makes r_0 infinite.
     """
-    touch = convexity(motion)
+    touch = motion.maximum(-1.0, 0.0, -1.0)
     r_0_min, phi = (math.inf, motion.drops[0]) if motion.drops else (max(0.0, touch.value), touch.phi)
     return PlateSizes(r_0_min, r_0_min + rho_flat, motion.ds_max.value + margin, phi)
 
 
-def _sizes(place: complex, on: tuple[str, ...]) -> RollerSizes:
-    return RollerSizes(abs(place), place.real, place.imag, on)
-
-
 ROUNDS = 60  # of a search that doubles its figures in every round
 SIDES = {RISE: (1, -1), FALL: (-1, 1)}  # of the velocity: first where the cam pushes, then the other
-
-
-def pressure_angle(motion: Motion, sizes: RollerSizes, phi: Any, sense: int = 1, side: int = 1) -> NDArray[np.float64]:
-    """Return theta, rad, at the angles `phi` of the cam; where s' jumps, the limit from one side."""
-    s, ds, _ = motion.at(phi, side)
-    theta: NDArray[np.float64] = np.arctan2(sense * ds - sizes.e, sizes.s_0 + s)
-    return theta
 
 
 def least_transmission(
@@ -260,7 +259,7 @@ def least_transmission(
     """
     sides = SIDES[phase][: 1 + two_sided]
     steepest = max((_steepest(motion, sizes, phase, sense, way) for way in sides), key=lambda found: found.value)
-    return Extreme(RIGHT_ANGLE - math.atan(steepest.value), steepest.phi, phase)
+    return Extreme(RIGHT_ANGLE - math.atan(steepest.value), steepest.phi)
 
 
 def _steepest(motion: Motion, sizes: RollerSizes, phase: str, sense: int, way: int) -> Extreme:
@@ -268,13 +267,12 @@ def _steepest(motion: Motion, sizes: RollerSizes, phase: str, sense: int, way: i
 
     A quotient is greatest where its numerator less so many times its denominator is (Dinkelbach).
     """
-    best = Extreme(-math.inf, 0.0, phase)
-    slope = 0.0
+    best, slope = Extreme(-math.inf, 0.0), 0.0
     for _ in range(ROUNDS):
         found = motion.maximum(-slope, way, 0.0, (phase,))
         s = float(motion.at(found.phi)[0])
         slope = (found.value + slope * s - way * sense * sizes.e) / (sizes.s_0 + s)
         if slope <= best.value:
             break
-        best = Extreme(slope, found.phi, phase)
+        best = Extreme(slope, found.phi)
     return best

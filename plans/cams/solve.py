@@ -43,7 +43,7 @@ from .construction import (
     Layout,
     construct,
 )
-from .followers import PlateCam, RockerCam, RollerCam, limits_of, plate_cam, rocker_cam, roller_cam
+from .followers import PlateCam, RockerCam, RollerCam, RollingCam, plate_cam, rocker_cam, roller_cam
 from .formulas import ARC
 from .motion import FALL, RISE, Array, Division, Motion, motion_of
 from .sizes import RIGHT_ANGLE
@@ -203,6 +203,11 @@ class SolvedCam(Solved):
         return RIGHT, UP
 
     @property
+    def rolling(self) -> RollingCam | None:
+        """The cam for a follower with a roller, on a line or on a rocker."""
+        return self.roller or self.rocker
+
+    @property
     def on_paper(self) -> tuple[str, ...]:
         """The diagrams, whose scale factors come from what is measured on them."""
         return DIAGRAMS
@@ -310,7 +315,7 @@ def _layout(cam: Cam, motion: Motion, angles: Array, division: Division, cams: M
         tuple(cams),
         VELOCITY if motion.velocity_jumps else ACCELERATION,
         fastest=int(abs(angles - motion.ds_max.phi).argmin()),
-        limits=limits_of(cam),
+        limits=tuple(limit.name for limit in roller.limits.each) if roller else (),
         corner=roller.by_tangents.on if roller else (),
         ranged=roller is not None and roller.offsets is not None,
         plate_given=plate is not None and plate.given,
@@ -324,11 +329,11 @@ def _givens(cam: Cam, motion: Motion, angles: Array, layout: Layout, cams: Mappi
     found = diagram_givens(motion, angles, division, layout.given)
     found |= profile_givens(motion, angles, division, cam.sense)
     if ROLLER in cams:
-        found |= cams[ROLLER].givens(cam)
+        found |= cams[ROLLER].givens()
     if PLATE in cams:
         found |= cams[PLATE].givens()
     if ROCKER in cams:
-        found |= cams[ROCKER].givens(cam, angles, division)
+        found |= cams[ROCKER].givens(angles, division)
     return found
 
 

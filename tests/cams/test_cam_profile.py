@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
+from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath, turned_back
 from kulman.plans.cams.sizes import RollerSizes, smallest_plate
 from kulman.tests.support.cams import (
     SEED,
@@ -69,7 +69,7 @@ def integral(profile: RollerProfile | PlateProfile, points: str) -> tuple[float,
         here, step = getattr(profile, points)(phi), 0.5 * (high - low) * weights
         if points == "pitch":
             w, _ = profile._velocity(phi, 1)
-            velocity = w * profile.inverted(phi)
+            velocity = w * turned_back(phi, profile.sense)
         else:
             velocity = profile.tangent(phi)
         area += 0.5 * float(np.sum(step * (here.real * velocity.imag - here.imag * velocity.real)))

@@ -13,27 +13,23 @@ from kulman.plans.cams.cam import Cam
 from kulman.plans.cams.followers import (
     NoPlace,
     Rocker,
-    RockerPath,
-    RockerSizes,
     least_rocker_transmission,
-    rocker_pressure,
     smallest_rocker,
     smallest_rocker_at,
 )
 from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import Motion, motion_of
-from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
+from kulman.plans.cams.profile import PlateProfile, RockerPath, RollerProfile, StraightPath, turned_back
 from kulman.plans.cams.sizes import (
     Limits,
     NoOffset,
     Offsets,
+    RockerSizes,
     RollerSizes,
     apex,
     central,
-    convexity,
     least_transmission,
     offsets,
-    pressure_angle,
     smallest_plate,
     smallest_roller,
     wedge,
@@ -122,8 +118,8 @@ def test_pressure_angle_is_that_between_normal_and_line() -> None:
         motion = random_motion(random)
         sizes = RollerSizes(math.hypot(0.01, 0.05), 0.01, 0.05)
         profile = RollerProfile(StraightPath(motion, sizes), 0.01, sense)
-        normal = profile.normal(phi) / profile.inverted(phi)
-        assert pressure_angle(motion, sizes, phi, sense) == pytest.approx(np.angle(normal / 1j), abs=1e-13)
+        normal = profile.normal(phi) / turned_back(phi, profile.sense)
+        assert StraightPath(motion, sizes).pressure(sense, phi) == pytest.approx(np.angle(normal / 1j), abs=1e-13)
 
 
 @pytest.mark.parametrize("count", [pytest.param(8, id="8"), pytest.param(30, id="30", marks=pytest.mark.soak)])
@@ -252,7 +248,7 @@ def test_flat_followers_cam_is_just_convex(count: int) -> None:
 def test_geronimus_counts_both_limits_of_a_jump() -> None:
     amplitude = 9.0 * 13e-3 / math.radians(108.0) ** 2
 
-    found = convexity(madi_motion())
+    found = madi_motion().maximum(-1.0, 0.0, -1.0)
 
     assert found.value == pytest.approx(amplitude - 13e-3 / 3.0, rel=1e-13)
 
@@ -305,14 +301,14 @@ def test_pressure_angle_of_a_rocker_is_that_between_normal_and_velocity() -> Non
         rocker = Rocker(random_motion(random, SMOOTH, 0.5), 0.1, sense)
         sizes = RockerSizes(math.hypot(0.01, 0.05), math.hypot(0.09, 0.05), 0.1, 0.01, 0.05)
         profile = RollerProfile(RockerPath(rocker.motion, sizes), 0.01, sense)
-        normal, along = profile.normal(phi) / profile.inverted(phi), np.exp(1j * rocker.motion.at(phi)[0])
-        theta = rocker_pressure(rocker, sizes, phi)
+        normal, along = profile.normal(phi) / turned_back(phi, profile.sense), np.exp(1j * rocker.motion.at(phi)[0])
+        theta = profile.pressure(phi)
         assert theta == pytest.approx(np.angle(normal / (1j * along)), abs=1e-13)
         for phase, up in ((rocker.motion.rise, 1), (rocker.motion.fall, -1)):
             inside = (phi > phase.start) & (phi < phase.end)
-            least = least_rocker_transmission(rocker, sizes, phase)
+            least = least_rocker_transmission(profile, phase.name)
             assert least.value <= np.min(0.5 * math.pi - up * sense * theta[inside])
-            assert float(rocker_pressure(rocker, sizes, least.phi)) * up * sense == pytest.approx(
+            assert float(profile.pressure(least.phi)) * up * sense == pytest.approx(
                 0.5 * math.pi - least.value, abs=1e-9
             )
 

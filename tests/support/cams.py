@@ -9,11 +9,11 @@ from itertools import pairwise
 import numpy as np
 
 from kulman.plans.cams.cam import LAWS, ORDERS
-from kulman.plans.cams.followers import Rocker, RockerPath, RockerSizes, smallest_rocker
+from kulman.plans.cams.followers import Rocker, smallest_rocker
 from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
 from kulman.plans.cams.motion import Motion
-from kulman.plans.cams.profile import RollerProfile, StraightPath
-from kulman.plans.cams.sizes import Limits, smallest_roller, wedge
+from kulman.plans.cams.profile import RockerPath, RollerProfile, StraightPath
+from kulman.plans.cams.sizes import Limits, RockerSizes, smallest_roller, wedge
 
 SEED = 1868
 SMOOTH = tuple(law for law in LAWS if law != UNIFORM)

@@ -203,7 +203,7 @@ def _outside(solved: SolvedCam) -> Iterator[InputError]:
     """Tell which r_0 the limits permit, where one is given together with e or l_OC that they do not."""
     from ...plans.cams.followers import ROUNDING, six_digits
 
-    cam = solved.roller or solved.rocker
+    cam = solved.rolling
     if cam is None or cam.permitted is None:
         return
     (least, most), r_0 = cam.permitted, cam.sizes.r_0

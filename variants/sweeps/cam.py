@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...drawing.words import Words
-from ...plans.cams.course import columns, cut_at, extremes, lines, sharpest, undercuts
+from ...plans.cams.course import columns, cut_at, extremes, lines, profiles
 from ...plans.cams.motion import TURN
 from ...plans.cams.solve import SolvedCam
 from ...plans.solved import Columned
@@ -58,9 +58,10 @@ class CamSweep(SizedSweep):
 
     def _sharpest(self, words: Words) -> Iterator[str]:
         """Say where profiles are curved most."""
-        for one in sharpest(self.solved):
-            said = {"rho": millimetres(one.rho, words), "at": degrees(one.phi, words)}
-            yield words[f"sweep.sharpest.{one.curve}"].format(**said)
+        for curve, _, profile in profiles(self.solved):
+            least = profile.sharpest
+            said = {"rho": millimetres(least.value, words), "at": degrees(least.phi, words)}
+            yield words[f"sweep.sharpest.{curve}"].format(**said)
 
     def csv(self, language: str | None = None) -> str:
         """Return all columns as CSV."""
@@ -70,17 +71,19 @@ class CamSweep(SizedSweep):
 
     def _data(self) -> dict[str, Any]:
         """Return columns, extremes, the least radii of curvature, jumps and what an undercut profile loses."""
+        every = profiles(self.solved)
         return {
             "columns": columns_json(columns(self.solved, self._angles())),
             "extremes": extremes_json(extremes(self.solved)),
-            "rho_min": {one.curve: {"value": one.rho, "at": one.phi} for one in sharpest(self.solved)},
+            "rho_min": {curve: {"value": p.sharpest.value, "at": p.sharpest.phi} for curve, _, p in every},
             "jumps": [
                 {"at": jump.phi, "of": "ds" if jump.order == 1 else "d2s", "before": jump.before, "after": jump.after}
                 for jump in self.solved.motion.jumps
             ],
             "undercut": [
                 {"follower": follower, "from": cut.start, "to": cut.end, "lost": cut.lost, "at": cut.phi_lost}
-                for follower, cut in undercuts(self.solved)
+                for _, follower, profile in every
+                for cut in profile.undercuts
             ],
         }
 
