@@ -14,14 +14,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from ..board import Board, Program
-from ..names import Name, between, mark, pole, rate, role, scale_factor, spelled, vector
+from ..names import Name, between, mark, pole, rate, role, spelled, vector
 from .dyads import RRP, RRR
 from .legs import AssurGroup
 from .mechanism import FRAME, ZERO, Link, Mechanism, Revolute
-from .parts import Bodies, Body, Span
+from .parts import Bodies, Span
 
 VELOCITY, ACCELERATION = "V_at", "a_at"  # kinds of plans
 TOTAL = "total"  # the whole as compound motion gives it
@@ -67,28 +67,22 @@ def couplers(mechanism: Mechanism, groups: Iterable[AssurGroup], bodies: Bodies)
     """Return all links with two joints that hang on a turning link, in order of attachment."""
     found: list[Coupler] = []
     taken: set[str] = set()
-    for group in groups:
-        for span in group.spans:
-            carrier = _carrier(mechanism, span, bodies)
-            if carrier is None:
-                continue
-            points = (span.end, *span.others)
-            letters = {p: mechanism.letter_on(p, span.number) if p in taken else p for p in points}
-            taken.update(points)
-            rates = str(carrier.omega), carrier.epsilon or ZERO
-            closing = _closing(mechanism, group, span)
-            found.append(Coupler(span, carrier.link, carrier.pin, *rates, letters, closing))
-    return tuple(found)
-
-
-def _carrier(mechanism: Mechanism, span: Span, bodies: Bodies) -> Body | None:
-    """Return the link that turns about a pivot of the frame and carries the start of `span`."""
     pinned = {n for p in mechanism.pairs if isinstance(p, Revolute) and FRAME in p.links for n in p.links}
-    for number, body in bodies.items():
-        turns = number in pinned and body.pin in mechanism.frame_points and body.omega
-        if turns and number != span.number and span.start in body.link.points and span.start != body.pin:
-            return body
-    return None
+    turning = [body for n, body in bodies.items() if n in pinned and body.pin in mechanism.frame_points and body.omega]
+    for group, span in [(of, span) for of in groups for span in of.spans]:
+        link, start = span.link, span.start
+        carrying = (
+            body for body in turning if body.link is not link and start in body.link.points and start != body.pin
+        )
+        if (carrier := next(carrying, None)) is None:
+            continue
+        points = (span.end, *span.others)
+        letters = {p: mechanism.letter_on(p, span.number) if p in taken else p for p in points}
+        taken.update(points)
+        rates = str(carrier.omega), carrier.epsilon or ZERO
+        closing = _closing(mechanism, group, span)
+        found.append(Coupler(span, carrier.link, carrier.pin, *rates, letters, closing))
+    return tuple(found)
 
 
 def _closing(mechanism: Mechanism, group: AssurGroup, span: Span) -> Closing | None:
@@ -107,7 +101,12 @@ def compound(board: Board, found: Iterable[Coupler]) -> None:
     found = tuple(found)
     for coupler in found:
         _velocities(board, coupler)
-        _instant_centre(board, coupler)
+        # P is where both rotations cancel, OP * omega_e = -AP * omega_r: it divides OA in the ratio omega_r : omega
+        P, number = coupler.centre, coupler.number
+        board.calc(f"_{P}_part", "part_of", rate("omega", number, "r"), rate("omega", number))
+        board.divide(P, coupler.pivot, coupler.hinge, f"_{P}_part", "one")
+        for end in (coupler.hinge, coupler.pivot):
+            board.distance(between("l", end, f"P{number}"), end, P)
     for coupler in found:
         _accelerations(board, coupler)
 
@@ -137,15 +136,6 @@ def _velocities(board: Board, c: Coupler) -> None:
             board.calc(vector("V", letter, part="r"), "transport_speed", omega_r, f"_from_{c.hinge}_{point}")
             board.chain(tip, e, vector("V", letter, part="r"))
         board.read(vector("V", letter, part=TOTAL).size, start, tip)
-
-
-def _instant_centre(board: Board, c: Coupler) -> None:
-    """P is where both rotations cancel, OP * omega_e = -AP * omega_r: it divides OA in the ratio omega_r : omega."""
-    P = c.centre
-    board.calc(f"_{P}_part", "part_of", rate("omega", c.number, "r"), rate("omega", c.number))
-    board.divide(P, c.pivot, c.hinge, f"_{P}_part", "one")
-    for end in (c.hinge, c.pivot):
-        board.distance(between("l", end, f"P{c.number}"), end, P)
 
 
 def _accelerations(board: Board, c: Coupler) -> None:
@@ -189,14 +179,6 @@ def _close(board: Board, c: Coupler, closing: Closing, plan: str, letter: str) -
     board.meet(mark(plan, letter), mark(plan, "k"), c.span.n, start, closing.direction)
 
 
-def scale_symbol(plan: str) -> Name | None:
-    """Return the scale factor of a plan at a point: `mu_V` for all velocities, one for the accelerations of each."""
-    kind = role(plan).kind
-    if kind == VELOCITY:
-        return scale_factor("V")
-    return scale_factor("a", role(plan).of) if kind == ACCELERATION else None
-
-
 def found_here(program: Program) -> frozenset[str]:
     """Return the quantities that compound motion alone finds: parts of vectors, and relative rates."""
     here = [step for step in program if step.plan.kind in (VELOCITY, ACCELERATION)]
@@ -208,15 +190,3 @@ def found_here(program: Program) -> frozenset[str]:
 def is_relative(name: str) -> bool:
     """Whether a quantity is the rate of a relative turning."""
     return role(name).kind in ("omega", "epsilon") and role(name).part == "r"
-
-
-def disagreement(found: Iterable[Coupler], values: Mapping[str, Any]) -> float | None:
-    """Return the largest difference of both routes, in parts of the longest vector of either; None without any."""
-    worst = None
-    for c, point, letter in ((coupler, *pair) for coupler in found for pair in coupler.letters.items()):
-        for kind, parts in COMPOUND.items():
-            vectors = (vector(kind, c.hinge), *(vector(kind, letter, part=part) for part in parts))
-            longest = max(abs(complex(values[name])) for name in vectors)
-            gap = abs(complex(values[vector(kind, letter, part=TOTAL).size]) - complex(values[vector(kind, point)]))
-            worst = max(worst or 0.0, gap / (longest or 1.0))
-    return worst

@@ -5,7 +5,7 @@ What keeps a driver moving follows from the moments of its forces, and a second 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import ClassVar
 
 from ...scales.errors import InputError
@@ -14,7 +14,7 @@ from ..names import NORMAL, Name, by_lever, mark, spelled, vector
 from ..quantities import F_BAL, M_BAL
 from .legs import Slide
 from .mechanism import FRAME, MOMENT, ZERO, Driver, Mechanism, Prismatic, SlidingDriver
-from .parts import Body, Couples, Forces, Span, hang, moments_about
+from .parts import Couples, Forces, Span, hang, moments_about
 
 
 def driver_of(mechanism: Mechanism) -> Crank | SlidingBlock:
@@ -27,35 +27,22 @@ def driver_of(mechanism: Mechanism) -> Crank | SlidingBlock:
     """
     driver = mechanism.driver
     if isinstance(driver, Driver):
-        return Crank(mechanism, driver, Span(mechanism.link(driver.link), driver.pivot, driver.point))
+        return Crank(mechanism, driver)
     for pair in mechanism.pairs:
         if isinstance(pair, Prismatic) and {*pair.links} == {FRAME, driver.link}:
-            return SlidingBlock(mechanism, driver, Slide(mechanism, pair, driver.link, driver.point, {}))
+            return SlidingBlock(mechanism, driver, pair)
     raise InputError("driver-guide", link=driver.link)
 
 
-@dataclass(frozen=True, slots=True)
 class Crank:
     """The crank OA between its pivot and its pin."""
 
-    mechanism: Mechanism
-    driver: Driver
-    span: Span
-
-    @property
-    def spans(self) -> tuple[Span, ...]:
-        """Its links with two joints."""
-        return (self.span,)
-
-    @property
-    def body(self) -> Body:
-        """Return the crank for the links attached to it."""
-        return self.span.body if self.driver.acceleration else replace(self.span.body, epsilon=None)
-
-    @property
-    def balance(self) -> Name:
-        """Name of what balances it: of the lever it has `_lever` behind it."""
-        return M_BAL if self.driver.balance == MOMENT else F_BAL
+    def __init__(self, mechanism: Mechanism, driver: Driver) -> None:
+        self.mechanism, self.driver = mechanism, driver
+        self.span = Span(mechanism.link(driver.link), driver.pivot, driver.point)
+        self.spans = (self.span,)
+        self.body = self.span.body if driver.acceleration else replace(self.span.body, epsilon=None)
+        self.balance = M_BAL if driver.balance == MOMENT else F_BAL  # of the lever it has `_lever` behind it
 
     def turning_rate(self, board: Board) -> str:
         """Return the name of the angular velocity beside which another one is rounding."""
@@ -129,25 +116,20 @@ class Crank:
             board.calc(by_lever(M_BAL), "crank_moment", force, self.span.length)
 
 
-@dataclass(frozen=True, slots=True)
 class SlidingBlock:
     """A slider on the frame: P is the point that runs in the guide, u the guide's direction."""
 
-    mechanism: Mechanism
-    driver: SlidingDriver
-    slide: Slide
     spans: ClassVar[tuple[Span, ...]] = ()  # it has no two joints
     balance: ClassVar[Name] = F_BAL
 
-    @property
-    def body(self) -> Body:
-        """Return the slider for the links attached to it."""
-        return self.slide.body
+    def __init__(self, mechanism: Mechanism, driver: SlidingDriver, pair: Prismatic) -> None:
+        self.mechanism, self.driver = mechanism, driver
+        self.slide = Slide(mechanism, pair, driver.link, driver.point, {})
+        self.body = self.slide.body
 
     def turning_rate(self, board: Board) -> str:
         """Return the name of an angular velocity beside which another one is rounding: v_P over all lengths."""
-        places = (xy for link in self.mechanism.links for place in link.points.values() for xy in place)
-        board.calc("_reach", "reach", *dict.fromkeys(xy for xy in places if xy != ZERO))
+        board.calc("_reach", "reach", *dict.fromkeys(xy for xy in self.mechanism.coordinates if xy != ZERO))
         board.calc("_omega", "rate_over", vector("V", self.driver.point).size, "_reach")
         return "_omega"
 

@@ -6,7 +6,7 @@ done, and whether that is the working one.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
@@ -14,7 +14,7 @@ from typing import Any
 from ...scales.errors import InputError
 from ..board import Board
 from ..laws import TURN
-from ..names import inertia, magnitude, on_link, rate, vector
+from ..names import Name, inertia, magnitude, on_link, rate, vector
 from .mechanism import (
     ANGLE,
     BOTH,
@@ -62,8 +62,12 @@ def lay_loads(board: Board, moving: Moving) -> None:
         When a mass is to follow from the length of a link that has none, or a load resists the motion of a pivot.
     """
     mechanism = moving.mechanism
-    for link in mechanism.links:
-        _mass(board, moving, link)
+    for link in mechanism.links:  # mass and moment of inertia may follow from the distance of its two joints
+        length = _length(board, moving, link) if link.per_length or link.inertia_factor else ""
+        if link.per_length:
+            board.calc(str(link.mass), "mass_by_length", link.per_length, length)
+        if link.inertia_factor:
+            board.calc(str(link.inertia), "inertia_by_length", link.inertia_factor, str(link.mass), length)
     if needs_stroke(mechanism):
         lay_stroke(board, moving)
     for diagram in mechanism.diagrams:
@@ -76,34 +80,34 @@ def lay_loads(board: Board, moving: Moving) -> None:
         board.turn("_right", ZERO)
         board.normal("_up", "_right")
     for link in mechanism.links:
-        _inertia(board, moving, link)
-    for name, couples in _sums(mechanism, moving.bodies).items():
+        for force, law, operands in _of_mass(mechanism, link):
+            board.calc(force, law, *operands)
+        epsilon = moving.bodies[link.number].epsilon
+        if link.inertia and epsilon:
+            board.calc(inertia("M", link.number), "inertia_moment", link.inertia, epsilon)
+    for name, couples in _sums(_couples(mechanism, moving.bodies)).items():
         board.calc(name, "sum", *couples)
 
 
 def hung(mechanism: Mechanism, bodies: Bodies) -> tuple[Forces, Couples]:
     """Return forces (name, point) and couples by link: inertia first, weight, then outer loads; couples as one sum."""
-    forces: Forces = {link.number: [] for link in mechanism.links}
-    couples = _couples(mechanism, bodies)
+    forces: Forces = {}
     for link in mechanism.links:
-        if has_inertia_force(mechanism, link):
-            forces[link.number].append((inertia("F", link.number), str(link.centre)))
-        if has_weight(mechanism, link):
-            forces[link.number].append((rate("G", link.number), str(link.centre)))
+        forces[link.number] = [(name, str(link.centre)) for name, _, _ in _of_mass(mechanism, link)]
         forces[link.number] += [(load.name, load.point) for load in mechanism.loads_on(link.number)]
-    for name, parts in _sums(mechanism, bodies).items():
+    couples = _couples(mechanism, bodies)
+    for name, parts in _sums(couples).items():
         couples[next(number for number in couples if couples[number] == parts)] = [name]
     return forces, couples
 
 
-def has_inertia_force(mechanism: Mechanism, link: Link) -> bool:
-    """Whether a link has a mass whose centre moves."""
-    return bool(link.mass) and link.centre not in mechanism.frame_points
-
-
-def has_weight(mechanism: Mechanism, link: Link) -> bool:
-    """Whether gravity acts on a link."""
-    return bool(link.mass and mechanism.gravity)
+def _of_mass(mechanism: Mechanism, link: Link) -> Iterator[tuple[Name, str, tuple[str, ...]]]:
+    """Go through the forces at a link's centre, name, law and operands: inertia force where that moves, weight."""
+    mass, centre = str(link.mass), str(link.centre)
+    if link.mass and link.centre not in mechanism.frame_points:
+        yield inertia("F", link.number), "inertia_force", (mass, vector("a", centre))
+    if link.mass and mechanism.gravity:
+        yield rate("G", link.number), "weight", (mass, mechanism.gravity, "_up")
 
 
 def _couples(mechanism: Mechanism, bodies: Bodies) -> Couples:
@@ -116,32 +120,11 @@ def _couples(mechanism: Mechanism, bodies: Bodies) -> Couples:
     return found
 
 
-def _sums(mechanism: Mechanism, bodies: Bodies) -> dict[str, list[str]]:
+def _sums(couples: Couples) -> dict[str, list[str]]:
     """Return the sums of couples on links that have several: `M_sum`, of more such links `M_sum_3`."""
-    several = {number: parts for number, parts in _couples(mechanism, bodies).items() if len(parts) > 1}
+    several = {number: parts for number, parts in couples.items() if len(parts) > 1}
     own = "M_sum" if len(several) == 1 else ""
     return {on_link(own or f"M_sum_{number}", number): parts for number, parts in several.items()}
-
-
-def _inertia(board: Board, moving: Moving, link: Link) -> None:
-    if has_inertia_force(moving.mechanism, link):
-        board.calc(inertia("F", link.number), "inertia_force", str(link.mass), vector("a", str(link.centre)))
-    if has_weight(moving.mechanism, link):
-        board.calc(rate("G", link.number), "weight", str(link.mass), str(moving.mechanism.gravity), "_up")
-    epsilon = moving.bodies[link.number].epsilon
-    if link.inertia and epsilon:
-        board.calc(inertia("M", link.number), "inertia_moment", link.inertia, epsilon)
-
-
-def _mass(board: Board, moving: Moving, link: Link) -> None:
-    """Let mass and moment of inertia follow from the distance of the link's two joints."""
-    if not (link.per_length or link.inertia_factor):
-        return
-    length = _length(board, moving, link)
-    if link.per_length:
-        board.calc(str(link.mass), "mass_by_length", link.per_length, length)
-    if link.inertia_factor:
-        board.calc(str(link.inertia), "inertia_by_length", link.inertia_factor, str(link.mass), length)
 
 
 def _length(board: Board, moving: Moving, link: Link) -> str:
@@ -216,23 +199,17 @@ def _size(board: Board, mechanism: Mechanism, load: Load | Couple) -> str:
 
 def _diagram(board: Board, mechanism: Mechanism, diagram: Diagram) -> None:
     """Read a load diagram in this position."""
-    name, values = f"_diagram_{diagram.name}", _marks(mechanism, diagram.values)
+    name, sizes = f"_diagram_{diagram.name}", mechanism.sizes  # whose name is that of a load's vector on the board
+    values, back = ([magnitude(x) if x in sizes else x for x in of] for of in (diagram.values, diagram.back or ()))
     if diagram.over == ANGLE:  # behind its last place it runs on to the first one of the next turn
         board.calc(f"{name}_angle", "within_turn", mechanism.driver.coordinate, diagram.at[0])
         board.calc(f"{name}_next", "turn_later", diagram.at[0])
         board.calc(name, "piecewise", f"{name}_angle", *diagram.at, f"{name}_next", *values, values[0])
         return
-    forth = f"{name}_forth"
-    board.calc(forth if diagram.back else name, "piecewise", PART, *diagram.at, *values)
-    if diagram.back:
-        board.calc(f"{name}_back", "piecewise", PART, *diagram.at, *_marks(mechanism, diagram.back))
-        board.calc(name, "by_stroke", "_working", forth, f"{name}_back")
-
-
-def _marks(mechanism: Mechanism, values: Sequence[str]) -> list[str]:
-    """Return the names of a diagram's values on the board, where that of a load is its vector."""
-    sizes = mechanism.sizes
-    return [magnitude(name) if name in sizes else name for name in values]
+    board.calc(f"{name}_forth" if back else name, "piecewise", PART, *diagram.at, *values)
+    if back:
+        board.calc(f"{name}_back", "piecewise", PART, *diagram.at, *back)
+        board.calc(name, "by_stroke", "_working", f"{name}_forth", f"{name}_back")
 
 
 def in_order(diagram: Diagram, values: Mapping[str, Any]) -> None:

@@ -61,6 +61,11 @@ class Revolute:
     at: tuple[str, str] | None = None
     branch: str | None = None
 
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the coordinates of its place on the frame."""
+        return self.at or ()
+
 
 @dataclass(frozen=True, slots=True)
 class Prismatic:
@@ -77,6 +82,11 @@ class Prismatic:
     direction: str
     offset: str = ZERO
     branch: str | None = None
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """Names of the coordinates of its place on the guide link."""
+        return *self.through, self.offset
 
 
 MOMENT, FORCE = "moment", "force"
@@ -210,6 +220,11 @@ class Start:
     driver: str
     legs: tuple[int, int] | None = None
 
+    @property
+    def givens(self) -> tuple[str, ...]:
+        """Names of its values."""
+        return self.x, self.y, self.angle, self.driver
+
 
 def start_names(number: int) -> tuple[str, str, str, str, str]:
     """Return the names of the values that say where the central link lies, about, before it is laid down.
@@ -269,20 +284,21 @@ class Mechanism:
         return next(link for link in self.links if link.number == number)
 
     @property
+    def coordinates(self) -> list[str]:
+        """Names of the coordinates of all points of the moving links."""
+        return [xy for link in self.links for place in link.points.values() for xy in place]
+
+    @property
     def givens(self) -> frozenset[str]:
         """Names of the values that it needs under their own names; sizes of loads and the driver's rates are not."""
-        names = [xy for link in self.links for place in link.points.values() for xy in place]
-        names += [name for link in self.links for name in link.givens]
+        names = [*self.coordinates, *(name for link in self.links for name in link.givens)]
         for pair in self.pairs:
-            if isinstance(pair, Revolute):
-                names += [*(pair.at or ()), pair.branch or ZERO]
-            else:
-                names += [*pair.through, pair.direction, pair.offset, pair.branch or ZERO]
+            names += [*pair.coordinates, pair.branch or ZERO]
+            names += [pair.direction] if isinstance(pair, Prismatic) else []
         names += [load.direction or ZERO for load in self.loads] + [couple.sense or ZERO for couple in self.couples]
-        names += [name for start in self.starts for name in (start.x, start.y, start.angle, start.driver)]
-        sizes = self.sizes
-        names += [name for d in self.diagrams for name in d.at]
-        names += [name for d in self.diagrams for name in d.sizes if name not in sizes]
+        names += [name for start in self.starts for name in start.givens]
+        names += [name for diagram in self.diagrams for name in diagram.at]
+        names += {name for diagram in self.diagrams for name in diagram.sizes}.difference(self.sizes)
         names += [self.gravity or ZERO, self.stroke.sense if self.stroke else ZERO]
         names += [self.driver.coordinate, self.driver.sense if isinstance(self.driver, Driver) else ZERO]
         return frozenset(names) - self.opposites.keys()
@@ -290,10 +306,8 @@ class Mechanism:
     @property
     def opposites(self) -> dict[str, str]:
         """Names of opposite lengths, with the lengths."""
-        places: list[tuple[str, ...]] = [place for link in self.links for place in link.points.values()]
-        for pair in self.pairs:
-            places.append((*pair.through, pair.offset) if isinstance(pair, Prismatic) else pair.at or ())
-        return {name: positive(name) for place in places for name in place if positive(name) != name}
+        names = [*self.coordinates, *(name for pair in self.pairs for name in pair.coordinates)]
+        return {name: positive(name) for name in names if positive(name) != name}
 
     @property
     def frame_points(self) -> dict[str, tuple[str, str]]:

@@ -172,9 +172,8 @@ class Span:
 
 def size_of(board: Board, mechanism: Mechanism) -> str:
     """Calculate the largest coordinate of the mechanism: what its places are rounded by; return its name."""
-    places = [place for link in mechanism.links for place in link.points.values()]
-    places += mechanism.frame_points.values()
-    board.calc("_size", "largest", *dict.fromkeys(xy for place in places for xy in place if xy != ZERO))
+    names = (*mechanism.coordinates, *(xy for place in mechanism.frame_points.values() for xy in place))
+    board.calc("_size", "largest", *dict.fromkeys(xy for xy in names if xy != ZERO))
     return "_size"
 
 

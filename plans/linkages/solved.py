@@ -11,14 +11,14 @@ from ...scales.errors import PositionError
 from ..board import POSITION, Program
 from ..boards.exact import SMALL, Trouble, run
 from ..laws import cross
-from ..names import Name, role, scale_factor, spelled
+from ..names import Name, role, scale_factor, spelled, vector
 from ..quantities import extent, plans_of, point_of, quantities, shown_on
 from ..solved import Solved
 from . import compound
 from .chain import USUAL, constructed, hinged
 from .givens import board_givens
 from .legs import guide_letters
-from .mechanism import FRAME, ZERO, Mechanism, Prismatic, Revolute, SlidingDriver
+from .mechanism import FRAME, ZERO, Mechanism, Prismatic, SlidingDriver
 from .structure import TRIAD, Structure, listed
 
 if TYPE_CHECKING:
@@ -71,13 +71,11 @@ class SolvedLinkage(Solved):
 
         limits = Follower(self.mechanism, self._numbers).limits()
         slides = isinstance(self.mechanism.driver, SlidingDriver)
-        data = {"link": group.central, "gap": f"{trouble.gap * 1e3:.4g}"}
-        if limits is None:
-            return PositionError("start-far", status_word="no-assembly", **data)
-        slides = isinstance(self.mechanism.driver, SlidingDriver)
-        low, high = (f"{x * 1e3:.7g}" if slides else f"{math.degrees(x):.7g}" for x in limits)
-        key = "no-way-slide" if slides else "no-way"
-        return PositionError(key, status_word="no-assembly", low=low, high=high, **data)
+        key, data = "start-far", {"link": group.central, "gap": f"{trouble.gap * 1e3:.4g}"}
+        if limits is not None:
+            key = "no-way-slide" if slides else "no-way"
+            data["low"], data["high"] = (f"{x * 1e3 if slides else math.degrees(x):.7g}" for x in limits)
+        return PositionError(key, status_word="no-assembly", **data)
 
     def _apart(self, trouble: Trouble) -> PositionError:
         """Return by how much the links miss each other, and the places of the driver at which they just meet."""
@@ -105,8 +103,11 @@ def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:
     symbols: dict[str, str] = {Name(plan, plan): scale_factor(kind) for plan, kind in kinds.items()}
     for part, links in structure.parts.items():
         symbols |= {spelled("forces", name): scale_factor("F", part, links) for name in (part, *map(str, links))}
-    symbols |= {plan: symbol for plan in program.plans if (symbol := compound.scale_symbol(plan))}
-    drawn = set(program.plans)
+    drawn = program.plans
+    for plan in drawn:  # at a point: of all velocities one, of the accelerations of each its own
+        if role(plan).kind in (compound.VELOCITY, compound.ACCELERATION):
+            own = role(plan).kind == compound.ACCELERATION
+            symbols[plan] = scale_factor("a", role(plan).of) if own else scale_factor("V")
     return {plan: symbol for plan, symbol in symbols.items() if plan in drawn}
 
 
@@ -117,9 +118,17 @@ def scale_symbols(structure: Structure, program: Program) -> tuple[str, ...]:
 
 def disagreement(solved: SolvedLinkage) -> float | None:
     """Return by how much compound motion and the plans differ, in parts of the longest vectors; None without both."""
+    worst = None
     if solved.trouble is not None or not any(role(plan).kind == compound.ACCELERATION for plan in solved.program.plans):
         return None
-    return compound.disagreement(hinged(solved.mechanism, solved.structure), solved.values)
+    found = hinged(solved.mechanism, solved.structure)
+    for c, point, letter in ((coupler, *pair) for coupler in found for pair in coupler.letters.items()):
+        for kind, parts in compound.COMPOUND.items():
+            vectors = (vector(kind, c.hinge), *(vector(kind, letter, part=part) for part in parts))
+            longest = max(solved.size(name) for name in vectors)
+            gap = abs(solved.point(vector(kind, letter, part=compound.TOTAL).size) - solved.point(vector(kind, point)))
+            worst = max(worst or 0.0, gap / (longest or 1.0))
+    return worst
 
 
 def moment_points(mechanism: Mechanism, structure: Structure) -> dict[str, str]:
@@ -155,22 +164,20 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     SolvedLinkage
         With status `singular` or `no-assembly` when the position has no plan; what is undefined is None.
     """
-    near, plans = dict[str, Any](), tuple(plans)
+    plans = tuple(plans)
     if mechanism.starts:  # groups of class III need arrays, and so numpy, on the way from their start
         from .triads.following import followed, with_special_points
 
         near = followed(mechanism, values)
-        mechanism = with_special_points(mechanism, values, near)
+        mechanism, values = with_special_points(mechanism, values, near), {**values, **near}
     structure, program = constructed(mechanism, plans)
-    givens = board_givens(mechanism, {**values, **near}, program, follow=False)
+    givens = board_givens(mechanism, values, program, follow=False)
     board = run(program, givens)
     better = with_moment_centres(mechanism, structure, board.values) if "forces" in plans else mechanism
     if better is not mechanism:
-        mechanism = better
-        program = constructed(mechanism, plans)[1]
+        mechanism, program = better, constructed(better, plans)[1]
         board = run(program, givens)
-    places = (x for link in mechanism.links for xy in link.points.values() for x in xy)
-    lengths = {x: values[x] for x in places if x != ZERO and not role(x).hidden}
+    lengths = {x: values[x] for x in mechanism.coordinates if x != ZERO and not role(x).hidden}
     items = quantities(program, board.values, lengths)
     for name, point in moment_points(mechanism, structure).items():
         if name in items:
@@ -201,30 +208,27 @@ def with_moment_centres(mechanism: Mechanism, structure: Structure, values: Mapp
     The `values` are those of a run of its construction in one position: the joints of all groups.
     """
     found = []
-    for group in structure.groups:
-        if group.kind == "RRR":
-            A, C = (pair.point for pair in group.outer)
-            at_a, at_b, at_c = sines_of(*(complex(values[point]) for point in (A, group.inner[0].point, C)))
-            if at_b < SMALL and max(at_a, at_c) >= TWICE * at_b:
-                found.append((group.name, C if at_a >= at_c else A))
+    for group in (group for group in structure.groups if group.kind == "RRR"):
+        A, C = (pair.point for pair in group.outer)
+        at_a, at_b, at_c = sines_of(*(complex(values[point]) for point in (A, group.inner[0].point, C)))
+        if at_b < SMALL and max(at_a, at_c) >= TWICE * at_b:
+            found.append((group.name, C if at_a >= at_c else A))
     return replace(mechanism, centres=tuple(found)) if found else mechanism
 
 
-def sines_of(a: complex, b: complex, c: complex) -> tuple[float, float, float]:
+def sines_of(a: complex, b: complex, c: complex) -> tuple[float, ...]:
     """Return the sines of the angles of a triangle in A, B and C; NaN where two corners coincide."""
     doubled = abs(cross(b - a, c - a))
     sides = [abs(c - b), abs(a - c), abs(b - a)]
     product = sides[0] * sides[1] * sides[2]
     if not product > 0.0:
-        return (float("nan"),) * 3
-    first, second, third = (doubled * side / product for side in sides)
-    return first, second, third
+        return (math.nan,) * 3
+    return tuple(doubled * side / product for side in sides)
 
 
 def signs(mechanism: Mechanism) -> frozenset[str]:
     """Return the names of givens that are +1 or -1: senses and branches. They do not err."""
-    names = [pair.branch for pair in mechanism.pairs if isinstance(pair, (Revolute, Prismatic))]
-    names += [couple.sense for couple in mechanism.couples]
+    names = [pair.branch for pair in mechanism.pairs] + [couple.sense for couple in mechanism.couples]
     names += [getattr(mechanism.driver, "sense", None), mechanism.stroke.sense if mechanism.stroke else None]
     return frozenset(name for name in names if name is not None)
 
@@ -252,8 +256,7 @@ def worst_condition(solved: SolvedLinkage, plan: str | None = None) -> tuple[str
 
     What is only calculated may lose its digits because it passes zero: that says nothing of the position.
     """
-    shown = plans_of(solved.program)
-    found = ((item.value or 0.0, name) for name, item in conditions_of(solved).items() if name in shown)
-    here = (pair for pair in found if plan is None or shown[pair[1]] == plan)
-    value, name = max(here, default=(0.0, ""))
+    shown, conditions = plans_of(solved.program), conditions_of(solved)
+    names = [name for name in conditions if name in shown and plan in (None, shown[name])]
+    value, name = max(((conditions[name].value or 0.0, name) for name in names), default=(0.0, ""))
     return name, value

@@ -29,7 +29,7 @@ from ...names import role
 from ...zeros import Stretch, zeros
 from ..chain import constructed
 from ..givens import board_givens
-from ..mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic, Revolute
+from ..mechanism import ZERO, Driver, Mechanism, Prismatic
 from ..solved import SolvedLinkage
 
 if TYPE_CHECKING:
@@ -274,12 +274,7 @@ def _range(drive: Swept, values: Mapping[str, float], between: Arc | None) -> St
 
 def size_of(mechanism: Mechanism, values: Mapping[str, float]) -> float:
     """Return a length that no distance in the mechanism exceeds: all coordinates that it names, together."""
-    names = [xy for link in mechanism.links for place in link.points.values() for xy in place]
-    for pair in mechanism.pairs:
-        if isinstance(pair, Revolute) and FRAME in pair.links:
-            names += pair.at or ()
-        elif isinstance(pair, Prismatic):
-            names += [*pair.through, pair.offset]
+    names = [*mechanism.coordinates, *(name for pair in mechanism.pairs for name in pair.coordinates)]
     given = board_givens(replace(mechanism.without_loads, starts=()), values)
     return math.fsum(abs(given.get(name, 0.0)) for name in set(names)) or 1.0  # the same in any order
 
