@@ -29,7 +29,7 @@ ALL_PARTS = [
 ]
 
 
-def at(law: LawOfMotion, x: object, order: int = 0) -> np.ndarray:
+def along(law: LawOfMotion, x: object, order: int = 0) -> np.ndarray:
     """Return s (order 0), s' (1) or s'' (2) at the places `x`; at a jump what follows it, at 1 what precedes."""
     places = np.asarray(x, float)
     curves = list(law.pieces)
@@ -48,7 +48,7 @@ def quadrature(law: LawOfMotion, order: int, low: float, high: np.ndarray) -> np
         half = 0.5 * (end - begin)
         places = begin + half * (1.0 + NODES[:, np.newaxis])
         inside = np.clip(places, a, np.nextafter(b, 0.0))
-        total += half * (WEIGHTS @ at(law, inside, order))
+        total += half * (WEIGHTS @ along(law, inside, order))
     return total
 
 
@@ -74,8 +74,8 @@ def test_closed_forms_are_the_integrals_of_the_acceleration(name: str, parts: tu
     for u in parts:
         law = law_of_motion(name, u)
         velocity, travel = quadrature(law, 2, 0.0, x), quadrature(law, 1, 0.0, x)
-        assert np.max(np.abs(at(law, x, 1) - velocity)) <= 1e-13 * np.max(np.abs(at(law, x, 1)))
-        assert np.max(np.abs(at(law, x) - travel)) <= 1e-13
+        assert np.max(np.abs(along(law, x, 1) - velocity)) <= 1e-13 * np.max(np.abs(along(law, x, 1)))
+        assert np.max(np.abs(along(law, x) - travel)) <= 1e-13
 
 
 @pytest.mark.parametrize("u", PARTS)
@@ -83,10 +83,10 @@ def test_closed_forms_are_the_integrals_of_the_acceleration(name: str, parts: tu
 def test_phase_is_travelled_exactly_from_rest_to_rest(name: str, u: float) -> None:
     law = law_of_motion(name, u)
 
-    assert at(law, 0.0) == 0.0
-    assert at(law, 1.0) == 1.0
+    assert along(law, 0.0) == 0.0
+    assert along(law, 1.0) == 1.0
     if name != UNIFORM:
-        assert np.max(np.abs(at(law, [0.0, 1.0], 1))) <= 1e-15
+        assert np.max(np.abs(along(law, [0.0, 1.0], 1))) <= 1e-15
 
 
 @pytest.mark.parametrize("u", PARTS)
@@ -95,14 +95,14 @@ def test_lobes_have_equal_areas_and_amplitudes_as_their_lengths(name: str, u: fl
     law = law_of_motion(name, u)
     x = np.append(np.linspace(0.0, 1.0, 4001), u)
 
-    up, down = np.max(at(law, x[x < u], 2)), -np.min(at(law, x, 2))
+    up, down = np.max(along(law, x[x < u], 2)), -np.min(along(law, x, 2))
 
     if name != "sawtooth":  # its first amplitude is a limit from the left
         assert down / up == pytest.approx(u / (1.0 - u), rel=2e-3)
     else:
         before, after = limits(law, u, 2)
         assert -after / before == pytest.approx(u / (1.0 - u), rel=1e-12)
-    assert float(at(law, u)) == pytest.approx(u, rel=1e-14)
+    assert float(along(law, u)) == pytest.approx(u, rel=1e-14)
     assert quadrature(law, 2, 0.0, np.array([u]))[0] == pytest.approx(-quadrature(law, 2, u, np.array([1.0]))[0])
 
 
@@ -126,7 +126,7 @@ JUMPS = {
 def test_acceleration_jumps_where_the_law_says(name: str, u: float) -> None:
     law = law_of_motion(name, u)
     x = np.linspace(0.0, 1.0, 100_001)
-    first, second = np.max(at(law, x, 2)), -np.min(at(law, x, 2))
+    first, second = np.max(along(law, x, 2)), -np.min(along(law, x, 2))
 
     ends = (limits(law, 0.0, 2)[1], *limits(law, u, 2), limits(law, 1.0, 2)[0])
 
@@ -156,7 +156,7 @@ BOOK: dict[str, Callable[[np.ndarray], np.ndarray]] = {
 def test_symmetrical_law_is_that_of_the_books(name: str) -> None:
     x = np.linspace(0.0, 1.0, 201)
 
-    assert np.max(np.abs(at(law_of_motion(name), x) - BOOK[name](x))) <= 1e-13
+    assert np.max(np.abs(along(law_of_motion(name), x) - BOOK[name](x))) <= 1e-13
 
 
 # greatest s' and s'' of u = 1/2; Rothbart, Cam Design Handbook, table of basic curves
@@ -177,7 +177,7 @@ def test_peaks_are_those_of_the_books(name: str) -> None:
     x = np.linspace(0.0, 1.0, 200_001)
     law = law_of_motion(name)
 
-    peaks = np.max(at(law, x, 1)), np.max(at(law, x, 2))
+    peaks = np.max(along(law, x, 1)), np.max(along(law, x, 2))
 
     assert peaks == pytest.approx(PEAKS[name], rel=2e-6)
 
@@ -188,8 +188,8 @@ def test_fall_runs_back_in_time_or_in_the_same_order() -> None:
 
     mirror, same = LawOfMotion(law.mirrored()), LawOfMotion(law.turned())
 
-    assert at(mirror, x) == pytest.approx(at(law, 1.0 - x), abs=1e-15)
-    assert at(same, x) == pytest.approx(1.0 - at(law, x), abs=1e-15)
+    assert along(mirror, x) == pytest.approx(along(law, 1.0 - x), abs=1e-15)
+    assert along(same, x) == pytest.approx(1.0 - along(law, x), abs=1e-15)
     assert [piece.low for piece in mirror.pieces] == pytest.approx([0.0, 0.7])
     assert [piece.low for piece in same.pieces] == pytest.approx([0.0, 0.3])
 
@@ -212,7 +212,7 @@ def test_straight_pieces_give_the_law_they_belong_to(
     law = law_of_curve(Curve("own", "pieces", at, values))
 
     for order in range(3):
-        assert at(law, x, order) == pytest.approx(at(law_of_motion(name, 0.25), x, order), abs=1e-12)
+        assert along(law, x, order) == pytest.approx(along(law_of_motion(name, 0.25), x, order), abs=1e-12)
 
 
 def test_smooth_curve_runs_through_its_points_without_a_jump_inside() -> None:
@@ -220,8 +220,8 @@ def test_smooth_curve_runs_through_its_points_without_a_jump_inside() -> None:
 
     law = law_of_points(at, values)
 
-    assert at(law, at) == pytest.approx((np.array(values) - 2.0) / 13.0, abs=1e-14)
-    assert at(law, [0.0, 1.0], 1) == pytest.approx([0.0, 0.0], abs=1e-14)
+    assert along(law, at) == pytest.approx((np.array(values) - 2.0) / 13.0, abs=1e-14)
+    assert along(law, [0.0, 1.0], 1) == pytest.approx([0.0, 0.0], abs=1e-14)
     for x in at[1:-1]:
         before, after = limits(law, x, 2)
         assert before == pytest.approx(after, abs=1e-12)
@@ -233,7 +233,7 @@ def test_points_of_a_cubic_give_that_cubic() -> None:
     law = law_of_points(at.tolist(), (3.0 * at**2 - 2.0 * at**3).tolist())
 
     x = np.linspace(0.0, 1.0, 50)
-    assert at(law, x, 2) == pytest.approx(6.0 - 12.0 * x, abs=1e-12)
+    assert along(law, x, 2) == pytest.approx(6.0 - 12.0 * x, abs=1e-12)
 
 
 @pytest.mark.parametrize(
