@@ -13,7 +13,7 @@ from kulman.plans.gears.geometry import geometry
 from kulman.plans.gears.givens import complete
 from kulman.plans.gears.solve import SAME_CENTRES, checks, judged
 from kulman.plans.gears.teeth import meshing_of, tooth_of
-from kulman.tests.support.gear_polygons import outlines, polygon
+from kulman.tests.support.gear_polygons import polygon
 from kulman.tests.support.gears import SEED, madi
 
 
@@ -79,7 +79,7 @@ def test_interference_is_where_wheels_overlap_when_they_roll(
     values = complete(madi(z_1=z_1, z_2=z_2, x_1=x_1, x_2=x_2))
     meshing = meshing_of(values)
     angles = np.linspace(-math.pi / z_1, math.pi / z_1, 16, endpoint=False)
-    pairs = (outlines(meshing, float(angle), 100, math.radians(0.3)) for angle in angles)
+    pairs = (meshing.outlines(float(angle), 100, math.radians(0.3)) for angle in angles)
 
     worst = max(polygon(first).intersection(polygon(second)).area for first, second in pairs)
 

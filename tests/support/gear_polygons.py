@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 from shapely.geometry import LineString, Polygon
 
-from kulman.plans.gears.teeth import ARC, Meshing, Tooth
+from kulman.plans.gears.teeth import Meshing, Tooth
 
 MM = 1e3
 
@@ -24,17 +24,9 @@ def line(points: np.ndarray) -> LineString:
     return LineString(np.column_stack((points.real, points.imag)) * MM)
 
 
-def wheel_of(tooth: Tooth, points: int, arc: float = ARC) -> np.ndarray:
+def wheel_of(tooth: Tooth, points: int) -> np.ndarray:
     """Return points of a whole wheel counter-clockwise, closed without a repeated point."""
-    return tooth.teeth(round(tooth.z), points, arc)[:-1]
-
-
-def outlines(meshing: Meshing, angle: float, points: int, arc: float = ARC) -> list[np.ndarray]:
-    """Return the outlines of both wheels at an angle of the pinion."""
-    return [
-        centre + wheel_of(tooth, points, arc) * direction
-        for tooth, centre, direction in zip(meshing.teeth, meshing.centres, meshing.directions(angle), strict=True)
-    ]
+    return tooth.teeth(round(tooth.z), points)[:-1]
 
 
 def rack(values: Mapping[str, float], x: float, z: float) -> np.ndarray:
