@@ -51,14 +51,16 @@ FORMATS = {
 }
 
 
-def format_named(name: str) -> Format:
-    """Return the format called `name`; small letters and a Cyrillic А are understood.
+def format_named(name: str | Format) -> Format:
+    """Return the format called `name`; small letters and a Cyrillic А are understood. A format stays as it is.
 
     Raises
     ------
     InputError
         There is no such format.
     """
+    if isinstance(name, Format):
+        return name
     wanted = str(name).strip().upper().replace("А", "A").replace("-PORTRAIT", "-portrait")
     if wanted not in FORMATS:
         raise InputError("format-unknown", text=quote(name), known=", ".join(FORMATS))

@@ -1,11 +1,10 @@
-"""A case: one variant of a task, solved for the plans wanted, with the givens and scale factors that were asked for."""
+"""What is asked of a task, and a case: one variant of it solved for the plans wanted."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any
 
 from ..drawing.words import Given, Words
 from ..plans.names import role
@@ -18,22 +17,58 @@ from ..scales.names import unknown
 from ..scales.numbers import quote
 from .kinds import kind_of
 from .kinds.kind import Kind
-from .reader import load_task
 from .task import WITH_FORCES, LocatedError, Task
+
+if TYPE_CHECKING:
+    from ..drawing.formats import Format
+    from ..drawing.pens import Norm
 
 Settings = Mapping[str, str | float]
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
-    """One variant of a task in one position; `settings` replace givens, `choosers` are by scale factor."""
+class Request:
+    """What is asked of a task, by the keywords that every function of the package has; `block` is for title blocks."""
 
     task: Task
-    variant: str
-    settings: Settings
-    plans: tuple[str, ...]
-    solved: Solved
-    choosers: Mapping[str, Chooser]
+    variant: str | None = None
+    settings: Settings | None = None  # in the place of givens
+    only: str | Iterable[str] | None = None
+    scales: Settings | None = None
+    notation: str | None = None
+    language: str = "uk"
+    format: str | Format | None = None
+    norm: Norm = "gost"
+    block: Mapping[str, str] = field(default_factory=dict)
+
+    def case(self) -> Case:
+        """Solve what is asked for.
+
+        Raises
+        ------
+        InputError
+            An unknown variant, given, plan or scale factor, or a value of the wrong kind.
+        """
+        task = self.task
+        of_kind("variant", self.variant, (str, int, type(None)), "str | None")
+        variant, settings = task.variant(self.variant).id, by_name("set", self.settings)
+        plans = plans_wanted(self.only, task)
+        values, words = task.values(variant, settings), task.words(variant, settings)
+        solved = kind_of(task.kind).solve(task.subject, values, words, plans)
+        choosers = _choosers(task, by_name("scales", self.scales), solved)
+        asked = {item.name: getattr(self, item.name) for item in fields(self)}
+        return Case(**asked | {"variant": variant, "settings": settings}, plans=plans, solved=solved, choosers=choosers)
+
+
+@dataclass(frozen=True, slots=True)
+class Case(Request):
+    """One variant of a task in one position; `choosers` are by scale factor."""
+
+    variant: str = ""
+    settings: Settings = field(default_factory=dict)
+    plans: tuple[str, ...] = field(kw_only=True)
+    solved: Solved = field(kw_only=True)
+    choosers: Mapping[str, Chooser] = field(kw_only=True)
 
     @property
     def givens(self) -> dict[str, Given]:
@@ -52,16 +87,16 @@ class Case:
         """The units of results: those of the task, but SI where forces are wanted."""
         return Display(paper=self.task.display.paper) if WITH_FORCES.intersection(self.plans) else self.task.display
 
-    def words(self, lang: str | None = None, notation: str | None = None) -> Words:
-        """Return the words of results in their units: English ones and the task's notation where none is said.
+    def words(self, language: str | None = None) -> Words:
+        """Return the words of results in their units; in the language that was asked for where none is said.
 
         Raises
         ------
         InputError
             There is no such language or notation.
         """
-        words = Words.of("en" if lang is None else lang, self.task.notation if notation is None else notation)
-        return words.showing(self.display)
+        notation = self.task.notation if self.notation is None else self.notation
+        return Words.of(self.language if language is None else language, notation).showing(self.display)
 
     @property
     def warnings(self) -> tuple[InputError, ...]:
@@ -72,30 +107,6 @@ class Case:
     def kind(self) -> Kind[Any, Any]:
         """Of which kind the task is."""
         return kind_of(self.task.kind)
-
-
-def solve_case(
-    task: str | os.PathLike[str] | Task,
-    variant: str | None,
-    settings: Settings | None,
-    only: str | Iterable[str] | None,
-    scales: Settings | None,
-) -> Case:
-    """Read a task and solve one variant of it; the arguments are those of `solve`.
-
-    Raises
-    ------
-    InputError
-        An unknown task, variant, given, plan or scale factor, or a value of the wrong kind.
-    """
-    found = task if isinstance(task, Task) else load_task(task)
-    of_kind("variant", variant, (str, int, type(None)), "str | None")
-    row = found.variant(variant)
-    changed = by_name("set", settings)
-    kind = kind_of(found.kind)
-    plans = plans_wanted(only, found.plans, kind.plans)
-    solved = kind.solve(found.subject, found.values(row.id, changed), found.words(row.id, changed), plans)
-    return Case(found, row.id, changed, plans, solved, _choosers(found, by_name("scales", scales), solved))
 
 
 def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser]:
@@ -184,12 +195,8 @@ def positions_of(argument: str, value: int) -> int:
     return value
 
 
-def plans_wanted(
-    value: str | Iterable[str] | None, all_of_them: tuple[str, ...], known: tuple[str, ...]
-) -> tuple[str, ...]:
-    """Return the plans that `only` names, each alone or several with commas between; `all_of_them` for none.
-
-    Those that can be named are `known`.
+def plans_wanted(value: str | Iterable[str] | None, task: Task) -> tuple[str, ...]:
+    """Return the plans that `only` names, each alone or several with commas between; all of the task for none.
 
     Raises
     ------
@@ -197,9 +204,9 @@ def plans_wanted(
         There is no such plan.
     """
     if value is None:
-        return all_of_them
+        return task.plans
     of_kind("only", value, (str, Iterable), "list[str]")
     items = (value,) if isinstance(value, str) else tuple(value)
     plans = names_of("only", items)
-    all_known("plan-unknown", plans or items[:1], known)
-    return plans or all_of_them
+    all_known("plan-unknown", plans or items[:1], kind_of(task.kind).plans)
+    return plans or task.plans

@@ -15,7 +15,8 @@ from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import quote
-from .case import Case, Settings, solve_case
+from .case import Case, Request, Settings
+from .reader import load_task
 from .sheets import Sheet, drawing_of, sheet_of, stamp_of
 from .task import Task
 
@@ -81,17 +82,20 @@ def handout(
     for first, second in APART:
         if asked[first] and asked[second]:
             raise InputError("handout-apart", first=first, second=second)
-    case = solve_case(task, variant, set, only, scales)
-    drawing = drawing_for_print(case, format, norm, notation, lang)
+    case = Request(load_task(task), variant, set, only, scales, notation, lang, format, norm, block or {}).case()
+    drawing = drawing_for_print(case)
     if over is None and not key:
-        drawn = begun_of_case(case, drawing, block or {}, steps, notation, lang)
+        drawn = begun_of_case(case, drawing, steps)
     else:
-        drawn = sheet_of(case, drawing, stamp_of(case, block or {}, notation, lang))
+        drawn = sheet_of(case, drawing, stamp_of(case))
         pages = drawn.pages if over is None else (_alone(drawn, over),)
         drawn = replace(drawn, pages=tuple(map(marked, pages)))
     if hidden_key:
         drawn = replace(drawn, pages=tuple(map(keyed, drawn.pages, drawing.placed)))
-    return _on_grid(drawn, drawing) if grid else drawn
+    if not grid:
+        return drawn
+    sheet, norm = drawing.sheet, drawing.norm
+    return replace(drawn, pages=tuple(gridded(page, sheet, norm, at == 0) for at, page in enumerate(drawn.pages)))
 
 
 def _alone(drawn: Sheet, over: str) -> Page:
@@ -102,25 +106,15 @@ def _alone(drawn: Sheet, over: str) -> Page:
     return over_page(figures[over], drawn.pages[0])
 
 
-def _on_grid(drawn: Sheet, drawing: Drawn) -> Sheet:
-    sheet, norm = drawing.sheet, drawing.norm
-    pages = (gridded(page, sheet, norm, number == 0) for number, page in enumerate(drawn.pages))
-    return replace(drawn, pages=tuple(pages))
-
-
-def drawing_for_print(
-    case: Case, format: str = PAPER, norm: Norm = "gost", notation: str | None = None, lang: str = "uk"
-) -> Drawn:
+def drawing_for_print(case: Case) -> Drawn:
     """Draw the sheet of a case, but for its title block, on paper whose edge printers leave white."""
-    return drawing_of(case, printable(format_named(format)), norm, notation, lang)
+    return drawing_of(replace(case, format=printable(format_named(case.format or PAPER))))
 
 
-def begun_of_case(
-    case: Case, drawing: Drawn, block: Mapping[str, str], steps: int = 0, notation: str | None = None, lang: str = "uk"
-) -> Sheet:
+def begun_of_case(case: Case, drawing: Drawn, steps: int = 0) -> Sheet:
     """Return the handout of a case whose `drawing` is for print, with so many steps done."""
-    drawn = sheet_of(case, drawing, stamp_of(case, block, notation, lang))
-    words = case.words(lang, notation)
+    drawn = sheet_of(case, drawing, stamp_of(case))
+    words = case.words()
 
     def done(count: int) -> list[Page]:
         return begun_pages(drawn.pages, drawn.views, case.kind.begun(case, drawn.scales, words, count), count)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..drawing.compose import Drawn
@@ -19,7 +19,8 @@ from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
-from .case import Case, Settings, solve_case
+from .case import Case, Request, Settings
+from .reader import load_task
 from .sheets import Sheet, draw_case, said_of, sheet_id
 from .task import Task
 
@@ -110,25 +111,25 @@ def note(
     InputError, PositionError
         As for `sheet`; or there is no such figure.
     """
-    case = solve_case(task, variant, set, only, scales)
-    drawn = draw_case(case, {}, format, notation=notation, lang=lang)
-    document = Document(title_page(case, block, lang), body_of(case, drawn, notation, lang), lang)
+    case = Request(load_task(task), variant, set, only, scales, notation, lang, format).case()
+    drawn = draw_case(case)
+    document = Document(title_page(replace(case, block=block)), body_of(case, drawn), lang)
     found = Note(document, drawn, figure)
     if figure is not None and figure not in found.figures:
         raise unknown("figure-unknown", figure, found.figures)
     return found
 
 
-def title_page(case: Case, block: Mapping[str, str], lang: str) -> TitlePage:
+def title_page(case: Case) -> TitlePage:
     """Return what the first page of the note of a case says."""
     identity = sheet_id(case.task, case.variant, case.settings)
-    return TitlePage(case.task.title[lang], case.task.id, case.variant, identity=identity, **said_of(block))
+    title = case.task.title[case.language]
+    return TitlePage(title, case.task.id, case.variant, identity=identity, **said_of(case.block))
 
 
-def body_of(case: Case, drawn: Drawn | Sheet, notation: str | None = None, lang: str = "uk") -> tuple[Block, ...]:
+def body_of(case: Case, drawn: Drawn | Sheet) -> tuple[Block, ...]:
     """Return what follows the first page: who the author is changes nothing of it."""
-    said = packaged(TEXTS, "texts", lang)
-    words = case.words(lang, notation)
+    said, words = packaged(TEXTS, "texts", case.language), case.words()
     story = case.kind.story(case, drawn.scales, words, said)
     by = said["note.over" if words.per_unit else "note.times"]
     identity = sheet_id(case.task, case.variant, case.settings)

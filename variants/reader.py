@@ -52,14 +52,16 @@ class TaskFileError(InputError):
         return f"{line} {more}"
 
 
-def load_task(task: str | os.PathLike[str]) -> Task:
-    """Return the bundled task of this id, or the task in a TOML file.
+def load_task(task: str | os.PathLike[str] | Task) -> Task:
+    """Return the bundled task of this id, or the task in a TOML file; one that is read already as it is.
 
     Raises
     ------
     InputError
         No such task or file, a file that cannot be read, or (`TaskFileError`) one with faults.
     """
+    if isinstance(task, Task):
+        return task
     of_kind("task", task, (str, os.PathLike), "str | PathLike | Task")
     if isinstance(task, str) and task in bundled():
         return _load_bundled(task)

@@ -12,19 +12,19 @@ from pathlib import Path
 from typing import get_args
 
 from ..drawing.compose import Drawn
-from ..drawing.formats import Format, format_named
+from ..drawing.formats import format_named
 from ..drawing.page import Page
 from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
 from ..drawing.view import View
-from ..drawing.words import Words
 from ..drawing.writers import write_pages
 from ..scales.arguments import of_kind
 from ..scales.choose import Fixed
 from ..scales.errors import InputError
 from ..scales.names import latin, legible, unknown
 from ..scales.scale import Scale
-from .case import Case, Settings, solve_case
+from .case import Case, Request, Settings
+from .reader import load_task
 from .task import Task
 
 # what a title block says beside what the task does
@@ -133,54 +133,25 @@ def sheet(
     PositionError
         The position has no plan.
     """
-    case = solve_case(task, variant, set, only, scales)
     block = {"student": student, "group": group, "teacher": teacher, "department": department}
     block |= {"designation": designation, "date": date}
-    return draw_case(case, block, format, norm, notation, lang)
+    return draw_case(Request(load_task(task), variant, set, only, scales, notation, lang, format, norm, block).case())
 
 
-def draw_case(
-    case: Case,
-    block: Mapping[str, str],
-    format: str | Format | None = None,
-    norm: Norm = "gost",
-    notation: str | None = None,
-    lang: str = "uk",
-) -> Sheet:
-    """Draw the sheet of a case.
-
-    Parameters
-    ----------
-    block : mapping of str to str
-        What the title block says, by names of `BLOCK`; what is left out stays blank.
-    format, norm, notation, lang
-        As for `sheet`.
-
-    Raises
-    ------
-    InputError, PositionError
-        As for `sheet`.
-    """
-    drawn = drawing_of(case, format, norm, notation, lang)
-    return sheet_of(case, drawn, stamp_of(case, block, notation, lang))
+def draw_case(case: Case) -> Sheet:
+    """Draw the sheet of a case; errors as of `sheet`."""
+    return sheet_of(case, drawing_of(case), stamp_of(case))
 
 
-def drawing_of(
-    case: Case, format: str | Format | None = None, norm: Norm = "gost", notation: str | None = None, lang: str = "uk"
-) -> Drawn:
-    """Draw the sheet of a case but for its title block; arguments and errors as of `draw_case`."""
-    paper = format if format is None or isinstance(format, Format) else format_named(format)
-    if norm not in get_args(Norm):
-        raise unknown("norm-unknown", norm, get_args(Norm))
+def drawing_of(case: Case) -> Drawn:
+    """Draw the sheet of a case but for its title block; errors as of `sheet`."""
+    paper = None if case.format is None else format_named(case.format)
+    if case.norm not in get_args(Norm):
+        raise unknown("norm-unknown", case.norm, get_args(Norm))
     error = case.solved.error()
     if error is not None:
         raise error
-    return case.kind.draw(case, _words(case, notation, lang), norm, paper)
-
-
-def _words(case: Case, notation: str | None, lang: str) -> Words:
-    """Return the words of a sheet, whose language has to be said."""
-    return Words.of(lang, case.task.notation if notation is None else notation).showing(case.display)
+    return case.kind.draw(case, case.words(), case.norm, paper)
 
 
 def said_of(block: Mapping[str, str]) -> dict[str, str]:
@@ -196,33 +167,21 @@ def said_of(block: Mapping[str, str]) -> dict[str, str]:
     return {name: legible(name, text) for name, text in block.items()}
 
 
-def stamp_of(case: Case, block: Mapping[str, str], notation: str | None = None, lang: str = "uk") -> Stamp:
+def stamp_of(case: Case) -> Stamp:
     """Return what the title block of a case says."""
-    words = _words(case, notation, lang)
-    said = dict.fromkeys(BLOCK, "") | said_of(block)
+    said = dict.fromkeys(BLOCK, "") | said_of(case.block)
     return Stamp(
-        title=case.task.title[lang],
+        title=case.task.title[case.language],
         designation=said["designation"],
         organisation=said["department"],
         group=said["group"],
         student=said["student"],
         teacher=said["teacher"],
         date=said["date"],
-        document_type=words["sheet.document"],
-        language=lang,
+        document_type=case.words()["sheet.document"],
+        language=case.language,
         identity=sheet_id(case.task, case.variant, case.settings),
     )
-
-
-def drawn_on(case: Case, words: Words, paper: Format) -> Drawn:
-    """Draw a case on a format, for what it measures there.
-
-    Raises
-    ------
-    InputError
-        The sheet does not fit on it.
-    """
-    return case.kind.draw(case, words, paper=paper)
 
 
 def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:

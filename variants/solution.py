@@ -16,9 +16,10 @@ from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.scale import Scale
 from ..scales.units import format_unit
-from .case import Case, Settings, solve_case
+from .case import Case, Request, Settings
 from .kinds import kind_of
 from .kinds.kind import Kind
+from .reader import load_task
 from .tables import aligned
 from .task import Task
 
@@ -296,9 +297,17 @@ def solve(
     >>> round(solve("nau-slider-crank", "example")["V_B"].value, 4)
     2.7614
     """
-    case = solve_case(task, variant, set, only, scales)
-    words = case.words(lang, notation)
-    solved, paper, by_plan, warnings = _on_paper(case, words if lang else case.words("uk"), format)
+    language = "uk" if lang is None else lang  # of the sheet on which is drawn, where nothing is said
+    asked = Request(load_task(task), variant, set, only, scales, notation, language, format)
+    found = solution_of(asked, condition, hand)
+    return found if lang is not None else replace(found, words=found.words.speaking("en"))
+
+
+def solution_of(asked: Request, condition: bool = False, hand: str | Hand | None = None) -> Solution:
+    """Solve what is asked for; arguments and errors as of `solve`."""
+    case = asked.case()
+    words = case.words()
+    solved, paper, by_plan, warnings = _on_paper(case)
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
     found = case.kind.conditions(case) if condition else {}
@@ -307,22 +316,22 @@ def solve(
     return Solution(case.task, case.variant, solved, items, used, *said, found, drawn, case.plans, paper)
 
 
-def _on_paper(
-    case: Case, words: Words, format: str | None
-) -> tuple[Solved, str, Mapping[str, Scale], tuple[InputError, ...]]:
+def _on_paper(case: Case) -> tuple[Solved, str, Mapping[str, Scale], tuple[InputError, ...]]:
     """Return what is solved, the format and the scale factors by plan of its sheet, and warnings.
 
     Nothing is drawn unless a format is said. A position without a plan has neither format nor scale factors.
     """
-    solved, paper = case.solved, None if format is None else format_named(format)
+    solved = case.solved
+    if case.format is not None:
+        format_named(case.format)  # a wrong one is refused in any position
     if solved.trouble is not None:
         return solved, "", {}, case.warnings
-    if paper is None:
+    if case.format is None:
         sheet, scales = case.kind.first_scales(solved, case.choosers, case.plans)
         return solved, sheet.name, {plan: scales[plan] for plan in solved.scale_of_plan}, case.warnings
-    from .sheets import drawn_on  # draws the whole sheet, which takes a second or two
+    from .sheets import drawing_of  # draws the whole sheet, which takes a second or two
 
-    drawn = drawn_on(case, words, paper)
+    drawn = drawing_of(case)
     solved, said = case.kind.fitted(solved, drawn)
     # some views are drawn larger
     return solved, drawn.format, {plan: drawn.scales[plan] for plan in solved.scale_of_plan}, (*case.warnings, *said)

@@ -26,8 +26,9 @@ from kulman.plans.cams.rules import rules_of
 from kulman.plans.cams.solve import SolvedCam
 from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
-from kulman.variants.case import Case, solve_case
-from kulman.variants.sheets import Sheet, draw_case
+from kulman.tests.support.cases import draw_case, solve_case
+from kulman.variants.case import Case
+from kulman.variants.sheets import Sheet
 
 TASK = "madi-cam"
 ROCKER = str(Path(__file__).parents[2] / "docs" / "examples" / "rocker-cam.toml")
@@ -74,7 +75,7 @@ def stages(case: Case) -> dict[str, tuple[str, ...]]:
 
 @cache
 def drawn(task: str, variant: str, settings: Settings) -> Sheet:
-    return draw_case(solved(task, variant, settings), {}, lang="en")
+    return draw_case(solved(task, variant, settings), "en")
 
 
 def cam(case: Case) -> SolvedCam:

@@ -11,8 +11,8 @@ from kulman.plans.linkages.accuracy.stability import CHANGE, DEAD, LIMIT, Stabil
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
+from kulman.tests.support.cases import solve_case
 from kulman.tests.support.linkages import four_bar, four_bar_values, slider_crank, slider_crank_values
-from kulman.variants.case import solve_case
 from kulman.variants.charts import linkage as chart_of
 from kulman.variants.charts.charts import Scene
 from kulman.variants.reader import load_task

@@ -9,7 +9,8 @@ import pytest
 
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.commands.test_layers import loaded
-from kulman.variants.case import Case, solve_case
+from kulman.tests.support.cases import solve_case
+from kulman.variants.case import Case
 from kulman.variants.kinds import KINDS, MODULES, kind_of
 from kulman.variants.kinds.kind import Kind
 

@@ -13,8 +13,8 @@ import pytest
 
 from kulman import all_variants, cli, load_task, sheet, solve
 from kulman.plans.boards.exact import SMALL
+from kulman.tests.support.cases import solve_case
 from kulman.tests.support.task_files import task_of, with_changes
-from kulman.variants.case import solve_case
 from kulman.variants.making.new_variants import most_pages, ranges_of, with_variants
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled

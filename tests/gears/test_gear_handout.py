@@ -18,8 +18,8 @@ from kulman.drawing.view import View
 from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
 from kulman.scales.scale import Scale
-from kulman.variants.case import solve_case
-from kulman.variants.sheets import Sheet, draw_case
+from kulman.tests.support.cases import draw_case, solve_case
+from kulman.variants.sheets import Sheet
 
 TASK = "madi-gear"
 
@@ -60,7 +60,7 @@ def test_a_blank_tells_what_is_given_and_no_result(only: str | None) -> None:
 @pytest.mark.parametrize("only", ["sliding", pytest.param("meshing", marks=pytest.mark.soak)])
 def test_every_stage_draws_something_more(only: str) -> None:
     case = solve_case(TASK, None, None, only, None)
-    drawn = draw_case(case, {}, lang="en")
+    drawn = draw_case(case, "en")
     most = max(len(view.stages) for view in drawn.views)
 
     def count(pages: Iterable[Page]) -> int:
@@ -101,7 +101,7 @@ def shown(views: Iterable[View]) -> set[str]:
 
 def test_stages_draw_something_and_leave_what_the_work_comes_to() -> None:
     case = solve_case(TASK, None, None, None, None)
-    views = [view for view in draw_case(case, {}, lang="en").views if view.stages]
+    views = [view for view in draw_case(case, "en").views if view.stages]
 
     assert [view.name for view in views] == ["meshing", "rolling", "action", "sliding"]
     for view in views:
@@ -117,7 +117,7 @@ def test_stages_draw_something_and_leave_what_the_work_comes_to() -> None:
 @pytest.mark.parametrize("others", [PAIRS[0], *(pytest.param(pair, marks=pytest.mark.soak) for pair in PAIRS[1:])])
 def test_every_mark_of_the_construction_has_its_stage(others: dict[str, float]) -> None:
     case = solve_case(TASK, None, {name: str(value) for name, value in others.items()}, None, None)
-    said = shown(draw_case(case, {}, lang="en").views)
+    said = shown(draw_case(case, "en").views)
 
     program = case.solved.program
     marks = [step.name for plan in ("meshing", "sliding", "theta") for step in program.on(plan)]
@@ -142,7 +142,7 @@ def test_note_tells_as_many_steps_as_a_handout_has_stages(lang: str) -> None:
 
     story = case.kind.story(case, scales, words, packaged("kulman.drawing.notes", "texts", lang))
 
-    views = [view for view in draw_case(case, {}, lang=lang).views if view.stages]
+    views = [view for view in draw_case(case, lang).views if view.stages]
     assert all(len(story.steps_of(view)) == len(view.stages) - 1 for view in views)
     assert {key for view in views for key in view.stages.values()} - {""} == {
         key for key in story.texts if re.match(r"gear\.(meshing|rolling|action|sliding)\.", key)

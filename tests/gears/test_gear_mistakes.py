@@ -18,7 +18,8 @@ from kulman.plans.marking.verdicts import mark
 from kulman.plans.mistakes.book import Book, book, broken
 from kulman.plans.mistakes.explaining import explain
 from kulman.plans.mistakes.rules import Broken
-from kulman.variants.marking.keyed import Request, keyed
+from kulman.variants.case import Request
+from kulman.variants.marking.keyed import keyed
 from kulman.variants.marking.rubric import Rubric
 from kulman.variants.reader import load_task
 

@@ -15,8 +15,9 @@ from kulman.drawing.shapes import Group, Line, Shape, Text
 from kulman.drawing.view import View
 from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
-from kulman.variants.case import Case, solve_case
-from kulman.variants.sheets import Sheet, draw_case
+from kulman.tests.support.cases import draw_case, solve_case
+from kulman.variants.case import Case
+from kulman.variants.sheets import Sheet
 
 TASK = "karpenko-hoist"
 MOVED = {"V_0": "4 m/s"}  # the load comes back on its support
@@ -25,7 +26,7 @@ MOVED = {"V_0": "4 m/s"}  # the load comes back on its support
 @lru_cache(maxsize=4)
 def drawn(variant: str, moved: bool = False, only: str | None = None) -> tuple[Case, Sheet]:
     case = solve_case(TASK, variant, MOVED if moved else None, only, None)
-    return case, draw_case(case, {}, lang="en")
+    return case, draw_case(case, "en")
 
 
 def pages(steps: int, variant: str, moved: bool = False, only: str | None = None) -> list[Page]:

@@ -16,7 +16,7 @@ from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.solve import SolvedHoist
 from kulman.plans.laws import form_of
 from kulman.scales.errors import LANGUAGES
-from kulman.variants.case import solve_case
+from kulman.tests.support.cases import solve_case
 
 TASK = "karpenko-hoist"
 FORMULAS = (*REDUCED, SLACK, *STARTED, *HANGING, *BENT)

@@ -16,7 +16,7 @@ from kulman.variants.case import Case
 from kulman.variants.marking.answers import Answers
 from kulman.variants.marking.reports import report_html
 from kulman.variants.marking.result import result_of
-from kulman.variants.sheets import drawn_on, sheet_id
+from kulman.variants.sheets import drawing_of, sheet_id
 
 TASK = "nau-slider-crank"
 HEAD = "величина;відрізок, мм;масштаб;значення;одиниця;напрям\n"
@@ -67,11 +67,11 @@ def test_another_variant_is_recognised_on_any_format_without_a_sheet_of_it(
 ) -> None:
     drawn = set[str]()
 
-    def noted(case: Case, *rest: Any) -> Any:
+    def noted(case: Case) -> Any:
         drawn.add(case.variant)
-        return drawn_on(case, *rest)
+        return drawing_of(case)
 
-    monkeypatch.setattr(sheets, "drawn_on", noted)
+    monkeypatch.setattr(sheets, "drawing_of", noted)
     asked = check(TASK, "3", lang="en", format="A3")
     at_five = solve(TASK, "5", format="A4")  # other scale factors than those of the format that is asked for
     rows = "".join(

@@ -11,7 +11,8 @@ from kulman.drawing.notes.blocks import Steps
 from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
 from kulman.scales.scale import Scale
-from kulman.variants.case import Case, Settings, solve_case
+from kulman.tests.support.cases import solve_case
+from kulman.variants.case import Case, Settings
 
 GEAR, HOIST = "madi-gear", "karpenko-hoist"
 SLACK = {"V_0": "1.5 m/s", "a": "0"}

@@ -40,10 +40,10 @@ def draw_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let handouts of one case share their drawing from here on."""
     kept: dict[object, Drawn] = {}
 
-    def drawing(case: Case, *how: object) -> Drawn:
-        asked = (case.task.id, case.variant, *how)
+    def drawing(case: Case) -> Drawn:
+        asked = (case.task.id, case.variant, case.format, case.norm, case.notation, case.language)
         if asked not in kept:
-            kept[asked] = drawing_for_print(case, *how)  # type: ignore[arg-type]
+            kept[asked] = drawing_for_print(case)
         return kept[asked]
 
     monkeypatch.setattr("kulman.variants.handouts.drawing_for_print", drawing)

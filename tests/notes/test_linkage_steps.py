@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
 from typing import Any
@@ -16,9 +17,9 @@ from kulman.drawing.linkages.telling.teller import Teller
 from kulman.drawing.notes.blocks import Equations, Figure, Heading, Steps, Story
 from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
-from kulman.variants.case import Case, solve_case
+from kulman.tests.support.cases import draw_case, solve_case
+from kulman.variants.case import Case
 from kulman.variants.kinds.linkage import KIND
-from kulman.variants.sheets import draw_case
 from kulman.variants.shelf import bundled
 
 FEW = ("bertyaev-six-bar", "scheme-09-shaper", "scheme-20-press-automaton", "scheme-18-hydraulic-drive")
@@ -43,7 +44,8 @@ def scene_of(case: Case, lang: str = "en") -> Any:
 
 def story_of(case: Case, lang: str = "en", notation: str | None = None) -> Story:
     _, scales = KIND.first_scales(case.solved, case.choosers, case.plans)
-    return KIND.story(case, scales, case.words(lang, notation), packaged("kulman.drawing.notes", "texts", lang))
+    words, said = replace(case, notation=notation).words(lang), packaged("kulman.drawing.notes", "texts", lang)
+    return KIND.story(case, scales, words, said)
 
 
 @lru_cache(maxsize=32)
@@ -199,7 +201,7 @@ SLIDERS = ("scheme-19-scotch-yoke", "scheme-09-shaper", "scheme-04-v-engine", "s
 @pytest.mark.parametrize("task", [SLIDERS[0], *(pytest.param(task, marks=pytest.mark.soak) for task in SLIDERS[1:])])
 def test_moments_about_guides_stand_with_the_figure_of_their_slider(task: str) -> None:
     equations = told(task).equations
-    views = {view.name for view in draw_case(case_of(task), {}, lang="en").views}
+    views = {view.name for view in draw_case(case_of(task), "en").views}
 
     assert {*equations} <= views
     assert {view for view in views if view.startswith("link_")} == {name for name in equations if "link_" in name}

@@ -13,7 +13,8 @@ from kulman.drawing.shapes import Group, Shape, Vector
 from kulman.plans.hands.hand import preset
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.printed_numbers import decimal
-from kulman.variants.marking.keyed import Request, keyed
+from kulman.variants.case import Request
+from kulman.variants.marking.keyed import keyed
 from kulman.variants.marking.rubric import Rubric
 from kulman.variants.reader import load_task
 from kulman.variants.sheets import Sheet

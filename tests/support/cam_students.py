@@ -13,7 +13,8 @@ from kulman.plans.marking.key import Key
 from kulman.plans.mistakes.book import Book, book
 from kulman.scales.errors import InputError
 from kulman.tests.support.marking_cases import HAND
-from kulman.variants.marking.keyed import Keyed, Request, keyed
+from kulman.variants.case import Request
+from kulman.variants.marking.keyed import Keyed, keyed
 from kulman.variants.marking.rubric import Rubric
 from kulman.variants.reader import load_task
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -14,9 +15,8 @@ from ...drawing.writers import folder_for, save_all, slug
 from ...scales.errors import InputError, Written
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
-from ..case import Settings, all_known, by_name, plans_wanted
+from ..case import Request, Settings, all_known, by_name, plans_wanted
 from ..crew import Advance, on_cluster, shared_out
-from ..kinds import kind_of
 from ..marking.wording import texts
 from ..reader import load_task
 from ..roster import SCHEME, VARIANT, WHO, Digits, Schemes, read_roster
@@ -92,11 +92,9 @@ def batch(
     """
     tasks = _tasks(task)
     all_known("batch-kind", kinds, FORMS)
-    making = Making(
-        _once(tasks), tuple(dict.fromkeys(kinds)), by_name("set", set), _plans(_once(tasks), only),
-        by_name("scales", scales), format, norm, notation, lang, dict(block or {}),
-    )  # fmt: skip
-    _refuse_early(making)
+    wanted, block = only if only is None or isinstance(only, str) else tuple(only), dict(block or {})
+    how = by_name("set", set), wanted, by_name("scales", scales), notation, lang, format, norm, block
+    making = Making({one.id: _asked_of(Request(one, None, *how)) for one in _once(tasks)}, tuple(dict.fromkeys(kinds)))
     usual = VARIANT if len(tasks) == 1 else f"{VARIANT},{SCHEME}"
     schemes = Schemes(tasks, Digits.of(usual if digits is None else digits))
     listed = read_roster(os.fspath(roster), schemes, each=True)
@@ -107,7 +105,7 @@ def batch(
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
     done = Batch(students, outcomes, (error,) if listed.unread else ())
-    for name, rows in _tables(done, making.tasks, lang):
+    for name, rows in _tables(done, _once(tasks), lang):
         put(place / name, csv_table(list(rows), lang))
     return done
 
@@ -115,7 +113,7 @@ def batch(
 def _tasks(said: Tasks) -> tuple[Task, ...]:
     """Return the tasks of a class in the order in which they are said."""
     several = said if isinstance(said, Sequence) and not isinstance(said, str) else (said,)
-    return tuple(one if isinstance(one, Task) else load_task(one) for one in several)
+    return tuple(map(load_task, several))
 
 
 def _once(tasks: Sequence[Task]) -> tuple[Task, ...]:
@@ -135,12 +133,15 @@ def _once(tasks: Sequence[Task]) -> tuple[Task, ...]:
     return tuple(found.values())
 
 
-def _plans(tasks: Iterable[Task], only: str | Iterable[str] | None) -> dict[str, tuple[str, ...]]:
-    """Return the plans wanted of each task; nothing where all are."""
-    if only is None:
-        return {}
-    wanted = only if isinstance(only, str) else tuple(only)
-    return {task.id: plans_wanted(wanted, task.plans, kind_of(task.kind).plans) for task in tasks}
+def _asked_of(request: Request) -> Request:
+    """Return what is asked of a task, by the names of its plans; what is wrong for every student alike is refused."""
+    task, plans = request.task, None if request.only is None else plans_wanted(request.only, request.task)
+    said_of(request.block)
+    if request.format is not None:
+        format_named(request.format)
+    Words.of(request.language, task.notation if request.notation is None else request.notation)
+    task.resolve(None, request.settings)
+    return replace(request, only=plans)
 
 
 def _tables(done: Batch, tasks: Sequence[Task], language: str) -> Iterator[tuple[str, Rows]]:
@@ -166,16 +167,6 @@ def write_roster(task: Tasks, file: str | os.PathLike[str], lang: str = "uk") ->
     tasks = _once(_tasks(task))
     rows = list(roster_rows(tasks, lang))
     return save_all((file,), SUFFIXES, lambda path: [(path, table_bytes(path, rows, lang, tasks[0].id, [0], 1))])[0]
-
-
-def _refuse_early(making: Making) -> None:
-    """Refuse what would be wrong for every student alike."""
-    said_of(making.block)
-    if making.format is not None:
-        format_named(making.format)
-    for task in making.tasks:
-        Words.of(making.language, task.notation if making.notation is None else making.notation)
-        task.resolve(None, making.settings)
 
 
 def _crew(jobs: int | None, dask: str | None) -> Crew:

@@ -7,7 +7,7 @@ import sys
 import traceback
 from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -17,20 +17,18 @@ from ...drawing.compose import Drawn
 from ...drawing.notes.blocks import Block, Document
 from ...drawing.notes.docx import Drawing, docx_bytes, drawings_of
 from ...drawing.notes.typst import Body, pdf_bytes
-from ...drawing.pens import Norm
 from ...drawing.writers import WRITERS, page_files, slug, sweep_parts, write_whole
 from ...plans.quantities import measured
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import format_unit
-from ..case import Case, solve_case
+from ..case import Case, Request
 from ..crew import Advance, Done
-from ..handouts import begun_of_case, drawing_for_print
+from ..handouts import PAPER, begun_of_case, drawing_for_print
 from ..journal import Journal, digest_of, remove_stale
 from ..notes import body_of, title_page
 from ..roster import Entry
 from ..sheets import Sheet, drawing_of, sheet_id, sheet_of, stamp_of
-from ..task import Task
 
 NOTE, HANDOUT = "note", "handout"
 KEPT = 32  # variants whose drawings a process keeps for the next students that have them
@@ -124,28 +122,26 @@ class Work:
 
     case: Case
     drawing: Drawn
-    notation: str | None
-    language: str
 
     @cached_property
     def body(self) -> tuple[Block, ...]:
         """The note after its first page."""
-        return body_of(self.case, self.drawing, self.notation, self.language)
+        return body_of(self.case, self.drawing)
 
     @cached_property
     def written(self) -> Body:
         """The same for a note as PDF."""
-        return Body.of(self.body, self.language)
+        return Body.of(self.body, self.case.language)
 
     @cached_property
     def drawings(self) -> list[Drawing]:
         """Its figures for a note as DOCX."""
-        return drawings_of(self.body, self.language)
+        return drawings_of(self.body, self.case.language)
 
     @cached_property
     def blank(self) -> Drawn:
         """The drawing on the paper of handouts."""
-        return drawing_for_print(self.case, notation=self.notation, lang=self.language)
+        return drawing_for_print(replace(self.case, format=PAPER, norm="gost"))
 
     @cached_property
     def key(self) -> dict[str, float | None]:
@@ -157,7 +153,7 @@ class Work:
         for name, quantity in measured(case.solved.quantities, case.solved.shown_on, self.drawing.scales).items():
             if quantity.kind != "point":
                 shown = quantity.shown(case.display)
-                unit = format_unit(shown.unit, self.language)
+                unit = format_unit(shown.unit, case.language)
                 found[f"{name} [{unit}]" if unit else name] = shown.value
                 if quantity.mm is not None:
                     found[f"{name}.mm"] = quantity.mm
@@ -166,21 +162,10 @@ class Work:
 
 @dataclass(frozen=True, slots=True)
 class Making:
-    """What is made for every student of a class, and how; the values of a row go before `settings`.
+    """What is made for every student of a class: what is asked of each task, by its id; values of a row go before."""
 
-    `tasks` are those of the class, each once, and `only` the plans wanted of each, by its id.
-    """
-
-    tasks: tuple[Task, ...]
+    asked: Mapping[str, Request]
     kinds: tuple[str, ...]
-    settings: Mapping[str, str | float] = field(default_factory=dict)
-    only: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    scales: Mapping[str, str | float] = field(default_factory=dict)
-    format: str | None = None
-    norm: Norm = "gost"
-    notation: str | None = None
-    language: str = "uk"
-    block: Mapping[str, str] = field(default_factory=dict)
     _works: dict[Hashable, Work] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property
@@ -192,14 +177,19 @@ class Making:
         """Return what makes the files of a student."""
         return self.make
 
-    def digest(self) -> str:
-        """Return what tells this making from any that would make other files of the same student."""
-        how = (self.kinds, self.settings, self.scales, self.format, self.norm, self.notation, self.language, self.block)
-        return digest_of(repr((__version__, *how)))
+    @property
+    def language(self) -> str:
+        """The language of all that is made."""
+        return next(iter(self.asked.values())).language
 
-    def digest_of_task(self, task: Task) -> str:
-        """Return what tells this making of a task from any that would make other files of it."""
-        return digest_of(repr((self.digest(), task.text, self.only.get(task.id), len(self.tasks) == 1)))
+    def digests(self) -> dict[str, str]:
+        """Return by task what tells this making from any that would make other files of the same student."""
+        said = {
+            name: [getattr(asked, item.name) for item in fields(asked) if item.name != "task"]
+            for name, asked in self.asked.items()
+        }
+        how = __version__, self.kinds, len(self.asked) == 1
+        return {name: digest_of(repr((how, self.asked[name].task.text, *items))) for name, items in said.items()}
 
     def make(self, student: Student) -> Made:
         """Make the files of a student; what cannot be made is told, not raised."""
@@ -216,27 +206,26 @@ class Making:
 
     def _made(self, student: Student) -> Made:
         who, work = student.entry.who, self._work(student)
-        case = work.case
-        block = {**self.block, "student": who.student, "group": who.group or self.block.get("group", "")}
-        drawn = sheet_of(case, work.drawing, stamp_of(case, block, self.notation, self.language))
-        what = case.variant if len(self.tasks) == 1 else f"{case.task.id} {case.variant}"
+        common = work.case.block
+        block = {**common, "student": who.student, "group": who.group or common.get("group", "")}
+        case = replace(work.case, block=block)
+        drawn = sheet_of(case, work.drawing, stamp_of(case))
+        what = case.variant if len(self.asked) == 1 else f"{case.task.id} {case.variant}"
         stem = f"{student.number:03d}-{slug(f'{who.student} {what}')}"
-        files = {name: data for kind in self.kinds for name, data in self._files(work, block, drawn, kind, stem)}
+        files = {name: data for kind in self.kinds for name, data in self._files(work, case, drawn, kind, stem)}
         notes = tuple(warning.text(self.language) for warning in drawn.warnings)
         return Made(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
 
-    def _files(
-        self, work: Work, block: dict[str, str], drawn: Sheet, kind: str, stem: str
-    ) -> Iterator[tuple[str, bytes]]:
+    def _files(self, work: Work, case: Case, drawn: Sheet, kind: str, stem: str) -> Iterator[tuple[str, bytes]]:
         """Go through the files of one kind: their names and what they hold."""
         if kind in NOTES:
-            page = {name: text for name, text in block.items() if name != "designation"}
-            document = Document(title_page(work.case, page, self.language), work.body, self.language)
+            block = {name: text for name, text in case.block.items() if name != "designation"}
+            document = Document(title_page(replace(case, block=block)), work.body, case.language)
             data = pdf_bytes(document, work.written) if kind == NOTE else docx_bytes(document, work.drawings)
             yield f"{stem}-note{NOTES[kind]}", data
             return
         if kind == HANDOUT:
-            drawn = begun_of_case(work.case, work.blank, block, notation=self.notation, lang=self.language)
+            drawn = begun_of_case(case, work.blank)
             stem, kind = f"{stem}-handout", "pdf"
         yield from ((path.name, data) for path, data in page_files(drawn.pages, Path(f"{stem}.{kind}")))
 
@@ -254,11 +243,10 @@ class Making:
         if data not in self._works:
             for oldest in [*self._works][: len(self._works) + 1 - KEPT]:
                 del self._works[oldest]
-            task = next(task for task in self.tasks if task.id == entry.task)
-            settings = {**self.settings, **entry.settings}
-            case = solve_case(task, entry.variant, settings, self.only.get(task.id), self.scales)
-            drawing = drawing_of(case, self.format, self.norm, self.notation, self.language)
-            self._works[data] = Work(case, drawing, self.notation, self.language)
+            asked = self.asked[entry.task]
+            settings = {**(asked.settings or {}), **entry.settings}
+            case = replace(asked, variant=entry.variant, settings=settings).case()
+            self._works[data] = Work(case, drawing_of(case))
         return self._works[data]
 
 
@@ -276,7 +264,7 @@ def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, a
     """Make what is not there yet; write it, and note it, as it comes."""
     sweep_parts(folder, lambda name: _OWN.match(name) is not None)
     journal = Journal(folder / JOURNAL, Outcome.from_json, Outcome.to_json)
-    of = {task.id: making.digest_of_task(task) for task in making.tasks}
+    of = making.digests()
     digests = [digest_of(f"{of.get(student.entry.task)} {student!r}") for student in students]
     found = {
         number: outcome

@@ -29,8 +29,9 @@ from ...scales.arguments import of_kind
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ...scales.units import parse, unit
-from ..case import Case, Settings, all_known, names_of, positions_of, solve_case
+from ..case import Case, Request, Settings, all_known, names_of, positions_of
 from ..hands import is_own
+from ..reader import load_task
 from ..tables import Cell, aligned, csv_bytes, csv_text
 from ..task import LocatedError, Task
 
@@ -403,16 +404,16 @@ def chart(
     >>> chart("nau-slider-crank", "example", chart="depth", positions=36)["depth"].found.needed
     ('F_i2', 'M_i2', 'F_i3')
     """
-    case = solve_case(task, variant, set, only, scales)
+    language = "en" if lang is None else lang
+    case = Request(load_task(task), variant, set, only, scales, notation, language).case()
     gallery = case.kind.gallery(case.task)
     names, wanted = names_of("chart", chart), names_of("quantities", quantities)
     all_known("chart-unknown", names, gallery.charts)
     if positions is not None:
         positions_of("positions", positions)
     most = _per_cent(tolerance)
-    words = case.words(lang, notation)
     of_kind("hand", hand, (str,), "str")
-    scene = Scene(case, words, hand)
+    scene = Scene(case, case.words(), hand)
     arguments = {"quantities": bool(wanted), "hand": hand != HAND, "tolerance": most != TOLERANCE}
     arguments["positions"] = positions is not None
     changed = [argument for argument, other in arguments.items() if other]

@@ -117,10 +117,10 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         yield from super().unfit(case)
         yield from _hindered(case.task.mechanism, case.task.values(case.variant, case.settings))
         if short := _short_vectors(case):
-            from ..case import solve_case
+            from ..case import Request
 
             # those that are so in every variant of a task, as on guides that do not turn, do not count
-            always = (_short_vectors(solve_case(case.task, one, None, None, None)) for one in case.task.variants)
+            always = (_short_vectors(Request(case.task, one).case()) for one in case.task.variants)
             for name in sorted(short - short.intersection(*always)):
                 yield InputError("variant-short", quantity=name)
 

@@ -15,7 +15,7 @@ from functools import cache
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, KulmanError, messages
 from ...scales.numbers import quote
-from ..case import Settings, by_name, solve_case
+from ..case import Request, Settings, by_name
 from ..crew import Advance
 from ..kinds import kind_of
 from ..reader import TaskFileError, load_task, read_text
@@ -75,7 +75,7 @@ def make_variants(
     InputError
         A range is wrong, or too few sets of data are good.
     """
-    found = task if isinstance(task, Task) else load_task(task)
+    found = load_task(task)
     of_kind("count", count, (int,), "int")
     if not 1 <= count <= MOST:
         raise InputError("variants-count", n=MOST)
@@ -99,7 +99,7 @@ def import_variants(task: str | os.PathLike[str] | Task, file: str | os.PathLike
     InputError
         The file cannot be read, names no given of the task, or none of its variants can be solved.
     """
-    found = task if isinstance(task, Task) else load_task(task)
+    found = load_task(task)
     rows: dict[str, Mapping[str, str]] = {}
     pages = most_pages(found)
     left_out: list[KulmanError] = []
@@ -335,11 +335,11 @@ def looked_at(
     A sheet may have so many `pages`. Unless `through`, what makes a poor exercise is not drawn.
     """
     try:
-        case = solve_case(task, variant, settings, None, None)
+        case = Request(task, variant, settings).case()
         remark = next(case.kind.unfit(case), None)
         if remark is not None and not through:
             return None, remark
-        drawn = draw_case(case, {})
+        drawn = draw_case(case)
     except KulmanError as error:
         return error, None
     if remark is None and len(drawn.pages) > case.kind.pages:
@@ -356,7 +356,7 @@ def most_pages(task: Task) -> Callable[[], int]:
     def own() -> int:
         least = kind_of(task.kind).pages
         try:
-            return max(least, len(draw_case(solve_case(task, None, None, None, None), {}).pages))
+            return max(least, len(draw_case(Request(task).case()).pages))
         except KulmanError:
             return least
 

@@ -10,9 +10,8 @@ from pathlib import Path
 from ...drawing.formats import format_named
 from ...drawing.writers import folder_for, save_all
 from ...scales.errors import KulmanError
-from ..case import Settings, by_name, plans_wanted
+from ..case import Request, Settings, by_name, plans_wanted
 from ..crew import Advance
-from ..kinds import kind_of
 from ..reader import load_task
 from ..roster import Digits, Roster, read_roster
 from ..spreadsheets.grid import SUFFIXES as TABLES
@@ -20,7 +19,7 @@ from ..tables import table_bytes
 from ..task import Task
 from .answers import Answers, Asked
 from .class_run import Job, mark_class
-from .keyed import Request, asked_of, class_header, form_rows
+from .keyed import asked_of, class_header, form_rows, solved
 from .marked import Desk
 from .reading import read_all
 from .report import Report, report
@@ -56,7 +55,7 @@ class Check:
             rows = [class_header(key.parts, language, self.rubric.directions != "ignored"), *self._students()]
             bold, frozen = [0], 1
         else:
-            rows = list(form_rows(key, {"task": task.id, "variant": self.request.variant}))
+            rows = list(form_rows(key, {"task": task.id, "variant": self.request.variant or ""}))
             columns = texts(language)["column.name"]
             frozen = next(number for number, row in enumerate(rows) if row[0] == columns) + 1
             bold = [n for n, row in enumerate(rows) if n >= frozen - 1 and (len(row) == 1 or row[0] == columns)]
@@ -178,21 +177,19 @@ def check(
     >>> [asked.mark(answers).marked.mark for answers in asked.read("printed")]
     [80.9]
     """
-    found = task if isinstance(task, Task) else load_task(task)
+    found = load_task(task)
     if variant is not None:
         found.variant(variant)
     Digits.of(digits)
-    plans = None if only is None else plans_wanted(only, found.plans, kind_of(found.kind).plans)
-    language = "en" if lang is None else lang
+    plans, language = None if only is None else plans_wanted(only, found), "en" if lang is None else lang
     said = by_name("set", set), plans, by_name("scales", scales), notation, language, format
-    request = Request(found, variant or "", *said)
+    request = Request(found, variant, *said)
     if format is not None:
         format_named(format)
     unformatted = replace(request, format=None)  # the same is asked on every format
-    first = variant or next(iter(found.variants))
-    asked = asked_of(unformatted.solution(first, {}))
+    asked = asked_of(solved(unformatted))
     if plans is not None:
-        whole = asked_of(replace(unformatted, only=None).solution(first, {}))
+        whole = asked_of(solved(replace(unformatted, only=None)))
         asked = replace(asked, others=frozenset(whole.names).difference(asked.names))
     marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked, directions)
     students = None if roster is None else read_roster(os.fspath(roster), found)

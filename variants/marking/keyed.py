@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from functools import cached_property
 from operator import attrgetter
 
@@ -14,10 +14,9 @@ from ...plans.marking.key import Key, Question, answer_key, needed_by
 from ...plans.mistakes.book import Book, book
 from ...plans.names import COUPLE, LEVER, role
 from ...scales.units import format_unit
-from ..case import Settings
+from ..case import Request, Settings
 from ..sheets import sheet_id
-from ..solution import Solution, solve
-from ..task import Task
+from ..solution import Solution, solution_of
 from .answers import Asked
 from .rubric import Rubric, has_sense
 from .wording import plain, texts
@@ -114,42 +113,12 @@ def class_header(parts: Iterable[Section], language: str, directions: bool) -> t
 PER_CENT = "%"  # what is compared in per cent is not asked
 
 
-@dataclass(frozen=True, slots=True)
-class Request:
-    """What is marked: a task with what the command line says of it; variants and data come with each student."""
-
-    task: Task
-    variant: str
-    settings: Mapping[str, str | float] = field(default_factory=dict)
-    only: tuple[str, ...] | None = None
-    scales: Mapping[str, str | float] = field(default_factory=dict)
-    notation: str | None = None
-    language: str = "uk"
-    format: str | None = None  # of the paper on which is drawn
-
-    def solution(self, variant: str, settings: Settings) -> Solution:
-        """Solve a variant with a student's own data.
-
-        Raises
-        ------
-        InputError
-            An unknown given, plan or scale factor, or a value of the wrong kind.
-        PositionError
-            The position has no plan.
-        """
-        solved = solve(
-            self.task,
-            variant,
-            set={**self.settings, **settings},
-            only=self.only,
-            scales=self.scales,
-            notation=self.notation,
-            lang=self.language,
-            format=self.format,
-        )
-        if solved.reason is not None:
-            raise solved.reason
-        return solved
+def solved(request: Request) -> Solution:
+    """Solve what is asked for; a position without a plan is an error, too."""
+    found = solution_of(request)
+    if found.reason is not None:
+        raise found.reason
+    return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,9 +192,10 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     Raises
     ------
     InputError, PositionError
-        As for `Request.solution`.
+        The variant or its data have no solution.
     """
-    solution = request.solution(variant, settings)
+    request = replace(request, variant=variant, settings={**(request.settings or {}), **settings})
+    solution = solved(request)
     mus = {scale.symbol: scale.mu for scale in solution.scales.values()}
     kind, drawn = solution.kind, solution.drawn_by_students
     paper = paper_of(drawn, mus)
@@ -238,5 +208,5 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     words = kind.lettered(solution.words, solution.solved)
     parts = tuple(sections(solution, key.questions.values(), words))
     asked = asked_of(solution, key.questions)
-    own = sheet_id(request.task, solution.variant, {**request.settings, **settings})
+    own = sheet_id(request.task, solution.variant, request.settings)
     return Keyed(solution, key, asked, parts, words, own)

@@ -18,7 +18,8 @@ from ...plans.solved import Columned, Ends
 from ...scales.errors import InputError, PositionError
 from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
-from ..case import Case, Settings, positions_of, solve_case
+from ..case import Case, Request, Settings, positions_of
+from ..reader import load_task
 from ..tables import aligned, csv_bytes, csv_text
 from ..task import Task
 
@@ -177,9 +178,9 @@ def sweep(
     """
     if positions is not None:
         positions_of("positions", positions)
-    case = solve_case(task, variant, set, only, scales)
-    asked = SweepRequest(positions, points, start, end, chords)
-    return case.kind.sweep(case, case.words(lang, notation), asked)
+    language = "en" if lang is None else lang
+    case = Request(load_task(task), variant, set, only, scales, notation, language).case()
+    return case.kind.sweep(case, case.words(), SweepRequest(positions, points, start, end, chords))
 
 
 def numbers(values: Iterable[float]) -> list[float | None]:
