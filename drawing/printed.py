@@ -147,6 +147,8 @@ class Symbol:
         return Symbol(Term(above, below, one.negative != two.negative))
 
     def __rmul__(self, other: Any) -> Symbol:
+        if type(other) in (int, float) and other == 1 and len(self.terms) == 1:  # as most products begin
+            return self
         return _symbol(other) * self
 
     def __truediv__(self, other: Any) -> Symbol:
@@ -162,12 +164,14 @@ class Symbol:
         return _symbol(other) / self
 
     def __pow__(self, power: float) -> Symbol:
+        if power == 1:
+            return self
         if power < 0:
             return 1.0 / self**-power
         if power == HALF:
             return Symbol.of(f"√({self})", f"√({self})")
         base, has = self._alone or (self, 1)
-        return self if power == 1 else Symbol(Term(((base if has == 1 else self, power),)))
+        return Symbol(Term(((base if has == 1 else self, power),)))
 
     def function(self, name: str) -> Symbol:
         """Return the function of that name of the expression; brackets alone where the name is empty."""
@@ -222,6 +226,8 @@ def _symbol(value: Any) -> Symbol:
 
 def _product(first: tuple[Factor, ...], second: tuple[Factor, ...]) -> tuple[Factor, ...]:
     """Return the factors of a product; a factor that is there already becomes a power."""
+    if not (first and second):
+        return first or second
     found = list(first)
     for base, power in second:
         if found and found[-1][0] == base:

@@ -152,20 +152,21 @@ Shape: TypeAlias = Line | Polyline | Circle | Arc | Head | Text | Vector | Arrow
 
 def shifted(shape: Shape, by: complex) -> Shape:
     """Return `shape` moved by the vector `by` (mm)."""
-    match shape:
-        case Line(a=a, b=b):  # the most numerous ones without the detour of `replace`
+    match shape:  # the most numerous ones without the detour of `replace`
+        case Line(a=a, b=b):
             return Line(a + by, b + by, shape.pen, shape.role, shape.name, shape.colour)
-        case Polyline(points=points):
-            return replace(shape, points=tuple(point + by for point in points))
-        case Circle(centre=centre) | Arc(centre=centre):
-            return replace(shape, centre=centre + by)
-        case Head(tip=tip):
-            return replace(shape, tip=tip + by)
         case Text(at=at, markup=markup, height=height, anchor=anchor, angle=angle):
             return Text(at + by, markup, height, anchor, angle, shape.role, shape.name, shape.colour, shape.squeeze)
+        case Group(shapes=shapes, role=role, name=name, title=title, layer=layer):
+            return Group(tuple([shifted(part, by) for part in shapes]), role, name, title, layer)
+        case Head(tip=tip, direction=direction, colour=colour):
+            return Head(tip + by, direction, colour)
+        case Polyline(points=points, pen=pen, closed=closed, fill=fill):
+            moved = tuple([point + by for point in points])
+            return Polyline(moved, pen, closed, fill, shape.role, shape.name, shape.colour)
+        case Circle(centre=centre) | Arc(centre=centre):
+            return replace(shape, centre=centre + by)
         case Vector(tail=tail, tip=tip) | Arrow(tail=tail, tip=tip):
             return replace(shape, tail=tail + by, tip=tip + by)
-        case Group(shapes=shapes):
-            return replace(shape, shapes=tuple(shifted(part, by) for part in shapes))
         case _:
             assert_never(shape)

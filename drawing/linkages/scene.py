@@ -25,6 +25,7 @@ from .reading import Edge, Reading, read
 
 if TYPE_CHECKING:
     from ...plans.linkages.cycles.limits import Runs
+    from .skeleton import Skeleton
 
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 
@@ -60,6 +61,7 @@ class Scene(SubjectScene[SolvedLinkage]):
     scales: Mapping[str, Scale]
     runs: Runs = field(default_factory=dict)
     _largest: dict[str, float] = field(default_factory=dict, compare=False)
+    skeletons: dict[int, Skeleton] = field(default_factory=dict, init=False, compare=False)  # found at its scales
 
     @property
     def mechanism(self) -> Mechanism:

@@ -68,6 +68,13 @@ def guide_of(scene: Scene, pair: Prismatic) -> complex:
 
 
 def skeleton(scene: Scene, number: int) -> Skeleton:
+    """Return the figure of a moving link, which is asked for wherever something must keep clear of the link."""
+    if number not in scene.skeletons:
+        scene.skeletons[number] = _skeleton(scene, number)
+    return scene.skeletons[number]
+
+
+def _skeleton(scene: Scene, number: int) -> Skeleton:
     """Find the figure of a moving link from the points that it has."""
     sliding = [pair for pair in pairs_of(scene, number) if isinstance(pair, Prismatic)]
     pins = [scene.mm(point) for point in pins_of(scene, number)]

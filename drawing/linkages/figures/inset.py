@@ -304,8 +304,9 @@ def enlarged(scene: Scene, quantity: str, plan: str) -> float:
     if role(plan).kind != FORCES:
         return 1.0
     forces = ForcePlan(scene, plan)
-    own = [vector for vector in forces.vectors() if vector.quantity == quantity]
-    return min((w.times for w in forces.windows() if any(_seen(scene, w, v) for v in own)), default=1.0)
+    shown = forces.windows()
+    own = [vector for vector in forces.vectors() if vector.quantity == quantity] if shown else []
+    return min((w.times for w in shown if any(_seen(scene, w, v) for v in own)), default=1.0)
 
 
 def _seen(scene: Scene, window: Window, vector: Vector) -> bool:

@@ -188,7 +188,8 @@ def crowd(points: np.ndarray, busy: Sequence[Obstacle]) -> np.ndarray:
     # most obstacles are far from most arcs: only near ones are looked at point by point
     middle = points[:, points.shape[1] // 2, None]
     half = np.abs(points - middle).max(axis=1)[:, None]
-    i, j = (_gaps(middle, a, b) - size < CLEAR + half).nonzero()
+    new = np.append(True, middle[1:] != middle[:-1])  # arcs of several lengths have one middle
+    i, j = (_gaps(middle[new], a, b)[np.cumsum(new) - 1] - size < CLEAR + half).nonzero()
     gap = _gaps(points[i], a[j, None], b[j, None]) - size[j, None]
     # to each obstacle the nearest point counts, and much more where the arc crosses it
     close = np.zeros((len(points), len(busy)))
