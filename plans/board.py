@@ -32,12 +32,14 @@ class Step:
     operands: tuple[str, ...]
     law: str
 
-    def __init__(self, verb: str, name: str, operands: Iterable[str], law: str = "") -> None:
-        """Note a step; names without a role have that of their letters."""
+    def __init__(
+        self, verb: str, name: str, operands: Iterable[str], law: str = "", of: Callable[[str], Name] = role
+    ) -> None:
+        """Note a step; names without a role have that of their letters, or what `of` says."""
         put = object.__setattr__  # one by one: constructions are recorded for every position that is looked at
         put(self, "verb", verb)
-        put(self, "name", role(name))
-        put(self, "operands", tuple([x if isinstance(x, Name) else role(x) for x in operands]))
+        put(self, "name", name if type(name) is Name else role(name))
+        put(self, "operands", tuple(map(of, operands)))
         put(self, "law", law)
 
     @property
@@ -158,11 +160,19 @@ class Board:
         self.step("calc", name, *names, law=law)
 
 
+class _Names(dict[str, Name]):
+    """Names by their letters: with the role that they were made with, else with that of their letters."""
+
+    def __missing__(self, name: str) -> Name:
+        return role(name)
+
+
 class RecordingBoard(Board):
     """A board that notes the steps, each once, and computes nothing."""
 
     def __init__(self) -> None:
         self._steps: dict[str, Step] = {}
+        self._names = _Names()
 
     @property
     def steps(self) -> tuple[Step, ...]:
@@ -177,12 +187,12 @@ class RecordingBoard(Board):
         InputError
             When a name is made in two ways, such as two points with one letter.
         """
-        made_by = self._steps
-        known = (made_by[operand].name if operand in made_by else operand for operand in operands)
-        step = Step(verb, name, known, law)
+        step = Step(verb, name, operands, law, self._names.__getitem__)
         made = self._steps.setdefault(name, step)
-        if made is not step and made != step:
-            raise InputError("name-twice", name=role(name).shown)
+        if made is step:
+            self._names[name] = step.name
+        elif made != step:
+            raise InputError("name-twice", name=step.name.shown)
 
 
 # a step with what takes its operands, when they are more than one, out of the values by name

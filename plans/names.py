@@ -7,8 +7,9 @@ the functions below, which know what they name, and the board keeps them. Names 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
+from typing import TypeVar, cast
 
 POINT, POLE, NORMAL, CORIOLIS = "", "p", "n", "k"  # kinds of marks: a point, the pole, ends of parts of accelerations
 MAGNITUDE = "|"  # kind of the size of a load, beside its vector
@@ -53,7 +54,7 @@ class Name(str):
     ('velocity', True)
     """
 
-    __slots__ = ("_shown", "about", "hidden", "kind", "links", "of", "part", "plan")
+    __slots__ = ("_shown", "_size", "about", "hidden", "kind", "links", "of", "part", "plan")
     kind: str
     of: str
     about: str
@@ -62,6 +63,7 @@ class Name(str):
     plan: Name
     hidden: bool
     _shown: Name | None
+    _size: Name | None
 
     def __new__(
         cls, text: str, kind: str | None = None, of: str = "", about: str = "", part: str = "",
@@ -73,6 +75,7 @@ class Name(str):
         name.plan = _plan(plan or before) if plan or before else POSITION
         name.hidden = text.startswith("_")
         name._shown = None if name.hidden or kind == MAGNITUDE else name
+        name._size = None
         if kind is None:
             kind, of, about, part = _read_mark(letter) if before else _read(letter)
         name.kind, name.of, name.about, name.part, name.links = kind, of, about, part, tuple(links)
@@ -105,7 +108,9 @@ class Name(str):
     @property
     def size(self) -> Name:
         """The hidden name of a quantity's size."""
-        return self._like(f"_{self}")
+        if self._size is None:
+            self._size = self._like(f"_{self}")
+        return self._size
 
     def _like(self, text: str) -> Name:
         return Name(text, self.kind, self.of, self.about, self.part, self.links)
@@ -114,7 +119,7 @@ class Name(str):
 POSITION: Name = str.__new__(Name, "position")
 POSITION.plan, POSITION.kind, POSITION.hidden, POSITION.links = POSITION, "position", False, ()
 POSITION.of = POSITION.about = POSITION.part = ""
-POSITION._shown = POSITION
+POSITION._shown, POSITION._size = POSITION, None
 
 
 def _read(text: str) -> tuple[str, str, str, str]:
@@ -152,32 +157,46 @@ def is_shown(name: str) -> bool:
     return not role(name).hidden and role(name).plan == POSITION
 
 
-def spelled(kind: str, of: str | int, about: str = "", part: str = "", links: Iterable[int] = ()) -> Name:
+Maker = TypeVar("Maker", bound=Callable[..., Name])
+
+
+def _kept(maker: Maker) -> Maker:
+    """Keep the names of a maker that looks at letters and numbers alone, not at roles: each position makes the same."""
+    return cast(Maker, lru_cache(maxsize=16_384)(maker))
+
+
+@_kept
+def spelled(kind: str, of: str | int, about: str = "", part: str = "", links: tuple[int, ...] = ()) -> Name:
     """Return a quantity, a direction, a plan of forces: kind, whose, part."""
     whose = str(of) if isinstance(of, int) else of
     return Name(f"{kind}_{of}{about}{part and '_'}{part}", kind, whose, about, part, links)
 
 
+@_kept
 def vector(kind: str, of: str, about: str = "", part: str = "") -> Name:
     """Return a velocity or acceleration of a point, relative to another or absolute: `V_B`, `a_BA_n`."""
     return spelled(kind, of, about, part)
 
 
+@_kept
 def rate(kind: str, link: int, part: str = "") -> Name:
     """Return an angular velocity or acceleration of a link: `omega_2`, of its relative turning `omega_r_2`."""
     return Name(f"{kind}_{part}{part and '_'}{link}", kind, str(link), part=part, links=(link,))
 
 
+@_kept
 def between(kind: str, start: str, end: str) -> Name:
     """Return the length `l_AB` between two points, the direction `e_AB` from one to the other, the normal `n_AB`."""
     return spelled(kind, start, end)
 
 
+@_kept
 def mark(plan: str, point: str, kind: str = POINT, about: str = "") -> Name:
     """Return a mark of a plan: `velocity.B`; as the end of a part of an acceleration `acceleration.n_BA`."""
     return Name(f"{plan}.{kind}{kind and '_'}{point}{about}", kind, point, about, plan=plan)
 
 
+@_kept
 def pole(plan: str) -> Name:
     """Return the pole of a plan of vectors."""
     return Name(f"{plan}.p", POLE, "p", plan=plan)
@@ -191,6 +210,7 @@ def arm(force: str, about: str = "") -> Name:
     return Name("_".join(filter(None, ("h", of, part, about))), "h", of, about, part, acting.links)
 
 
+@_kept
 def inertia(kind: str, link: int) -> Name:
     """Return the force or the moment of inertia of a link: `F_i2`, `M_i2`."""
     return Name(f"{kind}_{INERTIA}{link}", kind, f"{INERTIA}{link}", part=INERTIA, links=(link,))

@@ -50,9 +50,10 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Struc
         board.calc(opposite, "opposite", length)
     plans = with_needs(plans, NEEDS)
     groups, bodies = named(mechanism, structure)
+    driver = driver_of(mechanism)
     for plan in ("position", "velocity", "acceleration"):
         if plan in plans:
-            getattr(driver_of(mechanism), plan)(board)
+            getattr(driver, plan)(board)
             if plan == "position":
                 for point, place in mechanism.frame_points.items():
                     board.place(point, *place)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
 
 from ..names import POINT, Name, role, spelled
 
@@ -19,6 +20,12 @@ FRAME = 0
 ONE_DIGIT = range(10)  # numbers of links that need no parting in names
 
 
+@lru_cache(maxsize=4096)
+def _index(parted: bool, *numbers: int | str) -> str:
+    return ("_" if parted else "").join(map(str, numbers))
+
+
+@lru_cache(maxsize=4096)
 def positive(place: str) -> str:
     """Return the name of a length for that of its opposite, any other name as it is."""
     name = role(place)
@@ -239,7 +246,7 @@ def start_names(number: int) -> tuple[str, str, str, str, str]:
 Pair = Revolute | Prismatic
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Mechanism:
     """Links (without the frame, number 0), pairs, the driver and the loads.
 
@@ -257,18 +264,18 @@ class Mechanism:
     starts: tuple[Start, ...] = field(default=())
     centres: tuple[tuple[str, str], ...] = field(default=())
 
-    @property
+    @cached_property
     def parted(self) -> bool:
         """Whether numbers of links are parted in names: one of them has two digits."""
         return any(link.number not in ONE_DIGIT for link in self.links)
 
     def index(self, *numbers: int | str) -> str:
         """Return the numbers of several links as one index of a name: `12`, and `1_2` where `12` may be a link."""
-        return ("_" if self.parted else "").join(map(str, numbers))
+        return _index(self.parted, *numbers)
 
     def pair(self, kind: str, first: int, second: int, part: str = "") -> Name:
         """Return what concerns a pair of links: the reaction `R_12` of the first on the second, its moment, its arm."""
-        return spelled(kind, self.index(first, second), part=part, links=(first, second))
+        return spelled(kind, _index(self.parted, first, second), "", part, (first, second))
 
     def letter_on(self, point: str, number: int) -> Name:
         """Return the letter of a point as one of link `number`: `A3`, and `A1_3` where `A13` may be another point."""
@@ -288,7 +295,7 @@ class Mechanism:
         """Names of the coordinates of all points of the moving links."""
         return [xy for link in self.links for place in link.points.values() for xy in place]
 
-    @property
+    @cached_property
     def givens(self) -> frozenset[str]:
         """Names of the values that it needs under their own names; sizes of loads and the driver's rates are not."""
         names = [*self.coordinates, *(name for link in self.links for name in link.givens)]
@@ -303,28 +310,27 @@ class Mechanism:
         names += [self.driver.coordinate, self.driver.sense if isinstance(self.driver, Driver) else ZERO]
         return frozenset(names) - self.opposites.keys()
 
-    @property
+    @cached_property
     def opposites(self) -> dict[str, str]:
         """Names of opposite lengths, with the lengths."""
         names = [*self.coordinates, *(name for pair in self.pairs for name in pair.coordinates)]
-        return {name: positive(name) for name in names if positive(name) != name}
+        return {name: length for name in names if (length := positive(name)) != name}
 
-    @property
+    @cached_property
     def frame_points(self) -> dict[str, tuple[str, str]]:
         """Points of the frame, the pivots on it, with their coordinates."""
         return {p.point: p.at or (ZERO, ZERO) for p in self.pairs if isinstance(p, Revolute) and FRAME in p.links}
 
     def mark(self, plan: str, point: str) -> str:
         """Return the mark of `point` on a plan of velocities or accelerations; points of the frame are at the pole."""
-        still = any(p.point == point and FRAME in p.links for p in self.pairs if isinstance(p, Revolute))
-        return f"{plan}.p" if still else f"{plan}.{point}"
+        return f"{plan}.p" if point in self.frame_points else f"{plan}.{point}"
 
     @property
     def acting(self) -> tuple[Load | Couple, ...]:
         """All loads and couples."""
         return (*self.loads, *self.couples)
 
-    @property
+    @cached_property
     def sizes(self) -> tuple[str, ...]:
         """Names of the values that stand on the board as `|F_3|`, for `F_3` may be a vector there.
 
