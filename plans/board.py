@@ -14,7 +14,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from operator import itemgetter
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from ..scales.errors import InputError
 from .names import POSITION, Name, role
@@ -23,24 +23,25 @@ __all__ = ["POSITION", "Board", "Program", "RecordingBoard", "Step", "with_needs
 Made = TypeVar("Made")
 
 
-@dataclass(frozen=True, slots=True, init=False)
-class Step:
-    """One step of a construction: what is done, the name it makes, the names it needs, and the law of a calculation."""
-
+class _Fields(NamedTuple):
     verb: str
     name: str
     operands: tuple[str, ...]
     law: str
 
-    def __init__(
-        self, verb: str, name: str, operands: Iterable[str], law: str = "", of: Callable[[str], Name] = role
-    ) -> None:
-        """Note a step; names without a role have that of their letters, or what `of` says."""
-        put = object.__setattr__  # one by one: constructions are recorded for every position that is looked at
-        put(self, "verb", verb)
-        put(self, "name", name if type(name) is Name else role(name))
-        put(self, "operands", tuple(map(of, operands)))
-        put(self, "law", law)
+
+class Step(_Fields):
+    """One step of a construction: what is done, the name it makes, the names it needs, and the law of a calculation."""
+
+    __slots__ = ()
+
+    def __new__(cls, verb: str, name: str, operands: Iterable[str], law: str = "") -> Step:
+        """Note a step; names without a role have that of their letters."""
+        return tuple.__new__(cls, (verb, role(name), tuple(map(role, operands)), law))
+
+    def but(self, **changed: Any) -> Step:
+        """Return the step with another verb, name, operands or law."""
+        return Step(**{**self._asdict(), **changed})
 
     @property
     def plan(self) -> Name:
@@ -163,8 +164,7 @@ class Board:
 class _Names(dict[str, Name]):
     """Names by their letters: with the role that they were made with, else with that of their letters."""
 
-    def __missing__(self, name: str) -> Name:
-        return role(name)
+    __missing__ = staticmethod(role)
 
 
 class RecordingBoard(Board):
@@ -173,6 +173,7 @@ class RecordingBoard(Board):
     def __init__(self) -> None:
         self._steps: dict[str, Step] = {}
         self._names = _Names()
+        self._named = self._names.__getitem__
 
     @property
     def steps(self) -> tuple[Step, ...]:
@@ -187,12 +188,13 @@ class RecordingBoard(Board):
         InputError
             When a name is made in two ways, such as two points with one letter.
         """
-        step = Step(verb, name, operands, law, self._names.__getitem__)
+        own = name if type(name) is Name else role(name)
+        step = tuple.__new__(Step, (verb, own, tuple(map(self._named, operands)), law))
         made = self._steps.setdefault(name, step)
         if made is step:
-            self._names[name] = step.name
+            self._names[name] = own
         elif made != step:
-            raise InputError("name-twice", name=step.name.shown)
+            raise InputError("name-twice", name=own.shown)
 
 
 # a step with what takes its operands, when they are more than one, out of the values by name

@@ -157,15 +157,15 @@ def as_drawn(solved: SolvedCam) -> SolvedCam:
 
 def _renamed(step: Step, names: Mapping[str, str]) -> Step:
     operands = tuple(names.get(name, name) for name in step.operands)
-    return replace(step, name=names.get(step.name, step.name), operands=operands)
+    return step.but(name=names.get(step.name, step.name), operands=operands)
 
 
 def _measured(step: Step, at_centre: tuple[str, ...], by_tangents: bool) -> tuple[Step, ...]:
     """Return a step as it is done on a drawing: s_0 goes with r_0 and e, the curvature is that of the drawn cam."""
     if by_tangents and step.name == "s_0":
-        return (replace(step, law="other_leg", operands=("r_0", "e")),)
+        return (step.but(law="other_leg", operands=("r_0", "e")),)
     if step.name == "rho_min" and at_centre:
-        return (replace(step, law=SHARPEST, operands=at_centre),)
+        return (step.but(law=SHARPEST, operands=at_centre),)
     return (step,)
 
 

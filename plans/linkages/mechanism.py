@@ -26,6 +26,11 @@ def _index(parted: bool, *numbers: int | str) -> str:
 
 
 @lru_cache(maxsize=4096)
+def _pair(parted: bool, kind: str, first: int, second: int, part: str) -> Name:
+    return spelled(kind, _index(parted, first, second), part=part, links=(first, second))
+
+
+@lru_cache(maxsize=4096)
 def positive(place: str) -> str:
     """Return the name of a length for that of its opposite, any other name as it is."""
     name = role(place)
@@ -275,7 +280,7 @@ class Mechanism:
 
     def pair(self, kind: str, first: int, second: int, part: str = "") -> Name:
         """Return what concerns a pair of links: the reaction `R_12` of the first on the second, its moment, its arm."""
-        return spelled(kind, _index(self.parted, first, second), "", part, (first, second))
+        return _pair(self.parted, kind, first, second, part)
 
     def letter_on(self, point: str, number: int) -> Name:
         """Return the letter of a point as one of link `number`: `A3`, and `A1_3` where `A13` may be another point."""

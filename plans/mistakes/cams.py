@@ -116,15 +116,15 @@ def _second_lobes(scene: Scene, ratio: float, times: float) -> dict[str, float]:
 def transfer_angle(scene: Scene) -> Iterator[Change]:
     """The line of transfer is inclined by the ratio the wrong way round; or the tangent is given for the angle."""
     steps = scene.calculated("transfer_angle")
-    yield from each_and_all({s.name: (replace(s, operands=s.operands[::-1]),) for s in steps}, "inverse")
-    yield from each_and_all({s.name: (replace(s, law="part_of"),) for s in steps}, "tangent")
+    yield from each_and_all({s.name: (s.but(operands=s.operands[::-1]),) for s in steps}, "inverse")
+    yield from each_and_all({s.name: (s.but(law="part_of"),) for s in steps}, "tangent")
 
 
 @mistake("M17")
 def paper_for_size(scene: Scene) -> Iterator[Change]:
     """An ordinate in millimetres of paper is given for what it shows."""
     steps = [s for s in scene.calculated("to_scale") if s.operands[0] in OTHERS]
-    yield from each_and_all({s.name: (replace(s, operands=s.operands[1:], law="given"),) for s in steps}, "paper")
+    yield from each_and_all({s.name: (s.but(operands=s.operands[1:], law="given"),) for s in steps}, "paper")
 
 
 @mistake("M20")

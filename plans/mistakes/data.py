@@ -122,7 +122,7 @@ def turning_the_other_way(scene: Scene) -> Iterator[Change]:
         if role(step.name).kind == "omega":
             sense, against = constant(-1.0), f"_against_{step.name}"
             again = Step("calc", step.name, (against, sense), "signed")
-            yield Change(step.name, {step.name: (replace(step, name=against), again)}, {sense: -1.0}, "sense")
+            yield Change(step.name, {step.name: (step.but(name=against), again)}, {sense: -1.0}, "sense")
 
 
 @mistake("M12")
@@ -255,7 +255,7 @@ def _exchanged(scene: Scene, absolute: Step, relative: Step) -> Change:
     """Exchange two readings, and let the rates that follow have their sizes; the senses show in the drawing."""
     pair, steps, givens = (absolute, relative), dict[str, tuple[Step, ...]](), dict[str, float]()
     for one, other in (pair, pair[::-1]):
-        steps[one.name] = (replace(one, operands=other.operands),)
+        steps[one.name] = (one.but(operands=other.operands),)
     for rate, reading in rates(scene, absolute.plan):
         if reading in pair:
             change = rate_from(scene, rate, reading.name)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 
 from ..board import POSITION, Step
 from ..names import COUPLE, FORCES, MAGNITUDE, rate, role
@@ -173,7 +172,7 @@ def sums(scene: Scene) -> Iterator[tuple[Step, str]]:
 
 def in_place_of(step: Step, name: str, other: str) -> Step:
     """Return a step with another name wherever one stands."""
-    return replace(step, operands=tuple(other if operand == name else operand for operand in step.operands))
+    return step.but(operands=tuple(other if operand == name else operand for operand in step.operands))
 
 
 @mistake("M60")
@@ -305,7 +304,7 @@ def from_driver_end(scene: Scene) -> Iterator[Change]:
                 for equation in scene.calculated("moment_equation"):
                     if taken & set(equation.operands):
                         operands = tuple("zero" if name in taken else name for name in equation.operands)
-                        steps[equation.name] = (replace(equation, operands=operands),)
+                        steps[equation.name] = (equation.but(operands=operands),)
                 yield Change(step.name, steps, {}, "left out")
 
 
@@ -342,8 +341,8 @@ def _here_alone(scene: Scene, step: Step, operands: tuple[str, ...], how: str) -
     if chained:
         right = aside(step.name)
         steps = {one.name: (operand(one, 1, right),) for one in chained}
-        other = replace(step, operands=operands)
-        yield Change(step.name, {step.name: (replace(step, name=right), other), **steps}, {}, how)
+        other = step.but(operands=operands)
+        yield Change(step.name, {step.name: (step.but(name=right), other), **steps}, {}, how)
 
 
 @mistake("M76")
@@ -395,7 +394,7 @@ def turned(scene: Scene) -> dict[str, Step]:
 def not_turned(scene: Scene) -> Iterator[Change]:
     """The plan is not turned."""
     if marks := turned(scene):
-        yield Change(next(iter(marks)), {name: (replace(step, verb="same"),) for name, step in marks.items()}, {})
+        yield Change(next(iter(marks)), {name: (step.but(verb="same"),) for name, step in marks.items()}, {})
 
 
 @mistake("M78")
@@ -445,7 +444,7 @@ def reactions_on_lever(scene: Scene) -> Iterator[Change]:
     last = next((s for s in scene.calculated("moment_equation") if role(s.name).kind != "R"), None)
     if last is not None and reaction is not None and pin in scene.steps:
         step = Step("moment", f"_M_{reaction}_p", (reaction, pin, "lever.p"))
-        new = step, replace(last, operands=(*last.operands, step.name))
+        new = step, last.but(operands=(*last.operands, step.name))
         yield Change(last.name, {last.name: new}, {}, reaction)
 
 

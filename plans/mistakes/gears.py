@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from functools import partial
 
 from ..board import Step
@@ -149,7 +148,7 @@ def curvature_of_the_mate(scene: Scene) -> Iterator[Change]:
     """The curvature at the lower point is found with the wheel's own tip, not with that of its mate."""
     own = {"1": "2", "2": "1"}
     changed = {
-        s.name: (replace(s, operands=(*s.operands[:2], *(f"{o[:-1]}{own[o[-1]]}" for o in s.operands[2:]))),)
+        s.name: (s.but(operands=(*s.operands[:2], *(f"{o[:-1]}{own[o[-1]]}" for o in s.operands[2:]))),)
         for s in scene.calculated("lower_curvature")
     }
     yield from each_and_all(changed)
@@ -186,7 +185,7 @@ def rows_exchanged(scene: Scene) -> Iterator[Change]:
         for first, second in pairs:
             # both are read when all marks are there
             changed[first.name] = ()
-            changed[second.name] = replace(second, name=first.name), replace(first, name=second.name)
+            changed[second.name] = second.but(name=first.name), first.but(name=second.name)
         if changed:
             yield Change(pairs[0][0].name, changed, {}, how)
 
@@ -196,7 +195,7 @@ def sliding_by_the_other_ordinate(scene: Scene) -> Iterator[Change]:
     """The difference of the ordinates is divided by that of the mate, or has the other sign, or both are exchanged."""
     by_ordinates = scene.calculated("sliding_by_ordinates")
     steps = (*by_ordinates, *scene.calculated("sliding_of_pinion"), *scene.calculated("sliding_of_wheel"))
-    exchanged = {s.name: replace(s, operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in by_ordinates}
+    exchanged = {s.name: s.but(operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in by_ordinates}
     if steps:
         yield Change(steps[0].name, {s.name: reversed_(s) for s in steps}, {}, "sign")
     for first in by_ordinates[:1]:

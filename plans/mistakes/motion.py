@@ -101,7 +101,7 @@ def by_size(scene: Scene, change: Change, against: str = "") -> Change:
     steps = {**change.steps}
     for rate, reading in rates(scene, role(change.at).plan):
         if change.at in reading.operands:
-            whole = replace(rate, law="turning_whole")
+            whole = rate.but(law="turning_whole")
             other = rate.operands[1] == against
             steps[rate.name] = then(whole, "opposite", aside(rate.name)) if other else (whole,)
     return replace(change, steps=steps)
@@ -324,7 +324,7 @@ def square_lost(scene: Scene) -> Iterator[Change]:
     for step, reading in normal_laws(scene):
         size = length_of(reading.name)
         for how, law in (("v/l", "rate_over"), ("omega l^2", "circular_speed")):
-            last = replace(step, operands=(size[-1].name, step.operands[1]), law=law)
+            last = step.but(operands=(size[-1].name, step.operands[1]), law=law)
             yield Change(step.name, {step.name: (*size, last)}, {}, how)
 
 
@@ -357,7 +357,7 @@ def parts_exchanged(scene: Scene) -> Iterator[Change]:
         normal = by_end.get(tangential.operands[0])
         if normal is not None:
             found = rate_from(scene, rate, tangential.name)
-            both = replace(tangential, operands=normal.operands), replace(normal, operands=tangential.operands)
+            both = tangential.but(operands=normal.operands), normal.but(operands=tangential.operands)
             yield Change(tangential.name, {normal.name: (), tangential.name: both, **found.steps}, found.givens)
 
 

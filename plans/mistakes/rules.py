@@ -6,7 +6,7 @@ The mistakes have numbers, M01 to M125; the other modules here, a chapter each, 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -171,7 +171,7 @@ def constant(value: float) -> str:
 
 def operand(step: Step, place: int, name: str) -> Step:
     """Return a step with another operand at a place."""
-    return replace(step, operands=(*step.operands[:place], name, *step.operands[place + 1 :]))
+    return step.but(operands=(*step.operands[:place], name, *step.operands[place + 1 :]))
 
 
 def with_operand(steps: Iterable[Step], place: int, name: str) -> dict[str, tuple[Step, ...]]:
@@ -181,7 +181,7 @@ def with_operand(steps: Iterable[Step], place: int, name: str) -> dict[str, tupl
 
 def instead(step: Step, how: str = "", **changed: Any) -> Change:
     """Do one step otherwise: another verb, other operands, another law."""
-    return Change(step.name, {step.name: (replace(step, **changed),)}, {}, how)
+    return Change(step.name, {step.name: (step.but(**changed),)}, {}, how)
 
 
 def with_other(step: Step, place: int, name: str, how: str = "") -> Change:
@@ -206,7 +206,7 @@ def each_and_all(changed: Steps, how: str = "", givens: Mapping[str, float] | No
 
 def after(step: Step, *more: Step) -> tuple[Step, ...]:
     """Return a step that makes what is `aside`, then others, of which the last one makes what it made."""
-    return (replace(step, name=aside(step.name)), *more)
+    return (step.but(name=aside(step.name)), *more)
 
 
 def then(step: Step, law: str, *operands: str) -> tuple[Step, ...]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -89,7 +88,7 @@ def test_what_follows_from_a_students_value_follows_and_what_does_not_stays() ->
 def test_a_broken_rule_is_one_step_rewritten() -> None:
     def wrong_way(program: Program) -> Program:
         """Lay the normal part off away from the centre."""
-        steps = (replace(s, verb="lay") if s.name == "acceleration.n_BA" else s for s in program)
+        steps = (s.but(verb="lay") if s.name == "acceleration.n_BA" else s for s in program)
         return Program(tuple(steps))
 
     right, wrong = run(PROGRAM, GIVENS).values, run(wrong_way(PROGRAM), GIVENS).values

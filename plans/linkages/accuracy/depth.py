@@ -7,7 +7,7 @@ weight, a load. It is left out by a rewrite of that step alone, whose size becom
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -67,7 +67,7 @@ def parts_of(program: Program) -> dict[str, str]:
 
 def without(program: Program, parts: Collection[str]) -> Program:
     """Return a program that lays down these forces and moments with a size of zero; loads may be among them."""
-    nothing = {step: replace(step, operands=(ZERO, *step.operands[1:])) for step in program if step.name in parts}
+    nothing = {step: step.but(operands=(ZERO, *step.operands[1:])) for step in program if step.name in parts}
     return Program(tuple(nothing.get(step, step) for step in program))
 
 
