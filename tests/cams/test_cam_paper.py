@@ -12,7 +12,7 @@ from kulman.scales.errors import InputError
 from kulman.tests.support.cam_cases import MU_D2S, MU_DS, MU_S, MU_S_D2S, MU_S_DS, measured, printed_scales
 from kulman.tests.support.printed_numbers import lines_of
 from kulman.tests.support.readback import read
-from kulman.variants.marking.reports import to_json
+from kulman.variants.marking.report import to_json
 from kulman.variants.sheets import Sheet
 from kulman.variants.solution import Solution
 
@@ -117,7 +117,7 @@ def test_what_is_drawn_on_a_small_sheet_is_marked_by_it(tmp_path: Path, small: S
     def verdicts(format: str | None) -> list[str]:
         asked = check(TASK, "17", lang="en", format=format, only="diagrams")
         (found,) = asked.read(str(answers))
-        lines = to_json(asked.mark(found), asked.rubric)["lines"]
+        lines = to_json(asked.mark(found))["lines"]
         return [line["verdict"] for line in lines if line["quantity"] in ("S_max_chord", "mu_s")]
 
     assert verdicts(None) == ["wrong", "carried"]

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from kulman import check
 from kulman.tests.support.answer_files import HEAD, messages, one
-from kulman.variants.marking.calculations import LONGEST, slip_in
+from kulman.variants.marking.cells import LONGEST, slip_in
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.marking.checks import Check
 from kulman.variants.marking.keyed import asked_of
 from kulman.variants.marking.reading import read_answers
-from kulman.variants.marking.reports import report_html, report_text, to_json
+from kulman.variants.marking.report import report_html, report_text, to_json
 from kulman.variants.marking.rubric import read_rubric
 from kulman.variants.roster import read_roster, variant_of_book
 from kulman.variants.sheets import same_id, sheet_id, variant_of_id
@@ -381,7 +381,7 @@ def test_whatever_numbers_come_they_are_marked(tmp_path: Path, task: str, data: 
     assert 0.0 <= found.marked.mark <= 100.0
     assert report_html(found).endswith("</html>\n")
     assert report_text(found)
-    json.dumps(to_json(found, asked.rubric), allow_nan=False)
+    json.dumps(to_json(found), allow_nan=False)
 
 
 @cache

@@ -197,7 +197,7 @@ of_check = stacked(
     click.option("--moodle", metavar="FILE", callback=moodle_out, help="Grades for Moodle, .csv."),
     click.option("--jobs", metavar="N", callback=processes, help="Processes; as many as cores when left out."),
     output(
-        ".marking.reports",
+        ".marking.report",
         "Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx.",
     ),
     click.option("--json", "as_json", is_flag=True, help="Print one JSON object (of one student)."),

@@ -240,7 +240,7 @@ def _mark(
     asked: Check, found: list[Answers], files: tuple[Path, ...], folder: str | None, moodle: Path | None, **how: Any
 ) -> None:
     """Mark one student, or a class: to files, and to the console."""
-    from ..marking.reports import REPORTS
+    from ..marking.report import REPORTS
 
     reports = [file for file in files if file.suffix.lower() in REPORTS]
     alone = len(found) == 1 and folder is None and moodle is None and len(reports) == len(files)
@@ -257,11 +257,11 @@ def _mark(
 
 def _mark_one(asked: Check, answers: Answers, files: tuple[Path, ...], as_json: bool) -> None:
     """Mark one student: the report to files, else to the console."""
-    from ..marking.reports import report_text, to_json, write_reports
+    from ..marking.report import report_text, to_json, write_reports
 
     told = asked.mark(answers)
     if as_json:
-        print_json(to_json(told, asked.rubric))
+        print_json(to_json(told))
     elif not files:
         click.echo(report_text(told), nl=False)
     write_reports(told, files)

@@ -37,26 +37,14 @@ class Mu:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One answered quantity.
+    """One answered quantity: what an `Answer` of plans has, SI, as it stands in a file.
 
     Parameters
     ----------
     place : str
-        Where it stands: file and row, or file and cell.
-    mm : float, optional
-        The segment on paper, millimetres.
+        File and row, or file and cell.
     decimals : int
-        Decimals with which the segment was written.
-    value : float, optional
-        SI, signed as written.
-    direction : float, optional
-        Radians from the x axis, counter-clockwise.
-    sense : int, optional
-        1 counter-clockwise or along the axis, -1 the other way: what words, arrows, or a column of senses say.
-    plus : bool
-        Whether the value is written with a plus: its sense is said, too.
-    rounded : float, optional
-        Half of the last digit of the value as written, SI.
+        Those with which the segment was written.
     """
 
     name: str
@@ -145,11 +133,11 @@ def _in_place(line: Line, asked: Asked) -> Line:
         return line
     quantity = asked.quantities[line.name]
     segment = quantity.mm and unit(asked.unit(line.name)).to_si(quantity.mm)
-    is_value = not segment or _apart(lone, quantity.value) <= _apart(lone, segment)
+    is_value = not segment or apart(lone, quantity.value) <= apart(lone, segment)
     return line if is_value is (line.mm is None) else _exchanged(line, asked)
 
 
-def _apart(number: float, other: float | None) -> float:
+def apart(number: float, other: float | None) -> float:
     """Return the logarithm of the ratio of two magnitudes."""
     return abs(math.log(abs(number / other))) if other else math.inf
 
@@ -169,16 +157,15 @@ def _told(line: Line, scales: Mapping[str, Mu], asked: Asked) -> Iterator[bool]:
     if agrees != instead:
         yield instead
     elif agrees:
-        off, then = (_apart(one.value or size, size) for one in (line, other))
+        off, then = (apart(one.value or size, size) for one in (line, other))
         if abs(off - then) > CLEAR:
             yield then < off
 
 
 def _agrees(line: Line, mu: Mu) -> bool:
     """Whether millimetres times the scale factor, or over it, are the value."""
-    assert line.mm is not None
-    assert line.value is not None
-    return any(abs(line.mm * way - abs(line.value)) <= NEAR * abs(line.value) for way in mu.ways)
+    mm, value = line.mm or 0.0, abs(line.value or 0.0)
+    return any(abs(mm * way - value) <= NEAR * value for way in mu.ways)
 
 
 def _exchanged(line: Line, asked: Asked) -> Line:

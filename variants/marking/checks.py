@@ -22,7 +22,7 @@ from .class_run import Job, mark_class
 from .keyed import asked_of, class_header, form_rows, solved
 from .marked import Desk
 from .reading import read_all
-from .report import Report, report
+from .report import Report
 from .result import Result, result_of
 from .rubric import Rubric, read_rubric
 from .wording import texts
@@ -93,7 +93,7 @@ class Check:
             The variant or its data have no answer key.
         """
         marked, language = Desk(self).mark(answers), self.request.language
-        return report(marked, self.rubric, language, self.own, result_of(marked, language).flags(language))
+        return Report(marked, self.rubric, language, self.own, result_of(marked, language).flags(language))
 
     def mark_all(
         self,

@@ -20,8 +20,7 @@ from ..spreadsheets.grid import SUFFIXES
 from ..tables import csv_table, table_bytes
 from .answers import Answers
 from .marked import Desk, variant_of
-from .report import report
-from .reports import REPORTS, report_bytes
+from .report import REPORTS, Report, report_bytes
 from .result import Result, class_rows, failed, moodle_rows, result_of
 
 if TYPE_CHECKING:
@@ -113,7 +112,7 @@ def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     result = result_of(marked, language)
     if job.folder is None:
         return result
-    said = report(marked, job.check.rubric, language, job.check.own, result.flags(language))
+    said = Report(marked, job.check.rubric, language, job.check.own, result.flags(language))
     stem = f"{number + 1:03d}-{slug(result.who.student or Path(answers.source).stem)}"
     names = tuple(f"{stem}{kind}" for kind in REPORTS)
     for kind, name in zip(REPORTS, names, strict=True):

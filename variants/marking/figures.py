@@ -55,15 +55,9 @@ def boxes(vectors: Sequence[tuple[complex, complex, int]], figure: complex) -> I
     """
     taken: list[Box] = []
     for tail, tip, letters in vectors:
-        within: list[Box] = []
-        for box in _spots(tail, tip, 0.5 * WIDTH * letters, figure * 0.5):
-            if box.lies_in(figure):
-                within.append(box)
-                if not any(map(box.meets, taken)):
-                    break
-        else:
-            spots = within or list(_spots(tail, tip, 0.5 * WIDTH * letters, figure * 0.5))
-            box = next((spot for spot in spots if not any(map(spot.meets, taken))), spots[0])
+        spots = list(_spots(tail, tip, 0.5 * WIDTH * letters, figure * 0.5))
+        spots = [box for box in spots if box.lies_in(figure)] or spots
+        box = next((spot for spot in spots if not any(map(spot.meets, taken))), spots[0])
         taken.append(box)
         yield box
 
@@ -103,19 +97,19 @@ class Vector:
     @property
     def text(self) -> str:
         """Its symbol, marked where the line is not simply right."""
-        marks = {"wrong": " ✗", "own": "" if self.line and self.line.verdict is Verdict.RIGHT else " ✓"}
-        return self.symbol + marks.get(self.kind, "")
+        right = self.line is None or self.line.verdict is Verdict.RIGHT
+        return self.symbol + ("" if right else " ✓" if self.kind == "own" else " ✗")
 
 
 def plan_figures(marked: Marked, language: str) -> Iterator[tuple[str, str]]:
     """Go through heading and SVG of every plan on which something was answered."""
     lines = {line.name: line for line in marked.lines if line.answer is not None and isinstance(line.said, complex)}
-    solved, words = marked.keyed.solution.solved, marked.keyed.words
-    heading = marked.keyed.solution.kind.plan_heading
-    for plan in solved.program.plans:
+    solution, words = marked.keyed.solution, marked.keyed.words
+    for plan in solution.solved.program.plans:
         vectors = list(_vectors(marked, plan, lines))
         if plan != POSITION and any(vector.line is not None for vector in vectors):
-            yield plain(heading(solved, plan, words)), _svg(vectors, texts(language)["report.figure"])
+            heading = solution.kind.plan_heading(solution.solved, plan, words)
+            yield plain(heading), _svg(vectors, texts(language)["report.figure"])
 
 
 def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[Vector]:
@@ -157,24 +151,18 @@ def _svg(vectors: list[Vector], caption: str) -> str:
     def at(place: complex) -> complex:
         return complex((place.real - left) * scale + MARGIN, (top - place.imag) * scale + MARGIN)
 
-    drawn = [(vector, at(vector.tail), at(vector.tip)) for vector in vectors]
-    shapes = "".join(_shape(*one, span * scale * LEAST) for one in drawn)
+    drawn, shapes = [(vector, at(vector.tail), at(vector.tip)) for vector in vectors], ""
+    for vector, tail, tip in drawn:
+        line = f"M{tail.real:.2f} {tail.imag:.2f}L{tip.real:.2f} {tip.imag:.2f}"
+        arrow = _arrow(tail, tip, span * scale * LEAST)
+        shapes += f'<path class="{vector.kind}" d="{line}"/><path class="{vector.kind} tip" d="{arrow}"/>'
     own = [(vector, tail, tip) for vector, tail, tip in drawn if vector.line is not None]
     rooms = boxes([(tail, tip, len(vector.text)) for vector, tail, tip in own], complex(width, height))
-    letters = "".join(_label(vector, room.start) for (vector, _, _), room in zip(own, rooms, strict=True))
+    for (vector, _, _), room in zip(own, rooms, strict=True):
+        place = f'x="{room.start.real:.2f}" y="{room.start.imag:.2f}"'
+        shapes += f'<text class="{vector.kind}" {place}>{_lettered(vector.text)}</text>'
     title = f"<title>{escape(caption)}</title>"
-    return f'<svg viewBox="0 0 {width:.2f} {height:.2f}" role="img">{title}{shapes}{letters}</svg>'
-
-
-def _shape(vector: Vector, tail: complex, tip: complex, least: float) -> str:
-    """Return one vector with its arrow."""
-    line = f'<path class="{vector.kind}" d="M{tail.real:.2f} {tail.imag:.2f}L{tip.real:.2f} {tip.imag:.2f}"/>'
-    return f'{line}<path class="{vector.kind} tip" d="{_arrow(tail, tip, least)}"/>'
-
-
-def _label(vector: Vector, start: complex) -> str:
-    """Return the letters of a student's vector."""
-    return f'<text class="{vector.kind}" x="{start.real:.2f}" y="{start.imag:.2f}">{_lettered(vector.text)}</text>'
+    return f'<svg viewBox="0 0 {width:.2f} {height:.2f}" role="img">{title}{shapes}</svg>'
 
 
 @lru_cache(maxsize=1024)  # the symbols of a class are the same

@@ -65,7 +65,9 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
     said = texts(words.language)
     for key in ASKED_ABOUT:
         yield (said[f"about.{key}"], about.get(key, ""))
-    yield (" ".join(said[f"form.{note}"] for note in _notes(keyed)),)
+    vectors = any(question.vector for part in keyed.parts for question in part.asked)
+    notes = ("hint", *["directions"] * vectors, *keyed.solution.kind.form_notes(keyed.solution.solved))
+    yield (" ".join(said[f"form.{note}"] for note in notes),)
     if about.get("variant") and keyed.solution.scales:  # a wish, no answer: the rows of the factors stay the student's
         yield (said["form.scales"].format(scales=keyed.solution.scaled(words)),)
     yield tuple(said[f"column.{column}"] for column in COLUMNS)
@@ -73,23 +75,11 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
     for part in filter(attrgetter("asked"), keyed.parts):
         yield (plain(part.heading),)
         for name in part.scales:
-            unit = _written(f"({asked.display.of_scales.unit(asked.scales[name])})/{asked.display.paper}", words)
-            yield (name, keyed.symbol(name), "", "", "", "", unit)
-        for question in part.asked:
-            name, unit = question.name, _written(asked.unit(question.name), words)
+            unit = f"({asked.display.of_scales.unit(asked.scales[name])})/{asked.display.paper}"
+            yield (name, keyed.symbol(name), "", "", "", "", format_unit(unit, words.language))
+        for name in (question.name for question in part.asked):
+            unit = format_unit(asked.unit(name), words.language)
             yield (name, keyed.symbol(name), letters.get(name, ""), "", "", "", unit)
-
-
-def _notes(keyed: Keyed) -> Iterator[str]:
-    """Go through the keys of what stands over a form: how it is filled in."""
-    yield "hint"
-    if any(question.vector for part in keyed.parts for question in part.asked):
-        yield "directions"
-    yield from keyed.solution.kind.form_notes(keyed.solution.solved)
-
-
-def _written(unit: str, words: Words) -> str:
-    return format_unit(unit, words.language)
 
 
 def class_header(parts: Iterable[Section], language: str, directions: bool) -> tuple[str, ...]:
@@ -103,8 +93,7 @@ def class_header(parts: Iterable[Section], language: str, directions: bool) -> t
         columns += part.scales
         for question in part.asked:
             name = question.name
-            columns += [f"{name}.mm"] if drawn(question) else []
-            columns += [name]
+            columns += [f"{name}.mm", name] if drawn(question) else [name]
             if directions and (question.vector or has_sense(name)):
                 columns.append(f"{name}.{'dir' if question.vector else 'sense'}")
     return tuple(columns)
@@ -161,15 +150,14 @@ class Keyed:
             found[name] = " = ".join(both) or found[name]
         asked = [question.name for part in self.parts for question in part.asked]
         often = Counter(found[name] for name in (*asked, *scales))
-        where = {name: self._where(name) for name in (*asked, *scales) if often[found[name]] > 1}
-        return found | {name: f"{found[name]} ({place})" for name, place in where.items() if place}
-
-    def _where(self, name: str) -> str:
-        """Return on which drawing a quantity or scale factor stands whose symbol stands on another one, too."""
-        quantity = role(name)
-        if quantity.kind == "mu":
-            return ", ".join(map(str, quantity.links)) or quantity.about
-        return texts(self.words.language)["form.lever"] if (quantity.kind, quantity.part) == ("h", LEVER) else ""
+        for name in [name for name in (*asked, *scales) if often[found[name]] > 1]:
+            quantity, place = role(name), ""
+            if quantity.kind == "mu":
+                place = ", ".join(map(str, quantity.links)) or quantity.about
+            elif (quantity.kind, quantity.part) == ("h", LEVER):
+                place = texts(self.words.language)["form.lever"]
+            found[name] += f" ({place})" if place else ""
+        return found
 
     def symbol(self, name: str) -> str:
         """Return the symbol of a quantity, of a scale factor or of a given, as plain text."""
@@ -196,9 +184,8 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     """
     request = replace(request, variant=variant, settings={**(request.settings or {}), **settings})
     solution = solved(request)
-    mus = {scale.symbol: scale.mu for scale in solution.scales.values()}
     kind, drawn = solution.kind, solution.drawn_by_students
-    paper = paper_of(drawn, mus)
+    paper = paper_of(drawn, {scale.symbol: scale.mu for scale in solution.scales.values()})
     limits, firm = kind.limits(drawn, paper, rubric.tolerance), rubric.limits
     if not kind.limits_add_up:
         limits, firm = {}, {**limits, **firm}

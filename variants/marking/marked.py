@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from statistics import median
 from typing import TYPE_CHECKING
@@ -19,7 +19,7 @@ from ..case import Settings
 from ..roster import Entry, variant_of_book
 from ..sheets import same_id, variant_of_id
 from ..solution import Solution
-from .answers import Answers, Mu
+from .answers import Answers, Mu, apart
 from .answers import Line as Written
 from .keyed import Keyed, keyed
 
@@ -69,18 +69,9 @@ def _misfit(symbol: str, lines: list[Written], mu: Mu, key: Key) -> Misfit | Non
     if agree < max(TELLING, MOST * len(lines)) or any(abs(way - fits) <= 2.0 * NEAR * fits for way in mu.ways):
         return None
     written = mu.nearest(fits)
-    nearer = [_values_are_nearer(line, written, key) for line in lines]
-    if sum(nearer) < MOST * len(lines):
-        return None
-    return Misfit(symbol, written, fits, tuple(line.name for line in lines))
-
-
-def _values_are_nearer(line: Written, mu: float, key: Key) -> bool:
-    right = abs(key[line.name])
-    if not right:
-        return True
-    value, by_mm = (abs(math.log(abs(one) / right)) for one in (line.value or right, (line.mm or 1.0) * mu))
-    return value < by_mm
+    sizes = [(line.value or 0.0, (line.mm or 0.0) * written, abs(key[line.name])) for line in lines]
+    nearer = sum(not right or apart(value, right) < apart(by_mm, right) for value, by_mm, right in sizes)
+    return None if nearer < MOST * len(lines) else Misfit(symbol, written, fits, tuple(line.name for line in lines))
 
 
 def counted_once(
@@ -122,18 +113,12 @@ def fits_other(marking: Marking, given: Sequence[Answer], others: Iterable[str],
     if len(answered) < FEWEST or right > (1.0 - MANY) * len(answered):
         return ""
     least = max(FEWEST, MOST * len(answered))
-    found = {variant: _under(variant, given, key, least) for variant in others}
-    best = max(found, key=lambda variant: found[variant], default="")
-    return best if found.get(best) else ""
-
-
-def _under(variant: str, given: Sequence[Answer], key: Callable[[str], Key], least: float) -> int:
-    """Return how many answers are right under the key of a variant, nothing where that is less than `least`."""
-    try:
-        of = key(variant)
-    except KulmanError:
-        return 0  # this variant has no plan with the student's data
-    return count_right(of, [answer for answer in given if answer.name in of.questions], least)
+    found = {"": 0}
+    for variant in others:
+        with suppress(KulmanError):  # this variant has no plan with the student's data
+            of = key(variant)
+            found[variant] = count_right(of, [answer for answer in given if answer.name in of.questions], least)
+    return max(found, key=lambda variant: found[variant])
 
 
 KEPT = 32  # answer keys
@@ -165,8 +150,7 @@ class Marked:
         """Whether all that is wrong is measured, and misses by so little that only the hand may have slipped."""
         faulty = [line for line in self.marking.lines if line.verdict.faulty]
         measured = all(self.keyed.key.questions[line.name].step.verb != "calc" for line in faulty)
-        near = all(line.verdict is Verdict.WRONG and line.off <= CLEAR for line in faulty)
-        return bool(faulty) and measured and near
+        return bool(faulty) and measured and all(x.verdict is Verdict.WRONG and x.off <= CLEAR for x in faulty)
 
     def count(self, verdict: Verdict) -> int:
         """Return how many lines have a verdict."""
@@ -181,8 +165,7 @@ def variant_of(check: Check, answers: Answers, entry: Entry | None) -> tuple[str
     InputError
         The record book has no such digits.
     """
-    task, said = check.request.task, answers.about.get("variant", "")
-    notes: list[KulmanError] = []
+    task, said, notes = check.request.task, answers.about.get("variant", ""), list[KulmanError]()
     if check.roster is not None and entry is None:
         notes.append(InputError("marked-stranger", text=quote(answers.who.student or answers.source)))
     other = answers.about.get("task", "")
@@ -251,16 +234,12 @@ class Desk:
         marking = bounded(marking, self.keyed(fits, settings, own=False).key if fits else None)
         lines = self._counted(key, marking, answers)
         parts = rubric.parts(lines, key.by_plan, key.needed)
-        marks = rubric.mark(lines, parts)
-        told = [line for line in lines if line.answer is not None and isinstance(line.right, complex)]
-        if (
-            rubric.directions != "ignored"
-            and len(told) > 1
-            and all(line.answer is not None and line.answer.direction is None for line in told)
-        ):
+        vectors = [line.answer for line in lines if line.answer is not None and isinstance(line.right, complex)]
+        untold = len(vectors) > 1 and all(answer.direction is None for answer in vectors)
+        if untold and rubric.directions != "ignored":
             notes.append(InputError("marked-directions"))
-        all_notes = (*answers.problems, *notes)
-        return Marked(answers, entry, key, marking, candidates, lines, marks, parts, all_notes, borne, fits)
+        mark_of, all_notes = rubric.mark(lines, parts), (*answers.problems, *notes)
+        return Marked(answers, entry, key, marking, candidates, lines, mark_of, parts, all_notes, borne, fits)
 
     def _sheet(self, answers: Answers, key: Keyed) -> list[KulmanError]:
         """Say where the sheet id is that of another sheet."""
@@ -308,9 +287,6 @@ def _on_other_drawing(line: Written, symbol: str, answers: Answers, solution: So
     shown = solution.quantities[line.name].scale
     if not line.mm or not line.value or shown is None or shown == symbol:
         return False
-    mu = (
-        answers.scales[shown].nearest(abs(line.value) / line.mm)
-        if shown in answers.scales
-        else solution.scales[shown].mu
-    )
+    own = answers.scales.get(shown)
+    mu = own.nearest(abs(line.value) / line.mm) if own else solution.scales[shown].mu
     return abs(line.mm * mu - abs(line.value)) <= NEAR * abs(line.value)

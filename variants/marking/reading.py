@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from pathlib import Path
+from typing import TypeVar
 
 from ...plans.marking.answers import FREE
 from ...scales.errors import InputError, KulmanError, Written
@@ -19,9 +20,12 @@ from ..spreadsheets.headers import LOOKED_AT, about_kind, column_kind, quantity_
 from ..task import LocatedError
 from . import cells
 from .answers import Answers, Asked, Line, Mu, put_back
-from .calculations import result_of, slip_in
 
 NUMBERS = ("mm", "mu", "value")
+NO_SEGMENT: tuple[float | None, int] = (None, 0)
+NO_DIRECTION: tuple[float | None, int | None] = (None, None)
+PRINTED = "printed"
+T = TypeVar("T")
 
 
 def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answers]:
@@ -40,7 +44,7 @@ def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answe
             return [_form(grid, row, kinds, asked)]
         columns = _of_class(grid.rows[row], asked)
         if len(columns) > 1 or (columns and any(map(about_kind, grid.rows[row]))):
-            return [student for student in _class(grid, row, asked) if student is not None]
+            return list(_class(grid, row, asked))
     raise InputError("answers-header", file=quote(grid.file, SHOWN))
 
 
@@ -71,12 +75,12 @@ class _Sheet:
         """Return the text of a cell that should hold a number, of a calculation its result; note what is wrong."""
         try:
             text = cells.checked(self.grid, row, column)
-            found = slip_in(text)
-            if found is not None:
-                makes = Written(f"{found.makes:.7g}".replace(".", "," if "," in text else "."))
-                error = InputError("answer-calculation", text=found.text, makes=makes, written=found.written)
+            slip = cells.slip_in(text)
+            if slip is not None:
+                makes = Written(f"{slip.makes:.7g}".replace(".", "," if "," in text else "."))
+                error = InputError("answer-calculation", text=slip.text, makes=makes, written=slip.written)
                 self.refuse(row, column, name, error)
-            return cells.signed(result_of(text))
+            return cells.signed(text.rpartition("=")[2].strip())  # of a calculation its result
         except InputError as error:
             self.refuse(row, column, name, error)
             return ""
@@ -90,14 +94,13 @@ class _Sheet:
         self.refuse(row, column, name, unknown("quantity-unknown", name, self.asked.names))
         return False
 
-    def segment(self, row: int, column: int | None, name: str, written: str) -> tuple[float | None, int]:
-        """Read millimetres."""
-        text = self.number(row, column, name)
+    def read(self, cell: tuple[int, int | None, str], reading: Callable[[], T], otherwise: T) -> T:
+        """Return what stands in a cell; note why it cannot be read."""
         try:
-            return cells.segment(text, written) if text else (None, 0)
+            return reading()
         except InputError as error:
-            self.refuse(row, column, name, error)
-            return None, 0
+            self.refuse(*cell, error)
+            return otherwise
 
     def mu(self, row: int, column: int | None, name: str, symbol: str | None, written: str = "") -> Mu | None:
         """Read the scale factor of a quantity's plan."""
@@ -106,11 +109,8 @@ class _Sheet:
             return None
         drawn = self.asked.scales.get(symbol or "") or self.asked.quantities[name].unit
         shown, paper = self.asked.display.of_scales.unit(drawn), self.asked.display.paper
-        try:
-            return cells.scale_factor(text, written, _per(drawn, "mm"), _per(shown, paper))
-        except InputError as error:
-            self.refuse(row, column, name, error)
-            return None
+        units = f"({drawn})/mm", f"({shown})/{paper}"
+        return self.read((row, column, name), lambda: cells.scale_factor(text, written, *units), None)
 
     def value(self, row: int, column: int | None, name: str, text: str, written: str) -> float | None:
         """Read a value; one with a wrong unit is noted, and taken in the unit of the form."""
@@ -132,12 +132,9 @@ class _Sheet:
         answered = any(self.grid.text(row, at.get(kind)) not in cells.NONE for kind in NUMBERS)
         if text in cells.NONE and (text not in ("-", "–") or (vector and not answered)):
             return None, None
-        try:
-            angle, sense = cells.direction(text, vector)
-            if angle is not None and self.asked.quantities[name].kind == "scalar":
-                raise InputError("answer-sense", text=quote(text))
-        except InputError as error:
-            self.refuse(row, column, name, error)
+        angle, sense = self.read((row, column, name), lambda: cells.direction(text, vector), NO_DIRECTION)
+        if angle is not None and self.asked.quantities[name].kind == "scalar":
+            self.refuse(row, column, name, InputError("answer-sense", text=quote(text)))
             return None, None
         return angle, sense
 
@@ -149,7 +146,10 @@ class _Sheet:
         at, units : mapping
             By "mm", "mu", "value" and "direction": the columns there are, and the units over them or beside.
         """
-        mm, decimals = self.segment(row, at.get("mm"), name, units.get("mm", ""))
+        paper, cell = self.number(row, at.get("mm"), name), (row, at.get("mm"), name)
+        mm, decimals = (
+            self.read(cell, lambda: cells.segment(paper, units.get("mm", "")), NO_SEGMENT) if paper else NO_SEGMENT
+        )
         direction, sense = self.direction(row, at, name)
         mu = self.mu(row, at.get("mu"), name, None, units.get("mu", ""))
         text, written = self.number(row, at.get("value"), name), units.get("value", "")
@@ -200,12 +200,7 @@ class _Sheet:
 
     def answers(self, source: str, about: Mapping[str, str], columns: tuple[str, ...] = ()) -> Answers:
         """Return what has been read."""
-        who = Who.of(about)
-        return Answers(source, who, about, self.lines, self.scales, tuple(self.problems), columns)
-
-
-def _per(si: str, paper: str) -> str:
-    return f"({si})/{paper}"
+        return Answers(source, Who.of(about), about, self.lines, self.scales, tuple(self.problems), columns)
 
 
 def _form(grid: Grid, header: int, columns: Mapping[str, int], asked: Asked) -> Answers:
@@ -266,7 +261,7 @@ def _of_class(header: tuple[str, ...], asked: Asked) -> dict[int, tuple[str, str
     return found
 
 
-def _class(grid: Grid, header: int, asked: Asked) -> Iterator[Answers | None]:
+def _class(grid: Grid, header: int, asked: Asked) -> Iterator[Answers]:
     """Go through the students of a class."""
     columns, about = _of_class(grid.rows[header], asked), _first(about_kind(text) for text in grid.rows[header])
     parts: dict[str, dict[str, tuple[int, str]]] = {}
@@ -317,9 +312,6 @@ def _part(asked: Asked, name: str, part: str, written: str) -> str:
     return "mm" if cells.of_paper(written) and asked.quantities[name].unit != "m" else "value"
 
 
-PRINTED = "printed"
-
-
 def found_files(names: Sequence[str], task: str = "") -> list[str]:
     """Return the files that are meant: files as they are, all answers in a folder, all that a pattern fits.
 
@@ -328,13 +320,15 @@ def found_files(names: Sequence[str], task: str = "") -> list[str]:
     Raises
     ------
     InputError
-        A folder or a pattern without answers.
+        A folder or a pattern without answers, or a task whose source prints none.
     """
     found: list[str] = []
     for name in names:
         path = Path(name)
         if name == PRINTED and not path.exists():
-            inside = [_printed(task)]
+            inside = [str(_printed(task))]
+            if not _printed(task).is_file():
+                raise InputError("answers-none-printed", task=quote(task))
         elif path.is_dir():
             inside = sorted(str(file) for file in path.iterdir() if _is_answers(file))
         elif not path.exists() and glob.has_magic(name):
@@ -347,20 +341,7 @@ def found_files(names: Sequence[str], task: str = "") -> list[str]:
     return list(dict.fromkeys(found))
 
 
-def _printed(task: str) -> str:
-    """Return the file of the answers that the source of a task prints.
-
-    Raises
-    ------
-    InputError
-        It prints none.
-    """
-    if not (file := _file_of(task)).is_file():
-        raise InputError("answers-none-printed", task=quote(task))
-    return str(file)
-
-
-def _file_of(task: str) -> Path:
+def _printed(task: str) -> Path:
     return Path(str(files(__package__) / "printed" / f"{task}.csv"))
 
 
@@ -379,7 +360,7 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Callable[[Kulm
     inside, found = found_files(names, task), list[Answers]()
     for file in inside:
         try:
-            of_source = file == str(_file_of(task))
+            of_source = file == str(_printed(task))
             read = read_answers(file, asked, PRINTED if of_source else "")
         except InputError as error:
             if len(inside) == 1:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from ...plans.marking.key import Key
@@ -72,20 +72,18 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapp
         drawn = question.step.verb == "arm" or any(made[end].verb in FOUND for end in ends if end in made)
         if mu and drawn and abs(key[name]) / mu >= LEAST_MM:
             found[name] = line, mu
-    step = _resolution([line for line, _ in found.values()])  # what is laid off may be written to more digits
-    return {
-        name: Measured(
-            line.mm or 0.0,
-            follows.get(name, abs(key[name])) / mu,
-            step,
-            max(HAND, key.allowed[name] / mu / 3.0),
-        )
-        for name, (line, mu) in found.items()
-    }
+    step, made_of = _resolution([line for line, _ in found.values()]), dict[str, Measured]()
+    for name, (line, mu) in found.items():
+        right, spread = follows.get(name, abs(key[name])) / mu, max(HAND, key.allowed[name] / mu / 3.0)
+        made_of[name] = Measured(line.mm or 0.0, right, step, spread)
+    return made_of
 
 
 def _resolution(lines: Sequence[Line]) -> float:
-    """Return to what a student reads segments: halves of a millimetre are written with one decimal, too."""
+    """Return to what a student reads segments: halves of a millimetre are written with one decimal, too.
+
+    What is laid off is none of them: it may be written to more digits.
+    """
     decimals = min(max((line.decimals for line in lines), default=0), 3)
     halves = all((2.0 * (line.mm or 0.0)).is_integer() for line in lines)
     return 0.5 if decimals == 1 and halves else 10.0**-decimals
@@ -200,9 +198,7 @@ class Result:
 
     def to_json(self) -> dict[str, Any]:
         """Return the result as plain data."""
-        data = {item.name: getattr(self, item.name) for item in fields(self)}
-        segments = {name: _plain(one) for name, one in self.segments.items()}
-        return {**data, "who": _plain(self.who), "segments": segments}
+        return asdict(self)
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Result:
@@ -216,10 +212,6 @@ class Result:
         segments = {name: Measured(**of) for name, of in data["segments"].items()}
         lists = {name: tuple(data[name]) for name in ("mistakes", "notes", "reports")}
         return cls(**{**data, "who": Who(**data["who"]), "segments": segments, **lists})
-
-
-def _plain(data: Who | Measured) -> dict[str, Any]:
-    return {item.name: getattr(data, item.name) for item in fields(data)}
 
 
 def students_scales(marked: Marked) -> dict[str, float]:
@@ -283,10 +275,10 @@ def flags_of(results: Sequence[Result], language: str) -> list[list[str]]:
 def class_rows(results: Sequence[Result], absent: Sequence[Entry], language: str) -> Iterator[tuple[Cell, ...]]:
     """Go through the rows of the table: a header, the students, those who handed in nothing, commonest mistakes."""
     said = texts(language)
-    about = tuple(said[f"about.{key}"] for key in (*WHO, "variant", "sheet"))
-    verdicts = tuple(said[f"verdict.{verdict}"] for verdict in Verdict)
-    keys = ("class.first", "report.candidates", "report.flags", "report.notes", "report.source", "class.report")
-    yield (*about, said["class.mark"], *verdicts, *(said[key] for key in keys))
+    keys = (*(f"about.{key}" for key in (*WHO, "variant", "sheet")), "class.mark")
+    keys += tuple(f"verdict.{verdict}" for verdict in Verdict)
+    keys += ("class.first", "report.candidates", "report.flags", "report.notes", "report.source", "class.report")
+    yield tuple(said[key] for key in keys)
     for result, flags in zip(results, flags_of(results, language), strict=True):
         who = tuple(getattr(result.who, key) for key in WHO)
         counts = tuple(result.counts.get(str(verdict)) for verdict in Verdict)
@@ -297,70 +289,41 @@ def class_rows(results: Sequence[Result], absent: Sequence[Entry], language: str
         who = tuple(getattr(entry.who, key) for key in WHO)
         blank = (None,) * (len(Verdict) + 4)
         yield (*who, entry.variant, None, *blank, said["class.absent"], entry.place)
-    yield from _commonest(results, language)
-
-
-def _commonest(results: Sequence[Result], language: str) -> Iterator[tuple[Cell, ...]]:
-    """Go through the mistakes, the commonest first."""
     counted = Counter(name for result in results for name in result.mistakes)
     if counted:
         yield ()
-        yield (texts(language)["class.commonest"],)
+        yield (said["class.commonest"],)
     for name, count in sorted(counted.items(), key=lambda item: (-item[1], item[0])):
         yield (f"{name}: {mistake_texts(language)[name]}", count)
 
 
 def moodle_rows(results: Sequence[Result], language: str) -> Iterator[tuple[Cell, ...]]:
-    """Go through the rows of a file that Moodle's gradebook imports: whose it is, the grade, the feedback."""
+    """Go through the rows of a file that Moodle's gradebook imports: whose it is, the grade, without right numbers."""
+    said = texts(language)
     yield ("ID number", "Full name", "Email address", "Grade", "Feedback comments")
     for result in results:
         if result.mark is not None:
             who = result.who
-            yield (who.number or who.book, who.student, who.email, result.mark, _feedback(result, language))
-
-
-def _feedback(result: Result, language: str) -> str:
-    """Return a line for the student, without right numbers."""
-    said = texts(language)
-    counts = (f"{said[f'verdict.{name}']} {count}" for name, count in result.counts.items() if count)
-    first = said["class.feedback_first"].format(symbol=result.first) if result.first else said["report.no_wrong"]
-    return f"{', '.join(counts)}. {first}"
-
-
-def summary(results: Sequence[Result], language: str) -> str:
-    """Return a line on the whole class."""
-    said = texts(language)
-    marks = [result.mark for result in results if result.mark is not None]
-    mean = sum(marks) / len(marks) if marks else 0.0
-    return said["class.summary"].format(n=len(results), marked=len(marks), mean=_number(f"{mean:.1f}", language))
+            counts = (f"{said[f'verdict.{name}']} {count}" for name, count in result.counts.items() if count)
+            first = said["class.feedback_first" if result.first else "report.no_wrong"].format(symbol=result.first)
+            yield who.number or who.book, who.student, who.email, result.mark, f"{', '.join(counts)}. {first}"
 
 
 def class_lines(results: Sequence[Result], absent: Sequence[Entry], language: str) -> Iterator[str]:
     """Go through what is printed of a class: a line per student, those without answers, then the whole."""
-    said = texts(language)
-    width = max((len(_called(result)) for result in results), default=0)
-    for result, flags in zip(results, flags_of(results, language), strict=True):
-        mark = "–" if result.mark is None else _number(f"{result.mark:g}", language)
-        missing = result.counts.get(str(Verdict.MISSING), 0)
+    said, sign = texts(language), "." if language == "en" else ","
+    names = [result.who.student or result.source for result in results]
+    width = max(map(len, names), default=0)
+    for name, result, flags in zip(names, results, flags_of(results, language), strict=True):
+        mark = "–" if result.mark is None else f"{result.mark:g}".replace(".", sign)
+        missing, notes = result.counts.get(str(Verdict.MISSING), 0), result.notes
         told = [result.first and said["class.feedback_first"].format(symbol=result.first)]
         told += [f"{said['verdict.missing']} {missing}"] if missing else []
-        told += [", ".join(result.mistakes), *flags, *_noted(result, said)]
-        yield f"{_called(result):{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
+        if result.mark is not None and notes:  # else they say why there is no mark
+            notes = (said["class.notes"].format(n=len(notes), file=result.source),)
+        told += [", ".join(result.mistakes), *flags, *notes]
+        yield f"{name:{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
     yield from (f"{entry.who.student:{width}}  {'–':>5}  {said['class.absent']}" for entry in absent)
-    yield summary(results, language)
-
-
-def _noted(result: Result, said: Mapping[str, str]) -> Sequence[str]:
-    """Return why there is no mark; where there is one, how many notes the report has, and the file they are on."""
-    if result.mark is None or not result.notes:
-        return result.notes
-    return [said["class.notes"].format(n=len(result.notes), file=result.source)]
-
-
-def _number(text: str, language: str) -> str:
-    """Return a number with the decimal sign of the language, as the files have it."""
-    return text if language == "en" else text.replace(".", ",")
-
-
-def _called(result: Result) -> str:
-    return result.who.student or result.source
+    marks = [result.mark for result in results if result.mark is not None]
+    mean = f"{sum(marks) / len(marks) if marks else 0.0:.1f}".replace(".", sign)
+    yield said["class.summary"].format(n=len(results), marked=len(marks), mean=mean)

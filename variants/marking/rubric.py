@@ -94,7 +94,10 @@ class Rubric:
 
     def mark(self, lines: Iterable[Line], parts: Mapping[str, float]) -> float:
         """Return the mark, to a tenth."""
-        return round(self.out_of * sum(parts[line.name] * self._worth(line) for line in lines), 1)
+        less = {True: SIZE_ALONE, False: 1.0}  # in parts of the line's weight
+        required = self.directions == "required"
+        worth = ((line, self.worth[line.verdict] * less[required and wants_direction(line)]) for line in lines)
+        return round(self.out_of * sum(parts[line.name] * of_line for line, of_line in worth), 1)
 
     def compared(self, answer: Answer, question: Question) -> Answer:
         """Return what counts of an answer; the sign of a number without a unit is no sense."""
@@ -103,11 +106,6 @@ class Rubric:
         signed = answer.value is None or (question.unit == "1" and not question.vector)
         value = answer.value if signed else abs(answer.value or 0.0)
         return replace(answer, value=value, direction=None, sense=None, plus=False)
-
-    def _worth(self, line: Line) -> float:
-        """Return what a line is worth, in parts of its weight."""
-        less = self.directions == "required" and wants_direction(line)
-        return self.worth[line.verdict] * (SIZE_ALONE if less else 1.0)
 
 
 def zero(line: Line) -> bool:
@@ -197,7 +195,7 @@ class _Reader:
                 raise self._at(key, unknown("key-unknown", key, known))
         worth = {Verdict(name): value for name, value in self._numbers("worth", list(map(str, Verdict))).items()}
         found = self._numbers("tolerance", ("mm", "percent", "degrees"))
-        return Rubric(
+        rubric = Rubric(
             Tolerance(
                 found.get("mm", tolerance.mm),
                 found["percent"] / 100.0 if "percent" in found else tolerance.part,
@@ -208,15 +206,11 @@ class _Reader:
             {**WORTH, **worth},
             self._names(),
             self._limits(),
-            self._directions(),
         )
-
-    def _directions(self) -> str:
-        """Return what holds of directions and senses."""
-        said = self.raw.get("directions", DIRECTIONS[0])
-        if said not in DIRECTIONS:
-            raise self._at("directions", unknown("choice-unknown", str(said), DIRECTIONS))
-        return str(said)
+        directions = self.raw.get("directions", DIRECTIONS[0])
+        if directions not in DIRECTIONS:
+            raise self._at("directions", unknown("choice-unknown", str(directions), DIRECTIONS))
+        return replace(rubric, directions=directions)
 
     def _names(self) -> tuple[str, ...]:
         """Return the quantities asked."""
