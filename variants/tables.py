@@ -1,4 +1,4 @@
-"""Rows of cells as aligned text, CSV or XLSX: nothing is taken for a formula, the same rows give the same bytes."""
+"""Rows of cells as aligned text, CSV or XLSX, in which nothing is taken for a formula; data as JSON takes them."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import csv
 import io
 import math
 import re
-from collections.abc import Callable, Container, Iterable, Sequence
+from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 Cell: TypeAlias = str | float | int | None
 Rows: TypeAlias = Sequence[Sequence[Cell]]
@@ -32,6 +32,23 @@ def aligned(rows: Sequence[Sequence[str]], left: Container[int] = (0,)) -> str:
         return f"{text:{widths[i]}}" if i in left else f"{text:>{widths[i]}}"
 
     return "\n".join("  ".join(cell(text, i) for i, text in enumerate(row)).rstrip() for row in rows)
+
+
+def plain(data: Any) -> Any:
+    """Return data, arrays among them, for JSON: None in the place of a number that is not finite, no zero below zero.
+
+    >>> plain({"values": (1.0, -0.0, math.inf)})
+    {'values': [1.0, 0.0, None]}
+    """
+    if isinstance(data, Mapping):
+        return {key: plain(value) for key, value in data.items()}
+    if isinstance(data, float):
+        return float(data) + 0.0 if math.isfinite(data) else None
+    if hasattr(data, "tolist"):
+        data = data.tolist()
+    if isinstance(data, list | tuple):
+        return [x + 0.0 if type(x) is float and math.isfinite(x) else plain(x) for x in data]
+    return data
 
 
 def table_bytes(path: Path, rows: Rows, language: str, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:

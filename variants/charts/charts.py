@@ -32,7 +32,7 @@ from ...scales.units import parse, unit
 from ..case import Case, Request, Settings, all_known, names_of, positions_of
 from ..hands import is_own
 from ..reader import load_task
-from ..tables import Cell, aligned, csv_bytes, csv_text
+from ..tables import Cell, aligned, csv_bytes, csv_text, plain
 from ..task import LocatedError, Task
 
 if TYPE_CHECKING:
@@ -117,20 +117,6 @@ class Chart(ABC, Generic[Found]):
         """Draw the picture."""
         title = self.scene.title(self.heading)
         return type(self).page(self.found, words, title, self.note(words), *self._shown(words))
-
-
-def plain(data: Any) -> Any:
-    """Return data with numbers of Python, None in the place of those that are not finite."""
-    match data:
-        case dict():
-            return {key: plain(value) for key, value in data.items()}
-        case list() | tuple():
-            return [plain(value) for value in data]
-        case np.ndarray():
-            return plain(data.tolist())
-        case float():
-            return float(data) + 0.0 if math.isfinite(data) else None
-    return data
 
 
 @dataclass(frozen=True, slots=True)

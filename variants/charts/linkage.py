@@ -29,7 +29,7 @@ from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit
 from ..case import Case, all_known
-from ..sweeps.cycles import driver_name
+from ..sweeps.linkage import driver_name
 from ..tables import Cell, aligned
 from .charts import (
     HANDS,

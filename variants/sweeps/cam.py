@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,23 +11,13 @@ from ...drawing.words import Words
 from ...plans.cams.course import columns, cut_at, extremes, lines, profiles
 from ...plans.cams.motion import TURN
 from ...plans.cams.solve import SolvedCam
-from ...plans.solved import Columned
-from .sweeps import (
-    SizedSweep,
-    column_table,
-    columns_csv,
-    columns_json,
-    degrees,
-    extremes_json,
-    extremes_table,
-    millimetres,
-)
+from ...plans.solved import Columned, Ends
+from .sweeps import Rows, SizedSweep, degrees, millimetres
 
 TABLED = ("phi", "s", "ds", "d2s", "v", "a", "psi", "theta", "gamma", "theta_rocker", "gamma_rocker")
 UNDERCUT = "undercut"
 
 
-@dataclass(frozen=True, slots=True, repr=False)
 class CamSweep(SizedSweep):
     """A cam over its turn; `positions` divide it evenly, None for the section lines in the table, degrees in files."""
 
@@ -39,42 +28,44 @@ class CamSweep(SizedSweep):
         """The cam."""
         return SolvedCam.of(self.case.solved)
 
-    def table(self, language: str | None = None) -> str:
-        """Return the motion on the section lines, both limits at jumps, then extremes and the least radii."""
-        words = self._words(language)
-        if self.positions is None:
-            found = lines(self.solved)
-            rows = _joined(self.solved, [(phi, side) for _, phi, side in found])
-            heads = [str(number) for number, _, _ in found]
-        else:
-            rows = columns(self.solved, self._angles())
-            heads = [str(k) for k in range(self.positions)]
-        parts = [
-            column_table([column for column in rows if column.name in TABLED], heads, words),
-            extremes_table(extremes(self.solved), words),
-            "\n".join((*self._sharpest(words), *self._warned(words))),
-        ]
-        return "\n\n".join(part for part in parts if part)
+    def _places(self, count: int) -> Any:
+        return TURN * (np.arange(count) / count)
 
-    def _sharpest(self, words: Words) -> Iterator[str]:
+    def _columns(self, places: Any) -> list[Columned]:
+        return columns(self.solved, places)
+
+    def _rows(self) -> Rows:
+        """Return the motion on the section lines, both limits at jumps."""
+        if self.positions is not None:
+            heads, rows = super()._rows()
+        else:
+            found = lines(self.solved)
+            heads, phi = [str(number) for number, *_ in found], np.array([phi for _, phi, _ in found])
+            after = np.array([side > 0 for *_, side in found])
+            before_and_after = zip(*(columns(self.solved, phi, side) for side in (-1, 1)), strict=True)
+            rows = [Columned(b.name, b.unit, np.where(after, b.values, a.values)) for a, b in before_and_after]
+        return heads, [column for column in rows if column.name in TABLED]
+
+    def _extremes(self) -> list[Ends]:
+        return extremes(self.solved)
+
+    def _remarks(self, words: Words) -> list[str]:
         """Say where profiles are curved most."""
+        said = []
         for curve, _, profile in profiles(self.solved):
             least = profile.sharpest
-            said = {"rho": millimetres(least.value, words), "at": degrees(least.phi, words)}
-            yield words[f"sweep.sharpest.{curve}"].format(**said)
+            place = {"rho": millimetres(least.value, words), "at": degrees(least.phi, words)}
+            said.append(words[f"sweep.sharpest.{curve}"].format(**place))
+        return ["\n".join((*said, *self._warned(words)))]
 
-    def csv(self, language: str | None = None) -> str:
-        """Return all columns as CSV."""
-        phi = self._angles()
-        status = [f"{UNDERCUT}: {followers}" if followers else "ok" for followers in cut_at(self.solved, phi)]
-        return columns_csv(columns(self.solved, phi), self._words(language), {"status": status})
+    def _states(self, places: Any) -> Mapping[str, Sequence[str]]:
+        cuts = cut_at(self.solved, places)
+        return {"status": [f"{UNDERCUT}: {followers}" if followers else "ok" for followers in cuts]}
 
     def _data(self) -> dict[str, Any]:
         """Return columns, extremes, the least radii of curvature, jumps and what an undercut profile loses."""
         every = profiles(self.solved)
-        return {
-            "columns": columns_json(columns(self.solved, self._angles())),
-            "extremes": extremes_json(extremes(self.solved)),
+        return super()._data() | {
             "rho_min": {curve: {"value": p.sharpest.value, "at": p.sharpest.phi} for curve, _, p in every},
             "jumps": [
                 {"at": jump.phi, "of": "ds" if jump.order == 1 else "d2s", "before": jump.before, "after": jump.after}
@@ -86,17 +77,6 @@ class CamSweep(SizedSweep):
                 for cut in profile.undercuts
             ],
         }
-
-    def _angles(self) -> Any:
-        return TURN * (np.arange(self.count) / self.count)
-
-
-def _joined(solved: SolvedCam, places: list[tuple[float, int]]) -> list[Columned]:
-    """Return the columns at places, each a limit from its side."""
-    phi = np.array([at for at, _ in places])
-    left, right = (columns(solved, phi, side) for side in (-1, 1))
-    after = np.array([side > 0 for _, side in places])
-    return [Columned(b.name, b.unit, np.where(after, b.values, a.values)) for a, b in zip(left, right, strict=True)]
 
 
 SWEEP = CamSweep

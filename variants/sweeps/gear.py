@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,10 +9,10 @@ import numpy as np
 from ...drawing.words import Words
 from ...plans.gears.course import columns, extremes, marks, zones
 from ...plans.gears.solve import SolvedGear
-from .sweeps import SizedSweep, column_table, columns_csv, columns_json, extremes_json, extremes_table, millimetres
+from ...plans.solved import Columned, Ends
+from .sweeps import Rows, SizedSweep, millimetres
 
 
-@dataclass(frozen=True, slots=True, repr=False)
 class GearSweep(SizedSweep):
     """A pair over the contact of one pair of teeth.
 
@@ -29,40 +27,33 @@ class GearSweep(SizedSweep):
         """The pair."""
         return SolvedGear.of(self.case.solved)
 
-    def table(self, language: str | None = None) -> str:
-        """Return the contact at its marks, or at the positions asked for; extremes of sliding; zones of contact."""
-        words = self._words(language)
-        if self.positions is None:
-            known = marks(self.solved)
-            rows, heads = columns(self.solved, list(known.values())), list(known)
-        else:
-            rows = columns(self.solved, self._places())
-            heads = [str(k) for k in range(self.positions)]
-        said = (*self._zones(words), *self._warned(words))
-        return "\n\n".join(
-            (column_table(rows, heads, words), extremes_table(extremes(self.solved), words), "\n".join(said))
-        )
+    def _places(self, count: int) -> Any:
+        return np.linspace(*self.solved.meshing.touching, count)
 
-    def _zones(self, words: Words) -> Iterator[str]:
+    def _columns(self, places: Any) -> list[Columned]:
+        return columns(self.solved, places)
+
+    def _rows(self) -> Rows:
+        if self.positions is not None:
+            return super()._rows()
+        known = marks(self.solved)
+        return list(known), self._columns(list(known.values()))
+
+    def _extremes(self) -> list[Ends]:
+        return extremes(self.solved)
+
+    def _remarks(self, words: Words) -> list[str]:
+        """Say on which zones how many pairs of teeth touch."""
+        lines = []
         for zone in zones(self.solved):
             ends = {name: millimetres(getattr(zone, name), words) for name in ("first", "last", "length")}
-            yield words["sweep.zone"].format(**ends, pairs=zone.pairs)
-
-    def csv(self, language: str | None = None) -> str:
-        """Return all columns as CSV."""
-        return columns_csv(columns(self.solved, self._places()), self._words(language))
+            lines.append(words["sweep.zone"].format(**ends, pairs=zone.pairs))
+        return ["\n".join((*lines, *self._warned(words)))]
 
     def _data(self) -> dict[str, Any]:
         """Return columns, extremes, marks of the contact, and where how many pairs touch."""
-        return {
-            "columns": columns_json(columns(self.solved, self._places())),
-            "extremes": extremes_json(extremes(self.solved)),
-            "marks": marks(self.solved),
-            "zones": [{"from": zone.first, "to": zone.last, "pairs": zone.pairs} for zone in zones(self.solved)],
-        }
-
-    def _places(self) -> Any:
-        return np.linspace(*self.solved.meshing.touching, self.count)
+        found = [{"from": zone.first, "to": zone.last, "pairs": zone.pairs} for zone in zones(self.solved)]
+        return super()._data() | {"marks": marks(self.solved), "zones": found}
 
 
 SWEEP = GearSweep

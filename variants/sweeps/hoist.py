@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...plans.hoist.forces import Course, Forces, course
+from ...plans.hoist.forces import Forces, course
 from ...plans.hoist.solve import SolvedHoist
-from .sweeps import SizedSweep, column_table, columns_csv, columns_json
+from ...plans.solved import Columned
+from .sweeps import Rows, SizedSweep
 
 TABLED = 25  # times in the table, beside the marks
 
 
-@dataclass(frozen=True, slots=True, repr=False)
 class HoistSweep(SizedSweep):
     """A hoist over time, until one period after the lift-off; `positions` times, None for as many as are usual."""
 
@@ -26,37 +25,27 @@ class HoistSweep(SizedSweep):
         """The forces, and the motion where the formulas are not valid."""
         return SolvedHoist.of(self.case.solved).forces
 
-    def table(self, language: str | None = None) -> str:
+    def _places(self, count: int) -> Any:
+        return np.linspace(0.0, self.solved.end, count)
+
+    def _columns(self, places: Any) -> Sequence[Columned]:
+        return course(self.solved, places).columned
+
+    def _rows(self) -> Rows:
         """Return even times with the marks among them."""
-        words = self._words(language)
-        even = self._times(self.positions or TABLED)
-        heads: dict[float, list[str]] = {float(t): [] for t in even}
+        heads: dict[float, list[str]] = {float(t): [] for t in self._places(self.positions or TABLED)}
         for name, at in self.solved.marks.items():
             heads.setdefault(at, []).append(name)
-        found = course(self.solved, np.array(sorted(heads)))
-        names = [", ".join(heads[t]) for t in sorted(heads)]
-        return "\n\n".join((column_table(found.columned, names, words), *self._warned(words)))
+        times = sorted(heads)
+        return [", ".join(heads[t]) for t in times], self._columns(np.array(times))
 
-    def csv(self, language: str | None = None) -> str:
-        """Return all columns as CSV."""
-        swept = self._swept()
-        return columns_csv(swept.columned, self._words(language), {"bears": swept.states})
+    def _states(self, places: Any) -> Mapping[str, Sequence[str]]:
+        return {"bears": course(self.solved, places).states}
 
     def _data(self) -> dict[str, Any]:
         """Return columns, what bears the load when, the marks, and whether the formulas are valid."""
-        swept = self._swept()
-        return {
-            "valid": self.solved.motion is None,
-            "columns": columns_json(swept.columned),
-            "bears": list(swept.states),
-            "marks": self.solved.marks,
-        }
-
-    def _times(self, count: int) -> NDArray[np.float64]:
-        return np.linspace(0.0, self.solved.end, count)
-
-    def _swept(self) -> Course:
-        return course(self.solved, self._times(self.count))
+        states = self._states(self._places(self.count))
+        return {"valid": self.solved.motion is None, **super()._data(), **states, "marks": self.solved.marks}
 
 
 SWEEP = HoistSweep

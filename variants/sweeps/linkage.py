@@ -2,31 +2,45 @@
 
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ...drawing.linkages.layout.sheet import draw
 from ...drawing.linkages.views import Contents
 from ...drawing.titleblock import Stamp
 from ...drawing.words import Words
 from ...drawing.writers import Files, page_files, save_all
-from ...plans.linkages.cycles.cycle import Cycle, Diagrams, cycle, diagrams
+from ...plans.linkages.cycles.cycle import Curve, Cycle, Diagrams, cycle, diagrams
+from ...plans.linkages.cycles.strokes import Output, OutputMotion
 from ...plans.linkages.mechanism import Driver, Mechanism
+from ...plans.names import role
+from ...plans.quantities import BALANCES, unit_of
+from ...plans.solved import Columned
+from ...plans.zeros import Extreme
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, PositionError
-from ...scales.units import parse, unit
+from ...scales.units import format_unit, parse, unit
 from ..case import Case, all_known, names_of, positions_of
 from ..kinds.linkage import placed
 from ..sheets import Sheet, sheet_of
+from ..tables import aligned, csv_text
 from ..task import LocatedError, Task, plain_number
-from .cycles import as_chords, as_csv, as_json, as_table, letters
-from .sweeps import CSV, SUFFIXES, SweepRequest, Swept
+from .sweeps import CSV, DIGITS, SUFFIXES, SweepRequest, Swept
 
+Array = NDArray[Any]
 SECTIONS = POSITIONS = 12
+ROUGHLY = 4  # decimals of the angle of an extreme, near which values hardly change
+ROUNDING = 1e-12  # part of the largest value of a column below which one is zero
+CONSTANT = 1e-7  # part of its size within which a quantity does not change over the cycle
+LESS_WANTED = ("h", "delta", "l")  # kinds of quantities whose extremes a reader hardly looks for
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -51,7 +65,8 @@ class Sweep(Swept):
             An unknown point, a place of the driver that is none, an end where a crank goes round.
         """
         mechanism = case.task.mechanism
-        chosen = _chosen(mechanism, asked.points)
+        chosen = names_of("points", asked.points, (str, int))
+        all_known("motion-unknown", chosen, (*letters(mechanism), *(str(link.number) for link in mechanism.links)))
         first, last = (_place(case.task, *item) for item in (("start", asked.start), ("end", asked.end)))
         if last is not None and isinstance(mechanism.driver, Driver):
             raise InputError("sweep-end")
@@ -90,18 +105,62 @@ class Sweep(Swept):
         """
         if self.compared is not None:
             return self.chords(self.compared, language)
-        return as_table(self.cycle, self.chosen, self._words(language))
+        cycle, words = self.cycle, self._words(language)
+        shown = _shown(cycle, chosen_columns(cycle, self.chosen) if self.chosen else main_columns(cycle), words)
+        head = ["", *(f"{column.name}, {format_unit(column.unit, words.language)}" for column in shown)]
+        statuses = ["" if status == "ok" else words[f"status.{status}"] for status in cycle.statuses]
+        rows = [[str(k), *(_cell(words, column, k) for column in shown), said] for k, said in enumerate(statuses)]
+        motions = ("\n".join(_output(cycle, motion, words)) for motion in cycle.motions)
+        parts = aligned([head, *rows], ()), _limits(cycle, words), *motions, _extremes(cycle, self.chosen, words)
+        return "\n\n".join(part for part in parts if part)
 
     def chords(self, of: str | int, language: str | None = None) -> str:
         """Return a table of the velocities and accelerations of a point or a link by plans and by chords."""
-        return as_chords(self.diagrams(of, len(self.cycle.angles)), str(of), self._words(language))
+        drawn, words = self.diagrams(of, len(self.cycle.angles)), self._words(language)
+        velocity, acceleration = ("omega", "epsilon") if drawn.unit == "rad" else ("V", "a")
+        parts = (velocity, f"{drawn.unit}/s", drawn.velocity), (acceleration, f"{drawn.unit}/s^2", drawn.acceleration)
+        return "\n\n".join(_chords(f"{symbol}_{of}", unit_name, curve, words) for symbol, unit_name, curve in parts)
 
     def csv(self, language: str | None = None) -> str:
-        """Return the columns of what is chosen, or all, as CSV."""
-        return as_csv(self.cycle, self.chosen, self._words(language))
+        """Return the columns of what is chosen, or all, as CSV, numbers in full precision."""
+        cycle, words = self.cycle, self._words(language)
+        shown = _shown(cycle, chosen_columns(cycle, self.chosen) if self.chosen else all_columns(cycle), words)
+        head = ["k", *(f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown), "status"]
+        rows = ([k, *(column.values[k] for column in shown), status] for k, status in enumerate(cycle.statuses))
+        return csv_text([head, *rows], words.language)
 
     def _data(self) -> dict[str, Any]:
-        return as_json(self.cycle, self.chosen)
+        """Return the cycle, of chosen points and links only, or of all."""
+        cycle, turns = self.cycle, self.cycle.drive.turns
+        names = quantities_of(cycle, self.chosen)
+        points = (point for point in letters(cycle.mechanism) if not self.chosen or point in self.chosen)
+        return {
+            "driver": {
+                "name": driver_name(cycle),
+                "kind": "crank" if turns else "slider",
+                "unit": "rad" if turns else "m",
+                "sense": cycle.drive.sense,
+                "speed": cycle.speed,
+                "zero": cycle.zero,
+            },
+            "places": cycle.angles,
+            "times": cycle.times,
+            "statuses": cycle.statuses,
+            "points": {name: {"unit": "m", **_parts(cycle, name)} for name in points if name in cycle.values},
+            "quantities": {name: {"unit": unit_of(name), **_sized(cycle, name)} for name in names},
+            "outputs": [_output_data(cycle, motion) for motion in cycle.motions],
+            "extremes": {
+                name: {
+                    "unit": unit_of(name),
+                    "max": {"value": most.value, "at": most.at},
+                    "min": {"value": least.value, "at": least.at},
+                }
+                for name, (most, least) in cycle.extremes(names).items()
+            },
+            "unreachable": [{"from": arc.low, "to": arc.high} for arc in cycle.reach.apart],
+            "change_points": cycle.reach.changes,
+            "parallel_guides": cycle.reach.poles,
+        }
 
     def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
         """Write all columns to .csv, the drawing to other kinds of files."""
@@ -136,14 +195,6 @@ class Sweep(Swept):
 SWEEP = Sweep
 
 
-def _chosen(mechanism: Mechanism, points: str | Iterable[str] | None) -> tuple[str, ...]:
-    """Return the points and links that are asked for, each named alone or several with commas between."""
-    chosen = names_of("points", points, (str, int))
-    known = (*letters(mechanism), *(str(link.number) for link in mechanism.links))
-    all_known("motion-unknown", chosen, known)
-    return chosen
-
-
 def _place(task: Task, name: str, value: str | float | None) -> float | None:
     """Return a place of the driver in SI; a number without a unit is in that of the task's given."""
     if value is None:
@@ -152,8 +203,210 @@ def _place(task: Task, name: str, value: str | float | None) -> float | None:
     given, crank = task.givens.get(task.mechanism.driver.coordinate), isinstance(task.mechanism.driver, Driver)
     own = given.unit if given is not None and given.unit is not None else unit("deg" if crank else "mm")
     try:
-        if isinstance(value, str):
-            return parse(value, own, own)
-        return plain_number(value, own)
+        return parse(value, own, own) if isinstance(value, str) else plain_number(value, own)
     except InputError as error:
         raise LocatedError(name, error) from error
+
+
+def driver_name(cycle: Cycle) -> str:
+    """Return the name of the driver's variable, `phi` or `s` where the task has a literal in its place."""
+    variable = cycle.drive.variable
+    return ("phi" if cycle.drive.turns else "s") if role(variable).hidden else variable
+
+
+def place_name(output: Output) -> str:
+    """Return the name of an output's place: the travel of a slider, the angle of a rocker."""
+    return f"{'s' if output.slides else 'phi'}_{output.link}"
+
+
+def output_columns(cycle: Cycle, output: Output) -> list[Columned]:
+    """Return place, velocity and acceleration of a link on the frame, as far as the plans go."""
+    if output.place not in cycle.values:
+        return []
+    place = Columned(place_name(output), output.unit, output.places(cycle.values))
+    rates = [(output.rate, "V", "m/s"), (output.change, "a", "m/s^2")]
+    if not output.slides:
+        rates = [(output.rate, "omega", "rad/s"), (output.change, "epsilon", "rad/s^2")]
+    found = ((f"{symbol}_{output.link}", of, cycle.values.get(name or "")) for name, symbol, of in rates)
+    return [place, *(Columned(name, of, values) for name, of, values in found if values is not None)]
+
+
+def quantity_columns(cycle: Cycle, name: str, point: bool = False) -> Iterator[Columned]:
+    """Go through the columns of a quantity: of a vector its size and components, of a point its coordinates."""
+    of = unit_of(name)
+    for part, values in (_parts if point else _sized)(cycle, name).items():
+        yield Columned(name if part == "value" else f"{name}.{part}", of, values)
+
+
+def _parts(cycle: Cycle, name: str) -> dict[str, Array]:
+    return {"x": cycle.values[name].real, "y": cycle.values[name].imag}
+
+
+def _sized(cycle: Cycle, name: str) -> dict[str, Array]:
+    values = cycle.values[name]
+    if not np.iscomplexobj(values):
+        return {"value": values}
+    return {"value": np.hypot(values.real, values.imag), **_parts(cycle, name)}
+
+
+def all_columns(cycle: Cycle) -> list[Columned]:
+    """Return columns of the links on the frame, of all points and of all quantities."""
+    columns = [column for output in cycle.outputs for column in output_columns(cycle, output)]
+    seen = {column.name for column in columns}
+    points = [name for name in letters(cycle.mechanism) if name in cycle.values]
+    for name in (*points, *cycle.quantities):
+        if name not in seen:
+            columns += quantity_columns(cycle, name, name in points)
+    return columns
+
+
+def main_columns(cycle: Cycle) -> list[Columned]:
+    """Return the columns of a readable table: how the outputs move, and what balances the driver."""
+    columns = [column for output in cycle.outputs for column in output_columns(cycle, output)]
+    balance = next((name for name in BALANCES if name in cycle.values), None)
+    return columns + (list(quantity_columns(cycle, balance)) if balance else [])
+
+
+def chosen_columns(cycle: Cycle, chosen: tuple[str, ...]) -> list[Columned]:
+    """Return the columns of points, by their letters, and of links, by their numbers."""
+    columns: list[Columned] = []
+    outputs = {str(output.link): output for output in cycle.outputs}
+    for one in chosen:
+        if one in outputs:
+            columns += output_columns(cycle, outputs[one])
+        for name in (one, f"V_{one}", f"a_{one}", f"omega_{one}", f"epsilon_{one}"):
+            if name in cycle.values and all(column.name != name for column in columns):
+                columns += quantity_columns(cycle, name, name == one)
+    return columns
+
+
+def letters(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return the letters of all points."""
+    points = (point for link in mechanism.links for point in link.points)
+    return tuple(dict.fromkeys((*mechanism.frame_points, *points)))
+
+
+def quantities_of(cycle: Cycle, chosen: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the quantities of what was chosen, or all."""
+    wanted = {f"{symbol}_{one}" for one in chosen for symbol in ("V", "a", "omega", "epsilon")}
+    return tuple(name for name in cycle.quantities if name in wanted or not chosen)
+
+
+def _shown(cycle: Cycle, columns: list[Columned], words: Words) -> list[Columned]:
+    """Return the driver's place, within a turn, the time and columns in the units of the words, angles in degrees."""
+    driver, turn = Columned(driver_name(cycle), "m", cycle.angles), 2.0 * np.pi
+    if cycle.drive.turns:
+        within = cycle.angles % turn
+        driver = Columned(driver.name, "rad", np.where(np.abs(within - turn) < 1e-12, 0.0, within))
+    shown: Callable[[Any, str], Any] = words.display.value
+    degrees: Callable[[Any], Any] = unit("deg").from_si
+    return [
+        Columned(column.name, "deg", degrees(column.values))
+        if column.unit == "rad"
+        else Columned(column.name, words.display.unit(column.unit), shown(column.values, column.unit))
+        for column in (driver, Columned("t", "s", cycle.times), *columns)
+    ]
+
+
+def _cell(words: Words, column: Columned, k: int) -> str:
+    """Return one value of a column less its rounding: beside the largest, and of angles, which at limits have more."""
+    value = float(column.values[k])
+    size = np.max(np.abs(column.values), initial=0.0, where=np.isfinite(column.values))
+    if abs(value) <= ROUNDING * size:
+        value = 0.0
+    return _number(words, round(value, ROUGHLY) if column.unit == "deg" else value)
+
+
+def _number(words: Words, value: float) -> str:
+    return words.short(float(value) + 0.0, DIGITS) if math.isfinite(value) else "–"
+
+
+def _limits(cycle: Cycle, words: Words) -> str:
+    """Say what has no position, and where the mechanism may change its branch or cannot pass."""
+    apart = [(_at(cycle, words, arc.low), _at(cycle, words, arc.high)) for arc in cycle.reach.apart]
+    lines = [words["sweep.apart"].format(low=low, high=high) for low, high in apart]
+    lines += [words["sweep.change"].format(at=_at(cycle, words, x, ROUGHLY)) for x in cycle.reach.changes]
+    return "\n".join((*lines, *(words["sweep.pole"].format(at=_at(cycle, words, x)) for x in cycle.reach.poles)))
+
+
+def _output(cycle: Cycle, motion: OutputMotion, words: Words) -> Iterable[str]:
+    """Say where an output stands dead, how far it moves and how its times compare."""
+    output, name = motion.output, place_name(motion.output)
+    kind = words["sweep.slider" if output.slides else "sweep.rocker"].format(link=output.link)
+    if motion.travel is None:
+        yield f"{kind}: {words['sweep.round']}"
+        return
+    yield f"{kind}: {words['sweep.stroke']} {_amount(words, motion.travel.length, output.unit)}"
+    if motion.dead:
+        places = ((_at(cycle, words, spot.angle), _amount(words, spot.place, output.unit)) for spot in motion.dead)
+        yield f"  {words['sweep.dead']}: {'; '.join(f'{at} ({name} = {place})' for at, place in places)}"
+    if motion.ratio is not None:
+        yield f"  {words['sweep.ratio']}: {words.short(motion.ratio, DIGITS)}"
+
+
+def _at(cycle: Cycle, words: Words, place: float, decimals: int = 7) -> str:
+    """Return a place of the driver, as `phi = 30°`."""
+    name = driver_name(cycle)
+    if cycle.drive.turns:
+        return f"{name} = {words.short(round(math.degrees(place) % 360.0, decimals) % 360.0)}°"
+    return f"{name} = {_amount(words, place, 'm')}"
+
+
+def _amount(words: Words, value: float, of: str) -> str:
+    """Return a value with its unit, angles in degrees."""
+    if of == "rad":
+        return f"{words.short(round(unit('deg').from_si(value), 7), DIGITS)}°"
+    shown = words.display.unit(of)
+    return f"{words.short(words.display.value(value, of), DIGITS)} {format_unit(shown, words.language)}"
+
+
+def _extremes(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
+    """Return the largest and smallest values with the driver's places, constants left out."""
+    laws = {step.name: step.law for step in cycle.program}
+    names = [name for name in quantities_of(cycle, chosen) if role(name).kind not in LESS_WANTED]
+    rows = [["", words["sweep.most"], "", words["sweep.least"], ""]]
+    for name, (most, least) in cycle.extremes([name for name in names if laws[name] != "opposite"]).items():
+        size = max(abs(most.value), abs(least.value))
+        if not np.isfinite(size) or most.value - least.value > CONSTANT * size:
+            of = unit_of(name)
+            label = f"{name}, {format_unit(words.display.unit(of), words.language)}"
+            rows.append([label, *(cell for e in (most, least) for cell in _extreme(cycle, words, e, of))])
+    return aligned(rows, (0, 2, 4)) if len(rows) > 1 else ""
+
+
+def _extreme(cycle: Cycle, words: Words, extreme: Extreme, of: str) -> tuple[str, str]:
+    """Return an extreme value and where it is."""
+    value = "∞" if extreme.value > 0.0 else "−∞"
+    if not math.isinf(extreme.value):
+        value = words.short(words.display.value(extreme.value, of) + 0.0, DIGITS)
+    return value, _at(cycle, words, extreme.at, ROUGHLY)
+
+
+def _chords(name: str, of: str, curve: Curve, words: Words) -> str:
+    """Return one curve by plans and by chords; of vectors the sizes, and the size of their difference."""
+    shown = format_unit(words.display.unit(of), words.language)
+    seconds, per_cent = (format_unit(x, words.language) for x in ("s", "%"))
+    head = [f"t, {seconds}", f"{name} {words['sweep.plans']}, {shown}", words["sweep.chords"]]
+    rows = [[*head, f"{words['sweep.difference']}, {per_cent}"]]
+    for t, plan, chord, part in zip(curve.times, curve.plans, curve.chords, curve.per_cent, strict=True):
+        values = (abs(x) if np.iscomplexobj(curve.plans) else x for x in (plan, chord))
+        cells = (_number(words, words.display.value(float(x), of)) for x in values)
+        rows.append([_number(words, t), *cells, words.number(part, 2) if math.isfinite(part) else "–"])
+    return aligned(rows, ())
+
+
+def _output_data(cycle: Cycle, motion: OutputMotion) -> dict[str, Any]:
+    output, travel = motion.output, motion.travel
+    return {
+        "link": output.link,
+        "kind": "slider" if output.slides else "rocker",
+        "unit": output.unit,
+        "places": output.places(cycle.values) if output.place in cycle.values else None,
+        "dead": [
+            {"at": spot.angle, "place": spot.place, "end": "high" if spot.high else "low"} for spot in motion.dead
+        ],
+        "stroke": None if travel is None else travel.length,
+        "low": None if travel is None else {"at": travel.angle_low, "place": travel.low},
+        "high": None if travel is None else {"at": travel.angle_high, "place": travel.high},
+        "time_ratio": motion.ratio,
+    }

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
@@ -20,7 +19,7 @@ from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
 from ..case import Case, Request, Settings, positions_of
 from ..reader import load_task
-from ..tables import aligned, csv_bytes, csv_text
+from ..tables import aligned, csv_bytes, csv_text, plain
 from ..task import Task
 
 CSV = ".csv"
@@ -29,6 +28,7 @@ SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
 DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of what drives
 DRIVES = "phi"
 NOTHING = 1e-9  # part of the largest value of a column below which one is rounding
+Rows = tuple[list[str], Sequence[Columned]]  # what stands before the rows of a table, and its columns
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,7 +94,8 @@ class Swept(ABC):
 
     def to_json(self) -> dict[str, Any]:
         """Return what `kulman sweep --json` prints: everything in SI."""
-        return {"task": self.task.id, "variant": self.variant, "status": self.status} | self._data()
+        data = {"task": self.task.id, "variant": self.variant, "status": self.status} | self._data()
+        return {name: plain(value) for name, value in data.items()}
 
     @abstractmethod
     def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
@@ -183,11 +184,6 @@ def sweep(
     return case.kind.sweep(case, case.words(), SweepRequest(positions, points, start, end, chords))
 
 
-def numbers(values: Iterable[float]) -> list[float | None]:
-    """Return numbers for JSON."""
-    return [value + 0.0 if math.isfinite(value) else None for value in np.asarray(values).tolist()]
-
-
 @dataclass(frozen=True, slots=True, repr=False)
 class SizedSweep(Swept):
     """What is found of a subject that is solved, at `positions` places; None for as many as are usual."""
@@ -218,6 +214,52 @@ class SizedSweep(Swept):
         """The number of places in files."""
         return self.positions or self.usual
 
+    @abstractmethod
+    def _places(self, count: int) -> Any:
+        """Return so many places, evenly."""
+
+    @abstractmethod
+    def _columns(self, places: Any) -> Sequence[Columned]:
+        """Return the columns at places."""
+
+    def _rows(self) -> Rows:
+        """Return what stands before the rows of the table, and its columns."""
+        return list(map(str, range(self.count))), self._columns(self._places(self.count))
+
+    def _extremes(self) -> Sequence[Ends]:
+        """Return the extremes of columns, where they are told."""
+        return ()
+
+    def _remarks(self, words: Words) -> list[str]:
+        """Return what is said below the table."""
+        return self._warned(words)
+
+    def _states(self, places: Any) -> Mapping[str, Sequence[str]]:
+        """Return what is said of each place in files, by heading."""
+        return {}
+
+    def table(self, language: str | None = None) -> str:
+        """Return the columns at what is marked, or at the positions asked for, then extremes and remarks."""
+        words = self._words(language)
+        heads, columns = self._rows()
+        parts = column_table(columns, heads, words), extremes_table(self._extremes(), words), *self._remarks(words)
+        return "\n\n".join(part for part in parts if part)
+
+    def csv(self, language: str | None = None) -> str:
+        """Return all columns as CSV."""
+        places = self._places(self.count)
+        return columns_csv(self._columns(places), self._words(language), self._states(places))
+
+    def _data(self) -> dict[str, Any]:
+        """Return columns, and extremes where they are told."""
+        found: dict[str, Any] = {"columns": {}, "extremes": {}}
+        for column in self._columns(self._places(self.count)):
+            found["columns"][column.name] = {"unit": column.unit, "value": column.values}
+        for ends in self._extremes():
+            most, least = {"value": ends.most, "at": ends.most_at}, {"value": ends.least, "at": ends.least_at}
+            found["extremes"][ends.name] = {"unit": ends.unit, "max": most, "min": least}
+        return {name: columns for name, columns in found.items() if columns}
+
     def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
         """Write the columns to each of `paths`, .csv alone: diagrams are on the sheet."""
         for path in map(Path, paths):
@@ -234,26 +276,9 @@ class SizedSweep(Swept):
         return f"<{type(self).__name__} {self.task.id} {self.variant}: {self.count} {self.places}>"
 
 
-def columns_json(found: Iterable[Columned]) -> dict[str, Any]:
-    """Return columns for JSON, by name."""
-    return {column.name: {"unit": column.unit, "value": numbers(column.values)} for column in found}
-
-
-def extremes_json(found: Iterable[Ends]) -> dict[str, Any]:
-    """Return the extremes of columns for JSON, by name."""
-    return {
-        one.name: {
-            "unit": one.unit,
-            "max": {"value": one.most, "at": one.most_at},
-            "min": {"value": one.least, "at": one.least_at},
-        }
-        for one in found
-    }
-
-
-def columns_csv(found: Iterable[Columned], words: Words, said: Mapping[str, Sequence[str]] | None = None) -> str:
+def columns_csv(found: Iterable[Columned], words: Words, said: Mapping[str, Sequence[str]]) -> str:
     """Return columns as CSV, the number of the row before them, after them what is `said` of each row, by heading."""
-    shown, said = [in_degrees_and_millimetres(column) for column in found], said or {}
+    shown = [in_degrees_and_millimetres(column) for column in found]
     rows = zip(*(map(float, column.values) for column in shown), *said.values(), strict=True)
     heads = (f"{one.name} [{of}]" if (of := format_unit(one.unit, words.language)) else one.name for one in shown)
     head = ["k", *heads, *said]
@@ -304,7 +329,7 @@ def extremes_table(found: Collection[Ends], words: Words) -> str:
             tidy = 0.0 if abs(value) <= small else value
             cells += [words.short(of.from_si(tidy) + 0.0, DIGITS), f"{DRIVES} = {degrees(at, words)}"]
         rows.append(cells)
-    return aligned(rows, (0, 2, 4))
+    return aligned(rows, (0, 2, 4)) if found else ""
 
 
 def degrees(at: float, words: Words) -> str:
