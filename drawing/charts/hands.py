@@ -22,7 +22,7 @@ from ...plans.cams.chords import (
     Robustness,
 )
 from ...plans.gears.solve import MILLI, ScaleErrors
-from ..gears.scene import lettered
+from ..gears.sheet import lettered
 from ..words import Words
 from .paper import BLACK, GREY, LOOK, SMALL, TEXT, Label, box, decimals, mathtext, page, put
 

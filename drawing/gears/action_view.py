@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+from ...plans.gears.construction import SLIDING, THETA
 from ...plans.gears.course import active_area, sliding_curve, zones
 from ...plans.gears.gear import WHEELS
 from ...plans.gears.geometry import POINTS
@@ -19,7 +20,7 @@ from ..symbols import unit
 from ..text import lay_out
 from ..view import Canvas, View, linear
 from ..words import Words, indexed
-from .scene import CURVES, ENDS, GearScene, cut_of, places, rho_mu, theta_mu
+from .sheet import CURVES, ENDS, GearScene, cut_of, places
 
 LEVEL = 2.2  # heights of letters for each pair that touches
 ROW = 1.8  # heights of letters between dimension lines
@@ -144,9 +145,10 @@ ACTION_FIGURE = Figure(
 def sliding_view(scene: GearScene) -> View:
     """Draw both diagrams over N1N2, with the points of the table as section lines through both."""
     canvas, words = SLIDING_FIGURE.canvas(scene, coarse=0.0), scene.words
-    reduction, highest = _reduction(scene)
-    above = Field(0j, _across(scene), Axis(words.symbol("V_k"), Scale("", 1.0, "mm"), 0.0, highest, {}))
-    below = theta_field(scene, above, BETWEEN * scene.style.label)
+    highest = max(scene.size(f"y_{i}_{point}") for i in WHEELS for point in POINTS) * 1e3
+    most = TALLEST[scene.style.label] * scene.part
+    reduction = next((part for part in REDUCTIONS if highest * part <= most), REDUCTIONS[-1])
+    above, below = _fields(scene, highest * reduction)
     past = PAST * scene.style.label
     canvas.part("axes")
     for field in (above, below):
@@ -170,24 +172,18 @@ def _ordinate(scene: GearScene, name: str, reduction: float) -> float:
     return scene.size(name) * 1e3 * reduction
 
 
-def _reduction(scene: GearScene) -> tuple[float, float]:
-    """Return how many times ordinates are reduced, so that the highest has room, and the height of that, mm."""
-    highest = max(scene.size(f"y_{i}_{point}") for i in WHEELS for point in POINTS) * 1e3
-    most = TALLEST[scene.style.label] * scene.part
-    reduction = next((part for part in REDUCTIONS if highest * part <= most), REDUCTIONS[-1])
-    return reduction, highest * reduction
+def _fields(scene: GearScene, highest: float) -> tuple[Field, Field]:
+    """Return the axes of velocities, whose greatest is so high, mm, and those of specific sliding under them.
 
-
-def _across(scene: GearScene) -> Axis:
-    """Return the axis along N1N2, longer where interference puts an end of the active line beyond it."""
+    Along N1N2 they are longer where interference puts an end of the active line beyond it.
+    """
+    words, low, scale = scene.words, cut_of(scene.solved), scene.scale(THETA)
     lengths = places(scene.solved.sizes).values()
-    ends = min(lengths), max(lengths)
-    return Axis(scene.words.symbol("rho_1"), rho_scale(scene), *ends, {})
-
-
-def rho_scale(scene: GearScene) -> Scale:
-    """Return the scale factor of the line of action."""
-    return Scale("mu_rho", rho_mu(scene.solved, scene.style.label, scene.part), "m")
+    x = Axis(words.symbol("rho_1"), scene.scale(SLIDING), min(lengths), max(lengths), {})
+    marks = {value: words.short(value) for value in divisions(1.0, low, scale.mu, 9.0)}
+    origin = 0j - 1j * (BETWEEN * scene.style.label + scale.drawn(1.0))
+    above = Field(0j, x, Axis(words.symbol("V_k"), Scale("", 1.0, "mm"), 0.0, highest, {}))
+    return above, Field(origin, replace(x, letter=""), Axis(words.symbol("theta"), scale, low, 1.0, marks))
 
 
 def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, reduction: float) -> None:
@@ -252,22 +248,9 @@ def place(scene: GearScene, point: str) -> float:
     return float(scene.solved.values[f"_rho_1_{point}"])
 
 
-def theta_scale(scene: GearScene) -> Scale:
-    """Return the scale factor of specific sliding."""
-    return Scale("mu_theta", theta_mu(scene.solved, scene.style.label, scene.part), "1")
-
-
 def theta_said(words: Words, mu: float) -> str:
     """Return the scale factor of specific sliding, which has no unit of its own."""
     return f"{words.symbol('mu_theta')} = {words.short(mu)} {words.unit('mm')}^{{−1}}"
-
-
-def theta_field(scene: GearScene, above: Field, apart: float) -> Field:
-    """Return the axes of specific sliding under those of the velocities."""
-    words, low, scale = scene.words, cut_of(scene.solved), theta_scale(scene)
-    marks = {value: words.short(value) for value in divisions(1.0, low, scale.mu, 9.0)}
-    origin = above.origin - 1j * (apart + scale.drawn(1.0))
-    return Field(origin, replace(above.x, letter=""), Axis(words.symbol("theta"), scale, low, 1.0, marks))
 
 
 def theta_diagram(canvas: Canvas, scene: GearScene, field: Field) -> None:
@@ -275,27 +258,21 @@ def theta_diagram(canvas: Canvas, scene: GearScene, field: Field) -> None:
     canvas.part("sliding")
     for i, name in CURVES.items():
         curve(canvas, field, sliding_curve(scene.solved, i, field.y.low), name)
-        points = ((p, place(scene, p), scene.size(f"{name}_{p}")) for p in POINTS)
-        canvas.add(
-            *(scene.node(field.at(rho, value), f"{name}_{p}") for p, rho, value in points if value >= field.y.low)
-        )
-        _active(canvas, scene, field, i)
+        for point in POINTS:
+            if (value := scene.size(f"{name}_{point}")) >= field.y.low:
+                canvas.add(scene.node(field.at(place(scene, point), value), f"{name}_{point}"))
+        outline = [field.at(*place) for place in active_area(scene.solved, i, field.y.low)]
+        if outline:
+            canvas.add(Group(tuple(strokes(outline, ALONG[i], HATCH)), "active", CURVES[i]))
         canvas.label(scene.words.symbol(name), _free(scene, field, i), prefer=1j, clear=1.0)
     canvas.part(ANSWERS)
     _extremes(canvas, scene, field)
 
 
-def _active(canvas: Canvas, scene: GearScene, field: Field, i: int) -> None:
-    """Hatch the area between a curve and the axis over the active line, with lines at both ends."""
-    outline = [field.at(*place) for place in active_area(scene.solved, i, field.y.low)]
-    if outline:
-        canvas.add(Group(tuple(strokes(outline, ALONG[i], HATCH)), "active", CURVES[i]))
-
-
 def _free(scene: GearScene, field: Field, i: int) -> tuple[complex, complex]:
     """Return a part of a curve above the axis, between lines that are far apart: room for its letter."""
-    pole, side = scene.size("rho_w1"), 1.0 if i == 1 else -1.0
-    beyond = [p for p in POINTS if (place(scene, p) - pole) * side >= 0.0]
+    pole = scene.size("rho_w1")
+    beyond = [p for p in POINTS if (place(scene, p) - pole) * SIDES[i] >= 0.0]
     return widest([field.at(place(scene, p), scene.size(f"{CURVES[i]}_{p}")) for p in beyond], field.at(pole, 0.0))
 
 

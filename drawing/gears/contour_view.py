@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 
 from ...plans.gears.blocking import BLOCKING, CURVES, OF_CURVE, RATIOS, Plane, plane_of
 from ...scales.scale import Scale, steps
@@ -11,7 +11,7 @@ from ..figure import GIVEN
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from ..thinning import freest, thinned
 from ..view import Canvas, View
-from .scene import GearScene
+from .sheet import GearScene
 
 SIDE = {5.0: 200.0, 3.5: 80.0}  # mm of the longer side of the window, by the height of letters
 FINE = 0.05  # mm by which a chord may miss its curve: places between are left out
@@ -44,7 +44,9 @@ def contour_view(scene: GearScene) -> View:
     _chosen(canvas, scene, field)
     _numbers(canvas, scene, curves)
     mu = f"{words.symbol('mu_x')} = {words.short(field.x.scale.mu)} {words.unit('mm')}^{{−1}}"
-    notes = words["gear.contour_lines"], *_legend(scene, seen(curves))
+    texts = [f"{n}: {limit(scene, name)}" for n, name in enumerate(seen(curves), start=1)]
+    legend = (";  ".join(texts[k : k + IN_A_LINE]) for k in range(0, len(texts), IN_A_LINE))
+    notes = words["gear.contour_lines"], *legend, f"●  {';  '.join(map(scene.shift, ('x_1', 'x_2')))}"
     return canvas.finish("contour", (words["heading.gear_contour"], mu), notes)
 
 
@@ -54,17 +56,11 @@ def _field(scene: GearScene, plane: Plane) -> Field:
     mu = steps(max(size.real, size.imag) / SIDE[scene.style.label])[0]
     scale = Scale("mu_x", mu, "1")
     ends = ((plane.low.real, plane.high.real), (plane.low.imag, plane.high.imag))
-    x, y = (
-        Axis(
-            words.symbol(f"x_{i}"),
-            scale,
-            low,
-            high,
-            {v: words.short(v) for v in (*divisions(high, low, mu, APART * scene.style.text), 0.0)},
-        )
-        for i, (low, high) in enumerate(ends, start=1)
-    )
-    return Field(0j, x, y)
+    axes = []
+    for i, (low, high) in enumerate(ends, start=1):
+        numbers = (*divisions(high, low, mu, APART * scene.style.text), 0.0)
+        axes.append(Axis(words.symbol(f"x_{i}"), scale, low, high, {v: words.short(v) for v in numbers}))
+    return Field(0j, *axes)
 
 
 def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
@@ -126,14 +122,6 @@ def _numbers(canvas: Canvas, scene: GearScene, curves: Mapping[str, Runs]) -> No
 def seen(curves: Mapping[str, Runs]) -> list[str]:
     """Return the names of the curves that pass through the window."""
     return [name for name, runs in curves.items() if runs]
-
-
-def _legend(scene: GearScene, names: Sequence[str]) -> Iterator[str]:
-    """Go through lines that say what the numbers of the curves stand for, and which shifts are chosen."""
-    texts = [f"{n}: {limit(scene, name)}" for n, name in enumerate(names, start=1)]
-    for k in range(0, len(texts), IN_A_LINE):
-        yield ";  ".join(texts[k : k + IN_A_LINE])
-    yield f"●  {';  '.join(map(scene.shift, ('x_1', 'x_2')))}"
 
 
 def limit(scene: GearScene, name: str) -> str:

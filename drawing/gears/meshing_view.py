@@ -15,7 +15,7 @@ from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Polyline, Text
 from ..symbols import HALF_TURN, arc_between, fixed_pivot, right_angle, unit
 from ..view import Canvas, View, angle, linear, turning
 from ..words import indexed
-from .scene import TOOTH, GearScene
+from .sheet import TOOTH, GearScene
 
 Span = tuple[float, float]
 PENS = {"a": Pen.THIN, "w": Pen.EXTREME, "": Pen.AXIS, "b": Pen.DASHED, "f": Pen.THIN}
@@ -47,18 +47,6 @@ def beside_teeth(wheel: Wheel) -> Span:
     return -wheel.side * min(reach + lean, WIDEST), wheel.side * min(reach - lean, WIDEST)
 
 
-def _five_circles(canvas: Canvas, wheel: Wheel, span: Span, to_end: bool) -> None:
-    """Draw arcs of the five circles, each with a line of its own; the base circle `to_end` of the line of action."""
-    for name in CIRCLES:
-        low, high = span
-        if to_end and name == "b":
-            low = -wheel.side * max(abs(low), wheel.sizes["alpha_w"] + PAST / wheel.radius("b"))
-        same = abs(wheel.radius(name) - wheel.radius("")) < SAME
-        arc = Arc(wheel.centre, wheel.radius(name), wheel.direction + low, high - low, PENS["" if same else name])
-        canvas.part(STAGE.get(name, "circles"))
-        canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
-
-
 def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, end: float, others: Sequence[complex]) -> None:
     """Write the diameters where the circles end on the free side, under one another, each on a leader.
 
@@ -67,18 +55,17 @@ def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, end: float, others
     """
     height, side = scene.style.text, -wheel.up.imag  # in which the wheel is from the pole: +1 above, -1 below
     out = wheel.side * side  # to the right, or to the left
-    ends = {f"d_{name}{wheel.number}": wheel.on(wheel.radius(name), end) for name in CIRCLES}
-    stage_of = {f"d_{name}{wheel.number}": STAGE.get(name, "circles") for name in CIRCLES}
-    names = sorted(ends, key=lambda name: side * ends[name].imag)
-    apart = _apart([side * ends[name].imag for name in names], PITCH * height)
+    ends = {name: wheel.on(wheel.radius(name), end) for name in CIRCLES}
+    circles = sorted(ends, key=lambda circle: side * ends[circle].imag)
+    apart = _apart([side * ends[circle].imag for circle in circles], PITCH * height)
     levels = [max(level, (k + 1) * PITCH * height) for k, level in enumerate(apart)]  # clear of t-t and its letters
     near = [p for p in others if levels[0] - 2.0 * height < side * p.imag < levels[-1] + height]
     x = max(out * end.real for end in (*ends.values(), *near)) + SHELF
     anchor: Anchor = "left" if out > 0.0 else "right"
-    for name, level in zip(names, levels, strict=True):
-        at = complex(out * x, side * level)
-        canvas.part(stage_of[name])
-        canvas.add(Line(ends[name], at, Pen.THIN, role="leader", name=name))
+    for circle, level in zip(circles, levels, strict=True):
+        name, at = f"d_{circle}{wheel.number}", complex(out * x, side * level)
+        canvas.part(STAGE.get(circle, "circles"))
+        canvas.add(Line(ends[circle], at, Pen.THIN, role="leader", name=name))
         text = scene.words.symbol(name) if scene.close else scene.stated(name)
         place = at + complex(out, -0.5 * height)
         canvas.add(Text(place, text, height, anchor, role="diameter", name=name))
@@ -97,7 +84,7 @@ def _apart(levels: Sequence[float], least: float) -> list[float]:
     return [middle + (k - 0.5 * (count - 1)) * least for middle, count in groups for k in range(count)]
 
 
-def centres(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel], left: float) -> None:
+def centres(canvas: Canvas, scene: GearScene, pair: Pair, left: float) -> None:
     """Draw both centres on the line of centres, their distance as a dimension at the abscissa `left`."""
     style, sense = scene.style, scene.meshing.sense
     below, above = (scene.mm(f"O{wheel.number}") for wheel in pair)
@@ -106,19 +93,10 @@ def centres(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel], left: f
     for wheel, at in zip(pair, (below, above), strict=True):
         canvas.add(fixed_pivot(at, f"O{wheel.number}", style, -wheel.up))
         canvas.label(f"O_{{{wheel.number}}}", at, prefer=complex(1.0, 0.3), clear=style.pair + 0.8)
-        turns = float(sense if wheel.number == 1 else -sense)
+        turns, name = float(sense if wheel.number == 1 else -sense), f"omega_{wheel.number}"
         canvas.part(ANSWERS)
-        name, radius = f"omega_{wheel.number}", TURNING * style.label
-        turning(
-            canvas,
-            wheel.centre,
-            radius,
-            wheel.direction + turns * 0.5 * HALF_TURN,
-            0.9,
-            turns,
-            name,
-            scene.words.symbol(name),
-        )
+        radius, middle = TURNING * style.label, wheel.direction + turns * 0.5 * HALF_TURN
+        turning(canvas, wheel.centre, radius, middle, 0.9, turns, name, scene.words.symbol(name))
         canvas.part("centres")
     canvas.part(ANSWERS)
     linear(canvas, (below, above), complex(left, 0.0), scene.stated("a_w"), "a_w")
@@ -132,7 +110,7 @@ def tangent(canvas: Canvas, left: float, right: float) -> None:
         canvas.label("t", complex(end, 0.0), prefer=complex(end, 0.0), clear=0.8)
 
 
-def line_of_action(canvas: Canvas, scene: GearScene, pair: tuple[Wheel, Wheel]) -> None:
+def line_of_action(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     """Draw N1N2 with the radii to its ends."""
     along, size = scene.meshing.along, 0.6 * scene.style.label
     ends = [scene.mm(f"N{wheel.number}") for wheel in pair]
@@ -170,34 +148,11 @@ def active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
         node(canvas, scene, name, 1j * along)
 
 
-def middle(canvas: Canvas, pair: tuple[Wheel, Wheel]) -> None:
-    """Draw the line of centres as far as the teeth go."""
-    low, high = (wheel.on(wheel.radius("f") - PAST, 0.0) for wheel in pair)
-    canvas.part("centres")
-    canvas.add(Line(low, high, Pen.AXIS, role="axis", name="O1O2"))
-
-
-def angle_of_action(canvas: Canvas, scene: GearScene) -> None:
-    """Dimension alpha_w between t-t and N1N2, on the side of the farther end of the line."""
-    far = max((scene.mm(name) for name in ("N1", "N2")), key=abs)
-    rays = -1.0 + 0j if far.real < 0.0 else 1.0 + 0j, far
-    canvas.part(ANSWERS)
-    angle(canvas, 0j, rays, 0.85 * abs(far), "alpha_w", scene.angle("alpha_w"))
-
-
 def node(canvas: Canvas, scene: GearScene, name: str, prefer: complex) -> None:
     """Mark a point of the meshing with its letter."""
     at, radius = scene.mm(name), scene.style.node
     canvas.add(Group((Circle(at, radius, Pen.THIN, fill="white"),), "point", name))
     canvas.label(indexed(name), at, prefer=prefer, clear=radius + 0.6)
-
-
-def thickness(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
-    """Dimension on the reference circle a tooth beside the one in contact, away from N, and the space between both."""
-    radius, i = wheel.radius(""), wheel.number
-    tooth = wheel.at(radius, wheel.side), wheel.at(radius, wheel.side, active=False)
-    along(canvas, scene, wheel, tooth, f"s_{i}")
-    along(canvas, scene, wheel, (tooth[1], wheel.at(radius)), f"e_{i}")
 
 
 def pitch(canvas: Canvas, scene: GearScene, wheel: Wheel, to_centre: bool) -> None:
@@ -210,22 +165,20 @@ def pitch(canvas: Canvas, scene: GearScene, wheel: Wheel, to_centre: bool) -> No
         canvas.add(Line(end, foot, Pen.THIN, role="extension", name=f"p_{i}"))
     along(canvas, scene, wheel, _on(wheel, ends, low), f"p_{i}")
     if to_centre:
-        name = f"tau_{i}"
-        along(canvas, scene, wheel, _on(wheel, ends, TAU * wheel.radius("f")), name)
+        along(canvas, scene, wheel, _on(wheel, ends, TAU * wheel.radius("f")), f"tau_{i}")
 
 
-def action(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
+def action(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     """Dimension the angles by which the wheels turn while one pair of teeth touches, between rays to its flanks."""
     for wheel in pair:
-        i = wheel.number
+        i, name = wheel.number, f"phi_alpha{wheel.number}"
         ends = scene.mm(f"B{i}_start"), scene.mm(f"B{i}_end")
         for end in ends:
-            canvas.add(Line(end, wheel.centre, Pen.THIN, role="ray", name=f"phi_alpha{i}"))
-        name = f"phi_alpha{i}"
+            canvas.add(Line(end, wheel.centre, Pen.THIN, role="ray", name=name))
         along(canvas, scene, wheel, _on(wheel, ends, PHI * wheel.radius("f")), name)
 
 
-def gaps(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
+def gaps(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     """Dimension the radial gap on the line of centres at the root of both wheels."""
     text, height = f"{scene.words.symbol('c')}{scene.words.symbol('m')}", scene.style.text
     for wheel, mate in zip(pair, reversed(pair), strict=True):
@@ -235,18 +188,12 @@ def gaps(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
 
 
 def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str) -> None:
-    """Dimension an arc about the wheel's centre between two points of it."""
+    """Dimension an arc about the wheel's centre between two points of it; the pitch of both wheels is one."""
     a, b = (end - wheel.centre for end in ends)
-    text = _text(scene, name)
+    kind = role(name).kind
+    text = scene.angle(name) if kind in ("tau", "phi") else scene.stated("p" if kind == "p" else name)
     spare = text if abs(a) < CLOSE * scene.style.label else ""  # near the centre there may be no room
     angle(canvas, wheel.centre, (a, b), abs(a), name, text, inside=True, spare=spare)
-
-
-def _text(scene: GearScene, name: str) -> str:
-    """Return what a dimension says; the pitch of both wheels is one."""
-    if role(name).kind in ("tau", "phi"):
-        return scene.angle(name)
-    return scene.stated("p" if role(name).kind == "p" else name)
 
 
 def _on(wheel: Wheel, ends: Ends, radius: float) -> Ends:
@@ -263,7 +210,11 @@ def meshing_view(scene: GearScene) -> View:
     tangent(canvas, left, right)
     line_of_action(canvas, scene, pair)
     active_line(canvas, scene, not scene.apart)
-    angle_of_action(canvas, scene)
+    far = max(scene.mm("N1"), scene.mm("N2"), key=abs)
+    canvas.part(ANSWERS)
+    angle(
+        canvas, 0j, (complex(-1.0 if far.real < 0.0 else 1.0), far), 0.85 * abs(far), "alpha_w", scene.angle("alpha_w")
+    )
     if scene.apart:
         outlines(canvas, pair)
     else:
@@ -280,7 +231,9 @@ def near_view(overall: GearScene) -> View:
     scene = replace(overall, mu_l=overall.near, close=True)
     canvas, pair = NEAR.canvas(scene, coarse=0.0), scene.wheels()
     tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
-    middle(canvas, pair)
+    low, high = (wheel.on(wheel.radius("f") - PAST, 0.0) for wheel in pair)
+    canvas.part("centres")
+    canvas.add(Line(low, high, Pen.AXIS, role="axis", name="O1O2"))
     active_line(canvas, scene)
     _details(canvas, scene, pair)
     for wheel in pair:
@@ -300,12 +253,22 @@ def _finished(canvas: Canvas, scene: GearScene, name: str, detailed: bool) -> Vi
 
 
 def _circles(canvas: Canvas, scene: GearScene, pair: Pair, to_end: bool) -> tuple[float, float]:
-    """Draw the circles with their diameters; return the abscissas between which they lie."""
+    """Draw the circles with their diameters; return the abscissas between which they lie.
+
+    Each has a line of its own; the base circle reaches `to_end` of the line of action.
+    """
     spans = [beside_teeth(wheel) for wheel in pair]
     tips = [[wheel.on(wheel.radius("a"), a) for a in span] for wheel, span in zip(pair, spans, strict=True)]
     others = [*tips[0], *tips[1], *(point for wheel in pair for point in wheel.outline())]
     for wheel, span in zip(pair, spans, strict=True):
-        _five_circles(canvas, wheel, span, to_end)
+        for name in CIRCLES:
+            low, high = span
+            if to_end and name == "b":
+                low = -wheel.side * max(abs(low), wheel.sizes["alpha_w"] + PAST / wheel.radius("b"))
+            same = abs(wheel.radius(name) - wheel.radius("")) < SAME
+            arc = Arc(wheel.centre, wheel.radius(name), wheel.direction + low, high - low, PENS["" if same else name])
+            canvas.part(STAGE.get(name, "circles"))
+            canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
         diameters(canvas, scene, wheel, span[1], others)
     xs = [tip.real for both in tips for tip in both]
     return min(xs), max(xs)
@@ -318,12 +281,15 @@ def _details(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     active_flanks(canvas, scene, pair)
     lowest_points(canvas, scene, pair)
     canvas.part(ANSWERS)
-    for wheel in pair:
-        thickness(canvas, scene, wheel)
+    for wheel in pair:  # a tooth beside the one in contact, away from N, and the space between both
+        radius, i = wheel.radius(""), wheel.number
+        tooth = wheel.at(radius, wheel.side), wheel.at(radius, wheel.side, active=False)
+        along(canvas, scene, wheel, tooth, f"s_{i}")
+        along(canvas, scene, wheel, (tooth[1], wheel.at(radius)), f"e_{i}")
     gaps(canvas, scene, pair)
 
 
-def outlines(canvas: Canvas, pair: Sequence[Wheel]) -> None:
+def outlines(canvas: Canvas, pair: Pair) -> None:
     """Draw the teeth of both wheels."""
     canvas.part("teeth")
     for wheel in pair:
@@ -340,7 +306,7 @@ def positions(canvas: Canvas, scene: GearScene) -> None:
             canvas.add(Group((line,), "position", name))
 
 
-def active_flanks(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
+def active_flanks(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     """Double the active flanks of the teeth in contact with a strip of strokes."""
     label = scene.style.label
     canvas.part("lowest_points")
@@ -361,7 +327,7 @@ def active_part(scene: GearScene, wheel: Wheel) -> tuple[float, float]:
     return (first, last) if wheel.number == 1 else (line - last, line - first)
 
 
-def lowest_points(canvas: Canvas, scene: GearScene, pair: Sequence[Wheel]) -> None:
+def lowest_points(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     """Swing the ends of the active line about the wheel's centre to its flank: there the flank begins to touch."""
     canvas.part("lowest_points")
     for wheel in pair:

@@ -12,7 +12,7 @@ from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, right_angle, unit
 from ..view import Canvas, View, angle, linear
 from .meshing_view import PAST, PENS, WIDEST, node
-from .scene import GearScene
+from .sheet import GearScene
 
 DOT = 0.6  # of a division, in radii of nodes
 TIP = "a"  # the division that ends on the tip circle
@@ -33,19 +33,14 @@ def rolling_view(overall: GearScene) -> View:
         _involute(canvas, scene, wheel)
     for wheel, inside in zip(pair, (along, -along), strict=True):
         _foot(canvas, scene, wheel, inside)
-    ends = (_end(scene, wheel) for wheel in pair)
+    lasts = ((f"N{wheel.number}", f"D{wheel.number}_{_divisions(scene, wheel)[-1]}") for wheel in pair)
+    first, last = (max(map(scene.mm, names), key=abs) for names in lasts)
     canvas.part("line_of_action")
-    canvas.add(Line(next(ends) - PAST * along, next(ends) + PAST * along, Pen.THIN, role=LINE, name="N1N2"))
+    canvas.add(Line(first - PAST * along, last + PAST * along, Pen.THIN, role=LINE, name="N1N2"))
     canvas.part("pole")
     node(canvas, scene, "P", 1j * along)
     heading = scene.words["heading.gear_rolling"], scene.factor(scene.mu_l)
     return canvas.finish("rolling", heading, tuple(scene.words["said.gear_rolling"].split("|")))
-
-
-def _end(scene: GearScene, wheel: Wheel) -> complex:
-    """Return the last division of PN, or N itself."""
-    i = wheel.number
-    return max(scene.mm(f"N{i}"), scene.mm(f"D{i}_{_divisions(scene, wheel)[-1]}"), key=abs)
 
 
 def _circles(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
@@ -65,9 +60,8 @@ def _circles(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
     at = wheel.on(wheel.radius("b"), far + (BESIDE if far > 0.0 else -BESIDE))
     canvas.part(ANSWERS)
     canvas.label(scene.stated(f"d_b{i}"), at, prefer=-wheel.up, clear=1.0, height=height)
-    out = wheel.side * wheel.up * -1j  # away from N
-    tip = wheel.on(wheel.radius("a"), end - wheel.side * beside)
-    canvas.label(scene.stated(f"d_a{i}"), tip, prefer=out, clear=1.0, height=height)
+    tip, away = wheel.on(wheel.radius("a"), end - wheel.side * beside), wheel.side * wheel.up * -1j  # from N
+    canvas.label(scene.stated(f"d_a{i}"), tip, prefer=away, clear=1.0, height=height)
 
 
 def _involute(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
@@ -140,7 +134,9 @@ def rack_view(overall: GearScene) -> View:
     x0, _, x1, _ = extent((line,))
     _lines(canvas, scene, rack, x0 - RACK_PAST, x1 + RACK_PAST)
     _line_of_action(canvas, scene, rack)
-    _corner(canvas, scene, rack)
+    at = rack.corner + scene.paper("rho_f") * OUT
+    canvas.add(Line(rack.corner, at, Pen.THIN, role="radius", name="rho_f"), Head(at, OUT))
+    canvas.label(scene.stated("rho_f"), at, prefer=OUT, clear=1.0, height=scene.style.text)
     heading = scene.words["heading.gear_rack"], scene.factor(scene.mu_l)
     return canvas.finish("rack", heading, tuple(scene.words["said.gear_rack"].split("|")))
 
@@ -166,13 +162,6 @@ def _lines(canvas: Canvas, scene: GearScene, rack: Rack, left: float, right: flo
         text = f"{words.symbol('x_1')}{words.symbol('m')} = {scene.length(shift * scene.mu_l)}"
         linear(canvas, (complex(right, 0.0), complex(right, shift)), 0j, "", "x_1")
         canvas.label(text, complex(right, 0.5 * shift), prefer=1 + 0j, clear=1.0, height=scene.style.text)
-
-
-def _corner(canvas: Canvas, scene: GearScene, rack: Rack) -> None:
-    """Give the radius of the rack's corner at its last tooth on the left."""
-    at = rack.corner + scene.paper("rho_f") * OUT
-    canvas.add(Line(rack.corner, at, Pen.THIN, role="radius", name="rho_f"), Head(at, OUT))
-    canvas.label(scene.stated("rho_f"), at, prefer=OUT, clear=1.0, height=scene.style.text)
 
 
 def _line_of_action(canvas: Canvas, scene: GearScene, rack: Rack) -> None:

@@ -20,7 +20,7 @@ from ..table import table, text_block
 from ..view import View
 from ..words import indexed
 from .action_view import theta_said
-from .scene import GearScene, marks, places
+from .sheet import GearScene, marks, places
 
 MM, DEGREE, NUMBER, WHOLE = "mm", "°", "", "whole"
 DECIMALS = {MM: 3, DEGREE: 3, NUMBER: 4}  # of what is calculated

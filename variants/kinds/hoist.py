@@ -95,7 +95,7 @@ class Hoists(Sized[Hoist, "SolvedHoist"]):
 
     def lettered(self, words: Words, solved: SolvedHoist) -> Words:
         """Return the words with the letters of a hoist's quantities."""
-        from ...drawing.hoist.scene import lettered
+        from ...drawing.hoist.sheet import lettered
 
         return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
 

@@ -371,7 +371,7 @@ class Sized(Kind[Subject, Answer]):
         """Return the case with its letters, for what is said of it."""
         from ...drawing.formats import STYLES
 
-        made = self._in("drawing", "scene", f"{self.table.title()}Scene")
+        made = self._in("drawing", "sheet", f"{self.table.title()}Scene")
         solved: Any = case.solved
         return made(solved, self.lettered(words, solved), STYLES["A4"], case.givens)
 
@@ -419,5 +419,5 @@ class Sized(Kind[Subject, Answer]):
 
     def lettered(self, words: Words, solved: Answer) -> Words:
         """Return the words with the letters of the subject's quantities."""
-        letters: Words = self._in("drawing", "scene", "lettered")(words)
+        letters: Words = self._in("drawing", "sheet", "lettered")(words)
         return letters
