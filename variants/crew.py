@@ -1,25 +1,29 @@
-"""Work shared out among processes, or among the workers of a Dask cluster; an item that kills one is left out."""
+"""Work shared out among processes or the workers of a Dask cluster, and noted; an item that kills one is left out."""
 
 from __future__ import annotations
 
+import hashlib
+import json
 import logging
 import multiprocessing
 import os
 import signal
 import sys
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from functools import partial
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
+from pathlib import Path
 from pickle import PickleError
 from queue import SimpleQueue
 from threading import Event, Thread
 from typing import Any, Generic, Protocol, TypeVar
 
+from ..drawing.writers import refused, write_whole
 from ..scales.errors import InputError
 from ..scales.numbers import SHOWN, quote
 
@@ -45,7 +49,6 @@ class Work(Protocol[ItemIn, MadeOut]):
 
     def begin(self) -> Callable[[ItemIn], MadeOut]:
         """Set up, and return what makes something of an item."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,20 +62,14 @@ class Done(Generic[Made]):
 def shared_out(
     work: Work[Item, Made], items: Sequence[Item], jobs: int, alone: int | None = None, afresh: bool = False
 ) -> Iterator[list[Done[Made]]]:
-    """Go through what is made, in the order in which it is done.
+    """Go through what is made, in the order in which it is done, by so many processes.
 
-    Parameters
-    ----------
-    jobs : int
-        Processes. With one all is done in this one.
-    alone : int, optional
-        For so many items no process is started; then one may be the only one.
-    afresh : bool
-        Start processes that are no copies of this one, where it has threads without which a copy would stand still.
+    With one job all is done in this process; for `alone` items, too, none is started, where that is said it may be the
+    only one. Processes that are `afresh` are no copies of this one, which has threads without which a copy would stand
+    still.
     """
-    placed = list(enumerate(items))
-    pieces = [placed[at : at + TOGETHER] for at in range(0, len(placed), TOGETHER)]
-    if len(placed) > ((ALONE if jobs > 1 else len(placed)) if alone is None else alone):
+    pieces = _pieces(items)
+    if len(items) > ((ALONE if jobs > 1 else len(items)) if alone is None else alone):
         yield from _in_processes(partial(_Hand, work, afresh), pieces, max(1, min(jobs, len(pieces))))
         return
     make = work.begin()
@@ -80,8 +77,13 @@ def shared_out(
         yield [Done(place, make(item)) for place, item in piece]
 
 
+def _pieces(items: Sequence[Item]) -> list[Piece[Item]]:
+    placed = list(enumerate(items))
+    return [placed[at : at + TOGETHER] for at in range(0, len(placed), TOGETHER)]
+
+
 def _in_processes(
-    new_hand: Callable[[], _Hand[Item, Made]], left: Sequence[Piece[Item]], jobs: int
+    new_hand: Callable[[], _Hand[Item, Made]], left: Sequence[Piece[Item]], jobs: int, waiting: int = WAITING
 ) -> Iterator[list[Done[Made]]]:
     """Share pieces out; what a process has when it dies is done again, item by item, one at a time, after the others.
 
@@ -89,27 +91,32 @@ def _in_processes(
     """
     parts = [deque(left[len(left) * at // jobs : len(left) * (at + 1) // jobs]) for at in range(jobs)]
     hands = [new_hand() for _ in parts]
-    suspects: Piece[Item] = []
+    suspects: list[Piece[Item]] = []
     try:
-        while _given_out(parts, hands):
+        while _given_out(parts, hands, waiting):
             for at in _ready(hands):
                 hand = hands[at]
-                if hand.has_died():
-                    suspects += [item for piece in hand.pieces for item in piece]
-                    hand.stop()
-                    hands[at] = new_hand()
-                else:
+                if not hand.has_died():
                     yield hand.take()
+                    continue
+                lost = [item for piece in hand.pieces for item in piece]
+                hand.stop()
+                hands[at] = new_hand()
+                if waiting == 1:
+                    yield [Done(lost[0][0], None)]
+                else:
+                    suspects += ([item] for item in lost)
     finally:
         for hand in hands:
             hand.stop()
-    yield from _singly(new_hand, suspects)
+    if suspects:
+        yield from _in_processes(new_hand, suspects, 1, 1)
 
 
-def _given_out(parts: Sequence[deque[Piece[Item]]], hands: Sequence[_Hand[Item, Made]]) -> bool:
-    """Give every process so much that it need not wait; tell whether any has something to do."""
+def _given_out(parts: Sequence[deque[Piece[Item]]], hands: Sequence[_Hand[Item, Made]], waiting: int) -> bool:
+    """Give every process so many pieces that it need not wait; tell whether any has something to do."""
     for own, hand in zip(parts, hands, strict=True):
-        while len(hand.pieces) < WAITING and any(parts):
+        while len(hand.pieces) < waiting and any(parts):
             hand.give(own.popleft() if own else max(parts, key=len).pop())
     return any(hand.pieces for hand in hands)
 
@@ -121,27 +128,6 @@ def _ready(hands: Sequence[_Hand[Item, Made]]) -> list[int]:
         if hand.pieces:
             signs |= {hand.made: at, hand.process.sentinel: at}
     return list(dict.fromkeys(signs[sign] for sign in wait(list(signs))))
-
-
-def _singly(
-    new_hand: Callable[[], _Hand[Item, Made]], suspects: Iterable[tuple[int, Item]]
-) -> Iterator[list[Done[Made]]]:
-    """Do items one at a time in a process of their own, a new one after each that dies."""
-    hand: _Hand[Item, Made] | None = None
-    try:
-        for place, item in suspects:
-            hand = hand or new_hand()
-            hand.give([(place, item)])
-            _ready([hand])
-            if hand.has_died():
-                hand.stop()
-                hand = None
-                yield [Done(place, None)]
-            else:
-                yield hand.take()
-    finally:
-        if hand is not None:
-            hand.stop()
 
 
 class _Hand(Generic[Item, Made]):
@@ -254,17 +240,9 @@ def _hand_back(made: Connection, gone: SimpleQueue[Any]) -> None:
 
 
 def on_cluster(work: Work[Item, Made], items: Sequence[Item], address: str) -> Iterator[list[Done[Made]]]:
-    """Go through what is made on a cluster, in the order in which it is done.
+    """Go through what is made on a cluster, in the order in which it is done; what fails there is an `InputError`.
 
-    Parameters
-    ----------
-    address : str
-        Of the scheduler, such as `tcp://10.0.0.7:8786`; certificates for `tls://` are those of Dask's configuration.
-
-    Raises
-    ------
-    InputError
-        The extra `cluster` is missing, no scheduler answers there or no longer does, or its workers cannot do the work.
+    The address is the scheduler's, `tcp://10.0.0.7:8786`; certificates for `tls://` are those of Dask's configuration.
     """
     try:
         from distributed import Client
@@ -280,7 +258,7 @@ def on_cluster(work: Work[Item, Made], items: Sequence[Item], address: str) -> I
     try:
         with client:
             try:
-                yield from _shared(client, work, list(enumerate(items)))
+                yield from _shared(client, work, _pieces(items))
             except (CancelledError, OSError) as problem:
                 logging.disable()  # what Dask says of it besides, while it closes
                 raise InputError("cluster-lost", address=quote(address)) from problem
@@ -291,13 +269,12 @@ def on_cluster(work: Work[Item, Made], items: Sequence[Item], address: str) -> I
         logging.disable(before)
 
 
-def _shared(client: Any, work: Work[Item, Made], placed: list[tuple[int, Item]]) -> Iterator[list[Done[Made]]]:
+def _shared(client: Any, work: Work[Item, Made], pieces: list[Piece[Item]]) -> Iterator[list[Done[Made]]]:
     """Share pieces out; those of which a worker dies are done again item by item, one at a time."""
     from distributed import KilledWorker
 
-    pieces = deque(placed[at : at + TOGETHER] for at in range(0, len(placed), TOGETHER))
-    suspects: list[tuple[int, Item]] = []
-    for piece, made in _done(client, work, pieces):
+    suspects: Piece[Item] = []
+    for piece, made in _done(client, work, deque(pieces)):
         if isinstance(made, KilledWorker):
             suspects += piece
         else:
@@ -333,13 +310,7 @@ def _done(client: Any, work: Work[Item, Made], pieces: deque[Piece[Item]]) -> It
 
 
 def _some_done(client: Any, futures: list[Any]) -> Iterable[Any]:
-    """Wait until something is done; nothing where no worker has had anything to do for some time.
-
-    Raises
-    ------
-    InputError
-        There are no workers.
-    """
+    """Wait until something is done; nothing where no worker has had anything to do for some time."""
     from distributed import wait
 
     first: Any = wait
@@ -361,3 +332,69 @@ def make_piece(work: Work[Any, Any], items: list[Any]) -> list[Any]:
         _READY.clear()
         _READY[key] = work.begin()
     return [_READY[key](item) for item in items]
+
+
+class Journal(Generic[Made]):
+    """The results of a run by the digests of what they were made from, in a file of JSON lines.
+
+    So a killed run can be gone on with; `load` and `dump` turn plain data into results and back.
+    """
+
+    def __init__(
+        self, path: Path, load: Callable[[Mapping[str, Any]], Made], dump: Callable[[Made], Mapping[str, Any]]
+    ) -> None:
+        self.path, self.dump = path, dump
+        self.before: dict[str, Made] = {}
+        self._torn = False
+        with suppress(OSError):  # what cannot be read is made again
+            text = path.read_bytes().decode("utf-8", "replace")
+            self._torn = text[-1:] not in ("", "\n")  # the last line of a killed run
+            for line in text.splitlines():
+                with suppress(ValueError, KeyError, TypeError, AttributeError):  # torn, or no line of a journal
+                    item = json.loads(line)
+                    self.before[item["digest"]] = load(item["result"])
+
+    def found(self, digest: str) -> Made | None:
+        """Return what an earlier run has made of the same."""
+        return self.before.get(digest)
+
+    def note(self, digest: str, result: Made) -> None:
+        """Keep a result, or say that it cannot be written."""
+        line = self._line(digest, result)
+        with refused(self.path), self.path.open("ab") as stream:
+            stream.write(f"\n{line}".encode("ascii") if self._torn else line.encode("ascii"))
+        self._torn = False
+
+    def keep(self, results: Iterable[tuple[str, Made]]) -> None:
+        """Keep these results alone, for a run that comes later, each with its digest."""
+        lines = (self._line(digest, result) for digest, result in results)
+        with suppress(InputError):  # a folder that takes no note keeps what is there
+            write_whole(self.path, "".join(lines).encode("ascii"))
+
+    def _line(self, digest: str, result: Made) -> str:
+        return json.dumps({"digest": digest, "result": self.dump(result)}, ensure_ascii=True) + "\n"
+
+    def finish(self) -> None:
+        """Forget: all is done."""
+        with suppress(OSError):
+            self.path.unlink()
+
+
+def remove_stale(
+    folder: Path, before: Iterable[tuple[str, str]], names: Container[str], suffixes: Container[str]
+) -> None:
+    """Remove files of earlier runs that are not among the `names` of this one, of the kinds that such runs write.
+
+    `before` are names and digests that earlier runs have noted as their own: what somebody has changed stays.
+    """
+    for name, digest in before:
+        stale = folder / Path(name).name
+        with suppress(OSError):
+            if name not in names and stale.suffix in suffixes and digest_of(stale.read_bytes()) == digest:
+                stale.unlink()
+
+
+def digest_of(data: str | bytes) -> str:
+    """Return what tells a text, or what a file holds, from any other."""
+    whole = data.encode("utf-8", "surrogatepass") if isinstance(data, str) else data
+    return hashlib.blake2s(whole, digest_size=12).hexdigest()

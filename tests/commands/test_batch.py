@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from kulman import batch, check, cli
-from kulman.variants.batches.work import Made, Making, Student
+from kulman.variants.batches.batch import Made, Making, Student
 
 TASK = "nau-slider-crank"
 

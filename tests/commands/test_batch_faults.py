@@ -22,8 +22,8 @@ import pytest
 from kulman import batch, cli
 from kulman.drawing import writers
 from kulman.scales.errors import InputError
-from kulman.variants.batches.work import JOURNAL, Made, Making, Outcome, Student
-from kulman.variants.journal import Journal
+from kulman.variants.batches.batch import JOURNAL, Made, Making, Outcome, Student
+from kulman.variants.crew import Journal
 
 TASK = "nau-slider-crank"
 MAIN = "from kulman.cli import main\nmain(sys.argv[1:])"

@@ -10,8 +10,7 @@ from ...drawing.writers import slug
 from ...scales.errors import InputError
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import parse
-from ..spreadsheets.cells_in import read_grid
-from ..spreadsheets.grid import Grid
+from ..spreadsheets.grid import Grid, read_grid
 from ..spreadsheets.headers import UNDERSTOOD, about_kind, column_kind, symbol, variant_said
 from ..task import Given, LocatedError, Task
 

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING
 from ... import __version__
 from ...drawing.writers import Files, save_all, slug, write_whole
 from ...scales.errors import InputError, KulmanError
-from ..crew import Advance, shared_out
-from ..journal import Journal, digest_of, remove_stale
+from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..spreadsheets.grid import SUFFIXES
 from ..tables import csv_table, table_bytes
 from .answers import Answers
