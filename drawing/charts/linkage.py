@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from ...plans.boards.exact import SMALL as SMALL_SINE
 from ...plans.laws import TURN
-from ...plans.linkages.accuracy.depth import Cost, Depth
-from ...plans.linkages.accuracy.stability import CHANGE, DEAD, DIGITS, LIMIT, POLE, Spot, Stability
+from ...plans.linkages.accuracy.stability import CHANGE, DEAD, DIGITS, LIMIT, POLE, Cost, Depth, Spot, Stability
 from ...plans.linkages.cycles.limits import Arc
 from ...plans.quantities import unit_of
 from ..words import Words

@@ -20,8 +20,8 @@ from dataclasses import replace
 
 from ...scales.errors import InputError
 from ..board import Board
-from ..names import NORMAL, Name, between, mark, rate, spelled, vector
-from .legs import AssurGroup, Hinged, Leg, Slide, coriolis, legs_of, pin_offset, slider_body
+from ..names import Name, between, mark, rate, spelled, vector
+from .legs import AssurGroup, Hinged, Leg, Slide, coriolis, legs_of, normal_part, pin_offset, slider_body
 from .mechanism import ZERO, Mechanism, Prismatic
 from .parts import (
     SYMBOLS,
@@ -59,19 +59,12 @@ class Pinned(AssurGroup):
         self.B = first.end
         self.branch = (group.inner[0] if group.kind == "RRR" else group.outer[1]).branch or "one"
 
-    def velocity(self, board: Board) -> None:
-        """Through a and c the normals to AB and CB: b. A slider has b4 and the parallel to its guide instead."""
-        self._move(board, "velocity")
-
-    def acceleration(self, board: Board) -> None:
-        """From a' and c' the normal parts, through their ends the normals to AB and CB: b'.
-
-        The parallel to a guide runs through the pole when the guide stands, otherwise through the end of the
-        acceleration of Coriolis.
-        """
-        self._move(board, "acceleration")
-
     def _move(self, board: Board, plan: str) -> None:
+        """Through a and c the normals to AB and CB: b. A slider has b4 and the parallel to its guide instead.
+
+        Of accelerations from a' and c' the normal parts, the lines through their ends. The parallel to a guide runs
+        through the pole when the guide stands, otherwise through the end of the acceleration of Coriolis.
+        """
         b, (first, second) = f"{plan}.{self.B}", self.legs
         ends = [leg.begin(board, plan) for leg in self.legs]
         board.meet(b, ends[0], first.n, ends[1], second.n)
@@ -293,35 +286,23 @@ class RPR(AssurGroup):
         guide.place_points(board)
         slider.place_points(board)
 
-    def velocity(self, board: Board) -> None:
-        """Through c the normal to CA (not to u), through a the parallel to u: a3. Other points turn about the pins."""
-        c, a = (self.mechanism.mark("velocity", pin) for pin in (self.C, self.A))
-        a3, of_guide, (length, _, n) = mark("velocity", self.under), vector("V", self.under, self.C), self.CA
+    def _move(self, board: Board, plan: str) -> None:
+        """Through c the normal to CA (not to u), through a the parallel to u: a3. Other points turn about the pins.
+
+        Of accelerations from c' the normal part, from a' that of Coriolis, the lines through their ends.
+        """
+        c, a = (self.mechanism.mark(plan, pin) for pin in (self.C, self.A))
+        a3, (length, e, n), (slider, guide), number = mark(plan, self.under), self.CA, self.bodies, self.guide.number
+        symbol, across, along, turning = "V", "", "", rate("omega", number)
+        if plan == "acceleration":
+            symbol, across, along, turning = "a", "t", "r", rate("epsilon", number)
+            c = normal_part(board, (self.under, self.C), self.C, c, (e, length))
+            a = coriolis(board, rate("omega", number), self.under, self.own, a)
         board.meet(a3, c, n, a, self.u)
-        board.read(of_guide, c, a3)
-        board.read(vector("V", self.under, self.own), a, a3)
-        board.read(vector("V", self.under), "velocity.p", a3)
-        self._turn(board, "velocity", "omega", (of_guide, n, length))
-
-    def acceleration(self, board: Board) -> None:
-        """From c' the normal part, then the normal to CA; from a' that of Coriolis, then the parallel to u: a3'."""
-        c, a = (self.mechanism.mark("acceleration", pin) for pin in (self.C, self.A))
-        a3, end = mark("acceleration", self.under), mark("acceleration", self.under, NORMAL, self.C)
-        part, (length, e, n) = vector("a", self.under, self.C, "n"), self.CA
-        board.calc(part.size, "normal_part", vector("V", self.under, self.C), length)
-        board.back(end, c, e, part.size)
-        board.read(part, c, end)
-        k = coriolis(board, rate("omega", self.guide.number), self.under, self.own, a)
-        board.meet(a3, end, n, k, self.u)
-        board.read(vector("a", self.under, self.C, "t"), end, a3)
-        board.read(vector("a", self.under, self.own, "r"), k, a3)
-        board.read(vector("a", self.under), "acceleration.p", a3)
-        self._turn(board, "acceleration", "epsilon", (vector("a", self.under, self.C, "t"), n, length))
-
-    def _turn(self, board: Board, plan: str, kind: str, turning: tuple[Name, Name, Name]) -> None:
-        """Find how both links turn, from what A3 does about C; mark their other points."""
-        slider, guide = self.bodies
-        board.calc(rate(kind, self.guide.number), "turning", *turning)
+        board.read(vector(symbol, self.under, self.C, across), c, a3)
+        board.read(vector(symbol, self.under, self.own, along), a, a3)
+        board.read(vector(symbol, self.under), f"{plan}.p", a3)
+        board.calc(turning, "turning", vector(symbol, self.under, self.C, across), n, length)
         slider.turn_with(board, guide, plan)
         guide.move_points(board, self.mechanism, plan)
         slider.move_points(board, self.mechanism, plan)
@@ -409,17 +390,14 @@ class RPP(AssurGroup):
         lay(f"_{self.inner.u}_{self.Q}", self.A, normal_of(self.inner.u), shift)
         return f"_{self.inner.u}_{self.Q}"
 
-    def velocity(self, board: Board) -> None:
-        """Through a2 the parallel to u23, through a4 (p when the guide stands) the parallel to u34: a3."""
-        self._move(board, "velocity", self.mechanism.mark("velocity", self.A))
+    def _move(self, board: Board, plan: str) -> None:
+        """Through a2 the parallel to u23, through a4 (p when the guide stands) the parallel to u34: a3.
 
-    def acceleration(self, board: Board) -> None:
-        """From a2' and a4' the accelerations of Coriolis, through their ends the parallels to the guides: a3'."""
-        start, omega = self.mechanism.mark("acceleration", self.A), self.outer.body.omega
-        start = coriolis(board, omega, self.under, self.inner.own, start) if omega else start
-        self._move(board, "acceleration", start)
-
-    def _move(self, board: Board, plan: str, start: str) -> None:
+        Of accelerations from a2' and a4' those of Coriolis, the parallels through their ends.
+        """
+        start, omega = self.mechanism.mark(plan, self.A), self.outer.body.omega
+        if plan == "acceleration" and omega:
+            start = coriolis(board, omega, self.under, self.inner.own, start)
         a3, symbol, part = mark(plan, self.under), SYMBOLS[plan], "" if plan == "velocity" else "r"
         beneath, (first, second) = self.beneath, self.bodies
         end = beneath.begin(board, plan)

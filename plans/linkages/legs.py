@@ -74,11 +74,7 @@ class Hinged(Span):
         start = self.mechanism.mark(plan, self.start)
         if plan == "velocity":
             return start
-        part, end = vector("a", *self.about(self.end), "n"), mark(plan, self.end, NORMAL, self.start)
-        board.calc(part.size, "normal_part", vector("V", *self.about(self.end)), self.length)
-        board.back(end, start, self.e, part.size)
-        board.read(part, start, end)
-        return end
+        return normal_part(board, self.about(self.end), self.start, start, (self.e, self.length))
 
     def read(self, board: Board, plan: str, end: str) -> None:
         """Read the motion of the joint relative to the start, when the joint is found."""
@@ -242,6 +238,17 @@ class AssurGroup:
         self.spans: tuple[Span, ...] = tuple(leg for leg in legs if isinstance(leg, Span))  # links with two joints
         self.bodies, self.passed = tuple(leg.body for leg in legs), tuple(leg.passed for leg in legs)
 
+    def velocity(self, board: Board) -> None:
+        """Draw its plan of velocities."""
+        self._move(board, "velocity")
+
+    def acceleration(self, board: Board) -> None:
+        """Draw its plan of accelerations."""
+        self._move(board, "acceleration")
+
+    def _move(self, board: Board, plan: str) -> None:
+        raise NotImplementedError
+
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Draw its plans of forces; `loads` are (force, point) and `couples` moments, by link."""
         raise NotImplementedError
@@ -296,3 +303,15 @@ def coriolis(board: Board, omega: str, tip: str, tail: str, start: str) -> str:
     board.calc(part, "coriolis", omega, vector("V", tip, tail))
     board.chain(mark("acceleration", tip, CORIOLIS, tail), start, part)
     return mark("acceleration", tip, CORIOLIS, tail)
+
+
+def normal_part(board: Board, about: tuple[str, str], centre: str, start: str, line: tuple[str, str]) -> str:
+    """Hang on `start` the normal part of a point's acceleration about a `centre`, and return its end.
+
+    `about` are the letters of the motion, `line` names the direction from the centre to the point and their distance.
+    """
+    part, end, (e, length) = vector("a", *about, "n"), mark("acceleration", about[0], NORMAL, centre), line
+    board.calc(part.size, "normal_part", vector("V", *about), length)
+    board.back(end, start, e, part.size)
+    board.read(part, start, end)
+    return end

@@ -7,7 +7,17 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kulman.plans.linkages.accuracy.depth import ALL, FORCES, INERTIA, MOMENTS, WEIGHTS, Model, depth, parts_of, without
+from kulman.plans.linkages.accuracy.stability import (
+    ALL,
+    FORCES,
+    INERTIA,
+    MOMENTS,
+    WEIGHTS,
+    Model,
+    depth,
+    parts_of,
+    without,
+)
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.scales.errors import InputError
 from kulman.variants.reader import load_task

@@ -18,8 +18,7 @@ from ...plans.board import with_needs
 from ...plans.boards.exact import SMALL, STATUSES
 from ...plans.contest import FULL, Contest, Effort, Entry
 from ...plans.linkages.accuracy.comparison import DrawnSheet, by_hand, contest
-from ...plans.linkages.accuracy.depth import Cost, Depth, depth
-from ...plans.linkages.accuracy.stability import DEAD, Stability, stability
+from ...plans.linkages.accuracy.stability import DEAD, Cost, Depth, Stability, depth, stability
 from ...plans.linkages.chain import NEEDS
 from ...plans.linkages.cycles.cycle import Cycle, cycle
 from ...plans.linkages.solved import SolvedLinkage, solve_linkage

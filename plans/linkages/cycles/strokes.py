@@ -110,13 +110,12 @@ def outputs(mechanism: Mechanism, structure: Structure) -> tuple[Output, ...]:
     """Return the links on the frame that do not drive, in order of attachment."""
     bodies = moving_bodies(mechanism, structure)
     found = []
-    for group in structure.groups:
-        for pair, before in zip(group.outer, group.before, strict=True):
-            link = next(number for number in pair.links if number in group.links)
-            if before == FRAME and isinstance(pair, Prismatic):
-                found.append(_slider(pair, link))
-            elif before == FRAME:
-                found.append(Output(link, False, bodies[link].direction, bodies[link].omega, bodies[link].epsilon))
+    for pair in (pair for group in structure.groups for pair in group.outer if FRAME in pair.links):
+        link = next(number for number in pair.links if number != FRAME)
+        if isinstance(pair, Prismatic):
+            found.append(_slider(pair, link))
+        else:
+            found.append(Output(link, False, bodies[link].direction, bodies[link].omega, bodies[link].epsilon))
     return tuple(found)
 
 
@@ -135,13 +134,9 @@ def _slider(pair: Prismatic, link: int) -> Output:
 
 def measured(program: Program, found: Sequence[Output]) -> Program:
     """Return a program that also measures the motion of outputs, as far as its plans go."""
-    steps = list(program.steps)
-    known = set(program.names)
-    for output in found:
-        for step in output.steps:
-            if all(operand in known or "." not in operand for operand in step.operands):
-                steps.append(step)
-    return Program(tuple(steps))
+    known, more = set(program.names), (step for output in found for step in output.steps)
+    steps = (step for step in more if all(operand in known or "." not in operand for operand in step.operands))
+    return Program((*program.steps, *steps))
 
 
 def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
@@ -160,9 +155,9 @@ def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
     if not found.stretches:
         return Travel(math.nan, math.nan, math.nan, math.nan)
     wanted = mechanism.stroke.link if mechanism.stroke else None
-    for motion in output_motions(drive, values, found, wanted):
-        if motion.travel is not None:
-            return motion.travel
+    travels = (motion.travel for motion in output_motions(drive, values, found, wanted) if motion.travel is not None)
+    if travel := next(travels, None):
+        return travel
     raise InputError("stroke-none", link=FRAME if wanted is None else wanted)
 
 
@@ -233,8 +228,8 @@ class _Ends:
         places += [end for stretch in joined for end in spots[stretch][1]]
         if not places:
             return None
-        low, high = min(places), max(places)
-        return Travel(low[0], high[0], self._turned(low[1]), self._turned(high[1]))
+        (low, at_low), (high, at_high) = min(places), max(places)
+        return Travel(low, high, self._turned(at_low), self._turned(at_high))
 
     def _turned(self, place: float) -> float:
         return place % TURN if self.drive.turns else place

@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from ....scales.errors import InputError
 from ...board import Board
 from ...names import NORMAL, POINT, Name, arm, between, mark, moment, spelled, vector
-from ..legs import AssurGroup, Hinged, Leg, Slide, legs_of
+from ..legs import AssurGroup, Hinged, Leg, Slide, legs_of, normal_part
 from ..mechanism import ZERO, Link, Mechanism, Revolute, start_names
 from ..parts import (
     SYMBOLS,
@@ -151,13 +151,10 @@ class Triad(AssurGroup):
         D = third.end
         ends = [leg.begin(board, "acceleration") for leg in self.legs]
         hung = [self._towards_joint(board, leg, end) for leg, end in zip((first, second), ends, strict=False)]
-        x, d, tip = mark("acceleration", X), mark("acceleration", D), mark("acceleration", D, NORMAL, X)
+        x, d = mark("acceleration", X), mark("acceleration", D)
         board.meet(x, hung[0], first.n, hung[1], second.n)
         board.read(vector("a", X), "acceleration.p", x)
-        part = vector("a", D, X, "n")
-        board.calc(part.size, "normal_part", vector("V", D, X), length)
-        board.back(tip, x, e, part.size)
-        board.read(part, x, tip)
+        tip = normal_part(board, (D, X), X, x, (e, length))
         board.meet(d, tip, n, ends[2], third.n)
         board.read(vector("a", D, X, "t"), tip, d)
         board.read(vector("a", D, X), x, d)
@@ -188,7 +185,13 @@ class Triad(AssurGroup):
             moments += self._alone(board, leg, loads[leg.number], couples[leg.number])
         number = self.central.number
         moments += moments_about(board, loads[number], self.X)
-        self._third_normal(board, [*moments, *couples[number]])
+        third = self.legs[2]  # whose normal part has a moment about X that balances that of all the rest
+        part, aside = _normal(third), Name(f"_arm_{_pair(third, 'R').of}")
+        # a force along the line has the moment minus its size times the distance of the line to the left of X
+        board.calc(aside, "across_axis", third.e, self.X, third.start)
+        board.calc(part.size, "moment_equation", aside, *moments, *couples[number])
+        board.calc(part, "along", part.size, third.e)
+        board.moment(moment(part, self.X), arm(part, self.X), part, third.start, self.X)
         self._draw(board, loads)
         for leg in self.legs:
             if isinstance(leg, Slide):
@@ -212,16 +215,6 @@ class Triad(AssurGroup):
         board.calc(part, "along", part.size, leg.n)
         board.moment(moment(part, self.X), arm(part), part, leg.start, self.X)
         return [*about, *couples, moment(part, self.X)]
-
-    def _third_normal(self, board: Board, moments: list[str]) -> None:
-        """Find the normal part on the third leg: its moment about X balances that of all the rest."""
-        third = self.legs[2]
-        part, aside = _normal(third), Name(f"_arm_{_pair(third, 'R').of}")
-        # a force along the line has the moment minus its size times the distance of the line to the left of X
-        board.calc(aside, "across_axis", third.e, self.X, third.start)
-        board.calc(part.size, "moment_equation", aside, *moments)
-        board.calc(part, "along", part.size, third.e)
-        board.moment(moment(part, self.X), arm(part, self.X), part, third.start, self.X)
 
     def _draw(self, board: Board, loads: Forces) -> None:
         """Hang all that is known in a chain, close it, read the reactions."""
