@@ -22,11 +22,9 @@ from kulman.plans.linkages.chain import PLANS
 from kulman.scales.packaged import packaged
 from kulman.variants import reader
 from kulman.variants.checks import basics as checks
-from kulman.variants.checks import cam as checks_cam
-from kulman.variants.checks import loads as checks_loads
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.checks import names as checks_names
-from kulman.variants.kinds import gear, kind
+from kulman.variants.kinds import cam, gear, kind
 from kulman.variants.shelf import bundled_text, template
 from kulman.variants.solution import solve
 
@@ -49,13 +47,13 @@ def example_texts() -> list[str]:
 def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
     """Return every key that the reader asks for while it reads a task file, names of its own apart."""
     keys: set[str] = set()
+    record = checks.record
 
     def noting(checker: Any, path: Any, raw: object, fields: Mapping[str, Any]) -> dict[str, Any]:
         keys.update(fields)
-        return checks.record(checker, path, raw, fields)
+        return record(checker, path, raw, fields)
 
-    own = (checks_mechanism, checks_loads, checks_cam, kind)
-    modules: tuple[ModuleType, ...] = (reader, checks_names, *own)
+    modules: tuple[ModuleType, ...] = (reader, checks, checks_names, checks_mechanism, cam, kind)
     for module in modules:
         monkeypatch.setattr(module, "record", noting)
     task, faults = reader.read_text(text, "t.toml")
@@ -95,7 +93,7 @@ def test_the_words_that_a_task_file_may_use_are_named() -> None:
     assert all(f"`{name}`" in NOTATIONS for name in notations())
     plans = (*PLANS, *CAM_PLANS, *GEAR_PLANS, *HOIST_PLANS)
     assert all(f'"{word}"' in TASK_FILE for word in (*plans, *FOLLOWERS, *LAWS, *MATERIALS, *SIDES))
-    assert all(f"`{name}`" in TASK_FILE for name in (*checks_cam.NUMBERS, *gear.NUMBERS, *VALUES))
+    assert all(f"`{name}`" in TASK_FILE for name in (*cam.NUMBERS, *gear.NUMBERS, *VALUES))
 
 
 def test_every_key_of_a_notation_is_explained() -> None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeVar
 
 from ...scales.errors import InputError, KulmanError
 from ...scales.names import cyrillic, latin, seen, unknown
@@ -41,6 +42,14 @@ class Checker:
         if len(self.faults) >= MOST_FAULTS:
             raise EnoughError
 
+    @contextmanager
+    def at(self, path: Path) -> Iterator[None]:
+        """Note why what is done with the value at `path` is refused."""
+        try:
+            yield
+        except InputError as error:
+            self.fault(path, error)
+
     def fault_of(self, path: Path, variant: str, error: KulmanError) -> None:
         """Note what solving a variant, whose table is at `path`, has shown to be at fault."""
         self.faulty.add(path)
@@ -67,6 +76,7 @@ class Checker:
 
 
 Read = Callable[[Checker, Path, Any], Any]
+Made = TypeVar("Made")
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +103,15 @@ def record(checker: Checker, path: Path, raw: object, fields: Mapping[str, Field
         checker.fault(path, InputError("key-missing", name=name))
     read = {name: wanted.read(checker, (*path, name), raw[name]) for name, wanted in fields.items() if name in raw}
     return {name: value for name, value in read.items() if value is not None}
+
+
+def record_of(
+    checker: Checker, path: Path, raw: object, fields: Mapping[str, Field], make: Callable[..., Made]
+) -> Made | None:
+    """Make something of a table with fixed keys; None when a part of it is at fault."""
+    before = len(checker.faults)
+    read = record(checker, path, raw, fields)
+    return make(**read) if len(checker.faults) == before else None
 
 
 def as_is(checker: Checker, path: Path, raw: object) -> Any:

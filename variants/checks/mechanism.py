@@ -1,16 +1,21 @@
-"""Checking the mechanism of a task: names and dimensions, what pairs and driver join, what the structure needs."""
+"""Checking a mechanism: names and dimensions, what pairs, driver and loads join, what the structure needs."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
+from ...plans.linkages.loads import in_order, output_pair
 from ...plans.linkages.mechanism import (
+    ANGLE,
     BOTH,
     FORCE,
     FRAME,
+    IDLE,
     MOMENT,
+    STROKE,
     WORKING,
     ZERO,
     Couple,
@@ -24,6 +29,7 @@ from ...plans.linkages.mechanism import (
     Revolute,
     SlidingDriver,
     Start,
+    Stroke,
     positive,
 )
 from ...plans.linkages.structure import TRIAD, Structure, analyse
@@ -33,53 +39,48 @@ from ...scales.numbers import quote
 from ...scales.units import ONE, unit
 from ..task import Bound
 from ..toml_places import Path
-from .basics import Checker, Field, Read, array_of, link_number, name, on_link, one_of, record, rows
-from .loads import loads_joined, output_joined, read_couple, read_diagrams, read_load, read_stroke
+from .basics import Checker, Field, array_of, as_is, link_number, name, on_link, one_of, record, record_of, rows
 from .names import Names
 
 _RAD, _RAD_S, _RAD_S2 = unit("rad"), unit("rad/s"), unit("rad/s^2")
 _M, _M_S, _M_S2 = unit("m"), unit("m/s"), unit("m/s^2")
 _KG, _KG_M2, _KG_M = unit("kg"), unit("kg*m^2"), unit("kg/m")
+_N, _N_M = unit("N"), unit("N*m")
+_STROKE = Field(one_of("stroke-unknown", lambda: (BOTH, WORKING, IDLE)), required=False)
+_OVER = one_of("diagram-over", lambda: (STROKE, ANGLE))
+_BALANCE = one_of("balance-unknown", lambda: (MOMENT, FORCE))
+SEVERAL = ("link", "pair", "load", "couple", "diagram", "start")
 
 
 def read_mechanism(checker: Checker, raw: object, names: Names) -> Mechanism | None:
     """Read `[mechanism]`; `None` when a part of it is at fault."""
     before = len(checker.faults)
+
+    def each(read: Callable[..., Any], required: bool = False) -> Field:
+        """Read an array of tables, one at a time."""
+        return Field(lambda c, p, r: [read(c, path, row, names) for path, row in rows(c, p, r)], required)
+
+    slides = isinstance(raw, dict) and isinstance(raw.get("driver"), dict) and "travel" in raw["driver"]
     kinds = {
         "gravity": Field(names.value(_M_S2), required=False),
-        "link": Field(_rows(lambda c, p, r: _link(c, p, r, names))),
-        "pair": Field(_rows(lambda c, p, r: _pair(c, p, r, names))),
+        "link": each(_link, required=True),
+        "pair": each(_pair, required=True),
         "driver": Field(lambda c, p, r: _driver(c, p, r, names)),
-        "stroke": Field(lambda c, p, r: read_stroke(c, p, r, names), required=False),
+        "stroke": Field(lambda c, p, r: _stroke(c, p, r, names), required=False),
         # before the loads that name them
-        "diagram": Field(lambda c, p, r: read_diagrams(c, rows(c, p, r), names), required=False),
-        "load": Field(_rows(lambda c, p, r: read_load(c, p, r, names)), required=False),
-        "couple": Field(_rows(lambda c, p, r: read_couple(c, p, r, names)), required=False),
+        "diagram": Field(lambda c, p, r: _diagrams(c, rows(c, p, r), names), required=False),
+        "load": each(_load),
+        "couple": each(_couple),
+        "start": each(partial(_start, slides=slides)),
     }
-    slides = isinstance(raw, dict) and isinstance(raw.get("driver"), dict) and "travel" in raw["driver"]
-    starts = _start_fields(names, slides)
-    kinds["start"] = Field(_rows(lambda c, p, r: record(c, p, r, starts)), required=False)
     read = record(checker, ("mechanism",), raw, kinds)
     if len(checker.faults) > before:
         return None
-    mechanism = Mechanism(
-        tuple(read["link"]),
-        tuple(read["pair"]),
-        read["driver"],
-        tuple(read.get("load", ())),
-        tuple(read.get("couple", ())),
-        tuple(read.get("diagram", ())),
-        read.get("stroke"),
-        names.called("g", read.get("gravity")),
-        tuple(Start(**x) for x in read.get("start", ())),
-    )
+    found = {f"{key}s": tuple(read.get(key, ())) for key in SEVERAL} | {"driver": read["driver"]}
+    found |= {"stroke": read.get("stroke"), "gravity": names.called("g", read.get("gravity"))}
+    mechanism = Mechanism(**found)
     _joined(checker, mechanism, names)
     return mechanism if len(checker.faults) == before else None
-
-
-def _rows(read: Callable[[Checker, Path, object], Any]) -> Read:
-    """Return a reader of an array of tables, one at a time."""
-    return lambda checker, path, raw: [read(checker, row_path, row) for row_path, row in rows(checker, path, raw)]
 
 
 def _link(checker: Checker, path: Path, raw: object, names: Names) -> Link | None:
@@ -133,35 +134,20 @@ def _with_mass(checker: Checker, path: Path, read: dict[str, Any], names: Names)
 
 def _pair(checker: Checker, path: Path, raw: object, names: Names) -> Pair | None:
     """Read one pair of the kind that it names."""
-    joins = {"point": Field(name), "links": Field(array_of(link_number, 2))}
-    place = Field(array_of(names.place, 2))
+    place = array_of(names.place, 2)
+    guide = {"through": Field(place), "direction": Field(names.value(_RAD))}
     kinds: dict[str, tuple[type[Pair], dict[str, Field]]] = {
-        "revolute": (
-            Revolute,
-            {**joins, "at": Field(place.read, required=False), "branch": Field(names.sign, required=False)},
-        ),
-        "prismatic": (
-            Prismatic,
-            {
-                **joins,
-                "through": place,
-                "direction": Field(names.value(_RAD)),
-                "offset": Field(names.place, required=False),
-                "branch": Field(names.sign, required=False),
-            },
-        ),
+        "revolute": (Revolute, {"at": Field(place, required=False)}),
+        "prismatic": (Prismatic, {**guide, "offset": Field(names.place, required=False)}),
     }
     kind = raw.get("kind") if isinstance(raw, dict) else None
-    if not isinstance(raw, dict) or not isinstance(kind, str) or kind not in kinds:
+    if not isinstance(kind, str) or kind not in kinds:
         checker.fault((*path, "kind"), InputError("pair-kind", text=quote(kind), known=", ".join(kinds)))
         return None
-    made, fields = kinds[kind]
-    before = len(checker.faults)
-    read = record(checker, path, raw, {"kind": Field(one_of("pair-kind", lambda: tuple(kinds))), **fields})
-    if len(checker.faults) > before:
-        return None
-    del read["kind"]
-    return made(**read)
+    pair, own = kinds[kind]
+    fields = {"kind": Field(as_is), "point": Field(name), "links": Field(array_of(link_number, 2)), **own}
+    fields["branch"] = Field(names.sign, required=False)
+    return record_of(checker, path, raw, fields, lambda kind, **read: pair(**read))
 
 
 def _driver(checker: Checker, path: Path, raw: object, names: Names) -> Driver | SlidingDriver | None:
@@ -186,16 +172,92 @@ def _driver_fields(names: Names, slides: bool) -> dict[str, Field]:
         fields |= {"travel": Field(names.value(_M)), "speed": Field(names.value(_M_S))}
         return fields | {"acceleration": Field(names.value(_M_S2), required=False)}
     fields |= {"pivot": Field(name), "angle": Field(names.value(_RAD)), "speed": Field(names.value(_RAD_S))}
-    balance = one_of("balance-unknown", lambda: (MOMENT, FORCE))
     fields |= {"sense": Field(names.sign), "acceleration": Field(names.value(_RAD_S2), required=False)}
-    return fields | {"balance": Field(balance, required=False)}
+    return fields | {"balance": Field(_BALANCE, required=False)}
 
 
-def _start_fields(names: Names, slides: bool) -> dict[str, Field]:
-    """Return how a start is read; the driver stands at an angle, or at its travel where it `slides`."""
+def _start(checker: Checker, path: Path, raw: object, names: Names, slides: bool) -> Start | None:
+    """Read where a link starts; the driver stands at an angle, or at its travel where it `slides`."""
     place = {"x": Field(names.value(_M)), "y": Field(names.value(_M)), "angle": Field(names.value(_RAD))}
     legs = {"legs": Field(array_of(link_number, 2), required=False)}
-    return {"link": Field(link_number), **place, "driver": Field(names.value(_M if slides else _RAD)), **legs}
+    fields = {"link": Field(link_number), **place, "driver": Field(names.value(_M if slides else _RAD)), **legs}
+    return record_of(checker, path, raw, fields, Start)
+
+
+def _stroke(checker: Checker, path: Path, raw: object, names: Names) -> Stroke | None:
+    """Read which link is the output, and which way it works."""
+    fields = {"link": Field(link_number), "sense": Field(names.sign, required=False)}
+    return record_of(checker, path, raw, fields, Stroke)
+
+
+def _load(checker: Checker, path: Path, raw: object, names: Names) -> Load | None:
+    """Read a force; without a direction it resists the motion of its point."""
+    places = {"name": Field(name), "link": Field(link_number), "point": Field(name)}
+    size = {"magnitude": Field(names.value(_N)), "direction": Field(names.value(_RAD), required=False)}
+    return record_of(checker, path, raw, {**places, **size, "stroke": _STROKE}, partial(_named, Load, names))
+
+
+def _couple(checker: Checker, path: Path, raw: object, names: Names) -> Couple | None:
+    """Read a moment; without a sense it resists the turning of its link."""
+    places = {"name": Field(name), "link": Field(link_number)}
+    size = {"magnitude": Field(names.value(_N_M)), "sense": Field(names.sign, required=False)}
+    make = partial(_named, Couple, names, sense=None)
+    return record_of(checker, path, raw, {**places, **size, "stroke": _STROKE}, make)
+
+
+def _named(make: Callable[..., Any], names: Names, **read: Any) -> Any:
+    """Make a load; a literal magnitude is called like it."""
+    return make(**{**read, "magnitude": names.called(read["name"], read["magnitude"])})
+
+
+def _diagrams(checker: Checker, rows: list[tuple[Path, object]], names: Names) -> list[Diagram]:
+    """Read the load diagrams; from then on their names are those of forces or moments."""
+    found = [(path, _diagram(checker, path, row, names)) for path, row in rows]
+    for (path, row), (_, made) in zip(rows, found, strict=True):
+        if made is None and isinstance(row, dict) and isinstance(row.get("name"), str):
+            names.dimensions.setdefault(row["name"], None)
+            names.stated.setdefault(row["name"], (*path, "name"))
+    diagrams = [(path, *made) for path, made in found if made is not None]
+    for path, diagram, wanted in diagrams:
+        if diagram.name in names.dimensions:
+            checker.twice((*path, "name"), diagram.name, names.stated[diagram.name])
+        names.dimensions[diagram.name] = wanted
+        names.stated.setdefault(diagram.name, (*path, "name"))
+    return [diagram for _, diagram, _ in diagrams]
+
+
+def _diagram(checker: Checker, path: Path, raw: object, names: Names) -> tuple[Diagram, Any] | None:
+    over = raw.get("over") if isinstance(raw, dict) else None
+    first = raw.get("values") if isinstance(raw, dict) else None
+    moment = isinstance(first, list) and any(names.dimension_of(value) == _N_M.dimension for value in first)
+    wanted = _N_M if moment else _N
+    sizes = array_of(names.value(wanted))
+    fields = {
+        "name": Field(name),
+        "over": Field(_OVER),
+        "at": Field(array_of(names.value(_RAD if over == ANGLE else ONE))),
+        "values": Field(sizes),
+        "back": Field(sizes, required=False),
+    }
+    diagram = record_of(checker, path, raw, fields, Diagram)
+    if diagram is None:
+        return None
+    before = len(checker.faults)
+    for key in ("values", "back"):
+        sizes = getattr(diagram, key)
+        if sizes is not None and len(sizes) != len(diagram.at):
+            checker.fault((*path, key), InputError("diagram-uneven", n=len(diagram.at), m=len(sizes)))
+    if diagram.back and over == ANGLE:
+        checker.fault((*path, "back"), InputError("diagram-back"))
+    return (diagram, wanted.dimension) if len(checker.faults) == before else None
+
+
+def diagrams_in_order(checker: Checker, mechanism: Mechanism, rows: Sequence[Mapping[str, float]]) -> None:
+    """Check that the places of load diagrams do not decrease, and lie within the stroke or a turn, in any variant."""
+    for i, diagram in enumerate(mechanism.diagrams):
+        with checker.at(("mechanism", "diagram", i, "at")):
+            for values in rows:
+                in_order(diagram, values)
 
 
 def _joined(checker: Checker, mechanism: Mechanism, names: Names) -> None:
@@ -208,31 +270,21 @@ def _joined(checker: Checker, mechanism: Mechanism, names: Names) -> None:
         links[link.number] = link.points
     for i, pair in enumerate(mechanism.pairs):
         _pair_joined(checker, ("mechanism", "pair", i), pair, links)
-    _places_joined(checker, mechanism)
-    _driver_joined(checker, mechanism, links)
-    loads_joined(checker, mechanism, names, links)
-    _starts_joined(checker, mechanism, links)
-    whole = len(checker.faults) == before
-    output_joined(checker, mechanism)
-    if whole and len(checker.faults) > before:  # else the reader, which constructs it, finds what is wrong
-        _moves(checker, mechanism)
-
-
-def _moves(checker: Checker, mechanism: Mechanism) -> None:
-    """Check that the mechanism has a structure."""
-    try:
-        analyse(mechanism)
-    except InputError as error:
-        checker.fault(place_of(mechanism, error), error)
-
-
-def _places_joined(checker: Checker, mechanism: Mechanism) -> None:
-    """Check that a pivot of the frame stands at one place."""
-    places: dict[str, tuple[str, str] | None] = {}
+    places: dict[str, tuple[str, str]] = {}  # a pivot of the frame stands at one
     for i, pair in enumerate(mechanism.pairs):
         at = pair.at if isinstance(pair, Revolute) else None
         if at is not None and places.setdefault(pair.point, at) != at:
             checker.fault(("mechanism", "pair", i, "at"), InputError("pivot-twice", point=pair.point))
+    _driver_joined(checker, mechanism, links)
+    _loads_joined(checker, mechanism, names, links)
+    _starts_joined(checker, mechanism, links)
+    whole = len(checker.faults) == before
+    _output_joined(checker, mechanism)
+    if whole and len(checker.faults) > before:  # else the reader, which constructs it, finds what is wrong
+        try:
+            analyse(mechanism)
+        except InputError as error:
+            checker.fault(place_of(mechanism, error), error)
 
 
 def _pair_joined(checker: Checker, path: Path, pair: Pair, links: Mapping[int, Mapping[str, object]]) -> None:
@@ -283,6 +335,42 @@ def _starts_joined(checker: Checker, mechanism: Mechanism, links: Mapping[int, o
         elif start.link in seen:
             checker.twice(path, start.link, seen[start.link])
         seen.setdefault(start.link, path)
+
+
+def _loads_joined(
+    checker: Checker, mechanism: Mechanism, names: Names, links: Mapping[int, Mapping[str, object]]
+) -> None:
+    """Check that loads and couples act on links, forces at their points, each under a name of its own."""
+    seen: dict[str, Path] = {}
+    sizes = {name for diagram in mechanism.diagrams for name in (diagram.name, *diagram.sizes)}
+    sizes |= {load.magnitude for load in mechanism.acting}
+    placed: list[tuple[Path, Load | Couple]] = [
+        *((("mechanism", "load", i), load) for i, load in enumerate(mechanism.loads)),
+        *((("mechanism", "couple", i), couple) for i, couple in enumerate(mechanism.couples)),
+    ]
+    for path, load in placed:
+        if load.link == FRAME:
+            checker.fault((*path, "link"), InputError("load-frame", known=", ".join(map(str, links))))
+        elif isinstance(load, Load):
+            on_link(checker, path, "point", load.point, load.link, links)
+        elif load.link not in links:
+            checker.fault((*path, "link"), unknown("link-unknown", str(load.link), map(str, links)))
+        if load.name in seen:
+            checker.twice((*path, "name"), load.name, (*seen[load.name], "name"))
+        elif load.name in names.dimensions and load.name not in sizes:
+            line, _ = checker.places[names.stated[load.name]]
+            checker.fault((*path, "name"), InputError("load-given", name=load.name, line=line))
+        seen.setdefault(load.name, path)
+
+
+def _output_joined(checker: Checker, mechanism: Mechanism) -> None:
+    """Check that the output link moves on the frame, and that a diagram over an angle has a crank."""
+    if mechanism.stroke is not None:
+        with checker.at(("mechanism", "stroke", "link")):
+            output_pair(mechanism)
+    for i, diagram in enumerate(mechanism.diagrams):
+        if diagram.over == ANGLE and isinstance(mechanism.driver, SlidingDriver):
+            checker.fault(("mechanism", "diagram", i, "over"), InputError("diagram-crank"))
 
 
 def started(checker: Checker, mechanism: Mechanism, structure: Structure) -> None:

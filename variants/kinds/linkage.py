@@ -22,8 +22,7 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.scale import Scale
-from ..checks.loads import diagrams_in_order
-from ..checks.mechanism import branched, needless_branches, place_of, read_mechanism, started
+from ..checks.mechanism import branched, diagrams_in_order, needless_branches, place_of, read_mechanism, started
 from ..marking.wording import letter, texts
 from ..task import Given, Task
 from .kind import Kind
