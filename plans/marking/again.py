@@ -12,9 +12,8 @@ from functools import cached_property
 
 from ..board import POSITION, Program, Step
 from ..names import role
-from .answers import Answer
+from .answers import Answer, Line
 from .key import Key
-from .lines import Line
 from .student import LAID, shifted
 from .verdicts import Marker, judge
 

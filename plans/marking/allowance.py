@@ -97,7 +97,10 @@ class Allowance:
         step = self.calculation(name)
         if step is None or (right and any(map(self.faulty, self.inputs(step)))):
             return self.by_hand(name, value)
-        return self._marked(name, self._rounding(name, value, self._inherited(name, step)))
+        answer = self.answers[name]
+        last = answer.rounded if answer.rounded is not None else half_digit(answer.value or 0.0)
+        # a calculator's result may differ by half a per cent, or by what all roundings come to
+        return self._marked(name, float(max(ROUNDED * abs(value), last + self._inherited(name, step))))
 
     def follows(self, name: str) -> bool:
         """Whether a quantity is calculated from numbers of which none is wrong by itself."""
@@ -139,12 +142,6 @@ class Allowance:
             seen.add(operand)
         return found
 
-    def _rounding(self, name: str, value: Any, inherited: float) -> float:
-        """Return by how much a calculator's result may differ: half a per cent, or what all roundings come to."""
-        answer = self.answers[name]
-        last = answer.rounded if answer.rounded is not None else half_digit(answer.value or 0.0)
-        return float(max(ROUNDED * abs(value), last + inherited))
-
     def _inherited(self, name: str, step: Step) -> float:
         """Return by how much a result may differ because the numbers are rounded that it is calculated from."""
         if name not in self._calculated:
@@ -173,7 +170,7 @@ class Allowance:
     def _slack_of(self, name: str) -> float:
         answer, step = self.answers.get(name), self._steps.get(name)
         if answer is not None and self.sure(name):
-            return max(self._last(name), self._read_to(name)) + self._unsure(name)
+            return self._of_answer(name)
         laid = role(name).shown
         if step is None:
             return 0.0
@@ -198,17 +195,18 @@ class Allowance:
         size, last = abs(self.drawn.values[name]), self.answers[name].rounded
         return half_digit(size) if last is None else float(min(last, ROUNDED * size))
 
-    def _unsure(self, name: str) -> float:
-        """Return what the other sense makes of a vector that is too short for a hand to tell which way it points."""
-        step, size = self.key.questions[name].step, abs(self.drawn.values[name])
-        drawn = step.verb == "read" and f"_{name}" not in self._steps
-        return 2.0 * float(size) if drawn and max(size, abs(self.key[name])) <= self.key.allowed[name] else 0.0
+    def _of_answer(self, name: str) -> float:
+        """Return by what a student's own number may differ: by its last digit, by what a segment can be read to.
 
-    def _read_to(self, name: str) -> float:
-        """Return to what a segment can be read."""
-        question = self.key.questions[name]
-        measured = question.step.verb in ("read", "measure", "distance", "arm")
-        return READ_TO * self.key.tolerance.mm * float(self.key.paper.mus.get(question.plan, 0.0)) if measured else 0.0
+        A vector that is too short for a hand to tell which way it points may also have the other sense.
+        """
+        question, size, last = self.key.questions[name], abs(self.drawn.values[name]), self._last(name)
+        verb, plan = question.step.verb, question.plan
+        if verb in (*READ, "arm"):
+            last = max(last, READ_TO * self.key.tolerance.mm * float(self.key.paper.mus.get(plan, 0.0)))
+        drawn = verb == "read" and f"_{name}" not in self._steps
+        short = drawn and max(size, abs(self.key[name])) <= self.key.allowed[name]
+        return last + (2.0 * float(size) if short else 0.0)
 
     def _between(self, laid: str) -> float:
         """Return how far a number that was calculated and the same one read again are apart."""

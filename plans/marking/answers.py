@@ -1,4 +1,4 @@
-"""One line of a student's form, and what it says: a magnitude, a sign or a direction, as far as it says so."""
+"""One line of a student's form, what it says (a magnitude, a sign or a direction, as far as it does), its verdict."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import cmath
 import math
 import re
 from dataclasses import dataclass
+from enum import StrEnum
 from functools import lru_cache
 from typing import Any, NamedTuple
 
@@ -172,3 +173,55 @@ def _of_vector(said: Said, value: complex, allowed: float, angle: float) -> Miss
 def ratio(missed: float, allowed: float) -> float:
     """Return a difference in tolerances; where nothing is allowed any difference is too much."""
     return missed / allowed if allowed else 0.0 if not missed else NEVER
+
+
+class Verdict(StrEnum):
+    """What a line is; `passed` where it counts as right, `faulty` where there is an error in this very line."""
+
+    RIGHT = "right"
+    CARRIED = "carried"
+    WRONG = "wrong"
+    UNCOUNTED = "uncounted"  # follows from numbers most of which are wrong
+    ARITHMETIC = "arithmetic"
+    SCALE = "scale"
+    MISSING = "missing"
+
+    passed: bool
+    faulty: bool
+
+    def __init__(self, value: str) -> None:
+        """Say once what is asked of every line again and again."""
+        self.passed, self.faulty = value in ("right", "carried"), value in ("wrong", "arithmetic", "scale")
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One line marked; sizes in SI, vectors complex.
+
+    Parameters
+    ----------
+    said : float or complex, optional
+        What the answer says; what it leaves out (a direction, a sense) is that of what follows.
+    right, follows : float or complex
+        The right value, and what follows from the answers before it.
+    allowed : float
+        The tolerance of the size.
+    off : float
+        By how many tolerances it misses the better of the two.
+    about : str
+        Of a line that does not pass: "size" or "direction", that of a scalar being its sense.
+    way : Said, optional
+        How the answer was taken.
+    """
+
+    name: str
+    plan: str
+    verdict: Verdict
+    answer: Answer | None
+    said: Any
+    right: Any
+    follows: Any
+    allowed: float
+    off: float
+    about: str = ""
+    way: Said | None = None

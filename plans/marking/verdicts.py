@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from copy import copy
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from statistics import median
 from typing import Any, NamedTuple
 
@@ -17,12 +17,24 @@ from ...scales.names import unknown
 from ..board import Step
 from ..names import role
 from .allowance import Allowance
-from .answers import NEVER, SIZE, Answer, Miss, Said, known, measured, miss, nearest, ratio, readings, values_of
+from .answers import (
+    NEVER,
+    SIZE,
+    Answer,
+    Line,
+    Miss,
+    Said,
+    Verdict,
+    known,
+    measured,
+    miss,
+    nearest,
+    ratio,
+    readings,
+    values_of,
+)
 from .key import Key, Question, behind, hanging_on
-from .lines import Line, Marking, Verdict
 from .student import StudentBoard, Take, settled, settled_in
-
-__all__ = ["CLEAR", "Line", "Marking", "Verdict", "behind", "bounded", "first_wrong", "judge", "mark"]
 
 DECIMALS = tuple(10.0**power for power in (-3, -2, -1, 1, 2, 3))  # mm, cm, dm
 ANGLES = tuple(
@@ -47,6 +59,29 @@ MANY = 3  # answers wrong by themselves, from which a line that hangs on them ma
 SLACK = 0.5  # part of a tolerance by which mm times mu may differ from the value written
 
 
+@dataclass(frozen=True, slots=True)
+class Marking:
+    """All lines in order of construction, the first one with an error of its own, and the step that it shows.
+
+    `marker` is the `Marker` that has judged them.
+    """
+
+    key: Key
+    lines: tuple[Line, ...]
+    first_wrong: str | None
+    step: Step | None
+    marker: Any = field(default=None, repr=False, compare=False)
+
+    def __getitem__(self, name: str) -> Line:
+        """Return the line of a quantity."""
+        return next(line for line in self.lines if line.name == name)
+
+    @property
+    def answered(self) -> tuple[Line, ...]:
+        """The lines that are not missing."""
+        return tuple(line for line in self.lines if line.verdict is not Verdict.MISSING)
+
+
 def mark(key: Key, answers: Iterable[Answer]) -> Marking:
     """Mark the answers of one student.
 
@@ -55,9 +90,7 @@ def mark(key: Key, answers: Iterable[Answer]) -> Marking:
     InputError
         A quantity that is not asked.
     """
-    marker = Marker.of(key, answers)
-    marker.settle_scales()
-    marker.begin()
+    marker = Marker.begun(key, answers)
     lines = tuple(marker.lines())
     first = first_wrong(lines)
     return Marking(marker.key, lines, first, None if first is None else behind(key, first), marker)
@@ -68,17 +101,13 @@ def judge(key: Key, answers: Iterable[Answer], first: str = "") -> tuple[Line, .
 
     Where the line `first` is clearly wrong, None: lines after it are not looked at.
     """
-    marker = Marker.of(key, answers)
-    marker.settle_scales(redraw=False)
-    marker.begin()
+    marker = Marker.begun(key, answers, redraw=False)
     return None if first and marker.misses(first) else tuple(marker.lines())
 
 
 def count_right(key: Key, answers: Iterable[Answer], least: float) -> int:
     """Return how many answers are as right as a hand draws; nothing where that is less than `least`."""
-    marker = Marker.of(key, answers)
-    marker.settle_scales()
-    marker.begin()
+    marker = Marker.begun(key, answers)
     left = len(marker.answers)
     for name in key.questions:
         if name in marker.answers:
@@ -124,30 +153,14 @@ def bounded(marking: Marking, other: Key | None = None) -> Marking:
             passed = sum(verdict.passed for verdict in behind_it)
             if other is not None or (wrong >= MANY and wrong > passed):
                 line = replace(line, verdict=Verdict.UNCOUNTED)
-        if other is not None and line.verdict is Verdict.RIGHT and _by_chance(line, other):
+        size = line.way.size if line.verdict is Verdict.RIGHT and line.way is not None else None
+        theirs = None if other is None or line.name not in other.questions else abs(other[line.name])
+        if size is not None and theirs is not None and abs(size - theirs) < abs(size - abs(line.right)):
             line = replace(line, verdict=Verdict.UNCOUNTED)
         lines.append(line)
         if line.verdict is not Verdict.MISSING:
             before.append((bits[line.name], line.verdict))
     return replace(marking, lines=tuple(lines))
-
-
-def _by_chance(line: Line, other: Key) -> bool:
-    """Whether an answer is nearer to the value of another variant."""
-    if line.name not in other.questions or line.way is None or line.way.size is None:
-        return False
-    size = line.way.size
-    return bool(abs(size - abs(other[line.name])) < abs(size - abs(line.right)))
-
-
-def _by_name(key: Key, answers: Iterable[Answer]) -> dict[str, Answer]:
-    found: dict[str, Answer] = {}
-    for answer in answers:
-        if answer.name not in key.questions:
-            raise unknown("quantity-unknown", answer.name, key.questions)
-        if not answer.empty:
-            found.setdefault(answer.name, answer)  # the first one counts
-    return found
 
 
 def _on_paper(key: Key, answer: Answer, said: Mapping[str, Answer]) -> Answer:
@@ -192,10 +205,24 @@ class Marker:
 
     @classmethod
     def of(cls, key: Key, answers: Iterable[Answer]) -> Marker:
-        """Return what marks the answers of one student."""
-        said = _by_name(key, answers)
-        said = _by_name(key, [_on_paper(key, answer, said) for answer in said.values()])
+        """Return what marks the answers of one student, of two to one question the first."""
+        said: dict[str, Answer] = {}
+        for answer in answers:
+            if answer.name not in key.questions:
+                raise unknown("quantity-unknown", answer.name, key.questions)
+            if not answer.empty:
+                said.setdefault(answer.name, answer)
+        on_paper = {name: _on_paper(key, answer, said) for name, answer in said.items()}
+        said = {name: answer for name, answer in on_paper.items() if not answer.empty}
         return cls(key, said, {name: (known(a.mu) and a.mu) or None for name, a in said.items()})
+
+    @classmethod
+    def begun(cls, key: Key, answers: Iterable[Answer], redraw: bool = True) -> Marker:
+        """Return what has begun to mark the answers of one student."""
+        marker = cls.of(key, answers)
+        marker.settle_scales(redraw)
+        marker.begin()
+        return marker
 
     def again(self, key: Key, anew: Collection[str], steps: tuple[Step, ...]) -> Marker:
         """Return what marks the same answers under another key: `steps`, that make names `anew`; else all is as here.
@@ -220,7 +247,8 @@ class Marker:
             mu = written or self._likeliest(names)
             self.written.update(dict.fromkeys(names, written is not None))
             self.mus.update({name: mu for name in names if not self.mus[name]})
-            drawn[plan] = _nearest(mu, self.key.paper.mus.get(plan, mu))
+            ours = self.key.paper.mus.get(plan, mu)
+            drawn[plan] = nearest((mu, 1.0 / mu), ours) if mu else ours  # in whichever convention it is meant
         if redraw:
             self.key = self.key.drawn_to({plan: mu for plan, mu in drawn.items() if mu > 0.0})
 
@@ -247,10 +275,12 @@ class Marker:
 
     def _true(self, plan: str) -> float | None:
         """Return to which scale the segments of a plan seem to be drawn."""
-        names = self.segments.get(plan, ())
-        long = [name for name in names if abs(self.answers[name].mm or 0.0) >= SHOWN and not self._is_arm(name)]
-        shown = [self._drawn_to(name) for name in long]
-        return median(shown) if _agree(shown) else None
+        names, questions = self.segments.get(plan, ()), self.key.questions
+        long = [name for name in names if abs(self.answers[name].mm or 0.0) >= SHOWN]
+        shown = [self._drawn_to(name) for name in long if questions[name].step.verb != "arm"]
+        middle = median(shown) if shown else 0.0
+        near = [mu for mu in shown if abs(mu - middle) < AGREE * middle]
+        return middle if len(shown) > 1 and len(near) > len(shown) / 2 else None  # one alone shows none
 
     def begin(
         self, before: Marker | None = None, anew: Collection[str] = (), steps: tuple[Step, ...] | None = None
@@ -384,11 +414,8 @@ class Marker:
 
     def _agrees(self, name: str, written: float, instead: Iterable[float]) -> bool:
         """Whether the value written is one of those that the millimetres mean."""
-        return any(abs(x - abs(written)) <= self._slack(name, x) for x in instead)
-
-    def _slack(self, name: str, value: float) -> float:
-        tolerance, mu = self.key.tolerance, self.key.paper.mus.get(self.key.questions[name].plan, 0.0)
-        return SLACK * max(tolerance.mm * float(mu), tolerance.part * value)
+        most, mu = self.key.tolerance, float(self.key.paper.mus.get(self.key.questions[name].plan, 0.0))
+        return any(abs(x - abs(written)) <= SLACK * max(most.mm * mu, most.part * x) for x in instead)
 
     def _held(self, ways: tuple[Said, ...], name: str, value: Any) -> _Held:
         """Hold an answer against the right values, and against what follows."""
@@ -401,16 +428,13 @@ class Marker:
         own = self._best(ways, name, self._follows(name))
         found = min((right, self._best(ways, name, value), own), key=_off)
         if found.miss.off <= 1.0:
-            right_too = not self.failed or self._near(ways, name)
+            allowed = self.key.allowed[name]  # as near to what is right as hands draw
+            near = (self._missed(way, name, x, allowed).off <= 1.0 for way in ways for x in values)
+            right_too = not self.failed or any(near)
             return found._replace(verdict=Verdict.RIGHT if right_too else Verdict.CARRIED)
         if own.miss.off < NEVER and self.allowance.follows(name):
             found = own
         return found._replace(verdict=Verdict.WRONG, said=self.taken[name])
-
-    def _near(self, ways: tuple[Said, ...], name: str) -> bool:
-        """Whether an answer is as near to what is right as hands draw."""
-        allowed = self.key.allowed[name]
-        return any(self._missed(way, name, x, allowed).off <= 1.0 for way in ways for x in self.key.right(name))
 
     def _best(self, ways: tuple[Said, ...], name: str, value: Any, right: bool = False) -> _Held:
         """Return the way to take an answer that misses a value least."""
@@ -423,28 +447,20 @@ class Marker:
         return min(held, key=_off)
 
     def _missed(self, way: Said, name: str, value: Any, allowed: float) -> Miss:
-        if value is None or value != value:
-            return Miss(NEVER, SIZE)
         return miss(way, value, allowed, self.key.angles.get(name, math.pi))
 
     def _is_unit(self, name: str, value: Any) -> bool:
         """Whether a line is right in another unit that its quantity may have."""
-        units = UNITS.get(self.key.questions[name].unit, ())
-        return self._fits(
-            name, value, [x * unit for x in values_of(self.answers[name], self.mus[name]) for unit in units]
-        )
+        units, values = UNITS.get(self.key.questions[name].unit, ()), values_of(self.answers[name], self.mus[name])
+        return self._fits(name, value, [x * unit for x in values for unit in units])
 
     def _is_scale(self, name: str, value: Any) -> bool:
         """Whether only the convention of the scale factor, or the scale itself, makes a line wrong."""
-        answer, others = self.answers[name], list(measured(self.answers[name], self.mus[name]))
-        true = self._true(self.key.questions[name].plan) if answer.mm and not self._is_arm(name) else None
-        if true is not None and answer.mm:
-            others.append(answer.mm * true)
-        return self._fits(name, value, others)
-
-    def _is_arm(self, name: str) -> bool:
-        """Whether a segment hangs on the direction of a force, and shows no scale when that is wrong."""
-        return self.key.questions[name].step.verb == "arm"
+        question, mm = self.key.questions[name], self.answers[name].mm
+        # an arm hangs on the direction of a force, and shows no scale when that is wrong
+        true = self._true(question.plan) if mm and question.step.verb != "arm" else None
+        own = (mm * true,) if true is not None and mm else ()
+        return self._fits(name, value, (*measured(self.answers[name], self.mus[name]), *own))
 
     def _fits(self, name: str, value: Any, others: Iterable[float]) -> bool:
         """Whether a line would pass with one of other values, and that in a few parts of a hundred."""
@@ -461,15 +477,3 @@ class Marker:
 
 def _off(held: _Held) -> float:
     return held.miss.off
-
-
-def _agree(shown: list[float]) -> bool:
-    """Whether most segments of a plan show the same scale; one alone shows none."""
-    middle = median(shown) if shown else 0.0
-    near = [mu for mu in shown if abs(mu - middle) < AGREE * middle]
-    return len(shown) > 1 and len(near) > len(shown) / 2
-
-
-def _nearest(mu: float, ours: float) -> float:
-    """Return a scale factor as value per mm, whichever convention is nearer to ours."""
-    return nearest((mu, 1.0 / mu), ours) if mu else ours

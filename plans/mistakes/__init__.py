@@ -16,21 +16,8 @@
     >>> sorted(explanation.candidates[0].ids)  # in sizes, a_A outward and a_BA_n away from A are one
     ['M37', 'M38']
 
-`book.MISTAKES`
-    All `Mistake(id, rules, by_scale)` by id, `M01` ...; `data`, `motion` and `forces` hold the rules of linkages,
-    `cams` and `gears` those of these. Whether one concerns a task follows from the steps of its program alone.
-`rules.Broken(mistake, paper, change)`
-    One rule broken at one place: `at` names the step, the quantity or the given; `program` and `givens` are those of
-    the construction with the rule broken.
-`book.broken(paper, values, ids=()) -> iterator of Broken`
-    Every way in which a construction can go wrong.
-`book.book(key) -> Book`
-    The signatures of all of them for one answer key, to be kept with it.
-`explaining.explain(book, marking) -> Explanation(candidates, marking)`
-    Candidates, the simplest first; none for answers without an error. The marking is the one given, but for lines that
-    the first candidate explains: all but the first wrong one are `carried`.
-`explaining.Candidate(mistakes, same, explained, left, misses)`
-    An explanation by one or two `Broken`; `same` are others that these answers cannot tell from it, to be reported with
-    it; `explained` names the lines that are wrong without it and right with it, `left` those that stay wrong; `misses`
-    is the root mean square of the misses of all answers, in tolerances; `ids` are the numbers of all.
+`book.MISTAKES` has all by id, `M01` ...; `data`, `motion` and `forces` hold the rules of linkages, `cams` and `gears`
+those of these. Whether one concerns a task follows from the steps of its program alone. `book.broken` goes through
+every way in which a construction can go wrong, `book.book` keeps what each of them gives with an answer key, and
+`explaining.explain` finds the candidates that explain one student's answers, the simplest first.
 """

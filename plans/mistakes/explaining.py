@@ -6,7 +6,7 @@ the answers marked with it: what is still wrong is not explained. Where one mist
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from ..board import Step
 from ..hands.shaky import Paper
 from ..marking.again import Judged
-from ..marking.answers import FREE, Answer, Said, known, measured, nearest
-from ..marking.verdicts import Line, Marking, Verdict, behind
+from ..marking.answers import FREE, Answer, Line, Said, Verdict, known, measured, nearest
+from ..marking.key import behind
+from ..marking.verdicts import Marking
 from .book import MISTAKES, Book, Signature, broken, key_of, signatures
 from .data import other_orders, transposed
 from .rules import Broken, Scene
@@ -192,8 +193,8 @@ class _Search:
         likely = (means < self.without) | (off[:, self.first] <= 1.0)
         near = [int(i) for i in np.argsort(means, kind="stable") if likely[i]][:NEAR]
         near = [i for i in near if means[i] <= FAR * means[near[0]] + NEARLY]
-        found = [one for i in near if (one := self._found((self.book.signatures[i],))) is not None]
-        found += self._written()
+        found = self._alone(self.book.signatures[i] for i in near)
+        found += self._alone(self._transposed(self.marking.lines[self.first], ()))
         if not any(one.fits and not ANGLED.intersection(one.candidate.ids) for one in found):
             found += self._turned()
         if not any(one.fits for one in found):
@@ -208,29 +209,21 @@ class _Search:
             candidates = _simplest((*self._put_right(off), *candidates))
         return Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
 
-    def _written(self) -> list[_Found]:
-        """Return the numbers with two digits transposed at the first wrong line."""
-        made = self._transposed(self.marking.lines[self.first], ())
+    def _alone(self, made: Iterable[Signature]) -> list[_Found]:
+        """Return the single mistakes that explain the first wrong line."""
         return [found for one in made if (found := self._found((one,))) is not None]
 
     def _chained(self, found: list[_Found], off: Floats) -> list[_Found]:
         """Add mistakes to those that leave lines clearly wrong, one at the first of these lines after another."""
         made: list[_Found] = []
-        ends = [one for one in found if one.clear]
+        ends = found
         for _ in range(DEPTH - 1):
-            ends = sorted(ends, key=_rank)[:BEAM]
-            longer = [more for one in ends for more in self._longer(one, off)]
-            made += longer
-            ends = [one for one in longer if one.clear]
+            first, ends = sorted((one for one in ends if one.clear), key=_rank)[:BEAM], []
+            for one in first:
+                longer = (self._at_line(one.lines, place, one.chain, off) for place in one.clear[:LINES])
+                ends += next(filter(None, longer), [])
+            made += ends
         return made
-
-    def _longer(self, one: _Found, off: Floats) -> list[_Found]:
-        """Add a mistake to a chain, at the first line clearly wrong after it that one explains."""
-        for place in one.clear[:LINES]:
-            longer = self._at_line(one.lines, place, one.chain, off)
-            if longer:
-                return longer
-        return []
 
     def _at_line(self, lines: tuple[Line, ...], place: int, chain: tuple[Signature, ...], off: Floats) -> list[_Found]:
         """Add a mistake to a chain: one that moves a line and none before it that passes.
@@ -334,8 +327,7 @@ class _Search:
             most = book.allowed * np.fmax(1.0, np.abs(table) / np.abs(book.right))
         means = _mean(self.said.misses(book, table, most))
         near = [int(i) for i in np.argsort(means, kind="stable")[:ANGLES] if means[i] <= 1.0]
-        made = signatures(book.key, map(book.turned.broken, near))
-        return [found for one in made if (found := self._found((one,))) is not None]
+        return self._alone(signatures(book.key, map(book.turned.broken, near)))
 
     def _put_right(self, off: Floats) -> tuple[Candidate, ...]:
         """Return the mistakes that explain every line that is not right, where right values were taken after them."""
@@ -346,19 +338,15 @@ class _Search:
         means = _mean(off[:, astray])
         fitting = [int(i) for i in np.argsort(means, kind="stable") if means[i] <= (1.0 if len(astray) > 1 else ALIKE)]
         names = [line.name for line in self.marking.lines]
-        missed = {i: {names[j] for j in astray if off[i, j] > 1.0} for i in fitting}
-        found = [
-            Candidate(
-                (self.book.signatures[i].broken,),
-                (),
-                tuple(name for name in self.faulty if name not in missed[i]),
-                tuple(name for name in self.faulty if name in missed[i]),
-                float(means[i]),
-            )
-            for i in fitting
-            if off[i, self.first] <= 1.0
-        ]
-        return _simplest(tuple(found))[:NEAR]
+        found = []
+        for i in fitting:
+            missed = {names[j] for j in astray if off[i, j] > 1.0}
+            explained = tuple(name for name in self.faulty if name not in missed)
+            left = tuple(name for name in self.faulty if name in missed)
+            if off[i, self.first] <= 1.0:
+                broken = (self.book.signatures[i].broken,)
+                found.append(Candidate(broken, (), explained, left, float(means[i])))
+        return _simplest(found)[:NEAR]
 
     def _found(self, chain: tuple[Signature, ...], first: str = "") -> _Found | None:
         """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
@@ -403,12 +391,12 @@ class _Search:
         if candidate.misses > 1.0:
             return self.marking  # it fits in part, but not within the tolerances
         first, *others = candidate.explained
-        own = (
-            {self._first_of(mistake, candidate) for mistake in candidate.mistakes}
-            if len(candidate.mistakes) > 1
-            else ()
+        several = len(candidate.mistakes) > 1
+        own = {self._first_of(mistake, candidate) for mistake in candidate.mistakes} if several else set[str]()
+        lines = tuple(
+            replace(line, verdict=Verdict.CARRIED, about="") if line.name in others and line.name not in own else line
+            for line in self.marking.lines
         )
-        lines = tuple(_carried(x) if x.name in others and x.name not in own else x for x in self.marking.lines)
         return replace(self.marking, lines=lines, first_wrong=first, step=behind(self.marking.key, first))
 
     def _first_of(self, mistake: Broken, candidate: Candidate) -> str:
@@ -417,13 +405,9 @@ class _Search:
         alone = next((s for s in book.signatures if s.broken.place == mistake.place), None)
         if alone is None:
             return candidate.explained[0]
-        moved = np.abs(alone.row - book.right) > book.allowed
-        names = [name for name, one in zip(book.key.questions, moved, strict=True) if one]
-        return next((name for name in names if name in candidate.explained), candidate.explained[0])
-
-
-def _carried(line: Line) -> Line:
-    return replace(line, verdict=Verdict.CARRIED, about="")
+        moved = zip(book.key.questions, np.abs(alone.row - book.right) > book.allowed, strict=True)
+        names = (name for name, by_itself in moved if by_itself and name in candidate.explained)
+        return next(names, candidate.explained[0])
 
 
 def _columns(marking: Marking) -> _Answers:
@@ -463,22 +447,18 @@ def _numbers(candidate: Candidate) -> tuple[str, ...]:
     return tuple(sorted(one.mistake for one in candidate.mistakes))
 
 
-def _simplest(candidates: tuple[Candidate, ...]) -> tuple[Candidate, ...]:
+def _simplest(candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
     """Leave out pairs of which one alone explains as much; put together those of one number that explain the same."""
     found: dict[tuple[tuple[str, ...], frozenset[str]], Candidate] = {}
     for candidate in candidates:
-        if not any(_needless(candidate, other) for other in candidates):
-            key = _numbers(candidate), frozenset(candidate.explained)
+        key = _numbers(candidate), frozenset(candidate.explained)
+        # whether another one explains as much with some of the same mistakes
+        fewer = [o for o in candidates if len(o.mistakes) < len(candidate.mistakes) and key[1] <= set(o.explained)]
+        if not any(set(_numbers(other)) <= set(key[0]) for other in fewer):
             first = found.get(key)
             same = () if first is None else (*first.same, candidate.mistakes, *candidate.same)
             found[key] = candidate if first is None else replace(first, same=same)
     return tuple(found.values())
-
-
-def _needless(candidate: Candidate, other: Candidate) -> bool:
-    """Whether another candidate explains as much with some of the same mistakes."""
-    fewer = len(other.mistakes) < len(candidate.mistakes) and set(_numbers(other)) <= set(_numbers(candidate))
-    return fewer and set(candidate.explained) <= set(other.explained)
 
 
 def _alike(row: Any, other: Any, allowed: Floats, turned: NDArray[np.bool_]) -> bool:

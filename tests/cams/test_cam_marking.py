@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from kulman import check, solve
-from kulman.plans.marking.verdicts import Verdict
+from kulman.plans.marking.answers import Verdict
 from kulman.tests.support.cam_students import ROCKER
 from kulman.variants.marking.checks import Check
 from kulman.variants.solution import Solution

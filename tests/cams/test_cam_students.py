@@ -15,8 +15,8 @@ from kulman.plans.cams.cam import LAWS
 from kulman.plans.hands.hand import PRESETS, preset
 from kulman.plans.hands.shaky import draw
 from kulman.plans.hands.spread import kept
-from kulman.plans.marking.answers import Answer
-from kulman.plans.marking.verdicts import Line, Verdict, mark
+from kulman.plans.marking.answers import Answer, Line, Verdict
+from kulman.plans.marking.verdicts import mark
 from kulman.tests.support.cam_students import MADI, ROCKER, Settings, asked, asked_key, keyed_cam, random_cams
 from kulman.tests.support.marking_cases import HAND, students
 from kulman.variants.hands import Drawing

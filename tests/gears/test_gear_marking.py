@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from kulman import check, solve
-from kulman.plans.marking.verdicts import Verdict
+from kulman.plans.marking.answers import Verdict
 from kulman.variants.solution import Solution
 
 TASK = "madi-gear"

@@ -11,7 +11,7 @@ import pytest
 from kulman import check, solve
 from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.hoist import VALUES, Hoist
-from kulman.plans.marking.verdicts import Verdict
+from kulman.plans.marking.answers import Verdict
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.hoists import VARIANTS
 from kulman.variants.reader import check_text, load_task

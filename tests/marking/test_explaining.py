@@ -13,9 +13,9 @@ import pytest
 from kulman.plans.boards.exact import run
 from kulman.plans.hands.hand import preset
 from kulman.plans.hands.shaky import Paper
-from kulman.plans.marking.answers import Answer
+from kulman.plans.marking.answers import Answer, Verdict
 from kulman.plans.marking.key import Key, answer_key
-from kulman.plans.marking.verdicts import Verdict, mark
+from kulman.plans.marking.verdicts import mark
 from kulman.plans.mistakes.book import Book, Signature, book, broken, signatures
 from kulman.plans.mistakes.explaining import Candidate, Explanation, explain
 from kulman.tests.support.broken_rules import (

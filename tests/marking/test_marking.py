@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from kulman.plans.hands.hand import preset
-from kulman.plans.marking.answers import Answer
+from kulman.plans.marking.answers import Answer, Verdict
 from kulman.plans.marking.key import Key, answer_key
-from kulman.plans.marking.verdicts import CLEAR, Marking, Verdict, mark
+from kulman.plans.marking.verdicts import CLEAR, Marking, mark
 from kulman.scales.errors import InputError
 from kulman.tests.support.marking_cases import LINKAGES, in_millimetres, key, paper, right_answers, students
 from kulman.tests.support.mechanisms import SEED

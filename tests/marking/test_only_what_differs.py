@@ -9,9 +9,9 @@ import pytest
 
 from kulman.plans.boards.exact import run
 from kulman.plans.marking.again import Judged
-from kulman.plans.marking.answers import Answer, Said
+from kulman.plans.marking.answers import Answer, Line, Said, Verdict
 from kulman.plans.marking.student import StudentBoard, settled
-from kulman.plans.marking.verdicts import CLEAR, Line, Verdict, count_right, judge, mark
+from kulman.plans.marking.verdicts import CLEAR, count_right, judge, mark
 from kulman.plans.mistakes.book import key_of
 from kulman.tests.support.marking_cases import LINKAGES, key, mistakes, planted, right_answers
 

@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 
 from kulman import check
-from kulman.plans.marking.answers import Answer, Said
+from kulman.plans.marking.answers import Answer, Said, Verdict
 from kulman.plans.marking.student import StudentBoard
-from kulman.plans.marking.verdicts import Marking, Verdict, mark
+from kulman.plans.marking.verdicts import Marking, mark
 from kulman.tests.support.marking_cases import answer, key, mistakes, right_answers
 from kulman.tests.support.students import SEED, SLIPS
 from kulman.tests.support.students_marked import marked, population

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from ...drawing.linkages.reading import read
 from ...plans.board import POSITION
-from ...plans.marking.verdicts import Line, Verdict
+from ...plans.marking.answers import Line, Verdict
 from ...plans.names import role
 from .marked import Marked
 from .wording import plain, script_runs, texts

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 from statistics import median
 from typing import TYPE_CHECKING
 
-from ...plans.marking.answers import Answer
-from ...plans.marking.key import Key
-from ...plans.marking.verdicts import CLEAR, Line, Marking, Verdict, behind, bounded, count_right, first_wrong, mark
+from ...plans.marking.answers import Answer, Line, Verdict
+from ...plans.marking.key import Key, behind
+from ...plans.marking.verdicts import CLEAR, Marking, bounded, count_right, first_wrong, mark
 from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
 from ...scales.kept import Kept

@@ -13,7 +13,8 @@ from typing import Any, TypeVar
 
 from ...drawing.words import Words
 from ...drawing.writers import save_all
-from ...plans.marking.verdicts import Line, Verdict, behind
+from ...plans.marking.answers import Line, Verdict
+from ...plans.marking.key import behind
 from ...plans.mistakes.rules import Broken
 from ...plans.names import role
 from ...scales.units import format_unit

@@ -12,8 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from ...plans.marking.answers import Verdict
 from ...plans.marking.key import Key
-from ...plans.marking.verdicts import Verdict
 from ...scales.errors import KulmanError
 from ..roster import WHO, Entry, Who
 from ..tables import Cell

@@ -10,9 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from ...plans.hands.hand import Tolerance, preset
-from ...plans.marking.answers import Answer
+from ...plans.marking.answers import Answer, Line, Verdict
 from ...plans.marking.key import Question
-from ...plans.marking.verdicts import Line, Verdict
 from ...plans.quantities import unit_of
 from ...scales.errors import InputError
 from ...scales.names import unknown
