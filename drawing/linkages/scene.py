@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from ...plans.board import POSITION, Program
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
-from ...plans.linkages.mechanism import Driver, Mechanism
+from ...plans.linkages.mechanism import Driver, Mechanism, Prismatic
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Structure
 from ...plans.names import inertia, rate, role
@@ -20,38 +20,27 @@ from ..rungs import SubjectScene
 from ..shapes import Group, Pen, Vector
 from ..view import Canvas
 from ..words import Words
-from .layout.ladders import DRIVER
+from .ladders import DRIVER
 from .reading import Edge, Reading, read
 
 if TYPE_CHECKING:
     from ...plans.linkages.cycles.limits import Runs
-    from .skeleton import Skeleton
+    from .figures.links import Skeleton
 
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 
 
-class Scales(Mapping[str, Scale]):
-    """Scale factors by plan that note which of them a figure has `used`.
+class Scales(dict[str, Scale]):
+    """Scale factors by plan that note which of them a figure has `used`."""
 
-    Some plans have those of others `instead`, where there are any: the driver's own figure is a plan of the mechanism.
-    """
-
-    def __init__(self, scales: Mapping[str, Scale], instead: Mapping[str, str] | None = None) -> None:
-        self._scales, self._instead, self.used = scales, instead or {}, dict[str, Scale]()
+    def __init__(self, scales: Mapping[str, Scale]) -> None:
+        super().__init__(scales)
+        self.used = dict[str, Scale]()
 
     def __getitem__(self, plan: str) -> Scale:
         """Return the scale factor of a plan and note it."""
-        other = self._instead.get(plan, plan)
-        scale = self.used[plan] = self._scales[other if other in self._scales else plan]
+        scale = self.used[plan] = super().__getitem__(plan)
         return scale
-
-    def __iter__(self) -> Iterator[str]:
-        """Go through the plans."""
-        return iter(self._scales)
-
-    def __len__(self) -> int:
-        """Return the number of plans."""
-        return len(self._scales)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +88,12 @@ class Scene(SubjectScene[SolvedLinkage]):
         """Return a mark in mm from the origin of its plan."""
         plan = role(mark).plan
         return self.solved.point(mark) * (1.0 / self.scales[plan].mu)
+
+    def run_of(self, pair: Prismatic) -> tuple[float, float]:
+        """Return how far a slider goes back and forth of its place, mm."""
+        low, high = self.runs.get(self.solved.guide_name(pair), (0.0, 0.0))
+        per_mm = 1.0 / self.scales[POSITION].mu
+        return low * per_mm, high * per_mm
 
     def direction(self, name: str) -> complex:
         """Return the unit direction of a vector, or 0 when it is zero."""

@@ -21,12 +21,11 @@ from .calculations.equations import rate_of, sensed, size_of, stated
 from .calculations.forces import LOADS, force_lines, force_parts, lines_by_plan
 from .calculations.kinematics import kinematics_lines
 from .calculations.tables import printed_segment
+from .compound import block_name, compound_lines, compound_told
 from .figures.inset import ENLARGED
-from .layout.ladders import links_apart
+from .ladders import links_apart
 from .scene import Scene, is_at_point, plan_heading
-from .telling.compound import block_name, compound_lines, compound_told
-from .telling.marks import TOLD, lever_told
-from .telling.teller import Teller, Told
+from .telling import TOLD, Teller, Told, lever_told
 
 SET = ("pole", "place")  # verbs that set a drawing up
 PLANS = {"velocity": ("V", "omega"), "acceleration": ("a", "epsilon")}  # kinds of vectors and of rates
@@ -197,7 +196,6 @@ def _balance(teller: Teller, name: str) -> Iterator[str]:
 
 
 def _compared(teller: Teller, name: str) -> Iterator[str]:
-    """Compare what balances the driver by the force plans and by the lever."""
     words, quantities = teller.scene.words, teller.scene.solved.quantities
     by_plans, by_lever = quantities.get(name), quantities.get(f"{name}_lever")
     if by_plans is None or by_lever is None or not by_plans.value or by_lever.value is None:
@@ -226,7 +224,6 @@ def _angles(teller: Teller) -> Iterator[str]:
 
 
 def _met(teller: Teller, mark: str, sine: float) -> str:
-    """Return a point with its plan and the angle at which its lines meet."""
     words, solved = teller.scene.words, teller.scene.solved
     heading = plan_heading(words, solved.structure, role(mark).plan)
     angle = words.short(math.degrees(math.asin(min(sine, 1.0))), 3)

@@ -13,7 +13,7 @@ import pytest
 
 from kulman import note
 from kulman.drawing.linkages.steps import drawn_views, told_of
-from kulman.drawing.linkages.telling.teller import Teller
+from kulman.drawing.linkages.telling import Teller
 from kulman.drawing.notes.blocks import Equations, Figure, Heading, Steps, Story
 from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged

@@ -14,7 +14,7 @@ from kulman.drawing.linkages.calculations.equations import Lines
 from kulman.drawing.linkages.calculations.forces import force_lines, force_parts, lever_lines
 from kulman.drawing.linkages.calculations.kinematics import kinematics_lines
 from kulman.drawing.linkages.calculations.tables import ROWS, formula, results_parts
-from kulman.drawing.linkages.layout.ladders import first_scales
+from kulman.drawing.linkages.ladders import first_scales
 from kulman.drawing.linkages.reading import lettered
 from kulman.drawing.linkages.scene import Scene
 from kulman.drawing.words import Words, notations

@@ -7,8 +7,7 @@ from itertools import combinations
 import numpy as np
 
 from kulman.drawing.formats import STYLES
-from kulman.drawing.linkages.figures.acting import Arm
-from kulman.drawing.linkages.figures.lever import staggered
+from kulman.drawing.linkages.figures.acting import Arm, staggered
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.view import Canvas
 from kulman.tests.support.sheet_geometry import crosses

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...drawing.charts.linkage import SPOTS, Abscissa, depth_page, depth_verdict, stability_page
 from ...drawing.formats import format_named
-from ...drawing.linkages.layout.ladders import first_scales
+from ...drawing.linkages.ladders import first_scales
 from ...drawing.words import GREEK, Words
 from ...plans.board import with_needs
 from ...plans.boards.exact import SMALL, STATUSES

@@ -107,7 +107,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         self, solved: SolvedLinkage, choosers: Choosers, plans: tuple[str, ...]
     ) -> tuple[Format, dict[str, Scale]]:
         """Return format and scale factors by plan, chosen by the areas of figures."""
-        from ...drawing.linkages.layout.ladders import first_scales
+        from ...drawing.linkages.ladders import first_scales
 
         return first_scales(solved, choosers, plans)
 
@@ -174,8 +174,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the plans of one position, and the cycle where the task wants it."""
-        from ...drawing.linkages.layout.sheet import draw
-        from ...drawing.linkages.views import Contents
+        from ...drawing.linkages.sheet import Contents, draw
 
         whole = None
         if "cycle" in case.plans:  # drawing a single position does not import it

@@ -13,8 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...drawing.linkages.layout.sheet import draw
-from ...drawing.linkages.views import Contents
+from ...drawing.linkages.sheet import Contents, draw
 from ...drawing.titleblock import Stamp
 from ...drawing.words import Words
 from ...drawing.writers import Files, page_files, save_all

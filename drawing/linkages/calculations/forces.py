@@ -168,7 +168,6 @@ SIGNS = {"moment_equation": -1.0, "closing_force": 1.0}  # of the force's own mo
 
 
 def _is_sum(moment: str) -> bool:
-    """Whether a moment is that of a force or of several, found on the way to another."""
     return role(moment).kind == "M" and role(moment).hidden
 
 
@@ -222,7 +221,6 @@ def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> Lines:
 
 
 def _arm(scene: Scene, step: Step) -> Lines:
-    """Tell the arm on which a guide's reaction has the moment found."""
     words, (moment, reaction) = scene.words, step.operands
     if scene.solved.values[moment] == 0.0:
         return []  # told with the moment
@@ -316,7 +314,6 @@ def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
 
 
 def _couple(scene: Scene, step: Step) -> Lines:
-    """A couple as two forces on the ends of its link."""
     words = scene.words
     pair = [s.name for s in scene.program if role(s.name).whole == step.name != s.name]
     if not scene.defined(step.name):
@@ -343,7 +340,6 @@ def _sum(scene: Scene, step: Step) -> Lines:
 
 
 def _difference(scene: Scene, step: Step) -> Lines:
-    """The difference of two values in per cent, of their printed values."""
     words, values = scene.words, scene.solved.values
     lever, plan = (abs(values[name]) for name in step.operands)
     if lever == 0.0:

@@ -209,7 +209,6 @@ def _absolute(scene: Scene, step: Step) -> Lines:
 
 
 def _comparison(scene: Scene, rate: str) -> tuple[str, ...]:
-    """Say whether a link speeds up or slows down."""
     w, link = scene.words, role(rate).of
     speed = f"omega_{link}"
     omega, epsilon = rate_of(scene, speed), rate_of(scene, rate)

@@ -117,7 +117,6 @@ def _evenly(pieces: list[_Piece]) -> list[list[_Piece]]:
 
 
 def _chunks(names: list[str]) -> Iterator[list[str]]:
-    """Cut what is too long for one table into equal pieces."""
     count = math.ceil(len(names) / ROWS)
     for k in range(count):
         yield names[k * len(names) // count : (k + 1) * len(names) // count]
@@ -209,7 +208,6 @@ def structure_lines(scene: Scene) -> Lines:
 
 
 def _group(scene: Scene, group: Group) -> tuple[str, ...]:
-    """Return a group's links, class, order and kind, in chunks."""
     words = scene.words
     text = words["structure.group"].format(
         links=_links(group), group_class=CLASSES[group.group_class], order=group.order

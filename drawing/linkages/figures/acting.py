@@ -1,19 +1,25 @@
-"""What acts on each link, and where: loads, reactions of other groups, couples and arms, as the program has them."""
+"""What acts on each link, and where, as the program has it: loads, reactions, couples, arms; all of it on the lever."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations, pairwise
+from math import cos, radians
+from typing import NamedTuple
 
+from ....plans.board import Step
 from ....plans.laws import cross
 from ....plans.linkages.mechanism import Pair, Prismatic
 from ....plans.linkages.structure import Group
-from ....plans.names import role
+from ....plans.names import COUPLE, lever_arm, role, spelled
 from ...shapes import Arrow, Line, Pen
 from ...symbols import arm, clear_ray, room_on
-from ...view import Canvas
+from ...view import Canvas, View
+from ..reading import Edge
 from ..scene import Scene
-from ..skeleton import Stroke, rays_of
+from .inset import letter_marks
+from .links import Stroke, rays_of
 
 Hung = list[tuple[str, str]]  # force, mark of the point where it acts
 LEAST = 0.05  # mm: a shorter arm is none
@@ -21,10 +27,12 @@ PAST = 4.0  # mm by which the line of a force runs past what it meets
 SHORTER = 0.6  # part of its length that an arrow beyond another one has
 SPARE, ALONG = 1.2, 2.5  # mm between two arrows on a line, and beside one another where they count as on one
 FARTHEST = 2.5  # lengths of an arrow that it may stand from its point
+BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
+BESIDE = cos(radians(12.0))  # arms that make a smaller angle run into one another
+STEP = 2.4  # heights of an arm's letters between arms that are staggered
 
 
-@dataclass(frozen=True, slots=True)
-class Moment:
+class Moment(NamedTuple):
     """The moment of a force about a joint, and the name of its arm."""
 
     force: str
@@ -33,8 +41,7 @@ class Moment:
     about: str
 
 
-@dataclass(frozen=True, slots=True)
-class Contact:
+class Contact(NamedTuple):
     """Where the reaction of a guide acts: the arm's name, the pin from which it is counted, along `u`, metres.
 
     `couple` names the moment of a reaction that has no size: then there is a couple and no arm.
@@ -82,13 +89,10 @@ def couples(scene: Scene, number: int) -> list[str]:
 
 def reactions(scene: Scene, group: Group) -> list[tuple[Pair, int, list[str]]]:
     """Return the outer pairs of a group, its own link in each, and the reaction's name, or those of its two parts."""
-    found = []
-    for pair, before in zip(group.outer, group.before, strict=True):
-        own = next(number for number in pair.links if number in group.links)
-        whole = f"R_{scene.mechanism.index(before, own)}"
-        parts = [f"{whole}_{part}" for part in ("n", "t") if f"{whole}_{part}" in scene.solved.values]
-        found.append((pair, own, parts or [whole]))
-    return found
+    own = [next(number for number in pair.links if number in group.links) for pair in group.outer]
+    wholes = [f"R_{scene.mechanism.index(*links)}" for links in zip(group.before, own, strict=True)]
+    parts = [[name for name in (f"{whole}_n", f"{whole}_t") if name in scene.solved.values] for whole in wholes]
+    return [(pair, n, p or [w]) for pair, n, p, w in zip(group.outer, own, parts, wholes, strict=True)]
 
 
 def moments_of(scene: Scene, numbers: tuple[int, ...]) -> list[Moment]:
@@ -104,24 +108,21 @@ def moments_of(scene: Scene, numbers: tuple[int, ...]) -> list[Moment]:
 
 
 def _link_of(scene: Scene, force: str) -> int | None:
-    """Return the link on which a force acts."""
     own = [load.link for load in scene.mechanism.loads if load.name == force]
     moving = {link.number for link in scene.mechanism.links}
     return next(iter(own + [on for on in role(force).links[-1:] if on in moving]), None)
 
 
-def contact(scene: Scene, group: Group, pair: Prismatic, number: int, other: int) -> Contact | None:
+def contact(scene: Scene, pin: str, pair: Prismatic, number: int, other: int) -> Contact | None:
     """Return where the reaction R of link `other` on `number` in a prismatic pair acts, both ways of naming tried."""
-    for first, second in ((other, number), (number, other)):
-        index = scene.mechanism.index(first, second)
-        step = next((s for s in scene.program if s.verb == "arm" and s.name == f"h_{index}"), None)
-        if step is not None and step.operands[1] == f"R_{index}":
+    for links in ((other, number), (number, other)):
+        index = scene.mechanism.index(*links)
+        step = scene.reading.made.get(f"h_{index}")
+        if step is not None and step.verb == "arm" and step.operands[1] == f"R_{index}":
             break
     else:
         return None
-    moment, reaction = step.operands
-    pin = group.pin(pair)
-    u = scene.solved.point(scene.solved.guide_name(pair))
+    (moment, reaction), u = step.operands, scene.solved.point(scene.solved.guide_name(pair))
     value = float(scene.solved.values[moment])
     # the moment of the loads, which the reaction balances, or that of the reaction itself
     turning = -value if role(moment).hidden else value
@@ -143,8 +144,8 @@ class Arrows:
     _lying: list[Stroke] = field(default_factory=list)
     _barred: dict[complex, list[complex]] = field(default_factory=dict)
 
-    def hang(self, name: str, at: complex, gap: float = 0.0) -> None:
-        """Draw the arrow of a force at a point, `gap` mm from it or more, and letter it; once."""
+    def hang(self, name: str, at: complex) -> None:
+        """Draw the arrow of a force at a point, or beyond what stands there, and letter it; once."""
         if name in self.hung or not self.scene.defined(name):
             return
         self.hung.append(name)
@@ -152,6 +153,7 @@ class Arrows:
         if e == 0:
             self.zero.append(name)
             return
+        gap = self._gap(at, e)
         ray, start = self._where(at, e, gap)
         near, far = at + ray * start, at + ray * (start + self._length(start > gap))
         self.at.setdefault(_place(at), []).append(far - at)
@@ -159,6 +161,9 @@ class Arrows:
         tail, tip = (near, far) if abs(ray - e) < 1.0 else (far, near)
         self.canvas.add(Arrow(tail, tip, Pen.MAIN, name=name))  # its letter stands beside its outer half
         self.canvas.label(self.scene.letter(name), (far - ray * 0.55 * self.scene.style.force, far), clear=0.9)
+
+    def _gap(self, at: complex, e: complex) -> float:
+        return 0.0
 
     def bar(self, at: complex, directions: Iterable[complex]) -> None:
         """Let no arrow leave a place in these directions."""
@@ -209,27 +214,176 @@ class Arm:
     along: complex
     foot: complex
 
-    def said(self, scene: Scene) -> str:
-        """Return what is written on the arm."""
-        symbols = " = ".join(scene.words.symbol(name) for name in self.names)
-        return f"{symbols} = {scene.segment(self.names[0])}"
-
-    @property
-    def line(self) -> str:
-        """The name of the line on which the forces act."""
-        return " ".join(self.forces)
-
     def draw(self, canvas: Canvas, scene: Scene, about: complex, shift: complex = 0j) -> None:
         """Draw the line of the forces, thin, from their arrow past its foot, and the arm from `about`, both shifted."""
         start, foot, reach = about + shift, self.foot + shift, 0.6 * scene.style.force
         ends = sorted((-reach, reach, ((foot - self.at) / self.along).real))
         line = (self.at + self.along * (ends[0] - PAST), self.at + self.along * (ends[-1] + PAST))
-        canvas.add(Line(*line, Pen.THIN, role="line-of-action", name=self.line))
+        canvas.add(Line(*line, Pen.THIN, role="line-of-action", name=" ".join(self.forces)))
         if abs(self.foot - about) >= LEAST:
             if shift:
                 beyond = about + shift * (1 + 1.5 / abs(shift))
                 canvas.add(Line(about, beyond, Pen.THIN, role="extension", name=self.names[0]))
             canvas.add(arm(start, foot, self.names[0], self.along, scene.style))
             # smaller than a node's letter: a number with its symbol is long, and arms lie close together
-            text, height = self.said(scene), scene.style.text
+            symbols = " = ".join(scene.words.symbol(name) for name in self.names)
+            text, height = f"{symbols} = {scene.segment(self.names[0])}", scene.style.text
             canvas.label(text, (start, foot), clear=0.9, height=height, strict=True, spare=text)
+
+
+def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
+    """Say in one line which of these forces, couples and arms are zero: the figure cannot show them."""
+    w, couples = scene.words, {couple.name for couple in scene.mechanism.couples}
+    gone = [name for name in dict.fromkeys(names) if scene.defined(name) and scene.vanishes(name)]
+    parts = [w.symbol(role(name).shown, bar=role(name).kind not in ("M", "h") and name not in couples) for name in gone]
+    return (f"{' = '.join(parts)} = 0",) if parts else ()
+
+
+def lever_view(scene: Scene) -> View:
+    """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
+    canvas = scene.canvas(drawn_with(scene))
+    words, point = scene.words, scene.mechanism.driver.point
+    marks = dict.fromkeys(("lever.p", *images(scene)))
+    lines, hung = lines_of_lever(scene), hung_on_lever(scene)
+    strokes = [(image(scene, line.tail), image(scene, line.tip)) for line in lines]
+    for stroke, line in zip(strokes, lines, strict=True):
+        canvas.part(scene.last(canvas.parts.get(mark, mark) for mark in (line.tail, line.tip)))
+        canvas.add(Line(*stroke, Pen.MAIN, role="lever", name=line.name))
+    arrows = Arrows(canvas, scene, strokes)
+    for name, mark in hung:
+        at = image(scene, mark)
+        canvas.part(name)
+        arrows.bar(at, rays_of(at, strokes))
+        arrows.hang(name, at)
+    places = {mark: image(scene, mark) for mark in marks}
+    pole, arms = image(scene, "lever.p"), arms_on_lever(scene)
+    shifts = staggered(pole, arms, sum(places.values()) / len(places), STEP * scene.style.text)
+    for number, each in enumerate(arms):
+        canvas.part(scene.last(canvas.parts[force] for force in each.forces))
+        each.draw(canvas, scene, pole, shifts.get(number, 0j))
+    canvas.part(hung[-1][0])  # the velocity of the driver's point is the arm of the force that balances
+    text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
+    ends = pole, image(scene, f"lever.{point}")
+    canvas.label(text, ends, clear=0.9, height=scene.style.text, spare=text)
+    letters = {mark: letter_of(scene, mark) for mark in marks} | {"lever.p": words.mark("lever.p")}
+    letter_marks(canvas, scene, letters, places, ("lever.p",))
+    gone = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]
+    zero = zeros(scene, [*arrows.zero, *gone])
+    return canvas.finish("lever", scene.heading("heading.lever", "lever"), (words["said.lever"], *zero))
+
+
+def drawn_with(scene: Scene) -> dict[str, str]:
+    """Return the step in which each force and each image is drawn that is drawn with another.
+
+    A force is hung with the first one on its mark; an image on which nothing hangs is turned with the last one.
+    """
+    first, found = dict[str, str](), dict[str, str]()
+    for step in _moments_on_lever(scene):
+        found[step.operands[0]] = first.setdefault(step.operands[1], step.name)
+    couples = {role(name).of: step for name, step in reversed(found.items()) if role(name).part == COUPLE}
+    at_pole = [role(name) for name, _ in hung_on_lever(scene) if name not in found]
+    found |= {name: couples[name.of] for name in at_pole if name.of in couples}
+    last = [step.name for step in scene.program.on("lever") if step.verb == "normal"][-1]
+    marks = (*images(scene), *(end for line in lines_of_lever(scene) for end in (line.tail, line.tip)))
+    return found | {mark: last for mark in marks if mark not in scene.reading.made}
+
+
+def letter_of(scene: Scene, mark: str) -> str:
+    """Return the letter of a mark of the lever: that of the velocity plan."""
+    return scene.words.mark(f"velocity.{role(mark).of}")
+
+
+def arms_on_lever(scene: Scene) -> list[Arm]:
+    """Return the arms; forces on one line share theirs."""
+    p, feet = image(scene, "lever.p"), dict[complex, tuple[complex, complex, list[str]]]()
+    for name, mark in hung_on_lever(scene):
+        e, at = scene.direction(name), image(scene, mark)
+        if e != 0 and name not in BALANCE and scene.defined(arm_of(name)):
+            foot = at + e * (((p - at) / e).real)
+            same = next((other for other in feet if abs(other - foot) < 1e-4), foot)
+            feet.setdefault(same, (at, e, []))[2].append(name)
+    return [Arm(tuple(own), tuple(map(arm_of, own)), at, e, foot) for foot, (at, e, own) in feet.items()]
+
+
+def image(scene: Scene, mark: str) -> complex:
+    """Return a mark of the lever, mm: that of the velocity plan turned by +90 degrees where nothing hangs on it."""
+    if mark in scene.solved.values:
+        return scene.mm(mark)
+    return scene.mm(f"velocity.{role(mark).of}") * 1j
+
+
+def images(scene: Scene) -> list[str]:
+    """Return the marks of the lever: those on which something hangs, and the images of all joints."""
+    hung = [step.name for step in scene.program.on("lever") if step.verb == "normal"]
+    joints = [f"lever.{point}" for points in _joints(scene) for point in points]
+    return [*hung, *joints]
+
+
+def _joints(scene: Scene) -> list[list[str]]:
+    """Return for each link the letters of its joints, and of its points over others, that have marks of velocity."""
+    made, found = scene.reading.made, []
+    for link in scene.mechanism.links:
+        pairs = [pair for pair in scene.mechanism.pairs if link.number in pair.links]
+        joints = [pair.point for pair in pairs if pair.point in link.points]
+        over = [f"{pair.point}{link.number}" for pair in pairs]
+        found.append([point for point in dict.fromkeys((*joints, *over)) if f"velocity.{point}" in made])
+    return found
+
+
+def lines_of_lever(scene: Scene) -> list[Edge]:
+    """Return the lines of the turned velocity plan: all its vectors, and those between images of each link's joints."""
+    ends = [(role(edge.tail).of, role(edge.tip).of, edge.name) for edge in scene.reading.on("velocity")]
+    for points in _joints(scene):
+        ways = combinations(points, 2) if len(points) < 4 else pairwise([*points, points[0]])
+        ends += [(a, b, a + b) for a, b in ways]
+    kept: dict[frozenset[complex], Edge] = {}
+    for start, end, name in ends:
+        line = Edge(name, f"lever.{start}", f"lever.{end}")
+        images = (image(scene, mark) for mark in (line.tail, line.tip))
+        places = frozenset(complex(round(at.real, 4), round(at.imag, 4)) for at in images)
+        if len(places) == 2:
+            kept.setdefault(places, line)
+    return list(kept.values())
+
+
+def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
+    """Return (force, mark) of all that hangs on the lever, the balancing force last."""
+    hung = [(step.operands[0], step.operands[1]) for step in _moments_on_lever(scene)]
+    # of a couple on a link that turns about a pivot the second force stands at the pole: it has no moment
+    pulling = {name for name, _ in hung}
+    made = (step.name for step in scene.program if role(step.name).part == COUPLE and step.law in ("along", "opposite"))
+    hung += [(name, "lever.p") for name in made if name not in pulling]
+    balance = next(name for name in BALANCE if name in scene.solved.values)
+    return [*hung, (balance, f"lever.{scene.mechanism.driver.point}")]
+
+
+def _moments_on_lever(scene: Scene) -> Iterator[Step]:
+    return (step for step in scene.program.which(("moment",)) if step.operands[2] == "lever.p")
+
+
+def arm_of(force: str) -> str:
+    """Return the arm's name: of `F_i2` it is `h_lever_F_i2`, of the couple `F_i2_couple_B` `h_lever_M_i2_B`."""
+    acting = role(force)
+    couple = (spelled("M", acting.of, links=acting.links), acting.about)
+    return lever_arm(*couple) if acting.part == COUPLE else lever_arm(force)
+
+
+def staggered(pole: complex, arms: Sequence[Arm], middle: complex, step: float) -> Mapping[int, complex]:
+    """Return by how much arms are moved along the lines of their forces; the shortest of those side by side stays.
+
+    Arms are side by side when they make a small angle; each is moved away from the middle of the figure.
+    """
+    shifts: dict[int, complex] = {}
+    by_length = sorted((abs(each.foot - pole), i) for i, each in enumerate(arms) if abs(each.foot - pole) >= LEAST)
+    bundles: list[tuple[complex, list[int]]] = []  # direction of the shortest of them, their numbers
+    for reach, i in by_length:
+        way = (arms[i].foot - pole) * (1.0 / reach)
+        bundle = next((numbers for other, numbers in bundles if (way.conjugate() * other).real > BESIDE), None)
+        if bundle is None:
+            bundles.append((way, [i]))
+            continue
+        outward = arms[i].along
+        outward *= -1.0 if (outward.conjugate() * (middle - pole)).real > 0 else 1.0
+        shifts[i] = outward * step * len(bundle)
+        bundle.append(i)
+    return shifts

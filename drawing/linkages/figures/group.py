@@ -15,11 +15,10 @@ from ...shapes import Arrow, Head, Line, Pen, Shape
 from ...shapes import Group as Shapes
 from ...symbols import turning_arrow
 from ...view import View
-from ..layout.ladders import DRIVER
-from ..scene import Scales, Scene
-from ..skeleton import NEAR, Skeleton, guide_of
-from .acting import Arm, Arrows, Contact, Moment, contact, couples, handed, loads, moments_of, reactions
-from .links import draw_frame, draw_links, foot_of, letter_links
+from ..ladders import DRIVER
+from ..scene import Scene
+from .acting import LEAST, Arm, Arrows, Contact, Moment, contact, couples, handed, loads, moments_of, reactions, zeros
+from .links import NEAR, Skeleton, draw_frame, draw_links, foot_of, guide_of, letter_links
 from .scheme import special_points
 
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88)  # places on a link where a couple may stand
@@ -32,15 +31,9 @@ class Sketch(Arrows):
     figures: Sequence[Skeleton] = ()
     turning: list[complex] = field(default_factory=list)  # places of couples
 
-    def force(self, name: str, at: complex) -> None:
-        """Hang the arrow of a force on a point."""
-        self.hang(name, at, self._gap(at, self.scene.direction(name) if self.scene.defined(name) else 0j))
-
     def _gap(self, at: complex, e: complex) -> float:
         """Return where an arrow along `e` may begin beside a block at its point."""
         gaps = [0.0]
-        if e == 0:
-            return 0.0
         for figure in self.figures:
             for centre, u, (length, height) in figure.blocks:
                 if abs(((at - centre) / u).imag) < NEAR and abs(at - centre) < self.scene.style.slider[0] / 2:
@@ -79,25 +72,21 @@ class Sketch(Arrows):
         return max(places, key=lambda at: min(room(at), 1.5)), (b - a) / abs(b - a)
 
     def contact(self, found: Contact, reaction: str) -> complex:
-        """Draw how far from its pin the reaction of a guide acts, and hang it there; return the place."""
-        scene, pin = self.scene, self.scene.mm(found.pin)
+        """Draw how far from its pin along the guide the reaction acts, with its millimetres; return the place."""
+        scene, pin, name = self.scene, self.scene.mm(found.pin), found.arm
         at = pin + found.u * (found.offset / scene.scales[POSITION].mu)
         if found.couple:
             return pin
-        if abs(at - pin) > 0.05:
-            self._arm_along(found.arm, pin, at)
-        elif scene.defined(found.arm) and scene.direction(reaction) != 0:
-            self.zero.append(found.arm)
+        if abs(at - pin) > LEAST:
+            e, parts = (at - pin) / abs(at - pin), list[Shape]([Line(pin, at, Pen.THIN)])
+            if abs(at - pin) > 2.2 * scene.style.arrow:
+                parts += [Head(at, e), Head(pin, -e)]
+            self.canvas.add(Shapes(tuple(parts), "arm", name))
+            text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
+            self.canvas.label(text, (pin, at), clear=0.9, height=scene.style.text, strict=True, spare=text)
+        elif scene.defined(name) and scene.direction(reaction) != 0:
+            self.zero.append(name)
         return at
-
-    def _arm_along(self, name: str, start: complex, end: complex) -> None:
-        """Draw the arm of a guide's reaction along the guide, from the pin to where it acts, with its millimetres."""
-        scene, e, parts = self.scene, (end - start) / abs(end - start), list[Shape]([Line(start, end, Pen.THIN)])
-        if abs(end - start) > 2.2 * scene.style.arrow:
-            parts += [Head(end, e), Head(start, -e)]
-        self.canvas.add(Shapes(tuple(parts), "arm", name))
-        text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
-        self.canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True, spare=text)
 
     def arms(self, moments: Iterable[Moment]) -> None:
         """Draw the arm of each force from the joint about which its moment is taken."""
@@ -112,10 +101,12 @@ class Sketch(Arrows):
             key = moment.about, complex(round(foot.real, 3), round(foot.imag, 3))
             arms.setdefault(key, (moment, foot, []))[2].append(moment)
         for first, foot, sharing in arms.values():
-            names = tuple(dict.fromkeys(moment.arm for moment in sharing))
-            forces, e = tuple(moment.force for moment in sharing), scene.direction(first.force)
-            if scene.defined(names[0]):
-                Arm(forces, names, scene.mm(first.at), e, foot).draw(self.canvas, scene, scene.mm(first.about))
+            names, forces = (
+                tuple(dict.fromkeys(each)) for each in zip(*((m.arm, m.force) for m in sharing), strict=True)
+            )
+            if scene.defined(first.arm):
+                arm = Arm(forces, names, scene.mm(first.at), scene.direction(first.force), foot)
+                arm.draw(self.canvas, scene, scene.mm(first.about))
 
     def letter_others(self, points: Iterable[str]) -> None:
         """Letter the points of other links at which their forces act on these: pins that slide along their guides."""
@@ -128,7 +119,7 @@ class Sketch(Arrows):
 
     def finish(self, name: str, heading: tuple[str, ...]) -> View:
         """Letter the links, and close the view; it says that arrows have no scale, and what is zero."""
-        letter_links(self.canvas, self.scene, [figure.number for figure in self.figures], self.figures)
+        letter_links(self.canvas, self.scene, self.figures)
         notes = self.scene.words["said.arrows"], *zeros(self.scene, self.zero)
         return self.canvas.finish(name, heading, notes)
 
@@ -146,43 +137,37 @@ def group_view(scene: Scene, group: Group) -> View:
     """Draw a group without the links before it: its loads, reactions at its outer pairs, the arm of each moment."""
     sketch = _sketch(scene, group.links)
     for pair, own, names in reactions(scene, group):
-        _react(sketch, group, pair, own, names)
+        _react(sketch, group.pin(pair), pair, own, names)
     _load(sketch, group.links)
     moments = moments_of(scene, group.links)
     special_points(sketch.canvas, scene, {moment.about for moment in moments})
     sketch.arms(moments)
-    links = ", ".join(map(str, group.links))
-    heading = scene.heading("heading.group", POSITION, links=links)
+    heading = scene.heading("heading.group", POSITION, links=", ".join(map(str, group.links)))
     return sketch.finish(f"group_{group.name}", heading)
 
 
-def _react(sketch: Sketch, group: Group, pair: Pair, own: int, names: list[str]) -> None:
-    """Hang a reaction on its joint, or where it acts on a slider; a pure couple stands in its place."""
-    scene = sketch.scene
+def _react(sketch: Sketch, pin: str, pair: Pair, own: int, names: list[str]) -> None:
+    """Hang a reaction on its joint, or where it acts on a slider with this `pin`, a pure couple in its place."""
+    scene, on_guide = sketch.scene, sketch.scene.mm(pair.point)
     if not isinstance(pair, Prismatic):
         for name in names:
-            sketch.force(name, scene.mm(pair.point))
+            sketch.hang(name, on_guide)
         return
-    other = next(number for number in pair.links if number != own)
-    found = contact(scene, group, pair, own, other)
-    at = sketch.contact(found, names[0]) if found else scene.mm(group.pin(pair))
-    on_guide = scene.mm(pair.point)
-    u = guide_of(scene, pair)
+    found = contact(scene, pin, pair, own, next(number for number in pair.links if number != own))
+    at, u = sketch.contact(found, names[0]) if found else scene.mm(pin), guide_of(scene, pair)
     for name in names:
-        sketch.force(name, on_guide + u * ((at - on_guide) / u).real)
+        sketch.hang(name, on_guide + u * ((at - on_guide) / u).real)
     if found and found.couple:
         sketch.couple(found.couple, next(figure for figure in sketch.figures if figure.number == own))
 
 
 def _load(sketch: Sketch, numbers: Iterable[int]) -> None:
-    """Hang all loads of links, what later groups hand on, and the couples."""
     for number, figure in zip(numbers, sketch.figures, strict=True):
         for name, point in (*loads(sketch.scene, number), *handed(sketch.scene, number)):
-            sketch.force(name, sketch.scene.mm(point))
+            sketch.hang(name, sketch.scene.mm(point))
         for name in couples(sketch.scene, number):
             sketch.couple(name, figure)
-    points = (point for number in numbers for _, point in handed(sketch.scene, number))
-    sketch.letter_others(points)
+    sketch.letter_others(point for number in numbers for _, point in handed(sketch.scene, number))
 
 
 def link_view(scene: Scene, group: Group, number: int) -> View:
@@ -190,38 +175,32 @@ def link_view(scene: Scene, group: Group, number: int) -> View:
     sketch = _sketch(scene, (number,))
     for pair in (p for p in group.inner if number in p.links):
         other = next(n for n in pair.links if n != number)
-        _react(sketch, group, pair, number, [f"R_{scene.mechanism.index(other, number)}"])
+        _react(sketch, group.pin(pair), pair, number, [f"R_{scene.mechanism.index(other, number)}"])
     _load(sketch, (number,))
     for pair, own, names in reactions(scene, group):
         if own == number:
-            _react(sketch, group, pair, own, names)
+            _react(sketch, group.pin(pair), pair, own, names)
     return sketch.finish(f"link_{number}", scene.heading("heading.link", POSITION, link=str(number)))
-
-
-def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
-    """Say in one line which of these forces, couples and arms are zero: the figure cannot show them."""
-    w, couples = scene.words, {couple.name for couple in scene.mechanism.couples}
-    gone = [name for name in dict.fromkeys(names) if scene.defined(name) and scene.vanishes(name)]
-    parts = [w.symbol(role(name).shown, bar=role(name).kind not in ("M", "h") and name not in couples) for name in gone]
-    return (f"{' = '.join(parts)} = 0",) if parts else ()
 
 
 def driver_view(scene: Scene) -> View:
     """Draw the driver with all reactions on it, its own loads, R_01, what balances it, and the arms of the forces."""
-    scene = replace(scene, scales=Scales(scene.scales, {POSITION: DRIVER}))
+    scene = replace(scene, scales={**scene.scales, POSITION: scene.scales[DRIVER]})
     number = scene.solved.structure.driver
     sketch = _sketch(scene, (number,), framed=True)
     hung = [*handed(scene, number), *loads(scene, number)]
     for name, point in hung:
         if point not in scene.mechanism.frame_points:
-            sketch.force(name, scene.mm(point))
+            sketch.hang(name, scene.mm(point))
     sketch.letter_others(point for _, point in hung)
     sketch.arms(moments_of(scene, (number,)))
     driver = scene.mechanism.driver
     if isinstance(driver, Driver):
         _crank(sketch, driver)
     else:
-        _slider(sketch, number)
+        pair = next(p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and number in p.links)
+        sketch.hang("_F_bal", scene.mm(pair.point))
+        _react(sketch, pair.point, pair, number, [f"R_{scene.mechanism.index(FRAME, number)}"])
     for name in couples(scene, number):
         sketch.couple(name, sketch.figures[0])
     return sketch.finish("driver", scene.heading("heading.driver", POSITION))
@@ -232,34 +211,17 @@ def _crank(sketch: Sketch, driver: Driver) -> None:
     scene, o = sketch.scene, sketch.scene.mm(driver.pivot)
     foot = foot_of(scene, driver.pivot, sketch.figures)
     sketch.bar(o, (foot * rect(1.0, lean) for lean in (-0.5, 0.0, 0.5)))
-    sketch.force(f"R_{scene.mechanism.index(FRAME, driver.link)}", o)
+    sketch.hang(f"R_{scene.mechanism.index(FRAME, driver.link)}", o)
     for name, point in loads(scene, driver.link):
         if point in scene.mechanism.frame_points:
-            sketch.force(name, scene.mm(point))
+            sketch.hang(name, scene.mm(point))
     if "M_bal" in scene.solved.values:
         _balance(sketch, o)
     else:
-        sketch.force("_F_bal", scene.mm(driver.point))
-
-
-def _slider(sketch: Sketch, number: int) -> None:
-    """Hang the guide's reaction where it acts, and the balancing force along the guide."""
-    scene = sketch.scene
-    pair = next(p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and number in p.links)
-    index = scene.mechanism.index(FRAME, number)
-    pin, u, reaction = scene.mm(pair.point), guide_of(scene, pair), f"R_{index}"
-    sketch.force("_F_bal", pin)
-    moment, size = scene.solved.values[f"M_{index}"], scene.direction(reaction)
-    across = ((complex(scene.solved.values[reaction]) / u).imag) if size != 0 else 0.0
-    couple = f"M_{index}" if across == 0.0 and moment != 0.0 else ""
-    found = Contact(f"h_{index}", pair.point, u, moment / across if across else 0.0, couple)
-    sketch.force(reaction, sketch.contact(found, reaction))
-    if couple:
-        sketch.couple(couple, sketch.figures[0])
+        sketch.hang("_F_bal", scene.mm(driver.point))
 
 
 def _balance(sketch: Sketch, o: complex) -> None:
-    """Draw M_bal about the pivot."""
     scene, canvas = sketch.scene, sketch.canvas
     value = scene.solved.values["M_bal"]
     if value != value or scene.vanishes("M_bal"):
@@ -268,7 +230,7 @@ def _balance(sketch: Sketch, o: complex) -> None:
     sense, radius = math.copysign(1.0, value), 0.62 * scene.style.force
     # on the freest side of O: the pivot's foot, the crank, the reaction and the arms of forces leave from there too
     ends = [end for shape in canvas.shapes for end in _ends(shape) if 0.1 < abs(end - o) < 3 * radius]
-    rays = [end - o for figure in sketch.figures for stroke in figure.strokes for end in stroke if abs(end - o) > 0.1]
+    rays = [end - o for stroke in sketch.strokes for end in stroke if abs(end - o) > 0.1]
     busy = [-1j, 1 - 1.5j, -1 - 1.5j, *rays, *((end - o) / abs(end - o) for end in ends)]
     middle = max(
         (k * math.pi / 12 for k in range(24)),
@@ -279,7 +241,6 @@ def _balance(sketch: Sketch, o: complex) -> None:
 
 
 def _ends(shape: Shape) -> tuple[complex, ...]:
-    """Return the ends of an arrow, or of the line of an arm."""
     match shape:
         case Arrow(tail=tail, tip=tip):
             return tail, tip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from ....plans.board import Step
 from ....plans.linkages.chain import hinged
@@ -29,7 +29,7 @@ WIDEST, NARROWEST = 85.0, 60.0  # mm, the largest side of what an inset shows, t
 MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
 LEAST_FRAME = 5.0  # mm, the least side of the frame around what an inset shows
 TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
-NUMERALS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
+NUMERALS = ["I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X"]
 NARROWEST_FORCES = 45.0  # mm, the least side of an inset of forces
 ENLARGED = "enlarged"  # the stage of insets: all that a figure has is there before them
 PAST = 6.0  # mm by which a construction line runs past the point that it finds
@@ -40,11 +40,6 @@ PAST_AT_POINT = 8.0  # of those at a point of a coupler
 
 Plan: TypeAlias = "ForcePlan | At"  # plans whose short vectors insets show
 Shown: TypeAlias = "tuple[Plan, Window]"
-
-
-def shown_of(plans: Sequence[Plan]) -> list[Shown]:
-    """Return what the insets of several plans of one figure show."""
-    return [(plan, window) for plan in plans for window in windows(plan)]
 
 
 def with_insets(
@@ -70,7 +65,7 @@ def _host(i: int, shown: Sequence[Window]) -> int | None:
     """Return the inset in which the frame of inset `i` stands: the finest of the coarser ones that show its middle."""
     x0, y0, x1, y1 = shown[i].box
     middle = complex(x0 + x1, y0 + y1) / 2
-    coarser = [k for k, window in enumerate(shown) if window.times < shown[i].times and shows(window, (middle,))]
+    coarser = [k for k, window in enumerate(shown) if window.times < shown[i].times and window.shows(middle)]
     return max(coarser, key=lambda k: shown[k].times, default=None)
 
 
@@ -79,16 +74,20 @@ def _framed(canvas: Canvas, box: Box, times: float, name: str, numeral: str) -> 
     x0, y0, x1, y1 = (side * times for side in box)
     wide, high = (max(0.0, LEAST_FRAME - size) / 2 for size in (x1 - x0, y1 - y0))
     frame = x0 - wide, y0 - high, x1 + wide, y1 + high
-    canvas.add(_frame(frame, "window", name))
+    canvas.add(Polyline(_corners(frame), Pen.THIN, closed=True, role="window", name=name))
     canvas.label(numeral, _corners(frame)[2:], prefer=1j, clear=0.8)
 
 
-@dataclass(frozen=True, slots=True)
-class Window:
+class Window(NamedTuple):
     """What an inset shows: a box of the figure, mm, and how many times it is enlarged."""
 
     box: Box
     times: float
+
+    def shows(self, *ends: complex) -> bool:
+        """Whether points stand in it."""
+        x0, y0, x1, y1 = self.box
+        return all(x0 <= end.real <= x1 and y0 <= end.imag <= y1 for end in ends)
 
 
 def windows(plan: Plan) -> list[Window]:
@@ -99,7 +98,7 @@ def windows(plan: Plan) -> list[Window]:
     while left:
         first = min(left, key=lambda vector: abs(vector.tip - vector.tail))
         window = _window(plan.scene, first, vectors)
-        left = [vector for vector in left if vector is not first and not shows(window, (vector.tail, vector.tip))]
+        left = [vector for vector in left if vector is not first and not window.shows(vector.tail, vector.tip)]
         found.append(window)
     return found
 
@@ -123,12 +122,6 @@ def window_about(ends: set[complex], times: float, narrowest: float) -> Window:
     return Window((x0 - wide, y0 - high, x1 + wide, y1 + high), times)
 
 
-def shows(window: Window, ends: tuple[complex, ...]) -> bool:
-    """Whether both ends of a vector stand in a window."""
-    x0, y0, x1, y1 = window.box
-    return all(x0 <= end.real <= x1 and y0 <= end.imag <= y1 for end in ends)
-
-
 def _near(end: complex, ends: set[complex]) -> bool:
     return any(abs(end - other) < 1e-6 for other in ends)
 
@@ -142,10 +135,6 @@ def size_of(ends: set[complex]) -> tuple[float, float]:
     """Return width and height of the box of points."""
     x0, y0, x1, y1 = _box(ends)
     return x1 - x0, y1 - y0
-
-
-def _frame(box: Box, role: str, name: str) -> Polyline:
-    return Polyline(_corners(box), Pen.THIN, closed=True, role=role, name=name)
 
 
 def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
@@ -165,20 +154,19 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str, framed: Sequen
             canvas.add(Line(*cut, Pen.DASHED, role="construction", name=f"{name}_{i + 1}"))
         if past is not None and said:
             canvas.label(said, past, clear=0.8)
-    named: dict[tuple[complex, complex], list[str]] = {}
+    named: dict[tuple[complex, complex], dict[str, None]] = {}
     for vector in plan.vectors():
-        named.setdefault((vector.tail, vector.tip), []).append(scene.letter(vector.quantity))
+        named.setdefault((vector.tail, vector.tip), {})[scene.letter(vector.quantity)] = None
     for vector in plan.vectors():
-        symbols = " = ".join(dict.fromkeys(named.pop((vector.tail, vector.tip), ())))
+        symbols = " = ".join(named.pop((vector.tail, vector.tip), ()))
         _enlarged(canvas, scene, vector, times, bounds, symbols)
     for box, other in framed:
         _framed(canvas, box, times, f"{figure}_{other}", other)
     places = {mark: place * times for mark, place in plan.marks().items()}
     seen = {mark: place for mark, place in places.items() if clipped(place, place, bounds) is not None}
     letters = {mark: scene.words.mark(mark) for mark in seen}
-    poles = [pole for pole in plan.poles() if pole in seen]
-    letter_marks(canvas, scene, letters, seen, poles)
-    canvas.add(_frame(bounds, "inset", name))
+    letter_marks(canvas, scene, letters, seen, [pole for pole in plan.poles() if pole in seen])
+    canvas.add(Polyline(_corners(bounds), Pen.THIN, closed=True, role="inset", name=name))
     scale = scene.scales[plan.plan]
     own = Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit)
     return canvas.finish(name, (f"{numeral}:  {scene.words.scale(own)}",))
@@ -189,8 +177,7 @@ def _enlarged(canvas: Canvas, scene: Scene, vector: Vector, times: float, bounds
     cut = clipped(tail, tip, bounds)
     if cut is None or abs(cut[1] - cut[0]) < 1e-6:
         return
-    whole = abs(cut[0] - tail) + abs(cut[1] - tip) < 1e-6
-    if whole:
+    if abs(cut[0] - tail) + abs(cut[1] - tip) < 1e-6:  # the whole of it
         mu = float(f"{vector.mu / times:.12g}")
         enlarged = replace(vector, tail=tail, tip=tip, mu=mu)
         canvas.add(enlarged if abs(tip - tail) >= scene.style.arrow else replace(enlarged, head="none"))
@@ -207,22 +194,20 @@ def _together(
     figure: View, insets: Sequence[View], heading: tuple[str, ...], notes: tuple[str, ...], style: Style
 ) -> View:
     """Put the insets to the right of a figure, or under it, whichever takes less room; the heading over all."""
-    beside, under = (list(_shapes(figure, insets, right)) for right in (True, False))
-
-    def area(shapes: Sequence[Shape]) -> float:
-        x0, y0, x1, y1 = extent(shapes)
-        return (x1 - x0) * (y1 - y0)
-
-    shapes = min((beside, under), key=area)
+    ways = ([*figure.shapes, *_placed(figure.box, insets, right)] for right in (True, False))
+    shapes = min(ways, key=lambda shapes: _area(extent(shapes)))
     x0, y0, x1, y1 = write_above(shapes, heading, notes, style)
     parts = (*figure.parts, *(ENLARGED for _ in insets))
     parts = (*parts, *("" for _ in shapes[len(parts) :]))
     return View(figure.name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes, parts=parts)
 
 
-def _shapes(figure: View, insets: Sequence[View], right: bool) -> Iterator[Shape]:
-    x0, y0, x1, _ = figure.box
-    yield from figure.shapes
+def _area(box: Box) -> float:
+    return (box[2] - box[0]) * (box[3] - box[1])
+
+
+def _placed(figure: Box, insets: Sequence[View], right: bool) -> Iterator[Group]:
+    x0, y0, x1, _ = figure
     x, y = (x1 + GAP, y0) if right else (x0, y0 - GAP)
     for inset in insets:
         width, height = inset.size
@@ -241,14 +226,13 @@ class ForcePlan:
     def vectors(self) -> Iterator[Vector]:
         """Go through the forces that can be read on the plan or in an inset."""
         least = READABLE * self.scene.style.arrow / self._times()[-1]
-        for vector in map(self.scene.vector, dict.fromkeys(self.scene.reading.on(self.plan))):
-            if abs(vector.tip - vector.tail) >= least:
-                yield vector
+        vectors = map(self.scene.vector, dict.fromkeys(self.scene.reading.on(self.plan)))
+        return (vector for vector in vectors if abs(vector.tip - vector.tail) >= least)
 
     def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
         """Go through the construction lines, of which nothing is said."""
-        for step, _, start, direction in meetings(self.scene.program.on(self.plan)):
-            yield (*construction_line(self.scene, step, start, direction), "")
+        lines = meetings(self.scene.program.on(self.plan))
+        return ((*construction_line(self.scene, step, start, along), "") for step, _, start, along in lines)
 
     def marks(self) -> Mapping[str, complex]:
         """Return the places of the pole and of all ends of forces."""
@@ -277,25 +261,22 @@ class ForcePlan:
 
     def _window(self, cluster: Sequence[Vector]) -> Window:
         """Return the window for forces that hang together, as large as they are readable or as an inset may be."""
-        ends = {end for vector in cluster for end in (vector.tail, vector.tip)}
+        ends, times = {end for vector in cluster for end in (vector.tail, vector.tip)}, self._times()
         least = min(abs(vector.tip - vector.tail) for vector in cluster)
-        times = self._times()
         readable = next((m for m in times if least * m >= READABLE * self.scene.style.arrow), times[-1])
-        fitting = [m for m in times if max(size_of(ends)) * m <= WIDEST]
-        return window_about(ends, min(readable, fitting[-1] if fitting else times[0]), NARROWEST_FORCES)
+        fitting = [m for m in times if max(size_of(ends)) * m <= WIDEST] or times[:1]
+        return window_about(ends, min(readable, fitting[-1]), NARROWEST_FORCES)
 
     def _times(self) -> Sequence[float]:
         """Return the enlargements whose scale factors are of the customary series; all, where there are none."""
         mu = self.scene.scales[self.plan].mu
-        customary = [m for m in TIMES if float(f"{mu / m:e}".partition("e")[0]) in SERIES]
-        return customary or TIMES
+        return [m for m in TIMES if float(f"{mu / m:e}".partition("e")[0]) in SERIES] or TIMES
 
     def said(self, shown: Sequence[Window]) -> Iterator[str]:
         """Say which forces stand in which inset."""
         for numeral, window in zip(NUMERALS, shown, strict=False):
-            readable = (vector for vector in self.vectors() if _seen(self.scene, window, vector))
-            symbols = dict.fromkeys(self.scene.letter(vector.quantity) for vector in readable)
-            if symbols:
+            readable = (vector.quantity for vector in self.vectors() if _seen(self.scene, window, vector))
+            if symbols := dict.fromkeys(map(self.scene.letter, readable)):
                 yield self.scene.words["said.inset"].format(vectors=", ".join(symbols), inset=numeral)
 
 
@@ -316,7 +297,6 @@ def _seen(scene: Scene, window: Window, vector: Vector) -> bool:
 
 
 def _clusters(vectors: Sequence[Vector]) -> list[list[Vector]]:
-    """Part vectors into those that hang together by their ends."""
     clusters: list[list[Vector]] = []
     for vector in vectors:
         ends = {vector.tail, vector.tip}
@@ -328,7 +308,7 @@ def _clusters(vectors: Sequence[Vector]) -> list[list[Vector]]:
 def in_inset(scene: Scene, shown: Sequence[Window], ends: tuple[complex, complex]) -> bool:
     """Whether a vector is too short to be read in its figure and stands in an inset."""
     short = abs(ends[1] - ends[0]) < scene.style.arrow
-    return short and any(shows(window, ends) for window in shown)
+    return short and any(window.shows(*ends) for window in shown)
 
 
 def construction_line(scene: Scene, step: Step, start: str, direction: str) -> tuple[complex, complex, complex]:
@@ -346,8 +326,7 @@ def letter_marks(
     """Draw poles and points with their letters outside of the figure; marks that coincide share one letter."""
     if not places:
         return
-    middle = sum(places.values()) / len(places)
-    at: dict[complex, list[str]] = {}
+    middle, at = sum(places.values()) / len(places), dict[complex, list[str]]()
     for mark in letters:
         near = next((place for place in at if abs(place - places[mark]) < TOGETHER), places[mark])
         at.setdefault(near, []).append(mark)
@@ -382,10 +361,6 @@ class At:
         """The plan at the point."""
         return spelled(VELOCITY if self.kind == "V" else ACCELERATION, self.letter)
 
-    def mm(self, mark: str) -> complex:
-        """Return where a mark of the plan stands in the figure."""
-        return self.scene.mm(mark) + self.scene.mm(self.point)
-
     def vectors(self) -> Iterator[Vector]:
         """Go through the vectors as they were drawn, the total last, each with the name of the quantity it shows."""
         edges, (n, end) = [*self.scene.reading.on(self.plan)], (mark_named(self.plan, k) for k in ("n", self.letter))
@@ -404,7 +379,8 @@ class At:
     def lines(self) -> Iterator[tuple[complex, complex, complex, str]]:
         """Go through the construction lines: whence, the point that they find, their end, their direction in words."""
         for step, _, start, direction in meetings(self.scene.program.on(self.plan)):
-            e, tail, end = self.scene.solved.point(direction), self.mm(start), self.mm(step.name)
+            at, e = self.scene.mm(self.point), self.scene.solved.point(direction)
+            tail, end = (self.scene.mm(mark) + at for mark in (start, step.name))
             sense = 1.0 if ((end - tail) / e).real >= 0 else -1.0
             yield tail, end, end + e * sense * PAST_AT_POINT, line_of(self.scene, direction).replace(" ", "")
 

@@ -14,8 +14,8 @@ from ...shapes import Line, Pen
 from ...view import Canvas, View
 from ..reading import Edge, meetings, read
 from ..scene import Scene, plan_heading
-from ..skeleton import NEAR, Stroke
 from .inset import ForcePlan, construction_line, in_inset, letter_marks, with_insets
+from .links import NEAR, Stroke
 
 SHORT = 2.0  # mm below which a vector cannot be drawn as an arrow
 Triangle = tuple[str, str, str]
@@ -45,7 +45,6 @@ def plan_view(scene: Scene, plan: str) -> View:
 
 
 def _vectors(canvas: Canvas, scene: Scene, vectors: Sequence[Edge], lettered: Sequence[Edge]) -> None:
-    """Draw the vectors, with letters those to be lettered that are long enough."""
     named: dict[frozenset[complex], None] = {}
     for edge in vectors:
         vector = scene.vector(edge)
@@ -70,7 +69,6 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: Sequence[Edge], lettered: Se
 
 
 def _said(scene: Scene, plan: str, vectors: Iterable[Edge]) -> Iterator[str]:
-    """Say in words what is too short for an arrow."""
     yield from said_flat(scene, plan)
     for edge in dict.fromkeys(vectors):
         tail, tip = scene.ends(edge)
@@ -121,7 +119,6 @@ def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke])
 
 
 def _covers(line: Stroke, side: Stroke) -> bool:
-    """Whether a drawn line runs along the whole of a side."""
     start, way = line[0], line[1] - line[0]
     if abs(way) < NEAR:
         return False

@@ -1,29 +1,48 @@
-"""The sheet of a linkage: on one page of the format that follows from its extents, or on several of it."""
+"""The sheet of a linkage: its figures in the order of the work, at the scale factors that follow from its extents."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING
 
-from ....plans.linkages.cycles.limits import Runs, slider_runs
-from ....plans.linkages.solved import SolvedLinkage
-from ....plans.linkages.structure import Structure
-from ....plans.names import role
-from ....scales.choices import SIZES
-from ....scales.choose import UNITS
-from ....scales.errors import InputError
-from ....scales.scale import Scale, steps
-from ...compose import Drawn, arrange, arrange_halves, arrange_parts, arrange_rest, compose
-from ...extents import Extents, Rungs, from_format
-from ...formats import FORMATS, STYLES, Format, printable, room
-from ...packing import Placement, pack
-from ...text import Box
-from ...view import View
-from ..reading import lettered
-from ..scene import Scales, Scene
-from ..views import Contents, LinkageFigure, figures
-from .ladders import by_plan, chosen, extents_of, marks_on, mus_of
+from ...plans.linkages.chain import hinged
+from ...plans.linkages.compound import Coupler
+from ...plans.linkages.cycles.limits import slider_runs
+from ...plans.linkages.solved import SolvedLinkage
+from ...plans.linkages.structure import Group, Structure
+from ...plans.names import role, scale_factor
+from ...scales.choices import SIZES
+from ...scales.choose import UNITS
+from ...scales.errors import InputError
+from ...scales.scale import Scale, steps
+from ..compose import Drawn, arrange, arrange_halves, arrange_parts, arrange_rest, compose
+from ..extents import Rungs, from_format
+from ..figure import Figure
+from ..formats import FORMATS, STYLES, Format, printable, room
+from ..packing import Placement, pack
+from ..rungs import SheetContents
+from ..table import note_block, text_block
+from ..text import Box
+from ..view import View
+from .calculations.equations import Lines
+from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
+from .calculations.kinematics import PLANS, kinematics_text
+from .calculations.tables import givens_table, results_parts, results_table, structure_lines
+from .compound import acceleration_figure, block_name, compound_heading, compound_lines, velocity_figure
+from .figures.acting import lever_view
+from .figures.group import driver_view, group_view, link_view
+from .figures.plan import plan_view
+from .figures.scheme import scheme
+from .ladders import by_plan, chosen, extents_of, links_apart, marks_on, mus_of
+from .reading import lettered
+from .scene import Scales, Scene
 
+if TYPE_CHECKING:
+    from ...plans.linkages.cycles.cycle import Cycle
+
+LinkageFigure = Figure[Scene]
 # views with which the part of the forces begins
 OF_FORCES = ("load_", "equations_forces_loads", "group_", "driver", "lever")
 
@@ -45,7 +64,147 @@ GAP = 5.0
 PATIENCE = 5  # rungs by which a scale factor may become coarser for the sake of its zone
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 SURELY = 0.85  # part of the excess of a view that certainly comes from what is drawn to scale
-Fitted = tuple[list[View], Mapping[str, Scale]]
+
+
+@dataclass(frozen=True, slots=True)
+class Contents(SheetContents[SolvedLinkage]):
+    """What the sheet of a linkage shows; its whole cycle, too, where that is wanted."""
+
+    cycle: Cycle | None = None
+
+
+def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
+    """Go through the figures of a sheet in the order of the work; lines of text are at most `width` long.
+
+    The ladders of a figure are the scale factors that size it; vectors that stand on the mechanism have two.
+    """
+    solved, plans = contents.solved, contents.plans
+    if contents.note:
+        yield Figure("note", lambda scene: note_block(scene.words, contents.note, scene.style, width))
+    yield from _kinematics(solved, plans, width)
+    if "compound" in plans:
+        yield from _compound(solved, width)
+        yield from _results(solved, ("compound",))
+    if contents.cycle is not None:
+        yield from _cycle(solved, contents.cycle)
+    if "forces" in plans:
+        yield from _forces(solved, width)
+    if "lever" in plans:
+        yield Figure("lever", lever_view, ("mu_V",))
+        lines = partial(lever_lines, with_loads="forces" not in plans)
+        yield _text("equations_lever", lines, width, "heading.equations_lever")
+    yield from _results(solved, [kind for kind in ("forces", "lever") if kind in plans])
+
+
+def _text(
+    name: str, lines: Callable[[Scene], Lines], width: float, heading: str | Callable[[Scene], str]
+) -> LinkageFigure:
+    """Return lines of text with their heading, or with that of this key."""
+
+    def draw(scene: Scene) -> View:
+        said = scene.words[heading] if isinstance(heading, str) else heading(scene)
+        return text_block(name, said, lines(scene), scene.style, width)
+
+    return Figure(name, draw)
+
+
+def _results(solved: SolvedLinkage, kinds: Sequence[str]) -> Iterator[LinkageFigure]:
+    parts = (part for part in results_parts(solved) if part.kind in kinds)
+    return (Figure(part.name, partial(results_table, part=part)) for part in parts)
+
+
+def _plan(solved: SolvedLinkage, plan: str) -> LinkageFigure:
+    return Figure(plan, partial(plan_view, plan=plan), (solved.scale_of_plan[plan],))
+
+
+def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> Iterator[LinkageFigure]:
+    """Go through what is given, the mechanism, its plans, and their equations: for each plan where groups are many."""
+    if "structure" in plans:
+        yield Figure("givens", givens_table)
+        yield _text("structure", structure_lines, width, "heading.structure")
+    if "position" in plans:
+        yield Figure("position", scheme, ("mu_l",))
+    drawn = [plan for plan in PLANS if plan in plans]
+    yield from (_plan(solved, plan) for plan in drawn)
+    single = len(solved.structure.groups) < 2
+    for i, plan in enumerate(drawn[:1] if single else drawn):
+        own = drawn if single else [plan]
+        lines = partial(kinematics_text, plans=own, before=drawn[:i])
+        name = "equations_kinematics" if single else f"equations_{plan}"
+        heading = "heading.equations_kinematics" if len(own) > 1 else f"heading.equations_{plan}"
+        yield _text(name, lines, width, heading)
+    yield from _results(solved, drawn)
+
+
+def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
+
+    couplers = hinged(solved.mechanism, solved.structure)
+
+    def text(coupler: Coupler, kind: str) -> LinkageFigure:
+        lines = partial(compound_lines, c=coupler, kind=kind)
+        return _text(block_name(coupler, kind), lines, width, partial(compound_heading, c=coupler, kind=kind))
+
+    if couplers:
+        yield Figure("compound_velocity", partial(velocity_figure, couplers=couplers), ("mu_V", "mu_l"))
+    yield from (text(coupler, "V") for coupler in couplers)
+    for coupler in couplers:
+        for point, letter in coupler.letters.items():
+            draw = partial(acceleration_figure, coupler=coupler, point=point)
+            yield Figure(f"compound_a_{letter}", draw, (scale_factor("a", letter), "mu_l"))
+        yield text(coupler, "a")
+
+
+def _cycle(solved: SolvedLinkage, cycle: Cycle) -> Iterator[LinkageFigure]:
+    # a sheet of one position does not pay for the import
+    from .figures.cycle import coupler, diagrams_view, field_view, main_output, positions_view
+
+    yield Figure("positions", partial(positions_view, cycle=cycle), ("mu_l",))
+    if main_output(cycle) is not None:
+        yield Figure("diagrams", partial(diagrams_view, cycle=cycle))
+    if (link := coupler(solved)) is not None:
+        yield Figure("field", partial(field_view, link=link), ("mu_l",))
+
+
+def _forces(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
+    """Go through the force plans from the last group to the driver, with their equations.
+
+    These are one text after all figures, or one for each group after its own.
+    """
+    if solved.mechanism.diagrams:
+        from .figures.cycle import load_diagram
+
+        yield from (Figure(f"load_{d.name}", partial(load_diagram, diagram=d)) for d in solved.mechanism.diagrams)
+    names = {part: f"equations_forces_{part}" if part else "equations_forces" for part in force_parts(solved)}
+    texts = {
+        part: _text(name, partial(force_lines, part=part), width, partial(equations_heading, part=part))
+        for part, name in names.items()
+    }
+    yield from (texts[part] for part in texts if part == LOADS)
+    for group in reversed(solved.structure.groups):
+        yield from _group(solved, group)
+        yield from (texts[part] for part in texts if part == group.name)
+    driver = str(solved.structure.driver)
+    yield Figure("driver", driver_view, ("mu_l",))
+    yield _plan(solved, f"forces_{driver}")
+    yield from (texts[part] for part in texts if part in (WHOLE, driver))
+
+
+def _group(solved: SolvedLinkage, group: Group) -> Iterator[LinkageFigure]:
+    """Go through a group, its plans of forces in the order of construction, and its sliders apart.
+
+    A slider whose plan the construction draws stands before it; that of a rod beside it stands after the plans.
+    """
+    sliders = {
+        f"forces_{n}": Figure(f"link_{n}", partial(link_view, group=group, number=n), ("mu_l",))
+        for n in links_apart(solved, group)
+    }
+    own = {f"forces_{n}" for n in (group.name, *group.links)}
+    yield Figure(f"group_{group.name}", partial(group_view, group=group), ("mu_l",))
+    for plan in sorted(own.intersection(solved.scale_of_plan), key=solved.program.plans.index):
+        if plan in sliders:
+            yield sliders.pop(plan)
+        yield _plan(solved, plan)
+    yield from sliders.values()
 
 
 def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
@@ -70,7 +229,7 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
             found = _single(fitting, candidate, rungs, candidate is formats[-1])
             if found is not None:
                 break
-    found = found or _roomy(fitting, candidate, rungs) or _reordered(fitting, candidate, rungs)
+    found = found or _on_pages(fitting, candidate, rungs)
     if found is None:
         raise InputError("sheet-too-small", format=candidate.name)
     views, scales, places = found
@@ -101,40 +260,38 @@ def forces_begin(views: Sequence[View]) -> int:
     return next((i for i, view in enumerate(views) if view.name.startswith(OF_FORCES)), len(views))
 
 
-def _roomy(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
-    """Place the views on several pages in reading order, the larger ones smaller if the first cannot hold them."""
+def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
+    """Place the views on several pages: kinematics on the first ones, forces on the others.
+
+    They come in reading order, the larger ones smaller if the first page cannot hold them; where a fixed plan is too
+    large for it, the first view that it can hold begins.
+    """
+    norm = fitting.contents.norm
+
+    def placed(views: Sequence[View]) -> list[Placement] | None:
+        sizes, forces = [view.size for view in views], forces_begin(views)
+        return arrange_parts((sizes[:forces], sizes[forces:]), sheet, norm)
+
     for first in (False, True):
         try:
             (views, scales), taken = fitting.fitted(sheet, rungs, first)
         except InputError:
             if not first:
                 raise
-            return None
+            break
         if first and any(taken[symbol] > rung for symbol, rung in rungs.items() if fitting.is_fixed(symbol)):
-            return None
-        places = _placed(fitting, sheet, views)
+            break
+        places = placed(views)
         if places is not None:
             return views, scales, places
-    return None
-
-
-def _reordered(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
-    """Begin with the first view that the first page can hold: a text, where a fixed plan is too large for it."""
     (views, scales), _ = fitting.fitted(sheet, rungs)
-    wide, high = room(sheet, fitting.contents.norm, first=True)
-    fit = [i for i, view in enumerate(views) if view.size[0] <= wide and view.size[1] <= high]
-    for i in fit[:1]:
-        order = [views[i], *views[:i], *views[i + 1 :]]
-        places = _placed(fitting, sheet, order)
-        if places is not None:
-            return order, scales, places
-    return None
-
-
-def _placed(fitting: Fitting, sheet: Format, views: Sequence[View]) -> list[Placement] | None:
-    """Place views: kinematics on the first pages, forces on the others."""
-    sizes, forces = [view.size for view in views], forces_begin(views)
-    return arrange_parts((sizes[:forces], sizes[forces:]), sheet, fitting.contents.norm)
+    wide, high = room(sheet, norm, first=True)
+    begin = next((view for view in views if view.size[0] <= wide and view.size[1] <= high), None)
+    if begin is None:
+        return None
+    views = [begin, *(view for view in views if view is not begin)]
+    places = placed(views)
+    return None if places is None else (views, scales, places)
 
 
 def zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
@@ -197,26 +354,21 @@ def _place(views: Sequence[View], zones: Sequence[str], structure: Structure) ->
     return placed, tight
 
 
-@dataclass(slots=True)
 class Fitting:
-    """Builds the views of `contents` for any format, each only once."""
+    """Builds the views of `contents` for any format, each only once; `extents` is what figures take up."""
 
-    contents: Contents
-    extents: Extents = field(init=False)
-    runs: Runs = field(init=False)
-    _drawings: dict[tuple[str, str], list[tuple[dict[str, Scale], View]]] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        """Find what figures take up, the ladders among it, and how long guides are."""
-        contents = self.contents
-        self.runs = slider_runs(contents.solved)
+    def __init__(self, contents: Contents) -> None:
+        self.contents, self.runs = contents, slider_runs(contents.solved)
         self.extents = extents_of(contents.solved, contents.choosers, contents.plans)
+        self._drawings: dict[tuple[str, str], list[tuple[dict[str, Scale], View]]] = {}
 
     def is_fixed(self, symbol: str) -> bool:
         """Whether the task or the user has fixed a scale factor."""
         return self.extents.ladders[symbol].fixed
 
-    def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> tuple[Fitted, Rungs]:
+    def fitted(
+        self, sheet: Format, rungs: Rungs, first: bool = False
+    ) -> tuple[tuple[list[View], Mapping[str, Scale]], Rungs]:
         """Return views, scale factors and rungs for pages of `sheet`: these rungs, coarser ones where they must be.
 
         What is fixed, too, becomes coarser only where a page cannot hold it alone. With `first` all have room even on

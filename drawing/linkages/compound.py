@@ -1,15 +1,30 @@
-"""Compound motion told in words and numbers: at every point of a coupler its parts are hung on one another."""
+"""Compound motion drawn at the points themselves, told in words, and calculated.
+
+One figure shows the velocities of all points, one the accelerations of each, both with the mechanism to scale. Links
+are thin here, so that the vectors stand out; what is too short to be read stands once more in an inset, enlarged. At
+every point of a coupler its parts are hung on one another.
+
+Source: Bertyaev and others, Mechanics: course works with Mathcad, figs. 13-16.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from cmath import rect
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
-from ....plans.board import POSITION, Step
-from ....plans.linkages.compound import ACCELERATION, COMPOUND, VELOCITY, Closing, Coupler
-from ....plans.linkages.mechanism import ZERO
-from ....plans.names import POLE, Name, role, spelled, vector
-from ...printed import Input, calculation
-from ..calculations.equations import (
+from ...plans.board import POSITION, Step
+from ...plans.linkages.compound import ACCELERATION, COMPOUND, VELOCITY, Closing, Coupler
+from ...plans.linkages.mechanism import ZERO
+from ...plans.names import POLE, Name, mark, role, spelled
+from ...plans.names import vector as vector_named
+from ..figure import ANSWERS
+from ..printed import Input, calculation
+from ..shapes import Arrow, Group, Line, Pen, Shape, Vector
+from ..symbols import clear_ray, turning_arrow
+from ..view import Canvas, View
+from .calculations.equations import (
     Factor,
     Product,
     by_direction,
@@ -21,13 +36,188 @@ from ..calculations.equations import (
     sensed,
     worked,
 )
-from ..calculations.tables import printed_segment
-from ..figures.inset import At
-from ..scene import Scene
-from .teller import Teller, Told
+from .calculations.tables import printed_segment
+from .figures.inset import ACCELERATIONS, VELOCITIES, At, windows, with_insets
+from .figures.links import Skeleton, draw_frame, draw_links, pins_of, rays_at, rays_of
+from .figures.scheme import free_arc, obstacles
+from .reading import Edge
+from .scene import Scene
+from .telling import Teller, Told
 
-Line = tuple[str, ...]
+SIZES, SPREAD, UP = (0.5, 0.75, 1.0), 1.2, 0.5 * math.pi  # of arcs of turning: radii beyond the joint in arrows, angles
+FAR = 0.75  # part of the mechanism's size within which an instant centre is drawn
+Said = tuple[str, ...]
 UNITS = {"V": "m/s", "a": "m/s^2", "omega": "rad/s", "epsilon": "rad/s^2"}
+
+
+def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
+    """Draw v = v^e + v^r at every point of the couplers, instant centres with their rays, and all rates of turning."""
+    canvas = scene.canvas()
+    figures = _mechanism(canvas, scene, [link.number for link in scene.mechanism.links])
+    points = [At(scene, c, point, "V") for c in couplers for point in c.letters]
+    shown = {at.point for at in points}  # a hinge may be a point of another coupler, which shows its velocity
+    for hinge in dict.fromkeys(c.hinge for c in couplers if c.hinge not in shown):
+        canvas.part(ANSWERS)
+        edge = Edge(f"V_{hinge}", "velocity.p", f"velocity.{hinge}")
+        _vector(canvas, scene, scene.vector(edge, at=scene.mm(hinge)))
+    for at in points:
+        _arm_measured(canvas, scene, at)
+    _at_points(canvas, scene, points)
+    beyond = [note for c in couplers for note in _instant_centre(canvas, scene, c, figures)]
+    for c in couplers:
+        _turn(canvas, scene, c.omega_e, c.pivot)
+        _turn(canvas, scene, f"omega_r_{c.number}", c.hinge)
+    heading = scene.heading("heading.compound_velocity", POSITION, points[0].plan)
+    return _finish(canvas, VELOCITIES, heading, points, beyond)
+
+
+def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
+    """Draw the accelerations of one point of a coupler: the chain of its parts, closed by the absolute one."""
+    canvas = scene.canvas()
+    at = At(scene, coupler, point, "a")
+    group = next(g for g in scene.solved.structure.groups if coupler.number in g.links)
+    # the link that carries the coupler, itself, the other of its group
+    figures = _mechanism(canvas, scene, sorted({coupler.carrier.number, *group.links}))
+    _arm_measured(canvas, scene, at)
+    _at_points(canvas, scene, [at])
+    _sliding_sense(canvas, scene, at, figures)
+    for rate in (coupler.omega_e, coupler.epsilon_e):
+        _turn(canvas, scene, rate, coupler.pivot)
+    for kind in ("omega", "epsilon"):
+        _turn(canvas, scene, f"{kind}_r_{coupler.number}", coupler.hinge)
+    heading = scene.heading("heading.compound_acceleration", POSITION, at.plan, point=scene.words.mark(point))
+    return _finish(canvas, f"{ACCELERATIONS}{at.letter}", heading, [at])
+
+
+def _finish(
+    canvas: Canvas, name: str, heading: tuple[str, ...], points: Sequence[At], notes: Sequence[str] = ()
+) -> View:
+    """Finish a figure with the insets of its points; it says which vectors are zero."""
+    zero = (
+        at.scene.words["said.zero"].format(vector=at.scene.letter(vector.quantity))
+        for at in points
+        for vector in at.vectors()
+        if abs(vector.tip - vector.tail) < 1e-6
+    )
+    return with_insets(
+        canvas, name, heading, (*notes, *zero), [(at, window) for at in points for window in windows(at)]
+    )
+
+
+def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Skeleton]:
+    start = len(canvas.shapes)
+    figures = draw_links(canvas, scene, numbers)
+    draw_frame(canvas, scene, numbers, figures)
+    canvas.shapes[start:] = [_thin(shape) for shape in canvas.shapes[start:]]
+    joints = {point for number in numbers for point in pins_of(scene, number)}
+    centres = [block.at for figure in figures for block in figure.blocks]
+    blocks = {p for p in joints if any(abs(centre - scene.mm(p)) < scene.style.pair for centre in centres)}
+    for point in dict.fromkeys(p for number in numbers for p in scene.mechanism.link(number).points):
+        at = scene.mm(point)
+        canvas.part(point)
+        if point not in joints:
+            canvas.add(scene.point(at, point))
+        reach = scene.style.slider[1] / 2 if point in blocks else scene.style.pair
+        canvas.label(scene.words.mark(point), at, clear=reach + 0.8, priority=1)
+    return figures
+
+
+def _thin(shape: Shape) -> Shape:
+    match shape:
+        case Group(shapes=parts):
+            return replace(shape, shapes=tuple(_thin(part) for part in parts))
+        case Line(pen=Pen.MAIN):
+            return replace(shape, pen=Pen.THIN)
+    return shape
+
+
+def _arm_measured(canvas: Canvas, scene: Scene, at: At) -> None:
+    start, end = scene.mm(at.coupler.pivot), scene.mm(at.point)
+    rim = scene.style.pair
+    if abs(end - start) > 4 * rim:
+        e = (end - start) / abs(end - start)
+        name = f"l_{at.coupler.pivot}{at.point}"
+        canvas.part(name)
+        canvas.add(Line(start + e * rim, end - e * rim, Pen.AXIS, role="measured", name=name))
+
+
+def _at_points(canvas: Canvas, scene: Scene, points: Sequence[At]) -> None:
+    """Draw the construction lines and the vectors at the points; what an inset shows has its letters there."""
+    for at in points:
+        shown = windows(at)
+        canvas.part(mark(at.plan, at.letter))
+        for i, (tail, found, end, said) in enumerate(at.lines()):
+            canvas.add(Line(tail, end, Pen.DASHED, role="construction", name=f"{at.plan}_{i + 1}"))
+            if not any(window.shows(found) for window in shown):
+                canvas.label(said, (found, end), clear=0.8)
+    for at in points:
+        shown = windows(at)
+        for vector in at.vectors():
+            canvas.part(at.drawn_with(vector.quantity))
+            seen = any(window.shows(vector.tail, vector.tip) for window in shown)
+            _vector(canvas, scene, vector, lettered=not seen)
+
+
+def _vector(canvas: Canvas, scene: Scene, vector: Vector, lettered: bool = True) -> None:
+    """Draw a vector with its letter; one too short for an arrowhead is only a line."""
+    length = abs(vector.tip - vector.tail)
+    canvas.add(replace(vector, head="none") if length < scene.style.arrow else vector)
+    if lettered and length > 1e-6:
+        symbol = scene.words.symbol(vector.quantity, bar=True)
+        canvas.label(symbol, (vector.tail, vector.tip), clear=0.9, strict=True)
+
+
+def _sliding_sense(canvas: Canvas, scene: Scene, at: At, figures: Sequence[Skeleton]) -> None:
+    """Show the sense of the relative velocity, which turned by 90 degrees gives that of Coriolis.
+
+    The arrow leaves the point or ends at it, on the side where there is more room.
+    """
+    name, start, length = f"V_{at.letter}_r", scene.mm(at.point), 0.6 * scene.style.force
+    e = scene.direction(name)
+    if not e:
+        return
+    vectors = [(vector.tail, vector.tip) for vector in at.vectors()]
+    side, _ = clear_ray(e, [*rays_at(start, figures), *rays_of(start, vectors)], [])
+    near, far = start + side * scene.style.pair, start + side * (length + scene.style.pair)
+    tail, tip = (near, far) if side == e else (far, near)
+    canvas.part(ANSWERS)
+    canvas.add(Arrow(tail, tip, Pen.THIN, name=name))
+    canvas.label(scene.words.symbol(name, bar=True), ((near + far) / 2, far), clear=0.9)
+
+
+def _instant_centre(canvas: Canvas, scene: Scene, c: Coupler, figures: Sequence[Skeleton]) -> Iterator[str]:
+    """Mark the instant centre and the rays to it; say in words that it lies far away, or nowhere."""
+    symbol = scene.words.symbol(c.centre)
+    ends = [end for figure in figures for stroke in figure.strokes for end in stroke]
+    size = max((abs(a - b) for a in ends for b in ends), default=0.0)
+    if not scene.defined(c.centre):
+        yield scene.words["said.no_centre"].format(link=scene.words.ends.get(str(c.number), c.number))
+        return
+    P = scene.mm(c.centre)
+    if min((abs(P - end) for end in ends), default=0.0) > FAR * size:
+        yield scene.words["said.far_centre"].format(centre=symbol)
+        return
+    canvas.part(c.centre)
+    for joint in (c.hinge, c.span.end):
+        way = P - scene.mm(joint)
+        if abs(way) > 2 * scene.style.pair:  # it may stand in the joint itself
+            rim = way / abs(way) * scene.style.pair
+            canvas.add(Line(scene.mm(joint) + rim, P, Pen.AXIS, role="ray", name=f"{c.centre}_{joint}"))
+    canvas.add(scene.point(P, c.centre))
+    canvas.label(symbol, P, clear=1.2, priority=1)
+    _turn(canvas, scene, f"omega_{c.number}", c.centre)
+
+
+def _turn(canvas: Canvas, scene: Scene, rate: str, centre: str) -> None:
+    value = scene.solved.values.get(rate)
+    if not value or value != value:
+        return
+    c, style = scene.mm(centre), scene.style
+    canvas.part(ANSWERS)
+    radii = tuple(style.pair + size * style.force for size in SIZES)
+    radius, middle = free_arc(c, radii, SPREAD, UP, list(obstacles(canvas.shapes)))
+    canvas.add(turning_arrow(c, radius, middle, SPREAD, math.copysign(1.0, value), rate))
+    canvas.label(scene.words.symbol(rate), c + rect(radius, middle), prefer=rect(1.0, middle), clear=1.2)
 
 
 def compound_told(teller: Teller, view: str) -> Iterator[Told]:
@@ -56,7 +246,6 @@ def _distance(teller: Teller, at: At) -> Told:
 
 
 def _hung(teller: Teller, at: At, step: Step) -> Iterator[Told]:
-    """Tell a part that is known in full."""
     start, vector = step.operands
     letter = teller.scene.letter(vector)
     if teller.scene.vanishes(vector):
@@ -75,7 +264,6 @@ def _start(teller: Teller, at: At, mark: str) -> str:
 
 
 def _met(teller: Teller, at: At, step: Step) -> Iterator[Told]:
-    """Tell the two lines that close the figure."""
     p, u, q, w = step.operands
     lines = [(teller.line(direction), _start(teller, at, mark)) for mark, direction in ((p, u), (q, w))]
     (one, first), (other, second) = lines
@@ -101,7 +289,6 @@ POINT_STEPS = {"chain": _hung, "meet": _met, "read": _measured}
 
 
 def _centre_told(teller: Teller, c: Coupler) -> Told:
-    """Tell where the instant centre of a coupler stands."""
     scene, line = teller.scene, f"{teller.mark(c.pivot)}{teller.mark(c.hinge)}"
     symbol, said = scene.words.symbol(c.centre), " ".join(measured(scene, f"l_{c.hinge}P{c.number}", POSITION))
     text = teller.say("compound_centre", line=line, point=symbol, sum=said)
@@ -118,7 +305,7 @@ def compound_heading(scene: Scene, c: Coupler, kind: str) -> str:
     return scene.words[f"heading.equations_compound_{kind}"].format(link=_name(scene, c.number))
 
 
-def compound_lines(scene: Scene, c: Coupler, kind: str, only: str = "") -> list[Line]:
+def compound_lines(scene: Scene, c: Coupler, kind: str, only: str = "") -> list[Said]:
     """Return the equations of a coupler's velocities ("V") or accelerations ("a"), all or those of the point `only`.
 
     What is said of the whole coupler stands before the first of its points.
@@ -128,7 +315,7 @@ def compound_lines(scene: Scene, c: Coupler, kind: str, only: str = "") -> list[
     return [*lines, *(line for point in points for line in _lines_of_point(scene, c, point, kind))]
 
 
-def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Line]:
+def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Said]:
     """Go through what is known before any point: the split, and relative rates where no end is closed."""
     words = scene.words
     if kind == "V":
@@ -142,7 +329,7 @@ def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Line]:
             yield from _centre(scene, c)
 
 
-def _lines_of_point(scene: Scene, c: Coupler, point: str, kind: str) -> Iterator[Line]:
+def _lines_of_point(scene: Scene, c: Coupler, point: str, kind: str) -> Iterator[Said]:
     """Go through the vectors of a point as they are hung; where its end is closed they give the relative rate."""
     letter, closing, (whole, carrier) = c.letters[point], _closing(c, point), _rates(c, kind)
     plan, rate = spelled(VELOCITY if kind == "V" else ACCELERATION, letter), f"{whole}_r_{c.number}"
@@ -178,7 +365,7 @@ def _closing(c: Coupler, point: str) -> Closing | None:
     return c.closing if point == c.span.end else None
 
 
-def _known_parts(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
+def _known_parts(scene: Scene, c: Coupler, point: str) -> Iterator[Said]:
     """Go through the parts that the velocities give: normal ones, the tangential one of transport, Coriolis."""
     letter, distance = c.letters[point], factor(scene, f"l_{c.pivot}{point}")
     yield _product(scene, f"a_{letter}_rn", factor(scene, f"omega_r_{c.number}", 2), _length(scene, c.hinge, point))
@@ -191,7 +378,7 @@ def _known_parts(scene: Scene, c: Coupler, point: str) -> Iterator[Line]:
     yield _product(scene, f"a_{letter}_k", two, factor(scene, c.omega_e), factor(scene, f"V_{letter}_r"))
 
 
-def _normal(scene: Scene, c: Coupler, normal: Name) -> Line:
+def _normal(scene: Scene, c: Coupler, normal: Name) -> Said:
     """Return the normal part on the circle of the end, which the other link of the group draws."""
     group = next(group for group in scene.solved.structure.groups if c.number in group.links)
     link = scene.mechanism.link(next(number for number in group.links if number != c.number))
@@ -201,13 +388,13 @@ def _normal(scene: Scene, c: Coupler, normal: Name) -> Line:
 
 def tangential(normal: Name) -> Name:
     """Return the name of the tangential part that goes with a normal one."""
-    return vector(normal.kind, normal.of, normal.about, "t")
+    return vector_named(normal.kind, normal.of, normal.about, "t")
 
 
-def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Line:
+def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Said:
     """Return the vector equation of a point, and along which lines its unknown vectors lie."""
     closing, letter = _closing(c, point), c.letters[point]
-    *parts, last = (scene.letter(vector(kind, letter, part=part)) for part in COMPOUND[kind])
+    *parts, last = (scene.letter(vector_named(kind, letter, part=part)) for part in COMPOUND[kind])
     whole, notes = scene.letter(f"{kind}_{point}"), list[str]()
     if closing is not None:
         notes = [f"{last} {line_of(scene, c.span.n)}", f"{whole} {line_of(scene, closing.direction)}"]
@@ -220,7 +407,7 @@ def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Line:
     return noted((f"{whole} = {first}", *(f"+ {term}" for term in others)), *notes)
 
 
-def _centre(scene: Scene, c: Coupler) -> Iterator[Line]:
+def _centre(scene: Scene, c: Coupler) -> Iterator[Said]:
     """Go through what places the instant centre: the two rotations cancel there."""
     words = scene.words
     if not scene.defined(c.centre):
@@ -232,7 +419,7 @@ def _centre(scene: Scene, c: Coupler) -> Iterator[Line]:
     yield f"{law},", *_product(scene, f"l_{c.hinge}P{c.number}", _length(scene, c.pivot, c.hinge), *rates)
 
 
-def _product(scene: Scene, name: str, *factors: Factor) -> Line:
+def _product(scene: Scene, name: str, *factors: Factor) -> Said:
     """Return a quantity as a product of magnitudes; of a rate the sense, too."""
     head = role(name).kind
     line = worked(scene.words, scene.words.symbol(name), [Product(factors)], UNITS.get(head, "m"))
@@ -240,7 +427,7 @@ def _product(scene: Scene, name: str, *factors: Factor) -> Line:
     return noted(line, sense)
 
 
-def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float) -> Line:
+def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float) -> Said:
     """Return a rate as the algebraic sum of two others; one that is zero by the form of the mechanism is left out."""
     words, values = scene.words, scene.solved.values
     terms = [(other, turn) for other, turn in ((first, 1.0), (second, sign)) if other != ZERO]
@@ -254,7 +441,7 @@ def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float)
     return noted((*head, last), sensed(words, float(values[name])))
 
 
-def measured(scene: Scene, name: str, plan: str) -> Line:
+def measured(scene: Scene, name: str, plan: str) -> Said:
     """Return what was measured: the segment and the scale factor."""
     words, item = scene.words, scene.solved.quantities[name]
     segment, number, value = printed_segment(scene, item, plan)
@@ -263,7 +450,6 @@ def measured(scene: Scene, name: str, plan: str) -> Line:
 
 
 def _length(scene: Scene, start: str, end: str, power: int = 1) -> Factor:
-    """Return the distance of two points of a link; one that the task gives is exact."""
     words, name = scene.words, f"l_{start}{end}"
     size = words.display.value(abs(scene.solved.point(end) - scene.solved.point(start)), "m")
     exact = name in scene.givens
@@ -271,5 +457,4 @@ def _length(scene: Scene, start: str, end: str, power: int = 1) -> Factor:
 
 
 def _name(scene: Scene, number: int) -> str:
-    """Return a link by its ends."""
     return scene.words.ends.get(str(number), str(number))

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from ....plans.board import POSITION
-from ....plans.linkages.compound import ACCELERATION, VELOCITY
-from ....plans.linkages.mechanism import Driver, Prismatic
-from ....plans.linkages.solved import SolvedLinkage
-from ....plans.linkages.structure import TRIAD, Group
-from ....plans.names import FORCES, role
-from ....scales.choices import SIZES
-from ....scales.choose import UNITS, Choosers, CrankScale, Fixed, From, Round
-from ....scales.errors import InputError
-from ....scales.scale import Scale, steps
-from ...extents import Extent, Extents, Ladder, Rungs, Size, choose, visible
-from ...formats import FORMATS, Format
+from ...plans.board import POSITION
+from ...plans.linkages.compound import ACCELERATION, VELOCITY
+from ...plans.linkages.mechanism import Driver, Prismatic
+from ...plans.linkages.solved import SolvedLinkage
+from ...plans.linkages.structure import TRIAD, Group
+from ...plans.names import FORCES, role
+from ...scales.choices import SIZES
+from ...scales.choose import UNITS, Choosers, CrankScale, Fixed, From, Round
+from ...scales.errors import InputError
+from ...scales.scale import Scale, steps
+from ..extents import Extent, Extents, Ladder, Rungs, Size, choose, visible
+from ..formats import FORMATS, Format
 
 DRIVER = "driver"  # the figure of the driver apart, among the plans that have scale factors
 # mm, the longest segment of a plan of forces at the beginning, on one page and on several, by format; that of other
