@@ -4,34 +4,32 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .scales import KulmanError as KulmanError
-    from .variants import all_variants as all_variants
-    from .variants import batch as batch
-    from .variants import chart as chart
-    from .variants import check as check
-    from .variants import handout as handout
-    from .variants import load_task as load_task
-    from .variants import note as note
-    from .variants import sheet as sheet
-    from .variants import solve as solve
-    from .variants import sweep as sweep
+    from .variants.batches.batch import batch as batch
+    from .variants.charts.charts import chart as chart
+    from .variants.handouts import handout as handout
+    from .variants.making.all_variants import all_variants as all_variants
+    from .variants.marking.checks import check as check
+    from .variants.notes import note as note
+    from .variants.reader import load_task as load_task
+    from .variants.sheets import sheet as sheet
+    from .variants.solution import solve as solve
+    from .variants.sweeps.sweeps import sweep as sweep
 
 __version__ = "0.1.0"
-__all__ = [
-    "KulmanError",
-    "__version__",
-    "all_variants",
-    "batch",
-    "chart",
-    "check",
-    "handout",
-    "load_task",
-    "note",
-    "sheet",
-    "solve",
-    "sweep",
-]
-
-_HOMES = {name: "variants" for name in __all__ if name != "__version__"} | {"KulmanError": "scales"}
+_HOMES = {
+    "KulmanError": "scales",
+    "all_variants": "variants.making.all_variants",
+    "batch": "variants.batches.batch",
+    "chart": "variants.charts.charts",
+    "check": "variants.marking.checks",
+    "handout": "variants.handouts",
+    "load_task": "variants.reader",
+    "note": "variants.notes",
+    "sheet": "variants.sheets",
+    "solve": "variants.solution",
+    "sweep": "variants.sweeps.sweeps",
+}
+__all__ = ["__version__", *_HOMES]
 
 
 def __getattr__(name: str) -> Any:

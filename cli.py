@@ -163,9 +163,9 @@ def _check(file: str, as_json: bool) -> int:
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) and show all quantities."""
-    from . import variants
+    from .variants.solution import solve as solve_task
 
-    solution = variants.solve(task, set=settings, lang=lang, **options)
+    solution = solve_task(task, set=settings, lang=lang, **options)
     if as_json:
         print_json(solution.to_json())
     elif solution.reason is None:
@@ -190,10 +190,10 @@ def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, 
 @titled("student", *BLOCK)
 def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
     """Draw the sheet of TASK (an id, or a TOML file) to scale."""
-    from . import variants
+    from .variants.sheets import sheet as sheet_task
 
     settled = {name: value for name, value in options.items() if value is not None}
-    drawn = variants.sheet(task, set=settings, **settled)
+    drawn = sheet_task(task, set=settings, **settled)
     saved = drawn.save(*files, tile=tile)
     for path in saved:
         click.echo(str(path))
@@ -213,10 +213,10 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 @titled("student", "group", "teacher", "department", "date")
 def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str | None, **options: Any) -> None:
     """Write the explanatory note of TASK: the work step by step, with equations, figures, tables."""
-    from . import variants
+    from .variants.notes import note as note_task
 
     said = {name: value for name, value in options.items() if value is not None}
-    written = variants.note(task, set=settings, lang=lang or "uk", **said)
+    written = note_task(task, set=settings, lang=lang or "uk", **said)
     for path in written.save(*files):
         click.echo(str(path))
     warn(written.sheet.warnings)
@@ -250,10 +250,10 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) over its whole cycle: positions, dead positions, strokes, extremes."""
-    from . import variants
+    from .variants.sweeps.sweeps import sweep as sweep_task
 
     language = options.pop("lang") or system_language()
-    swept = variants.sweep(task, set=settings, lang=language, **options)
+    swept = sweep_task(task, set=settings, lang=language, **options)
     hand_over(swept, files, as_json, tabled=swept.reason is None)
     return refuse(swept.reason) if swept.reason is not None else 0
 

@@ -69,10 +69,10 @@ def million() -> None:
     import numpy as np
     from by_hand import four_bar_motion, slider_crank_moment
 
+    from kulman import load_task
     from kulman.plans.boards.batch import batch, settle_heap
     from kulman.plans.linkages.chain import construct
     from kulman.plans.linkages.givens import board_givens
-    from kulman.variants import load_task
 
     settle_heap()
     phi = np.linspace(0.0, 2.0 * math.pi, MILLION, endpoint=False)

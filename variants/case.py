@@ -42,13 +42,7 @@ class Request:
     block: Mapping[str, str] = field(default_factory=dict)
 
     def case(self) -> Case:
-        """Solve what is asked for.
-
-        Raises
-        ------
-        InputError
-            An unknown variant, given, plan or scale factor, or a value of the wrong kind.
-        """
+        """Solve what is asked for; what there is not, or is of the wrong kind, is refused."""
         task = self.task
         of_kind("variant", self.variant, (str, int, type(None)), "str | None")
         variant, settings = task.variant(self.variant).id, by_name("set", self.settings)
@@ -88,13 +82,7 @@ class Case(Request):
         return Display(paper=self.task.display.paper) if WITH_FORCES.intersection(self.plans) else self.task.display
 
     def words(self, language: str | None = None) -> Words:
-        """Return the words of results in their units; in the language that was asked for where none is said.
-
-        Raises
-        ------
-        InputError
-            There is no such language or notation.
-        """
+        """Return the words of results in their units; in the language that was asked for where none is said."""
         notation = self.task.notation if self.notation is None else self.notation
         return Words.of(self.language if language is None else language, notation).showing(self.display)
 
@@ -156,13 +144,7 @@ def by_name(name: str, value: Mapping[str, Any] | None) -> dict[str, Any]:
 def names_of(
     argument: str, value: str | Iterable[str | int] | None, kinds: tuple[type, ...] = (str,)
 ) -> tuple[str, ...]:
-    """Return names that are given each alone or several with commas between; none for None.
-
-    Raises
-    ------
-    InputError
-        The value, or one of several, is of no kind of names; `kinds` are those of one.
-    """
+    """Return names that are given each alone or several with commas between, each of these `kinds`; none for None."""
     if value is None:
         return ()
     of_kind(argument, value, (str, Iterable), "list[str]")
@@ -180,13 +162,7 @@ def all_known(key: str, names: Iterable[str], known: Collection[str]) -> None:
 
 
 def positions_of(argument: str, value: int) -> int:
-    """Return a number of positions or sections of a cycle.
-
-    Raises
-    ------
-    InputError
-        There is no cycle of so many.
-    """
+    """Return a number of positions or sections that a cycle can have."""
     from ..plans.linkages.cycles.cycle import FEWEST, MOST  # brings numpy, which most commands do without
 
     of_kind(argument, value, (int,), "int")
@@ -196,13 +172,7 @@ def positions_of(argument: str, value: int) -> int:
 
 
 def plans_wanted(value: str | Iterable[str] | None, task: Task) -> tuple[str, ...]:
-    """Return the plans that `only` names, each alone or several with commas between; all of the task for none.
-
-    Raises
-    ------
-    InputError
-        There is no such plan.
-    """
+    """Return the plans that `only` names, each alone or several with commas between; all of the task for none."""
     if value is None:
         return task.plans
     of_kind("only", value, (str, Iterable), "list[str]")

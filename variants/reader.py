@@ -6,7 +6,6 @@ import os
 import re
 import stat
 import tomllib
-from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache, partial
@@ -72,25 +71,13 @@ def load_task(task: str | os.PathLike[str] | Task) -> Task:
 
 
 def read_file(task: str | os.PathLike[str]) -> tuple[Task | None, tuple[InputError, ...]]:
-    """Read a task file of one's own: the task, or all its faults.
-
-    Raises
-    ------
-    InputError
-        When there is no such file, or it cannot be read as a text.
-    """
+    """Read a task file of one's own, which must be a text: the task, or all its faults."""
     shown = _shown(task)
     return read_text(_file_text(task, shown), shown)
 
 
 def check_file(task: str | os.PathLike[str]) -> tuple[tuple[InputError, ...], tuple[InputError, ...]]:
-    """Return the faults of a bundled task or of a file, those too that only solving each variant tells, and remarks.
-
-    Raises
-    ------
-    InputError
-        As `read_file`.
-    """
+    """Return the faults of a bundled task or of a file, those too that only solving each variant tells, and remarks."""
     shown = _shown(task)
     if isinstance(task, str) and task in bundled():
         return check_text(bundled_text(task), shown)
@@ -109,11 +96,6 @@ def check_text(toml: str, file: str) -> tuple[tuple[InputError, ...], tuple[Inpu
     return faults, remarks
 
 
-def _in_order(located: Iterable[tuple[int, int, InputError]]) -> tuple[InputError, ...]:
-    """Return faults or remarks in the order of the lines of the file."""
-    return tuple(error for _, _, error in sorted(located, key=lambda one: one[:2]))
-
-
 def _read(
     toml: str, file: str, thorough: bool = False
 ) -> tuple[Task | None, tuple[InputError, ...], tuple[InputError, ...]]:
@@ -130,7 +112,12 @@ def _read(
     found = None
     with suppress(EnoughError):
         found = _task(checker, raw, thorough)
-    return None if checker.faults else found, _in_order(checker.faults), _in_order(checker.remarks)
+    # in the order of the lines of the file
+    faults, remarks = (
+        tuple(error for _, _, error in sorted(located, key=lambda one: one[:2]))
+        for located in (checker.faults, checker.remarks)
+    )
+    return None if checker.faults else found, faults, remarks
 
 
 @cache

@@ -61,13 +61,7 @@ class Entry:
     task: str = ""
 
     def variant_of(self, task: Task, digits: int | str = 1) -> str:
-        """Return the variant, that of the record book where none is written; empty where neither is.
-
-        Raises
-        ------
-        InputError
-            The record book has no such digits.
-        """
+        """Return the variant, that of the record book where none is written; empty where neither is."""
         return self.variant or (variant_of_book(task, self.who.book, digits) if self.who.book else "")
 
 
@@ -138,18 +132,9 @@ class _Columns:
 def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Roster:
     """Read a roster: CSV or XLSX with a column `student`, and `variant`, `record book`, givens such as `phi [deg]`.
 
-    Parameters
-    ----------
-    of : Task or Schemes
-        The task of the class, then students to whom a column `task` gives another one are left out; or several, then
-        each student must have a task and a variant.
-    each : bool
-        Let a row that is wrong be the problem of its student alone.
-
-    Raises
-    ------
-    InputError
-        No such columns; an unknown task, variant or given, or a value that it cannot take, with the cell.
+    Where it is `of` the one task of the class, students to whom a column `task` gives another one are left out; of
+    several each student must have a task and a variant. What is wrong is said with its cell; with `each` a row that is
+    wrong is the problem of its student alone.
     """
     grid = read_grid(file)
     named = (len(cells) > 1 and not NAMED.isdisjoint(map(about_kind, cells)) for cells in grid.rows[:LOOKED_AT])
@@ -251,11 +236,6 @@ class Digits:
         """Return what is meant by a number of digits for the variant, or by words such as `variant,scheme`.
 
         The words may be those over the columns of a roster, in any language.
-
-        Raises
-        ------
-        InputError
-            No such number, or another word.
         """
         of_kind("digits", said, (int, str), "int | str")
         words = [_MEANT.get(about_kind(word) or "", word.strip().lower()) for word in str(said).split(",")]
@@ -269,13 +249,7 @@ class Digits:
         return cls(tuple(words))
 
     def number(self, meaning: str, book: str) -> int | None:
-        """Return the number that a record book has for a scheme or a variant; None where no digit is for that.
-
-        Raises
-        ------
-        InputError
-            The record book has too few digits, or is no longer whole.
-        """
+        """Return the number that a record book has for a scheme or a variant; None where no digit is for that."""
         if meaning not in self.meanings:
             return None
         if _SHORTENED.fullmatch(book.strip()):
@@ -291,24 +265,16 @@ class Digits:
         return int(10 ** self.meanings.count(meaning))
 
 
-def variant_of_book(task: Task, book: str, digits: int | str = 1) -> str:
+def variant_of_book(task: Task, book: str, digits: int | str | Digits = 1) -> str:
     """Return the variant by the last digits of a record book: the one of this number, else counted round.
 
     Where no variant is numbered 0, zeros are the tenth, of two digits the hundredth.
-
-    Raises
-    ------
-    InputError
-        The record book has no such digits, or they give no variant.
 
     >>> from kulman import load_task
     >>> variant_of_book(load_task("nau-slider-crank"), "АТ-2023/417")
     '7'
     """
-    return _variant(task, book, Digits.of(digits))
-
-
-def _variant(task: Task, book: str, meant: Digits) -> str:
+    meant = digits if isinstance(digits, Digits) else Digits.of(digits)
     number = meant.number(VARIANT, book)
     if number is None:
         return ""
@@ -337,36 +303,27 @@ class Schemes:
     digits: Digits
 
     def of(self, said: str, book: str) -> Task:
-        """Return the task that a roster names by id or number, else that of the record book, else the only one.
-
-        Raises
-        ------
-        InputError
-            There is no such task, or nothing says which.
-        """
+        """Return the task that a roster names by id or number, else that of the record book, else the only one."""
+        for number, task in enumerate(self.tasks, 1) if said else ():
+            if said.strip() in (task.id, str(number)):
+                return task
         if said:
-            return self._named(said)
-        number = self.digits.number(SCHEME, book) if book else None
-        if number is not None:
-            number = number or self.digits.top(SCHEME)
-            if number > len(self.tasks):
-                raise InputError("roster-scheme", text=quote(book), number=number, n=len(self.tasks))
-            return self.tasks[number - 1]
+            raise unknown("task-other", said, self.ids)
+        scheme = self.digits.number(SCHEME, book) if book else None
+        if scheme is not None:
+            scheme = scheme or self.digits.top(SCHEME)
+            if scheme > len(self.tasks):
+                raise InputError("roster-scheme", text=quote(book), number=scheme, n=len(self.tasks))
+            return self.tasks[scheme - 1]
         if len(ids := self.ids) > 1:
             raise InputError("batch-no-task", known=quote(", ".join(ids), SHOWN))
         return self.tasks[0]
 
     def variant_of(self, task: Task, said: str, book: str) -> str:
-        """Return the variant that a roster names, else that of the record book.
-
-        Raises
-        ------
-        InputError
-            There is no such variant, or nothing says which.
-        """
+        """Return the variant that a roster names, else that of the record book; there must be one."""
         if said:
             return task.variant(said).id
-        found = _variant(task, book, self.digits) if book else ""
+        found = variant_of_book(task, book, self.digits) if book else ""
         if not found:
             raise InputError("batch-no-variant", known=quote(", ".join(task.variants), SHOWN))
         return found
@@ -375,9 +332,3 @@ class Schemes:
     def ids(self) -> Sequence[str]:
         """The ids of the tasks, each once."""
         return tuple(dict.fromkeys(task.id for task in self.tasks))
-
-    def _named(self, said: str) -> Task:
-        for number, task in enumerate(self.tasks, 1):
-            if said.strip() in (task.id, str(number)):
-                return task
-        raise unknown("task-other", said, self.ids)

@@ -155,13 +155,7 @@ def drawing_of(case: Case) -> Drawn:
 
 
 def said_of(block: Mapping[str, str]) -> dict[str, str]:
-    """Return what a title block or a title page says, without signs that nobody sees.
-
-    Raises
-    ------
-    InputError
-        What is to be said is no text.
-    """
+    """Return what a title block or a title page says, all of it texts, without signs that nobody sees."""
     for name, text in block.items():
         of_kind(name, text, (str,), "str")
     return {name: legible(name, text) for name, text in block.items()}
@@ -215,13 +209,7 @@ def _others(case: Case, drawn: Drawn) -> Iterator[InputError]:
 
 
 def sheet_id(task: Task, variant: str, settings: Mapping[str, str | float] | None = None) -> str:
-    """Return the id of the sheet of a variant with its data, such as `3F7-K2M`; the same data give the same id.
-
-    Raises
-    ------
-    InputError
-        An unknown variant or given.
-    """
+    """Return the id of the sheet of a variant with its data, such as `3F7-K2M`; the same data give the same id."""
     data = {
         name: value if isinstance(value, str) else f"{value:.9e}"
         for name, value in task.resolve(variant, settings).items()
@@ -237,11 +225,8 @@ def sheet_id(task: Task, variant: str, settings: Mapping[str, str | float] | Non
 
 def same_id(written: str, right: str) -> bool:
     """Tell whether a student has copied an id, letters that are easily misread counting as one."""
-    return _plain(written) == _plain(right)
-
-
-def _plain(text: str) -> str:
-    return latin(text.strip().upper()).translate(_MISREAD)
+    plain, own = (latin(text.strip().upper()).translate(_MISREAD) for text in (written, right))
+    return plain == own
 
 
 def variant_of_id(task: Task, written: str) -> str | None:

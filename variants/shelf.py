@@ -57,19 +57,9 @@ def template(language: str, kind: str = KINDS[0]) -> str:
 
 
 def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0]) -> Path:
-    """Write a task file to begin with, and return its path; a name without a suffix gets one.
+    """Write a task file of a kind to begin with, its comments in a language, and return its path.
 
-    Parameters
-    ----------
-    language : str
-        Of the comments.
-    kind : str
-        What the task is about, of `kinds.KINDS`: a linkage, a cam.
-
-    Raises
-    ------
-    InputError
-        A name of another kind, a file that is there already, or a place where none can be written.
+    A name without a suffix gets one; a file that is there already stays, and is an error.
     """
     path = Path(file)
     shown = quote(path, SHOWN)

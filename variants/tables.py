@@ -72,14 +72,9 @@ def csv_text(
     separator: str | None = None,
     number: Callable[[float], str] | None = None,
 ) -> str:
-    """Return rows as CSV: for `uk` and `ru` with `;` and decimal commas.
+    """Return rows as CSV: for `uk` and `ru` with `;` and decimal commas, with a `separator` decimal points.
 
-    Parameters
-    ----------
-    separator : str, optional
-        For another program than a spreadsheet: decimal points.
-    number : callable, optional
-        How a number is written; in full precision when left out.
+    Numbers are in full precision where nothing else writes a `number`.
     """
     comma = separator is None and language != "en"
     stream = io.StringIO(newline="")
@@ -127,18 +122,10 @@ def csv_bytes(text: str, language: str) -> bytes:
 
 
 def xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:
-    """Return rows as a workbook of one sheet; texts are texts there, whatever they begin with.
+    """Return rows as a workbook of one sheet, named by a title; texts are texts there, whatever they begin with.
 
-    Columns are as wide as their longest texts, but for a text that has its row to itself.
-
-    Parameters
-    ----------
-    title : str
-        Name of the sheet.
-    bold : iterable of int
-        Rows set in bold, counted from 0.
-    frozen : int
-        Rows that stay in sight when the sheet is scrolled.
+    `bold` rows are counted from 0, so many as are `frozen` stay in sight when the sheet is scrolled. Columns are as
+    wide as their longest texts, but for a text that has its row to itself.
     """
     from xlsxwriter import Workbook  # takes a tenth of a second
 

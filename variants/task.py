@@ -29,34 +29,25 @@ WITH_FORCES = frozenset(("forces", "lever"))  # plans whose units hang together 
 
 
 class Bound(Enum):
-    """What values a given may take; the members are the keys of the messages for the others."""
+    """What values a given may take, in SI; the value of a member is the key of the message for the others."""
 
-    FREE = ""
-    POSITIVE = "not-positive"
-    NOT_NEGATIVE = "negative"
-    NOT_ZERO = "is-zero"
-    PART = "not-part"
-    ACUTE = "not-acute"
-    TURN = "not-turn"
-    UP_TO_HALF = "not-half"
-    RIGID = "not-positive-or-inf"  # positive or infinite
+    admits: Callable[[float], bool]
 
-    def admits(self, value: float) -> bool:
-        """Whether a given may have this value, in SI."""
-        return _ADMITTED[self](value)
+    FREE = "", lambda value: True
+    POSITIVE = "not-positive", lambda value: value > 0.0
+    NOT_NEGATIVE = "negative", lambda value: value >= 0.0
+    NOT_ZERO = "is-zero", lambda value: value != 0.0
+    PART = "not-part", lambda value: 0.0 < value < 1.0
+    ACUTE = "not-acute", lambda value: 0.0 < value < 0.5 * math.pi
+    TURN = "not-turn", lambda value: 0.0 < value <= 2.0 * math.pi
+    UP_TO_HALF = "not-half", lambda value: 0.0 < value <= 0.5
+    RIGID = "not-positive-or-inf", lambda value: value > 0.0  # positive or infinite
 
-
-_ADMITTED: dict[Bound, Callable[[float], bool]] = {
-    Bound.FREE: lambda value: True,
-    Bound.POSITIVE: lambda value: value > 0.0,
-    Bound.NOT_NEGATIVE: lambda value: value >= 0.0,
-    Bound.NOT_ZERO: lambda value: value != 0.0,
-    Bound.PART: lambda value: 0.0 < value < 1.0,
-    Bound.ACUTE: lambda value: 0.0 < value < 0.5 * math.pi,
-    Bound.TURN: lambda value: 0.0 < value <= 2.0 * math.pi,
-    Bound.UP_TO_HALF: lambda value: 0.0 < value <= 0.5,
-    Bound.RIGID: lambda value: value > 0.0,
-}
+    def __new__(cls, key: str, admits: Callable[[float], bool]) -> Bound:
+        """Make a bound that is known by its key."""
+        bound = object.__new__(cls)
+        bound._value_, bound.admits = key, admits
+        return bound
 
 
 class LocatedError(InputError):
@@ -86,10 +77,7 @@ class Given:
     def read(self, value: object) -> float | str:
         """Return what was written for this given: a chosen word, or a number in SI.
 
-        Parameters
-        ----------
-        value : str or real number
-            A quantity (`"55,5 мм"`), a number in the given's own unit, or one of the choices.
+        A quantity may be a text (`"55,5 мм"`), or a number in the given's own unit.
         """
         if self.unit is None:
             if value not in self.choices or not isinstance(value, str):
@@ -167,13 +155,7 @@ class Task:
 
     @property
     def mechanism(self) -> Mechanism:
-        """The mechanism that the task of a linkage is about.
-
-        Raises
-        ------
-        InputError
-            The task is of another kind.
-        """
+        """The mechanism that the task of a linkage is about; a task of another kind has none."""
         if not isinstance(self.subject, Mechanism):
             raise InputError("kind-without", task=quote(self.id), text="mechanism")
         return self.subject

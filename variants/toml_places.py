@@ -18,12 +18,24 @@ _SCALAR = re.compile(r"[^,\]}#\n]*")
 
 
 class Places:
-    """Line and column, from 1, of every key, array element and table of a text that tomllib has accepted."""
+    """Line and column, from 1, of every key, array element and table of a text that tomllib has accepted.
+
+    One pass over the text finds them; `at` is where it reads.
+    """
 
     def __init__(self, text: str) -> None:
-        """Scan `text` once."""
-        self._offsets = _Scanner(text).offsets
+        self.text, self.at = text, 0
+        self._offsets: dict[Path, int] = {}
+        self._rows: dict[Path, int] = {}
         self._lines = [0, *(found.end() for found in re.finditer("\n", text))]
+        table: Path = ()
+        self.skip(_BLANK)
+        while self.at < len(text):
+            if text[self.at] == "[":
+                table = self.header()
+            else:
+                self.assignment(table)
+            self.skip(_BLANK)
 
     def __contains__(self, path: Path) -> bool:
         """Tell whether `path` stands in the file."""
@@ -37,33 +49,14 @@ class Places:
         line = bisect_right(self._lines, offset)
         return line, offset - self._lines[line - 1] + 1
 
-
-class _Scanner:
-    """One pass over the text; `at` is where it reads."""
-
-    def __init__(self, text: str) -> None:
-        self.text = text
-        self.at = 0
-        self.offsets: dict[Path, int] = {}
-        self.rows: dict[Path, int] = {}
-        table: Path = ()
-        self.skip_blank()
-        while self.at < len(text):
-            if text[self.at] == "[":
-                table = self.header()
-            else:
-                self.assignment(table)
-            self.skip_blank()
-
-    def skip_blank(self) -> None:
-        """Move over spaces, line ends and comments."""
-        found = _BLANK.match(self.text, self.at)
-        self.at = found.end() if found else self.at
+    def skip(self, what: re.Pattern[str]) -> None:
+        """Move over what begins here; it may be blank."""
+        found = what.match(self.text, self.at)
+        self.at = found.end() if found else len(self.text)
 
     def key(self) -> list[tuple[str, int]]:
         """Read a dotted key: its parts and where each begins."""
-        parts = []
-        dotted = True
+        parts, dotted = [], True
         while dotted:
             found = _KEY.match(self.text, self.at)
             if found is None:
@@ -85,14 +78,12 @@ class _Scanner:
         path: Path = ()
         for i, (name, _) in enumerate(parts):
             path += (name,)
-            last = i == len(parts) - 1
-            if last and array:
-                self.offsets.setdefault(path, start)
-                self.rows[path] = self.rows.get(path, -1) + 1
-            self.offsets.setdefault(path, start)
-            if path in self.rows:
-                path += (self.rows[path],)
-                self.offsets.setdefault(path, start)
+            if array and i == len(parts) - 1:
+                self._rows[path] = self._rows.get(path, -1) + 1
+            self._offsets.setdefault(path, start)
+            if path in self._rows:
+                path += (self._rows[path],)
+                self._offsets.setdefault(path, start)
         return path
 
     def assignment(self, table: Path) -> None:
@@ -100,39 +91,32 @@ class _Scanner:
         path = table
         for name, start in self.key():
             path += (name,)
-            self.offsets.setdefault(path, start)
+            self._offsets.setdefault(path, start)
         self.at = self.text.index("=", self.at) + 1
         self.value(path)
 
     def value(self, path: Path) -> None:
         """Move over one value and note what it holds."""
-        self.skip_blank()
+        self.skip(_BLANK)
         first = self.text[self.at]
-        if first in "\"'":
-            found = _STRING.match(self.text, self.at)
-            self.at = found.end() if found else len(self.text)
-        elif first == "[":
-            self.items(path, "]")
-        elif first == "{":
-            self.items(path, "}")
+        if first in "[{":
+            self.items(path, "]" if first == "[" else "}")
         else:
-            found = _SCALAR.match(self.text, self.at)
-            self.at = found.end() if found else len(self.text)
+            self.skip(_STRING if first in "\"'" else _SCALAR)
 
     def items(self, path: Path, closing: str) -> None:
         """Move over an array or an inline table."""
-        self.at += 1
-        index = 0
-        self.skip_blank()
+        self.at, index = self.at + 1, 0
+        self.skip(_BLANK)
         while self.text[self.at] != closing:
             if closing == "}":
                 self.assignment(path)
             else:
-                self.offsets[(*path, index)] = self.at
+                self._offsets[(*path, index)] = self.at
                 self.value((*path, index))
             index += 1
-            self.skip_blank()
+            self.skip(_BLANK)
             if self.text[self.at] == ",":
                 self.at += 1
-                self.skip_blank()
+                self.skip(_BLANK)
         self.at += 1

@@ -9,14 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from kulman import solve
+from kulman import load_task, solve
 from kulman.drawing.words import Words
 from kulman.plans.board import POSITION, Program, RecordingBoard
 from kulman.plans.linkages.chain import PLANS, construct
 from kulman.plans.names import CORIOLIS, NORMAL, Name, mark, role, spelled, vector
 from kulman.tests.support.dyads import KINDS, random_dyads
 from kulman.tests.support.triads import random_triads
-from kulman.variants import load_task
 from kulman.variants.shelf import bundled
 
 ROOT = Path(__file__).parents[2]

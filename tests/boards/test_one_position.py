@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 import quickjs
 
+from kulman import load_task
 from kulman.plans.board import Program, Step
 from kulman.plans.boards.batch import batch, script_names, script_of, values_of
 from kulman.plans.boards.exact import STATUSES, ExactBoard, run
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.scales.errors import InputError, KulmanError
-from kulman.variants import load_task
 from kulman.variants.shelf import bundled
 
 EPS = 2.0**-52

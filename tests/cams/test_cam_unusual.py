@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from kulman import sheet, solve
+from kulman import load_task, sheet, solve
 from kulman.scales.errors import LANGUAGES, InputError, messages
-from kulman.variants import load_task
 from kulman.variants.kinds.cam import LARGE, UNUSUAL
 
 TASK = "madi-cam"

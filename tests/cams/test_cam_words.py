@@ -10,11 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from kulman import cli, sheet, solve
+from kulman import cli, load_task, sheet, solve
 from kulman.scales.errors import InputError
 from kulman.tests.support.printed_numbers import lines_of
 from kulman.tests.support.readback import read
-from kulman.variants import load_task
 
 TASK = "madi-cam"
 ROCKER = str(Path(__file__).parents[2] / "docs" / "examples" / "rocker-cam.toml")

@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from kulman import cli
+from kulman import cli, solve
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.broken_files import BROKEN, GOOD, LOADED, PRESS, broken
-from kulman.variants import solve
 from kulman.variants.reader import read_text
 
 

@@ -9,9 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from kulman import cli
+from kulman import cli, load_task
 from kulman.scales.errors import LANGUAGES
-from kulman.variants import load_task
 from kulman.variants.kinds import kind_of
 from kulman.variants.shelf import bundled
 from kulman.variants.solution import Solution, solve

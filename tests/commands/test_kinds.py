@@ -76,4 +76,4 @@ def test_every_table_leads_to_its_kind() -> None:
 
 @pytest.mark.parametrize("task", ["madi-cam", "madi-gear"])
 def test_reading_a_task_about_a_cam_or_gears_needs_no_arrays(task: str) -> None:
-    assert loaded(f"from kulman.variants import load_task; load_task('{task}')") == set()
+    assert loaded(f"from kulman import load_task; load_task('{task}')") == set()

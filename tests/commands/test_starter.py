@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from kulman import cli
+from kulman import cli, load_task, solve
 from kulman.scales.errors import LANGUAGES, InputError
-from kulman.variants import load_task, solve
 from kulman.variants.kinds import KINDS, MODULES
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import start, template

@@ -9,6 +9,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
+from kulman import load_task
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
@@ -16,7 +17,6 @@ from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import FRAME, STROKE, WORKING, Driver, Mechanism, Prismatic, Revolute
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.plans.linkages.structure import Group, analyse
-from kulman.variants import load_task
 from kulman.variants.shelf import bundled, bundled_text, summary
 
 # The customary schemes of course projects: I is the driver, then the groups by class and kind (class III by order) with

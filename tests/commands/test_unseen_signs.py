@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from kulman import variants
+import kulman
 from kulman.cli import main
 from kulman.scales.errors import InputError
 from kulman.tests.support.answer_files import HEAD, ROW
@@ -45,9 +45,9 @@ def test_signs_that_nobody_sees_are_left_out_of_names(tmp_path: Path) -> None:
     roster = tmp_path / "class.csv"
     roster.write_text(f"stu\u200bdent;variant;group\n{TURNED.replace(chr(0), '')};1;\u202e\n", encoding="utf-8")
 
-    svg = variants.sheet("nau-slider-crank", student=TURNED, group="А\t\nБ").svg()
-    note = variants.note("nau-slider-crank", student=TURNED)
-    [entry] = read_roster(roster, variants.load_task("nau-slider-crank")).entries
+    svg = kulman.sheet("nau-slider-crank", student=TURNED, group="А\t\nБ").svg()
+    note = kulman.note("nau-slider-crank", student=TURNED)
+    [entry] = read_roster(roster, kulman.load_task("nau-slider-crank")).entries
     made = batch("nau-slider-crank", roster=roster, folder=tmp_path / "out", kinds=("svg",), jobs=1)
 
     assert NAME in svg
@@ -62,10 +62,10 @@ def test_signs_that_nobody_sees_are_left_out_of_names(tmp_path: Path) -> None:
 def test_signs_that_nobody_sees_are_left_out_of_titles(tmp_path: Path) -> None:
     file = tmp_path / "own.toml"
     text = bundled_text("nau-slider-crank")
-    title = variants.load_task("nau-slider-crank").title["uk"]
+    title = kulman.load_task("nau-slider-crank").title["uk"]
     file.write_text(text.replace(f'"{title}"', f'"\\u202e{title}\\u200b"', 1), encoding="utf-8")
 
-    assert variants.load_task(file).title["uk"] == title
+    assert kulman.load_task(file).title["uk"] == title
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")
@@ -75,7 +75,7 @@ def test_files_whose_names_are_bytes_are_read_and_written(tmp_path: Path) -> Non
     (folder / f"{BYTES}.csv").write_text(HEAD + ROW, encoding="utf-8")
     note = tmp_path / f"{BYTES}.md"
 
-    variants.note("nau-slider-crank").save(note)
+    kulman.note("nau-slider-crank").save(note)
     files = [str(tmp_path / name) for name in ("t.csv", "t.xlsx", "m.csv")]
     to = ["--out", str(reports), "-o", files[0], "-o", files[1], "--moodle", files[2]]
     with pytest.raises(SystemExit) as caught:
@@ -94,7 +94,7 @@ def test_an_error_of_the_system_is_not_one_of_the_output(
     def no_memory(*_: object, **__: object) -> None:
         raise OSError(12, "Cannot allocate memory")
 
-    monkeypatch.setattr(variants, "solve", no_memory)
+    monkeypatch.setattr("kulman.variants.solution.solve", no_memory)
 
     with pytest.raises(SystemExit) as caught:
         main(["solve", "nau-slider-crank"])
@@ -109,4 +109,4 @@ def test_an_error_of_the_system_is_not_one_of_the_output(
 
 def test_a_name_of_bytes_is_refused_from_python() -> None:
     with pytest.raises(InputError, match="teacher"):
-        variants.sheet("nau-slider-crank", teacher="\ud800")
+        kulman.sheet("nau-slider-crank", teacher="\ud800")

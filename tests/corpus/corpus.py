@@ -54,8 +54,8 @@ class Case:
 
 def cases() -> Iterator[Case]:
     """Go through all cases, always in the same order."""
+    from kulman import load_task
     from kulman.scales.errors import LANGUAGES
-    from kulman.variants import load_task
     from kulman.variants.shelf import bundled
 
     yield from (Case(("list", "--lang", language)) for language in LANGUAGES)

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from kulman import solve
+from kulman import load_task, solve
 from kulman.plans.hoist.hoist import PARTS, VALUES
 from kulman.plans.hoist.solve import SolvedHoist, conditions_of, solve_hoist
-from kulman.variants import load_task
 
 TASK, ERR = "karpenko-hoist", 1e-7
 VARIANTS = [pytest.param(v, marks=[] if v in ("V01", "V09") else pytest.mark.soak) for v in load_task(TASK).variants]

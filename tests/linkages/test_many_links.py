@@ -14,13 +14,12 @@ from pathlib import Path
 
 import pytest
 
-from kulman import cli, solve
+from kulman import cli, load_task, solve
 from kulman.plans.linkages.mechanism import FRAME, Mechanism, Pair
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.tests.support.chains import chain
 from kulman.tests.support.linkage_cases import Oracle
 from kulman.tests.support.task_files import task_of
-from kulman.variants import load_task
 from kulman.variants.shelf import bundled
 from kulman.variants.solution import Solution
 

@@ -7,11 +7,11 @@ import math
 import pytest
 from mpmath import mpc, mpf
 
+from kulman import load_task
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.tests.linkages.test_plans_second_solver import size_of
 from kulman.tests.support.mechanisms import NAU_VARIANTS, ROTATIONS, nau_cases, nau_values
 from kulman.tests.support.second_solver import SecondSolver
-from kulman.variants import load_task
 
 TASK = load_task("nau-slider-crank")
 

@@ -125,13 +125,7 @@ def progress() -> Iterator[Callable[[int, int], None]]:
 
 
 def refuse_long(words: Sequence[str]) -> None:
-    """Refuse a command line with a word that is longer than any name, number or path.
-
-    Raises
-    ------
-    InputError
-        There is one.
-    """
+    """Refuse a command line with a word that is longer than any name, number or path."""
     for word in words:
         if len(word) > LONGEST:
             raise InputError("cli-long", text=quote(word), n=LONGEST)

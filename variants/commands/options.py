@@ -66,10 +66,7 @@ def given(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -
 def output(module: str, help: str, required: bool = False) -> Callable[[Command], Command]:
     """Return the option `-o FILE`, which refuses, before any work, files that cannot be written.
 
-    Parameters
-    ----------
-    module : str
-        Where the `SUFFIXES` that can be written stand; it is imported when the option is read, not for the help.
+    The `SUFFIXES` that can be stand in a module, which is imported when the option is read, not for the help.
     """
 
     def checked(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:

@@ -68,14 +68,14 @@ if TYPE_CHECKING:
 @titled("student", *BLOCK)
 def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
     """Draw a handout of TASK: givens, scales and poles, no answers; with rulers that prove the print."""
-    from ... import variants
+    from ..handouts import handout as handout_task
 
     flat = [file for file in files if file.suffix.lower() == ".png"]
     if flat and options["hidden_key"]:  # a picture has no layers
         raise InputError("handout-apart", first="--hidden-key", second=quote(f"-o {flat[0]}", SHOWN))
     said = {name: options.pop(name) for name in (*BLOCK, "student")}
     block = {name: text for name, text in said.items() if text is not None}
-    drawn = variants.handout(task, set=settings, block=block, **{**options, "lang": options["lang"] or "uk"})
+    drawn = handout_task(task, set=settings, block=block, **{**options, "lang": options["lang"] or "uk"})
     for path in drawn.save(*files, tile=tile):
         click.echo(str(path))
     warn(drawn.warnings)
@@ -120,13 +120,13 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     turns round, lines meet at no small angles, plans fit at the task's scale factors; cams, gears and hoists keep the
     rules of good design.
     """
-    from ... import variants
+    from ..making.all_variants import all_variants as solve_all
 
     if options.pop("variant") is not None:
         raise InputError("variants-one")
     language = options.pop("lang") or "uk"
     with progress() as advance:
-        found = variants.all_variants(task, set=settings, lang=language, advance=advance, **options)
+        found = solve_all(task, set=settings, lang=language, advance=advance, **options)
     hand_over(found, files, as_json)
     warn(found.warnings)
     return refuse(InputError("variants-problems", n=len(found.left_out))) if found.left_out else 0
@@ -194,12 +194,12 @@ def batch(tasks: tuple[str, ...], settings: dict[str, str], kinds: tuple[str, ..
 
 def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **options: Any) -> int:
     """Draw the sheets of a class; a console shows how far it is."""
-    from ... import variants
     from ..batches.batch import MANIFEST
+    from ..batches.batch import batch as draw_class
 
     block = {name: text for name in BLOCK if (text := options.pop(name)) is not None}
     with progress() as advance:
-        made = variants.batch(tasks, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
+        made = draw_class(tasks, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
     warn(made.warnings)
     n, bad = len(made.students), made.problems
     click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
@@ -223,13 +223,13 @@ def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[
     The variant is that of the roster, of -v, or what the file says. The word `printed` stands for the answers that the
     source of a bundled task prints.
     """
-    from ... import variants
+    from ..marking.checks import check as ready
 
     shown = {name: options.pop(name) for name in ("files", "folder", "moodle", "jobs", "as_json")}
     form = options.pop("form")
     if form is None and not answers:
         raise InputError("check-nothing")
-    asked = variants.check(task, set=settings, lang=lang or system_language(), **options)
+    asked = ready(task, set=settings, lang=lang or system_language(), **options)
     if form is not None:
         say_written([asked.write_form(form)], shown["as_json"])
     if answers:

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cache
+from itertools import starmap
 
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, KulmanError, messages
@@ -54,26 +55,11 @@ def make_variants(
     seed: int = 1,
     advance: Advance | None = None,
 ) -> NewVariants:
-    """Make variants from ranges, each a good exercise: it can be solved and drawn on one sheet without a warning.
+    """Make so many variants from ranges, each a good exercise: it can be solved and drawn without a warning.
 
     A crank turns round, lines meet at angles over 20 degrees, plans fit at the scale factors that the task wants, and
-    what the task's kind calls good design holds.
-
-    Parameters
-    ----------
-    count : int
-        How many, up to 1000.
-    ranges : mapping, optional
-        `{"l_OA": "25..60/5 mm"}`: from, to, and a step; of other givens what the task's variants span.
-    set : mapping, optional
-        Givens that all new variants have alike.
-    seed : int
-        The same seed gives the same variants.
-
-    Raises
-    ------
-    InputError
-        A range is wrong, or too few sets of data are good.
+    what the task's kind calls good design holds. Ranges, `{"l_OA": "25..60/5 mm"}`, say from, to, and a step; of other
+    givens they are what the task's variants span; those in `set` all have alike. The same seed gives the same variants.
     """
     found = load_task(task)
     of_kind("count", count, (int,), "int")
@@ -92,13 +78,7 @@ def make_variants(
 
 
 def import_variants(task: str | os.PathLike[str] | Task, file: str | os.PathLike[str]) -> NewVariants:
-    """Read variants from a spreadsheet; those that have no solution are left out and named.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, names no given of the task, or none of its variants can be solved.
-    """
+    """Read variants from a spreadsheet; those that have no solution are left out and named, unless none has one."""
     found = load_task(task)
     rows: dict[str, Mapping[str, str]] = {}
     pages = most_pages(found)
@@ -144,13 +124,7 @@ def _at(read: Read, error: KulmanError) -> KulmanError:
 
 
 def _task_with(task: Task, rows: Mapping[str, Mapping[str, str]]) -> NewVariants:
-    """Return a task with other variants.
-
-    Raises
-    ------
-    TaskFileError
-        One of them is no variant of the task.
-    """
+    """Return a task with other variants; one that is no variant of the task is a `TaskFileError`."""
     text = with_variants(task.text, rows.items())
     file = task.file or f"{task.id}.toml"
     found, faults = read_text(text, file)
@@ -183,13 +157,7 @@ class Range:
 
 
 def ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, Range]:
-    """Return the range of every given: as `asked`, such as `25..60/5 mm`, else what the task's variants span.
-
-    Raises
-    ------
-    InputError
-        No range, or a given that is none of the task's.
-    """
+    """Return the range of every given: as `asked`, such as `25..60/5 mm`, else what the task's variants span."""
     found = {name: _spanned(task, name, given) for name, given in task.givens.items() if given.unit is not None}
     for name, row in kind_of(task.kind).rows.items():
         one, given = found.get(name), task.givens.get(name)
@@ -299,12 +267,7 @@ def made(
     """Go through new variants that differ, each a good exercise; `fixed` are givens that all have alike.
 
     Each is solved, looked at as its kind looks at exercises, and drawn: its plans must fit one sheet at the scale
-    factors that the task wants.
-
-    Raises
-    ------
-    InputError
-        So few of the sets are good, or there are so few, that the wanted number is not found: what was wrong last.
+    factors that the task wants. Where too few sets are good an error says what was wrong last.
     """
     luck, seen = random.Random(seed), set[tuple[str, ...]]()
     first, pages = next(iter(task.variants)), most_pages(task)
@@ -376,14 +339,9 @@ def with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]]) -> s
         if not inside:
             kept.append(line)
     whole = "\n".join(kept).rstrip("\n")
-    tables = ("\n".join(("[[variant]]", *_lines({"id": number, **row}))) for number, row in rows)
+
+    def stated(name: str, text: str) -> str:  # a basic string of TOML
+        return f"{name} = {json.dumps(text, ensure_ascii=False)}".replace("\x7f", "\\u007F")
+
+    tables = ("\n".join(("[[variant]]", stated("id", number), *starmap(stated, row.items()))) for number, row in rows)
     return "\n\n".join((whole, *tables)) + "\n"
-
-
-def _lines(row: Mapping[str, str]) -> Iterable[str]:
-    return (f"{name} = {_quoted(text)}" for name, text in row.items())
-
-
-def _quoted(text: str) -> str:
-    """Return a text as a basic string of TOML."""
-    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007F")

@@ -77,11 +77,6 @@ def read_variants(file: str, task: Task) -> list[Read]:
     """Read the variants of a task from a spreadsheet, .csv or .xlsx.
 
     A row, or a column, names the givens, `l_OA [mm]`; beside the names units may stand.
-
-    Raises
-    ------
-    InputError
-        A file that cannot be read, or in which no given is named.
     """
     grid = read_grid(file)
     table = max((_seen(grid, task, turned) for turned in (False, True)), key=lambda seen: len(seen.names))

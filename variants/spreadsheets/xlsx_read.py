@@ -51,13 +51,7 @@ class _BrokenError(Exception):
 
 
 def grid_of_xlsx(file: str, data: bytes) -> grid.Grid:
-    """Return the cells of the first sheet.
-
-    Raises
-    ------
-    InputError
-        No XLSX file, one with a password, or one that holds more than is allowed.
-    """
+    """Return the cells of the first sheet; a file with a password, or with more than is allowed, is refused."""
     shown = quote(file, SHOWN)
     if data.count(b"PK\x01\x02") > MOST_PARTS:
         raise _bomb(file)
