@@ -279,8 +279,7 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
 
     def figures(self, scene: GearScene, width: float) -> Iterator[GearFigure]:
         """Go through the figures of a sheet in the order of the work; lines of text are at most `width` mm long."""
-        from . import action_view, meshing_view, rolling_view, text
-        from .contour_view import contour_view
+        from . import action_view, cutting_view, meshing_view, text
 
         note, plans = self.contents.note, self.contents.plans
         if note:
@@ -291,11 +290,11 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
             yield meshing_view.FIGURE
             if scene.apart:
                 yield meshing_view.NEAR
-            yield from (rolling_view.FIGURE, action_view.ACTION_FIGURE)
+            yield from (cutting_view.FIGURE, action_view.ACTION_FIGURE)
         if GEOMETRY_PART in plans:
             yield Figure("checks", text.checks_table)
-            yield Figure("contour", contour_view)
-            yield Figure("rack", rolling_view.rack_view, ("near",))
+            yield Figure("contour", cutting_view.contour_view)
+            yield Figure("rack", cutting_view.rack_view, ("near",))
             for name in text.CALCULATED:
                 yield Figure(f"equations_{name}", partial(text.calculations_block, name=name, width=width))
         if SLIDING_PART in plans:

@@ -131,19 +131,13 @@ def _sliding(scene: GearScene, own: float, mate: float, exact: float) -> str:
 def checks_table(scene: GearScene) -> View:
     """Return the checks, each with its number, its limit and the verdict."""
     words = scene.words
-    head = [words[f"table.{name}"] for name in ("check", "condition", "value", "limit", "verdict")]
-    rows = [_check_row(scene, check) for check in scene.solved.checks]
-    return table("checks", words["heading.gear_checks"], [head, *rows], scene.style)
-
-
-def _check_row(scene: GearScene, check: Check) -> list[str]:
-    words = scene.words
-    wheel, about = rule_of(check)[1], words[f"gear.check.{role(check.name).kind}"]
-    if wheel:
-        about += f", {words.symbol(f'z_{wheel}')}"
-    sides = number_of(scene, check, check.value), number_of(scene, check, check.limit)
-    verdict = words["said.ok" if check.ok else "said.fails"]
-    return [about, condition(scene, check), *sides, verdict]
+    rows = [[words[f"table.{name}"] for name in ("check", "condition", "value", "limit", "verdict")]]
+    for check in scene.solved.checks:
+        wheel, about = rule_of(check)[1], words[f"gear.check.{role(check.name).kind}"]
+        about += f", {words.symbol(f'z_{wheel}')}" if wheel else ""
+        sides = (number_of(scene, check, side) for side in (check.value, check.limit))
+        rows.append([about, condition(scene, check), *sides, words["said.ok" if check.ok else "said.fails"]])
+    return table("checks", words["heading.gear_checks"], rows, scene.style)
 
 
 def condition(scene: GearScene, check: Check) -> str:

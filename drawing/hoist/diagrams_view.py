@@ -12,7 +12,7 @@ from ...plans.solved import PAPER_MM
 from ..areas import clipped
 from ..diagram import Axis, Field, divisions, drawn_through
 from ..figure import Figure, Stage, stages
-from ..shapes import Arc, Group, Head, Line, Pen, Polyline, Shape, Text
+from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import arc_between
 from ..view import Canvas, View, angle
 from .sheet import HoistScene
@@ -47,7 +47,8 @@ def lift_off_view(scene: HoistScene) -> View:
         drawn_through(canvas, places, name)
     canvas.part("points")
     for letter in CURVES.values():
-        canvas.add(*(_node(scene, LIFT_OFF, f"{letter}{i}") for i in _shown(roots, (roots.lift_off,))))
+        marks = (f"{letter}{i}" for i in _shown(roots, (roots.lift_off,)))
+        canvas.add(*(scene.node(scene.mm(f"{LIFT_OFF}.{mark}"), mark) for mark in marks))
     canvas.part("curves")
     for text, name, prefer in (("y − mg/C", "parabola", -1j), ("osc", "sinusoid", 1j)):
         canvas.label(text, curves[name][POINTS // 4], prefer=prefer, clear=1.5, height=h)
@@ -71,7 +72,7 @@ def extremes_view(scene: HoistScene) -> View:
     canvas.part("curves")
     drawn_through(canvas, wave, "sinusoid")
     canvas.add(Line(left, right, Pen.MAIN, role="curve", name="line"))
-    canvas.add(*(_node(scene, EXTREMES, f"W{i}") for i in _shown(roots, roots.extremes)))
+    canvas.add(*(scene.node(scene.mm(f"{EXTREMES}.W{i}"), f"W{i}") for i in _shown(roots, roots.extremes)))
     speed = words.symbol("V_t")
     canvas.label(f"{speed} cos kt + (a/k) sin kt", wave[POINTS // 6], prefer=1j, clear=1.5, height=h)
     name = f"−({words.symbol('C_01')}/{words.symbol('C_12')})({speed} + at)"
@@ -100,16 +101,11 @@ def _roots(scene: HoistScene) -> Roots:
 
 def _field(scene: HoistScene, letter: str, symbol: str, heights: Sequence[float]) -> Field:
     """Return the axes of a diagram whose ordinates have these heights, mm; times count from where it begins."""
-    words, roots, time, scale = scene.words, _roots(scene), scene.scale("mu_t1"), scene.scale(symbol)
+    roots, scale = _roots(scene), scene.scale(symbol)
     low, high = (scale.measured(end(*heights, 0.0)) for end in (min, max))
-    last = roots.sections * roots.section
-    across = {
-        t - roots.begin: words.short(round(t, 9))
-        for t in divisions(roots.begin + last, roots.begin, time.mu, 16.0)
-        if t >= roots.begin
-    }
-    up = {y: words.short(round(y, 9)) for y in divisions(high, low, scale.mu, 12.0)}
-    return Field(0j, Axis(f"t, {words.unit('s')}", time, 0.0, last, across), Axis(letter, scale, low, high, up))
+    up = {y: scene.words.short(round(y, 9)) for y in divisions(high, low, scale.mu, 12.0)}
+    x = _times_axis(scene, "mu_t1", roots.begin, roots.sections * roots.section)
+    return Field(0j, x, Axis(letter, scale, low, high, up))
 
 
 def ruled(canvas: Canvas, field: Field) -> None:
@@ -138,10 +134,6 @@ def _shown(roots: Roots, crossed: tuple[int, ...]) -> list[int]:
     if roots.sections <= MANY:
         return list(lines)
     return [i for i in lines if any(abs(i - k) <= BESIDE_CROSSING for k in crossed)]
-
-
-def _node(scene: HoistScene, plan: str, mark: str) -> Group:
-    return scene.node(scene.mm(f"{plan}.{mark}"), mark)
 
 
 def _crossing(canvas: Canvas, scene: HoistScene, plan: str, mark: str, name: str, number: str = "") -> None:
@@ -182,7 +174,11 @@ def forces_view(scene: HoistScene) -> View:
     canvas.part("axes")
     ruled(canvas, field)
     canvas.part("levels")
-    _levels(canvas, scene, field)
+    for name in ("P_st", "P_m"):
+        ends = field.at(0.0, scene.size(name)), field.at(field.x.high, scene.size(name))
+        canvas.add(Line(*ends, Pen.AXIS, role="level", name=name))
+        if name == "P_st" or scene.size("P_m") != scene.size("P_st"):
+            canvas.label(scene.stated(name), ends[1], prefer=1.0 + (0.6j if name == "P_m" else -0.6j), clear=1.5)
     _curves(canvas, scene, field)
     _times(canvas, scene, field)
     _values(canvas, scene)
@@ -202,14 +198,19 @@ def forces_view(scene: HoistScene) -> View:
 
 def _forces_field(scene: HoistScene) -> Field:
     """Return the axes: from -m g to beyond the greatest force, that of the article among them."""
-    words, time, force = scene.words, scene.scale("mu_t"), scene.scale("mu_F")
+    words, force = scene.words, scene.scale("mu_F")
     high = TALLEST * max(scene.size("F_max"), scene.size("P_12_max_printed"))
     low = min(-TALLEST * scene.size("P_st"), 0.0)
-    end = scene.solved.forces.end
-    across = {t: words.short(round(t, 9)) for t in divisions(end, 0.0, time.mu, 16.0)}
     up = {F: words.short(round(F, 6)) for F in divisions(high, low, force.mu, 14.0)}
-    x = Axis(f"t, {words.unit('s')}", time, 0.0, end, across)
+    x = _times_axis(scene, "mu_t", 0.0, scene.solved.forces.end)
     return Field(0j, x, Axis(f"F, {words.unit('N')}", force, low, high, up))
+
+
+def _times_axis(scene: HoistScene, symbol: str, begin: float, last: float) -> Axis:
+    """Return an axis of times from `begin` on, where it has its zero, as long as `last`."""
+    words, scale = scene.words, scene.scale(symbol)
+    times = (t for t in divisions(begin + last, begin, scale.mu, 16.0) if t >= begin)
+    return Axis(f"t, {words.unit('s')}", scale, 0.0, last, {t - begin: words.short(round(t, 9)) for t in times})
 
 
 def _curves(canvas: Canvas, scene: HoistScene, field: Field) -> None:
@@ -226,16 +227,6 @@ def _curves(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     for name, k in (("F_01", POINTS // 3), ("F_12", POINTS // 3), ("P_12", 3 * POINTS // 5)):
         canvas.part(stage[name])
         canvas.label(scene.words.symbol(name), curves[name][k], prefer=1j, clear=1.5)
-
-
-def _levels(canvas: Canvas, scene: HoistScene, field: Field) -> None:
-    """Draw the levels m g and m (g + a)."""
-    for name in ("P_st", "P_m"):
-        ends = field.at(0.0, scene.size(name)), field.at(field.x.high, scene.size(name))
-        canvas.add(Line(*ends, Pen.AXIS, role="level", name=name))
-        if name == "P_m" and scene.size("P_m") == scene.size("P_st"):
-            continue
-        canvas.label(scene.stated(name), ends[1], prefer=1.0 + (0.6j if name == "P_m" else -0.6j), clear=1.5)
 
 
 def _times(canvas: Canvas, scene: HoistScene, field: Field) -> None:
@@ -311,18 +302,14 @@ def circle_view(scene: HoistScene) -> View:
     return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")), notes)
 
 
-def _arc(a: complex, b: complex) -> Arc:
-    return arc_between(0j, a, b, Pen.MAIN)
-
-
 def _circle(canvas: Canvas, scene: HoistScene, ends: tuple[complex, complex]) -> None:
     """Draw the circle; where the rope would push it is only dashed, beyond a line where its force is zero."""
-    left, right = ends
     if not scene.solved.layout.slack:
-        canvas.add(Group((_arc(right, left), _arc(left, right)), "circle", "R"))
+        canvas.add(Group(tuple(arc_between(0j, *pair, Pen.MAIN) for pair in (ends[::-1], ends)), "circle", "R"))
         return
     high, low = (scene.mm(f"{CIRCLE}.{mark}") - scene.mm(f"{CIRCLE}.C") for mark in ("high", "low"))
-    canvas.add(Group((_arc(low, right), _arc(right, high)), "circle", "R"))
+    pulled = (arc_between(0j, *pair, Pen.MAIN) for pair in ((low, ends[1]), (ends[1], high)))
+    canvas.add(Group(tuple(pulled), "circle", "R"))
     canvas.add(arc_between(0j, high, low, Pen.DASHED, role="slack"))
     canvas.add(Line(low, high, Pen.THIN, role="level", name="slack"))
     symbol = scene.words.symbol("P_12")

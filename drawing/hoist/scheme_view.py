@@ -121,9 +121,8 @@ def model_view(scene: HoistScene) -> View:
     _arrow(canvas, bottom + 6.0, bottom + 6.0 - 1j * ARROW, words.symbol("F_01"))
     _arrow(canvas, bottom - 8.5, bottom - 8.5 - 1j * ARROW, "mg")
     axis = complex(half + 12.0, 0.0)
-    canvas.add(
-        Line(axis, axis + end, Pen.THIN, role="axis"), Head(axis + end, 1j), Line(axis - 2.0, axis + 2.0, Pen.THIN)
-    )
+    canvas.add(Line(axis, axis + end, Pen.THIN, role="axis"), Head(axis + end, 1j))
+    canvas.add(Line(axis - 2.0, axis + 2.0, Pen.THIN))
     canvas.label("s", axis + end, prefer=1.0 + 0j, clear=1.2)
     return canvas.finish("model", (words["heading.hoist_model"],))
 
@@ -207,7 +206,8 @@ def flow_view(scene: HoistScene) -> View:
         "end": words["hoist.end"],
     }
     widest = max(lay_out(text, h).width for text in texts.values()) + 2.0 * PAD * h + 2.0 * TALL * h
-    widest = max(widest, 2.0 * _box(scene) + 4.0 * h)
+    boxes = max(lay_out(f"{s('F_max')} = {s(name)}", h).width for name in ("F_12_max", "P_12_max")) + 1.4 * h
+    widest = max(widest, 2.0 * boxes + 4.0 * h)
     order = [*texts]
     beyond = order.index("stress")  # a level more, for the two boxes before it
     levels = {name: -(k + (k >= beyond)) * STEP * h for k, name in enumerate(order)}
@@ -215,12 +215,6 @@ def flow_view(scene: HoistScene) -> View:
         _block(canvas, name, text, (levels[name], widest), h)
     _ways(canvas, scene, levels, widest, found["F_12_max"] > found["P_12_max"], ok)
     return canvas.finish("flow", (words["heading.hoist_flow"],), (words["hoist.taken"],))
-
-
-def _box(scene: HoistScene) -> float:
-    """Return the width of the box that takes one of both forces."""
-    texts = (f"{scene.words.symbol('F_max')} = {scene.words.symbol(name)}" for name in ("F_12_max", "P_12_max"))
-    return max(lay_out(text, scene.style.text).width for text in texts) + 1.4 * scene.style.text
 
 
 def _block(canvas: Canvas, name: str, text: str, place: tuple[float, float], h: float) -> None:
@@ -251,15 +245,12 @@ def _ways(canvas: Canvas, scene: HoistScene, levels: dict[str, float], wide: flo
         _way(canvas, ends, before != "strong" or ok, f"{before}-{after}")
     _choice(canvas, scene, levels, corner, resting)
     left = -corner - 2.2 * h
-    back = (
-        complex(-corner, levels["strong"]),
-        complex(left, levels["strong"]),
-        complex(left, levels["places"]),
-        complex(-0.5 * wide + TALL * h * 0.5, levels["places"]),
-    )
+    strong, places = levels["strong"], levels["places"]
+    corners = (-corner, strong), (left, strong), (left, places), (-0.5 * wide + TALL * h * 0.5, places)
+    back = [complex(*at) for at in corners]
     _way(canvas, back, not ok, "strong-places")
-    canvas.add(Text(complex(left + 0.4 * h, levels["strong"] + 0.4 * h), words["hoist.no"], h, role="answer"))
-    below = levels["strong"] - POINTED * up - 1.4 * h
+    canvas.add(Text(complex(left + 0.4 * h, strong + 0.4 * h), words["hoist.no"], h, role="answer"))
+    below = strong - POINTED * up - 1.4 * h
     canvas.add(Text(complex(0.8 * h, below), words["hoist.yes"], h, role="answer"))
 
 
@@ -285,8 +276,5 @@ def _choice(canvas: Canvas, scene: HoistScene, levels: dict[str, float], corner:
 
 
 def _way(canvas: Canvas, places: Sequence[complex], taken: bool, name: str) -> None:
-    pen = Pen.MAIN if taken else Pen.THIN
-    canvas.add(
-        Group((Polyline(tuple(places), pen),), "taken" if taken else "way", name),
-        Head(places[-1], places[-1] - places[-2]),
-    )
+    line = Polyline(tuple(places), Pen.MAIN if taken else Pen.THIN)
+    canvas.add(Group((line,), "taken" if taken else "way", name), Head(places[-1], places[-1] - places[-2]))

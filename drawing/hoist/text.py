@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 
-from ...plans.check import Check
 from ...plans.hoist.forces import STRENGTH, strength
 from ...plans.hoist.hoist import DRAWN
 from ...plans.hoist.model import CIRCLE, section_of
@@ -64,7 +62,13 @@ def checks_table(scene: HoistScene) -> View:
     """Return the conditions of validity and strength, each with its number and verdict."""
     words = scene.words
     head = [words[f"table.{name}"] for name in ("check", "condition", "value", "verdict")]
-    rows = [_check_row(scene, check) for check in scene.solved.forces.checks]
+    rows = []
+    for check in scene.solved.forces.checks:
+        condition = f"{words.symbol(check.quantity)} {check.sign} {words.short(check.limit)}"
+        unit = f" {words.unit(check.unit)}" if check.unit != "1" else ""
+        would = scene.solved.forces.motion is not None and check.name != STRENGTH and not check.ok
+        value = f"{words['hoist.would_be']} " * would + scene.value(check.value) + unit
+        rows.append([words[f"hoist.{check.name}"], condition, value, words["said.ok" if check.ok else "said.fails"]])
     return table("checks", words["heading.hoist_checks"], [head, *rows], scene.style)
 
 
@@ -73,26 +77,13 @@ def begun(scene: HoistScene, steps: int) -> dict[str, Shown]:
     return {"checks": Shown(rows=frozenset(), columns=2)}
 
 
-def _check_row(scene: HoistScene, check: Check) -> list[str]:
-    words = scene.words
-    condition = f"{words.symbol(check.quantity)} {check.sign} {words.short(check.limit)}"
-    unit = f" {words.unit(check.unit)}" if check.unit != "1" else ""
-    verdict = words["said.ok" if check.ok else "said.fails"]
-    would = scene.solved.forces.motion is not None and check.name != STRENGTH and not check.ok
-    value = f"{words['hoist.would_be']} " * would + scene.value(check.value) + unit
-    return [words[f"hoist.{check.name}"], condition, value, verdict]
-
-
 def scales_table(scene: HoistScene) -> View:
     """Return the scale factors, and by how much a reading may err."""
     words = scene.words
     head = [words["table.symbol"], words["table.value"], words["table.unit"], words["hoist.reading"]]
     rows = []
-    symbols = [
-        *dict.fromkeys(scene.solved.scale_of_plan.values()),
-        *(s for s in SCALED if s in scene.solved.quantities),
-    ]
-    for symbol in dict.fromkeys(symbols):
+    found = (symbol for symbol in SCALED if symbol in scene.solved.quantities)
+    for symbol in dict.fromkeys((*scene.solved.scale_of_plan.values(), *found)):
         scale = scene.scale(symbol)
         error = f"±{words.short(round(READING * scale.mu, 12))} {words.unit(scale.unit)}"
         rows.append([words.symbol(symbol), words.short(scale.mu), words.unit(scale.per_mm_unit), error])
@@ -103,18 +94,17 @@ def strength_block(scene: HoistScene) -> View:
     """Return the check of strength: force, stress, safety, verdict; and what the article would say."""
     words, found = scene.words, scene.solved.forces.found
     greatest = words.symbol("P_12_max" if found["P_12_max"] >= found["F_12_max"] else "F_12_max")
+    ok = scene.solved.forces.ok[STRENGTH]
+    safety = _ratio(scene, f"[σ]/{words.symbol('sigma_max')}", ("sigma", 1e-6), ("sigma_max", 1e-6))
     lines: list[tuple[str, ...]] = [
         (f"{words.symbol('F_max')} = {greatest} =", f"{scene.value(found['F_max'])} {words.unit('N')}"),
         _ratio(scene, f"{words.symbol('sigma_max')} = {words.symbol('F_max')}/S", ("F_max", 1.0), ("S", 1e6), "MPa"),
-        (
-            *_ratio(scene, f"[σ]/{words.symbol('sigma_max')}", ("sigma", 1e-6), ("sigma_max", 1e-6)),
-            f"{'≥' if scene.solved.forces.ok[STRENGTH] else '<'} K = {words.short(found['K'])}",
-        ),
-        (words["hoist.strong" if scene.solved.forces.ok[STRENGTH] else "hoist.weak"],),
+        (*safety, f"{'≥' if ok else '<'} K = {words.short(found['K'])}"),
+        (words["hoist.strong" if ok else "hoist.weak"],),
         (f"{words.symbol('dynamic_factor')} = {scene.value(scene.size('dynamic_factor'))}",),
     ]
     printed = strength({"safety": scene.solved.size("_safety_printed"), "K": found["K"]})
-    if printed.ok != scene.solved.forces.ok[STRENGTH]:
+    if printed.ok != ok:
         lines.append((words["hoist.disagrees"].format(safety=scene.value(printed.value)),))
     return text_block("strength", words["heading.hoist_safety"], lines, scene.style, WIDTH)
 
@@ -124,37 +114,18 @@ def _ratio(
 ) -> tuple[str, ...]:
     """Return a ratio in letters, with numbers, and its value; a quantity is its name and its unit."""
     words, found = scene.words, scene.solved.forces.found
-    inputs = [
-        Input(float(f"{found[name] * times:.{ROUNDING}g}"), exact=name in scene.givens)
-        for name, times in (above, below)
-    ]
+    inputs = [Input(float(f"{found[n] * times:.{ROUNDING}g}"), exact=n in scene.givens) for n, times in (above, below)]
     (first, second), result = calculation(words, lambda a, b: a / b, inputs)
     return (f"{letters} =", f"{first}/{second} =", f"{result} {words.unit(unit)}" if unit else result)
 
 
-@dataclass(frozen=True, slots=True)
-class Formula:
-    """A quantity that follows from others, its unit, and its number in the article."""
-
-    name: str
-    unit: str = ""
-    number: str = ""
-
-
-REDUCED = (
-    Formula("m", "kg", "4"),
-    Formula("alpha_0", "", "6"),
-    Formula("C_01", "N/m", "5"),
-    Formula("alpha_2", "", "7"),
-    *(Formula(name, "N/m", "7") for name in ("C_2", "C_k", "C_12")),
-    Formula("C", "N/m"),
-    Formula("k", "rad/s"),
-    Formula("k_1", "rad/s"),
-)
-SLACK = Formula("V_t", "m/s")
-STARTED = (Formula("P_m", "N"), Formula("D_0", "N"), Formula("R", "N"))
-HANGING = (Formula("T_1", "s", "15′"), Formula("P_12_max", "N", "15′"), Formula("P_12_min", "N"))
-BENT = tuple(Formula(name, "m") for i in (0, 2) for name in (f"w_{i}_max", f"x_w{i}"))
+# quantities that follow from others, and the numbers of their formulas in the article
+REDUCED = ("m", "alpha_0", "C_01", "alpha_2", "C_2", "C_k", "C_12", "C", "k", "k_1")
+SLACK = "V_t"
+STARTED, HANGING = ("P_m", "D_0", "R"), ("T_1", "P_12_max", "P_12_min")
+BENT = ("w_0_max", "x_w0", "w_2_max", "x_w2")
+NUMBERS = {"m": "4", "alpha_0": "6", "C_01": "5", **dict.fromkeys(("alpha_2", "C_2", "C_k", "C_12"), "7")}
+NUMBERS |= dict.fromkeys(("T_1", "P_12_max"), "15′")
 BY_DRAWING = {"R": ("hypotenuse", ("D_0", "D_1"))}  # what is read from a drawing, as it is calculated
 
 
@@ -165,7 +136,12 @@ def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, st
     """
     moved = scene.solved.forces.motion is not None
     slack = (SLACK,) if scene.size("slack") > 0.0 else ()
-    circle = (*_lines(scene, STARTED[:2]), _value(scene, "D_1", "F′_{12}(t_{1})/k_{1}"), *_lines(scene, STARTED[2:]))
+    words = scene.words
+    rate = (
+        f"{words.symbol('D_1')} = F′_{{12}}(t_{{1}})/k_{{1}}",
+        f"= {scene.value(scene.size('D_1'))} {words.unit('N')}",
+    )
+    circle = (*_lines(scene, STARTED[:2]), rate, *_lines(scene, STARTED[2:]))
     equations = {
         "model": _lines(scene, (*REDUCED, *slack)),
         "lift_off": () if moved else _lift_off(scene),
@@ -177,27 +153,21 @@ def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, st
     return Story(equations=equations, conclusions=tuple(conclusions(scene, texts)), texts=texts, said=said)
 
 
-def formula(scene: HoistScene, told: Formula) -> tuple[str, ...]:
-    """Return a formula with letters, with numbers and with its value; what is infinite is not put in."""
-    step = scene.solved.program.by_name[told.name]
-    law, names = BY_DRAWING.get(told.name) or (step.law, step.operands)
-    chunks = [f"{scene.words.symbol(told.name)} = {form_of(law)(*_letters(scene, names))}"]
+def formula(scene: HoistScene, told: str) -> tuple[str, ...]:
+    """Return the formula of a quantity with letters, with numbers and its value; what is infinite is not put in."""
+    step, words = scene.solved.program.by_name[told], scene.words
+    law, names = BY_DRAWING.get(told) or (step.law, step.operands)
+    chunks = [f"{words.symbol(told)} = {form_of(law)(*(Symbol.of(words.symbol(name)) for name in names))}"]
     if all(math.isfinite(scene.size(name)) for name in names):
         chunks.append(f"= {form_of(law)(*(Symbol.of(_number(scene, scene.size(name))) for name in names))}")
-    unit = f" {scene.words.unit(told.unit)}" if told.unit else ""
-    chunks.append(f"= {_number(scene, scene.size(told.name))}{unit}")
-    return (*chunks, f"({told.number})") if told.number else tuple(chunks)
+    unit = f" {words.unit(unit_of(told))}" if unit_of(told) != "1" else ""
+    chunks.append(f"= {_number(scene, scene.size(told))}{unit}")
+    return (*chunks, f"({NUMBERS[told]})") if told in NUMBERS else tuple(chunks)
 
 
-def _lines(scene: HoistScene, formulas: tuple[Formula, ...]) -> tuple[tuple[str, ...], ...]:
+def _lines(scene: HoistScene, names: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
     """Return formulas, without what is nothing because a beam is rigid."""
-    return tuple(
-        formula(scene, told) for told in formulas if not (role(told.name).kind == "w" and not scene.size(told.name))
-    )
-
-
-def _letters(scene: HoistScene, names: Iterable[str]) -> Iterator[Symbol]:
-    return (Symbol.of(scene.words.symbol(name)) for name in names)
+    return tuple(formula(scene, name) for name in names if role(name).kind != "w" or scene.size(name))
 
 
 def _number(scene: HoistScene, value: float) -> str:
@@ -209,11 +179,6 @@ def _number(scene: HoistScene, value: float) -> str:
         return scene.words.short(value) if value == round(value, 2) else scene.value(value)
     power = math.floor(math.log10(size))
     return f"{scene.words.short(float(f'{value * 10.0**-power:.{DIGITS}g}'))}·10^{{{power}}}".replace("{-", "{−")
-
-
-def _value(scene: HoistScene, name: str, expression: str) -> tuple[str, ...]:
-    number = f"= {scene.value(scene.size(name))} {scene.words.unit('N')}"
-    return f"{scene.words.symbol(name)} = {expression}", number
 
 
 def _lift_off(scene: HoistScene) -> tuple[tuple[str, ...], ...]:
@@ -257,9 +222,18 @@ def conclusions(scene: HoistScene, texts: Texts) -> Iterator[str]:
     """Go through the sentences for the end of the note."""
     yield texts["hoist.conclusion.lift_off"].format(t_1=scene.stated("t_1", unit="s"), F_12_t1=scene.stated("F_12_t1"))
     yield _greatest(scene, texts)
-    yield from _validity(scene, texts)
+    if scene.solved.forces.motion is None:
+        least = {name: scene.stated(name) for name in ("F_12_min", "P_12_min")}
+        yield texts["hoist.conclusion.valid"].format(**least)
+    else:
+        wrong = (check.name for check in scene.solved.forces.checks if not check.ok)
+        yield from (texts[f"hoist.conclusion.{name}"] for name in wrong if name != STRENGTH)
     yield _strength(scene, texts)
-    yield from _article(scene, texts)
+    if scene.solved.forces.motion is None:  # where the rope goes slack the article says little
+        exact, printed = scene.size("P_12_max"), scene.size("P_12_max_printed")
+        part = scene.words.number(100.0 * abs(printed - exact) / exact, 1)
+        key = f"hoist.conclusion.article_{'more' if printed >= exact else 'less'}"
+        yield texts[key].format(printed=scene.stated("P_12_max_printed"), part=part)
     yield from _bent(scene, texts)
 
 
@@ -274,17 +248,6 @@ def _greatest(scene: HoistScene, texts: Texts) -> str:
     return texts[key].format(force=force, P_st=scene.stated("P_st"), factor=factor, when=when)
 
 
-def _validity(scene: HoistScene, texts: Texts) -> Iterator[str]:
-    """Tell whether the rope stays taut and the load off its support, so that the formulas hold."""
-    if scene.solved.forces.motion is None:
-        least = {name: scene.stated(name) for name in ("F_12_min", "P_12_min")}
-        yield texts["hoist.conclusion.valid"].format(**least)
-        return
-    for check in scene.solved.forces.checks:
-        if check.name != STRENGTH and not check.ok:
-            yield texts[f"hoist.conclusion.{check.name}"]
-
-
 def _strength(scene: HoistScene, texts: Texts) -> str:
     """Tell stress and safety of the rope."""
     words, ok = scene.words, scene.solved.forces.ok[STRENGTH]
@@ -293,15 +256,6 @@ def _strength(scene: HoistScene, texts: Texts) -> str:
     stress = scene.stated("sigma_max", scene.size("sigma_max") * 1e-6, "MPa")
     key = f"hoist.conclusion.{'strong' if ok else 'weak'}"
     return texts[key].format(stress=stress, safety=f"{safety} {'≥' if ok else '<'} {limit}")
-
-
-def _article(scene: HoistScene, texts: Texts) -> Iterator[str]:
-    """Tell by how much the article's formula differs; where the rope goes slack both say little of one another."""
-    exact, printed = scene.size("P_12_max"), scene.size("P_12_max_printed")
-    if scene.solved.forces.motion is None:
-        part = scene.words.number(100.0 * abs(printed - exact) / exact, 1)
-        key = f"hoist.conclusion.article_{'more' if printed >= exact else 'less'}"
-        yield texts[key].format(printed=scene.stated("P_12_max_printed"), part=part)
 
 
 def _bent(scene: HoistScene, texts: Texts) -> Iterator[str]:

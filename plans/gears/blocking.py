@@ -141,7 +141,7 @@ def _chords_cross(one: Places, other: Places) -> Places:
     return np.asarray(p[hit] + u[hit] * along[hit])
 
 
-def crossings(both: Callable[[Any], tuple[Array, Array]], starts: Places, reach: float) -> Places:
+def crossings(both: Callable[[Any], Mapping[str, Array]], starts: Places, reach: float) -> Places:
     """Return the places, each once, where two functions are zero, from starts not farther from them than `reach`.
 
     Newton's steps, from all starts at once; those that lead nowhere are left out.
@@ -149,7 +149,7 @@ def crossings(both: Callable[[Any], tuple[Array, Array]], starts: Places, reach:
     places = starts.astype(complex)
     around = np.array([0.0, STEP, -STEP, 1j * STEP, -1j * STEP])
     for _ in range(NEWTON):
-        f, g = both(places[:, np.newaxis] + around)
+        f, g = both(places[:, np.newaxis] + around).values()
         (f_x, f_y), (g_x, g_y) = (((h[:, 1] - h[:, 2]), (h[:, 3] - h[:, 4])) for h in (f, g))
         determinant = f_x * g_y - f_y * g_x
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -157,7 +157,7 @@ def crossings(both: Callable[[Any], tuple[Array, Array]], starts: Places, reach:
         places = places - 2.0 * STEP * (x + 1j * y)
         near = np.abs(places - starts) <= reach  # also leaves out what is undefined
         places, starts = places[near], starts[near]
-    f, g = both(places)
+    f, g = both(places).values()
     found: list[complex] = []
     for place in places[(np.abs(f) < ZERO) & (np.abs(g) < ZERO)].tolist():
         if all(abs(place - other) > SAME for other in found):
@@ -258,13 +258,9 @@ class Plane:
             first, second = pair
             starts = near_crossings(self.curve(first), self.curve(second))
             if starts.size:
-                places = crossings(partial(self._both, pair), starts, reach)
+                places = crossings(partial(self.measures, wanted=pair), starts, reach)
                 found += [Crossing(first, second, place) for place in places.tolist()]
         return found
-
-    def _both(self, pair: tuple[str, str], places: Places) -> tuple[Array, Array]:
-        found = self.measures(places, pair)
-        return found[pair[0]], found[pair[1]]
 
     def corners(self, curves: Iterable[str] = BLOCKING) -> list[Crossing]:
         """Return the corners of the contour: crossings that all other curves permit."""

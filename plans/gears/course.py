@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..laws import LAWS
 from ..solved import Columned, Ends
 from .solve import SolvedGear
-from .teeth import Array, Tooth
+from .teeth import Array
 
 NEAR = 1e-9  # part of the base pitch within which a contact begins or ends
 
@@ -47,18 +47,19 @@ def columns(solved: SolvedGear, rho_1: Any) -> list[Columned]:
     u, r_b1 = sizes["u"], 0.5 * sizes["d_b1"]
     rho_2 = LAWS["excess"](sizes["l_N1N2"], rho_1)
     v_k2 = LAWS["at_ratio"](rho_2, u)
-    found = [
+    r_1, r_2 = (
+        LAWS["half_of"](LAWS["diameter_of_curvature"](rho, sizes[name]))
+        for rho, name in ((rho_1, "d_b1"), (rho_2, "d_b2"))
+    )
+    lengths = {"rho_1": rho_1, "rho_2": rho_2, "r_1": r_1, "r_2": r_2, "v_k1": rho_1, "v_k2": v_k2}
+    lengths["v_s"] = LAWS["excess"](rho_1, v_k2)
+    return [
         Columned("phi", "rad", LAWS["contact_angle"](rho_1, sizes["rho_w1"], r_b1)),
-        Columned("rho_1", "m", rho_1),
-        Columned("rho_2", "m", rho_2),
+        *(Columned(name, "m", length) for name, length in lengths.items()),
+        Columned("theta_12", "1", LAWS["sliding_of_pinion"](rho_1, rho_2, u)),
+        Columned("theta_21", "1", LAWS["sliding_of_wheel"](rho_2, rho_1, u)),
+        Columned("pairs", "1", pairs(solved, rho_1)),
     ]
-    for i, rho in ((1, rho_1), (2, rho_2)):
-        found.append(Columned(f"r_{i}", "m", LAWS["half_of"](LAWS["diameter_of_curvature"](rho, sizes[f"d_b{i}"]))))
-    found += [Columned("v_k1", "m", rho_1), Columned("v_k2", "m", v_k2)]
-    found.append(Columned("v_s", "m", LAWS["excess"](rho_1, v_k2)))
-    found.append(Columned("theta_12", "1", LAWS["sliding_of_pinion"](rho_1, rho_2, u)))
-    found.append(Columned("theta_21", "1", LAWS["sliding_of_wheel"](rho_2, rho_1, u)))
-    return [*found, Columned("pairs", "1", pairs(solved, rho_1))]
 
 
 def pairs(solved: SolvedGear, rho_1: Array) -> Array:
@@ -143,30 +144,23 @@ def active_area(solved: SolvedGear, i: int, low: float) -> Curve:
     return [(first, 0.0), *zip(rho_1.tolist(), theta.tolist(), strict=True), (last, 0.0)]
 
 
-@dataclass(frozen=True)
 class Rack:
     """The rack that cuts the pinion, a tooth of it in a space of the pinion, k times as large as it is.
 
     All points are complex numbers, the pole is the origin.
     """
 
-    solved: SolvedGear
-    k: float
-
-    @property
-    def tooth(self) -> Tooth:
-        """The pinion's tooth."""
-        return self.solved.meshing.teeth[0]
-
-    @property
-    def shift(self) -> float:
-        """How far the middle line lies above the pitch line."""
-        return self._sizes("x_1") * self._sizes("m") * self.k
-
-    @property
-    def centre(self) -> complex:
-        """The pinion's centre."""
-        return complex(0.0, -self.tooth.r * self.k)
+    def __init__(self, solved: SolvedGear, k: float) -> None:
+        tooth, m = solved.meshing.teeth[0], solved.sizes["m"]
+        self.tooth, self.k, self._sizes = tooth, k, solved.sizes
+        self.shift = solved.sizes["x_1"] * m * k  # how far the middle line lies above the pitch line
+        self.centre = complex(0.0, -tooth.r * k)  # of the pinion
+        self.pitch = 2.0 * math.pi / tooth.z  # of the pinion, rad
+        self.down = cmath.rect(1.0, -tooth.alpha)  # the direction of the line of action of cutting
+        self.touch = self.down * (tooth.r * math.sin(tooth.alpha) * k)  # N, where that touches the base circle
+        self.edge = self.touch - self.down * (solved.sizes["rho_l1"] * k)  # B, where the straight edge ends on it
+        # the centre of the corner of the last tooth on the left, on its right side
+        self.corner = complex(-math.pi * m - tooth.e_f, -tooth.h_0) * k
 
     def radius(self, circle: str) -> float:
         """Return the radius of the pinion's reference circle or, `b`, of its base circle."""
@@ -176,35 +170,10 @@ class Rack:
         """Return the point of a circle of the pinion at an angle from the direction to the pole."""
         return self.centre + self.radius(circle) * cmath.rect(1.0, 0.5 * math.pi + angle)
 
-    @property
-    def pitch(self) -> float:
-        """The angular pitch of the pinion, rad."""
-        return 2.0 * math.pi / self.tooth.z
-
-    @property
-    def down(self) -> complex:
-        """The direction of the line of action of cutting."""
-        return cmath.rect(1.0, -self.tooth.alpha)
-
-    @property
-    def touch(self) -> complex:
-        """N, where that line touches the base circle."""
-        return self.down * (self.tooth.r * math.sin(self.tooth.alpha) * self.k)
-
-    @property
-    def edge(self) -> complex:
-        """B, where the straight edge of the rack ends on that line."""
-        return self.touch - self.down * (self._sizes("rho_l1") * self.k)
-
-    @property
-    def corner(self) -> complex:
-        """The centre of the corner of the last tooth on the left, on its right side."""
-        return complex(-math.pi * self._sizes("m") - self.tooth.e_f, -self.tooth.h_0) * self.k
-
     def outline(self) -> list[complex]:
         """Return the outline of the rack: flanks from its spaces to the round corners of its tips."""
-        m, tooth = self._sizes("m"), self.tooth
-        depth, middle = (self._sizes("h_a") + self._sizes("c")) * m, self._sizes("x_1") * m
+        m, tooth, sizes = self._sizes["m"], self.tooth, self._sizes
+        depth, middle = (sizes["h_a"] + sizes["c"]) * m, sizes["x_1"] * m
         turns = np.linspace(tooth.alpha, 0.5 * math.pi, CORNER)
         corner = complex(tooth.e_f, middle - depth + tooth.rho_f) + tooth.rho_f * (np.cos(turns) - 1j * np.sin(turns))
         top = complex(0.25 * math.pi * m + depth * math.tan(tooth.alpha), middle + depth)
@@ -217,6 +186,3 @@ class Rack:
         turned = TO_POLE * cmath.rect(self.k, -0.5 * self.pitch)
         points: NDArray[np.complex128] = self.centre + self.tooth.teeth(2) * turned
         return tuple(points.tolist())
-
-    def _sizes(self, name: str) -> float:
-        return float(self.solved.sizes[name])

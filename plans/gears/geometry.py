@@ -116,10 +116,6 @@ def _touching(number: Any, rho_p: Any, rho_a: Any, s_b: Any, p_b: Any) -> Any:
     return np.where(least <= most, np.maximum(np.minimum(number, most + 1.0), least + 1.0), NAN)
 
 
-def _middle(first: Any, second: Any, third: Any) -> Any:
-    return np.maximum(np.minimum(first, second), np.minimum(np.maximum(first, second), third))
-
-
 def _on_numbers(law: Law) -> Law:
     """Return a law that gives a plain number for plain numbers, and NaN rather than a warning."""
 
@@ -199,7 +195,9 @@ _define(
     # places along N1N2 for a table of sliding
     within_line=lambda rho, line: np.minimum(np.maximum(rho, 0.0), line),
     least_of_three=lambda first, second, third: np.minimum(np.minimum(first, second), third),
-    middle_of_three=_middle,
+    middle_of_three=lambda first, second, third: np.maximum(
+        np.minimum(first, second), np.minimum(np.maximum(first, second), third)
+    ),
     most_of_three=lambda first, second, third: np.maximum(np.maximum(first, second), third),
     part_between=lambda begin, end, part: begin + (end - begin) * part,
     # y = PW rho / rho at the pole; theta = (y - y of the mate) / y

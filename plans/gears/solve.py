@@ -1,4 +1,8 @@
-"""A gear pair solved: quantities in sections, its teeth, what it is judged by, errors against the scale of a drawing.
+"""A gear pair solved: givens completed, quantities in sections, teeth, checks, errors against the scale of a drawing.
+
+Of x_1, x_2 two fix the pair, or one of them with a_w or x_sum. Of a_w or x_sum alone the shifts follow by which both
+wheels slide alike: the specific sliding at the root of the pinion, theta_12 at A1, equals that at the root of the
+wheel, theta_21 at A2.
 
 K is that of `plans.condition`, over Q; lengths that are drawn count beside the module at least. Numbers of teeth do not
 err. Source of the checks: GOST 16532-70, appendix on quality by geometry.
@@ -7,7 +11,7 @@ err. Source of the checks: GOST 16532-70, appendix on quality by geometry.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
 from typing import Any
@@ -23,6 +27,7 @@ from ..condition import Condition, derivatives, ratio
 from ..hands.hand import Hand, Tolerance
 from ..hands.shaky import Paper, draw, drawing_of
 from ..hands.spread import added_up, kept
+from ..laws import LAWS
 from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, shown_on, worst_behind
@@ -42,10 +47,112 @@ from .construction import (
     construct,
     rolling,
 )
-from .gear import PLANS, VALUES, WHEELS, GearPair, unit_of
+from .gear import PLANS, SHIFTS, STANDARD, VALUES, WHEELS, GearPair, impossible, unit_of
 from .geometry import DIVISIONS, NOTHING, PARTS, POINTS, SIZES, geometry
-from .givens import complete
-from .teeth import Meshing, meshing_of
+from .teeth import Meshing, meshing_of, tooth_of
+
+HALVINGS = 200
+BALANCE = ("theta_12_A1", "theta_21_A2")
+BASIC = ("a", "x_sum", "a_w", "alpha_w", "inv_alpha", "inv_alpha_w")
+
+
+def complete(values: Mapping[str, float]) -> dict[str, float]:
+    """Return the givens with the standard rack where nothing else is given, and with both shifts.
+
+    The `values` are `m z_1 z_2` and, of `x_1 x_2 x_sum a_w`, what fixes the shifts; what `STANDARD` has may be missing.
+
+    Raises
+    ------
+    InputError
+        Numbers of which no pair can be made: the wheels, the rack, the shifts, the teeth, the meshing.
+    """
+    found = {**STANDARD, **values}
+    for _, error in impossible(found):
+        raise error
+    x_1, x_2 = shifts(found)
+    given = ", ".join(name for name in SHIFTS if name in found)
+    found = {name: float(value) for name, value in found.items() if name not in SHIFTS} | {"x_1": x_1, "x_2": x_2}
+    _meshes(found, given if given != "x_1, x_2" else "")
+    return found
+
+
+def shifts(values: Mapping[str, float]) -> tuple[float, float]:
+    """Return x_1 and x_2 of a pair of which those are given, or one and a_w or x_sum, or one of the latter alone."""
+    match given := tuple(name for name in SHIFTS if name in values):
+        case ("x_1", "x_2"):
+            return float(values["x_1"]), float(values["x_2"])
+        case ("x_1", "x_sum" | "a_w"):
+            return float(values["x_1"]), sum_of_shifts(values) - values["x_1"]
+        case ("x_2", "x_sum" | "a_w"):
+            return sum_of_shifts(values) - values["x_2"], float(values["x_2"])
+        case ("x_sum" | "a_w",):
+            return balanced(values, sum_of_shifts(values))
+    raise InputError("gear-shifts", given=", ".join(given) or "-")
+
+
+def sum_of_shifts(values: Mapping[str, float]) -> float:
+    """Return x_1 + x_2 of a pair with given x_sum, or a_w, for which the base circles must leave room."""
+    if "x_sum" in values:
+        return float(values["x_sum"])
+    z_1, z_2, alpha, a_w = (values[name] for name in ("z_1", "z_2", "alpha", "a_w"))
+    a = LAWS["reference_centre"](values["m"], z_1, z_2)
+    least = LAWS["base_diameter"](a, alpha)
+    if not a_w > least:
+        raise InputError("gear-centre", a_w=f"{a_w * 1e3:.7g}", least=f"{least * 1e3:.7g}")
+    inv, inv_w = (LAWS["involute"](angle) for angle in (alpha, LAWS["working_angle"](a, alpha, a_w)))
+    return float(LAWS["sum_of_shifts"](z_1, z_2, alpha, inv, inv_w))
+
+
+def balanced(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
+    """Return x_1 and x_2 with the given sum by which both wheels slide alike.
+
+    The larger x_1 is, the nearer A1 is to the pole and the farther A2: theta_12 at A1 only rises, theta_21 at A2 only
+    falls, between the shifts that put A1 into N1 and A2 into N2; there may be none between.
+    """
+    least, most = _between(values, x_sum)
+    low, high = least, most
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        if not low < middle < high:
+            break
+        found = geometry({**values, "x_1": middle, "x_2": x_sum - middle}, BALANCE)
+        low, high = (middle, high) if found[BALANCE[0]] < found[BALANCE[1]] else (low, middle)
+    if not least < low < high < most:
+        raise InputError("gear-no-balance", x_sum=f"{x_sum:.6g}")
+    return low, x_sum - low
+
+
+def _between(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
+    """Return the x_1 that puts A1 into N1, and that which puts A2 into N2."""
+    wanted = ("l_N1N2", "d_b1", "d_b2", "d_a1", "d_a2", "alpha_w")
+    found = geometry({**values, "x_1": 0.0, "x_2": x_sum}, wanted)
+    _apart(values, x_sum, found["alpha_w"])
+    most = [math.hypot(2.0 * found["l_N1N2"], found[f"d_b{i}"]) - found[f"d_a{i}"] for i in WHEELS]
+    return -0.5 * most[1] / values["m"], 0.5 * most[0] / values["m"]
+
+
+def _meshes(values: Mapping[str, float], given: str) -> None:
+    """Look whether the wheels have teeth, and whether these can touch; `given` is what the shifts are found by."""
+    found = geometry(values, BASIC)
+    _apart(values, found["x_sum"], found["inv_alpha_w"])
+    for i in WHEELS:
+        if not tooth_of(values, i).whole:
+            said = {"name": f"x_{i}", "text": f"{values[f'x_{i}']:.6g}", "wheel": i}
+            found_by = {"given": given} if given else {}
+            raise InputError("gear-no-tooth-found" if given else "gear-no-tooth", **found_by, **said)
+    line = geometry(values, ("g_alpha",))["g_alpha"]
+    if not line > 0.0:
+        raise InputError("gear-no-contact", gap=f"{-line * 1e3:.4g}")
+
+
+def _apart(values: Mapping[str, Any], x_sum: float, angle: float) -> None:
+    """Refuse a sum of shifts by which the centres come nearer than the base circles allow: there is no `angle`."""
+    if angle > 0.0:
+        return
+    z_1, z_2, alpha = (values[name] for name in ("z_1", "z_2", "alpha"))
+    least = float(LAWS["sum_of_shifts"](z_1, z_2, alpha, LAWS["involute"](alpha), np.float64(0.0)))
+    raise InputError("gear-no-mesh", x_sum=f"{x_sum:.6g}", least=f"{least:.4g}")
+
 
 # of the calculated quantities, each the steps of one part of the geometry
 CALCULATED = ("sizes", "centres", "auxiliary", "quality", "engagement", "measures")
@@ -188,16 +295,17 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     sizes = geometry(found)
     layout = layout_of(pair, sizes)
     program = construct(layout, plans)
-    givens = {**found, **board_givens(pair, sizes)}
+    sense, mu_rho = float(pair.sense), steps(sizes["l_N1N2"] / LONGEST)[0] / PAPER_MM
+    givens = {**found, **PARTS, **NOTHING, **NUMBERS, "_sense": sense, "_against": -sense, "mu_rho": mu_rho}
     board = run(program, givens)
     drawn = {*program.plans}
-    given_lengths = {"PW": givens["PW"]} if SLIDING in drawn else {}
-    results = quantities(program, board.values, given_lengths, unit_of)
-    if SLIDING in drawn:
+    slides = SLIDING in drawn
+    results = quantities(program, board.values, {"PW": givens["PW"]} if slides else {}, unit_of)
+    if slides:
         results = _with_ends(results)
     return SolvedGear(
         program=program,
-        values={**board.values, **(dict.fromkeys(ENDLESS, -math.inf) if SLIDING in drawn else {})},
+        values={**board.values, **dict.fromkeys(ENDLESS if slides else (), -math.inf)},
         quantities=in_sections(_stated(givens, drawn, values) | results, SECTIONS, section_of),
         sines=board.sines,
         status=board.status,
@@ -221,17 +329,10 @@ def layout_of(pair: GearPair, sizes: Mapping[str, float]) -> Layout:
     return Layout((first, second), pair.sense, MARKS[before])
 
 
-def board_givens(pair: GearPair, sizes: Mapping[str, float]) -> dict[str, float]:
-    """Return what the board begins with beside the numbers of the pair: senses, numbers, the scale of the diagrams."""
-    sense = float(pair.sense)
-    mu_rho = steps(sizes["l_N1N2"] / LONGEST)[0]
-    return {**PARTS, **NOTHING, **NUMBERS, "_sense": sense, "_against": -sense, "mu_rho": mu_rho / PAPER_MM}
-
-
 def _stated(givens: Mapping[str, Any], drawn: set[str], values: Mapping[str, float]) -> dict[str, Quantity]:
     """Return what the board begins with and is a result: scale factors of diagrams, shifts that have been found."""
-    units = {SLIDING: ("mu_rho", "m/mm"), THETA: ("mu_theta", "1/mm")}
-    scales = (item for plan, item in units.items() if plan in drawn)
+    units = {SLIDING: "m/mm", THETA: "1/mm"}
+    scales = ((SCALES[plan], unit) for plan, unit in units.items() if plan in drawn)
     found = {name: Quantity(name, givens[name] * PAPER_MM, unit) for name, unit in scales}
     return found | {name: Quantity(name, givens[name], "1") for name in ("x_1", "x_2") if name not in values}
 
@@ -255,18 +356,13 @@ def conditions_of(solved: SolvedGear) -> dict[str, Condition]:
     slopes |= {name: solved.givens[name] * np.eye(len(varied))[i] for i, name in enumerate(varied)}
     worst = worst_behind(solved.program, solved.sines)
     found = {}
-    for name in solved.quantities:
+    for name, quantity in solved.quantities.items():
         slope = slopes.get(name, 0.0 if name in solved.givens else np.nan)
-        total = float(np.abs(slope).sum())
-        found[name] = Condition(ratio(total, _size(solved, name)), worst.get(name, 1.0))
+        total, size = float(np.abs(slope).sum()), float(abs(solved.values[name]))
+        if name in solved.shown_on and quantity.unit == "m":  # drawn: an error counts beside the module at least
+            size = max(size, float(solved.givens["m"]))
+        found[name] = Condition(ratio(total, size), worst.get(name, 1.0))
     return found
-
-
-def _size(solved: SolvedGear, name: str) -> float:
-    """Return the size beside which an error of a quantity counts, SI."""
-    own = float(abs(solved.values[name]))
-    drawn = name in solved.shown_on and solved.quantities[name].unit == "m"
-    return max(own, float(solved.givens["m"])) if drawn else own
 
 
 ANGULAR = tuple(f"{name}{i}{end}" for name, end in (("phi_alpha", "_drawn"), ("epsilon_alpha_arc", "")) for i in WHEELS)
@@ -281,22 +377,17 @@ def tolerances_of(solved: SolvedGear, paper: Paper, tolerance: Tolerance) -> dic
     may miss what all these errors add up to. Sliding at the ends of the active line can be calculated, but is taken
     from the diagram: it may miss what comes of both ordinates.
     """
-    names = [name for name in ANGULAR if name in solved.quantities]
+    names, sizes = [name for name in ANGULAR if name in solved.quantities], solved.sizes
     found = added_up(paper, tolerance, names)
     found = {name: max(found[name], rounded(solved.values[name], tolerance)) for name in names}
-    return found | dict(_extremes(solved, tolerance))
-
-
-def _extremes(solved: SolvedGear, tolerance: Tolerance) -> Iterator[tuple[str, float]]:
-    """Go through the extremes of sliding: theta = 1 - y / y_own errs by what either segment may miss."""
-    sizes = solved.sizes
-    for end, rhos in ENDS.items():
+    for end, rhos in ENDS.items():  # theta = 1 - y / y_own errs by what either segment may miss
         y = [sizes["PW"] / PAPER_MM * sizes[rho] / sizes[f"rho_w{i}"] for i, rho in zip(WHEELS, rhos, strict=True)]
         for i in WHEELS:
             name, own, mate = f"theta_{i}{3 - i}_{end}", y[i - 1], y[2 - i]
             if own > 0.0:
                 missed = (tolerance.of_segment(mate) + mate / own * tolerance.of_segment(own)) / own
-                yield name, max(float(missed), rounded(sizes[name], tolerance))
+                found[name] = max(float(missed), rounded(sizes[name], tolerance))
+    return found
 
 
 # A hand errs by millimetres of paper, and by degrees; the larger the drawing, the less the former count, while the

@@ -85,7 +85,7 @@ def _rest_points(board: Board, i: int, time: str) -> None:
 
 
 def hanging(board: Board, sections: int) -> None:
-    """Draw the force of the rope over one swing, from the points of the circle, and where it is greatest."""
+    """Draw the force of the rope over one swing, from the points of the circle."""
     board.calc("_period", "period", "k_1")
     for i in range(sections + 1):
         at, time = f"{CIRCLE}.{i + 1}" if i else f"{CIRCLE}.1", f"_T_{HANGING}{i}"
@@ -99,8 +99,6 @@ def hanging(board: Board, sections: int) -> None:
         board.calc(f"_swing{i}", "component", f"_from_C{i}", HORIZONTAL)
         board.calc(f"_P_12_{i}", "suspended_force", "P_m", f"_swing{i}")
         _hang_point(board, i, time)
-    board.calc("t_P12_max", "later", "t_1", "T_1")
-    point(board, FORCES, "T", line(board, FORCES, "fT", "t_P12_max"), "P_12_max", "mu_F")
 
 
 def _hang_point(board: Board, i: int, time: str) -> None:
@@ -110,10 +108,12 @@ def _hang_point(board: Board, i: int, time: str) -> None:
 
 
 def extreme_points(board: Board, least: str) -> None:
-    """Mark the greatest force before the lift-off, and the least one after it, whose time is a given.
+    """Mark the greatest forces, the one before the lift-off last, and the least one after it, whose time is a given.
 
     The force of the support is the deflection of its beam, too, to a scale factor of its own.
     """
+    board.calc("t_P12_max", "later", "t_1", "T_1")
+    point(board, FORCES, "T", line(board, FORCES, "fT", "t_P12_max"), "P_12_max", "mu_F")
     board.calc("_mu_w_0", "ratio", "mu_F", "C_01")
     point(board, FORCES, "M", line(board, FORCES, "fM", "t_F12_max"), "F_12_max", "mu_F")
     point(board, FORCES, "L", line(board, FORCES, "fL", least), "P_12_min", "mu_F")
@@ -129,8 +129,6 @@ def moving(board: Board, before: int, after: int) -> None:
         for name in (f"_T_{HANGING}{i}", f"_P_12_{i}"):
             board.calc(name, "given", f"{name}_motion")
         _hang_point(board, i, f"_T_{HANGING}{i}")
-    board.calc("t_P12_max", "later", "t_1", "T_1")
-    point(board, FORCES, "T", line(board, FORCES, "fT", "t_P12_max"), "P_12_max", "mu_F")
 
 
 def diameter(board: Board, slack: bool) -> None:
@@ -150,6 +148,8 @@ LIFT_OFF, EXTREMES = "lift_off", "extremes"
 
 def lift_off_plan(board: Board, sections: int, crossed: int) -> None:
     """Draw parabola and sinusoid of (11); they cross in the section after the line `crossed`."""
+    board.calc("_height", "ratio", "P_st", "C")
+    board.calc("_ratio", "ratio", "C_01", "C_12")
     for i in range(sections + 1):
         board.calc(seen(i), "product", "_section", part(i, 1))
         lift_off_points(board, i)
@@ -234,8 +234,7 @@ ENDS = {0: ("O1", "O2"), 2: ("B1", "B2")}
 
 def scheme(board: Board, near: dict[int, str]) -> None:
     """Draw beams and rope; `near` says of either beam whether its left or its right end is the nearer one."""
-    board.turn(HORIZONTAL, "zero")
-    board.normal(UP, HORIZONTAL)
+    axes(board)
     board.pole(f"{SCHEME}.A0")
     board.lay(f"{SCHEME}.A2", f"{SCHEME}.A0", UP, "L")
     for i, (left, right) in ENDS.items():
@@ -378,16 +377,10 @@ def _constructed(layout: Layout, wanted: frozenset[str]) -> Program:
     if FORCES_PART in wanted:
         extreme_points(board, "_t_P12_min")
     if ROOTS_PART in wanted and layout.roots is not None:
-        _roots(board, layout.roots)
+        lift_off_plan(board, layout.roots.sections, layout.roots.lift_off)
+        if layout.roots.waves:
+            extremes_plan(board, layout.roots.sections, layout.roots.extremes)
     if BEAMS_PART in wanted:
         for i in layout.bent:
             beam(board, i)
     return Program(board.steps)
-
-
-def _roots(board: RecordingBoard, roots: Roots) -> None:
-    board.calc("_height", "ratio", "P_st", "C")
-    board.calc("_ratio", "ratio", "C_01", "C_12")
-    lift_off_plan(board, roots.sections, roots.lift_off)
-    if roots.waves:
-        extremes_plan(board, roots.sections, roots.extremes)

@@ -25,7 +25,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -224,7 +224,6 @@ def _sinc(x: Array) -> Array:
     return np.sinc(x * (1.0 / math.pi))
 
 
-Known = TypeVar("Known")
 COMPARED = ("t_1", "F_12_max", "P_12_max", "F_max")
 SIMPLER: Mapping[str, Mapping[str, float]] = {  # simplifications, and what is given then
     "G_2": {"G_2": 0.0},
@@ -294,11 +293,8 @@ class HoistDepth:
     @property
     def spare(self) -> tuple[str, ...]:
         """Simplifications that change the greatest force by no more than the tolerance."""
-        return tuple(s.key for s in self.simpler if s.changes["F_max"] is not None and self.misses(s) <= self.tolerance)
-
-    def misses(self, one: Simplification) -> float:
-        """Return by what part a simplification misses the greatest force."""
-        return abs(one.changes["F_max"] or 0.0)
+        changes = {simpler.key: simpler.changes["F_max"] for simpler in self.simpler}
+        return tuple(key for key, part in changes.items() if part is not None and abs(part) <= self.tolerance)
 
 
 def depth(
@@ -319,9 +315,11 @@ def depth(
     printed |= dict.fromkeys(("P_12_max", "F_max"), found["P_12_max_printed"])
     simpler.append(Simplification(PRINTED, _changes(full, printed)))
     swings = math.isfinite(found["C_01"]) and whole.motion is None
-    ropes = (_followed(found, n) for n in masses) if swings and values["G_2"] > 0.0 else ()
-    lighter = [_at_ratio(values, ratio) for ratio in ratios] if swings else []
-    return HoistDepth(full, tuple(simpler), _known(ropes), values["G_2"] / values["G_1"], _known(lighter), tolerance)
+    followed = (_followed(found, n) for n in masses) if swings and values["G_2"] > 0.0 else ()
+    ropes = tuple(rope for rope in followed if rope is not None)
+    compared = (_at_ratio(values, ratio) for ratio in ratios) if swings else ()
+    lighter = tuple(one for one in compared if one is not None)
+    return HoistDepth(full, tuple(simpler), ropes, values["G_2"] / values["G_1"], lighter, tolerance)
 
 
 def _changes(full: Mapping[str, float], other: Mapping[str, Any]) -> dict[str, float | None]:
@@ -342,10 +340,6 @@ def _followed(found: Mapping[str, float], n: int) -> Heavy | None:
         return rope_of(found, n)
     except TremblingError:
         return None
-
-
-def _known(found: Iterable[Known | None]) -> tuple[Known, ...]:
-    return tuple(one for one in found if one is not None)
 
 
 def _beside(found: Mapping[str, float], rope: Heavy, ratio: float) -> OneMass:

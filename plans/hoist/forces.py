@@ -270,6 +270,15 @@ class Spectrum:
     formulas: Flags  # shape (N, M): whether the closed formulas are valid
     permitted: Flags  # shape (N, M): whether the strength condition holds
 
+    def trial(self, i: int, j: int) -> Trial:
+        """Return what was found at one pair of places."""
+        return Trial(*map(float, (self.beta_0[i], self.beta_2[j], self.F_max[i, j], self.safety[i, j])))
+
+    @property
+    def best(self) -> Trial:
+        """The pair of places with the least force."""
+        return self.trial(*map(int, np.unravel_index(self.F_max.argmin(), self.F_max.shape)))
+
 
 @dataclass(frozen=True, slots=True)
 class Trial:
@@ -334,38 +343,23 @@ def choose(values: Mapping[str, float], places: int = PLACES) -> Choice:
     if np.sum(~_formulas(values, grid, grid)) > MANY:
         grid, fine = _grid(min(places, FEWER)), LESS
     found = spectrum(values, grid, grid)
-    given = _trial(spectrum(values, np.array([values["beta_0"]]), np.array([values["beta_2"]])), 0, 0)
-    return Choice(found, given, _best(values, found, fine), _loop(found, given, values["K"]), values["K"])
-
-
-def _trial(found: Spectrum, i: int, j: int) -> Trial:
-    values = (found.beta_0[i], found.beta_2[j], found.F_max[i, j], found.safety[i, j])
-    return Trial(*map(float, values))
-
-
-def _loop(found: Spectrum, given: Trial, K: float) -> tuple[Trial, ...]:
-    """Try places until they are safe, those first that are least changed."""
-    trials = [given]
+    given = spectrum(values, np.array([values["beta_0"]]), np.array([values["beta_2"]])).trial(0, 0)
+    trials = [given]  # until they are safe, those first that are least changed
     away = np.hypot(found.beta_0[:, None] - given.beta_0, found.beta_2[None, :] - given.beta_2)
     for at in np.argsort(away, axis=None, kind="stable").tolist():
-        if trials[-1].safety >= K:
+        if trials[-1].safety >= values["K"]:
             break
-        trials.append(_trial(found, *divmod(at, len(found.beta_2))))
-    return tuple(trials)
+        trials.append(found.trial(*divmod(at, len(found.beta_2))))
+    return Choice(found, given, _best(values, found, fine), tuple(trials), values["K"])
 
 
 def _best(values: Mapping[str, float], found: Spectrum, count: int) -> Trial:
     """Return the places of the least force: those of the grid, then of finer and finer grids around them."""
     width = float(found.beta_0[1] - found.beta_0[0])
-    best = _trial(found, *map(int, np.unravel_index(found.F_max.argmin(), found.F_max.shape)))
+    best = found.best
     for _ in range(ROUNDS):
-        fine = spectrum(values, _around(best.beta_0, width, count), _around(best.beta_2, width, count))
-        nearer = _trial(fine, *map(int, np.unravel_index(fine.F_max.argmin(), fine.F_max.shape)))
+        around = width * np.linspace(-1.0, 1.0, count)
+        nearer = spectrum(values, *(np.clip(beta + around, LEAST, MOST) for beta in (best.beta_0, best.beta_2))).best
         best = nearer if nearer.F_max < best.F_max else best
         width *= 3.0 / (count - 1)
     return best
-
-
-def _around(middle: float, width: float, count: int) -> Array:
-    found: Array = np.clip(middle + width * np.linspace(-1.0, 1.0, count), LEAST, MOST)
-    return found

@@ -123,15 +123,14 @@ class _Race:
                 if angle > step * MOST_STEPS * (10 if method == EXPLICIT else 1):
                     yield from self._nothing(name, step)
                     continue
-                work = partial(integrate, found, method, step, located)
-                run, spent = ran(work, self.clock)
+                run, spent = ran(partial(integrate, found, method, step, located), self.clock)
                 if run.refused[0]:
                     yield from self._nothing(name, step)
                     continue
                 known = ~np.isnan(run.F_12[:, 0])
                 t, force = run.t[known, 0], run.F_12[known, 0]
-                errors = self._course(t, force)
-                yield from self._three(name, step, (run.t_1[0], run.F_max[0]), (t, errors), (spent, spent), 1)
+                course = t, self._course(t, force)
+                yield from self._three(name, step, (run.t_1[0], run.F_max[0]), course, (spent, spent), 1)
 
     def _nothing(self, method: str, setting: float) -> Iterator[Entry]:
         """Go through what a method gives that has failed, or is refused."""
@@ -147,9 +146,8 @@ class _Race:
     def _entries(
         self, method: str, setting: float, found: Mapping[str, Any], seconds: tuple[float, float], at_once: int
     ) -> Iterator[Entry]:
-        t = self.places
-        errors = self._course(t, rope_forces(found, t)[1])
-        yield from self._three(method, setting, (found["t_1"], found["F_max"]), (t, errors), seconds, at_once)
+        course = self.places, self._course(self.places, rope_forces(found, self.places)[1])
+        yield from self._three(method, setting, (found["t_1"], found["F_max"]), course, seconds, at_once)
 
     def _three(
         self,
@@ -161,17 +159,15 @@ class _Race:
         at_once: int,
     ) -> Iterator[Entry]:
         """Go through the errors of the three kinds: `seconds` of the lift-off alone, and of everything."""
-        t_1, peak = (
-            float(abs(np.longdouble(found) / self.right[name] - 1.0))
-            for found, name in zip(ends, ("t_1", "F_max"), strict=True)
-        )
+        pairs = zip(ends, ("t_1", "F_max"), strict=True)
+        t_1, peak = (float(abs(np.longdouble(found) / self.right[name] - 1.0)) for found, name in pairs)
         t, errors = course
-        worst = int(np.argmax(errors))
+        worst, end = int(np.argmax(errors)), float(self.right["t_1"])
         name = "F_12" if t[worst] < self.right["t_1"] else "P_12"
-        yield Entry(method, setting, LIFT_OFF, t_1, t_1, "t_1", float(self.right["t_1"]), seconds[0], at_once, 0.0)
+        yield Entry(method, setting, LIFT_OFF, t_1, t_1, "t_1", end, seconds[0], at_once, 0.0)
         most, middle = float(errors[worst]), float(np.median(errors))
         yield Entry(method, setting, COURSE, most, middle, name, float(t[worst]), seconds[1], at_once, 0.0)
-        yield Entry(method, setting, PEAK, peak, peak, "F_max", float(self.right["t_1"]), seconds[1], at_once, 0.0)
+        yield Entry(method, setting, PEAK, peak, peak, "F_max", end, seconds[1], at_once, 0.0)
 
 
 def rivals(values: Mapping[str, float], clock: Clock, effort: Effort = FULL) -> Contest:
@@ -237,9 +233,7 @@ def _ways(equation: Equation, root: float) -> Ways:
 
 
 TRIED = tuple(4.0 * 2.0 ** (-0.5 * i) for i in range(15))  # k h, rad: from 4 to 0.03
-TRIED_TINY = tuple(
-    2.0 ** (-0.5 * i) / 64.0 for i in range(6)
-)  # beside these for explicit Euler, which is refused early
+TRIED_TINY = tuple(2.0 ** (-0.5 * i) / 64.0 for i in range(6))  # for explicit Euler, which is refused early
 SHOWING = 0.35  # k h up to which an error shows its order
 ROUNDING = 1e-12  # error that is none
 

@@ -9,7 +9,7 @@ Curves are constructions that are done for many places at once, in metres of pap
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scales.scale import steps
-from ..board import Board, Program
+from ..board import Board
 from ..boards.exact import run
 from ..condition import Condition, by_solving_again, ratio
 from ..hands.hand import Tolerance
@@ -37,7 +37,6 @@ from .construction import (
     SCHEME,
     UP,
     Layout,
-    Roots,
     bent_beam,
     construct,
     drawn_name,
@@ -109,33 +108,22 @@ def _ordinates(forces: Forces, layout: Layout) -> dict[str, float]:
 
 def scale_factors(found: Mapping[str, float], layout: Layout, end: float, part_of: float = 1.0) -> dict[str, float]:
     """Return the scale factors of the diagrams, SI per millimetre, by which they fill their axes."""
-    wanted = {
-        "mu_t": end / TIMES,
-        "mu_F": (TALLEST * found["F_max"] + found["P_st"]) / ORDINATES,
-    }
+    wanted = {"mu_t": end / TIMES, "mu_F": (TALLEST * found["F_max"] + found["P_st"]) / ORDINATES}
     if layout.roots is not None:
-        wanted |= _of_roots(found, layout.roots)
+        V, a, seen = found["V_t"], found["a"], layout.roots.sections * layout.roots.section
+        end = layout.roots.begin + seen
+        wanted |= {"mu_t1": seen / TIMES, "mu_y": (V * end + 0.5 * a * end * end) / ORDINATES}
+        if layout.roots.waves:
+            swing = math.hypot(V, a / found["k"])
+            wanted["mu_v"] = (swing + max(swing, found["C_01"] / found["C_12"] * (V + a * end))) / ORDINATES
     if layout.bent:
         wanted["mu_x"] = max(found[f"l_{i}"] for i in BENT) / SPAN
         wanted["mu_w"] = max(found[f"w_{i}_max"] for i in layout.bent) / BEND
-    return {name: _nearest(mu / part_of) for name, mu in wanted.items()}
 
+    def nearest(mu: float) -> float:  # of the customary series, by their ratio
+        return min(steps(mu / WIDEST), key=lambda step: abs(math.log(step / mu)))
 
-def _nearest(mu: float) -> float:
-    """Return the scale factor of the customary series that is nearest to one, by their ratio."""
-    return min(steps(mu / WIDEST), key=lambda step: abs(math.log(step / mu)))
-
-
-def _of_roots(found: Mapping[str, float], roots: Roots) -> dict[str, float]:
-    V, a, k = (found[name] for name in ("V_t", "a", "k"))
-    seen = roots.sections * roots.section
-    end = roots.begin + seen
-    wound = V * end + 0.5 * a * end * end
-    known = {"mu_t1": seen / TIMES, "mu_y": wound / ORDINATES}
-    if roots.waves:
-        swing = math.hypot(V, a / k)
-        known["mu_v"] = (swing + max(swing, found["C_01"] / found["C_12"] * (V + a * end))) / ORDINATES
-    return known
+    return {name: nearest(mu / part_of) for name, mu in wanted.items()}
 
 
 # the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
@@ -219,6 +207,7 @@ def solve_hoist(
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         board = run(program, {name: np.float64(value) for name, value in given.items()})  # where 1/0 is inf
     drawn = {*program.plans}
+    shown = {name: next((plan for plan in own if plan in drawn), "") for name, own in SHOWN_ON.items()}
     results = _scales(given, drawn)  # marks of plans are no results
     results |= {name: q for name, q in quantities(program, board.values, {}, unit_of).items() if q.kind == "scalar"}
     return SolvedHoist(
@@ -228,7 +217,7 @@ def solve_hoist(
         sines=board.sines,
         status=board.status,
         trouble=board.trouble,
-        shown_on=_shown_on(program, drawn),
+        shown_on=shown_on(program) | {name: plan for name, plan in shown.items() if plan},
         scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
         givens=given,
         hoist=hoist,
@@ -255,11 +244,6 @@ def _scales(given: Mapping[str, Any], drawn: set[str]) -> dict[str, Quantity]:
     return found
 
 
-def _shown_on(program: Program, drawn: set[str]) -> dict[str, str]:
-    shown = {name: next((plan for plan in plans if plan in drawn), "") for name, plans in SHOWN_ON.items()}
-    return shown_on(program) | {name: plan for name, plan in shown.items() if plan}
-
-
 def conditions_of(solved: SolvedHoist) -> dict[str, Condition]:
     """Return the condition of every quantity."""
     numbers = {name: float(solved.givens[name]) for name in VALUES}
@@ -276,18 +260,17 @@ def conditions_of(solved: SolvedHoist) -> dict[str, Condition]:
 
 def tolerances_of(solved: SolvedHoist, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
     """Return by how much times may miss, SI: what chords err by, and the error of a segment of the drawing."""
-    return dict(_times(solved, tolerance))
-
-
-def _times(solved: SolvedHoist, tolerance: Tolerance) -> Iterator[tuple[str, float]]:
+    limits = {}
     for name, quantity in solved.quantities.items():
         drawn = solved.quantities.get(drawn_name(name))
         if drawn is None or quantity.value is None or drawn.value is None or not math.isfinite(drawn.value):
             continue
         mu = float(solved.values["mu_t1"]) * PAPER_MM
         of_segment = tolerance.of_segment(abs(drawn.value) / mu) * mu
-        yield name, max(abs(drawn.value - quantity.value) + of_segment, rounded(quantity.value, tolerance))
-        yield drawn_name(name), max(of_segment, rounded(quantity.value, tolerance))
+        least = rounded(quantity.value, tolerance)
+        limits[name] = max(abs(drawn.value - quantity.value) + of_segment, least)
+        limits[drawn_name(name)] = max(of_segment, least)
+    return limits
 
 
 POINTS, OF_BEAM, MAGNIFIED = 300, 121, 81  # of a curve

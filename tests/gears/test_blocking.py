@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.gears.blocking import BLOCKING, CURVES, Plane, crossings, grid, near_crossings, plane_of, traced
-from kulman.plans.gears.givens import complete
+from kulman.plans.gears.solve import complete
 from kulman.tests.support.gears import SEED, madi, second_route
 
 WHEELS = [
@@ -148,9 +148,9 @@ def test_traced_circle_and_line_are_exact_and_cross_in_two_places() -> None:
     assert np.max(np.abs(np.abs(run) - 1.0)) < 1e-14
     assert abs(np.sum(np.angle(run[1:] / run[:-1]))) == pytest.approx(2.0 * np.pi)
     starts = near_crossings(round_, straight)
-    found = crossings(lambda places: (circle(places), slope(places)), starts, 0.2)
+    found = crossings(lambda at: {"circle": circle(at), "slope": slope(at)}, starts, 0.2)
     assert np.sort_complex(found) == pytest.approx(np.array([-1 - 1j, 1 + 1j]) / np.sqrt(2.0), abs=1e-12)
-    assert crossings(lambda places: (circle(places), slope(places) + 9.0), starts, 0.2).size == 0
+    assert crossings(lambda at: {"circle": circle(at), "slope": slope(at) + 9.0}, starts, 0.2).size == 0
 
 
 def test_saddle_is_traced_as_two_curves() -> None:

@@ -10,8 +10,7 @@ import pytest
 from kulman.plans.check import Check
 from kulman.plans.gears.gear import HARDENED, GearPair
 from kulman.plans.gears.geometry import geometry
-from kulman.plans.gears.givens import complete
-from kulman.plans.gears.solve import SAME_CENTRES, checks, judged
+from kulman.plans.gears.solve import SAME_CENTRES, checks, complete, judged
 from kulman.plans.gears.teeth import meshing_of, tooth_of
 from kulman.tests.support.gear_polygons import polygon
 from kulman.tests.support.gears import SEED, madi

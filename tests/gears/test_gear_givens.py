@@ -9,7 +9,7 @@ import pytest
 
 from kulman.plans.gears.gear import CW, HARDENED, STANDARD, GearPair
 from kulman.plans.gears.geometry import geometry
-from kulman.plans.gears.givens import complete
+from kulman.plans.gears.solve import complete
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.gears import SEED, madi, random_pairs
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.gears.geometry import geometry
-from kulman.plans.gears.givens import complete
+from kulman.plans.gears.solve import complete
 from kulman.plans.gears.teeth import Meshing, meshing_of
 from kulman.tests.support.gear_polygons import flanks_touch, line, polygon
 from kulman.tests.support.gears import SEED, contacts, counted_ratio, madi, random_pairs

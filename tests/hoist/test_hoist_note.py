@@ -34,17 +34,17 @@ def test_expressions_that_are_printed_give_the_results(variant: str) -> None:
     solved = solve_case(TASK, variant, {"slack": "0.03 m"}, None, None).solved
     found = dict(forces(solved.givens).found)
     for told in FORMULAS:
-        step = solved.program.by_name[told.name]
-        law, names = BY_DRAWING.get(told.name) or (step.law, step.operands)
+        step = solved.program.by_name[told]
+        law, names = BY_DRAWING.get(told) or (step.law, step.operands)
         value = form_of(law)(*(found[name] for name in names))
-        assert value == pytest.approx(found[told.name], rel=1e-12, abs=1e-300), told.name
+        assert value == pytest.approx(found[told], rel=1e-12, abs=1e-300), told
 
 
 def test_numbers_stand_in_the_place_of_letters() -> None:
     case = solve_case(TASK, "V03", None, None, None)
     words = case.kind.lettered(Words.of("en", "nau"), case.solved)
     scene = HoistScene(SolvedHoist.of(case.solved), words, STYLES["A4"], case.givens, {})
-    by_name = {told.name: " ".join(formula(scene, told)) for told in FORMULAS}
+    by_name = {told: " ".join(formula(scene, told)) for told in FORMULAS}
     assert by_name["m"] == "m = (G_{1} + G_{2}/3)/g = (32000 + 90/3)/9.81 = 3265 kg (4)"
     assert by_name["R"].endswith("= √((−2534)^{2} + 8241^{2}) = 8622 N")
     assert "3·2.06·10^{11}·5·10^{−5}·22.68/4^{3} = 10948129 N/m (5)" in by_name["C_01"]
