@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..drawing.formats import format_named
 from ..drawing.words import Words
-from ..plans.check import Check
 from ..plans.quantities import Quantity, measured
-from ..plans.solved import Solved
+from ..plans.solved import Check, Solved
 from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.scale import Scale

@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 
 from ..board import Program, Step
 from ..boards.exact import run
-from ..check import AT_LEAST, AT_MOST, Check
+from ..solved import AT_LEAST, AT_MOST, Check
 from .cam import VALUES
 from .formulas import SHARPEST
 from .profile import OF_R_0, OF_RHO_MIN

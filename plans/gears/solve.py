@@ -22,7 +22,6 @@ from numpy.typing import NDArray
 from ...scales.errors import InputError
 from ...scales.scale import steps
 from ..boards.exact import run
-from ..check import AT_LEAST, AT_MOST, EQUAL, Check
 from ..condition import Condition, derivatives, ratio
 from ..hands.hand import Hand, Tolerance
 from ..hands.shaky import Paper, draw, drawing_of
@@ -31,7 +30,7 @@ from ..laws import LAWS
 from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, shown_on, worst_behind
-from ..solved import PAPER_MM, Solved, calculated, in_sections
+from ..solved import AT_LEAST, AT_MOST, EQUAL, PAPER_MM, Check, Solved, calculated, in_sections
 from .construction import (
     CENTRES,
     DIAGRAMS,

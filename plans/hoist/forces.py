@@ -21,9 +21,8 @@ from numpy.typing import NDArray
 
 from ..board import Board, Program, RecordingBoard
 from ..boards.exact import ExactBoard
-from ..check import AT_LEAST, MORE, Check
 from ..laws import LAWS, TURN
-from ..solved import Columned
+from ..solved import AT_LEAST, MORE, Check, Columned
 from .hoist import VALUES, complete, in_range
 from .model import model, motion_given, rope_force
 from .onesided import OneSided, one_sided

@@ -14,7 +14,7 @@ from ..names import NORMAL, Name, by_lever, mark, spelled, vector
 from ..quantities import F_BAL, M_BAL
 from .legs import Slide
 from .mechanism import FRAME, MOMENT, ZERO, Driver, Mechanism, Prismatic, SlidingDriver
-from .parts import Couples, Forces, Span, hang, moments_about
+from .parts import SYMBOLS, Couples, Forces, Span, hang, moments_about
 
 
 def driver_of(mechanism: Mechanism) -> Crank | SlidingBlock:
@@ -141,13 +141,14 @@ class SlidingBlock:
 
     def velocity(self, board: Board) -> None:
         """v_P is given along the guide; the slider does not turn, and all its points move alike."""
-        self._move(board, "velocity", vector("V", self.driver.point), self.driver.speed)
+        self._move(board, "velocity", self.driver.speed)
 
     def acceleration(self, board: Board) -> None:
         """a_P is given along the guide, zero unless the slider speeds up."""
-        self._move(board, "acceleration", vector("a", self.driver.point), self.driver.acceleration or ZERO)
+        self._move(board, "acceleration", self.driver.acceleration or ZERO)
 
-    def _move(self, board: Board, plan: str, moves: Name, given: str) -> None:
+    def _move(self, board: Board, plan: str, given: str) -> None:
+        moves = vector(SYMBOLS[plan], self.driver.point)
         board.calc(moves.size, "given", given)
         board.pole(f"{plan}.p")
         board.lay(mark(plan, self.driver.point), f"{plan}.p", self.slide.u, moves.size)

@@ -23,18 +23,7 @@ from ..board import Board
 from ..names import Name, between, mark, rate, spelled, vector
 from .legs import AssurGroup, Hinged, Leg, Slide, coriolis, legs_of, normal_part, pin_offset, slider_body
 from .mechanism import ZERO, Mechanism, Prismatic
-from .parts import (
-    SYMBOLS,
-    Bodies,
-    Couples,
-    Forces,
-    Passed,
-    answer,
-    hang,
-    moments_about,
-    normal_of,
-    size_of,
-)
+from .parts import SYMBOLS, Bodies, Couples, Forces, Passed, answer, hang, moments_about, normal_of, size_of
 from .structure import Group
 
 
@@ -267,10 +256,7 @@ class RPR(AssurGroup):
         of_slider, of_guide = ((rate("omega", number), rate("epsilon", number)) for number in pair.links)
         guide = slider_body(self.guide, self.C, self.u, pair.direction, of_guide)
         self.bodies = slider_body(self.slider, self.A, self.u, ZERO, of_slider), guide
-        self.passed = (
-            Passed(mechanism.pair("R", j, i), i, self.A),
-            Passed(mechanism.pair("R", k, m), m, self.C),
-        )
+        self.passed = (Passed(mechanism.pair("R", j, i), i, self.A), Passed(mechanism.pair("R", k, m), m, self.C))
 
     def position(self, board: Board) -> None:
         """The guide's direction is that of the tangent through A to a circle about C: CA when it has no offset."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from operator import attrgetter
+from functools import partial
 from typing import Any
 
 from ...scales.kept import Kept
@@ -13,7 +13,7 @@ from .chain import constructed
 from .loads import BEGIN, END, in_order
 from .mechanism import Mechanism, start_names
 
-_STROKES = Kept[tuple[float, float]](64)
+_STROKES = Kept[Any](64)  # from where to where outputs move
 
 
 def board_givens(
@@ -43,19 +43,14 @@ def board_givens(
     return {**values, **sizes, **_stroke_ends(mechanism, values, motion.needs)}
 
 
-def _stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> tuple[float, float]:
-    """Return the ends of a stroke; kept, for sweeps, charts and sheets ask for them again at each position."""
-    from .cycles.strokes import stroke_of  # which needs numpy, and givens of its own for the sweep
-
-    asked = repr(mechanism), repr(sorted(values.items()))
-    return _STROKES.get(asked, lambda: attrgetter("low", "high")(stroke_of(mechanism, values)))
-
-
 def _stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterable[str]) -> dict[str, Any]:
     """Find the ends of the working stroke: once where only the driver moves, else for every mechanism of the arrays.
 
-    `motion` names the values on which its motion depends.
+    `motion` names the values on which its motion depends. The ends are kept, for sweeps, charts and sheets ask for them
+    again at each position.
     """
+    from .cycles.strokes import stroke_of  # which needs numpy, and givens of its own for the sweep
+
     assert mechanism.stroke is not None
     sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate
     followed = {name for start in mechanism.starts for name in start_names(start.link)}
@@ -65,7 +60,8 @@ def _stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterab
     found = []
     for row in range(size or 1):
         one = {name: float(value[row] if getattr(value, "ndim", 0) else value) for name, value in needed.items()}
-        low, high = _stroke_of(mechanism, {**one, driver_at: 0.0})
-        found.append((low, high) if one.get(sense, 1.0) > 0.0 else (high, low))
+        asked = repr(mechanism), repr(sorted(one.items()))
+        travel = _STROKES.get(asked, partial(stroke_of, mechanism, {**one, driver_at: 0.0}))
+        found.append((travel.low, travel.high) if one.get(sense, 1.0) > 0.0 else (travel.high, travel.low))
     begin, end = zip(*found, strict=True)
     return {BEGIN: [*begin], END: [*end]} if size else {BEGIN: begin[0], END: end[0]}

@@ -17,18 +17,7 @@ from ...scales.errors import InputError
 from ..board import Board, Program
 from ..names import CORIOLIS, NORMAL, ORIGIN, Name, mark, rate, role, vector
 from .mechanism import FRAME, ZERO, Link, Mechanism, Prismatic
-from .parts import (
-    SYMBOLS,
-    Bodies,
-    Body,
-    Couples,
-    Forces,
-    Passed,
-    Span,
-    lay_off,
-    local_mark,
-    normal_of,
-)
+from .parts import SYMBOLS, Bodies, Body, Couples, Forces, Passed, Span, lay_off, local_mark, normal_of
 from .structure import TRIAD, Group
 
 AXES = "xyzuvw"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 import pytest
@@ -176,7 +176,7 @@ def test_a_crank_that_speeds_up_is_differentiated_with_its_acceleration() -> Non
     steady = Rivals(cycle(task.mechanism, values, ("acceleration",), 12)).plan(places, ["a_C"])
 
     assert abs(plan["a_C"] - steady["a_C"]).max() > 0.1 * abs(plan["a_C"]).max()
-    for way in (rivals.differences(1e-4), rivals.chords(4000)):
+    for way in (partial(rivals.differences, 1e-4), partial(rivals.chords, 4000)):
         found = way(places, ["a_C", "epsilon_3"])
         for name, value in found.items():
             assert abs(value - plan[name]).max() < 1e-5 * abs(plan[name]).max()

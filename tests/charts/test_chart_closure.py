@@ -48,7 +48,7 @@ def both(whole: Cycle, tolerance: float) -> tuple[Any, Any]:
     """Return motion by Newton's method and by plans, half a step off the ends of the cycle."""
     rivals, places = Rivals(whole), places_of(whole, 24)
     names = [name for kind in kinds_of(whole) if kind.name in MOTION for name in kind.names]
-    return rivals.newton(tolerance)(places, names), rivals.plan(places, names)
+    return rivals.newton(tolerance, places, names), rivals.plan(places, names)
 
 
 FEW = (  # every kind of dyad, and a slide that drives
@@ -138,7 +138,7 @@ def test_what_newton_does_not_find_is_not_a_number() -> None:
     places = places_of(whole, 24)
     rivals = Rivals(whole)
 
-    found = rivals.newton(0.0)(places, ("V_C",))["V_C"]
+    found = rivals.newton(0.0, places, ("V_C",))["V_C"]
 
     assert np.isnan(found).all()
 

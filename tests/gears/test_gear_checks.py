@@ -7,11 +7,11 @@ import math
 import numpy as np
 import pytest
 
-from kulman.plans.check import Check
 from kulman.plans.gears.gear import HARDENED, GearPair
 from kulman.plans.gears.geometry import geometry
 from kulman.plans.gears.solve import SAME_CENTRES, checks, complete, judged
 from kulman.plans.gears.teeth import meshing_of, tooth_of
+from kulman.plans.solved import Check
 from kulman.tests.support.gear_polygons import polygon
 from kulman.tests.support.gears import SEED, madi
 

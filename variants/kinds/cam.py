@@ -27,7 +27,7 @@ from ...plans.cams.cam import (
     Cam,
     Curve,
 )
-from ...plans.check import AT_LEAST, AT_MOST, Check
+from ...plans.solved import AT_LEAST, AT_MOST, Check
 from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.names import unknown

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from ...plans.check import Check, rule_of
 from ...plans.gears.gear import MATERIALS, MODULES, PLANS, ROTATIONS, SHIFTS, STANDARD, VALUES, GearPair, impossible
+from ...plans.solved import Check, rule_of
 from ...scales.display import Display
 from ...scales.errors import InputError
 from ..checks.basics import Checker

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from ...plans.check import Check
 from ...plans.hoist.hoist import (
     DRAWN,
     MAY_BE_RIGID,
@@ -19,6 +18,7 @@ from ...plans.hoist.hoist import (
     complete,
 )
 from ...plans.names import role
+from ...plans.solved import Check
 from ...scales.errors import InputError
 from ..checks.names import Number
 from ..task import Bound

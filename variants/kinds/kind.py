@@ -8,8 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
-from ...plans.check import Check
-from ...plans.solved import Solved
+from ...plans.solved import Check, Solved
 from ...scales.choose import Choosers
 from ...scales.display import AS_INSIDE, Display
 from ...scales.errors import InputError

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from ...plans.board import POSITION
 from ...plans.boards.exact import SMALL
-from ...plans.check import WITHIN, Check
 from ...plans.laws import TURN
 from ...plans.linkages.chain import PLANS, construct, require_couplers
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
@@ -17,6 +16,7 @@ from ...plans.linkages.solved import SolvedLinkage, disagreement, scale_symbols,
 from ...plans.linkages.structure import analyse
 from ...plans.names import COUPLE, FORCES, Name, role, spelled
 from ...plans.quantities import pins_together, point_of
+from ...plans.solved import WITHIN, Check
 from ...scales.choose import Choosers, Segment, chooser
 from ...scales.errors import InputError
 from ...scales.names import unknown

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -82,49 +82,42 @@ class Rivals:
         self._bodies = moving_bodies(cycle.mechanism, cycle.structure)
         self._bare = construct(cycle.mechanism, ("position",))[1]
         driver, given = cycle.mechanism.driver, {"one": 1.0, ZERO: 0.0, **cycle.givens}
-        sense = float(given[driver.sense]) if isinstance(driver, Driver) else 1.0
+        sense = float(given[driver.sense]) if isinstance(driver, Driver) else 1.0  # of both rates, rad/s or m/s
         self.speed, self.acceleration = (float(given[x or ZERO]) * sense for x in (driver.speed, driver.acceleration))
+        self.contours = Contours(cycle.mechanism, cycle.givens)
+        self._grid = self._at_grid()
 
     def plan(self, places: Array, names: Sequence[str], precision: str = "double") -> Values:
         """Return quantities by plans in a precision, many positions at once."""
         givens = self.cycle.drive.givens(self.cycle.givens, places, self.cycle.program)
         return batch_in(self.cycle.program, givens, tuple(names), precision)[0]
 
-    def differences(self, step: float) -> Way:
+    def differences(self, step: float, places: Array, names: Sequence[str]) -> Values:
         """Return central differences of positions by plans; `step` is in radians, of a slide a part of its range."""
         step = step if self.cycle.drive.turns else step * abs(self.cycle.range.high - self.cycle.range.low)
+        offsets = (-step, step) if all(_order(name) == 1 for name in names) else (-step, 0.0, step)
+        slopes = self._curves(places + np.array(offsets)[:, None], names)
+        for name, curve in slopes.items():
+            slopes[name] = (curve[-1] - curve[0]) * (0.5 / step)
+            if _order(name) == 1:
+                slopes[name] = slopes[name] * self.speed
+            else:
+                second = (curve[2] - curve[1] - (curve[1] - curve[0])) * (1.0 / step**2)
+                slopes[name] = second * self.speed**2 + slopes[name] * self.acceleration
+        return slopes
 
-        def found(places: Array, names: Sequence[str]) -> Values:
-            offsets = (-step, step) if all(_order(name) == 1 for name in names) else (-step, 0.0, step)
-            slopes = self._curves(places + np.array(offsets)[:, None], names)
-            for name, curve in slopes.items():
-                slopes[name] = (curve[-1] - curve[0]) * (0.5 / step)
-                if _order(name) == 1:
-                    slopes[name] = slopes[name] * self.speed
-                else:
-                    second = (curve[2] - curve[1] - (curve[1] - curve[0])) * (1.0 / step**2)
-                    slopes[name] = second * self.speed**2 + slopes[name] * self.acceleration
-            return slopes
-
-        return found
-
-    def chords(self, sections: int) -> Way:
+    def chords(self, sections: int, places: Array, names: Sequence[str]) -> Values:
         """Return slopes of the chords of a drawn curve over so many sections of the cycle, and chords of these.
 
         A velocity belongs to the middle of its section, an acceleration to the end of two: both as if the sections lay
         there.
         """
-        section = abs(self.cycle.range.high - self.cycle.range.low) / sections
-
-        def found(places: Array, names: Sequence[str]) -> Values:
-            slopes: Values = {}
-            for order, offsets in ((1, (-0.5, 0.5)), (2, (-1.0, 0.0, 1.0))):
-                wanted = [name for name in names if _order(name) == order]
-                curves = self._curves(places + np.array(offsets)[:, None] * section, wanted) if wanted else {}
-                slopes |= {name: self._sloped(name, curve, section)[0] for name, curve in curves.items()}
-            return slopes
-
-        return found
+        section, slopes = abs(self.cycle.range.high - self.cycle.range.low) / sections, Values()
+        for order, offsets in ((1, (-0.5, 0.5)), (2, (-1.0, 0.0, 1.0))):
+            wanted = [name for name in names if _order(name) == order]
+            curves = self._curves(places + np.array(offsets)[:, None] * section, wanted) if wanted else {}
+            slopes |= {name: self._sloped(name, curve, section)[0] for name, curve in curves.items()}
+        return slopes
 
     def chords_of_cycle(self, sections: int, names: Sequence[str]) -> Values:
         """Return the same for a whole cycle, whose sections share their ends: the work of it, to be timed."""
@@ -154,29 +147,19 @@ class Rivals:
             curves[name] = np.concatenate((np.zeros_like(turns[:1]), np.cumsum(turns, axis=0)))
         return curves
 
-    def newton(self, tolerance: float) -> Way:
-        """Return Newton's method on closed contours; it begins at a place of a grid half a step before, or more."""
-        contours, grid, turns = self.contours, self._grid, self.cycle.drive.turns
-        low, high = self.cycle.range.low, self.cycle.range.high
+    def newton(self, tolerance: float, places: Array, names: Sequence[str]) -> Values:
+        """Use Newton's method on closed contours; it begins at a place of a grid half a step before, or more."""
+        contours, low, high = self.contours, self.cycle.range.low, self.cycle.range.high
+        which = np.floor((places - low) * (GRID / (high - low)) - 1.0).astype(int)
+        which = which % GRID if self.cycle.drive.turns else np.clip(which, 0, GRID - 1)
+        pose = contours.solve(self._grid[:, which], places, tolerance)
+        rates, changes = contours.rates(pose, self.speed), None
+        if any(_order(name) == 2 for name in names):
+            changes = contours.changes(pose, rates, self.acceleration)
+        return {name: self._of_pose(name, pose, rates, changes) for name in names}
 
-        def found(places: Array, names: Sequence[str]) -> Values:
-            which = np.floor((places - low) * (GRID / (high - low)) - 1.0).astype(int)
-            pose = contours.solve(grid[:, which % GRID if turns else np.clip(which, 0, GRID - 1)], places, tolerance)
-            rates, changes = contours.rates(pose, self.speed), None
-            if any(_order(name) == 2 for name in names):
-                changes = contours.changes(pose, rates, self.acceleration)
-            return {name: self._of_pose(name, pose, rates, changes) for name in names}
-
-        return found
-
-    @cached_property
-    def contours(self) -> Contours:
-        """The mechanism as closed contours."""
-        return Contours(self.cycle.mechanism, self.cycle.givens)
-
-    @cached_property
-    def _grid(self) -> Array:
-        """How the links lie at places round the cycle."""
+    def _at_grid(self) -> Array:
+        """Return how the links lie at places round the cycle."""
         cycle = self.cycle
         points = [point for link in cycle.mechanism.links for point in link.points]
         names = [mark for body in self._bodies.values() for mark in (body.direction, body.local) if mark]
@@ -309,14 +292,14 @@ class _Race:
         """Go through the methods that are no plans."""
         names, rivals = self.kind.names, self.rivals
         ways = (NEWTON, rivals.newton, TOLERANCES), (DIFFERENCES, rivals.differences, STEPS)
-        for method, way_of, settings in ways:
-            spent = self._time(way_of(settings[0]), FEW)  # it may not be bearable at more positions at once
+        for method, way, settings in ways:
+            spent = self._time(partial(way, settings[0]), FEW)  # it may not be bearable at more positions at once
             size = self.effort.at_once if spent * self.effort.at_once < LONG * 10.0 else FEW
             for setting in settings:
-                way = way_of(setting)
-                yield self.entry(method, setting, way(self.places, names), self._time(way, size), size)
+                spent = self._time(partial(way, setting), size)
+                yield self.entry(method, setting, way(setting, self.places, names), spent, size)
         for sections in SECTIONS:
-            found = rivals.chords(sections)(self.places, names)
+            found = rivals.chords(sections, self.places, names)
             spent = timed(partial(rivals.chords_of_cycle, sections, names), self.clock) / sections
             yield self.entry(CHORDS, sections, found, spent, sections)
 

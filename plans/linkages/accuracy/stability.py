@@ -237,14 +237,13 @@ class Model:
         """Return what leaving out `parts` changes."""
         parts = tuple(parts)
         less = self._values(parts)
-        change = _size(less[self.balance] - self._full[self.balance]) * _per_cent(self.largest)
+        change = _size(less[self.balance] - self._full[self.balance]) * (100.0 / self.largest if self.largest else 0.0)
         reaction = np.full(len(change), np.nan)
         if self.reactions and self.largest_reaction:
             off = [_size(less[name] - self._full[name]) for name in self.reactions]
-            reaction = np.max(off, axis=0) * _per_cent(self.largest_reaction)
+            reaction = np.max(off, axis=0) * (100.0 / self.largest_reaction)
         worst = np.fmax(change, reaction)
-        known = np.isfinite(worst)
-        place = float(self._cycle.angles[np.argmax(np.where(known, worst, -1.0))])
+        place = float(self._cycle.angles[np.argmax(np.where(np.isfinite(worst), worst, -1.0))])
         most, rms = (_most(reaction), _rms(reaction)) if self.reaction is not None else (None, None)
         return Cost(key, parts, _most(change), _rms(change), most, rms, place)
 
@@ -259,20 +258,14 @@ def depth(cycle: Cycle, tolerance: float) -> Depth:
     groups = {kind: tuple(part for part, of in kinds.items() if of == kind) for kind in (FORCES, MOMENTS, WEIGHTS)}
     groups[INERTIA] = groups[FORCES] + groups[MOMENTS]
     groups[ALL] = tuple(kinds)
-    known = {frozenset((part,)) for part in kinds} | {frozenset[str]()}
-    several = []
-    for key, parts in groups.items():
-        if frozenset(parts) not in known:  # all masses without weights are all inertia
-            several.append(model.cost(key, parts))
-            known.add(frozenset(parts))
-    spare: tuple[str, ...] = ()
+    own = {frozenset(parts): key for key, parts in reversed(groups.items())}  # all masses without weights are inertia
+    differ = {key: parts for key, parts in groups.items() if len(parts) > 1 and own[frozenset(parts)] == key}
+    several = [model.cost(key, parts) for key, parts in differ.items()]
     together = model.cost("", ())
     for cost in sorted(single, key=lambda cost: cost.worst):
-        without_it = model.cost("", (*spare, *cost.parts))
-        if without_it.worst <= tolerance:
-            spare, together = without_it.parts, without_it
-    needed = tuple(part for part in kinds if part not in spare)
-    spare = tuple(part for part in kinds if part in spare)
+        without_it = model.cost("", (*together.parts, *cost.parts))
+        together = without_it if without_it.worst <= tolerance else together
+    needed, spare = (tuple(x for x in kinds if (x in together.parts) == left_out) for left_out in (False, True))
     largest = (model.balance, model.largest, model.reaction, model.largest_reaction)
     return Depth(*largest, (*single, *several), tolerance, needed, spare, together)
 
@@ -288,7 +281,3 @@ def _most(values: Array) -> float:
 def _rms(values: Array) -> float:
     known = values[np.isfinite(values)]
     return float(np.sqrt(np.mean(known**2))) if known.size else 0.0
-
-
-def _per_cent(size: float) -> float:
-    return 100.0 / size if size else 0.0

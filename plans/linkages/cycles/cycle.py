@@ -123,19 +123,12 @@ class Cycle:
             )
 
         rows = extremes(sizes, self.reach.trimmed(BESIDE_CHANGE)) if wanted else []
-        return {
-            name: _rooted(row) if vector else row
-            for name, vector, row in zip(wanted, vectors, rows, strict=False)
-            if row is not None
-        }
-
-
-def _rooted(row: tuple[Extreme, Extreme]) -> tuple[Extreme, Extreme]:
-    """Return the extremes of a magnitude from those of its square, which is smooth where the vector vanishes."""
-    most, least = row
-    size = float(np.sqrt(most.value))
-    low = float(np.sqrt(max(least.value, 0.0)))
-    return Extreme(size, most.at), Extreme(low if low > VANISHES * size else 0.0, least.at)
+        ends = {name: row for name, row in zip(wanted, rows, strict=False) if row is not None}
+        for name in (name for name, vector in zip(wanted, vectors, strict=True) if vector and name in ends):
+            most, least = ends[name]  # of the square, which is smooth where the vector vanishes
+            size, low = (float(np.sqrt(max(end.value, 0.0))) for end in (most, least))
+            ends[name] = Extreme(size, most.at), Extreme(low if low > VANISHES * size else 0.0, least.at)
+        return ends
 
 
 def cycle(
@@ -353,13 +346,13 @@ def diagrams(cycle: Cycle, of: str, sections: int = 12) -> Diagrams:
     names, turns = _named(cycle, of)
     if not set(filter(None, names)) <= set(cycle.program.names):
         raise InputError("motion-plans", name=of)
-    places = cycle.range.low + (cycle.range.high - cycle.range.low) * (np.arange(2 * sections + 1) / (2 * sections))
-    closed = cycle.drive.turns
-    duration = abs(cycle.range.high - cycle.range.low) / cycle.speed
-    values = cycle.at(places, [name for name in names if name])
-    s, v, a = (values[name] if name else np.zeros(len(places)) for name in names)
+    parts, closed = np.arange(2 * sections + 1) / (2 * sections), cycle.drive.turns
+    way = cycle.range.high - cycle.range.low
+    values = cycle.at(cycle.range.low + way * parts, [name for name in names if name])
+    s, v, a = (values[name] if name else np.zeros(len(parts)) for name in names)
     s = unwound(inclination(s)) if turns else s
-    times = duration * (np.arange(2 * sections + 1) / (2 * sections))
+    duration = abs(way) / cycle.speed
+    times = duration * parts
     v_chords, a_chords = differentiate(s[::2], duration / sections, closed)
     inner = slice(0, -1) if closed else slice(1, -1)
     curves = Curve(times[1::2], v[1::2], v_chords), Curve(times[::2][inner], a[::2][inner], a_chords)

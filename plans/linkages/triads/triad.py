@@ -16,24 +16,12 @@ Source: Artobolevsky, Theory of mechanisms and machines (groups of class III, sp
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from ....scales.errors import InputError
 from ...board import Board
 from ...names import NORMAL, POINT, Name, arm, between, mark, moment, spelled, vector
 from ..legs import AssurGroup, Hinged, Leg, Slide, legs_of, normal_part
 from ..mechanism import ZERO, Link, Mechanism, Revolute, start_names
-from ..parts import (
-    SYMBOLS,
-    Bodies,
-    Couples,
-    Forces,
-    Span,
-    answer,
-    hang,
-    local_mark,
-    moments_about,
-)
+from ..parts import SYMBOLS, Bodies, Couples, Forces, Span, answer, hang, local_mark, moments_about
 from ..structure import Group, listed
 
 
@@ -78,6 +66,8 @@ class Triad(AssurGroup):
         # Assur's special point; its distance from the third leg's joint, the direction from it, the normal to that
         X, D = Name(f"X{number}", POINT, f"X{number}", links=(number,)), third.end
         self.X, self.XD = X, (between("l", X, D), between("e", X, D), between("n", X, D))
+        # the other two joints, and names of their parts along and across XD
+        self.figure = [(x.end, f"_along_{x.end}_{X}{D}", f"_across_{x.end}_{X}{D}") for x in first]
 
     @property
     def by_number(self) -> list[Leg]:
@@ -121,19 +111,13 @@ class Triad(AssurGroup):
         board.measure(length, self.X, third.end)
         board.direction(e, self.X, third.end, length)
         board.normal(n, e)
-        for joint, along, across in self._figure():
+        for joint, along, across in self.figure:
             board.calc(along, "part_along", self.X, third.end, joint)
             board.calc(across, "part_across", self.X, third.end, joint)
 
-    def _figure(self) -> Iterator[tuple[str, str, str]]:
-        """Go through the other two joints: letter, and names of their parts along and across XD."""
-        for leg in self.legs[:2]:
-            which = f"{leg.end}_{self.X}{self.legs[2].end}"
-            yield leg.end, f"_along_{which}", f"_across_{which}"
-
     def _finish(self, board: Board, plan: str, ends: list[str]) -> None:
         """Mark the other points of the central link by similarity, then read the motion of the legs."""
-        for joint, along, across in self._figure():
+        for joint, along, across in self.figure:
             board.similar(f"{plan}.{joint}", f"{plan}.{self.X}", f"{plan}.{self.legs[2].end}", along, across)
             board.read(vector(SYMBOLS[plan], joint), f"{plan}.p", f"{plan}.{joint}")
         self.central.mark_others(board, self.mechanism, plan)
