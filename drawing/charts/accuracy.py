@@ -161,32 +161,31 @@ def letter(axes: Axes, contest: Contest, kind: str, words: Words) -> None:
     labels, points = [], []
     for method, look in LOOKS.items():
         shown = drawable(entries, method)
+        best = min(shown, key=lambda e: e.error or 0.0, default=None)
         for entry in shown:
             points.append((entry.error or 0.0, entry.seconds or 0.0))
             text = words[named[method]] if method in named else words.decimal(setting(entry))
             if method in UNLABELLED or (method == BISECTION and kind != LIFT_OFF):
                 continue
-            if method != DIFFERENCES or _stated(entry, shown):
-                labels.append(Label(*points[-1], text, _side(entry, entries, look), method in named))
+            if method != DIFFERENCES or round(_powers(entry, best)) % 2 == 0:
+                labels.append(Label(*points[-1], text, _side(entry, best, look), method in named))
     taken = [(x - RING, y - RING, x + RING, y + RING) for x, y in rings.tolist()]
     taken += [(x, y - 2.0, end, y + 2.0) for (x, y), (end, _) in pairwise(rings.tolist())]  # the line between them
     put(axes, labels, points, taken)
 
 
-def _stated(entry: Entry, steps: Sequence[Entry]) -> bool:
-    """Tell whether a step is the best one, or an even number of powers of ten away from it."""
-    best = min(steps, key=lambda e: e.error or 0.0)
-    return round(math.log10(float(entry.setting) / float(best.setting))) % 2 == 0
+def _powers(step: Entry, best: Entry | None) -> float:
+    """Return how many powers of ten a step is away from the best one."""
+    return 0.0 if best is None else math.log10(float(step.setting) / float(best.setting))
 
 
-def _side(entry: Entry, entries: Iterable[Entry], look: Look) -> tuple[float, float]:
+def _side(entry: Entry, best: Entry | None, look: Look) -> tuple[float, float]:
     """Return the side of a point for its label: steps so small that rounding counts stand above the others."""
     if entry.method == PLAN:  # large batches cost about the same: their labels stand on either side
         return (1, 0) if round(math.log10(float(entry.setting))) % 2 else (-1, 0)
     if entry.method != DIFFERENCES:
         return look.prefer
-    best = min(drawable(entries, DIFFERENCES), key=lambda e: e.error or 0.0)
-    return (0, 1) if float(entry.setting) < float(best.setting) else (0, -1)
+    return (0, 1) if _powers(entry, best) < 0.0 else (0, -1)
 
 
 def setting(entry: Entry) -> str:

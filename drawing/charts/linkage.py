@@ -57,12 +57,10 @@ class Abscissa:
     label: str
     turns: bool
 
-    def shown(self, places: Array) -> Array:
+    def shown(self, places: Array | float) -> Array:
         """Return places as they are shown."""
-        if not self.turns:
-            return places * 1e3
-        found: Array = np.degrees(places % TURN)
-        return np.where(found > 360.0 - 1e-9, 0.0, found)
+        found = np.degrees(np.asarray(places) % TURN) if self.turns else np.asarray(places) * 1e3
+        return np.where(self.turns & (found > 360.0 - 1e-9), 0.0, found)
 
     def limit(self, axes: Axes, x: Array) -> None:
         """Let a field show a turn, or all travels `x`."""
@@ -209,7 +207,7 @@ def _special(axes: Axes, spots: Sequence[Spot], apart: Sequence[Arc], along: Abs
     """Draw special places as vertical lines, and hatch what cannot be assembled."""
     for spot in spots:
         dashes = (0, (1, 2)) if spot.kind == DEAD else (0, (7, 2, 1, 2, 1, 2))
-        axes.axvline(float(along.shown(np.array([spot.place]))[0]), color=BLACK, lw=0.8, ls=dashes, zorder=1)
+        axes.axvline(float(along.shown(spot.place)), color=BLACK, lw=0.8, ls=dashes, zorder=1)
     for low, high in _stretches(apart, along):
         axes.axvspan(low, high, facecolor="none", edgecolor=LIGHT, hatch="///", lw=0.0, zorder=0)
 
@@ -218,7 +216,7 @@ def _stretches(apart: Sequence[Arc], along: Abscissa) -> list[tuple[float, float
     """Return arcs as they are shown, cut at the end of a turn."""
     found: list[tuple[float, float]] = []
     for arc in apart:
-        low, high = (float(end) for end in along.shown(np.array([arc.low, arc.high])))
+        low, high = (float(along.shown(end)) for end in (arc.low, arc.high))
         if along.turns and arc.high - arc.low >= TURN:
             found.append((0.0, 360.0))
         elif along.turns and high < low:
@@ -233,7 +231,7 @@ def _named(axes: Axes, spots: Sequence[Spot], along: Abscissa, words: Words) -> 
     texts: dict[float, list[str]] = {}
     dead: dict[float, list[int]] = {}
     for spot in spots:
-        x = round(float(along.shown(np.array([spot.place]))[0]), 3)
+        x = round(float(along.shown(spot.place)), 3)
         if spot.kind == DEAD:
             dead.setdefault(x, []).append(spot.link or 0)
         elif words[SPOTS[spot.kind]] not in texts.setdefault(x, []):

@@ -80,6 +80,7 @@ class Chart(ABC, Generic[Found]):
     """One chart of a variant: a table, rows, data, a picture; `heading` is the key of what it shows."""
 
     heading: ClassVar[str]
+    noted: ClassVar[str] = ""  # key of what the numbers mean, of a picture and mostly of the table
     page: ClassVar[Callable[..., Figure]]  # draws what has been found, with words, a title and a note
     scene: Scene
     found: Found
@@ -90,7 +91,7 @@ class Chart(ABC, Generic[Found]):
 
     def note(self, words: Words) -> str:
         """Return what the numbers mean."""
-        return ""
+        return words[self.noted] if self.noted else ""
 
     @abstractmethod
     def _rows(self) -> Iterable[Sequence[Cell]]:

@@ -130,7 +130,7 @@ class HoistStepsChart(Chart[StepLimits]):
 class HoistRootsChart(Chart[RootRace]):
     """Ways to the root of the hoist, and to one that is nearly triple."""
 
-    heading, page = "chart.roots", staticmethod(roots_page)
+    heading, noted, page = "chart.roots", "chart.hoist.roots_note", staticmethod(roots_page)
 
     @property
     def _of_roots(self) -> dict[str, Ways]:
@@ -150,10 +150,6 @@ class HoistRootsChart(Chart[RootRace]):
             head = words[f"chart.hoist.{name}_root"].format(x=words.short(ways.root, 7))
             parts.append(f"{head}\n{aligned(rows)}")
         return "\n\n".join((*parts, wrapped(self.note(words))))
-
-    def note(self, words: Words) -> str:
-        """Return what is counted."""
-        return words["chart.hoist.roots_note"]
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         """Go through all evaluations."""
@@ -184,7 +180,7 @@ class HoistRootsChart(Chart[RootRace]):
 class HoistDepthChart(Chart[HoistDepth]):
     """What simplifications change, and one mass beside ropes of many."""
 
-    heading, page = "chart.hoist_depth", staticmethod(depth_page)
+    heading, noted, page = "chart.hoist_depth", "chart.hoist.depth_note", staticmethod(depth_page)
 
     def table(self, words: Words) -> str:
         """Return what every simplification changes, ropes of more and more masses, one mass over the rope's weight."""
@@ -194,10 +190,6 @@ class HoistDepthChart(Chart[HoistDepth]):
             rows.append([words[f"chart.hoist.without.{one.key}"], *cells])
         parts = [aligned(rows), self._ropes(words), self._one_mass(words), "\n".join(depth_verdict(self.found, words))]
         return "\n\n".join(part for part in (*parts, wrapped(self.note(words))) if part)
-
-    def note(self, words: Words) -> str:
-        """Return what is left out, and beside what."""
-        return words["chart.hoist.depth_note"]
 
     def _ropes(self, words: Words) -> str:
         if not self.found.ropes:

@@ -145,7 +145,7 @@ class _OfCycle(Chart[Found]):
 class DepthChart(_OfCycle[Depth]):
     """What simplifications cost over the cycle."""
 
-    heading, page = "chart.depth", staticmethod(depth_page)
+    heading, noted, page = "chart.depth", "chart.whole", staticmethod(depth_page)
 
     def table(self, words: Words) -> str:
         """Return a row for every simplification, then what the scene needs."""
@@ -161,10 +161,6 @@ class DepthChart(_OfCycle[Depth]):
             tidy = (0.0 if value < 1e-10 else value for value in values)
             rows.append([named, *(short(words, value) for value in tidy), self._place(words, cost.place)])
         return "\n".join((aligned(rows), "", depth_verdict(found, words, plain=True)))
-
-    def note(self, words: Words) -> str:
-        """Return what all is compared with."""
-        return words["chart.whole"]
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         errors = ("balance_max [%]", "balance_rms [%]", "reaction_max [%]", "reaction_rms [%]")

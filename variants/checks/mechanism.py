@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from ...plans.linkages.loads import in_order, output_pair
+from ...plans.linkages.loads import output_pair
 from ...plans.linkages.mechanism import (
     ANGLE,
     BOTH,
@@ -157,23 +157,21 @@ def _driver(checker: Checker, path: Path, raw: object, names: Names) -> Driver |
         return None
     before = len(checker.faults)
     slides = isinstance(raw, dict) and "travel" in raw
-    read = record(checker, path, raw, _driver_fields(names, slides))
+    fields = {"link": Field(link_number), "point": Field(name)}
+    if slides:
+        fields |= {"travel": Field(names.value(_M)), "speed": Field(names.value(_M_S))}
+    else:
+        fields |= {"pivot": Field(name), "angle": Field(names.value(_RAD)), "speed": Field(names.value(_RAD_S))}
+        fields |= {"sense": Field(names.sign)}
+    fields["acceleration"] = Field(names.value(_M_S2 if slides else _RAD_S2), required=False)
+    fields |= {} if slides else {"balance": Field(_BALANCE, required=False)}
+    read = record(checker, path, raw, fields)
     if read.get("speed") == ZERO:
         checker.fault((*path, "speed"), InputError("is-zero" if slides else "not-positive", text="0"))
     if len(checker.faults) > before:
         return None
     names.bounds.setdefault(read["speed"], Bound.NOT_ZERO if slides else Bound.POSITIVE)
     return SlidingDriver(**read) if slides else Driver(**read)
-
-
-def _driver_fields(names: Names, slides: bool) -> dict[str, Field]:
-    fields = {"link": Field(link_number), "point": Field(name)}
-    if slides:
-        fields |= {"travel": Field(names.value(_M)), "speed": Field(names.value(_M_S))}
-        return fields | {"acceleration": Field(names.value(_M_S2), required=False)}
-    fields |= {"pivot": Field(name), "angle": Field(names.value(_RAD)), "speed": Field(names.value(_RAD_S))}
-    fields |= {"sense": Field(names.sign), "acceleration": Field(names.value(_RAD_S2), required=False)}
-    return fields | {"balance": Field(_BALANCE, required=False)}
 
 
 def _start(checker: Checker, path: Path, raw: object, names: Names, slides: bool) -> Start | None:
@@ -250,14 +248,6 @@ def _diagram(checker: Checker, path: Path, raw: object, names: Names) -> tuple[D
     if diagram.back and over == ANGLE:
         checker.fault((*path, "back"), InputError("diagram-back"))
     return (diagram, wanted.dimension) if len(checker.faults) == before else None
-
-
-def diagrams_in_order(checker: Checker, mechanism: Mechanism, rows: Sequence[Mapping[str, float]]) -> None:
-    """Check that the places of load diagrams do not decrease, and lie within the stroke or a turn, in any variant."""
-    for i, diagram in enumerate(mechanism.diagrams):
-        with checker.at(("mechanism", "diagram", i, "at")):
-            for values in rows:
-                in_order(diagram, values)
 
 
 def _joined(checker: Checker, mechanism: Mechanism, names: Names) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping
+from collections.abc import Callable, Container, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -28,18 +28,16 @@ class Setting:
 
 
 Settings = Mapping[str, Mapping[str, Mapping[str, Setting]]]
+Named = Callable[[Checker, Path, Any], str | None]  # a reader of what has a name, or gets one
 
 
 def _unit(checker: Checker, path: Path, raw: object) -> Unit | None:
     """Read a unit."""
-    if not isinstance(raw, str):
-        checker.wrong_type(path, "type-text")
-        return None
-    try:
-        return unit(raw)
-    except InputError as error:
-        checker.fault(path, error)
-        return None
+    with checker.at(path):
+        if isinstance(raw, str):
+            return unit(raw)
+        raise InputError("type-text")
+    return None
 
 
 _GIVEN = {
@@ -66,21 +64,14 @@ def read_givens(checker: Checker, raw: object) -> dict[str, Given]:
         if len(checker.faults) > before:
             checker.unread.add(key)
             continue
-        givens[key] = _with_default(checker, path, Given(key, read.get("unit"), read.get("choices", ())), read)
+        given = Given(key, read.get("unit"), read.get("choices", ()))
+        if given.unit is not None and given.unit.dimension in NEVER_NEGATIVE:
+            given = replace(given, bound=Bound.NOT_NEGATIVE)
+        if "default" in read:
+            with checker.at((*path, "default")):
+                given = replace(given, default=given.read(read["default"]))
+        givens[key] = given
     return givens
-
-
-def _with_default(checker: Checker, path: Path, given: Given, read: Mapping[str, Any]) -> Given:
-    """Return `given` with the bound of its dimension and its default."""
-    if given.unit is not None and given.unit.dimension in NEVER_NEGATIVE:
-        given = replace(given, bound=Bound.NOT_NEGATIVE)
-    if "default" not in read:
-        return given
-    try:
-        return replace(given, default=given.read(read["default"]))
-    except InputError as error:
-        checker.fault((*path, "default"), error)
-        return given
 
 
 def read_choices(checker: Checker, raw: object, givens: Mapping[str, Given], words: Container[str] = ()) -> Settings:
@@ -118,18 +109,14 @@ def _settings(checker: Checker, path: Path, raw: object) -> dict[str, Setting] |
     if not isinstance(raw, dict):
         checker.wrong_type(path, "type-table")
         return None
-    settings = {}
-    for key, value in raw.items():
-        if name(checker, (*path, key), key) is not None:
-            found = literal(checker, (*path, key), value)
-            if found is not None:
-                settings[key] = found
-    return settings
+    named = [key for key in raw if name(checker, (*path, key), key) is not None]
+    settings = {key: literal(checker, (*path, key), raw[key]) for key in named}
+    return {key: setting for key, setting in settings.items() if setting is not None}
 
 
 def literal(checker: Checker, path: Path, raw: object) -> Setting | None:
     """Read a number, plain or with a unit, of whatever dimension."""
-    try:
+    with checker.at(path):
         if isinstance(raw, str):
             _, rest = split_number(raw)
             written = unit(rest) if rest else ONE
@@ -138,9 +125,7 @@ def literal(checker: Checker, path: Path, raw: object) -> Setting | None:
             Given("", ONE).read(raw)
             return Setting(float(raw), ONE.dimension)
         raise InputError("type-number", text=quote(type(raw).__name__))
-    except InputError as error:
-        checker.fault(path, error)
-        return None
+    return None
 
 
 def read_variants(
@@ -175,15 +160,13 @@ def read_variants(
     return variants
 
 
-def _given(given: Given) -> Any:
+def _given(given: Given) -> Read:
     """Return the reader of one column."""
 
     def read(checker: Checker, path: Path, raw: object) -> float | str | None:
-        try:
+        with checker.at(path):
             return given.read(raw)
-        except InputError as error:
-            checker.fault(path, error)
-            return None
+        return None
 
     return read
 
@@ -224,10 +207,9 @@ class Names:
 
     def place(self, checker: Checker, path: Path, raw: object) -> str | None:
         """Read a coordinate: the name of a length, a minus before it or not, or a literal with its unit."""
-        found: str | None = self.value(_M, signed=True)(checker, path, raw)
-        return found
+        return self.value(_M, signed=True)(checker, path, raw)
 
-    def value(self, wanted: Unit, signed: bool = False) -> Read:
+    def value(self, wanted: Unit, signed: bool = False) -> Named:
         """Return a reader of a value of the dimension of `wanted`: a name, or a literal with its unit.
 
         A minus may stand before a `signed` name.
@@ -261,7 +243,7 @@ class Names:
         """Return a reader of a value that is greater than zero."""
 
         def read(checker: Checker, path: Path, raw: object) -> str | None:
-            found: str | None = self.value(wanted)(checker, path, raw)
+            found = self.value(wanted)(checker, path, raw)
             if found in self.dimensions:
                 self.bounds[found] = Bound.POSITIVE
             elif found is not None and not self.constants.get(found, 0.0) > 0.0:
@@ -296,7 +278,7 @@ class Names:
 
     def sign(self, checker: Checker, path: Path, raw: object) -> str | None:
         """Read a sense or a branch: +1 or -1, or the name of one that a choice sets."""
-        found: str | None = self.value(ONE)(checker, path, raw)
+        found = self.value(ONE)(checker, path, raw)
         if found in self.dimensions:
             self.signs.add(found)
         elif found is not None and abs(self.constants.get(found, 0.0)) != 1.0:
@@ -352,14 +334,8 @@ def check_numbers(
 ) -> None:
     """Check that the numbers are there that are needed, and no others; bound them, and fill in the usual ones.
 
-    Parameters
-    ----------
-    numbers : mapping
-        What the subject has, by name.
-    units : mapping
-        Their SI units, empty for a plain number.
-    stranger : str
-        Key of the message about a name that is not among the numbers.
+    They and their SI units, empty for a plain number, are by name; of another name a message with the key `stranger`
+    tells.
     """
     for key, dimension in names.dimensions.items():
         place, number = names.stated.get(key, ("givens",)), numbers.get(key)

@@ -32,13 +32,12 @@ from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
-from ...scales.scale import Scale
 from ...scales.units import unit
 from ..checks.basics import Checker, Field, array_of, one_of, record, rows, word
 from ..checks.names import Names, Number, check_numbers, literal, word_or_choice
 from ..task import Bound, Given
 from ..toml_places import Path
-from .kind import Sized
+from .kind import Choices, Numbers, Plans, Scales, Sized
 
 if TYPE_CHECKING:
     from ...drawing.cams.scene import CamScene
@@ -53,8 +52,6 @@ if TYPE_CHECKING:
 SYMBOLS = ("mu_l", "mu_s_ds", "mu_s_d2s")  # the others follow from the drawn amplitude and the pole distances
 PER_MM, MILLI = 1e-3, 1e3
 AXES = ("diagram_a", "diagram_v", "diagram_s")  # the plans of the diagrams on one axis of angles
-# what is not asked: the stroke, which is given, and what should be nothing
-UNASKED = ("s_max", "s_close", "v_close")
 # of numbers that hardly any cam has: by SI unit the end of the key of the message, and the unit in it
 UNUSUAL = {
     "": ("part", ""),
@@ -109,7 +106,8 @@ class Cams(Sized[Cam, "SolvedCam"]):
     """Disk cams with translating roller and flat-faced followers, or with a rocker."""
 
     table, plans, choosing = "cam", PLANS, WORDS
-    room, symbols, told, unasked = "cams", SYMBOLS, "steps", UNASKED
+    room, symbols, told = "cams", SYMBOLS, "steps"
+    unasked = ("s_max", "s_close", "v_close")  # the stroke, which is given, and what should be nothing
     display = Display(size="mm", angle="deg")
     names = frozenset((*NUMBERS, *WORDS))
     segments, limits_add_up = False, True
@@ -141,18 +139,16 @@ class Cams(Sized[Cam, "SolvedCam"]):
         for name, text in head.get("scales", {}).items():
             if name in SYMBOLS and "=" in text:
                 checker.fault(("scales", name), InputError("scale-no-segments", text=quote(text), known=known))
-            elif name not in SYMBOLS and _follows(name):
+            elif name not in SYMBOLS and name in self._in("plans", "solve", "UNITS"):  # found with the diagrams
                 checker.fault(("scales", name), InputError("scale-follows", symbol=name, known=known))
             elif name not in SYMBOLS:
                 checker.fault(("scales", name), unknown("scale-unknown", name, SYMBOLS, task=head.get("id", "")))
 
-    def impossible(self, values: Mapping[str, float]) -> Iterator[tuple[str, InputError]]:
+    def impossible(self, values: Numbers) -> Iterator[tuple[str, InputError]]:
         """Go through what no cam can have."""
         return (("", error) for error in impossible(values))
 
-    def solve(
-        self, subject: Cam, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
-    ) -> SolvedCam:
+    def solve(self, subject: Cam, values: Numbers, words: Choices, plans: Plans) -> SolvedCam:
         """Solve a cam; numbers that belong to none are refused."""
         for error in impossible(values):
             raise error
@@ -248,7 +244,7 @@ class Cams(Sized[Cam, "SolvedCam"]):
         said |= {"angle": _degrees(smaller.givens["mu_phi"]), "part": f"{drawn.reduction:g}"}
         return smaller, (InputError("cam-smaller", format=drawn.format, **said),)
 
-    def scene(self, case: Case, scales: Mapping[str, Scale], words: Words) -> CamScene:
+    def scene(self, case: Case, scales: Scales, words: Words) -> CamScene:
         """Return the cam with its letters, with the lengths that it has on the sheet."""
         from ...drawing.cams.scene import CamScene
         from ...drawing.formats import STYLES
@@ -296,18 +292,10 @@ def _unusual(solved: SolvedCam) -> Iterator[InputError]:
     for one in unusual(solved):
         key, shown = UNUSUAL[one.unit]
         size = unit(shown) if shown else None
-        value, least, most = (
-            f"{number if size is None else size.from_si(number):.4g}" for number in (one.value, one.least, one.most)
-        )
+        numbers = (one.value, one.least, one.most)
+        value, least, most = (f"{x if size is None else size.from_si(x):.4g}" for x in numbers)
         end = LARGE.get(key, key) if one.least == 0.0 else key
         yield InputError(f"cam-unusual-{end}", name=one.name, value=value, least=least, most=most)
-
-
-def _follows(symbol: str) -> bool:
-    """Whether a scale factor is found with the diagrams."""
-    from ...plans.cams.solve import UNITS  # needs numpy
-
-    return symbol in UNITS
 
 
 def _degrees(angle: float) -> str:

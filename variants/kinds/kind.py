@@ -38,6 +38,10 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
 
 TRIED_FOR = 1.3  # seconds of processor time in which a file is read and its variants are tried
 
+Numbers = Mapping[str, float]  # of a variant, SI
+Choices = Mapping[str, str]  # of a variant: its word of each choice
+Plans = tuple[str, ...]
+Scales = Mapping[str, Scale]  # by plan
 Subject = TypeVar("Subject")  # what is described: a mechanism, a cam, a gear pair, a hoist
 Answer = TypeVar("Answer", bound=Solved)
 
@@ -113,38 +117,22 @@ class Kind(ABC, Generic[Subject, Answer]):
     # Solving.
 
     @abstractmethod
-    def solve(
-        self, subject: Subject, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
-    ) -> Answer:
-        """Solve a variant with its `values` in SI and the `words` of its choices.
-
-        Raises
-        ------
-        InputError
-            Values that belong to no such subject.
-        """
+    def solve(self, subject: Subject, values: Numbers, words: Choices, plans: Plans) -> Answer:
+        """Solve a variant with its `values` in SI and the `words` of its choices; impossible values are refused."""
 
     @abstractmethod
     def scale_symbols(self, solved: Answer) -> tuple[str, ...]:
         """Return the symbols of all scale factors that a task or a user may choose."""
 
     @abstractmethod
-    def first_scales(
-        self, solved: Answer, choosers: Choosers, plans: tuple[str, ...]
-    ) -> tuple[Format, dict[str, Scale]]:
+    def first_scales(self, solved: Answer, choosers: Choosers, plans: Plans) -> tuple[Format, Scales]:
         """Return the format and the scale factors by plan of the sheet, as they follow from the extents of its plans.
 
         Nothing is drawn for that; where the sheet cannot keep them, it says so.
         """
 
     def conditions(self, case: Case) -> dict[str, Condition]:
-        """Return the condition of every quantity.
-
-        Raises
-        ------
-        InputError
-            What is solved has none.
-        """
+        """Return the condition of every quantity; what has none is refused."""
         raise InputError("kind-without", task=quote(case.task.id), text="condition")
 
     def warnings(self, solved: Answer) -> tuple[InputError, ...]:
@@ -164,36 +152,18 @@ class Kind(ABC, Generic[Subject, Answer]):
         return ()
 
     def gallery(self, task: Task) -> Gallery:
-        """Return what makes the charts of a task.
-
-        Raises
-        ------
-        InputError
-            There are none.
-        """
+        """Return what makes the charts of a task; one that has none is refused."""
         found: Gallery = self._own("charts", task).CHARTS
         return found
 
     def _own(self, folder: str, task: Task) -> Any:
-        """Return the module about this kind of tasks in a folder of what is done with them.
-
-        Raises
-        ------
-        InputError
-            There is none.
-        """
+        """Return the module about this kind of tasks in a folder of what is done with them; else refuse it."""
         if self.table not in MODULES:
             raise InputError("kind-without", task=quote(task.id), text=folder[:-1])
         return import_module(f"..{folder}.{MODULES[self.table]}", __package__)
 
     def sweep(self, case: Case, words: Words, asked: SweepRequest) -> Swept:
-        """Look at a case over its whole cycle.
-
-        Raises
-        ------
-        InputError
-            It has none.
-        """
+        """Look at a case over its whole cycle; one that has none is refused."""
         found: Swept = self._own("sweeps", case.task).SWEEP.of(case, words, asked)
         return found
 
@@ -215,13 +185,13 @@ class Kind(ABC, Generic[Subject, Answer]):
         """Return what has been solved as large as a sheet draws it, and what a user should know of that."""
         return solved, ()
 
-    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
+    def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Return what the explanatory note says beside the views of the sheet, drawn with `scales` by plan."""
         from ...drawing.notes.blocks import Story
 
         return Story()
 
-    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
+    def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what is drawn, after the first steps, of views that are not drawn in stages; nothing of others."""
         return {}
 
@@ -251,12 +221,7 @@ class Kind(ABC, Generic[Subject, Answer]):
     def limits(self, drawn: Answer, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Return by how much single quantities may miss, SI, where the usual rule does not hold.
 
-        Parameters
-        ----------
-        drawn : Solved
-            As `as_drawn` returns it.
-        paper : Paper
-            The same on paper, with its scale factors.
+        What is `drawn` is as `as_drawn` returns it, `paper` the same on paper, with its scale factors.
         """
         return {}
 
@@ -316,7 +281,7 @@ class Sized(Kind[Subject, Answer]):
                 checker.fault(("scales", name), unknown("scale-unknown", name, self.symbols, task=head.get("id", "")))
 
     @abstractmethod
-    def impossible(self, values: Mapping[str, float]) -> Iterable[tuple[str, InputError]]:
+    def impossible(self, values: Numbers) -> Iterable[tuple[str, InputError]]:
         """Go through what no such subject can have, each with the name of the number at fault, or without one."""
 
     def varies(self, checker: Checker, task: Task) -> None:
@@ -333,9 +298,7 @@ class Sized(Kind[Subject, Answer]):
                     told.add(name)
                     checker.fault(("givens", name, "default"), error)
 
-    def solve(
-        self, subject: Any, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
-    ) -> Answer:
+    def solve(self, subject: Any, values: Numbers, words: Choices, plans: Plans) -> Answer:
         """Solve a variant; numbers that belong to none are refused."""
         solved: Answer = self._in("plans", "solve", f"solve_{self.table}")(subject.chosen(words), values, plans)
         return solved
@@ -344,12 +307,9 @@ class Sized(Kind[Subject, Answer]):
         """Return the symbols of the scale factors that may be chosen."""
         return self.symbols
 
-    def first_scales(
-        self, solved: Answer, choosers: Choosers, plans: tuple[str, ...]
-    ) -> tuple[Format, dict[str, Scale]]:
+    def first_scales(self, solved: Answer, choosers: Choosers, plans: Plans) -> tuple[Format, Scales]:
         """Return format and scale factors by plan; those of diagrams follow from the construction."""
-        found: tuple[Format, dict[str, Scale]]
-        found = self._in("drawing", "sheet", "first_scales")(solved, choosers, plans)
+        found: tuple[Format, Scales] = self._in("drawing", "sheet", "first_scales")(solved, choosers, plans)
         return found
 
     def conditions(self, case: Case) -> dict[str, Condition]:
@@ -366,7 +326,7 @@ class Sized(Kind[Subject, Answer]):
         drawn: Drawn = self._in("drawing", "sheet", f"{self.table.title()}Fitting")(contents).draw(paper)
         return drawn
 
-    def scene(self, case: Case, scales: Mapping[str, Scale], words: Words) -> Any:
+    def scene(self, case: Case, scales: Scales, words: Words) -> Any:
         """Return the case with its letters, for what is said of it."""
         from ...drawing.formats import STYLES
 
@@ -374,12 +334,12 @@ class Sized(Kind[Subject, Answer]):
         solved: Any = case.solved
         return made(solved, self.lettered(words, solved), STYLES["A4"], case.givens)
 
-    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
+    def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Tell the drawings step by step, and what is calculated with its numbers."""
         story: Story = self._in("drawing", self.told, "story")(self.scene(case, scales, words), scales, texts)
         return story
 
-    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
+    def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what is drawn of the tables; drawings have stages."""
         shown: Mapping[str, Shown] = self._in("drawing", self.told, "begun")(self.scene(case, scales, words), steps)
         return shown

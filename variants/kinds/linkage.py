@@ -11,6 +11,7 @@ from ...plans.boards.exact import SMALL
 from ...plans.laws import TURN
 from ...plans.linkages.chain import PLANS, construct, require_couplers
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
+from ...plans.linkages.loads import in_order
 from ...plans.linkages.mechanism import Mechanism
 from ...plans.linkages.solved import SolvedLinkage, disagreement, scale_symbols, solve_linkage
 from ...plans.linkages.structure import analyse
@@ -21,11 +22,10 @@ from ...scales.choose import Choosers, Segment, chooser
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
-from ...scales.scale import Scale
-from ..checks.mechanism import branched, diagrams_in_order, needless_branches, place_of, read_mechanism, started
+from ..checks.mechanism import branched, needless_branches, place_of, read_mechanism, started
 from ..marking.wording import letter, texts
 from ..task import Given, Task
-from .kind import Kind
+from .kind import Choices, Kind, Numbers, Plans, Scales
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
@@ -87,12 +87,13 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
                 checker.fault(("scales", name), InputError("scale-segment", text=quote(said)))
 
     def varies(self, checker: Checker, task: Task) -> None:
-        """Check the load diagrams of every variant."""
-        diagrams_in_order(checker, task.mechanism, [task.values(variant) for variant in task.variants])
+        """Check that the places of load diagrams do not decrease, and lie within the stroke or a turn."""
+        for i, diagram in enumerate(task.mechanism.diagrams):
+            with checker.at(("mechanism", "diagram", i, "at")):
+                for variant in task.variants:
+                    in_order(diagram, task.values(variant))
 
-    def solve(
-        self, subject: Mechanism, values: Mapping[str, float], words: Mapping[str, str], plans: tuple[str, ...]
-    ) -> SolvedLinkage:
+    def solve(self, subject: Mechanism, values: Numbers, words: Choices, plans: Plans) -> SolvedLinkage:
         """Solve one position."""
         solved = solve_linkage(subject, values, plans)
         if "compound" in plans:
@@ -103,9 +104,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Return the symbols of all scale factors that may be chosen."""
         return scale_symbols(solved.structure, solved.program)
 
-    def first_scales(
-        self, solved: SolvedLinkage, choosers: Choosers, plans: tuple[str, ...]
-    ) -> tuple[Format, dict[str, Scale]]:
+    def first_scales(self, solved: SolvedLinkage, choosers: Choosers, plans: Plans) -> tuple[Format, Scales]:
         """Return format and scale factors by plan, chosen by the areas of figures."""
         from ...drawing.linkages.ladders import first_scales
 
@@ -188,19 +187,19 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole, note=note)
         return draw(contents, paper)
 
-    def story(self, case: Case, scales: Mapping[str, Scale], words: Words, texts: Mapping[str, str]) -> Story:
+    def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Tell every plan step by step, its equations before it."""
         from ...drawing.linkages.steps import story
 
         return story(self._scene(case, scales, words), texts)
 
-    def begun(self, case: Case, scales: Mapping[str, Scale], words: Words, steps: int) -> Mapping[str, Shown]:
+    def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what the first steps of every plan draw."""
         from ...drawing.linkages.steps import begun
 
         return begun(self._scene(case, scales, words), steps)
 
-    def _scene(self, case: Case, scales: Mapping[str, Scale], words: Words) -> Scene:
+    def _scene(self, case: Case, scales: Scales, words: Words) -> Scene:
         from ...drawing.formats import STYLES
         from ...drawing.linkages.scene import Scene
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -52,13 +52,7 @@ class Swept(ABC):
     @classmethod
     @abstractmethod
     def of(cls, case: Case, words: Words, asked: SweepRequest) -> Swept:
-        """Look at a case over its whole cycle.
-
-        Raises
-        ------
-        InputError
-            Something is asked for that it has not.
-        """
+        """Look at a case over its whole cycle; what is asked for that it has not is refused."""
 
     @property
     def task(self) -> Task:
@@ -196,13 +190,7 @@ class SizedSweep(Swept):
 
     @classmethod
     def of(cls, case: Case, words: Words, asked: SweepRequest) -> Self:
-        """Look at what has been solved over its motion.
-
-        Raises
-        ------
-        InputError
-            Points, a beginning or end of the motion, or chords are asked for, which only the cycle of a linkage has.
-        """
+        """Look at what has been solved over its motion; refuse what only the cycle of a linkage has."""
         unused = {"--points": asked.points, "--from": asked.start, "--to": asked.end, "--chords": asked.chords}
         for option, value in unused.items():
             if value is not None:
@@ -242,13 +230,21 @@ class SizedSweep(Swept):
         """Return the columns at what is marked, or at the positions asked for, then extremes and remarks."""
         words = self._words(language)
         heads, columns = self._rows()
-        parts = column_table(columns, heads, words), extremes_table(self._extremes(), words), *self._remarks(words)
+        shown = [in_degrees_and_millimetres(column) for column in columns]
+        rows = [["", *(_titled(column.name, column.unit, words) for column in shown)]]
+        for k, head in enumerate(heads):  # one that comes again stands but once
+            first = k == 0 or heads[k - 1] != head
+            rows.append([head if first else "", *(_cell(column, k, words) for column in shown)])
+        parts = aligned(rows, ()), _extremes_table(self._extremes(), words), *self._remarks(words)
         return "\n\n".join(part for part in parts if part)
 
     def csv(self, language: str | None = None) -> str:
-        """Return all columns as CSV."""
-        places = self._places(self.count)
-        return columns_csv(self._columns(places), self._words(language), self._states(places))
+        """Return all columns as CSV, the number of the row before them, after them what is said of each row."""
+        places, words = self._places(self.count), self._words(language)
+        shown, states = [in_degrees_and_millimetres(column) for column in self._columns(places)], self._states(places)
+        heads = (f"{one.name} [{of}]" if (of := format_unit(one.unit, words.language)) else one.name for one in shown)
+        rows = zip(*(map(float, column.values) for column in shown), *states.values(), strict=True)
+        return csv_text([["k", *heads, *states], *([k, *row] for k, row in enumerate(rows))], words.language)
 
     def _data(self) -> dict[str, Any]:
         """Return columns, and extremes where they are told."""
@@ -276,32 +272,14 @@ class SizedSweep(Swept):
         return f"<{type(self).__name__} {self.task.id} {self.variant}: {self.count} {self.places}>"
 
 
-def columns_csv(found: Iterable[Columned], words: Words, said: Mapping[str, Sequence[str]]) -> str:
-    """Return columns as CSV, the number of the row before them, after them what is `said` of each row, by heading."""
-    shown = [in_degrees_and_millimetres(column) for column in found]
-    rows = zip(*(map(float, column.values) for column in shown), *said.values(), strict=True)
-    heads = (f"{one.name} [{of}]" if (of := format_unit(one.unit, words.language)) else one.name for one in shown)
-    head = ["k", *heads, *said]
-    return csv_text([head, *([k, *row] for k, row in enumerate(rows))], words.language)
-
-
 def in_degrees_and_millimetres(column: Columned) -> Columned:
     """Return a column as it is shown."""
     shown = SHOWN.get(column.unit)
     if shown is None:
         return column
-    to: Callable[[Any], Any] = unit(shown).from_si
-    values = to(column.values)
+    values: Any = column.values
+    values = unit(shown).from_si(values)
     return Columned(column.name, shown, np.round(values, PLACES) if column.name == DRIVES else values)
-
-
-def column_table(found: Collection[Columned], heads: list[str], words: Words) -> str:
-    """Return columns as a table, the heads of the rows before them, one that comes again but once."""
-    shown = [in_degrees_and_millimetres(column) for column in found]
-    rows = [["", *(_titled(column.name, column.unit, words) for column in shown)]]
-    for k, head in enumerate(heads):
-        rows.append([head if k == 0 or heads[k - 1] != head else "", *(_cell(column, k, words) for column in shown)])
-    return aligned(rows, ())
 
 
 def _titled(name: str, of: str, words: Words) -> str:
@@ -317,7 +295,7 @@ def _cell(column: Columned, k: int, words: Words) -> str:
     return words.short(0.0 if abs(value) <= NOTHING * size else value, DIGITS)
 
 
-def extremes_table(found: Collection[Ends], words: Words) -> str:
+def _extremes_table(found: Collection[Ends], words: Words) -> str:
     """Return the extremes of columns, and at which angles of what drives they are."""
     rows = [["", words["sweep.most"], "", words["sweep.least"], ""]]
     for one in found:
