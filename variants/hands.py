@@ -96,12 +96,8 @@ def drawing(
 ) -> Drawing:
     """Draw a construction with the hand that is named.
 
-    Parameters
-    ----------
-    limits : mapping of str to float
-        What to let pass of single quantities, SI, in the place of the rule.
-    other_names : mapping of str to str
-        By what other name a quantity goes, and its own in the construction.
+    `limits` are what to let pass of single quantities, SI, in the place of the rule; `other_names` have by what other
+    name a quantity goes, and its own in the construction.
     """
     name, hand, tolerance = hand_of(text)
     expected = expectations(paper, hand, tolerance, limits)
@@ -114,12 +110,8 @@ def table(
 ) -> str:
     """Return a table: value, interval of drawings, half of it on paper and in per cents, what to let pass, worst step.
 
-    Parameters
-    ----------
-    quantities : iterable of Quantity
-        With their millimetres, in SI; those that are only given are left out.
-    conditions : mapping
-        K and the sine of the worst intersection of quantities, as texts; two columns before the worst step.
+    Quantities that are only given are left out. `conditions` have K and the sine of the worst intersection of each, as
+    texts: two columns before the worst step.
     """
     paper = format_unit(words.display.paper, words.language)
     heads = ("name", "value", "unit", "interval", "paper", "percent", "pass", "step")

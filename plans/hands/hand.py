@@ -17,21 +17,11 @@ LARGEST = {"point": 100.0, "direction": 90.0, "reading": 100.0}  # mm, degrees: 
 
 @dataclass(frozen=True, slots=True)
 class Hand:
-    """Standard deviations of the errors of a hand.
+    """Standard deviations of the errors of a hand."""
 
-    Parameters
-    ----------
-    point : float
-        mm, of each coordinate of a mark, of the distance of a line from the mark through which it is drawn.
-    direction : float
-        Degrees, of a line from the direction that it should have.
-    reading : float
-        mm, of a length read off or taken into the compass.
-    """
-
-    point: float
-    direction: float
-    reading: float
+    point: float  # mm, of each coordinate of a mark, of the distance of a line from the mark through which it is drawn
+    direction: float  # degrees, of a line from the direction that it should have
+    reading: float  # mm, of a length read off or taken into the compass
 
     def __post_init__(self) -> None:
         """Refuse errors below zero, and those of which no drawing is left."""

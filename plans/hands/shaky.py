@@ -37,27 +37,13 @@ class Errors(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Paper:
-    """A construction as it is drawn.
-
-    Parameters
-    ----------
-    program : Program
-        Its steps.
-    givens : mapping
-        The data, SI: numbers, or arrays that broadcast against the shape of the drawings.
-    mus : mapping of str to float
-        Scale factors by plan, value in SI per mm.
-    edges : collection of str
-        Names of the directions of the sheet's edges, along which a drafting machine draws without error.
-    unscaled : collection of str
-        Plans in millimetres of paper themselves: what is measured there has no scale factor.
-    """
+    """A construction as it is drawn."""
 
     program: Program
-    givens: Mapping[str, Any]
-    mus: Mapping[str, Any]
-    edges: Collection[str] = ()
-    unscaled: Collection[str] = ()
+    givens: Mapping[str, Any]  # SI: numbers, or arrays that broadcast against the shape of the drawings
+    mus: Mapping[str, Any]  # scale factors by plan, value in SI per mm
+    edges: Collection[str] = ()  # names of the directions along which a drafting machine draws without error
+    unscaled: Collection[str] = ()  # plans in millimetres of paper themselves: what is measured there has no factor
 
 
 def paper_of(solved: Solved, mus: Mapping[str, float]) -> Paper:
@@ -318,14 +304,9 @@ SHAKY: Mapping[str, Operate] = {
 def draw(
     paper: Paper, hand: Hand, random: Errors, drawings: Shape = 1000, only: Collection[str] | None = None
 ) -> ShakyBoard:
-    """Draw a construction so many times with a shaky hand.
+    """Draw a construction so many times with a shaky hand: the same seed of `random` draws the same.
 
-    Parameters
-    ----------
-    random : Errors
-        A `numpy.random.Generator`: the same seed draws the same.
-    only : collection of str, optional
-        Names of the only steps at which the hand errs; all when left out.
+    `only` has the names of the only steps at which the hand errs; all when left out.
     """
     board = ShakyBoard(paper, hand, random, drawings, only)
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -28,39 +28,21 @@ ROUNDING = 1e-9  # part of a tolerance
 
 @dataclass(frozen=True, slots=True)
 class Spread:
-    """What many drawings give for one quantity.
+    """What many drawings give for one quantity; in SI, on paper where a plan shows it, `mm`, and in per cent."""
 
-    Parameters
-    ----------
-    undrawn : float
-        Part of the drawings in which it cannot be drawn.
-    deviation : float
-        Standard deviation, SI; of a point that of its distance from the exact place, from zero.
-    miss : float
-        What a vector or point misses by, direction and all: not more in the part `share` of all drawings, SI; NaN where
-        fewer can be drawn.
-    exact, low, high : float or None
-        The exact value (of a vector its magnitude), and the ends of the interval of drawn ones, SI; None for a point.
-    mm, mm_miss : float or None
-        Deviation and miss on paper, where a plan shows the quantity.
-    percent, of_largest : float or None
-        Deviation in per cent of the value, and of the largest vector of its plan.
-    degrees : float or None
-        What a vector turns by at most, in the part `share` of all drawings, NaN where fewer can be drawn; None for one
-        that is zero.
-    """
-
-    undrawn: float
-    deviation: float = math.nan
-    miss: float = math.nan
-    exact: float | None = None
+    undrawn: float  # part of the drawings in which it cannot be drawn
+    deviation: float = math.nan  # standard deviation; of a point that of its distance from the exact place, from zero
+    miss: float = math.nan  # of a vector or point, direction and all, in the part `share` of all; NaN where fewer exist
+    exact: float | None = None  # of a vector its magnitude; None for a point, as the ends of the interval of drawn ones
     low: float | None = None
     high: float | None = None
-    mm: float | None = None
+    mm: float | None = None  # the deviation
     mm_miss: float | None = None
-    percent: float | None = None
-    of_largest: float | None = None
-    degrees: float | None = None
+    percent: float | None = None  # the deviation, of the value
+    of_largest: float | None = None  # the same, of the largest vector of its plan
+    degrees: float | None = (
+        None  # what a vector turns by at most, in the part `share` of all; None for one that is zero
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,17 +108,8 @@ class Drawn:
 def kept(drawings: Array, exact: Any, share: float = SHARE) -> Array:
     """Return by how much drawings miss the exact value at most, in the part `share` of them: of all, drawn or not.
 
-    Parameters
-    ----------
-    drawings : float64 or complex128 array of shape (..., drawings)
-        What each gives, NaN where it cannot be drawn.
-    exact : number, or array that broadcasts to `drawings`
-        What it should be.
-
-    Returns
-    -------
-    float64 array of shape (...)
-        NaN where fewer than that can be drawn.
+    Drawings are an array of shape (..., drawings), real or complex, NaN where one cannot be drawn; what is returned has
+    the shape (...), with NaN where fewer than that can be drawn.
 
     >>> float(kept(np.array([1.0, 4.0, np.nan, 2.0]), 1.0, 0.75))
     3.0
@@ -232,10 +205,7 @@ class Sensitivities:
 def sensitivities(paper: Paper, hand: Hand, names: Iterable[str] = ()) -> Sensitivities:
     """Draw a construction once for each error of the hand alone.
 
-    Parameters
-    ----------
-    names : iterable of str
-        Quantities wanted; all when empty. Steps that they do not need are not done.
+    `names` are the quantities wanted, all when empty. Steps that they do not need are not done.
     """
     wanted = tuple(names) or tuple(step.name for step in results(paper.program))
     paper = replace(paper, program=paper.program.needed_for(wanted))
@@ -275,35 +245,16 @@ def added_up(paper: Paper, tolerance: Tolerance, names: Iterable[str]) -> dict[s
 
 @dataclass(frozen=True, slots=True)
 class Expectation:
-    """What a hand makes of one quantity.
+    """What a hand makes of one quantity."""
 
-    Parameters
-    ----------
-    spread : Spread
-        Where the part `SHARE` of its drawings lie.
-    step, share : str and float, or None
-        The step whose errors come through most, and its part of the variance; None for what does not err. Of a step
-        whose least error breaks the construction the part is None.
-    allowed : float, or None
-        What to let pass, SI.
-    degrees : float or None
-        What to let pass of a vector's direction.
-    failed : float
-        Part of this hand's drawings that would be marked wrong all the same.
-    mu : float or None
-        Value of a millimetre, where a plan shows the quantity.
-    errs : bool
-        Whether the quantity hangs on any error at all.
-    """
-
-    spread: Spread
-    step: str | None
-    share: float | None
-    allowed: float | None
-    degrees: float | None
-    failed: float
-    mu: float | None
-    errs: bool
+    spread: Spread  # where the part `SHARE` of its drawings lie
+    step: str | None  # whose errors come through most
+    share: float | None  # of this step, in the variance; None where its least error breaks the construction
+    allowed: float | None  # what to let pass, SI
+    degrees: float | None  # what to let pass of a vector's direction
+    failed: float  # part of this hand's drawings that would be marked wrong all the same
+    mu: float | None  # value of a millimetre, where a plan shows the quantity
+    errs: bool  # whether it hangs on any error at all
 
     @property
     def half(self) -> float | None:
@@ -353,15 +304,8 @@ def expectations(
 ) -> dict[str, Expectation]:
     """Draw a construction many times with a hand, the same drawings every time, and mark what comes out.
 
-    Parameters
-    ----------
-    limits : mapping of str to float, optional
-        Tolerances of single quantities in SI, in the place of the rule.
-
-    Returns
-    -------
-    dict of str to Expectation
-        For every quantity of the construction; what is only given does not err.
+    What to expect is told of every quantity of the construction; what is only given does not err. `limits` are
+    tolerances of single quantities in SI, in the place of the rule.
     """
     found = drawn(paper, hand, np.random.default_rng(SEED), drawings)
     key = answer_key(paper, tolerance, limits)

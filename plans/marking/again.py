@@ -19,15 +19,7 @@ from .verdicts import Marker, judge
 
 
 class Judged:
-    """The answers of one student, judged under a key that is drawn to the student's scales; and under others.
-
-    Parameters
-    ----------
-    marker : Marker
-        Has judged all answers.
-    lines : tuple of Line
-        What it has found.
-    """
+    """The answers of one student, judged by a marker under a key that is drawn to the student's scales; and others."""
 
     def __init__(self, marker: Marker, lines: tuple[Line, ...]) -> None:
         self._marker, self._lines, self._key = marker, lines, marker.key

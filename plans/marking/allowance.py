@@ -15,12 +15,11 @@ from typing import Any
 import numpy as np
 
 from ..board import POSITION, Step
-from ..hands.tolerances import MARKS, READ, longer
 from ..laws import LAWS
 from ..names import role
 from ..quantities import POINTS
 from .answers import Answer
-from .key import COARSER, ROUNDED, Key
+from .key import COARSER, MARKS, READ, ROUNDED, Key, longer
 from .student import StudentBoard, settled
 
 THREE = 3  # digits that a number has at the least where nobody knows how it was written
@@ -42,16 +41,9 @@ def half_digit(number: float) -> float:
 class Allowance:
     """What the lines of one student may miss.
 
-    Parameters
-    ----------
-    answers, taken : mapping
-        What the student says, and goes on with.
-    drawn : StudentBoard
-        The construction with all of it, done as far as the line that is asked for.
-    sure : callable
-        Whether the value of an answer is known: written, or segment times a scale factor that is written.
-    faulty : callable
-        Whether the line of a quantity is wrong by itself.
+    `drawn` is the construction with all that the student says, done as far as the line that is asked for; an answer is
+    `sure` whose value is known (written, or segment times a scale factor that is written), `faulty` what is wrong by
+    itself.
     """
 
     def __init__(
@@ -88,11 +80,8 @@ class Allowance:
     def of(self, name: str, value: Any, right: bool = False) -> float:
         """Return by how much an answer may miss a value, SI.
 
-        Parameters
-        ----------
-        right : bool
-            Whether the value is right, and does not follow from the student's own numbers. Who has gone on with a right
-            number after a wrong one has measured it.
+        One that is `right` does not follow from the student's own numbers: who has gone on with it after a wrong one
+        has measured it.
         """
         step = self.calculation(name)
         if step is None or (right and any(map(self.faulty, self.inputs(step)))):

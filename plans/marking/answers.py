@@ -17,36 +17,16 @@ FREE = re.compile(r"R_\w+$|M_(\d\d|\d+_\d+)$|[MF]_bal(_lever)?$")  # whose sense
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What a student says of one quantity, in SI; any part may be left out.
-
-    Parameters
-    ----------
-    name : str
-        Of the quantity.
-    mm : float, optional
-        The segment on paper.
-    mu : float, optional
-        The scale factor as the student writes it: value per mm, or mm per unit.
-    value : float, optional
-        Of a vector its magnitude.
-    direction : float, optional
-        Radians from the x axis, of a vector.
-    sense : int, optional
-        Of a scalar: +1 counter-clockwise (or along the axis), -1 the other way, said beside the value.
-    plus : bool
-        Whether the value has a plus. Without it a positive value says nothing of the sense.
-    rounded : float, optional
-        Half of the last digit of the value as it was written.
-    """
+    """What a student says of one quantity, in SI; any part may be left out."""
 
     name: str
-    mm: float | None = None
-    mu: float | None = None
-    value: float | None = None
-    direction: float | None = None
-    sense: int | None = None
-    plus: bool = False
-    rounded: float | None = None
+    mm: float | None = None  # the segment on paper
+    mu: float | None = None  # the scale factor as the student writes it: value per mm, or mm per unit
+    value: float | None = None  # of a vector its magnitude
+    direction: float | None = None  # radians from the x axis, of a vector
+    sense: int | None = None  # of a scalar, said beside it: +1 counter-clockwise (or along the axis), -1 the other way
+    plus: bool = False  # whether the value has one: without it a positive value says nothing of the sense
+    rounded: float | None = None  # half of the last digit of the value as it was written
 
     @property
     def empty(self) -> bool:
@@ -140,14 +120,9 @@ class Miss(NamedTuple):
 
 
 def miss(said: Said, value: Any, allowed: float, angle: float = math.pi) -> Miss:
-    """Return by how many tolerances `said` misses `value`; NEVER where that is undefined.
+    """Return by how many tolerances `said` misses `value`, NEVER where that is undefined.
 
-    Parameters
-    ----------
-    allowed : float
-        What the size may miss, SI.
-    angle : float
-        What the direction of a vector may miss, radians.
+    The size may miss what is `allowed`, SI, and the direction of a vector an `angle`, radians.
     """
     if value != value:
         return Miss(NEVER, SIZE)
@@ -196,32 +171,16 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One line marked; sizes in SI, vectors complex.
-
-    Parameters
-    ----------
-    said : float or complex, optional
-        What the answer says; what it leaves out (a direction, a sense) is that of what follows.
-    right, follows : float or complex
-        The right value, and what follows from the answers before it.
-    allowed : float
-        The tolerance of the size.
-    off : float
-        By how many tolerances it misses the better of the two.
-    about : str
-        Of a line that does not pass: "size" or "direction", that of a scalar being its sense.
-    way : Said, optional
-        How the answer was taken.
-    """
+    """One line marked; sizes in SI, vectors complex."""
 
     name: str
     plan: str
     verdict: Verdict
     answer: Answer | None
-    said: Any
+    said: Any  # what it leaves out (a direction, a sense) is that of what follows
     right: Any
-    follows: Any
-    allowed: float
-    off: float
-    about: str = ""
-    way: Said | None = None
+    follows: Any  # from the answers before it
+    allowed: float  # of the size
+    off: float  # by how many tolerances it misses the better of the two
+    about: str = ""  # of a line that does not pass: "size" or "direction", that of a scalar being its sense
+    way: Said | None = None  # in which the answer was taken

@@ -29,17 +29,10 @@ Take = Callable[[str, Any], tuple[Said | None, bool]]
 class StudentBoard(ExactBoard):
     """One position with a student's quantities; `follows` has for each what follows from those before it.
 
-    Parameters
-    ----------
-    program : Program
-        The construction.
-    values : mapping
-        The data, SI; with `made` all values of the construction. Then only what hangs on the student is done again.
-    take : callable
-        For the name of a quantity and its value on this board: what the student says and goes on with, or None, and
-        whether the mark behind it moves.
-    steps : sequence of Step, optional
-        The steps to do, when others have been done on a board that this one comes `after`; all when left out.
+    `values` are the data, SI; with `made` all values of the construction, and only what hangs on the student is done
+    again. `take` says for the name of a quantity and its value on this board what the student says and goes on with, or
+    None, and whether the mark behind it moves. `steps` are those to do, all when left out, where others have been done
+    on a board that this one comes `after`.
     """
 
     def __init__(

@@ -134,13 +134,8 @@ def bounded(marking: Marking, other: Key | None = None) -> Marking:
     """Return the marking in which no line earns anything by following from numbers that mostly are wrong.
 
     It does not where, of the answers on which it hangs, three or more are wrong by themselves, and more than are right
-    or carried: then nobody can say what it follows from.
-
-    Parameters
-    ----------
-    other : Key, optional
-        That of another variant to which the answers belong: then no line is carried by any error, and what is nearer to
-        the other variant's value than to the own one is right by chance.
+    or carried: then nobody can say what it follows from. Where the answers belong to the `other` key of another
+    variant, no line is carried by any error, and what is nearer to its value than to the own one is right by chance.
     """
     bits, places = hanging_on(marking.key), marking.key.paper.program.places
     before: list[tuple[int, Verdict]] = []
@@ -287,10 +282,7 @@ class Marker:
     ) -> None:
         """Find how every answer may be taken, and begin the constructions with it.
 
-        Parameters
-        ----------
-        before : Marker, optional
-            Has judged the same answers, and all is taken over from it but for the names that `steps` make `anew`.
+        All is taken over from what has judged the same answers `before`, but for the names that `steps` make `anew`.
         """
         paper = self.key.paper
         self.settled = settled(paper.program) if steps is None else settled_in(steps)

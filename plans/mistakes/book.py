@@ -19,8 +19,7 @@ from ..board import Prepared, prepared
 from ..boards.batch import batch
 from ..boards.exact import SMALL, ExactBoard
 from ..hands.shaky import Paper
-from ..hands.tolerances import tolerances
-from ..marking.key import Key
+from ..marking.key import Key, tolerances
 from . import cams, data, forces, gears, motion
 from .rules import Broken, Change, Chapter, Scene, breaks
 

@@ -46,21 +46,13 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Candidate:
-    """An explanation: one mistake or two; those in `same` cannot be told from it by these answers.
-
-    Parameters
-    ----------
-    explained, left : tuple of str
-        Lines that are wrong without it and right with it, and those that stay wrong.
-    misses : float
-        Root of the mean square of the misses of all answers, in tolerances, those above MOST counting as MOST.
-    """
+    """An explanation: one mistake or two; those in `same` cannot be told from it by these answers."""
 
     mistakes: tuple[Broken, ...]
     same: tuple[tuple[Broken, ...], ...]
-    explained: tuple[str, ...]
-    left: tuple[str, ...]
-    misses: float
+    explained: tuple[str, ...]  # lines that are wrong without it and right with it
+    left: tuple[str, ...]  # those that stay wrong
+    misses: float  # root of the mean square of those of all answers, in tolerances, those above MOST counting as MOST
 
     @property
     def ids(self) -> frozenset[str]:

@@ -11,7 +11,7 @@ from kulman import solve
 from kulman.plans.hands.hand import PRESETS, Hand, Tolerance, preset
 from kulman.plans.hands.shaky import Paper, paper_of
 from kulman.plans.hands.spread import drawn
-from kulman.plans.hands.tolerances import tolerances
+from kulman.plans.marking.key import tolerances
 from kulman.scales.errors import InputError
 from kulman.tests.support.mechanisms import SEED
 from kulman.variants.solution import Solution

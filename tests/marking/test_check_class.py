@@ -23,9 +23,9 @@ from kulman.plans.hands.hand import preset
 from kulman.plans.hands.shaky import draw
 from kulman.tests.support.marking_cases import answer, key, students
 from kulman.variants import crew
-from kulman.variants.marking import class_run
+from kulman.variants.marking import checks
 from kulman.variants.marking.answers import Answers, Line
-from kulman.variants.marking.class_run import Job, mark_class, slug
+from kulman.variants.marking.checks import Job, mark_class, slug
 from kulman.variants.marking.result import Measured, Result, measured, shared, too_exact
 from kulman.variants.roster import Entry, Roster, Who
 
@@ -91,7 +91,7 @@ def test_a_class_gets_tables_reports_and_grades(tmp_path: Path, capsys: pytest.C
     assert (status, err) == (0, "")
     assert "students: 5, marked: 5" in printed
     assert len(list(out.glob("*.html"))) == len(list(out.glob("*.txt"))) == 5
-    assert [path.name for path in out.iterdir() if path.name.startswith(".")] == [class_run.REPORTS_NOTED]
+    assert [path.name for path in out.iterdir() if path.name.startswith(".")] == [checks.REPORTS_NOTED]
     sheet = openpyxl.load_workbook(tables[0]).active
     assert sheet is not None
     rows = list(sheet.iter_rows(values_only=True))
@@ -175,7 +175,7 @@ def test_a_stopped_run_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.
     answers, folder = handed_in(class_file(tmp_path, 12)), tmp_path / "reports"
     folder.mkdir()
     marked: list[int] = []
-    first = class_run.mark_one
+    first = checks.mark_one
 
     def stopping(job: Job, desk: object, number: int, one: Answers) -> Result:
         if number == 10:
@@ -183,7 +183,7 @@ def test_a_stopped_run_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.
         marked.append(number)
         return first(job, desk, number, one)
 
-    monkeypatch.setattr(class_run, "mark_one", stopping)
+    monkeypatch.setattr(checks, "mark_one", stopping)
     with pytest.raises(KeyboardInterrupt):
         mark_class(job(folder), answers, lambda done, whole: None, jobs=1)
     journal = folder / ".kulman-check.jsonl"
@@ -195,7 +195,7 @@ def test_a_stopped_run_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.
         again.append(number)
         return first(job, desk, number, one)
 
-    monkeypatch.setattr(class_run, "mark_one", counting)
+    monkeypatch.setattr(checks, "mark_one", counting)
     results = mark_class(job(folder), answers, lambda done, whole: None, jobs=1)
 
     assert before == 10
@@ -226,7 +226,7 @@ def test_changed_answers_are_marked_again(tmp_path: Path, monkeypatch: pytest.Mo
     answers, folder = handed_in(class_file(tmp_path, 3)), tmp_path / "reports"
     folder.mkdir()
     marked: list[str] = []
-    first = class_run.mark_one
+    first = checks.mark_one
 
     def counting(job: Job, desk: object, number: int, one: Answers) -> Result:
         if number == 2:
@@ -235,7 +235,7 @@ def test_changed_answers_are_marked_again(tmp_path: Path, monkeypatch: pytest.Mo
         return first(job, desk, number, one)
 
     monkeypatch.setattr(crew, "TOGETHER", 1)
-    monkeypatch.setattr(class_run, "mark_one", counting)
+    monkeypatch.setattr(checks, "mark_one", counting)
     with pytest.raises(KeyboardInterrupt):
         mark_class(job(folder), answers, lambda done, whole: None, jobs=1)
     changed = [answers[0], replace(answers[1], lines={})]

@@ -271,7 +271,7 @@ def _print_class(
     asked: Check, found: list[Answers], results: list[Result], files: tuple[Path, ...], moodle: Path | None
 ) -> None:
     """Write the tables of a class, and print a line per student."""
-    from ..marking.class_run import write_tables
+    from ..marking.checks import write_tables
     from ..marking.result import class_lines
 
     write_tables(asked, results, found, files, moodle)

@@ -37,20 +37,12 @@ class Mu:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One answered quantity: what an `Answer` of plans has, SI, as it stands in a file.
-
-    Parameters
-    ----------
-    place : str
-        File and row, or file and cell.
-    decimals : int
-        Those with which the segment was written.
-    """
+    """One answered quantity: what an `Answer` of plans has, SI, as it stands in a file."""
 
     name: str
-    place: str
+    place: str  # file and row, or file and cell
     mm: float | None = None
-    decimals: int = 0
+    decimals: int = 0  # with which the segment was written
     mu: Mu | None = None
     value: float | None = None
     direction: float | None = None
@@ -113,10 +105,7 @@ CLEAR = math.log(3.0)  # by how much nearer to the task's size a value must be
 def put_back(lines: Mapping[str, Line], scales: Mapping[str, Mu], asked: Asked) -> dict[str, Line] | None:
     """Return the lines with segments and values exchanged where nearly all of them only then agree; else None.
 
-    Parameters
-    ----------
-    scales : mapping of str to Mu
-        The scale factors that stand in rows of their own, by symbol.
+    `scales` are the factors that stand in rows of their own, by symbol.
     """
     told = [verdict for line in lines.values() for verdict in _told(line, scales, asked)]
     if len(told) < FEWEST or sum(told) < 0.8 * len(told):

@@ -1,33 +1,43 @@
-"""A task about to be marked: what is asked, how answers are marked, for whom; empty forms out, marks back."""
+"""A task about to be marked: what is asked, how answers are marked, for whom; empty forms out, marks back.
+
+A class is marked on all cores: reports whole or not at all, and what a killed run has finished is not done again.
+"""
 
 from __future__ import annotations
 
+import gc
+import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ... import __version__
 from ...drawing.formats import format_named
-from ...drawing.writers import folder_for, save_all
-from ...scales.errors import KulmanError
+from ...drawing.writers import Files, folder_for, save_all, slug, write_whole
+from ...scales.errors import InputError, KulmanError
 from ..case import Request, Settings, by_name, plans_wanted
-from ..crew import Advance
+from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
 from ..roster import Digits, Roster, read_roster
 from ..spreadsheets.grid import SUFFIXES as TABLES
-from ..tables import table_bytes
+from ..tables import csv_table, table_bytes
 from ..task import Task
 from .answers import Answers, Asked
-from .class_run import Job, mark_class
 from .keyed import asked_of, class_header, form_rows, solved
-from .marked import Desk
+from .marked import Desk, variant_of
 from .reading import read_all
-from .report import Report
-from .result import Result, result_of
+from .report import REPORTS, Report, report_bytes
+from .result import Result, class_rows, failed, moodle_rows, result_of
 from .rubric import Rubric, read_rubric
 from .wording import texts
 
 PathLike = str | os.PathLike[str]
+JOURNAL = ".kulman-check.jsonl"
+REPORTS_NOTED = ".kulman-reports.json"  # which reports of a folder are the program's own
+COLLECTED = 200_000  # objects made anew after which garbage is looked for: 40 MB
+Item = tuple[int, Answers]
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,3 +204,123 @@ def check(
     marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked, directions)
     students = None if roster is None else read_roster(os.fspath(roster), found)
     return Check(request, marking, asked, students, digits, own)
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """What is done for every student of a class: how answers are marked, and where reports go, if anywhere."""
+
+    check: Check
+    folder: str | None = None
+
+    def begin(self) -> Callable[[Item], Result]:
+        """Set up, and return what marks a student, who comes with a number."""
+        desk = Desk(self.check)
+        return lambda item: mark_one(self, desk, *item)
+
+    def names(self, answers: Sequence[Answers]) -> list[str]:
+        """Return for each student what tells this job from any that would mark or say something else."""
+        check, request = self.check, self.check.request
+        asked = (request.variant, request.settings, request.only, request.scales, request.notation)
+        parts = (__version__, request.task.text, *asked)
+        own = (request.language, request.format, check.rubric, check.digits, check.own, tuple(REPORTS))
+        whole, roster = digest_of(repr((parts, own))), check.roster
+        told = ((one, roster.find(one.who) if roster else None) for one in answers)
+        return [digest_of(f"{whole} {number} {one!r} {entry!r}") for number, (one, entry) in enumerate(told)]
+
+
+def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int | None = None) -> list[Result]:
+    """Mark all students of a class, in their order, as `Check.mark_all` says."""
+    students, folder = list(enumerate(answers)), None if job.folder is None else Path(job.folder)
+    journal = Journal(folder / JOURNAL, Result.from_json, Result.to_json) if folder else None
+    names = job.names(answers) if journal else []
+    found: dict[int, Result] = {}
+    for number, name in enumerate(names):  # what an earlier run found of the same answers, if its reports are there
+        before = journal.found(name) if journal else None
+        if folder and before is not None and all((folder / report).is_file() for report in before.reports):
+            found[number] = before
+    advance(len(found), len(students))
+    todo = sorted((item for item in students if item[0] not in found), key=lambda item: _variant(job.check, item[1]))
+    with _seldom_collected():
+        for done in shared_out(job, todo, jobs or os.cpu_count() or 1):
+            for number, student, result in ((*todo[one.place], one.made) for one in done):
+                if result is None:  # the student's answers have killed the process that marked them
+                    result = failed(student, InputError("process-died"), job.check.request.language)
+                elif journal:
+                    journal.note(names[number], result)
+                found[number] = result
+            advance(len(done), len(students))
+    results = [found[number] for number, _ in students]
+    if journal and folder:
+        journal.finish()
+        tidy(folder, results)
+    return results
+
+
+def _variant(check: Check, answers: Answers) -> str:
+    """Return the variant of a student: those of one go to one process, one after the other, and share its key."""
+    try:
+        return variant_of(check, answers, check.roster.find(answers.who) if check.roster else None)[0]
+    except KulmanError:
+        return ""
+
+
+@contextmanager
+def _seldom_collected() -> Iterator[None]:
+    """Look for garbage less often, in this process and its copies: keys are many objects, gone through every time."""
+    usual = gc.get_threshold()
+    gc.set_threshold(max(COLLECTED, usual[0]) if usual[0] else 0, *usual[1:])
+    try:
+        yield
+    finally:
+        gc.set_threshold(*usual)
+
+
+def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
+    """Mark a student and write the reports; answers that cannot be marked are a result, too."""
+    language = job.check.request.language
+    try:
+        marked = desk.mark(answers)
+    except KulmanError as error:
+        return failed(answers, error, language)
+    result = result_of(marked, language)
+    if job.folder is None:
+        return result
+    said = Report(marked, job.check.rubric, language, job.check.own, result.flags(language))
+    stem = f"{number + 1:03d}-{slug(result.who.student or Path(answers.source).stem)}"
+    names = tuple(f"{stem}{kind}" for kind in REPORTS)
+    for kind, name in zip(REPORTS, names, strict=True):
+        write_whole(Path(job.folder) / name, report_bytes(said, kind))
+    return replace(result, reports=names)
+
+
+def tidy(folder: Path, results: Sequence[Result]) -> None:
+    """Remove the reports that the run before has written there and this one has not; note those of this one.
+
+    Only what the note names, and only if nobody has changed it since, is removed: it is the program's own.
+    """
+    noted = folder / REPORTS_NOTED
+    before: dict[str, str] = {}
+    with suppress(OSError, ValueError, TypeError):
+        before = dict(json.loads(noted.read_text(encoding="utf-8")))
+    names = {name for result in results for name in result.reports}
+    remove_stale(folder, before.items(), names, REPORTS)
+    with suppress(OSError):  # a folder that takes no note keeps its reports
+        now = {name: digest_of((folder / name).read_bytes()) for name in sorted(names)}
+        write_whole(noted, (json.dumps(now, indent=0) + "\n").encode("ascii"))
+
+
+def write_tables(
+    check: Check, results: Sequence[Result], answers: Sequence[Answers], files: Sequence[Path], moodle: Path | None
+) -> None:
+    """Write the tables of a class."""
+    language = check.request.language
+    absent = check.roster.missing(one.who for one in answers) if check.roster else []
+    rows = list(class_rows(results, absent, language))
+
+    def table(path: Path) -> Files:
+        if path == moodle:
+            return [(path, csv_table(list(moodle_rows(results, language)), language, ","))]
+        return [(path, table_bytes(path, rows, language, check.request.task.id, [0], 1))]
+
+    save_all((*files, *filter(None, (moodle,))), TABLES, table)

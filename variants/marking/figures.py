@@ -46,12 +46,8 @@ class Box(NamedTuple):
 def boxes(vectors: Sequence[tuple[complex, complex, int]], figure: complex) -> Iterator[Box]:
     """Go through the rooms of the texts of vectors, in their order.
 
-    Parameters
-    ----------
-    vectors : sequence of (complex, complex, int)
-        Tail, tip and number of letters, mm, y down.
-    figure : complex
-        Its width and height; texts turn away from its middle, and keep within it.
+    A vector has tail, tip and number of letters, mm, y down; texts turn away from the middle of the figure, of which
+    width and height are given, and keep within it.
     """
     taken: list[Box] = []
     for tail, tip, letters in vectors:

@@ -79,10 +79,7 @@ def counted_once(
 ) -> tuple[Marking, dict[str, Misfit]]:
     """Return the marking with each misfit as an error of the first line that it concerns; and the misfits by lines.
 
-    Parameters
-    ----------
-    counted : collection of str
-        The lines that the mark is made of: one of them must bear the error.
+    One of the lines `counted`, of which the mark is made, must bear the error.
     """
     bearers: dict[str, Misfit] = {}
     for misfit in found:
@@ -101,12 +98,8 @@ def counted_once(
 def fits_other(marking: Marking, given: Sequence[Answer], others: Iterable[str], key: Callable[[str], Key]) -> str:
     """Return the variant that the answers fit, if it is not the student's own; nothing where most are right.
 
-    Parameters
-    ----------
-    others : iterable of str
-        Variants to look at; a key costs as much as a solution, so they are looked at only where many answers fail.
-    key : callable
-        Makes the answer key of a variant, or raises KulmanError where it has none.
+    `key` makes the answer key of a variant, or raises KulmanError where it has none: that costs as much as a solution,
+    so the `others` are looked at only where many answers fail.
     """
     answered = marking.answered
     right = sum(line.verdict is Verdict.RIGHT for line in answered)  # by themselves, not as what follows from an error

@@ -52,14 +52,9 @@ class Measured:
 
 
 def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapping[str, float]) -> dict[str, Measured]:
-    """Return the segments that can only have been measured.
+    """Return the segments that can only have been measured, at the student's scale factors by plan, SI per mm.
 
-    Parameters
-    ----------
-    follows : mapping of str to float
-        What follows for each quantity from the student's earlier errors, SI; the right size where it is not there.
-    mus : mapping of str to float
-        The student's scale factors by plan, value in SI per mm.
+    `follows` has what follows for each quantity from the student's earlier errors, SI, if that is not the right size.
     """
     made = {one.name: one for one in key.paper.program}
     found: dict[str, tuple[Line, float]] = {}

@@ -40,29 +40,17 @@ LARGEST = 100_000  # bytes
 class Rubric:
     """How answers are marked.
 
-    Parameters
-    ----------
-    out_of : float
-        The full mark.
-    weights : mapping of str to float
-        What quantities weigh; those that are not named weigh one. Where none is, lines count as `parts` says.
-    worth : mapping of str to float
-        What a verdict is worth, in parts of the weight.
-    asked : tuple of str
-        The quantities asked; all when empty.
-    limits : mapping of str to float
-        Tolerances of single quantities, SI.
-    directions : str
-        What holds of directions and senses: "required", a line without its own is worth less; "optional", what is said
-        of one is compared; "ignored", sizes alone are.
+    Of `directions` and senses holds: "required", a line without its own is worth less; "optional", what is said of one
+    is compared; "ignored", sizes alone are.
     """
 
     tolerance: Tolerance
-    out_of: float = 100.0
+    out_of: float = 100.0  # the full mark
+    # what quantities weigh; those that are not named weigh one, and where none is, lines count as `parts` says
     weights: Mapping[str, float] = field(default_factory=dict)
-    worth: Mapping[Verdict, float] = field(default_factory=lambda: WORTH)
-    asked: tuple[str, ...] = ()
-    limits: Mapping[str, float] = field(default_factory=dict)
+    worth: Mapping[Verdict, float] = field(default_factory=lambda: WORTH)  # of verdicts, in parts of the weight
+    asked: tuple[str, ...] = ()  # the quantities; all when empty
+    limits: Mapping[str, float] = field(default_factory=dict)  # tolerances of single quantities, SI
     directions: str = DIRECTIONS[0]
 
     def parts(
@@ -70,15 +58,9 @@ class Rubric:
     ) -> dict[str, float]:
         """Return what part of the full mark each line is: by the rubric's weights, or else by plans.
 
-        A line counts the more the more of the later ones hang on it, and nothing where zero is right; a plan counts
-        as the root of what its lines come to, so that of four times as many lines each counts half as much.
-
-        Parameters
-        ----------
-        by_plan : mapping of str to str
-            The plan, or section of the form, in which each quantity stands.
-        needed : mapping of str to float
-            The part of the quantities asked after each that hang on it.
+        A line counts the more the more of the later ones hang on it, `needed` being their part, and nothing where zero
+        is right; a plan (or section of the form) counts as the root of what its lines come to, so that of four times as
+        many lines each counts half as much.
         """
         if self.weights:
             shares = {line.name: self.weights.get(line.name, 1.0) for line in lines}
