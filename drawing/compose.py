@@ -98,12 +98,6 @@ def arrange_halves(sizes: Sequence[Size], boundary: int, sheet: Format, norm: No
     return None
 
 
-def arrange_rest(views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Place views on as many following pages as they need, counted from 0; None if one has no room on a page."""
-    later = reserved_boxes(sheet, norm, first=False)
-    return pack([view.size for view in views], usable(sheet, norm), later, gap=GAPS["A1"], pages=None, any_order=False)
-
-
 @dataclass(frozen=True, slots=True)
 class Drawn:
     """A sheet but for its title block: views in order of the work, and at their places, by page.
@@ -127,10 +121,7 @@ class Drawn:
     def pages(self, stamp: Stamp) -> tuple[Page, ...]:
         """Return the finished pages: frame, title block and the views at their places.
 
-        Raises
-        ------
-        InputError
-            The title block cannot hold its words.
+        Raises InputError: the title block cannot hold its words.
         """
         sheet, pages = self.sheet, []
         for number, figures in enumerate(self.placed):

@@ -67,10 +67,7 @@ def visible(chooser: Chooser | None, symbol: str, mu: float, largest: float, uni
 def not_a_point(symbol: str, mu: float, largest: float, unit: str) -> None:
     """Refuse a scale factor at which what it sizes, `largest` in SI `unit`s, is a point.
 
-    Raises
-    ------
-    InputError
-        It is shorter than `SHORTEST`.
+    Raises InputError: it is shorter than `SHORTEST`.
     """
     if 0.0 < largest < SHORTEST * mu:
         said = {"mu": f"{mu:g}", "unit": Scale(symbol, mu, unit).per_mm_unit, "size": f"{largest / mu:.2g}"}
@@ -127,14 +124,10 @@ class Extents:
 
 
 def choose(extents: Extents, longest: Mapping[str, Lengths], formats: Sequence[Format]) -> tuple[Format, Rungs]:
-    """Return the format and the rungs of all scale factors.
+    """Return the format, one of `formats` with the smallest first, and the rungs of all scale factors.
 
-    Parameters
-    ----------
-    longest : mapping of str to Lengths
-        The longest segment of a plan at the beginning, mm, by format: on one page, and on several.
-    formats : sequence of Format
-        Those among which one is taken, the smallest first: where that is one, its sheet may have several pages.
+    Where there is one format its sheet may have several pages. `longest` is, by format, how long the longest segment of
+    a plan is at the beginning, mm: on one page, and on several.
     """
     for sheet in formats:
         rungs, last = _begun(extents, sheet, longest[sheet.letters][0]), sheet is formats[-1]

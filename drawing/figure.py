@@ -20,36 +20,19 @@ NUMBER = re.compile(r"\d+")
 Scene = TypeVar("Scene")
 
 
-def _always(scene: Any) -> bool:
-    return True
-
-
-def _as_it_is(scene: Any) -> str:
-    return ""
-
-
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """One step of the work on a figure.
+    """One step of the work on a figure: the part of the view that is drawn in it.
 
-    Parameters
-    ----------
-    name : str
-        The part of the view that is drawn in it; its sentence has the key of the figure, a dot, and this name.
-    marks, verb : str
-        What the construction makes in it, `#` for numbers, and the verb where marks of one name are made in two ways.
-        Without such a step the stage falls away.
-    when : callable
-        Whether the work on a scene has this step; else what it would draw comes with the stage before it.
-    variant : callable
-        What stands after its key in a scene that needs another sentence.
+    Its sentence has the key of the figure, a dot and its `name`. `marks` are what the construction makes in it, `#` for
+    numbers, and `verb` how where marks of one name are made in two ways: without such a step the stage falls away.
     """
 
     name: str
     marks: str = ""
     verb: str = ""
-    when: Callable[[Any], bool] = _always
-    variant: Callable[[Any], str] = _as_it_is
+    when: Callable[[Any], bool] = lambda scene: True  # else what it would draw comes with the stage before it
+    variant: Callable[[Any], str] = lambda scene: ""  # what stands after its key in a scene of another sentence
 
 
 def stages(*names: str) -> tuple[Stage, ...]:

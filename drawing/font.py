@@ -27,13 +27,7 @@ _WORDS, _SCALE, _MORE, _XY_SCALE, _TWO_BY_TWO, _INSTRUCTIONS = 0x1, 0x8, 0x20, 0
 
 
 class Font:
-    """A TrueType font file, read lazily.
-
-    Parameters
-    ----------
-    data : bytes
-        The whole file.
-    """
+    """A TrueType font file, read lazily from its bytes."""
 
     def __init__(self, data: bytes) -> None:
         self.data = data
@@ -97,10 +91,7 @@ class Font:
     def strict_glyph(self, character: str) -> int:
         """Return the glyph of `character`.
 
-        Raises
-        ------
-        InputError
-            The font has no such character, so a reader would see a box.
+        Raises InputError: the font has no such character, so a reader would see a box.
         """
         glyph = self.glyph(character)
         if glyph == 0:

@@ -54,10 +54,7 @@ FORMATS = {
 def format_named(name: str | Format) -> Format:
     """Return the format called `name`; small letters and a Cyrillic А are understood. A format stays as it is.
 
-    Raises
-    ------
-    InputError
-        There is no such format.
+    Raises InputError: there is no such format.
     """
     if isinstance(name, Format):
         return name

@@ -53,23 +53,11 @@ class Labels:
 
 
 def place(requests: Sequence[Request], obstacles: Obstacles, gap: float = 0.6, bounds: Box | None = None) -> Labels:
-    """Find a place for every label, the same places for the same input.
+    """Find a place for every label, the same places for the same input; their names differ.
 
-    Parameters
-    ----------
-    requests : sequence of Request
-        Their names differ.
-    obstacles : Obstacles
-        What the labels must not cover.
-    gap : float
-        The empty distance around every label, mm.
-    bounds : box, optional
-        The labels stay inside of it, if there is a place for all.
-
-    Returns
-    -------
-    Labels
-        Every request has a corner; `failed` names those that cover something none the less.
+    They cover none of the `obstacles`, have an empty distance of `gap` mm around them, and stay inside of the `bounds`
+    if there is a place for all there. Every request has a corner; `failed` names those that cover something none the
+    less.
     """
     if len({request.name for request in requests}) != len(requests):
         raise ValueError("two labels have one name")

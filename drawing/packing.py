@@ -35,30 +35,12 @@ def pack(
     pages: int | None = 1,
     any_order: bool = True,
 ) -> list[Placement] | None:
-    """Place views on as few pages as they need.
+    """Place views of these widths and heights, mm, on as few pages as they need; return None if they do not fit.
 
-    Parameters
-    ----------
-    views : sequence of (width, height)
-        What each view takes, in mm.
-    area : (x0, y0, x1, y1)
-        The usable area of a page, y up.
-    reserved : sequence of boxes
-        What is taken on the first page: the title block, the corner with the turned designation. A box counts as if it
-        reached the nearest corner of the area.
-    later : sequence of boxes, optional
-        What is taken on the following pages; the same as on the first one if left out.
-    gap : float
-        The least distance between views, and from them to reserved boxes.
-    pages : int or None
-        How many pages there may be; None for as many as are needed.
-    any_order : bool
-        Whether a single page may give up the reading order if the views do not fit otherwise.
-
-    Returns
-    -------
-    list of Placement or None
-        In the order of `views`; None if they do not fit.
+    `reserved` is what is taken on the first page, as if each box reached the nearest corner of the usable `area`, and
+    `later` on the following ones, the same if left out. Between views, and from them to reserved boxes, is a `gap` at
+    least. There may be as many `pages`, None for any number; a single one may give up the reading order if the views
+    do not fit otherwise (`any_order`).
     """
     if not views:
         return []

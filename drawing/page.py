@@ -67,10 +67,7 @@ def _reach(shape: Shape) -> tuple[complex, ...]:
 def extent(shapes: Iterable[Shape]) -> Box:
     """Return the box (x0, y0, x1, y1) that shapes cover, texts included, line widths left out.
 
-    Raises
-    ------
-    ValueError
-        There are no shapes.
+    Raises ValueError: there are no shapes.
     """
     points = [point for shape in shapes for point in _reach(shape)]
     xs, ys = [point.real for point in points], [point.imag for point in points]

@@ -101,10 +101,7 @@ class _Document:
 def write_pdf(pages: Sequence[Page], stream: BinaryIO) -> None:
     """Write pages as one PDF document; the same pages give the same bytes.
 
-    Raises
-    ------
-    ValueError
-        A coordinate is not a finite number.
+    Raises ValueError: a coordinate is not a finite number.
     """
     from reportlab.pdfbase.pdfdoc import PDFDictionary, PDFName, PDFStream
 
@@ -298,10 +295,7 @@ def _curve(centre: complex, radius: float, start: float, sweep: float) -> str:
 def write_png(pages: Sequence[Page], stream: BinaryIO, dpi: float = DPI) -> None:
     """Write the first of `pages` as a picture of `dpi` dots per inch.
 
-    Raises
-    ------
-    InputError
-        The extra `png` is not installed.
+    Raises InputError: the extra `png` is not installed.
     """
     try:
         from pypdfium2 import PdfDocument
@@ -332,10 +326,7 @@ class Tile:
 def tiles(page: Page, paper: str = "A4") -> list[Tile]:
     """Return the tiles of a page, row by row from the top left; neighbours share a strip.
 
-    Raises
-    ------
-    InputError
-        `paper` is not a paper for tiles.
+    Raises InputError: `paper` is not a paper for tiles.
     """
     if paper not in PAPERS:
         raise InputError("tile-unknown", text=quote(paper), known=", ".join(PAPERS))

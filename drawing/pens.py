@@ -7,7 +7,7 @@ from functools import cache
 from math import isfinite, pi, tan
 from typing import Literal, TypeAlias
 
-from .shapes import Arc, Arrow, Circle, Head, Line, Pen, Polyline, Shape, Vector
+from .shapes import Arc, Arrow, Circle, Head, Line, Pen, Polyline, Shape, Vector, sides_of
 
 Norm: TypeAlias = Literal["gost", "iso"]
 
@@ -109,12 +109,9 @@ def arrow_parts(arrow: Vector | Arrow, pens: Pens) -> tuple[Shape, ...]:
 def length_of(shape: Line | Polyline | Circle | Arc) -> float:
     """Return the length of a line, as its dashes need it."""
     match shape:
-        case Line(a=a, b=b):
-            return abs(b - a)
+        case Line() | Polyline():
+            return sum(abs(b - a) for a, b in sides_of(shape))
         case Circle(radius=radius):
             return 2 * pi * radius
         case Arc(radius=radius, sweep=sweep):
             return abs(radius * sweep)
-        case Polyline(points=points, closed=closed):
-            ends = points[1:] + points[:1] if closed else points[1:]
-            return sum(abs(b - a) for a, b in zip(points, ends, strict=False))

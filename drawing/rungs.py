@@ -70,14 +70,8 @@ class SubjectScene(Generic[Subject]):
 class Fitting(ABC, Generic[Subject, Scene]):
     """Draws what a sheet shows for any format: a figure again only where a ladder it depends on has another rung.
 
-    Parameters
-    ----------
-    contents : SheetContents
-        What the sheet shows.
-    words : Words
-        The words of the contents with the letters of the subject.
-    ladders : mapping of str to tuple of float
-        How small things may be drawn, by name; the wanted size first.
+    `words` are those of the contents with the letters of the subject; `ladders` say how small things may be drawn, by
+    name, the wanted size first.
     """
 
     first_scales: Callable[..., tuple[Format, Mapping[str, Scale]]]  # of what is solved, by choosers, for plans
@@ -140,10 +134,7 @@ class Fitting(ABC, Generic[Subject, Scene]):
     def draw(self, sheet: Format | None = None) -> Drawn:
         """Draw on `sheet`, or on the smallest format of which one page holds everything, from the usual one on.
 
-        Raises
-        ------
-        InputError
-            When a view has no room on a page of the format.
+        Raises InputError: a view has no room on a page of the format.
         """
         contents = self.contents
         usual = sheet or self.first_scales(contents.solved, contents.choosers, contents.plans)[0]
@@ -158,10 +149,7 @@ class Fitting(ABC, Generic[Subject, Scene]):
     def on_pages(self, sheet: Format) -> Found:
         """Take several pages in reading order, or fewer on which views stand closely.
 
-        Raises
-        ------
-        InputError
-            When a view has no room on any page.
+        Raises InputError: a view has no room on any page.
         """
         norm = self.contents.norm
         for first in (False, True):  # where nothing stands on the first page as it is, all becomes small enough for it
@@ -177,11 +165,7 @@ class Fitting(ABC, Generic[Subject, Scene]):
         """Return the first rungs, from these on, at which every view has room on a page of its own.
 
         `first` tells that it may be the first page, with the larger title block.
-
-        Raises
-        ------
-        InputError
-            When a view has none at the last rung.
+        Raises InputError: a view has none at the last rung.
         """
         wide, high = room(sheet, self.contents.norm, first)
         while True:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from cmath import rect
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
+from itertools import pairwise
 from typing import Literal, TypeAlias, assert_never
 
 Fill: TypeAlias = bool | Literal["white", "black"]
@@ -148,6 +151,17 @@ class Group:
 
 
 Shape: TypeAlias = Line | Polyline | Circle | Arc | Head | Text | Vector | Arrow | Group
+
+
+def sides_of(shape: Line | Polyline | Arc) -> Iterator[tuple[complex, complex]]:
+    """Go through the straight pieces of a line; an arc is taken for eight chords."""
+    match shape:
+        case Line(a=a, b=b):
+            yield a, b
+        case Polyline(points=points, closed=closed):
+            yield from pairwise((*points, points[0]) if closed else points)
+        case Arc(centre=centre, radius=radius, start=start, sweep=sweep):
+            yield from pairwise(centre + rect(radius, start + sweep * k / 8) for k in range(9))
 
 
 def shifted(shape: Shape, by: complex) -> Shape:

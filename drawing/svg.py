@@ -26,10 +26,7 @@ _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"
 def write_svg(page: Page, stream: BinaryIO) -> None:
     """Write one page as SVG in UTF-8; the same page gives the same bytes.
 
-    Raises
-    ------
-    ValueError
-        A coordinate is not a finite number.
+    Raises ValueError: a coordinate is not a finite number.
     """
     stream.write(svg_text(page).encode("utf-8", "replace"))
 

@@ -72,13 +72,7 @@ Piece: TypeAlias = str | Ruling | dict[str, list["Piece"]]  # plain characters, 
 
 
 def read(markup: str) -> list[Piece]:
-    """Return the pieces of a line of markup.
-
-    Raises
-    ------
-    InputError
-        The markup is broken.
-    """
+    """Return the pieces of a line of markup. Raises InputError: the markup is broken."""
     return _read(markup, 0, nested=False)[0]
 
 
@@ -116,10 +110,7 @@ def _broken(markup: str, at: int) -> InputError:
 def lay_out(markup: str, height: float) -> TextLayout:
     """Lay a line of markup out with capitals of `height` mm.
 
-    Raises
-    ------
-    InputError
-        The markup is broken, or the font lacks a character.
+    Raises InputError: the markup is broken, or the font lacks a character.
     """
     pen = _Pen()
     width, top, bottom = pen.line(read(markup), 0.0, 0.0, height, height)
@@ -206,10 +197,3 @@ def corners(text: Text) -> tuple[complex, complex, complex, complex]:
     start, end = place(0.0, lines.bottom), place(lines.width, lines.bottom)
     up = place(0.0, lines.top) - start
     return start, end, end + up, start + up
-
-
-def box(text: Text) -> Box:
-    """Return the box (x0, y0, x1, y1) that `text` fills: its advances, and its ink from top to bottom, mm."""
-    points = corners(text)
-    xs, ys = [point.real for point in points], [point.imag for point in points]
-    return min(xs), min(ys), max(xs), max(ys)

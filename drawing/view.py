@@ -9,15 +9,15 @@ from itertools import pairwise
 from math import pi
 from typing import assert_never
 
+from .areas import coarser
 from .formats import Style
 from .labels import Labels, Obstacles, Request, place
 from .page import NOTE, extent
 from .pens import HEAD_HALF_WIDTH, ZERO
-from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
+from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted, sides_of
 from .spots import first_clear
 from .symbols import angle_dimension, dimension, swept, turning_arrow
 from .text import Box, lay_out
-from .thinning import coarser
 
 WIDE = "circle"  # the role of a circle that goes round other things
 ROUND = 48  # pieces of it, for the letters that keep clear of it
@@ -80,13 +80,7 @@ class Canvas:
         self.shapes.extend(shapes)
 
     def part(self, name: str) -> str:
-        """Begin, or go on with, a stage of the figure: what is drawn and lettered from here on belongs to it.
-
-        Returns
-        -------
-        str
-            The stage to which it belonged up to here.
-        """
+        """Begin, or go on with, a stage, to which belongs what is drawn from here on; return the one before."""
         before = self._begun[-1][1] if self._begun else ""
         own = self.parts[name] if self.stages else self.parts.get(name, name)
         self._begun.append((len(self.shapes), own))
@@ -211,50 +205,36 @@ def heading_shapes(
 
 
 def _obstacles(shapes: list[Shape], boxes: list[Box], style: Style) -> Obstacles:
-    main: list[tuple[complex, complex]] = []
-    thin: list[tuple[complex, complex]] = []
     circles: list[tuple[complex, float]] = []
+    strokes: dict[bool, list[tuple[complex, complex]]] = {True: [], False: []}  # of the main pen, of others
     solid = list(boxes)
+
+    def gather(shape: Shape) -> None:
+        match shape:
+            case Line() | Polyline() | Arc():
+                strokes[shape.pen is Pen.MAIN].extend(sides_of(shape))
+            case Circle(centre=centre, radius=radius):
+                circles.append((centre, radius))
+            case Head(tip=tip, direction=direction):
+                solid.append(_head_box(tip, direction, style.arrow))
+            case Text():
+                solid.append(extent((shape,)))
+            case Vector(tail=tail, tip=tip) | Arrow(tail=tail, tip=tip):
+                strokes[shape.pen is Pen.MAIN].append((tail, tip))
+                if shape.head != "none" and abs(tip - tail) > 0.01:
+                    solid.append(_head_box(tip, tip - tail, style.arrow))
+            case Group(shapes=parts, role=role):
+                for part in parts:
+                    if role == WIDE and isinstance(part, Circle):  # a letter may stand inside
+                        ring = (part.centre + rect(part.radius, 2.0 * pi * k / ROUND) for k in range(ROUND))
+                        part = Polyline(tuple(ring), part.pen, closed=True)
+                    gather(part)
+            case _:
+                assert_never(shape)
+
     for shape in shapes:
-        _gather(shape, main, thin, circles, solid, style)
-    return Obstacles(main, thin, circles, solid)
-
-
-def _gather(
-    shape: Shape,
-    main: list[tuple[complex, complex]],
-    thin: list[tuple[complex, complex]],
-    circles: list[tuple[complex, float]],
-    boxes: list[Box],
-    style: Style,
-) -> None:
-    match shape:
-        case Line(a=a, b=b, pen=pen):
-            (main if pen is Pen.MAIN else thin).append((a, b))
-        case Polyline(points=points, pen=pen, closed=closed):
-            ends = points[1:] + points[:1] if closed else points[1:]
-            (main if pen is Pen.MAIN else thin).extend(zip(points, ends, strict=False))
-        case Circle(centre=centre, radius=radius):
-            circles.append((centre, radius))
-        case Arc(centre=centre, radius=radius, start=start, sweep=sweep, pen=pen):
-            points = tuple(centre + rect(radius, start + sweep * k / 8) for k in range(9))
-            (main if pen is Pen.MAIN else thin).extend(pairwise(points))
-        case Head(tip=tip, direction=direction):
-            boxes.append(_head_box(tip, direction, style.arrow))
-        case Text():
-            boxes.append(extent((shape,)))
-        case Vector(tail=tail, tip=tip, pen=pen) | Arrow(tail=tail, tip=tip, pen=pen):
-            (main if pen is Pen.MAIN else thin).append((tail, tip))
-            if shape.head != "none" and abs(tip - tail) > 0.01:
-                boxes.append(_head_box(tip, tip - tail, style.arrow))
-        case Group(shapes=parts, role=role):
-            for part in parts:
-                if role == WIDE and isinstance(part, Circle):  # a letter may stand inside
-                    ring = (part.centre + rect(part.radius, 2.0 * pi * k / ROUND) for k in range(ROUND))
-                    part = Polyline(tuple(ring), part.pen, closed=True)
-                _gather(part, main, thin, circles, boxes, style)
-        case _:
-            assert_never(shape)
+        gather(shape)
+    return Obstacles(strokes[True], strokes[False], circles, solid)
 
 
 def _head_box(tip: complex, direction: complex, length: float) -> Box:

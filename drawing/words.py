@@ -65,10 +65,7 @@ class Words:
     def of(cls, language: str, notation: str) -> Words:
         """Load the words of a language and a notation profile.
 
-        Raises
-        ------
-        InputError
-            When there is no such language or notation.
+        Raises InputError: there is no such language or notation.
         """
         texts = _texts(language)
         if notation not in notations():
@@ -76,13 +73,7 @@ class Words:
         return cls(language, texts, packaged(__package__, "notations", notation))
 
     def speaking(self, language: str) -> Words:
-        """Return the words in another language, of the same notation.
-
-        Raises
-        ------
-        InputError
-            When there is no such language.
-        """
+        """Return the words in another language, of the same notation. Raises InputError: there is no such language."""
         return replace(self, language=language, texts=_texts(language))
 
     def showing(self, display: Display) -> Words:

@@ -37,13 +37,9 @@ LONGEST = 120  # bytes of a name within that of a file: systems take 255 for the
 
 
 def check_outputs(*paths: Path, known: Collection[str] = WRITERS) -> None:
-    """Refuse, before any work, files that cannot be written; `known` are the suffixes that can.
+    """Refuse, before any work, with an InputError what cannot be written; `known` are the suffixes that can.
 
-    Raises
-    ------
-    InputError
-        A suffix that nothing writes, a name that no file can have, a folder, a missing folder, a place that is
-        protected, or the same file twice.
+    That is another suffix, a name that no file can have, a folder or none, a protected place, the same file twice.
     """
     seen = set()
     for path in paths:
@@ -67,25 +63,10 @@ def check_outputs(*paths: Path, known: Collection[str] = WRITERS) -> None:
 def save_all(
     paths: Iterable[str | os.PathLike[str]], known: Collection[str], make: Callable[[Path], Files]
 ) -> list[Path]:
-    """Save something to each of `paths`.
+    """Save something to each of `paths`, whose suffixes are `known`; return the files written.
 
-    Parameters
-    ----------
-    paths : iterable of str or PathLike
-    known : collection of str
-        The suffixes that can be written.
-    make : callable
-        Returns the files that a path stands for, one or several: their names and what they hold.
-
-    Returns
-    -------
-    list of Path
-        The files written.
-
-    Raises
-    ------
-    InputError
-        A path of a wrong kind, or a file that cannot be written: then none is.
+    `make` returns the files that a path stands for, one or several: their names and what they hold. Where one path is
+    of a wrong kind, or one file cannot be written, none is, and an InputError says so.
     """
     wanted = []
     for path in paths:
@@ -102,23 +83,8 @@ def save_all(
 def write_pages(pages: Sequence[Page], *paths: str | os.PathLike[str], tile: str | None = None) -> list[Path]:
     """Write pages to each of `paths`, or to one numbered file each where the format holds a single page.
 
-    Parameters
-    ----------
-    pages : sequence of Page
-    *paths : str or PathLike
-        The suffix of each picks the writer.
-    tile : str, optional
-        Paper ("A4") on which the pages are spread at full size; for a PDF only.
-
-    Returns
-    -------
-    list of Path
-        The files written.
-
-    Raises
-    ------
-    InputError
-        A file cannot be written: then none is.
+    The suffix of a path picks the writer; `tile` is the paper ("A4") over which a PDF is spread at full size. Errors
+    and result are those of `save_all`.
     """
     return save_all(paths, WRITERS, lambda path: page_files(pages, path, tile))
 
@@ -151,13 +117,7 @@ def slug(name: str) -> str:
 
 
 def folder_for(folder: str | os.PathLike[str]) -> Path:
-    """Return a folder for files, made where it is missing.
-
-    Raises
-    ------
-    InputError
-        It cannot be made.
-    """
+    """Return a folder for files, made where it is missing; an InputError says why it cannot be made."""
     of_kind("folder", folder, (str, os.PathLike), "str | PathLike")
     path = Path(folder)
     try:
@@ -171,13 +131,7 @@ def folder_for(folder: str | os.PathLike[str]) -> Path:
 
 
 def write_whole(path: Path, data: bytes) -> None:
-    """Write a file beside `path` that takes its place when it is whole, and vanishes when anything fails.
-
-    Raises
-    ------
-    InputError
-        The file cannot be written.
-    """
+    """Write a file that takes its place when it is whole, or raise an InputError and leave the place as it is."""
     _write([(path, data)])
 
 
@@ -223,13 +177,7 @@ def sweep_parts(folder: Path, own: Callable[[str], bool]) -> None:
 
 @contextmanager
 def refused(path: Path) -> Iterator[None]:
-    """Say which file the system refuses to write.
-
-    Raises
-    ------
-    InputError
-        For what the system says.
-    """
+    """Raise what the system says of a file that it refuses to write as an InputError that names the file."""
     try:
         yield
     except OSError as problem:

@@ -14,9 +14,10 @@ from ...scales.scale import Scale, steps
 from ..areas import beside
 from ..diagram import AT_POLE, Axis, Field, Pole, axes, divisions, mark_pole, numbers, small
 from ..figure import Figure, Stage, stages
+from ..page import extent
 from ..printed import DEGREES
 from ..shapes import Group, Line, Pen, Polyline, Text
-from ..text import Box, box, lay_out
+from ..text import Box, lay_out
 from ..view import Canvas, View, linear
 from .scene import CamScene
 
@@ -103,7 +104,7 @@ def _scales(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Box:
     at = field.at(0.0, field.y.high) + complex(0.8 * scene.style.label, top)
     text = Text(at, ";  ".join(texts), scene.style.text)
     canvas.add(text)
-    x0, y0, x1, y1 = box(text)
+    x0, y0, x1, y1 = extent((text,))
     return x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
 
 
@@ -357,7 +358,7 @@ def _pressure_limit(
     points = [field.at(*p) for course in curves for p in course]
     for share in SHARES if limit < field.y.high else ():  # section lines run through, or their numbers stand below
         text = Text(ends[0] + share * (ends[1] - ends[0]) + 0.5j * height, markup, height, "middle", role="label")
-        x0, y0, x1, y1 = (side + CLEAR * way for side, way in zip(box(text), (-1, -1, 1, 1), strict=True))
+        x0, y0, x1, y1 = (side + CLEAR * way for side, way in zip(extent((text,)), (-1, -1, 1, 1), strict=True))
         if not any(x0 < p.real < x1 and y0 < p.imag < y1 for p in points):
             canvas.add(text)
             return x0, y0, x1, y1

@@ -12,11 +12,11 @@ from ...plans.cams.envelopes import Undercut
 from ...plans.cams.motion import LOWER
 from ...plans.cams.profile import RollerProfile
 from ..formats import Style
-from ..hardware import shaft, shaft_radius
+from ..page import extent
 from ..printed import DEGREES, decimals_for
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
-from ..symbols import angle_dimension, polar, swept, turning_arrow, unit
-from ..text import box, lay_out
+from ..symbols import angle_dimension, polar, shaft, shaft_radius, swept, turning_arrow, unit
+from ..text import lay_out
 from ..view import Canvas
 from .scene import CamScene
 
@@ -275,7 +275,7 @@ def _angle(canvas: Canvas, letter: str, name: str, at: complex, rays: tuple[comp
 def _free(canvas: Canvas, places: list[complex]) -> bool:
     """Whether arrowheads in these places are clear of all numbers."""
     reach = canvas.style.arrow
-    for x0, y0, x1, y1 in (box(shape) for shape in canvas.shapes if isinstance(shape, Text)):
+    for x0, y0, x1, y1 in (extent((shape,)) for shape in canvas.shapes if isinstance(shape, Text)):
         if any(x0 - reach < p.real < x1 + reach and y0 - reach < p.imag < y1 + reach for p in places):
             return False
     return True

@@ -7,10 +7,10 @@ import math
 from ...plans.cams.construction import PLATE_PROFILE, PROFILE
 from ...plans.cams.course import dwelling, on_circle, pole_share, pressed, rests, up_at
 from ..figure import Figure, Stage
-from ..hardware import Rod
+from ..page import extent
 from ..shapes import Arc, Circle, Group, Line, Pen, Polyline, Text
-from ..symbols import fixed_pivot, polar, revolute, swept, unit
-from ..text import Box, box, lay_out
+from ..symbols import Rod, fixed_pivot, polar, revolute, swept, unit
+from ..text import Box, lay_out
 from ..view import Canvas, View, angle, linear
 from .inversion import (
     Contact,
@@ -399,7 +399,7 @@ def _over(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: str
     height = canvas.style.text
     over = Text(0.5 * (ends[0] + ends[1]) + out + 0.5j * height, text, height, "middle", role="label")
     narrow = abs(ends[1] - ends[0]) < lay_out(text, height).width + 1.0
-    taken = narrow or _crossed(canvas, box(over))
+    taken = narrow or _crossed(canvas, extent((over,)))
     linear(canvas, ends, out, text if taken else "", name)
     if not taken:
         canvas.add(over)

@@ -12,12 +12,12 @@ from ...plans.gears.blocking import BLOCKING, CURVES, OF_CURVE, RATIOS, Plane, p
 from ...plans.gears.course import Rack
 from ...plans.gears.teeth import Wheel
 from ...scales.scale import Scale, steps
+from ..areas import freest, thinned
 from ..diagram import Axis, Field, divisions
 from ..figure import ANSWERS, GIVEN, Figure, stages
 from ..page import extent
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import HALF_TURN, right_angle, unit
-from ..thinning import freest, thinned
 from ..view import Canvas, View, angle, linear
 from .meshing_view import PAST, PENS, WIDEST, node
 from .sheet import GearScene

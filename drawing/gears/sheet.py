@@ -18,7 +18,7 @@ from ...plans.solved import PAPER_MM
 from ...scales.choose import Choosers, From
 from ...scales.errors import InputError
 from ...scales.scale import Scale, steps
-from ..compose import BLOCK, TURNED, Nest, arrange, arrange_rest, column, names, row, zoned
+from ..compose import BLOCK, TURNED, Nest, arrange, column, names, row, zoned
 from ..extents import Rungs, not_a_point, smallest, visible
 from ..figure import Figure
 from ..formats import STYLES, Format, room
@@ -369,7 +369,7 @@ def _on_the_first_page(layout: Nest, views: list[View], sheet: Format, norm: Nor
     here = [view for view in views if view.name in names_there]
     rest = [view for view in views if view.name not in names_there]
     own = zoned((layout,), here, sheet, norm) if here and rest else None
-    others = arrange_rest(rest, sheet, norm) if own is not None else None
+    others = arrange([view.size for view in rest], sheet, norm, None, first=False) if own is not None else None
     if own is None or others is None:
         return None
     places = iter(own), (replace(place, page=place.page + 1) for place in others)

@@ -10,10 +10,9 @@ from ...plans.hoist.construction import BENT, FORCE, LETTERS, SCHEME, SECTIONS
 from ...plans.hoist.forces import STRENGTH
 from ...plans.hoist.solve import OF_BEAM, bent
 from ..figure import Figure, stages
-from ..hardware import COILS, coils
 from ..page import Layer
 from ..shapes import Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
-from ..symbols import fixed_pivot, hatching, revolute, unit
+from ..symbols import COILS, coils, fixed_pivot, hatching, revolute, unit
 from ..text import lay_out
 from ..view import Canvas, View, linear
 from .sheet import HoistScene

@@ -17,7 +17,7 @@ from ...scales.choices import SIZES
 from ...scales.choose import UNITS
 from ...scales.errors import InputError
 from ...scales.scale import Scale, steps
-from ..compose import Drawn, arrange, arrange_halves, arrange_parts, arrange_rest, compose
+from ..compose import Drawn, arrange, arrange_halves, arrange_parts, compose
 from ..extents import Rungs, from_format
 from ..figure import Figure
 from ..formats import FORMATS, STYLES, Format, printable, room
@@ -316,7 +316,8 @@ def zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
                 rungs[symbol] = first[symbol]
                 crowded.add(zone)
     rest = [i for i in range(len(views)) if i not in placed]  # what has no zone is put on the pages that follow
-    places = None if "positions" in tight else arrange_rest([views[i] for i in rest], sheet, fitting.contents.norm)
+    sizes, norm = [views[i].size for i in rest], fitting.contents.norm
+    places = None if "positions" in tight else arrange(sizes, sheet, norm, None, first=False)
     if places is None:
         return None
     placed |= {i: Placement(p.page + 1, p.x, p.y) for i, p in zip(rest, places, strict=True)}

@@ -51,10 +51,7 @@ def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) ->
     drawings : sequence of Drawing, optional
         Those of its figures, where they are drawn already for another note with the same blocks.
 
-    Raises
-    ------
-    InputError
-        The extra `docx` is not installed.
+    Raises InputError: the extra `docx` is not installed.
     """
     _needs_libraries()
     import docx.shared

@@ -76,10 +76,7 @@ def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
     body : Body, optional
         That of the document, where it is written already for another with the same blocks.
 
-    Raises
-    ------
-    InputError
-        The extra `note` is not installed.
+    Raises InputError: the extra `note` is not installed.
     """
     try:
         import typst

@@ -24,7 +24,7 @@ APART = {"startswith", "endswith", "partition", "rpartition", "removeprefix", "r
 APART |= {"lstrip", "rstrip", "strip"}  # `removeprefix` under another name
 # What users write, files and tables of text are taken apart by modules that do nothing else.
 READERS = (
-    "drawing/cells.py", "drawing/formats.py", "drawing/writers.py", "variants/case.py", "variants/checks/",
+    "drawing/formats.py", "drawing/titleblock.py", "drawing/writers.py", "variants/case.py", "variants/checks/",
     "variants/commands/", "variants/making/", "variants/marking/calculations.py", "variants/marking/cells.py",
      "variants/marking/reading.py", "variants/reader.py", "variants/roster.py",
     "variants/shelf.py", "variants/spreadsheets/", "variants/task.py",

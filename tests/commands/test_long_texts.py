@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from kulman.cli import main
-from kulman.drawing.cells import surname, with_initials
 from kulman.drawing.notes.markup import letters
 from kulman.drawing.notes.omml import atoms_of
 from kulman.drawing.text import escape, lay_out
+from kulman.drawing.titleblock import surname, with_initials
 from kulman.drawing.writers import slug
 from kulman.scales.choose import chooser
 from kulman.scales.errors import InputError, KulmanError

@@ -11,8 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from kulman.drawing.font import SIZE, font, subset, web_subset
+from kulman.drawing.page import extent
 from kulman.drawing.shapes import Text
-from kulman.drawing.text import DROP, SCRIPT, box, escape, lay_out
+from kulman.drawing.text import DROP, SCRIPT, escape, lay_out
 from kulman.scales.errors import InputError
 
 LETTERS = string.ascii_letters + string.digits + "абвгґдеєжзиіїйклмнопрстуфхцчшщьюяыэъёЙЇ" + "αβγδεζλμπρστφψωΔΣΦΩ"
@@ -163,7 +164,7 @@ def test_layout_grows_with_the_letters(markup):
 def test_a_box_follows_the_anchor(anchor, x0):
     height = 14.0 / lay_out("Ap", 1.0).width  # 14 mm wide
 
-    x, y, x1, _ = box(Text(10 + 20j, "Ap", height, anchor))
+    x, y, x1, _ = extent((Text(10 + 20j, "Ap", height, anchor),))
 
     assert (x, x1) == pytest.approx((x0, x0 + 14))
     assert y < 20
@@ -172,9 +173,9 @@ def test_a_box_follows_the_anchor(anchor, x0):
 def test_a_box_turns_with_its_text():
     upright, lying = Text(0j, "Apex", 3.5), Text(0j, "Apex", 3.5, angle=1.5707963267948966)
 
-    x0, y0, x1, y1 = box(upright)
+    x0, y0, x1, y1 = extent((upright,))
 
-    assert box(lying) == pytest.approx((-y1, x0, -y0, x1))
+    assert extent((lying,)) == pytest.approx((-y1, x0, -y0, x1))
 
 
 @pytest.mark.parametrize("language", ["uk", "ru", "en"])

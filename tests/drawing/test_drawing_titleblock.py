@@ -8,15 +8,13 @@ from lxml import etree
 from pdfminer.high_level import extract_pages
 from pdfminer.layout import LTLine
 
-from kulman.drawing.cells import named
 from kulman.drawing.formats import FORMATS, block_box, drawing_area
-from kulman.drawing.page import Page
+from kulman.drawing.page import Page, extent
 from kulman.drawing.pdf import write_pdf
 from kulman.drawing.pens import pens_for
 from kulman.drawing.shapes import Group, Line, Pen, Polyline, Text
 from kulman.drawing.svg import svg_text
-from kulman.drawing.text import box
-from kulman.drawing.titleblock import Stamp, frame_shapes, words
+from kulman.drawing.titleblock import Stamp, frame_shapes, named, words
 from kulman.scales.errors import InputError
 from kulman.tests.support.shapes import leaves
 
@@ -132,7 +130,7 @@ def test_the_frame_is_a_main_line_and_the_edge_a_thin_one(name, norm):
 def test_no_text_touches_a_line_or_another_text(name, language, norm, first):
     drawn = page(name, language, norm, first)
     parts = list(leaves(drawn.shapes))
-    texts = [(text, box(text)) for text in parts if isinstance(text, Text)]
+    texts = [(text, extent((text,))) for text in parts if isinstance(text, Text)]
     strokes = []
     for part in parts:
         points = (part.a, part.b) if isinstance(part, Line) else getattr(part, "points", ())
@@ -207,7 +205,7 @@ def test_the_designation_stands_turned_in_the_upper_corner(name, corner, angle):
     group = next(part for part in drawn.shapes if isinstance(part, Group) and part.name == "column-26")
 
     (text,) = (part for part in group.shapes if isinstance(part, Text))
-    x0, y0, x1, y1 = box(text)
+    x0, y0, x1, y1 = extent((text,))
     frame = drawing_area(FORMATS[name])
     wide, high = (14, 70) if angle == -90 else (70, 14)
     inside = (frame[2] - wide, frame[2]) if corner == "right" else (frame[0], frame[0] + wide)
@@ -260,6 +258,6 @@ def test_a_long_name_is_shown_with_initials_before_it_is_refused(name: str, show
     [text] = named(name, CELL, (2.5,), "left", "student")
 
     assert text.markup == shown
-    assert box(text)[2] <= CELL[2]
+    assert extent((text,))[2] <= CELL[2]
     with pytest.raises(InputError, match="too long"):
         named("щ" * 60, CELL, (2.5,), "left", "student")

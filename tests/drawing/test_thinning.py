@@ -8,8 +8,8 @@ import math
 import pytest
 import shapely
 
+from kulman.drawing.areas import coarser, thinned
 from kulman.drawing.shapes import Group, Line, Pen, Polyline
-from kulman.drawing.thinning import coarser, thinned
 
 CIRCLE = tuple(cmath.rect(40.0, math.radians(k)) for k in range(0, 271, 1))
 

@@ -6,7 +6,7 @@ import math
 from cmath import phase, rect
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations, pairwise
+from itertools import combinations
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from ....plans.linkages.legs import guide_letters
 from ....plans.linkages.mechanism import FRAME, ZERO, Driver, Prismatic, SlidingDriver
 from ....plans.names import role
 from ...figure import ANSWERS, GIVEN
-from ...shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
+from ...shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, sides_of
 from ...symbols import angle_dimension, turning_arrow
 from ...view import Canvas, View
 from ..scene import Scene
@@ -467,16 +467,14 @@ def obstacles(shapes: Iterable[Shape]) -> Iterator[Obstacle]:
         match shape:
             case Line(a=a, b=b, role="hatch"):
                 yield a, b, 0.0, 1.0
-            case Line(a=a, b=b) | Vector(tail=a, tip=b) | Arrow(tail=a, tip=b):
+            case Vector(tail=a, tip=b) | Arrow(tail=a, tip=b):
                 yield a, b, 0.0, 1.0 if shape.pen is Pen.MAIN else LIGHT
-            case Polyline(points=points, closed=closed):
-                ends = (*points, points[0]) if closed else points
-                yield from ((a, b, 0.0, 1.0 if shape.pen is Pen.MAIN else LIGHT) for a, b in pairwise(ends))
+            case Line() | Polyline():
+                yield from ((a, b, 0.0, 1.0 if shape.pen is Pen.MAIN else LIGHT) for a, b in sides_of(shape))
             case Circle(centre=centre, radius=radius):
                 yield centre, centre, radius, 1.0
-            case Arc(centre=centre, radius=radius, start=start, sweep=sweep):
-                ends = tuple(centre + rect(radius, start + sweep * k / 8) for k in range(9))
-                yield from ((a, b, 0.0, LIGHT) for a, b in pairwise(ends))
+            case Arc():
+                yield from ((a, b, 0.0, LIGHT) for a, b in sides_of(shape))
             case Group(shapes=parts):
                 yield from obstacles(parts)
             case Head() | Text():
