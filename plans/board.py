@@ -12,14 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from operator import itemgetter
 from typing import Any, NamedTuple, TypeVar
 
 from ..scales.errors import InputError
 from .names import POSITION, Name, role
 
-__all__ = ["POSITION", "Board", "Program", "RecordingBoard", "Step", "with_needs"]
+__all__ = ["POSITION", "Board", "Program", "RecordingBoard", "Step", "recorded", "with_needs"]
 Made = TypeVar("Made")
 
 
@@ -316,6 +316,15 @@ class Program:
         step = board.step
         for s in self.steps:
             step(s.verb, s.name, *s.operands, law=s.law)
+
+
+@cache
+def recorded(*parts: Callable[[Board], None]) -> Program:
+    """Return the construction of some parts, in order: recorded once."""
+    board = RecordingBoard()
+    for part in parts:
+        part(board)
+    return Program(board.steps)
 
 
 def with_needs(plans: Iterable[str], known: Mapping[str, Iterable[str]]) -> tuple[str, ...]:

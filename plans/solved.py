@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from ..scales.errors import PositionError
-from .board import Board, Program, RecordingBoard
+from .board import Board, Program, RecordingBoard, recorded
 from .boards.exact import Status, Trouble
 from .names import role
 from .quantities import Quantity
@@ -162,10 +162,7 @@ def calculated(programs: Mapping[str, Iterable[Callable[[Board], None]]]) -> dic
     """
     found: dict[str, str] = {}
     for section, parts in programs.items():
-        board = RecordingBoard()
-        for part in parts:
-            part(board)
-        found |= dict.fromkeys((step.name for step in board.steps), section)
+        found |= dict.fromkeys((step.name for step in recorded(*parts)), section)
     return found
 
 

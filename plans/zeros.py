@@ -153,11 +153,16 @@ def _dips(function: Function, theta: Array, values: Array, size: float) -> tuple
             break
         points = low + (high - low) * np.linspace(0.0, 1.0, SECTIONS + 1)[:, None]
         found = function(points.ravel()).reshape(points.shape) * sign
-        dips = _Dips(points, np.where(np.isnan(found), np.inf, found))
-        cells += dips.cells(sign)
-        going = dips.going & (not last)
-        touches += list(dips.lowest[~dips.passed & ~going & (dips.depth <= TOUCH * size)])
-        low, high, sign = dips.low[going], dips.high[going], sign[going]
+        found = np.where(np.isnan(found), np.inf, found)
+        columns = np.arange(points.shape[1])
+        lowest = np.clip(found.argmin(axis=0), 1, len(points) - 2)
+        left, depth, right = (found[lowest + k, columns] for k in (-1, 0, 1))
+        passed = (found < 0.0).any(axis=0)
+        with np.errstate(invalid="ignore"):
+            going = ~passed & (depth < DIP * (left - 2.0 * depth + right)) & (not last)
+        cells += _cells(points[:, passed], found[:, passed] < 0.0, sign[passed] > 0.0)
+        touches += list(points[lowest, columns][~passed & ~going & (depth <= TOUCH * size)])
+        low, high, sign = points[lowest - 1, columns][going], points[lowest + 1, columns][going], sign[going]
     return np.array(cells, float).reshape(-1, 3).T, np.array([_bottom(function, touch) for touch in touches])
 
 
@@ -187,28 +192,14 @@ def _bottom(function: Function, touch: float) -> float:
     return found
 
 
-class _Dips:
-    """Dips cut in sections, one in each column: `found` at the `points` is positive at both ends."""
-
-    def __init__(self, points: Array, found: Array) -> None:
-        self._points, self._found = points, found
-        columns = np.arange(points.shape[1])
-        lowest = np.clip(found.argmin(axis=0), 1, len(points) - 2)
-        self.low, self.lowest, self.high = (points[lowest + k, columns] for k in (-1, 0, 1))
-        left, self.depth, right = (found[lowest + k, columns] for k in (-1, 0, 1))
-        self.passed = (found < 0.0).any(axis=0)
-        with np.errstate(invalid="ignore"):
-            self.going = ~self.passed & (self.depth < DIP * (left - 2.0 * self.depth + right))
-
-    def cells(self, sign: Array) -> list[tuple[float, float, bool]]:
-        """Return the cells in which dips pass zero, on the way down and on the way up."""
-        cells = []
-        for column in np.flatnonzero(self.passed):
-            below, points = np.flatnonzero(self._found[:, column] < 0.0), self._points[:, column]
-            above = bool(sign[column] > 0.0)
-            for a, held in ((below[0] - 1, above), (below[-1], not above)):
-                cells.append((float(points[a]), float(points[a + 1]), held))
-        return cells
+def _cells(points: Array, below: Array, above: Array) -> list[tuple[float, float, bool]]:
+    """Return the cells in which dips, one in each column, pass zero, on the way down and on the way up."""
+    cells = []
+    for column in range(points.shape[1]):
+        beyond, held = np.flatnonzero(below[:, column]), bool(above[column])
+        for at, sign in ((beyond[0] - 1, held), (beyond[-1], not held)):
+            cells.append((float(points[at, column]), float(points[at + 1, column]), sign))
+    return cells
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from ..areas import freest, thinned
 from ..diagram import Axis, Field, divisions
 from ..figure import ANSWERS, GIVEN, Figure, stages
 from ..page import extent
-from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline, Text
+from ..shapes import Anchor, Arc, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import HALF_TURN, right_angle, unit
 from ..view import Canvas, View, angle, linear
 from .meshing_view import PAST, PENS, WIDEST, node
@@ -243,17 +243,14 @@ def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
     x, y, height = field.x, field.y, scene.style.text
     corners = tuple(field.at(*at) for at in ((x.low, y.low), (x.high, y.low), (x.high, y.high), (x.low, y.high)))
     canvas.add(Polyline(corners, Pen.THIN, closed=True, role="window"))
-    tick = 0.4 * height
-    for value, text in x.divisions.items():
-        if x.low <= value <= x.high:
-            foot = field.at(value, y.low)
-            canvas.add(Line(foot, foot + 1j * tick, Pen.THIN, role="division"))
-            canvas.add(Text(foot - 1.6j * height, text, height, "middle", role="number"))
-    for value, text in y.divisions.items():
-        if y.low <= value <= y.high:
-            foot = field.at(x.low, value)
-            canvas.add(Line(foot, foot + tick, Pen.THIN, role="division"))
-            canvas.add(Text(foot - 0.6 * height - 0.5j * height, text, height, "right", role="number"))
+    sides: tuple[tuple[Axis, complex, complex, Anchor], ...]
+    sides = (x, 1j, 1.6j, "middle"), (y, 1.0 + 0j, 0.6 + 0.5j, "right")
+    for axis, inward, outward, anchor in sides:
+        for value, text in axis.divisions.items():
+            if axis.low <= value <= axis.high:
+                foot = field.at(value, y.low) if axis is x else field.at(x.low, value)
+                canvas.add(Line(foot, foot + 0.4 * height * inward, Pen.THIN, role="division"))
+                canvas.add(Text(foot - height * outward, text, height, anchor, role="number"))
     before = canvas.part(GIVEN)
     if y.low < 0.0 < y.high:
         canvas.add(Line(field.at(x.low, 0.0), field.at(x.high, 0.0), Pen.AXIS, role="axis"))

@@ -4,29 +4,19 @@
 pole `P` is the origin, the line of centres vertical, `O1` below, `O2` above. The first number in a name is that of the
 wheel:
 
-`N1` `N2`
-    where the line of action touches the base circles.
-`A1` `A2`
-    ends of the active line: where the tip circles of the wheel and of the pinion cut it.
-`K1` `K2`
-    a base pitch after A1 and before A2: between them one pair alone touches.
-`H1` `H2`
-    as far from N1 and N2 as the boundary points of the profiles are curved.
-`C_a1` `C_f1` `C_a2` `C_f2`
-    where tip and root circles cut the line of centres.
-`D1_0` `D1_1` ..
-    divisions of P N1, numbered from P; those after N1 go on beyond it.
-`T1_0` .., `E1_0` ..
-    the same parts laid off as arcs on the base circle, and the involute: its point k is as far from T1_k, along the
-    tangent, as D1_k is from P. T1_n is N1 and E1_n is P, n being the number of parts of P N1; `T1_a` `E1_a` are those
-    of the tip circle.
-`L1` `L2`
-    lower active points of the flanks that touch in P.
-`M1_1` `S1_1` `R1_1` ..
-    teeth 1, 2, 3 on the reference circle: middle, driving or driven flank, flank at rest. Tooth 2 touches in P; 3 goes
-    before it, 1 follows.
-`B1_start` `B1_end` ..
-    where the flank cuts the rolling circle at the start and at the end of engagement.
+- `N1` `N2`: where the line of action touches the base circles.
+- `A1` `A2`: ends of the active line: where the tip circles of the wheel and of the pinion cut it.
+- `K1` `K2`: a base pitch after A1 and before A2: between them one pair alone touches.
+- `H1` `H2`: as far from N1 and N2 as the boundary points of the profiles are curved.
+- `C_a1` `C_f1` `C_a2` `C_f2`: where tip and root circles cut the line of centres.
+- `D1_0` `D1_1` ..: divisions of P N1, numbered from P; those after N1 go on beyond it.
+- `T1_0` .., `E1_0` ..: the same parts laid off as arcs on the base circle, and the involute: its point k is as far from
+  T1_k, along the tangent, as D1_k is from P. T1_n is N1 and E1_n is P, n being the number of parts of P N1; `T1_a`
+  `E1_a` are those of the tip circle.
+- `L1` `L2`: lower active points of the flanks that touch in P.
+- `M1_1` `S1_1` `R1_1` ..: teeth 1, 2, 3 on the reference circle: middle, driving or driven flank, flank at rest. Tooth
+  2 touches in P; 3 goes before it, 1 follows.
+- `B1_start` `B1_end` ..: where the flank cuts the rolling circle at the start and at the end of engagement.
 
 Directions: `tt` (the common tangent of the rolling circles), `centres`, `N1N2`.
 
@@ -98,7 +88,9 @@ def meshing(board: Board, rollings: tuple[Rolling, Rolling], sense: int) -> None
         teeth(board, i)
     for i in WHEELS:
         engagement(board, i, sense if i == 1 else -sense)
-    contact_ratios(board)
+    board.calc("epsilon_alpha_drawn", "ratio_of", "g_alpha_drawn", "p_b")
+    for i in WHEELS:  # once more, from the angles of action
+        board.calc(f"epsilon_alpha_arc{i}", "ratio_of", f"phi_alpha{i}_drawn", f"tau_{i}")
 
 
 def centres(board: Board) -> None:
@@ -206,13 +198,6 @@ def engagement(board: Board, i: int, sense: int) -> None:
     ends = (f"flank_O{i}B{i}_start", f"flank_O{i}B{i}_end")
     board.angle(f"_phi_alpha{i}", *(ends if sense > 0 else reversed(ends)))
     board.calc(f"phi_alpha{i}_drawn", "given", f"_phi_alpha{i}")
-
-
-def contact_ratios(board: Board) -> None:
-    """Calculate the contact ratio from the active line as it is drawn, and from the angles of action."""
-    board.calc("epsilon_alpha_drawn", "ratio_of", "g_alpha_drawn", "p_b")
-    for i in WHEELS:
-        board.calc(f"epsilon_alpha_arc{i}", "ratio_of", f"phi_alpha{i}_drawn", f"tau_{i}")
 
 
 SLIDING, THETA = "sliding", "theta"

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..board import Board, Program, RecordingBoard
+from ..board import Board, Program, recorded
 from ..boards.exact import ExactBoard
 from ..laws import HALF_TURN, NAN, WHOLE_TURN, Law, Sign, as_number, bracketed, define, named
 from ..names import role
@@ -356,13 +356,9 @@ def sliding_at(board: Board, point: str, i: int) -> None:
 SIZES = (main_sizes, centre_again, auxiliary_sizes, quality, action, measures)
 
 
-@cache
 def geometry_program() -> Program:
     """Return all calculations, in order, recorded."""
-    board = RecordingBoard()
-    for part in (*SIZES, sliding_places, calculated_sliding):
-        part(board)
-    return Program(board.steps)
+    return recorded(*SIZES, sliding_places, calculated_sliding)
 
 
 @cache

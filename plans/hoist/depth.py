@@ -136,21 +136,9 @@ class Row:
     ends: Array  # shape (..., 2): accelerations of both ends, constant, m/s^2
 
     @property
-    def matrix(self) -> Array:
-        """Coefficients of the forces in (3), rad^2/s^2, of shape (..., n + 1, n + 1): three diagonals."""
-        yielding, c = _yielding(self.masses), self.stiffnesses
-        links = c.shape[-1]
-        found = np.zeros((*c.shape, links))
-        at = np.arange(links)
-        found[..., at, at] = c * (yielding[..., :-1] + yielding[..., 1:])
-        found[..., at[1:], at[:-1]] = -c[..., 1:] * yielding[..., 1:-1]
-        found[..., at[:-1], at[1:]] = -c[..., :-1] * yielding[..., 1:-1]
-        return found
-
-    @property
     def drive(self) -> Array:
         """Right-hand sides of (3), N/s^2, of shape (..., n + 1)."""
-        own = self.forces * _yielding(self.masses)[..., 1:-1]
+        own = self.forces * (1.0 / self.masses)
         along = np.concatenate((self.ends[..., :1], own, self.ends[..., 1:]), axis=-1)
         driven: Array = self.stiffnesses * (along[..., :-1] - along[..., 1:])
         return driven
@@ -211,12 +199,6 @@ class RowMotion:
     def _of_links(self, found: Array) -> Array:
         mixed: Array = (self.modes * found[..., :, None]).sum(axis=-2) * self.scale
         return mixed
-
-
-def _yielding(masses: Array) -> Array:
-    """Return 1/a of the masses, with the ends, which do not yield."""
-    none = np.zeros((*masses.shape[:-1], 1))
-    return np.concatenate((none, 1.0 / masses, none), axis=-1)
 
 
 def _sinc(x: Array) -> Array:

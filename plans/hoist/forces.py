@@ -11,15 +11,14 @@ Source: Karpenko, Muzyka, Gudym, figure 3.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..board import Board, Program, RecordingBoard
+from ..board import Board, recorded
 from ..boards.exact import ExactBoard
 from ..laws import LAWS, TURN
 from ..solved import AT_LEAST, MORE, Check, Columned
@@ -201,20 +200,13 @@ def _after(board: Board) -> None:
     board.calc("w_2", "deflection", "F_12", "C_2")
 
 
-@cache
-def _program(part: Callable[[Board], None]) -> Program:
-    board = RecordingBoard()
-    part(board)
-    return Program(board.steps)
-
-
 def rope_forces(found: Mapping[str, Any], t: Any) -> tuple[Any, Any]:
     """Return the forces of support and rope by the formulas of the phase that each time is in, N.
 
     Needed are the quantities `V_t a k k_1 C C_01 C_12 P_st P_m D_0 D_1 t_1`, SI.
     """
     board = ExactBoard({**found, "t": t})
-    board.follow(_program(_in_phases))
+    board.follow(recorded(_in_phases))
     resting = t < found["t_1"]
     values = board.values
     return np.where(resting, values["_support_1"], 0.0), np.where(resting, values["_rope_1"], values["_rope_2"])
@@ -234,7 +226,7 @@ def course(forces: Forces, t: Array) -> Course:
         F_01 = np.where(pressed, height, 0.0) * (found["C_01"] if np.isfinite(found["C_01"]) else 0.0)
         better = {"s": height}
     board = ExactBoard({**found, "t": t, "F_01": F_01, "F_12": F_12})
-    board.follow(_program(_after))
+    board.follow(recorded(_after))
     values = {**board.values, **better}
     columned = (Columned(name, of, np.asarray(values[name], float)) for name, of in COLUMN_UNITS.items())
     return Course(tuple(columned), states)

@@ -155,10 +155,9 @@ MARGIN = 1.5  # times as long as the exact lift-off can take
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Run:
-    """What an integrator finds, of N hoists; NaN where it is refused."""
+    """What an integrator finds, of N hoists; NaN where it is refused. Quantities as of the closed form, SI."""
 
     step: Array  # k h, rad: of the swing on the support, of that on the rope where the support is rigid
-    # as of the closed form, SI
     t_1: Array
     F_12_t1: Array
     F_12_max: Array
@@ -167,8 +166,7 @@ class Run:
     grown: Array  # by what the method makes oscillations grow over the run
     refused: Flags  # steps beyond the stability limit, or oscillations that grow by more than `GROWN`
     steps: NDArray[np.int64]  # steps until the end, one period after lift-off
-    # shape (rows, N): the force of the rope at the steps; NaN after the end
-    t: Array
+    t: Array  # shape (rows, N): at the steps; NaN after the end
     F_12: Array
 
 
@@ -227,11 +225,8 @@ class Hoists:
     def latest(self) -> Array:
         """Return times before which the load lifts off, s."""
         yielding = np.where(self.rigid, 0.0, 1.0 / self.support) + 1.0 / self.C_12
-        height = self.m * self.g * yielding + np.where(
-            self.rigid, 0.0, self.V_t / self.k + 2.0 * self.a / (self.k * self.k)
-        )
-        found: Array = time_to_wind(self.V_t, self.a, height)
-        return found
+        swing = np.where(self.rigid, 0.0, self.V_t / self.k + 2.0 * self.a / (self.k * self.k))
+        return np.asarray(time_to_wind(self.V_t, self.a, self.m * self.g * yielding + swing))
 
 
 def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool = True) -> Run:
@@ -250,11 +245,9 @@ def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool =
 
 def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
     take = STEPPERS[method]
-    none = np.zeros_like(h)
-    first, off = _until_lift_off(hoists, method, none, (none, none), h)
-    t_1, state = off
+    first, (t_1, state) = _until_lift_off(hoists, take, h)
     last = np.ceil(2.0 * math.pi / (hoists.k_1 * h)).astype(np.int64) + 1
-    second = _steps(take, hoists.lifted(), t_1, state, h, int(last.max()))
+    second = _steps(take, hoists.lifted(), (t_1, state), h, int(last.max()))
     F_12_t1 = hoists.force(t_1, state)
     F_12_max = np.maximum(F_12_t1, _peak(hoists, take, Hoists.on_support, first, t_1))
     end = t_1 + 2.0 * math.pi / hoists.k_1
@@ -267,8 +260,7 @@ def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
 
 def _missed(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
     until = hoists.latest() + 2.0 * math.pi / hoists.k_1
-    none = np.zeros_like(h)
-    trace = _steps(STEPPERS[method], hoists.one_sided(), none, (none, none), h, int(np.ceil(until / h).max()) + 1)
+    trace = _steps(STEPPERS[method], hoists.one_sided(), _rest(h), h, int(np.ceil(until / h).max()) + 1)
     t, force = trace[0], hoists.force(*trace)
     off = (hoists.lift(*trace) >= 0.0).argmax(axis=0)
     own = np.arange(len(off))
@@ -299,23 +291,29 @@ def _judged(
     return Run(z, t_1, F_12_t1, F_12_max, P_12_max, highest, grown, refused, first + last, *masked)
 
 
-def _rows(take: Stepper, motion: Motion, t: Array, state: State, h: Array) -> Iterator[Trace]:
+def _rest(h: Array) -> Trace:
+    """Return time and states of the beginning, of as many hoists as have steps."""
+    return np.zeros_like(h), (np.zeros_like(h), np.zeros_like(h))
+
+
+def _rows(take: Stepper, motion: Motion, begin: Trace, h: Array) -> Iterator[Trace]:
     """Go through times and states, from the beginning on without an end."""
+    t, state = begin
     yield t, state
     for i in itertools.count():
         state = take(motion, t + i * h, state, h)
         yield t + (i + 1) * h, state
 
 
-def _steps(take: Stepper, motion: Motion, t: Array, state: State, h: Array, count: int) -> Trace:
+def _steps(take: Stepper, motion: Motion, begin: Trace, h: Array, count: int) -> Trace:
     """Go so many steps."""
-    return _trace(itertools.islice(_rows(take, motion, t, state, h), count + 1))
+    return _trace(itertools.islice(_rows(take, motion, begin, h), count + 1))
 
 
-def _until_lift_off(hoists: Hoists, method: str, t: Array, state: State, h: Array) -> tuple[Trace, Trace]:
+def _until_lift_off(hoists: Hoists, take: Stepper, h: Array) -> tuple[Trace, Trace]:
     """Step until every load has left its support; return the steps, and time and state where it does."""
-    take, motion = STEPPERS[method], hoists.on_support()
-    source = _rows(take, motion, t, state, h)
+    motion = hoists.on_support()
+    source = _rows(take, motion, _rest(h), h)
     rows, most = [next(source)], int(np.ceil(MARGIN * hoists.latest() / h).max()) + 1
     borne, going = np.zeros(h.shape, int), np.ones(h.shape, bool)
     while going.any() and len(rows) <= most:

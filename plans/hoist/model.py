@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from ..board import Board, Program, RecordingBoard
+from ..board import Board, Program, recorded
 from ..boards.arrays import ArrayBoard
 from ..boards.exact import ExactBoard
 from ..laws import TURN, Sign, define
@@ -283,13 +283,9 @@ IN_PHASE_1 = moved("t_1", "F_12_t1", "_dF_t1", "F_12_max", "t_F12_max", "F_12_mi
 ONE_SIDED = (reduced, IN_PHASE_1, circle, moved("T_1", "P_12_max", "P_12_min", "s_min"), strength, printed)
 
 
-@cache
 def model_program(one_sided: bool = False) -> Program:
     """Return all steps, in order, recorded: formulas, or with the results of a motion in the place of some of them."""
-    board = RecordingBoard()
-    for part in ONE_SIDED if one_sided else TWO_SIDED:
-        part(board)
-    return Program(board.steps)
+    return recorded(*(ONE_SIDED if one_sided else TWO_SIDED))
 
 
 @cache
@@ -335,11 +331,11 @@ define(condition_of_root=_condition)
 @cache
 def _programs() -> tuple[Program, Program]:
     """Return the calculation of the root with its condition, and of what it depends on."""
-    board = RecordingBoard()
-    reduced(board)
-    lifting_off(board)
-    board.calc("_condition", "condition_of_root", "V_t", "a", "k", "_height", "_t_1")
-    whole = Program(board.steps)
+
+    def condition(board: Board) -> None:
+        board.calc("_condition", "condition_of_root", "V_t", "a", "k", "_height", "_t_1")
+
+    whole = recorded(reduced, lifting_off, condition)
     return whole.needed_for(("_condition",)), whole.needed_for(("V_t", "k", "_height"))
 
 

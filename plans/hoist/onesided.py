@@ -259,14 +259,9 @@ class OneSided:
         return min(heights)
 
     @property
-    def slack(self) -> tuple[tuple[float, float], ...]:
-        """When the rope is slack."""
-        return tuple((piece.begin, piece.end) for piece in self.pieces if not piece.rope)
-
-    @property
     def slackens(self) -> bool:
         """Whether the rope goes slack after the load has left its support."""
-        return any(begin >= self.t_1 for begin, _ in self.slack)
+        return any(piece.begin >= self.t_1 and not piece.rope for piece in self.pieces)
 
     @property
     def least_pull(self) -> float:

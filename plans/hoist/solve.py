@@ -74,36 +74,25 @@ def board_givens(forces: Forces, layout: Layout, part_of: float = 1.0) -> dict[s
         given |= {"_begin": layout.roots.begin, "_section": layout.roots.section}
         given |= {f"_t_2_{n}_exact": time for n, time in enumerate(layout.roots.times, 1)}
     given |= {part(i, n): i / n for i, n in parts}
-    given |= {name: mu / PAPER_MM for name, mu in scale_factors(found, layout, drawn_until(forces), part_of).items()}
+    end = forces.end if motion else found["t_1"] + max(TURN / found["k_1"], SWINGS * found["T_1"])
+    given |= {name: mu / PAPER_MM for name, mu in scale_factors(found, layout, end, part_of).items()}
     if motion is None:
         return given | {"_rest": rest_of_root(found)}
     return given | motion_givens(motion) | _ordinates(forces, layout)
 
 
-def drawn_until(forces: Forces) -> float:
-    """Return until when the forces are drawn."""
-    found, motion = forces.found, forces.motion
-    if motion is not None:
-        return motion.pieces[-1].end
-    return found["t_1"] + max(TURN / found["k_1"], SWINGS * found["T_1"])
-
-
 def _ordinates(forces: Forces, layout: Layout) -> dict[str, float]:
     """Return times and forces of a motion on the section lines."""
-    found, end = forces.found, drawn_until(forces)
-    t_1 = found["t_1"]
-    before = np.linspace(0.0, t_1, layout.resting + 1)
-    after = np.linspace(t_1, end, layout.hanging + 1)
+    t_1 = forces.found["t_1"]
+    before, after = np.linspace(0.0, t_1, layout.resting + 1), np.linspace(t_1, forces.end, layout.hanging + 1)
     columns = course(forces, np.concatenate((before, after))).columns
+    F_01, F_12 = columns["F_01"].tolist(), columns["F_12"].tolist()
     given: dict[str, float] = {}
     for i, t in enumerate(before.tolist()):
-        values = t, float(columns["F_01"][i]), float(columns["F_12"][i])
-        names = f"_t_{RESTING}{i}", f"_F_01_{i}", f"_F_12_{i}"
-        given |= {f"{name}_motion": value for name, value in zip(names, values, strict=True)}
+        given |= {f"_t_{RESTING}{i}": t, f"_F_01_{i}": F_01[i], f"_F_12_{i}": F_12[i]}
     for i, t in enumerate(after.tolist()):
-        force = float(columns["F_12"][layout.resting + 1 + i])
-        given |= {f"_T_{HANGING}{i}_motion": t - t_1, f"_P_12_{i}_motion": force}
-    return given
+        given |= {f"_T_{HANGING}{i}": t - t_1, f"_P_12_{i}": F_12[layout.resting + 1 + i]}
+    return {f"{name}_motion": value for name, value in given.items()}
 
 
 def scale_factors(found: Mapping[str, float], layout: Layout, end: float, part_of: float = 1.0) -> dict[str, float]:
