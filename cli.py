@@ -16,29 +16,29 @@ from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import VARIABLE, of_environment, speaking, system_language
 from .scales.numbers import SHOWN, quote
 from .variants.commands.console import (
-    Group,
-    flush,
-    hand_over,
-    lost_output,
-    note_of,
-    print_json,
-    refuse,
-    refuse_long,
-    usage_error,
-    warn,
-)
-from .variants.commands.options import (
     BLOCK,
+    Group,
     Word,
     count,
     example,
+    flush,
     given,
+    hand_over,
+    lost_output,
+    note_of,
     of_language,
     of_norm,
     of_task,
     output,
+    print_json,
+    refuse,
+    refuse_long,
+    said,
+    say_written,
     tiled,
     titled,
+    usage_error,
+    warn,
 )
 from .variants.commands.teaching import all_variants, batch, check, handout
 from .variants.kinds import KINDS
@@ -82,10 +82,10 @@ def _run(words: Sequence[str]) -> int:
 @click.pass_context
 def commands(ctx: click.Context, lang: str | None) -> None:
     """Solve and draw problems of the theory of mechanisms and machines, to scale."""
-    said = lang or of_environment()
-    if said and said not in LANGUAGES:
-        raise InputError("cli-choice", option=VARIABLE, text=quote(said), known=", ".join(LANGUAGES))
-    ctx.default_map = {name: {"lang": said} for name in commands.commands} if said else None
+    language = lang or of_environment()
+    if language and language not in LANGUAGES:
+        raise InputError("cli-choice", option=VARIABLE, text=quote(language), known=", ".join(LANGUAGES))
+    ctx.default_map = {name: {"lang": language} for name in commands.commands} if language else None
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())
 
@@ -192,11 +192,8 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     """Draw the sheet of TASK (an id, or a TOML file) to scale."""
     from .variants.sheets import sheet as sheet_task
 
-    settled = {name: value for name, value in options.items() if value is not None}
-    drawn = sheet_task(task, set=settings, **settled)
-    saved = drawn.save(*files, tile=tile)
-    for path in saved:
-        click.echo(str(path))
+    drawn = sheet_task(task, set=settings, **said(options))
+    say_written(drawn.save(*files, tile=tile), False)
     warn(drawn.warnings)
 
 
@@ -215,10 +212,8 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
     """Write the explanatory note of TASK: the work step by step, with equations, figures, tables."""
     from .variants.notes import note as note_task
 
-    said = {name: value for name, value in options.items() if value is not None}
-    written = note_task(task, set=settings, lang=lang or "uk", **said)
-    for path in written.save(*files):
-        click.echo(str(path))
+    written = note_task(task, set=settings, lang=lang or "uk", **said(options))
+    say_written(written.save(*files), False)
     warn(written.sheet.warnings)
 
 

@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from ..drawing.compose import Drawn
 from ..drawing.notes.blocks import Block, Document, Figure, Heading, Sentences, Steps, TitlePage, blocks_of, figure_page
@@ -14,7 +15,7 @@ from ..drawing.notes.docx import docx_bytes
 from ..drawing.notes.markdown import markdown
 from ..drawing.notes.typst import pdf_bytes
 from ..drawing.text import escape
-from ..drawing.writers import WRITERS, Files, save_all
+from ..drawing.writers import WRITERS, Files
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import SHOWN, quote
@@ -22,6 +23,7 @@ from ..scales.packaged import packaged
 from .case import Case, Request, Settings
 from .reader import load_task
 from .sheets import Sheet, draw_case, said_of, sheet_id
+from .tables import Saved
 from .task import Task
 
 TEXTS = "kulman.drawing.notes"
@@ -32,9 +34,13 @@ SUFFIXES = (*DOCUMENTS, ".svg", ".png")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Note:
-    """A note with the sheet whose figures it shows; of `figure` alone it can be saved as a picture."""
+class Note(Saved):
+    """A note with the sheet whose figures it shows, to be saved to .pdf, .docx, or .md with the figures beside it.
 
+    Of `figure` alone it can be saved as a picture, .svg or .png.
+    """
+
+    suffixes = SUFFIXES
     document: Document
     sheet: Sheet
     figure: str | None = None
@@ -44,18 +50,8 @@ class Note:
         """The figures by the names of their views."""
         return {block.view.name: block for block in self.document.blocks if isinstance(block, Figure)}
 
-    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
-        """Write the note to each of `paths`, .pdf, .docx, or .md with its figures beside it; a figure to .svg, .png.
-
-        Raises
-        ------
-        InputError
-            An unknown suffix, a picture without a figure that is named, an extra is missing, or a file cannot
-            be written: then none is.
-        """
-        return save_all(paths, SUFFIXES, self._files)
-
-    def _files(self, path: Path) -> Files:
+    def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
+        """Return the document, the figures of Markdown beside it; or the one picture."""
         suffix = path.suffix.lower()
         if suffix not in DOCUMENTS:
             return self._picture(path)

@@ -5,11 +5,20 @@ from __future__ import annotations
 import csv
 import io
 import math
+import os
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from datetime import datetime
+from functools import cache
+from html import escape
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+
+from ..drawing.writers import Files, save_all
+
+if TYPE_CHECKING:
+    from ..drawing.words import Words
 
 Cell: TypeAlias = str | float | int | None
 Rows: TypeAlias = Sequence[Sequence[Cell]]
@@ -19,6 +28,60 @@ _INSIDE = re.compile(r"([,;\t\r\n][^\S\t\r\n]*+)(?=[=@|%＝＠]|[-+－＋][^,;\t
 _CREATED = datetime(2000, 1, 1)
 _WIDEST, _PIXELS = 60, 7  # characters of a column, and how wide each is
 LONGEST = 32_000  # characters of a cell: programs take 32,767
+
+
+class Saved(ABC):
+    """What can be written to files."""
+
+    __slots__ = ()
+    suffixes: ClassVar[tuple[str, ...]]
+
+    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
+        """Write it to each of `paths`; the suffix says how.
+
+        Returns
+        -------
+        list of Path
+            The files written.
+
+        Raises
+        ------
+        InputError
+            A kind of file that is not written, two outputs of one name, a missing extra, or a file that cannot be
+            written: then none is.
+        """
+        drawn = cache(self.drawn)  # once for all files, and only where one of them shows it
+        return save_all(paths, self.suffixes, lambda path: self._files(path, drawn))
+
+    def drawn(self) -> Any:
+        """Draw what pictures show, if there are any."""
+        return None
+
+    @abstractmethod
+    def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
+        """Return the files that a path stands for."""
+
+
+class Result(Saved):
+    """What a command has found; `words` are those of its tables and files."""
+
+    __slots__ = ()
+    words: Words
+
+    @abstractmethod
+    def table(self, language: str | None = None) -> str:
+        """Return it as lines of text."""
+
+    @abstractmethod
+    def to_json(self) -> dict[str, Any]:
+        """Return what is printed with `--json`: everything in SI."""
+
+    def _repr_html_(self) -> str:
+        """Show the table in a notebook."""
+        return f"<pre>{escape(self.table())}</pre>"
+
+    def _words(self, language: str | None) -> Words:
+        return self.words if language is None else self.words.speaking(language)
 
 
 def aligned(rows: Sequence[Sequence[str]], left: Container[int] = (0,)) -> str:

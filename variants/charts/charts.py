@@ -9,7 +9,6 @@ import textwrap
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
@@ -20,7 +19,7 @@ from ...drawing.charts.accuracy import accuracy_page
 from ...drawing.charts.paper import SUFFIXES as PICTURES
 from ...drawing.charts.paper import saved
 from ...drawing.words import Words
-from ...drawing.writers import save_all
+from ...drawing.writers import Files
 from ...plans.contest import Contest, Entry
 from ...plans.hands.hand import PRESETS, Hand, preset
 from ...plans.laws import TURN
@@ -32,7 +31,7 @@ from ...scales.units import parse, unit
 from ..case import Case, Request, Settings, all_known, names_of, positions_of
 from ..hands import is_own
 from ..reader import load_task
-from ..tables import Cell, aligned, csv_bytes, csv_text, plain
+from ..tables import Cell, Result, aligned, csv_bytes, csv_text, plain
 from ..task import LocatedError, Task
 
 if TYPE_CHECKING:
@@ -273,12 +272,15 @@ def machine(words: Words) -> str:
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Charts:
+class Charts(Result):
     """Charts of one variant of a task, by name: of a linkage `accuracy`, `stability`, `depth`.
 
-    `warnings` say which chart has been left out, and why, and what changes nothing on those that are wanted.
+    A PDF of them has a page for each; of other kinds there is a file for each, `x-accuracy.svg`, `x-stability.svg`, or
+    `x.svg` where there is one chart only. `warnings` say which chart has been left out, and why, and what changes
+    nothing on those that are wanted.
     """
 
+    suffixes = SUFFIXES
     case: Case
     words: Words
     charts: dict[str, Chart[Any]]
@@ -290,7 +292,7 @@ class Charts:
 
     def table(self, language: str | None = None) -> str:
         """Return all charts as text."""
-        words = self.words if language is None else self.words.speaking(language)
+        words = self._words(language)
         parts = (f"{words[chart.heading]}\n\n{chart.table(words)}" for chart in self.charts.values())
         return "\n\n\n".join(parts)
 
@@ -299,47 +301,22 @@ class Charts:
         head = {"task": self.case.task.id, "variant": self.case.variant}
         return head | {name: chart.to_json() for name, chart in self.charts.items()}
 
-    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
-        """Write the charts to each of `paths`; the suffix says how.
-
-        A PDF has a page for each chart; of other kinds there is a file for each, `x-accuracy.svg`, `x-stability.svg`,
-        `x-depth.svg`, or `x.svg` where there is one chart only.
-
-        Returns
-        -------
-        list of Path
-            The files written.
-
-        Raises
-        ------
-        InputError
-            An unknown suffix, two outputs of one name, or a file that cannot be written: then none is.
-        """
-        drawn = cache(self._figures)  # once for all files, and only where one of them shows it
-        return save_all(paths, SUFFIXES, lambda path: self._files(path, drawn))
-
-    def _figures(self) -> list[Figure]:
+    def drawn(self) -> list[Figure]:
+        """Draw the pictures of all charts."""
         return [chart.figure(self.words) for chart in self.charts.values()]
 
-    def _files(self, path: Path, figures: Callable[[], Sequence[Figure]]) -> Iterator[tuple[Path, bytes]]:
-        """Make the files that `path` stands for."""
+    def _files(self, path: Path, drawn: Callable[[], Sequence[Figure]]) -> Files:
+        """Return the files that a path stands for."""
         suffix = path.suffix.lower()
         names = list(self.charts)
         several = len(names) > 1 and suffix != PAGED
         targets = [path.with_name(f"{path.stem}-{name}{path.suffix}") for name in names] if several else [path]
         csv = [chart.csv(self.words) for chart in self.charts.values()] if suffix == ".csv" else None
-        data = saved(figures(), suffix) if csv is None else csv
-        yield from zip(targets, data, strict=True)
+        return list(zip(targets, saved(drawn(), suffix) if csv is None else csv, strict=True))
 
     def __repr__(self) -> str:
         """Return task, variant and the names of the charts."""
         return f"<Charts {self.case.task.id} {self.case.variant}: {', '.join(self.charts)}>"
-
-    def _repr_html_(self) -> str:
-        """Show the tables in a notebook."""
-        from html import escape
-
-        return f"<pre>{escape(self.table())}</pre>"
 
 
 def chart(

@@ -1,28 +1,39 @@
-"""What commands say: warnings, refusals, JSON, how far a long one is."""
+"""What commands take and say: options, checked before any work; warnings, refusals, JSON, how far a long one is."""
 
 from __future__ import annotations
 
 import errno
+import json
 import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ...scales.errors import InputError, KulmanError, messages
+from ...scales.errors import LANGUAGES, InputError, KulmanError, messages
 from ...scales.language import system_language
 from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
 
 if TYPE_CHECKING:
+    from ..tables import Result
     from ..task import Task
 
 CLOSED = 1
 LONGEST = 10_000  # characters of a word of the command line
+# what the title blocks of a class have in common, but for the group that the roster says
+BLOCK = ("group", "teacher", "department", "designation", "date")
+VARIANTS = (__package__ or "").rpartition(".")[0]
+Command = TypeVar("Command", bound=Callable[..., Any])
+if TYPE_CHECKING:
+    TextType = click.ParamType[str]
+else:  # only newer versions of click can be subscripted
+    TextType = click.ParamType
 
 
 def refuse(error: KulmanError) -> int:
@@ -76,8 +87,6 @@ def note_of(task: Task) -> None:
 
 def print_json(data: Mapping[str, Any]) -> None:
     """Print one JSON object in ASCII, which every console and pipe lets through."""
-    import json
-
     click.echo(json.dumps(data, ensure_ascii=True, allow_nan=False, indent=2))
 
 
@@ -87,20 +96,7 @@ def say_written(paths: Iterable[object], as_json: bool) -> None:
         click.echo(str(path), err=as_json)
 
 
-class Found(Protocol):
-    """What a command has found."""
-
-    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
-        """Write it to each of `paths`."""
-
-    def to_json(self) -> dict[str, Any]:
-        """Return it as plain data."""
-
-    def table(self) -> str:
-        """Return it as a readable table."""
-
-
-def hand_over(found: Found, files: Sequence[Path], as_json: bool, tabled: bool = True) -> None:
+def hand_over(found: Result, files: Sequence[Path], as_json: bool, tabled: bool = True) -> None:
     """Write what has been found to files and name these; print it as JSON, or as a table where no file is wanted."""
     say_written(found.save(*files), as_json)
     if as_json:
@@ -165,3 +161,138 @@ class Group(click.Group):
         if args and not args[0].startswith("-") and self.get_command(ctx, args[0]) is None:
             raise unknown("cli-command-unknown", args[0], self.list_commands(ctx))
         return super().resolve_command(ctx, args)
+
+
+class Word(TextType):
+    """One of a few words, in capitals or not."""
+
+    name = "word"
+
+    def __init__(self, *words: str) -> None:
+        """Accept `words`."""
+        self.words = words
+
+    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
+        """Show the words in the help."""
+        return "|".join(self.words)
+
+    def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        """Return the word that is meant."""
+        for word in self.words:
+            if word.lower() == value.strip().lower():
+                return word
+        option = param.opts[0] if param else ""
+        raise InputError("cli-choice", option=option, text=quote(value), known=", ".join(self.words))
+
+
+def pairs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> dict[str, str]:
+    """Split NAME=VALUE; no name twice."""
+    found: dict[str, str] = {}
+    for value in values:
+        name, equals, text = (part.strip() for part in value.partition("="))
+        if not name or not equals or not text:
+            raise InputError("cli-setting", option=param.opts[0], text=quote(value))
+        if name in found:
+            raise InputError("cli-setting-twice", option=param.opts[0], text=quote(name))
+        found[name] = text
+    return found
+
+
+def given(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:
+    """Tell an option that was not given at all from an empty one."""
+    return values or None
+
+
+def output(module: str, help: str, required: bool = False) -> Callable[[Command], Command]:
+    """Return the option `-o FILE`, which refuses, before any work, files that cannot be written.
+
+    The `SUFFIXES` that can be stand in a module, which is imported when the option is read, not for the help.
+    """
+
+    def checked(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
+        from ...drawing.writers import check_outputs
+
+        paths = tuple(map(Path, values))
+        check_outputs(*paths, known=import_module(module, VARIANTS).SUFFIXES)
+        return paths
+
+    names = ("-o", "--output", "files")
+    said = f"{help} Repeatable."
+    return click.option(*names, metavar="FILE", multiple=True, required=required, callback=checked, help=said)
+
+
+def stacked(*options: Any) -> Callable[[Command], Command]:
+    """Return what adds options to a command, in the order in which its help shows them."""
+
+    def add(command: Command) -> Command:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return add
+
+
+# the language, which `main` has already taken for messages
+of_language = click.option("--lang", type=Word(*LANGUAGES), help="Of results and messages; else `KULMAN_LANG`.")
+_about_task: tuple[Any, ...] = (
+    click.option("-v", "--variant", help="A variant of the task; without it the first one."),
+    click.option(
+        "--set",
+        "settings",
+        metavar="NAME=VALUE",
+        multiple=True,
+        callback=pairs,
+        help="Another value for a given: l_OA=55, 'n_1=765 об/хв', 'F_3=2 kN'. Repeatable.",
+    ),
+    click.option(
+        "--scale",
+        "scales",
+        metavar="NAME=VALUE",
+        multiple=True,
+        callback=pairs,
+        help="A scale factor, mu_V=0.05, or a segment in mm, pa=80. Repeatable.",
+    ),
+    click.option("--only", metavar="PLAN,...", multiple=True, callback=given, help="Only these plans."),
+    click.option("--notation", help="Letters of another school: artobolevsky, bauman, bertyaev, iso, madi, nau."),
+    of_language,
+)
+of_task = stacked(click.argument("task"), *_about_task)
+of_tasks = stacked(click.argument("tasks", metavar="TASK...", nargs=-1, required=True), *_about_task)
+of_norm = click.option(
+    "--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block."
+)
+tiled = click.option("--tile", type=Word("A4", "A3"), help="Cut a PDF into pages of this format for a small printer.")
+
+
+def example(*lines: str) -> str:
+    """Return the end of a help text that shows how the command is used."""
+    return "\b\nExample:\n" + "\n".join(f"  {line}" for line in lines)
+
+
+def count(ctx: click.Context, param: click.Parameter, value: str | None) -> int | None:
+    """Read a whole number where there is one."""
+    try:
+        return None if value is None else int(value)
+    except ValueError:
+        raise InputError("cli-number", option=param.opts[0], text=quote(value)) from None
+
+
+def processes(ctx: click.Context, param: click.Parameter, value: str | None) -> int:
+    """Read a number of processes; 0, for as many as cores, where there is none."""
+    number = count(ctx, param, value)
+    if number is None:
+        return 0
+    if number < 1:
+        raise InputError("cli-from-one", option=param.opts[0], text=quote(value))
+    return number
+
+
+def titled(*names: str) -> Callable[[Command], Command]:
+    """Return what adds `names`, which a title block or a title page says."""
+    none = {"date": "; none is invented"}
+    return stacked(*(click.option(f"--{name}", help=f"For the title block{none.get(name, '')}.") for name in names))
+
+
+def said(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the options that were given."""
+    return {name: value for name, value in options.items() if value is not None}

@@ -11,22 +11,27 @@ from ...scales.choices import HANDS, SIZES
 from ...scales.errors import InputError, messages
 from ...scales.language import system_language
 from ...scales.numbers import SHOWN, quote
-from .console import hand_over, print_json, progress, refuse, say_written, warn
-from .options import (
+from .console import (
     BLOCK,
     Word,
     count,
     example,
     given,
-    of_check,
+    hand_over,
     of_norm,
     of_task,
     of_tasks,
     output,
     pairs,
+    print_json,
     processes,
+    progress,
+    refuse,
+    said,
+    say_written,
     tiled,
     titled,
+    warn,
 )
 
 if TYPE_CHECKING:
@@ -73,11 +78,9 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     flat = [file for file in files if file.suffix.lower() == ".png"]
     if flat and options["hidden_key"]:  # a picture has no layers
         raise InputError("handout-apart", first="--hidden-key", second=quote(f"-o {flat[0]}", SHOWN))
-    said = {name: options.pop(name) for name in (*BLOCK, "student")}
-    block = {name: text for name, text in said.items() if text is not None}
+    block = said({name: options.pop(name) for name in (*BLOCK, "student")})
     drawn = handout_task(task, set=settings, block=block, **{**options, "lang": options["lang"] or "uk"})
-    for path in drawn.save(*files, tile=tile):
-        click.echo(str(path))
+    say_written(drawn.save(*files, tile=tile), False)
     warn(drawn.warnings)
 
 
@@ -197,7 +200,7 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     from ..batches.batch import MANIFEST
     from ..batches.batch import batch as draw_class
 
-    block = {name: text for name in BLOCK if (text := options.pop(name)) is not None}
+    block = said({name: options.pop(name) for name in BLOCK})
     with progress() as advance:
         made = draw_class(tasks, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
     warn(made.warnings)
@@ -208,6 +211,16 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     return refuse(InputError("batch-problems", n=len(bad), file=quote(Path(folder) / MANIFEST, SHOWN))) if bad else 0
 
 
+def _moodle(ctx: click.Context, param: click.Parameter, value: str | None) -> Path | None:
+    """Refuse, before any work, a file that Moodle would not read, or that cannot be written."""
+    from ...drawing.writers import check_outputs
+
+    if value is None:
+        return None
+    check_outputs(Path(value), known=(".csv",))
+    return Path(value)
+
+
 @click.command(
     epilog=example(
         "kulman check nau-slider-crank -v 3 --form answers.xlsx",
@@ -216,7 +229,35 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     )
 )
 @of_task
-@of_check
+@click.argument("answers", nargs=-1)
+@click.option("--form", metavar="FILE", help="Write an empty form, .csv or .xlsx; with --roster that of a class.")
+@click.option("--preset", type=Word(*HANDS), default="normal", show_default=True, help="What may be missed by hand.")
+@click.option("--verdict-only", "own", is_flag=True, help="For the student: right or wrong, and no right numbers.")
+@click.option("--format", type=Word(*SIZES), help="Mark what is drawn on the sheet of this format.")
+@click.option("--rubric", metavar="FILE", help="Weights, worths, tolerances: a small TOML file.")
+@click.option(
+    "--directions",
+    type=Word("required", "optional", "ignored"),
+    help="Directions of vectors, senses of what turns: a line without is worth half; what is said is compared; "
+    "or sizes alone are. In the place of what the rubric says; else optional.",
+)
+@click.option("--roster", metavar="FILE", help="Students with their variants, record books, own data: .csv or .xlsx.")
+@click.option(
+    "--digits",
+    metavar="N|WORD,...",
+    default="1",
+    show_default=True,
+    help="How many last digits of the record book give the variant, where the roster has none; or what each is "
+    "for: variant, scheme, - for nothing.",
+)
+@click.option("--out", "folder", metavar="FOLDER", help="Reports on every student, .html and .txt.")
+@click.option("--moodle", metavar="FILE", callback=_moodle, help="Grades for Moodle, .csv.")
+@click.option("--jobs", metavar="N", callback=processes, help="Processes; as many as cores when left out.")
+@output(
+    ".marking.report",
+    "Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object (of one student).")
 def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[str, str], **options: Any) -> None:
     """Mark ANSWERS to TASK: files with one student's answers or a class's, a folder of them, or a pattern.
 

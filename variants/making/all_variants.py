@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape
 
-from ...drawing.writers import Files, save_all
+from ...drawing.words import Words
+from ...drawing.writers import Files
 from ...plans.quantities import unit_of
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
@@ -23,7 +24,7 @@ from ..marking.keyed import Keyed, keyed
 from ..marking.rubric import SIGNED
 from ..marking.wording import texts
 from ..spreadsheets.grid import SUFFIXES as CELLS
-from ..tables import Cell, aligned, table_bytes
+from ..tables import Cell, Result, aligned, table_bytes
 from ..task import Task
 from .new_variants import NewVariants, import_variants, make_variants
 
@@ -33,9 +34,10 @@ HALF = 2.0  # how many tolerances off an answer still gets half
 
 
 @dataclass(frozen=True, slots=True)
-class AllVariants:
+class AllVariants(Result):
     """All variants: the key of each, or why it has none."""
 
+    suffixes = SUFFIXES
     check: Check
     keys: Mapping[str, Keyed]
     problems: Mapping[str, KulmanError]
@@ -53,7 +55,12 @@ class AllVariants:
         remarks = () if self.new is None else self.new.remarks
         return (*remarks, *self.left_out, *self.problems.values())
 
-    def table(self) -> str:
+    @property
+    def words(self) -> Words:  # type: ignore[override]
+        """Those of the variants that have a key."""
+        return next(iter(self.keys.values())).words
+
+    def table(self, language: str | None = None) -> str:
         """Return the values as lines of text, a column for each variant."""
         rows = [tuple(self._text(cell) for cell in row) for row in self._rows()]
         return aligned(rows, left=(0, 1))
@@ -67,18 +74,8 @@ class AllVariants:
         problems = {variant: problem.text(self._language) for variant, problem in self.problems.items()}
         return {"task": self.check.request.task.id, "variants": found, "problems": problems}
 
-    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
-        """Write a table to .csv or .xlsx, questions for Moodle to .xml or .gift, new variants to a task file, .toml.
-
-        Raises
-        ------
-        InputError
-            A path of another kind, a task file where no variants are new, or a file that cannot be written: then none
-            is.
-        """
-        return save_all(paths, SUFFIXES, self._files)
-
-    def _files(self, path: Path) -> Files:
+    def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
+        """Return a table for .csv, .xlsx, questions for Moodle for .xml, .gift, new variants for .toml, a task file."""
         task = self.check.request.task
         suffix = path.suffix.lower()
         if suffix == TASK_FILE:
@@ -97,8 +94,7 @@ class AllVariants:
     def _text(self, cell: Cell) -> str:
         if cell is None:
             return "–"
-        words = next(iter(self.keys.values())).words
-        return cell if isinstance(cell, str) else words.short(float(cell), 6)
+        return cell if isinstance(cell, str) else self.words.short(float(cell), 6)
 
     def _rows(self) -> Iterator[tuple[Cell, ...]]:
         """Go through the rows: a header, and a quantity each with its unit and a value for every variant."""

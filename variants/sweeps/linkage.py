@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +14,7 @@ from numpy.typing import NDArray
 from ...drawing.linkages.sheet import Contents, draw
 from ...drawing.titleblock import Stamp
 from ...drawing.words import Words
-from ...drawing.writers import Files, page_files, save_all
+from ...drawing.writers import Files, page_files
 from ...plans.linkages.cycles.cycle import Curve, Cycle, Diagrams, cycle, diagrams
 from ...plans.linkages.cycles.strokes import Output, OutputMotion
 from ...plans.linkages.mechanism import Driver, Mechanism
@@ -32,7 +30,7 @@ from ..kinds.linkage import placed
 from ..sheets import Sheet, sheet_of
 from ..tables import aligned, csv_text
 from ..task import LocatedError, Task, plain_number
-from .sweeps import CSV, DIGITS, SUFFIXES, SweepRequest, Swept
+from .sweeps import CSV, DIGITS, SweepRequest, Swept
 
 Array = NDArray[Any]
 SECTIONS = POSITIONS = 12
@@ -161,14 +159,9 @@ class Sweep(Swept):
             "parallel_guides": cycle.reach.poles,
         }
 
-    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
-        """Write all columns to .csv, the drawing to other kinds of files."""
-        drawn = cache(self.drawn)  # once for all files, and only where one of them shows it
-
-        def files(path: Path) -> Files:
-            return [(path, self._csv_file())] if path.suffix.lower() == CSV else page_files(drawn().pages, path)
-
-        return save_all(paths, SUFFIXES, files)
+    def _files(self, path: Path, drawn: Callable[[], Sheet]) -> Files:
+        """Return all columns for .csv, the drawing for other kinds of files."""
+        return [(path, self._csv_file())] if path.suffix.lower() == CSV else page_files(drawn().pages, path)
 
     def drawn(self) -> Sheet:
         """Return the sheet with the plan of positions and the diagrams by plans and by chords.

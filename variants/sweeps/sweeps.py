@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from abc import ABC, abstractmethod
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from abc import abstractmethod
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -12,14 +12,14 @@ from typing import Any, ClassVar, Self
 import numpy as np
 
 from ...drawing.words import Words
-from ...drawing.writers import WRITERS, save_all
+from ...drawing.writers import WRITERS, Files
 from ...plans.solved import Columned, Ends
 from ...scales.errors import InputError, PositionError
 from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
 from ..case import Case, Request, Settings, positions_of
 from ..reader import load_task
-from ..tables import aligned, csv_bytes, csv_text, plain
+from ..tables import Result, aligned, csv_bytes, csv_text, plain
 from ..task import Task
 
 CSV = ".csv"
@@ -43,9 +43,10 @@ class SweepRequest:
 
 
 @dataclass(frozen=True, slots=True)
-class Swept(ABC):
+class Swept(Result):
     """A variant of a task over its whole cycle; `words` are those of the table and the CSV."""
 
+    suffixes = SUFFIXES
     case: Case
     words: Words
 
@@ -75,10 +76,6 @@ class Swept(ABC):
         return None
 
     @abstractmethod
-    def table(self, language: str | None = None) -> str:
-        """Return what `kulman sweep` prints."""
-
-    @abstractmethod
     def csv(self, language: str | None = None) -> str:
         """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
 
@@ -91,33 +88,8 @@ class Swept(ABC):
         data = {"task": self.task.id, "variant": self.variant, "status": self.status} | self._data()
         return {name: plain(value) for name, value in data.items()}
 
-    @abstractmethod
-    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
-        """Write the sweep to each of `paths`; the suffix says how.
-
-        Returns
-        -------
-        list of Path
-            The files written.
-
-        Raises
-        ------
-        InputError
-            A file of a kind that is not written, two outputs of one name, or a file that cannot be written: then none
-            is.
-        """
-
     def _csv_file(self) -> bytes:
         return csv_bytes(self.csv(), self.words.language)
-
-    def _repr_html_(self) -> str:
-        """Show the table in a notebook."""
-        from html import escape
-
-        return f"<pre>{escape(self.table())}</pre>"
-
-    def _words(self, language: str | None) -> Words:
-        return self.words if language is None else self.words.speaking(language)
 
 
 def sweep(
@@ -256,12 +228,11 @@ class SizedSweep(Swept):
             found["extremes"][ends.name] = {"unit": ends.unit, "max": most, "min": least}
         return {name: columns for name, columns in found.items() if columns}
 
-    def save(self, *paths: str | os.PathLike[str]) -> list[Path]:
-        """Write the columns to each of `paths`, .csv alone: diagrams are on the sheet."""
-        for path in map(Path, paths):
-            if path.suffix.lower() != CSV:
-                raise InputError(self.not_drawn, task=quote(self.task.id), file=quote(path.name))
-        return save_all(paths, (CSV,), lambda path: [(path, self._csv_file())])
+    def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
+        """Return the file of the columns, .csv alone: diagrams are on the sheet."""
+        if path.suffix.lower() != CSV:
+            raise InputError(self.not_drawn, task=quote(self.task.id), file=quote(path.name))
+        return [(path, self._csv_file())]
 
     def _warned(self, words: Words) -> list[str]:
         """Return what a user should know."""
