@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -59,17 +60,16 @@ class Figure:
     under: tuple[str, ...]
 
     @property
-    def share(self) -> float:
-        """The part of its size on the sheet at which it has room on a page of the note."""
-        return self.share_of(ROOM)
-
-    @property
     def folded(self) -> bool:
         """Whether it stands on a larger sheet at the end of the note, because its letters would be too small."""
-        return self.share < LEGIBLE
+        return self._share_of(ROOM) < LEGIBLE
 
-    def share_of(self, room: tuple[float, float]) -> float:
-        """Return the part of its size at which it has a room of this width and height, mm."""
+    @property
+    def share(self) -> float:
+        """The part of its size on the sheet at which it has room on a page of the note, or on that sheet."""
+        return self._share_of(FOLDED_ROOM if self.folded else ROOM)
+
+    def _share_of(self, room: tuple[float, float]) -> float:
         width, height = self.view.size
         return min(1.0, room[0] / width, room[1] / height)
 
@@ -148,6 +148,14 @@ def blocks_of(views: Iterable[View], story: Story) -> Iterator[Block]:
             yield Figure(figure, heading, (*view.heading[1:], *view.notes))
 
 
+def numbered(blocks: Iterable[Block]) -> Iterator[tuple[Block, int]]:
+    """Go through blocks, each with its number among those of its kind, from 1."""
+    counts: Counter[type[Block]] = Counter()
+    for block in blocks:
+        counts[type(block)] += 1
+        yield block, counts[type(block)]
+
+
 def figure_page(figure: Figure, language: str) -> Page:
     """Return a page as large as the figure."""
     x0, y0, x1, y1 = figure.view.box
@@ -160,6 +168,7 @@ def figure_svg(figure: Figure, language: str) -> bytes:
     return svg_text(figure_page(figure, language), with_font=False).encode("utf-8", "replace")
 
 
-def reduced(said: dict[str, str], share: float) -> tuple[str, ...]:
-    """Say by how much a figure that has this share of its size is smaller than on the sheet, if it is."""
-    return (said["figure.reduced"].format(part=round(100.0 * share)),) if share < 1.0 else ()
+def said_under(figure: Figure, said: dict[str, str]) -> tuple[str, ...]:
+    """Return the lines under a figure; the last one says by how much it is smaller than on the sheet, if it is."""
+    reduced = (said["figure.reduced"].format(part=round(100.0 * figure.share)),) if figure.share < 1.0 else ()
+    return (*figure.under, *reduced)

@@ -1,12 +1,17 @@
-"""A note as DOCX (extra `docx`): the document for word processors with its styles, lists, page numbers, pictures."""
+"""A note as DOCX (extra `docx`): title page, contents, text, lists, equations, tables, pictures with captions.
+
+What is written in WordprocessingML is put into a document of the library with styles, page numbers and settings.
+"""
 
 from __future__ import annotations
 
+import re
 import zipfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache, lru_cache
 from importlib.util import find_spec
 from io import BytesIO
+from itertools import count, groupby
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...scales.errors import InputError
@@ -14,13 +19,15 @@ from ...scales.packaged import home, packaged
 from ..font import font
 from ..formats import FORMATS
 from ..pdf import write_png
-from .blocks import FOLDED, Block, Document, Figure, Steps, figure_page, figure_svg
-from .markup import printable
-from .wordprocessing import LISTS, Picture, blocks_in_word, first_pages, folded_in_word, paragraph, shown_share, words
+from ..table import cells as cells_of
+from ..text import lay_out
+from . import blocks as note
+from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
+from .markup import Node, Plain, Scripted, joined, letters, parse, printable, tied
+from .omml import built_up, displayed, node, quoted, whole
 
 if TYPE_CHECKING:
     from docx.document import Document as Word
-
 
 LIBRARIES = ("docx", "fontTools", "pypdfium2")  # for the document, the letters and the dots of its pictures
 DPI = 300  # of the pictures for readers that draw no SVG, as large as they are shown
@@ -32,8 +39,19 @@ SPACES = {
     "r": "http://schemas.openxmlformats.org/officeDocument/2006/relationships",
     "wp": "http://schemas.openxmlformats.org/drawingml/2006/wordprocessingDrawing",
 }
-_FOOTER = paragraph("Footer", f'<w:fldSimple w:instr=" PAGE ">{words("2")}</w:fldSimple>')
 _LONG_AGO = (1980, 1, 1, 0, 0, 0)  # the first date that a file in a ZIP can have: the same note, the same bytes
+TWIPS = 1440 / 25.4  # of a millimetre
+HEIGHT = 2.8  # mm of a capital of the text: lines are estimated with the font of the sheet, which is wider
+_BEFORE_NAMES, _BEFORE_DATE = 85.0, 30.0  # mm
+EMU = 36000  # of a millimetre
+WIDE = 180.0  # mm of a line
+INDENT = 8.0  # mm before an equation; what goes on in another line stands in twice as far
+FIGURES = 1000  # before the number of a figure to which something refers, among those of headings
+LISTS = 3  # the number of the first list of steps
+PAD = 4.0  # mm in a cell beside its text
+_PICTURES = "http://schemas.openxmlformats.org/drawingml/2006"
+_SVG = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
+_UNITS = re.compile(r"(?:\b(?:kg|N|rad|mm|cm|m)[/·]|\bm)$")
 
 
 class Drawing(NamedTuple):
@@ -43,13 +61,17 @@ class Drawing(NamedTuple):
     svg: bytes
 
 
+class Picture(NamedTuple):
+    """By what names a document knows the parts that hold a picture: one for any reader, one that is sharp."""
+
+    png: str
+    svg: str
+
+
 def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) -> bytes:
     """Return a note as DOCX; the same note gives the same bytes.
 
-    Parameters
-    ----------
-    drawings : sequence of Drawing, optional
-        Those of its figures, where they are drawn already for another note with the same blocks.
+    The `drawings` of its figures may be those of another note with the same blocks.
 
     Raises InputError: the extra `docx` is not installed.
     """
@@ -62,9 +84,9 @@ def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) ->
     _sign(word, document)
     drawings = drawings_of(document.blocks, document.language) if drawings is None else drawings
     pictures = [_picture(word, drawing, number) for number, drawing in enumerate(drawings, 1)]
-    _append(word, f"{first_pages(document)}{blocks_in_word(document, pictures)}")
+    _append(word, f"{''.join((*_title(document), *_contents(document)))}{blocks_in_word(document, pictures)}")
     if any(isinstance(block, Figure) and block.folded for block in document.blocks):
-        section, sheet = word.add_section(), FORMATS[f"{FOLDED}-portrait"]  # for what is too large for a page
+        section, sheet = word.add_section(), FORMATS[f"{note.FOLDED}-portrait"]  # for what is too large for a page
         section.page_width, section.page_height = docx.shared.Mm(sheet.width), docx.shared.Mm(sheet.height)
         section.different_first_page_header_footer = False  # numbers of pages go on
         _append(word, folded_in_word(document, pictures))
@@ -79,8 +101,8 @@ def drawings_of(blocks: Iterable[Block], language: str) -> list[Drawing]:
     drawings = []
     for figure in (block for block in blocks if isinstance(block, Figure)):
         png = BytesIO()
-        write_png([figure_page(figure, language)], png, DPI * shown_share(figure))
-        drawings.append(Drawing(png.getvalue(), outlined(figure_svg(figure, language))))
+        write_png([note.figure_page(figure, language)], png, DPI * figure.share)
+        drawings.append(Drawing(png.getvalue(), outlined(note.figure_svg(figure, language))))
     return drawings
 
 
@@ -137,7 +159,9 @@ def _pages(word: Word) -> None:
     section.header_distance = section.footer_distance = Mm(10)
     section.different_first_page_header_footer = True
     section.footer.is_linked_to_previous = False
-    section.footer.part.element[:] = _parsed(_FOOTER)
+    section.footer.part.element[:] = _parsed(
+        paragraph("Footer", f'<w:fldSimple w:instr=" PAGE ">{words("2")}</w:fldSimple>')
+    )
 
 
 def _sign(word: Word, document: Document) -> None:
@@ -177,7 +201,7 @@ def _undated(data: bytes) -> bytes:
     return stream.getvalue()
 
 
-_SVG = "{http://www.w3.org/2000/svg}"
+_SHAPES = "{http://www.w3.org/2000/svg}"
 
 
 def outlined(svg: bytes) -> bytes:
@@ -185,17 +209,17 @@ def outlined(svg: bytes) -> bytes:
     from lxml import etree
 
     root = etree.fromstring(svg)
-    for text in root.findall(f".//{_SVG}text"):
+    for text in root.findall(f".//{_SHAPES}text"):
         size = float(text.get("font-size")) / font().units
         place = f"translate({text.get('x')} {text.get('y')}) scale({size:.8f} {-size:.8f})"
-        path = etree.Element(f"{_SVG}path", d=_path(text.text or ""))
+        path = etree.Element(f"{_SHAPES}path", d=_path(text.text or ""))
         path.set("transform", f"{text.get('transform', '')} {place}".strip())
         for name in ("class", "data-name", "fill"):
             if text.get(name) is not None:
                 path.set(name, text.get(name))
         path.tail = text.tail
         text.getparent().replace(text, path)
-    for style in root.findall(f"{_SVG}style"):
+    for style in root.findall(f"{_SHAPES}style"):
         root.remove(style)
     return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8"))
 
@@ -221,3 +245,235 @@ def _path(string: str) -> str:
         glyph.draw(TransformPen(pen, (1, 0, 0, 1, at, 0)))
         at += glyph.width
     return str(pen.getCommands())
+
+
+def paragraph(style: str, inside: str, properties: str = "") -> str:
+    """Return a paragraph; its own properties go before those of its style."""
+    styled = f'<w:pStyle w:val="{style}"/>' if style else ""
+    told = f"<w:pPr>{styled}{properties}</w:pPr>" if styled or properties else ""
+    return f"<w:p>{told}{inside}</w:p>"
+
+
+def words(text: str, properties: str = "") -> str:
+    """Return characters of a paragraph."""
+    looks = f"<w:rPr>{properties}</w:rPr>" if properties else ""
+    return f'<w:r>{looks}<w:t xml:space="preserve">{quoted(text)}</w:t></w:r>' if text else ""
+
+
+def line(markup: str, properties: str = "") -> str:
+    """Return a line of markup: words as text with `properties`, symbols with scripts and bars as formulas."""
+    parts = whole(parse(markup))
+    before = "m/" if len(parts) == 1 else ""  # a power of m alone is a unit
+    told: list[tuple[bool, str]] = []
+    for place, part in enumerate(parts):
+        formula = not isinstance(part, Plain) and not _is_unit(part, before)
+        told.append((formula, node(part, joined(parts, place)) if formula else _text(part, properties)))
+        before = part.text if isinstance(part, Plain) else ""
+    shown = ((formula, "".join(text for _, text in some)) for formula, some in groupby(told, lambda pair: pair[0]))
+    return "".join(f"<m:oMath>{text}</m:oMath>" if formula else text for formula, text in shown)
+
+
+def _is_unit(part: Node, before: str) -> bool:
+    if not isinstance(part, Scripted) or not isinstance(part.base, Plain) or part.below:
+        return False
+    cyrillic = "а" <= part.base.text[:1].lower() <= "ґ"
+    powers = all(isinstance(up, Plain) for up in part.above)
+    return powers and (cyrillic or (part.base.text in ("m", "s") and _UNITS.search(before) is not None))
+
+
+def _text(part: Node, properties: str) -> str:
+    """Return words, or a unit with its power."""
+    if isinstance(part, Plain):
+        return words(tied(part.text), properties)
+    assert isinstance(part, Scripted)
+    assert isinstance(part.base, Plain)
+    power = "".join(up.text for up in part.above if isinstance(up, Plain))
+    raised = words(power, f'{properties}<w:vertAlign w:val="superscript"/>')
+    return words(part.base.text, properties) + raised
+
+
+def _field(kind: str) -> str:
+    return f'<w:r><w:fldChar w:fldCharType="{kind}"/></w:r>'
+
+
+def _begun(order: str) -> str:
+    told = f'<w:r><w:instrText xml:space="preserve"> {quoted(order)} </w:instrText></w:r>'
+    return f"{_field('begin')}{told}{_field('separate')}"
+
+
+def _number_field(order: str, number: int) -> str:
+    """Return a field that shows a number: of a caption, or of what it refers to."""
+    return _begun(order) + words(str(number)) + _field("end")
+
+
+def _bookmark(inside: str, mark: str, number: int) -> str:
+    """Return what others refer to by a mark."""
+    return f'<w:bookmarkStart w:id="{number}" w:name="{mark}"/>{inside}<w:bookmarkEnd w:id="{number}"/>'
+
+
+def _mark(number: int) -> str:
+    return f"_Toc{number:06d}"
+
+
+def _title(document: Document) -> Iterator[str]:
+    said, page = packaged(__package__, "texts", document.language), document.title
+    yield paragraph("TitleLine", words(page.department))
+    yield paragraph("Title", words(said["title.note"]))
+    yield paragraph("Subtitle", words(page.title))
+    yield paragraph("TitleLine", words(said["title.variant"].format(variant=page.variant)))
+    down = _down(_BEFORE_NAMES)
+    for name in ("student", "group", "teacher"):
+        value = words(getattr(page, name) or "_" * 24)
+        yield paragraph("TitleName", f"{words(said[f'title.{name}'])}<w:r><w:tab/></w:r>{value}", down)
+        down = ""
+    yield paragraph("TitleLine", words(page.date), _down(_BEFORE_DATE))
+    yield paragraph("TitleLine", words(page.identity, '<w:sz w:val="18"/><w:szCs w:val="18"/>'))
+
+
+def _down(mm: float) -> str:
+    return f'<w:spacing w:before="{round(mm * TWIPS)}"/>'
+
+
+def _contents(document: Document) -> Iterator[str]:
+    """Go through the contents, a field with its entries; their pages are known when it is updated."""
+    yield paragraph("TOCHeading", words(packaged(__package__, "texts", document.language)["contents"]))
+    before = _begun(r'TOC \o "1-2" \h \z \u')
+    entries = [letters(block.text) for block in document.blocks if isinstance(block, Heading)]
+    for number, entry in enumerate(entries, 1):
+        page = _begun(rf"PAGEREF {_mark(number)} \h") + _field("end")
+        shown = f"{words(f'{number} {entry}')}<w:r><w:tab/></w:r>{page}"
+        linked = f'<w:hyperlink w:anchor="{_mark(number)}" w:history="1">{shown}</w:hyperlink>'
+        yield paragraph("TOC1", before + linked)
+        before = ""
+    yield paragraph("TOC1", f'{before}{_field("end")}<w:r><w:br w:type="page"/></w:r>')
+
+
+def blocks_in_word(document: Document, pictures: Sequence[Picture]) -> str:
+    """Return all that follows the contents; `pictures` are those of the figures, in order."""
+    said = packaged(__package__, "texts", document.language)
+    return "".join(part for block, n in note.numbered(document.blocks) for part in _block(block, n, said, pictures))
+
+
+def folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
+    """Return the figures that stand on larger sheets at the end."""
+    said = packaged(__package__, "texts", document.language)
+    figures = ((block, n) for block, n in note.numbered(document.blocks) if isinstance(block, Figure) and block.folded)
+    return "".join(
+        paragraph("Figure", _drawing(figure, pictures[n - 1], n), "<w:pageBreakBefore/>" if place else "")
+        + paragraph("Caption", _caption(figure, said, _number_field(rf"REF _Figure{n} \h", n)))
+        for place, (figure, n) in enumerate(figures)
+    )
+
+
+def _block(block: Block, number: int, said: dict[str, str], pictures: Sequence[Picture]) -> Iterator[str]:
+    match block:
+        case Heading(text=text):
+            yield paragraph("Heading1", _bookmark(line(text), _mark(number), number))  # the contents lead there
+        case Sentences(texts=texts):
+            yield paragraph("", words(" ").join(map(line, texts)))
+        case Steps(texts=texts):
+            one = f'<w:numPr><w:ilvl w:val="0"/><w:numId w:val="{LISTS + number - 1}"/></w:numPr>'
+            yield from (paragraph("ListNumber", line(text), one) for text in texts)
+        case Equations(lines=lines):
+            yield from (part for chunks in lines for part in _equation(chunks))
+        case Table(rows=rows):
+            yield _table(rows)
+            yield paragraph("Cell", "")
+        case Figure():
+            here = _number_field(rf"SEQ {said['figure']} \* ARABIC", number)
+            if block.folded:
+                before, _, after = said["figure.folded"].format(number="\0", format=note.FOLDED).partition("\0")
+                marked = _bookmark(here, f"_Figure{number}", FIGURES + number)
+                yield paragraph("", words(before) + marked + words(after))
+                return
+            yield paragraph("Figure", _drawing(block, pictures[number - 1], number))
+            yield paragraph("Caption", _caption(block, said, here))
+
+
+def _equation(chunks: Sequence[str]) -> Iterator[str]:
+    """Go through the lines of an equation, which is broken where it may be; words without one are a line of words."""
+    markup = " ".join(chunks)
+    if not displayed(markup):
+        yield paragraph("Equation", line(markup))
+        return
+    rows = [""]
+    for part in _unbroken(chunks):
+        longer = f"{rows[-1]} {part}".strip()
+        rows[-1:] = [longer] if not rows[-1] or _fits(longer, 1 if len(rows) == 1 else 2) else [rows[-1], part]
+    for place, row in enumerate(rows):
+        further = f'<w:ind w:left="{round(2 * INDENT * TWIPS)}"/>' if place else ""
+        left = '<m:oMathParaPr><m:jc m:val="left"/></m:oMathParaPr>'
+        inside = f"<m:oMathPara>{left}<m:oMath>{built_up(row)}</m:oMath></m:oMathPara>"
+        yield paragraph("Equation", inside, further)
+
+
+def _unbroken(chunks: Sequence[str]) -> Iterator[str]:
+    """Go through what is not broken: all that stands in brackets, unless it is longer than a line."""
+    some: list[str] = []
+    for chunk in chunks:
+        some.append(chunk)
+        depth = sum((c in "([") - (c in ")]") for part in some for c in part)
+        if depth <= 0:
+            yield from [unbroken] if _fits(unbroken := " ".join(some), 2) else some
+            some = []
+    yield from some
+
+
+def _fits(markup: str, indents: int) -> bool:
+    return lay_out(markup, HEIGHT).width <= WIDE - indents * INDENT
+
+
+def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
+    """Return a table whose first row is repeated on every page; no row is parted by the end of a page."""
+    wide = [PAD] * len(rows[0])
+    for row in rows:
+        for start, end, cell in cells_of(row):
+            if end == start + 1:
+                wide[start] = max(wide[start], lay_out(cell, HEIGHT).width + PAD)
+    share = min(1.0, WIDE / sum(wide))
+    grid = "".join(f'<w:gridCol w:w="{round(mm * share * TWIPS)}"/>' for mm in wide)
+    look = '<w:tblLook w:val="0020" w:firstRow="1" w:lastRow="0" w:firstColumn="0" w:lastColumn="0"'
+    properties = (
+        '<w:tblPr><w:tblStyle w:val="TableGrid"/><w:tblW w:w="0" w:type="auto"/><w:jc w:val="center"/>'
+        f'{look} w:noHBand="1" w:noVBand="1"/></w:tblPr>'
+    )
+    return f"<w:tbl>{properties}<w:tblGrid>{grid}</w:tblGrid>{''.join(map(_row, rows, count()))}</w:tbl>"
+
+
+def _row(row: tuple[str | None, ...], number: int) -> str:
+    head, bold = ("<w:tblHeader/>", "<w:b/><w:bCs/>") if number == 0 else ("", "")
+    cells = []
+    for start, end, cell in cells_of(row):
+        joined = f'<w:gridSpan w:val="{end - start}"/>' if end - start > 1 else ""
+        text = paragraph("Cell", line(cell, bold))
+        cells.append(
+            f'<w:tc><w:tcPr><w:tcW w:w="0" w:type="auto"/>{joined}<w:vAlign w:val="center"/></w:tcPr>{text}</w:tc>'
+        )
+    return f"<w:tr><w:trPr><w:cantSplit/>{head}</w:trPr>{''.join(cells)}</w:tr>"
+
+
+def _caption(figure: Figure, said: dict[str, str], number: str) -> str:
+    lines = [line(text) for text in (figure.caption, *note.said_under(figure, said))]
+    return f"{words(said['figure'] + ' ')}{number}{words(' – ')}" + "<w:r><w:br/></w:r>".join(lines)
+
+
+def _drawing(figure: Figure, picture: Picture, number: int) -> str:
+    """Return a picture as large as the figure is shown; what it shows is told to who cannot see it."""
+    cx, cy = (round(mm * figure.share * EMU) for mm in figure.view.size)
+    told = quoted("; ".join(map(letters, (figure.caption, *figure.under))))
+    size = f'cx="{cx}" cy="{cy}"'
+    name = f'id="{number}" name="{quoted(figure.view.name)}" descr="{told}"'
+    sharp = (
+        f'<a:extLst><a:ext uri="{{96DAC541-7B7A-43D3-8B79-37D633B846F1}}"><asvg:svgBlip xmlns:asvg="{_SVG}" '
+        f'r:embed="{picture.svg}"/></a:ext></a:extLst>'
+    )
+    return (
+        f'<w:r><w:drawing><wp:inline distT="0" distB="0" distL="0" distR="0"><wp:extent {size}/><wp:docPr {name}/>'
+        f'<a:graphic xmlns:a="{_PICTURES}/main"><a:graphicData uri="{_PICTURES}/picture">'
+        f'<pic:pic xmlns:pic="{_PICTURES}/picture"><pic:nvPicPr><pic:cNvPr {name}/><pic:cNvPicPr/></pic:nvPicPr>'
+        f'<pic:blipFill><a:blip r:embed="{picture.png}">{sharp}</a:blip>'
+        "<a:stretch><a:fillRect/></a:stretch></pic:blipFill>"
+        f'<pic:spPr><a:xfrm><a:off x="0" y="0"/><a:ext {size}/></a:xfrm>'
+        '<a:prstGeom prst="rect"><a:avLst/></a:prstGeom></pic:spPr></pic:pic></a:graphicData></a:graphic>'
+        "</wp:inline></w:drawing></w:r>"
+    )

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from ...scales.packaged import packaged
-from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
+from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table, numbered
 from .markup import Node, Plain, Ruled, letters, parse
 
 _SIGNS = re.compile(r"([\\`*_{}\[\]<>#|~])")
@@ -21,18 +21,18 @@ def markdown(document: Document, figures: list[str]) -> str:
     ]
     about += [text for text in (page.department, page.date, page.identity) if text]
     head = [f"# {_plain(said['title.note'])}", f"**{_plain(page.title)}**", "  \n".join(map(_plain, about))]
-    files = iter(enumerate(figures, 1))
-    return "\n\n".join([*head, *(text for block in document.blocks for text in _block(block, said, files))]) + "\n"
+    texts = (text for block, number in numbered(document.blocks) for text in _block(block, number, said, figures))
+    return "\n\n".join([*head, *texts]) + "\n"
 
 
-def _block(block: Block, said: dict[str, str], files: Iterator[tuple[int, str]]) -> Iterator[str]:
+def _block(block: Block, number: int, said: dict[str, str], figures: Sequence[str]) -> Iterator[str]:
     match block:
         case Heading(text=text):
             yield f"## {_line(text)}"
         case Sentences(texts=texts):
             yield " ".join(map(_line, texts))
         case Steps(texts=texts):
-            yield "\n".join(f"{number}. {_line(text)}" for number, text in enumerate(texts, 1))
+            yield "\n".join(f"{place}. {_line(text)}" for place, text in enumerate(texts, 1))
         case Equations(lines=lines):
             yield "  \n".join(_line(" ".join(chunks)) for chunks in lines)
         case Table(rows=rows):
@@ -40,7 +40,7 @@ def _block(block: Block, said: dict[str, str], files: Iterator[tuple[int, str]])
             ruled = ["|".join(("", *row, "")) for row in (head, ["---"] * len(head), *body)]
             yield "\n".join(ruled)
         case Figure(caption=caption, under=under):
-            number, name = next(files)
+            name = figures[number - 1]
             if re.search(r"[\s()<>]", name):  # the target of a link holds these only within signs of its own
                 name = "<" + re.sub(r"([<>\\])", r"\\\1", name) + ">"
             yield f"![{_plain(letters(caption))}]({name})"

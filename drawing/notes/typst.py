@@ -4,30 +4,17 @@ from __future__ import annotations
 
 import importlib.util
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from itertools import count
 from pathlib import Path
 from typing import Any
 
 from ...scales.errors import InputError
 from ...scales.packaged import packaged
 from ..table import cells
-from .blocks import (
-    FOLDED,
-    FOLDED_ROOM,
-    Block,
-    Document,
-    Equations,
-    Figure,
-    Heading,
-    Sentences,
-    Steps,
-    Table,
-    figure_svg,
-    reduced,
-)
+from . import blocks as note
+from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
 from .markup import Node, Plain, Ruled, joined, parse, printable, tied
 
 PREAMBLE = """\
@@ -56,25 +43,18 @@ class Body:
     @classmethod
     def of(cls, blocks: Sequence[Block], language: str) -> Body:
         """Write the blocks of a note."""
-        said, numbers = packaged(__package__, "texts", language), count(1)
-        figures = dict(enumerate((block for block in blocks if isinstance(block, Figure)), 1))
-        texts = [_block(block, said, numbers) for block in blocks]
-        for number, figure in figures.items():
+        said = packaged(__package__, "texts", language)
+        texts = [_block(block, number, said) for block, number in note.numbered(blocks)]
+        figures = [(block, number) for block, number in note.numbered(blocks) if isinstance(block, Figure)]
+        for figure, number in figures:
             if figure.folded:  # on its sheet, with its number
-                text = _figure(figure, said, number, figure.share_of(FOLDED_ROOM), f'numbering: _ => "{number}", ')
-                texts.append(f'#page(paper: "{FOLDED.lower()}")[{text}]\n')
-        return cls(
-            "\n".join(texts), {f"{number}.svg": figure_svg(figure, language) for number, figure in figures.items()}
-        )
+                text = _figure(figure, said, number, f'numbering: _ => "{number}", ')
+                texts.append(f'#page(paper: "{note.FOLDED.lower()}")[{text}]\n')
+        return cls("\n".join(texts), {f"{number}.svg": note.figure_svg(figure, language) for figure, number in figures})
 
 
 def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
-    """Return a note as PDF; the same note gives the same bytes.
-
-    Parameters
-    ----------
-    body : Body, optional
-        That of the document, where it is written already for another with the same blocks.
+    """Return a note as PDF, the same bytes for the same note; its `body` may be that of another with the same blocks.
 
     Raises InputError: the extra `note` is not installed.
     """
@@ -131,7 +111,7 @@ def _title(document: Document) -> str:
     )
 
 
-def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
+def _block(block: Block, number: int, said: dict[str, str]) -> str:
     match block:
         case Heading(text=text):
             return f"= {_line(text)}"
@@ -144,21 +124,18 @@ def _block(block: Block, said: dict[str, str], numbers: Iterator[int]) -> str:
         case Table(rows=rows):
             return _table(rows)
         case Figure():
-            number = next(numbers)
             if not block.folded:
-                return _figure(block, said, number, block.share)
-            text = _text(said["figure.folded"].format(number=number, format=FOLDED))  # its number counts here
+                return _figure(block, said, number)
+            text = _text(said["figure.folded"].format(number=number, format=note.FOLDED))  # its number counts here
             return f"#counter(figure.where(kind: image)).step()\n{text}\n"
 
 
-def _figure(figure: Figure, said: dict[str, str], number: int, share: float, more: str = "") -> str:
-    """Return a figure at a share of its size."""
-    below = (*figure.under, *reduced(said, share))
-    note = "".join(f" #linebreak() {_line(text)}" for text in below)
-    shown = f'image("{number}.svg", width: {figure.view.size[0] * share:.4f}mm)'
+def _figure(figure: Figure, said: dict[str, str], number: int, more: str = "") -> str:
+    below = "".join(f" #linebreak() {_line(text)}" for text in note.said_under(figure, said))
+    shown = f'image("{number}.svg", width: {figure.view.size[0] * figure.share:.4f}mm)'
     return (
         f"#figure({shown}, kind: image, {more}supplement: {_quoted(said['figure'])}, "
-        f"caption: [{_line(figure.caption)}{note}])\n"
+        f"caption: [{_line(figure.caption)}{below}])\n"
     )
 
 

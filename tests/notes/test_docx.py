@@ -22,11 +22,10 @@ from PIL import Image
 
 from kulman import batch, cli, note
 from kulman.drawing.notes.blocks import Document, Equations, Figure, Heading, Sentences, Steps, Table
-from kulman.drawing.notes.docx import SPACES, docx_bytes
+from kulman.drawing.notes.docx import SPACES, Picture, blocks_in_word, docx_bytes, folded_in_word, line
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.markup import letters
 from kulman.drawing.notes.omml import built_up, displayed
-from kulman.drawing.notes.wordprocessing import Picture, blocks_in_word, folded_in_word, line
 from kulman.scales.packaged import packaged
 from kulman.tests.support.word import M, W, disordered, part, said
 
