@@ -20,8 +20,7 @@ from typing import Any
 import numpy as np
 
 from kulman import check, load_task, solve
-from kulman.plans.hands.hand import preset
-from kulman.plans.hands.shaky import draw
+from kulman.plans.hands.shaky import draw, preset
 from kulman.scales.errors import KulmanError
 from kulman.variants.marking.keyed import Keyed, Request, keyed
 from kulman.variants.marking.rubric import Rubric

@@ -110,8 +110,7 @@ def main() -> None:
     import kulman
     from kulman.plans.boards.batch import values_of
     from kulman.plans.boards.exact import run
-    from kulman.plans.hands.hand import preset
-    from kulman.plans.hands.shaky import Paper, draw
+    from kulman.plans.hands.shaky import Paper, draw, preset
     from kulman.plans.linkages.chain import construct
     from kulman.plans.linkages.givens import board_givens
 

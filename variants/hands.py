@@ -11,8 +11,7 @@ from typing import Any
 
 from ..drawing.words import Words
 from ..plans.board import Program, Step
-from ..plans.hands.hand import PRESETS, Hand, Tolerance, preset
-from ..plans.hands.shaky import Paper
+from ..plans.hands.shaky import PRESETS, Hand, Paper, Tolerance, preset
 from ..plans.hands.spread import DRAWINGS, SEED, Expectation, expectations
 from ..plans.linkages.legs import guide_letters
 from ..plans.names import role

@@ -24,7 +24,7 @@ from .task import Task
 
 if TYPE_CHECKING:
     from ..plans.condition import Condition
-    from ..plans.hands.hand import Hand
+    from ..plans.hands.shaky import Hand
     from .hands import Drawing
 
 ROUNDING = 1e-14  # part of the largest quantity of a unit

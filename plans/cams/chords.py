@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 
 from ...scales.errors import InputError
 from ..boards.exact import run
-from ..hands.hand import Hand
-from ..hands.shaky import Paper, draw
+from ..hands.shaky import Hand, Paper, draw
 from ..hands.spread import kept
 from .cam import DIAGRAMS_PART, ROLLER, SIZES_PART
 from .construction import ACCELERATION, TRAVEL, VELOCITY, construct

@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 from ..boards.batch import batch
 from ..boards.exact import run
 from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
-from ..hands.hand import Hand
-from ..hands.shaky import draw
+from ..hands.shaky import Hand, draw
 from ..hands.spread import kept
 from .chords import DRAWINGS, SEED, drawn_on, equal_division, inner_jumps, nodes, ordinates
 from .construction import ACCELERATION, TRAVEL, VELOCITY

@@ -18,8 +18,7 @@ from ...scales.errors import InputError
 from ..board import Program, with_needs
 from ..boards.exact import run
 from ..condition import Condition, by_solving_again, ratio
-from ..hands.hand import Tolerance
-from ..hands.shaky import Paper
+from ..hands.shaky import Paper, Tolerance
 from ..hands.spread import added_up
 from ..laws import LAWS
 from ..marking.key import rounded

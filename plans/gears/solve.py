@@ -23,8 +23,7 @@ from ...scales.errors import InputError
 from ...scales.scale import steps
 from ..boards.exact import run
 from ..condition import Condition, derivatives, ratio
-from ..hands.hand import Hand, Tolerance
-from ..hands.shaky import Paper, draw, drawing_of
+from ..hands.shaky import Hand, Paper, Tolerance, draw, drawing_of
 from ..hands.spread import added_up, kept
 from ..laws import LAWS
 from ..marking.key import rounded

@@ -16,8 +16,7 @@ from ..laws import cross, dot
 from ..marking.key import answer_key
 from ..names import role
 from ..quantities import POINTS, RESULTS, plans_of, references, results
-from .hand import PRESETS, Hand, Tolerance
-from .shaky import Paper, ShakyBoard, Shape, draw
+from .shaky import PRESETS, Hand, Paper, ShakyBoard, Shape, Tolerance, draw
 
 Array = NDArray[Any]
 DRAWINGS, SEED = 4000, 1  # of what is told of a hand
@@ -137,7 +136,7 @@ def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = 1000) -> 
 
     >>> import numpy as np
     >>> from kulman import solve
-    >>> from kulman.plans.hands.hand import preset
+    >>> from kulman.plans.hands.shaky import preset
     >>> from kulman.plans.hands.shaky import paper_of
     >>> from kulman.plans.hands.spread import drawn
     >>> solution = solve("nau-slider-crank", "example")

@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from ..board import Program
 from ..boards.exact import ExactBoard, run
 from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, ran, timed
-from ..hands.hand import Hand
-from ..hands.shaky import Paper, draw
+from ..hands.shaky import Hand, Paper, draw
 from ..hands.spread import kept
 from ..laws import LAWS, TURN
 from .construction import FORCES, Roots, construct, drawn_name

@@ -20,8 +20,7 @@ from ...scales.scale import steps
 from ..board import Board
 from ..boards.exact import run
 from ..condition import Condition, by_solving_again, ratio
-from ..hands.hand import Tolerance
-from ..hands.shaky import Paper
+from ..hands.shaky import Paper, Tolerance
 from ..laws import TURN
 from ..marking.key import rounded
 from ..names import role

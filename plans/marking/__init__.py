@@ -4,7 +4,7 @@ The construction is run again with what the student has said. No files, no langu
 who read forms and write reports build on the functions here.
 
     >>> from kulman import solve
-    >>> from kulman.plans.hands.hand import preset
+    >>> from kulman.plans.hands.shaky import preset
     >>> from kulman.plans.hands.shaky import paper_of
     >>> from kulman.plans.marking.answers import Answer
     >>> from kulman.plans.marking.key import answer_key

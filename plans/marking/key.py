@@ -11,8 +11,7 @@ import numpy as np
 
 from ..board import POSITION, Step
 from ..boards.exact import run
-from ..hands.hand import Tolerance
-from ..hands.shaky import Paper
+from ..hands.shaky import Paper, Tolerance
 from ..laws import LAWS
 from ..names import role
 from ..quantities import POINTS, RESULTS, results, shown_on, unit_of, worst_behind

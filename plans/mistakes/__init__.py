@@ -1,7 +1,7 @@
 """Mistakes: constructions with one rule broken, and which of them explain a student's answers.
 
     >>> from kulman import solve
-    >>> from kulman.plans.hands.hand import preset
+    >>> from kulman.plans.hands.shaky import preset
     >>> from kulman.plans.hands.shaky import paper_of
     >>> from kulman.plans.marking.answers import Answer
     >>> from kulman.plans.marking.key import answer_key

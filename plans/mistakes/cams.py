@@ -9,21 +9,7 @@ from dataclasses import replace
 
 from ..board import Step
 from ..names import role
-from .rules import (
-    Change,
-    Chapter,
-    Scene,
-    all_scaled,
-    aside,
-    constant,
-    each_and_all,
-    instead,
-    operand,
-    scaled,
-    then,
-    with_operand,
-    with_other,
-)
+from .rules import Change, Chapter, Scene, aside, constant, operand, then, with_operand
 
 MISTAKES = Chapter()
 mistake, each = MISTAKES.enter, MISTAKES.each
@@ -38,7 +24,7 @@ RIGHT_ANGLE = 0.5 * math.pi
 def with_number(steps: Iterable[Step], place: int, value: float, how: str) -> Iterator[Change]:
     """Put a number into each of some steps, and into all of them."""
     name = constant(value)
-    return each_and_all(with_operand(steps, place, name), how, {name: value})
+    return Change.each_and_all(with_operand(steps, place, name), how, {name: value})
 
 
 @mistake("M83")
@@ -70,7 +56,7 @@ def angular_velocity_lost(scene: Scene) -> Iterator[Change]:
     yield from with_number(speeds, 0, 1.0, "none")
     for step in scene.calculated("acceleration_scale"):
         yield from with_number([step], 0, 1.0, "none")
-        yield instead(step, "once", law="speed_scale")
+        yield Change.instead(step, "once", law="speed_scale")
         for other in speeds:
             yield Change(other.name, with_operand((other, step), 0, "one"), {}, "both")
 
@@ -93,7 +79,7 @@ def second_amplitude(scene: Scene) -> Iterator[Change]:
         right = u / (1.0 - u)
         for how, ratio in (("inverse", 1.0 / right), ("u", u), ("equal", 1.0)):
             if abs(ratio - right) > 1e-3 * right:
-                alone = scaled(step, ratio / right, f"{how}, calculated")
+                alone = Change.scaled(step, ratio / right, f"{how}, calculated")
                 higher = _second_lobes(scene, right, ratio / right)
                 yield alone
                 yield replace(alone, givens={**alone.givens, **higher}, how=how)
@@ -116,15 +102,15 @@ def _second_lobes(scene: Scene, ratio: float, times: float) -> dict[str, float]:
 def transfer_angle(scene: Scene) -> Iterator[Change]:
     """The line of transfer is inclined by the ratio the wrong way round; or the tangent is given for the angle."""
     steps = scene.calculated("transfer_angle")
-    yield from each_and_all({s.name: (s.but(operands=s.operands[::-1]),) for s in steps}, "inverse")
-    yield from each_and_all({s.name: (s.but(law="part_of"),) for s in steps}, "tangent")
+    yield from Change.each_and_all({s.name: (s.but(operands=s.operands[::-1]),) for s in steps}, "inverse")
+    yield from Change.each_and_all({s.name: (s.but(law="part_of"),) for s in steps}, "tangent")
 
 
 @mistake("M17")
 def paper_for_size(scene: Scene) -> Iterator[Change]:
     """An ordinate in millimetres of paper is given for what it shows."""
     steps = [s for s in scene.calculated("to_scale") if s.operands[0] in OTHERS]
-    yield from each_and_all({s.name: (s.but(operands=s.operands[1:], law="given"),) for s in steps}, "paper")
+    yield from Change.each_and_all({s.name: (s.but(operands=s.operands[1:], law="given"),) for s in steps}, "paper")
 
 
 @mistake("M20")
@@ -133,13 +119,13 @@ def ordinates_in_centimetres(scene: Scene) -> Iterator[Change]:
     for step in scene.made_by("distance"):
         if step.plan in scene.paper.unscaled or role(step.operands[0]).plan in scene.paper.unscaled:
             for factor in CENTIMETRES:
-                yield scaled(step, factor, f"{factor} paper")
+                yield Change.scaled(step, factor, f"{factor} paper")
 
 
 def sizes_scaled(scene: Scene, plan: str, factor: float, how: str) -> Change:
     """Read all sizes on a plan as so many times larger."""
     steps = [s for s in scene.made_by("distance", "read") if role(s.operands[0]).plan == plan]
-    return all_scaled(steps[0].name, steps, factor, how)
+    return Change.all_scaled(steps[0].name, steps, factor, how)
 
 
 def plans_of_sizes(scene: Scene) -> list[str]:
@@ -249,8 +235,8 @@ def not_added(scene: Scene) -> Iterator[Change]:
     """What is to be added to a size is left out, or twice the size is given: a diameter."""
     for step in scene.calculated("enlarged"):
         if not role(step.name).hidden:
-            yield with_other(step, 1, "zero", "none")
-            yield scaled(step, 2.0, "diameter")
+            yield Change.with_other(step, 1, "zero", "none")
+            yield Change.scaled(step, 2.0, "diameter")
 
 
 @mistake("M98")
@@ -268,7 +254,7 @@ def roller_added(scene: Scene) -> Iterator[Change]:
 def curvature_of_a_dwell(scene: Scene) -> Iterator[Change]:
     """The curvature is measured on an arc about the cam's centre: that of a dwell, and not where it is sharpest."""
     if {"rho_min", "r_0"} <= scene.steps.keys():
-        yield instead(scene.steps["rho_min"], "lower", operands=("r_0",), law="given")
+        yield Change.instead(scene.steps["rho_min"], "lower", operands=("r_0",), law="given")
     if {"rho_min", "e", "s_0"} <= scene.steps.keys():
         highest = Step("calc", "_highest", ("s_0", "h"), "enlarged")
         far = Step("calc", "rho_min", ("e", "_highest"), "hypotenuse")
@@ -295,8 +281,8 @@ mistake("M20")(lambda scene: (sizes_scaled(scene, p, x, f"{x}") for p in plans_o
 each(
     "M13",
     "angle_of_triangle",
-    lambda step: instead(step, "first", operands=step.operands[::-1]),
-    lambda step: instead(step, "second", operands=(step.operands[0], *step.operands[:0:-1])),
+    lambda step: Change.instead(step, "first", operands=step.operands[::-1]),
+    lambda step: Change.instead(step, "second", operands=(step.operands[0], *step.operands[:0:-1])),
 )
 # the scale factor of the travel is millimetres by the stroke
 each("M14", "scale_factor", lambda s: Change(s.name, {s.name: then(s, "part_of", "one", aside(s.name))}, {}))

@@ -13,7 +13,7 @@ from ..board import POSITION, Step
 from ..boards.exact import run
 from ..names import FORCES, ORIGIN, POLE, role
 from .motion import rate_from, rates
-from .rules import Broken, Change, Chapter, Scene, all_scaled, constant, instead, mirrored, scaled, with_other
+from .rules import Broken, Change, Chapter, Scene, constant
 
 MISTAKES = Chapter()
 mistake = MISTAKES.enter
@@ -75,7 +75,7 @@ def lengths(scene: Scene) -> list[str]:
 def rates_in_degrees(scene: Scene) -> Iterator[Change]:
     """Angular velocities and accelerations of links are given in degrees."""
     if steps := scene.calculated("turning"):
-        yield all_scaled("", steps, 180.0 / math.pi, "degrees")
+        yield Change.all_scaled("", steps, 180.0 / math.pi, "degrees")
 
 
 @mistake("M07")
@@ -130,8 +130,8 @@ def offset_lost(scene: Scene) -> Iterator[Change]:
     """The offset of a guide is forgotten, or laid off on the wrong side."""
     for step in scene.made_by("lay", "back", plan=POSITION):
         if step.plan == POSITION and role(step.operands[1]).across_guide and scene.values[step.operands[2]]:
-            yield with_other(step, 2, "zero", "none")
-            yield instead(step, "side", verb="back" if step.verb == "lay" else "lay")
+            yield Change.with_other(step, 2, "zero", "none")
+            yield Change.instead(step, "side", verb="back" if step.verb == "lay" else "lay")
     for step in scene.made_by("tangent"):
         if scene.values[step.operands[2]]:
             yield from _offset_at(step, 2)
@@ -141,7 +141,7 @@ def offset_lost(scene: Scene) -> Iterator[Change]:
 
 
 def _offset_at(step: Step, place: int) -> tuple[Change, Change]:
-    return with_other(step, place, "zero", f"none {place}"), mirrored(step, place, f"side {place}")
+    return Change.with_other(step, place, "zero", f"none {place}"), Change.mirrored(step, place, f"side {place}")
 
 
 @mistake("M13")
@@ -161,15 +161,15 @@ def with_another_length(scene: Scene) -> Iterator[Change]:
     spans = [name for name in lengths(scene) if role(name).kind == "l"]
     spans += [s.name for s in scene.made_by("measure") if role(s.name).kind == "l" and not role(s.name).hidden]
     for rate in scene.calculated("turning"):
-        yield from (with_other(rate, 2, name, name) for name in spans if name != rate.operands[2])
+        yield from (Change.with_other(rate, 2, name, name) for name in spans if name != rate.operands[2])
 
 
 # lengths stay in millimetres
 mistake("M06")(lambda scene: [Change("l", {}, {name: scene.paper.givens[name] * 1000.0 for name in lengths(scene)})])
 # one arm is left in millimetres
-mistake("M06")(lambda scene: (scaled(step, 1000.0, "arm") for step in scene.made_by("arm")))
+mistake("M06")(lambda scene: (Change.scaled(step, 1000.0, "arm") for step in scene.made_by("arm")))
 # a dyad is put together on the other side
-mistake("M11")(lambda scene: (mirrored(s, len(s.operands) - 1) for s in scene.made_by("arc", "arcs", "tangent")))
+mistake("M11")(lambda scene: (Change.mirrored(s, len(s.operands) - 1) for s in scene.made_by("arc", "arcs", "tangent")))
 
 
 # Scales and reading.
@@ -196,7 +196,7 @@ def another_scale(scene: Scene) -> Iterator[Change]:
         if role(plans[0]).kind != FORCES:
             for other in ("velocity", "acceleration", POSITION):
                 if other in scene.paper.mus and other not in plans:
-                    yield all_scaled(plans[0], steps, scene.mu(other) / scene.mu(plans[0]), other)
+                    yield Change.all_scaled(plans[0], steps, scene.mu(other) / scene.mu(plans[0]), other)
 
 
 @mistake("M74", by_scale=True)
@@ -207,8 +207,8 @@ def scale_of_another_group(scene: Scene) -> Iterator[Change]:
         for other, _ in groups:
             if other != plan:
                 factor = scene.mu(other) / scene.mu(plan)
-                yield all_scaled(plan, steps, factor, other)
-                yield from (scaled(step, factor, f"{other} alone") for step in steps)
+                yield Change.all_scaled(plan, steps, factor, other)
+                yield from (Change.scaled(step, factor, f"{other} alone") for step in steps)
 
 
 @mistake("M16", by_scale=True)
@@ -216,7 +216,7 @@ def segments_without_scale(scene: Scene) -> Iterator[Change]:
     """The segment of a normal part is ab^2 / AB in millimetres, which needs the crank's scale."""
     if "acceleration" in scene.paper.mus and "velocity" in scene.paper.mus:
         factor = scene.mu("acceleration") * scene.mu(POSITION) / scene.mu("velocity") ** 2
-        yield all_scaled("acceleration", scene.calculated("normal_part"), factor)
+        yield Change.all_scaled("acceleration", scene.calculated("normal_part"), factor)
 
 
 @mistake("M17", by_scale=True)
@@ -225,18 +225,18 @@ def millimetres_for_length(scene: Scene) -> Iterator[Change]:
     for rate in ("omega", "epsilon"):
         steps = [s for s in scene.calculated("turning") if role(s.name).kind == rate]
         if steps:
-            yield all_scaled(steps[0].name, steps, scene.mu(POSITION), "all")
-            yield all_scaled(steps[0].name, steps, 1e-3, "mm")
+            yield Change.all_scaled(steps[0].name, steps, scene.mu(POSITION), "all")
+            yield Change.all_scaled(steps[0].name, steps, 1e-3, "mm")
         if len(steps) > 1:
-            yield from (scaled(step, scene.mu(POSITION), "alone") for step in steps)
+            yield from (Change.scaled(step, scene.mu(POSITION), "alone") for step in steps)
 
 
 @mistake("M20")
 def centimetres(scene: Scene) -> Iterator[Change]:
     """Centimetres for millimetres, on a plan or in one reading."""
     for factor in (10.0, 0.1):
-        yield from (all_scaled(plans[0], steps, factor, f"{factor}") for plans, steps in drawn_plans(scene))
-        yield from (scaled(step, factor, f"{factor} alone") for step in readings(scene))
+        yield from (Change.all_scaled(plans[0], steps, factor, f"{factor}") for plans, steps in drawn_plans(scene))
+        yield from (Change.scaled(step, factor, f"{factor} alone") for step in readings(scene))
 
 
 @mistake("M21")
@@ -281,12 +281,14 @@ def another_position(scene: Scene) -> Iterator[Change]:
 
 # divided by the scale factor instead of multiplied
 mistake("M14", by_scale=True)(
-    lambda scene: (all_scaled(p[0], steps, scene.mu(p[0]) ** -2) for p, steps in drawn_plans(scene))
+    lambda scene: (Change.all_scaled(p[0], steps, scene.mu(p[0]) ** -2) for p, steps in drawn_plans(scene))
 )
 # the scale factor is rounded after the plan is drawn
-mistake("M18")(lambda scene: (all_scaled(p[0], steps, x, f"{x}") for p, steps in drawn_plans(scene) for x in ROUNDED))
+mistake("M18")(
+    lambda scene: (Change.all_scaled(p[0], steps, x, f"{x}") for p, steps in drawn_plans(scene) for x in ROUNDED)
+)
 # the sheet was not printed at 100 per cent
-mistake("M19")(lambda scene: [all_scaled("", readings(scene), PRINTED)])
+mistake("M19")(lambda scene: [Change.all_scaled("", readings(scene), PRINTED)])
 # two digits of a number are transposed: that hangs on the number, and is found from the answers
 mistake("M123", by_scale=True)(lambda scene: ())
 
@@ -294,7 +296,7 @@ mistake("M123", by_scale=True)(lambda scene: ())
 def transposed(scene: Scene, name: str, written: float, meant: float) -> Broken:
     """Return the construction in which a number was written for another one of the same digits, and gone on with."""
     step = scene.steps.get(f"_{name}", scene.steps[name])  # what is laid off and read again is calculated before
-    change = scaled(step, abs(written / meant), f"{meant:.4g}")
+    change = Change.scaled(step, abs(written / meant), f"{meant:.4g}")
     return Broken("M123", scene.paper, replace(change, at=name))
 
 

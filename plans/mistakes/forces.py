@@ -8,24 +8,7 @@ from collections.abc import Iterable, Iterator
 from ..board import POSITION, Step
 from ..names import COUPLE, FORCES, MAGNITUDE, rate, role
 from ..quantities import F_BAL
-from .rules import (
-    Change,
-    Chapter,
-    Scene,
-    aside,
-    constant,
-    instead,
-    length_of,
-    nothing,
-    one_and_all_scaled,
-    operand,
-    opposed,
-    reversed_,
-    scaled,
-    then,
-    with_other,
-    with_sign,
-)
+from .rules import Change, Chapter, Scene, aside, constant, length_of, nothing, operand, reversed_, then, with_sign
 
 MISTAKES = Chapter()
 mistake, each = MISTAKES.enter, MISTAKES.each
@@ -64,7 +47,7 @@ def left_out(steps: Iterable[Step]) -> dict[str, tuple[Step, ...]]:
 def along_acceleration(scene: Scene) -> Iterator[Change]:
     """Inertia forces are drawn along the accelerations: one of them, or all."""
     steps = scene.calculated("inertia_force")
-    yield from map(opposed, steps)
+    yield from map(Change.opposed, steps)
     if len(steps) > 1:
         yield Change("F_i", {step.name: reversed_(step) for step in steps}, {}, "all")
 
@@ -90,7 +73,7 @@ def force_reversed(scene: Scene) -> Iterator[Change]:
         turned = {step.name: (opposite, operand(step, 1, against)) for step in steps}
         yield Change(force, turned, {}, "polygon")
         if scene.steps[force].law in ("along", "weight"):
-            yield opposed(scene.steps[force], "everywhere")
+            yield Change.opposed(scene.steps[force], "everywhere")
 
 
 @mistake("M122")
@@ -101,7 +84,7 @@ def another_acceleration(scene: Scene) -> Iterator[Change]:
     for step in scene.calculated("inertia_force"):
         for name in absolute:
             if name != step.operands[1] and abs(scene.values[name] - scene.values[step.operands[1]]):
-                yield with_other(step, 1, name, name)
+                yield Change.with_other(step, 1, name, name)
 
 
 @mistake("M62")
@@ -113,7 +96,7 @@ def force_at_wrong_point(scene: Scene) -> Iterator[Change]:
         centre = scene.steps.get(at)
         if force in inertia and centre is not None and centre.verb in ("divide", "similar"):
             for end in centre.operands[:2]:  # about the end where it is thought to act it has no moment
-                yield with_other(step, 1, end, end)
+                yield Change.with_other(step, 1, end, end)
             half, middle = constant(0.5), f"_middle_of_{at}"
             point = Step("divide", middle, (*centre.operands[:2], half, "one"))
             yield Change(step.name, {step.name: (point, operand(step, 1, middle))}, {half: 0.5}, "middle")
@@ -125,7 +108,7 @@ def mass_and_weight(scene: Scene) -> Iterator[Change]:
     given = (step.operands[1] for step in scene.calculated("weight"))
     fall = float(next((scene.paper.givens[name] for name in given if scene.is_given(name)), G))
     for law, factor in (("inertia_force", fall), ("weight", 1.0 / fall)):
-        yield from one_and_all_scaled(law, scene.calculated(law), factor)
+        yield from Change.one_and_all_scaled(law, scene.calculated(law), factor)
 
 
 @mistake("M64")
@@ -135,17 +118,17 @@ def load_from_pressure(scene: Scene) -> Iterator[Change]:
         size = role(step.operands[0])
         if role(step.name).kind in ("F", "P") and (size.kind == MAGNITUDE or size.hidden):
             for factor in (4.0, 4.0 / math.pi, 1e3, 1e-3, 1e6, 1e-6):
-                yield scaled(step, factor, f"{factor:.4g}")
+                yield Change.scaled(step, factor, f"{factor:.4g}")
 
 
 @mistake("M65")
 def resistance_along_motion(scene: Scene) -> Iterator[Change]:
     """A resistance acts along the motion, or in the idle stroke too."""
     for law in ("resisting_force", "resisting_along", "resisting_moment"):
-        yield from map(opposed, scene.calculated(law))
-    yield from (opposed(step) for step in scene.calculated("along") if scene.is_given(f"|{step.name}|"))
+        yield from map(Change.opposed, scene.calculated(law))
+    yield from (Change.opposed(step) for step in scene.calculated("along") if scene.is_given(f"|{step.name}|"))
     for step in calculated(scene, "in_working", "in_idle"):
-        yield instead(step, "other stroke", law="in_idle" if step.law == "in_working" else "in_working")
+        yield Change.instead(step, "other stroke", law="in_idle" if step.law == "in_working" else "in_working")
 
 
 # Moments.
@@ -179,8 +162,8 @@ def in_place_of(step: Step, name: str, other: str) -> Step:
 def inertia_moment_lost(scene: Scene) -> Iterator[Change]:
     """The inertia moment is forgotten, or has the wrong sense, in an equation of moments or everywhere."""
     for step in scene.calculated("inertia_moment"):
-        yield scaled(step, 0.0, "none")
-        yield opposed(step, "sense")
+        yield Change.scaled(step, 0.0, "none")
+        yield Change.opposed(step, "sense")
     for step, name in sums(scene):
         turned = Step("calc", f"_against_{name}", (name,), "opposite")
         steps = turned, in_place_of(step, name, turned.name)
@@ -190,8 +173,8 @@ def inertia_moment_lost(scene: Scene) -> Iterator[Change]:
 @mistake("M61")
 def inertia_about_end(scene: Scene) -> Iterator[Change]:
     """The moment of inertia is taken about the end of the link: m l^2 / 3 for m l^2 / 12."""
-    yield from one_and_all_scaled("M_i", scene.calculated("inertia_moment"), 4.0)
-    yield from one_and_all_scaled("J", scene.calculated("inertia_by_length"), 4.0)
+    yield from Change.one_and_all_scaled("M_i", scene.calculated("inertia_moment"), 4.0)
+    yield from Change.one_and_all_scaled("J", scene.calculated("inertia_by_length"), 4.0)
 
 
 @mistake("M118")
@@ -200,14 +183,14 @@ def sign_of_moment(scene: Scene) -> Iterator[Change]:
     for step in calculated(scene, *EQUATIONS):
         taken = [scene.steps[name] for name in step.operands if name in scene.steps and scene.values[name]]
         if len(taken) > 1:
-            yield from (opposed(one, step.name) for one in taken if one.verb == "moment")
+            yield from (Change.opposed(one, step.name) for one in taken if one.verb == "moment")
 
 
 @mistake("M119")
 def moment_left_out(scene: Scene) -> Iterator[Change]:
     """A moment is left out of an equation or a sum of moments."""
     for step, name in sums(scene):
-        yield instead(in_place_of(step, name, "zero"), name)
+        yield Change.instead(in_place_of(step, name, "zero"), name)
 
 
 def to_point(scene: Scene, step: Step) -> Change:
@@ -258,7 +241,7 @@ def arms_in_millimetres(scene: Scene) -> Iterator[Change]:
 def balance_in_millimetres(scene: Scene) -> Iterator[Change]:
     """What balances the driver is found with arms in millimetres."""
     found = calculated(scene, *BALANCING, "crank_moment")
-    return (scaled(step, 1000.0) for step in found if "bal" in step.name)
+    return (Change.scaled(step, 1000.0) for step in found if "bal" in step.name)
 
 
 # the arm is measured to the point of application instead of the line of action; so it is on the lever
@@ -267,7 +250,7 @@ mistake("M120")(
     lambda scene: (to_point(scene, s) for s in moments(scene, "lever") if role(s.operands[0]).part != COUPLE)
 )
 # the minus of a tangential part is lost: it is drawn the other way
-mistake("M69")(lambda scene: map(opposed, equations(scene)))
+mistake("M69")(lambda scene: map(Change.opposed, equations(scene)))
 
 
 # Reactions.
@@ -280,7 +263,7 @@ def component_for_whole(scene: Scene) -> Iterator[Change]:
         for part in ("_n", "_t"):
             other = scene.steps.get(step.name + part)
             if other is not None and other.verb == "read":
-                yield instead(step, part, operands=other.operands)
+                yield Change.instead(step, part, operands=other.operands)
                 yield from _here_alone(scene, step, other.operands, f"alone {part}")
 
 
@@ -315,7 +298,7 @@ def reaction_along_guide(scene: Scene) -> Iterator[Change]:
         for place in (1, 3):
             direction = step.operands[place]
             if role(direction).across_guide:
-                yield with_other(step, place, role(direction).of, direction)
+                yield Change.with_other(step, place, role(direction).of, direction)
     for step in scene.made_by("arm"):
         made = scene.steps[step.operands[0]]
         if is_couple(made.name) and made.verb == "calc" and scene.values[made.name]:
@@ -331,7 +314,7 @@ def closing(scene: Scene) -> Iterator[Step]:
 def arrow_reversed(scene: Scene) -> Iterator[Change]:
     """The polygon is closed with the arrow the wrong way round; all that follows too, or the inner reaction not."""
     for step in closing(scene):
-        yield instead(step, operands=step.operands[::-1])
+        yield Change.instead(step, operands=step.operands[::-1])
         yield from _here_alone(scene, step, step.operands[::-1], "alone")
 
 
@@ -354,7 +337,7 @@ def wrong_vertex(scene: Scene) -> Iterator[Change]:
             for beside in (number - 1, number + 1):
                 other = f"{plan}.{beside}"
                 if other in scene.steps and other not in step.operands:
-                    yield with_other(step, place, other, f"{place} {beside}")
+                    yield Change.with_other(step, place, other, f"{place} {beside}")
     for step, outer in _inner(scene):
         for law in ("excess", "sum"):
             yield Change(step.name, {step.name: then(step, law, aside(step.name), outer)}, {}, f"{law} {outer}")
@@ -379,7 +362,7 @@ def _inner(scene: Scene) -> Iterator[tuple[Step, str]]:
 
 
 # a reaction is carried to the next link without being reversed
-mistake("M71")(lambda scene: (instead(step, law="given") for step in passed(scene)))
+mistake("M71")(lambda scene: (Change.instead(step, law="given") for step in passed(scene)))
 
 
 # The lever.
@@ -404,7 +387,7 @@ def force_on_wrong_point(scene: Scene) -> Iterator[Change]:
         force, at, _ = step.operands
         for other in _beside(scene, role(at).of):
             if f"lever.{other}" in turned(scene) and role(force).part != COUPLE:
-                yield with_other(step, 1, f"lever.{other}", other)
+                yield Change.with_other(step, 1, f"lever.{other}", other)
 
 
 def _beside(scene: Scene, letter: str) -> list[str]:
@@ -428,12 +411,12 @@ def moment_missing(scene: Scene) -> Iterator[Change]:
     for step in couples(scene):
         yield Change(step.name, {step.name: nothing(step)}, {}, "none")
         if step.law == "couple":
-            yield instead(step, "F = M", operands=step.operands[:1], law="given")
+            yield Change.instead(step, "F = M", operands=step.operands[:1], law="given")
             length = scene.values.get(step.operands[1])
             omega = next((rate("omega", link) for link in role(step.operands[0]).links), "")
             speed = length and float(abs(scene.values.get(omega, 0.0)) * abs(length))  # of the link's ends
             if speed and length:
-                yield scaled(step, (length / scene.mu(POSITION)) / (speed / scene.mu("velocity")), "M")
+                yield Change.scaled(step, (length / scene.mu(POSITION)) / (speed / scene.mu("velocity")), "M")
 
 
 @mistake("M81")
@@ -449,6 +432,6 @@ def reactions_on_lever(scene: Scene) -> Iterator[Change]:
 
 
 # the sense of a moment on the lever is not checked against the direction of ab
-mistake("M80")(lambda scene: map(opposed, couples(scene)))
+mistake("M80")(lambda scene: map(Change.opposed, couples(scene)))
 # the balancing moment is the force, its arm being lost
-each("M82", "crank_moment", lambda step: instead(step, operands=step.operands[:1], law="given"))
+each("M82", "crank_moment", lambda step: Change.instead(step, operands=step.operands[:1], law="given"))

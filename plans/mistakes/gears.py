@@ -8,23 +8,7 @@ from functools import partial
 
 from ..board import Step
 from ..names import role
-from .rules import (
-    Change,
-    Chapter,
-    Scene,
-    Steps,
-    after,
-    aside,
-    constant,
-    each_and_all,
-    instead,
-    mirrored,
-    operand,
-    reversed_,
-    scaled,
-    then,
-    with_operand,
-)
+from .rules import Change, Chapter, Scene, Steps, after, aside, constant, operand, reversed_, then, with_operand
 
 MISTAKES = Chapter()
 mistake, each = MISTAKES.enter, MISTAKES.each
@@ -57,7 +41,7 @@ def involute_in_degrees(scene: Scene) -> Iterator[Change]:
 
 
 # the profile angle is taken for the angle of action; the shifts count once in its involute
-each("M101", "angle_of_involute", lambda step: instead(step, "profile", operands=("alpha",), law="given"))
+each("M101", "angle_of_involute", lambda step: Change.instead(step, "profile", operands=("alpha",), law="given"))
 each("M101", "working_involute", lambda s: Change(s.name, {s.name: halved_sum(s, s.operands[0])}, {}, "once"))
 
 
@@ -80,22 +64,22 @@ def shifts_exchanged(scene: Scene) -> Iterator[Change]:
 def shift_left_out(scene: Scene) -> Iterator[Change]:
     """A shift is left out, or laid off to the wrong side."""
     for law, place in WITH_SHIFT.items():
-        yield from each_and_all(in_law(scene, law, place, "zero"), f"none {law}")
+        yield from Change.each_and_all(in_law(scene, law, place, "zero"), f"none {law}")
         for step in scene.calculated(law):
             if scene.is_given(step.operands[place]):
-                yield mirrored(step, place, f"side {law}")
+                yield Change.mirrored(step, place, f"side {law}")
 
 
 @mistake("M106")
 def height_counted_once(scene: Scene) -> Iterator[Change]:
     """The height above or below the reference circle is added to the diameter once, as to a radius."""
     for law in SHIFTED:
-        yield from each_and_all({s.name: halved_sum(s, s.operands[0]) for s in scene.calculated(law)}, law)
+        yield from Change.each_and_all({s.name: halved_sum(s, s.operands[0]) for s in scene.calculated(law)}, law)
 
 
 def _with_operands(scene: Scene, name: str, places: Iterable[tuple[str, int, str]]) -> Iterator[Change]:
     for law, place, how in places:
-        yield from each_and_all(in_law(scene, law, place, name), how)
+        yield from Change.each_and_all(in_law(scene, law, place, name), how)
 
 
 for _id, _name, *_places in (
@@ -120,7 +104,7 @@ def chord_of_the_whole_angle(scene: Scene) -> Iterator[Change]:
             Step("calc", chord, (d, whole), "pitch_chord"),
             Step("calc", step.name, (chord,), "half_of"),
         )
-    yield from each_and_all(halved, "sine")
+    yield from Change.each_and_all(halved, "sine")
 
 
 @mistake("M109")
@@ -140,7 +124,7 @@ def sine_of_half_the_angle(scene: Scene) -> Iterator[Change]:
             Step("calc", more, (right, short), "sum"),
             Step("calc", name, (more, f"{long}_half"), "excess"),
         )
-    yield from each_and_all(changed)
+    yield from Change.each_and_all(changed)
 
 
 @mistake("M110")
@@ -151,17 +135,17 @@ def curvature_of_the_mate(scene: Scene) -> Iterator[Change]:
         s.name: (s.but(operands=(*s.operands[:2], *(f"{o[:-1]}{own[o[-1]]}" for o in s.operands[2:]))),)
         for s in scene.calculated("lower_curvature")
     }
-    yield from each_and_all(changed)
+    yield from Change.each_and_all(changed)
 
 
 # the sum is divided by pi, or not divided, or multiplied by pi; or the angle of action is added
 each(
     "M111",
     "contact_ratio",
-    lambda step: scaled(step, 2.0, "pi"),
-    lambda step: scaled(step, 2.0 * math.pi, "none"),
-    lambda step: scaled(step, math.pi**2, "times"),
-    lambda step: mirrored(step, 4, "sign"),
+    lambda step: Change.scaled(step, 2.0, "pi"),
+    lambda step: Change.scaled(step, 2.0 * math.pi, "none"),
+    lambda step: Change.scaled(step, math.pi**2, "times"),
+    lambda step: Change.mirrored(step, 4, "sign"),
 )
 
 
@@ -170,7 +154,7 @@ def normal_over_one_more(scene: Scene) -> Iterator[Change]:
     """The common normal has one base pitch too many, or too few."""
     for how, law in (("more", "sum"), ("less", "excess")):
         steps = scene.calculated("common_normal")
-        yield from each_and_all({s.name: then(s, law, aside(s.name), s.operands[1]) for s in steps}, how)
+        yield from Change.each_and_all({s.name: then(s, law, aside(s.name), s.operands[1]) for s in steps}, how)
 
 
 @mistake("M113")

@@ -11,23 +11,7 @@ from ..laws import define, dot
 from ..linkages.mechanism import positive
 from ..linkages.parts import normal_of
 from ..names import CORIOLIS, POINT, POLE, mark, pole, role, spelled
-from .rules import (
-    Change,
-    Chapter,
-    Scene,
-    aside,
-    constant,
-    instead,
-    length_of,
-    mirrored,
-    operand,
-    opposed,
-    scaled,
-    then,
-    times,
-    with_other,
-    with_sign,
-)
+from .rules import Change, Chapter, Scene, aside, constant, length_of, operand, then, times, with_sign
 
 MISTAKES = Chapter()
 mistake, each = MISTAKES.enter, MISTAKES.each
@@ -49,8 +33,8 @@ def along_crank(scene: Scene) -> Iterator[Change]:
     for step in drive(scene, VELOCITY):
         if link := scene.along(step.operands[1]):
             along = operand(step, 1, link)
-            yield instead(along)
-            yield instead(along, "other way", verb="back")
+            yield Change.instead(along)
+            yield Change.instead(along, "other way", verb="back")
 
 
 # Lines that meet.
@@ -69,7 +53,7 @@ def along_links(scene: Scene, plan: str) -> Iterator[Change]:
     for step, place, direction in lines(scene, plan):
         along = scene.along(direction)
         if along and not role(direction).across_guide:
-            yield from of_either_sense(scene, with_other(step, place, along, direction), direction)
+            yield from of_either_sense(scene, Change.with_other(step, place, along, direction), direction)
 
 
 def slotted(scene: Scene, plan: str = VELOCITY, wanted: bool = True) -> list[Step]:
@@ -90,7 +74,7 @@ def _is_slotted(step: Step) -> bool:
 def exchanged(scene: Scene, step: Step) -> Change:
     """Draw each of two lines through the mark of the other."""
     p, u, q, w = step.operands
-    return by_size(scene, instead(step, operands=(p, w, q, u)))
+    return by_size(scene, Change.instead(step, operands=(p, w, q, u)))
 
 
 def by_size(scene: Scene, change: Change, against: str = "") -> Change:
@@ -119,7 +103,7 @@ def across_guide(scene: Scene) -> Iterator[Change]:
     for step, place, direction in lines(scene, VELOCITY):
         normal = normal_of(direction)
         if role(direction).kind == "u" and normal in scene.steps:
-            yield with_other(step, place, normal, direction)
+            yield Change.with_other(step, place, normal, direction)
 
 
 @mistake("M33")
@@ -160,7 +144,7 @@ def points_not_distinguished(scene: Scene) -> Iterator[Change]:
 def other_end(scene: Scene, plan: str) -> Iterator[Change]:
     """Count a point of a link from the other end of its segment."""
     points = scene.made_by("divide", "similar", plan=plan)
-    return (instead(s, operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in points)
+    return (Change.instead(s, operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in points)
 
 
 def middle(scene: Scene, plan: str) -> Iterator[Change]:
@@ -174,7 +158,7 @@ def middle(scene: Scene, plan: str) -> Iterator[Change]:
 
 def other_side(scene: Scene, plan: str) -> Iterator[Change]:
     """Draw a similar figure on the other side: against the order of the letters."""
-    return (mirrored(step, 3) for step in scene.made_by("similar", plan=plan))
+    return (Change.mirrored(step, 3) for step in scene.made_by("similar", plan=plan))
 
 
 @mistake("M36")
@@ -183,10 +167,10 @@ def same_side(scene: Scene) -> Iterator[Change]:
     for step in scene.made_by("divide", plan=VELOCITY):
         part = positive(step.operands[2])
         if part != step.operands[2]:
-            yield with_other(step, 2, part)
+            yield Change.with_other(step, 2, part)
     for step in scene.made_by("similar", plan=VELOCITY):
         if role(step.operands[0]).kind == POLE and scene.values[step.operands[2]] < 0.0:
-            yield mirrored(step, 2)
+            yield Change.mirrored(step, 2)
 
 
 @mistake("M55")
@@ -252,7 +236,7 @@ def rate_from_absolute_acceleration(scene: Scene) -> Iterator[Change]:
 
 
 # pa is drawn against the rotation
-mistake("M23")(lambda scene: (instead(step, verb="back") for step in drive(scene, VELOCITY)))
+mistake("M23")(lambda scene: (Change.instead(step, verb="back") for step in drive(scene, VELOCITY)))
 # the relative vector is drawn along the link
 mistake("M25")(lambda scene: along_links(scene, VELOCITY))
 mistake("M42")(lambda scene: along_links(scene, ACCELERATION))
@@ -260,8 +244,8 @@ mistake("M42")(lambda scene: along_links(scene, ACCELERATION))
 mistake("M26")(lambda scene: (exchanged(scene, step) for step in slotted(scene, VELOCITY, False)))
 mistake("M121")(lambda scene: (exchanged(scene, step) for step in slotted(scene, ACCELERATION, False)))
 # the sense of a rate is wrong: the vector stands at the wrong end of the link
-mistake("M29")(lambda scene: (opposed(step) for step, _ in rates(scene, VELOCITY)))
-mistake("M45")(lambda scene: (opposed(step) for step, _ in rates(scene, ACCELERATION)))
+mistake("M29")(lambda scene: (Change.opposed(step) for step, _ in rates(scene, VELOCITY)))
+mistake("M45")(lambda scene: (Change.opposed(step) for step, _ in rates(scene, ACCELERATION)))
 # a point of a link is counted from the other end of ab, always put in the middle, its triangle is mirrored
 mistake("M30")(lambda scene: other_end(scene, VELOCITY))
 mistake("M31")(lambda scene: middle(scene, VELOCITY))
@@ -287,7 +271,7 @@ def normals(scene: Scene, *kinds: str) -> Iterator[Step]:
 
 
 def _forgotten(step: Step) -> Change:
-    return with_other(step, 2, "zero", "none")
+    return Change.with_other(step, 2, "zero", "none")
 
 
 @mistake("M54")
@@ -295,7 +279,7 @@ def normal_of_slotted_link(scene: Scene) -> Iterator[Change]:
     """The normal part of the slotted link is forgotten, or drawn away from its pivot."""
     for step in normals(scene, "slotted"):
         yield _forgotten(step)
-        yield instead(step, "away", verb="lay")
+        yield Change.instead(step, "away", verb="lay")
 
 
 def normal_laws(scene: Scene) -> Iterator[tuple[Step, Step]]:
@@ -313,9 +297,9 @@ def normal_from_another(scene: Scene) -> Iterator[Change]:
         for other in scene.made_by("read", plan=reading.plan):
             start, end = other.operands
             if end == reading.operands[1] and start != reading.operands[0]:
-                yield with_other(step, 0, other.name, "v" if role(start).kind == POLE else other.name)
+                yield Change.with_other(step, 0, other.name, "v" if role(start).kind == POLE else other.name)
         if "omega_1" in scene.steps:
-            yield instead(operand(step, 0, "omega_1"), "omega_1", law="centripetal")
+            yield Change.instead(operand(step, 0, "omega_1"), "omega_1", law="centripetal")
 
 
 @mistake("M41")
@@ -366,13 +350,13 @@ def crank_tangential_lost(scene: Scene) -> Iterator[Change]:
     """The tangential part of the crank pin is lost though the crank speeds up."""
     for step in scene.calculated("circular_acceleration"):
         laid = (s for s in scene.made_by("lay", plan=ACCELERATION) if step.name in s.operands)
-        yield from (with_other(s, 2, "zero") for s in list(laid)[:1])
+        yield from (Change.with_other(s, 2, "zero") for s in list(laid)[:1])
 
 
 # the acceleration of the crank pin is drawn away from the pivot
-mistake("M37")(lambda scene: (instead(s, verb="lay") for s in drive(scene, ACCELERATION) if s.verb == "back"))
+mistake("M37")(lambda scene: (Change.instead(s, verb="lay") for s in drive(scene, ACCELERATION) if s.verb == "back"))
 # the normal part is drawn from A to B; it is forgotten, that of the rocker too
-mistake("M38")(lambda scene: (instead(step, verb="lay") for step in normals(scene, "link", "rocker")))
+mistake("M38")(lambda scene: (Change.instead(step, verb="lay") for step in normals(scene, "link", "rocker")))
 mistake("M39")(lambda scene: map(_forgotten, normals(scene, "link")))
 mistake("M47")(lambda scene: map(_forgotten, normals(scene, "rocker")))
 # the normal part is omega l; it is omega^2
@@ -388,13 +372,13 @@ def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
     """The acceleration of Coriolis with the angular velocity of the crank, or with the velocity of its pin."""
     for step in scene.calculated("coriolis"):
         if "omega_1" in scene.steps and step.operands[0] != "omega_1":
-            yield with_other(step, 0, "omega_1", "omega_1")
+            yield Change.with_other(step, 0, "omega_1", "omega_1")
             driver, own = scene.values["omega_1"], scene.values[step.operands[0]]
             if driver * own < 0.0:
-                yield scaled(step, -driver / own, "omega_1, own sense")
+                yield Change.scaled(step, -driver / own, "omega_1, own sense")
         pin, slide = abs(scene.values.get(f"V_{scene.pin}", 0.0)), abs(scene.values[step.operands[1]])
         if pin and slide:
-            yield scaled(step, pin / slide, "v")
+            yield Change.scaled(step, pin / slide, "v")
 
 
 @mistake("M52")
@@ -444,6 +428,6 @@ def read_from_velocity_plan(scene: Scene) -> Iterator[Change]:
 
 
 # the acceleration of Coriolis is forgotten, turned against the rotation, has no factor two
-each("M48", "coriolis", lambda step: instead(step, operands=("zero", step.operands[1]), law="along"))
-each("M49", "coriolis", opposed)
-each("M50", "coriolis", lambda step: scaled(step, 0.5))
+each("M48", "coriolis", lambda step: Change.instead(step, operands=("zero", step.operands[1]), law="along"))
+each("M49", "coriolis", Change.opposed)
+each("M50", "coriolis", lambda step: Change.scaled(step, 0.5))

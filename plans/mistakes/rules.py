@@ -80,6 +80,53 @@ class Change:
     givens: Mapping[str, Any]
     how: str = ""
 
+    @staticmethod
+    def instead(step: Step, how: str = "", **changed: Any) -> Change:
+        """Do one step otherwise: another verb, other operands, another law."""
+        return Change(step.name, {step.name: (step.but(**changed),)}, {}, how)
+
+    @staticmethod
+    def with_other(step: Step, place: int, name: str, how: str = "") -> Change:
+        """Do one step with another operand."""
+        return Change(step.name, {step.name: (operand(step, place, name),)}, {}, how)
+
+    @staticmethod
+    def mirrored(step: Step, place: int, how: str = "") -> Change:
+        """Do one step with the opposite of an operand."""
+        right = step.operands[place]
+        opposite = Step("calc", f"_other_{right}", (right,), "opposite")
+        return Change(step.name, {step.name: (opposite, operand(step, place, opposite.name))}, {}, how)
+
+    @staticmethod
+    def opposed(step: Step, how: str = "") -> Change:
+        """Make the opposite of what one step makes."""
+        return Change(step.name, {step.name: reversed_(step)}, {}, how)
+
+    @staticmethod
+    def scaled(step: Step, factor: float, how: str = "") -> Change:
+        """Make so many times what one step makes."""
+        return Change(step.name, {step.name: times(step, factor)}, {constant(factor): factor}, how)
+
+    @staticmethod
+    def all_scaled(at: str, steps: Iterable[Step], factor: float, how: str = "") -> Change:
+        """Make so many times what each of some steps makes."""
+        return Change(at, {step.name: times(step, factor) for step in steps}, {constant(factor): factor}, how)
+
+    @staticmethod
+    def one_and_all_scaled(at: str, steps: Sequence[Step], factor: float) -> Iterator[Change]:
+        """Make so many times what one of some steps makes, and what all of them make."""
+        yield from (Change.scaled(step, factor) for step in steps)
+        if len(steps) > 1:
+            yield Change.all_scaled(at, steps, factor, "all")
+
+    @staticmethod
+    def each_and_all(changed: Steps, how: str = "", givens: Mapping[str, float] | None = None) -> Iterator[Change]:
+        """Change each of some steps, and all of them."""
+        for name, steps in changed.items():
+            yield Change(name, {name: steps}, givens or {}, how)
+        if len(changed) > 1:
+            yield Change(next(iter(changed)), changed, givens or {}, f"{how}, all".lstrip(", "))
+
 
 Rule = Callable[[Scene], Iterable[Change]]
 
@@ -179,31 +226,6 @@ def with_operand(steps: Iterable[Step], place: int, name: str) -> dict[str, tupl
     return {step.name: (operand(step, place, name),) for step in steps}
 
 
-def instead(step: Step, how: str = "", **changed: Any) -> Change:
-    """Do one step otherwise: another verb, other operands, another law."""
-    return Change(step.name, {step.name: (step.but(**changed),)}, {}, how)
-
-
-def with_other(step: Step, place: int, name: str, how: str = "") -> Change:
-    """Do one step with another operand."""
-    return Change(step.name, {step.name: (operand(step, place, name),)}, {}, how)
-
-
-def mirrored(step: Step, place: int, how: str = "") -> Change:
-    """Do one step with the opposite of an operand."""
-    right = step.operands[place]
-    opposite = Step("calc", f"_other_{right}", (right,), "opposite")
-    return Change(step.name, {step.name: (opposite, operand(step, place, opposite.name))}, {}, how)
-
-
-def each_and_all(changed: Steps, how: str = "", givens: Mapping[str, float] | None = None) -> Iterator[Change]:
-    """Change each of some steps, and all of them."""
-    for name, steps in changed.items():
-        yield Change(name, {name: steps}, givens or {}, how)
-    if len(changed) > 1:
-        yield Change(next(iter(changed)), changed, givens or {}, f"{how}, all".lstrip(", "))
-
-
 def after(step: Step, *more: Step) -> tuple[Step, ...]:
     """Return a step that makes what is `aside`, then others, of which the last one makes what it made."""
     return (step.but(name=aside(step.name)), *more)
@@ -227,28 +249,6 @@ def nothing(step: Step) -> tuple[Step, ...]:
 def times(step: Step, factor: float) -> tuple[Step, ...]:
     """Return the steps that make so many times what one step makes."""
     return then(step, "along", constant(factor), aside(step.name))
-
-
-def opposed(step: Step, how: str = "") -> Change:
-    """Make the opposite of what one step makes."""
-    return Change(step.name, {step.name: reversed_(step)}, {}, how)
-
-
-def scaled(step: Step, factor: float, how: str = "") -> Change:
-    """Make so many times what one step makes."""
-    return Change(step.name, {step.name: times(step, factor)}, {constant(factor): factor}, how)
-
-
-def all_scaled(at: str, steps: Iterable[Step], factor: float, how: str = "") -> Change:
-    """Make so many times what each of some steps makes."""
-    return Change(at, {step.name: times(step, factor) for step in steps}, {constant(factor): factor}, how)
-
-
-def one_and_all_scaled(at: str, steps: Sequence[Step], factor: float) -> Iterator[Change]:
-    """Make so many times what one of some steps makes, and what all of them make."""
-    yield from (scaled(step, factor) for step in steps)
-    if len(steps) > 1:
-        yield all_scaled(at, steps, factor, "all")
 
 
 def with_sign(step: Step, size: tuple[Step, ...], value: Any, how: str = "") -> Change:

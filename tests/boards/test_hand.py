@@ -12,8 +12,7 @@ import pytest
 
 from kulman import cli, sheet, solve
 from kulman.drawing.formats import FORMATS
-from kulman.plans.hands.hand import PRESETS, Hand
-from kulman.plans.hands.shaky import Paper, draw
+from kulman.plans.hands.shaky import PRESETS, Hand, Paper, draw
 from kulman.plans.hands.spread import DRAWINGS, SEED
 from kulman.scales.choices import HANDS, SIZES
 from kulman.scales.errors import LANGUAGES, InputError

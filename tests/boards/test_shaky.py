@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from kulman import solve
 from kulman.plans.board import Program
 from kulman.plans.boards.exact import run
-from kulman.plans.hands.hand import PRESETS, Hand, preset
-from kulman.plans.hands.shaky import Paper, draw, paper_of
+from kulman.plans.hands.shaky import PRESETS, Hand, Paper, draw, paper_of, preset
 from kulman.plans.hands.spread import drawn, sensitivities
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens

@@ -9,8 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from kulman.plans.boards.batch import batch
-from kulman.plans.hands.hand import Hand
-from kulman.plans.hands.shaky import Paper, draw
+from kulman.plans.hands.shaky import Hand, Paper, draw
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from kulman import solve
-from kulman.plans.hands.hand import PRESETS, Hand, Tolerance, preset
-from kulman.plans.hands.shaky import Paper, paper_of
+from kulman.plans.hands.shaky import PRESETS, Hand, Paper, Tolerance, paper_of, preset
 from kulman.plans.hands.spread import drawn
 from kulman.plans.marking.key import tolerances
 from kulman.scales.errors import InputError

@@ -12,8 +12,7 @@ from kulman.plans.cams.cam import LAWS, PLANS, Cam, Curve
 from kulman.plans.cams.construction import construct, ray
 from kulman.plans.cams.motion import motion_of
 from kulman.plans.cams.solve import EQUAL, SolvedCam, diagram_givens, solve_cam
-from kulman.plans.hands.hand import preset
-from kulman.plans.hands.shaky import draw, paper_of
+from kulman.plans.hands.shaky import draw, paper_of, preset
 from kulman.scales.errors import InputError
 
 DEGREE = math.radians(1.0)

@@ -12,8 +12,7 @@ import pytest
 from kulman import check, solve
 from kulman.plans.boards.exact import run
 from kulman.plans.cams.cam import LAWS
-from kulman.plans.hands.hand import PRESETS, preset
-from kulman.plans.hands.shaky import draw
+from kulman.plans.hands.shaky import PRESETS, draw, preset
 from kulman.plans.hands.spread import kept
 from kulman.plans.marking.answers import Answer, Line, Verdict
 from kulman.plans.marking.verdicts import mark

@@ -16,7 +16,7 @@ from kulman.plans import contest as contests
 from kulman.plans.cams import rivals as races
 from kulman.plans.cams.chords import BETWEEN, NODES, S_MAX, convergence, robustness
 from kulman.plans.contest import Effort
-from kulman.plans.hands.hand import PRESETS
+from kulman.plans.hands.shaky import PRESETS
 from kulman.variants.charts import cam as charts
 from kulman.variants.charts.charts import Charts, chart
 

@@ -27,8 +27,7 @@ from kulman.plans.cams.chords import (
 )
 from kulman.plans.cams.motion import Division
 from kulman.plans.cams.solve import SolvedCam
-from kulman.plans.hands.hand import Hand, preset
-from kulman.plans.hands.shaky import draw
+from kulman.plans.hands.shaky import Hand, draw, preset
 from kulman.scales.errors import InputError
 
 TASK = "madi-cam"

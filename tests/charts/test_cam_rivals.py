@@ -16,7 +16,7 @@ from kulman.plans.cams.motion import Motion
 from kulman.plans.cams.rivals import errors, in_extended, midpoint, on_lines, rivals, simpson
 from kulman.plans.cams.solve import SolvedCam
 from kulman.plans.contest import Contest, Effort
-from kulman.plans.hands.hand import preset
+from kulman.plans.hands.shaky import preset
 
 TASK = "madi-cam"
 

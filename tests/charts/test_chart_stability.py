@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from kulman import solve
-from kulman.plans.hands.hand import preset
+from kulman.plans.hands.shaky import preset
 from kulman.plans.linkages.accuracy.stability import CHANGE, DEAD, LIMIT, Stability, spots, stability
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.mechanism import Mechanism

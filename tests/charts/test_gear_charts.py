@@ -13,7 +13,7 @@ import pytest
 
 from kulman import chart, solve
 from kulman.plans.gears.solve import RATIOS, USUAL, ScaleErrors, SolvedGear, compared, scale_errors
-from kulman.plans.hands.hand import PRESETS, Hand
+from kulman.plans.hands.shaky import PRESETS, Hand
 from kulman.scales.errors import LANGUAGES, InputError
 
 TASK = "madi-gear"

@@ -17,8 +17,7 @@ from kulman.plans.gears.construction import MOST, TEETH, TIP, mark, rolling
 from kulman.plans.gears.gear import CCW, CW, STANDARD, GearPair
 from kulman.plans.gears.geometry import POINTS
 from kulman.plans.gears.solve import SolvedGear, solve_gear
-from kulman.plans.hands.hand import Hand, preset
-from kulman.plans.hands.shaky import draw, paper_of
+from kulman.plans.hands.shaky import Hand, draw, paper_of, preset
 from kulman.plans.marking.student import StudentBoard
 from kulman.tests.support.gears import SEED, Flank, madi, random_pairs, second_route
 

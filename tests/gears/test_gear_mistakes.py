@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from kulman.plans.boards.exact import run
-from kulman.plans.hands.hand import preset
+from kulman.plans.hands.shaky import preset
 from kulman.plans.marking.answers import Answer
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.verdicts import mark

@@ -12,8 +12,7 @@ from kulman import cli, solve
 from kulman.plans.gears.gear import PLANS, GearPair
 from kulman.plans.gears.geometry import geometry_program
 from kulman.plans.gears.solve import SECTIONS, WHOLE, conditions_of, section_of, solve_gear
-from kulman.plans.hands.hand import preset
-from kulman.plans.hands.shaky import paper_of
+from kulman.plans.hands.shaky import paper_of, preset
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.gears import SEED, counted_ratio, random_pairs
 from kulman.variants.solution import Solution

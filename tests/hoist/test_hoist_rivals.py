@@ -12,7 +12,7 @@ import pytest
 
 from kulman.plans import contest as contests
 from kulman.plans.contest import Contest, Effort
-from kulman.plans.hands.hand import preset
+from kulman.plans.hands.shaky import preset
 from kulman.plans.hoist import rivals as races
 from kulman.plans.hoist.forces import BEAM, BOTH, COLUMN_UNITS, NEITHER, ROPE, course, forces
 from kulman.plans.hoist.hoist import Hoist

@@ -13,8 +13,7 @@ import pytest
 from kulman import sheet, solve
 from kulman.plans.board import Program, Step
 from kulman.plans.boards.exact import SMALL, run
-from kulman.plans.hands.hand import preset
-from kulman.plans.hands.shaky import Paper
+from kulman.plans.hands.shaky import Paper, preset
 from kulman.plans.hands.spread import sensitivities
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.solved import TWICE, SolvedLinkage, sines_of, solve_linkage, with_moment_centres

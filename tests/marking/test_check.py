@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from kulman import check, cli, load_task, sheet, solve
-from kulman.plans.hands.hand import PRESETS
+from kulman.plans.hands.shaky import PRESETS
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.marking.checks import Check
 from kulman.variants.marking.keyed import asked_of

@@ -19,8 +19,7 @@ import openpyxl
 import pytest
 
 from kulman import check, cli
-from kulman.plans.hands.hand import preset
-from kulman.plans.hands.shaky import draw
+from kulman.plans.hands.shaky import draw, preset
 from kulman.tests.support.marking_cases import answer, key, students
 from kulman.variants import crew
 from kulman.variants.marking import checks

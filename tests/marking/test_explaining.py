@@ -11,8 +11,7 @@ from dataclasses import dataclass, replace
 import pytest
 
 from kulman.plans.boards.exact import run
-from kulman.plans.hands.hand import preset
-from kulman.plans.hands.shaky import Paper
+from kulman.plans.hands.shaky import Paper, preset
 from kulman.plans.marking.answers import Answer, Verdict
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.verdicts import mark

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from kulman.plans.hands.hand import preset
+from kulman.plans.hands.shaky import preset
 from kulman.plans.marking.answers import Answer, Verdict
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.verdicts import CLEAR, Marking, mark

@@ -10,7 +10,7 @@ import pytest
 import kulman
 from kulman.drawing.extents import Extent, Extents, Ladder, _grown
 from kulman.drawing.shapes import Group, Shape, Vector
-from kulman.plans.hands.hand import preset
+from kulman.plans.hands.shaky import preset
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.printed_numbers import decimal
 from kulman.variants.case import Request

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 
 from kulman.plans.cams.cam import LAWS
-from kulman.plans.hands.hand import preset
+from kulman.plans.hands.shaky import preset
 from kulman.plans.marking.key import Key
 from kulman.plans.mistakes.book import Book, book
 from kulman.scales.errors import InputError

@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from kulman.plans.hands.hand import preset
-from kulman.plans.hands.shaky import Paper, draw, paper_of
+from kulman.plans.hands.shaky import Paper, draw, paper_of, preset
 from kulman.plans.marking.answers import Answer, Said, miss
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.mistakes.book import Book, Signature, book

@@ -9,7 +9,7 @@ from ...drawing.charts.hands import scales_page
 from ...drawing.words import Words
 from ...plans.gears.gear import unit_of
 from ...plans.gears.solve import DRAWINGS, MILLI, ScaleErrors, SolvedGear, compared, scale_errors
-from ...plans.hands.hand import PRESETS
+from ...plans.hands.shaky import PRESETS
 from ..case import all_known
 from ..tables import Cell, aligned
 from .charts import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, error_rows, wrapped

@@ -28,8 +28,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ...drawing.pens import Norm
     from ...drawing.words import Words
     from ...plans.condition import Condition
-    from ...plans.hands.hand import Tolerance
-    from ...plans.hands.shaky import Paper
+    from ...plans.hands.shaky import Paper, Tolerance
     from ...plans.marking.key import Question
     from ...plans.quantities import Quantity
     from ..case import Case

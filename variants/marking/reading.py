@@ -22,6 +22,7 @@ from .answers import Answers, Asked, Line, Mu, put_back
 
 NUMBERS = ("mm", "mu", "value")
 NO_SEGMENT: tuple[float | None, int] = (None, 0)
+Cell = tuple[int, int | None, str]  # row, column, and the quantity to which it is an answer
 NO_DIRECTION: tuple[float | None, int | None] = (None, None)
 PRINTED = "printed"
 T = TypeVar("T")
@@ -66,134 +67,117 @@ class _Sheet:
     scales: dict[str, Mu] = field(default_factory=dict)
     problems: list[LocatedError] = field(default_factory=list)
 
-    def refuse(self, row: int, column: int | None, name: str, error: InputError) -> None:
+    def refuse(self, cell: Cell, error: InputError) -> None:
         """Note what cannot be read, with file, cell and quantity."""
-        self.problems.append(LocatedError(f"{self.grid.place(row, column)}, {quote(name)}", error))
+        self.problems.append(LocatedError(f"{self.grid.place(*cell[:2])}, {quote(cell[2])}", error))
 
-    def number(self, row: int, column: int | None, name: str) -> str:
-        """Return the text of a cell that should hold a number, of a calculation its result; note what is wrong."""
-        try:
-            text = cells.checked(self.grid, row, column)
-            slip = cells.slip_in(text)
-            if slip is not None:
-                makes = Written(f"{slip.makes:.7g}".replace(".", "," if "," in text else "."))
-                error = InputError("answer-calculation", text=slip.text, makes=makes, written=slip.written)
-                self.refuse(row, column, name, error)
-            return cells.signed(text.rpartition("=")[2].strip())  # of a calculation its result
-        except InputError as error:
-            self.refuse(row, column, name, error)
-            return ""
-
-    def known(self, row: int, column: int, name: str) -> bool:
-        """Whether a name is one that can be answered; note where it is not."""
-        if name in self.asked.names:
-            return True
-        if name in self.asked.others:
-            return False
-        self.refuse(row, column, name, unknown("quantity-unknown", name, self.asked.names))
-        return False
-
-    def read(self, cell: tuple[int, int | None, str], reading: Callable[[], T], otherwise: T) -> T:
+    def read(self, cell: Cell, reading: Callable[[], T], otherwise: T) -> T:
         """Return what stands in a cell; note why it cannot be read."""
         try:
             return reading()
         except InputError as error:
-            self.refuse(*cell, error)
+            self.refuse(cell, error)
             return otherwise
 
-    def mu(self, row: int, column: int | None, name: str, symbol: str | None, written: str = "") -> Mu | None:
-        """Read the scale factor of a quantity's plan."""
-        text = self.number(row, column, name)
+    def number(self, cell: Cell) -> str:
+        """Return the text of a cell that should hold a number, of a calculation its result; note what is wrong."""
+        text = self.read(cell, lambda: cells.checked(self.grid, *cell[:2]), "")
+        slip = cells.slip_in(text)
+        if slip is not None:
+            makes = Written(f"{slip.makes:.7g}".replace(".", "," if "," in text else "."))
+            self.refuse(cell, InputError("answer-calculation", text=slip.text, makes=makes, written=slip.written))
+        return cells.signed(text.rpartition("=")[2].strip())
+
+    def mu(self, cell: Cell, written: str = "") -> Mu | None:
+        """Read a scale factor: that of a quantity's plan, or one in a place of its own."""
+        text, name = self.number(cell), cell[2]
         if not text:
             return None
-        drawn = self.asked.scales.get(symbol or "") or self.asked.quantities[name].unit
+        drawn = self.asked.scales.get(name) or self.asked.quantities[name].unit
         shown, paper = self.asked.display.of_scales.unit(drawn), self.asked.display.paper
         units = f"({drawn})/mm", f"({shown})/{paper}"
-        return self.read((row, column, name), lambda: cells.scale_factor(text, written, *units), None)
+        return self.read(cell, lambda: cells.scale_factor(text, written, *units), None)
 
-    def value(self, row: int, column: int | None, name: str, text: str, written: str) -> float | None:
+    def scale(self, cell: Cell, written: str) -> None:
+        """Keep a scale factor that stands in a place of its own, the first of each name."""
+        mu = self.mu(cell, written)
+        if mu is not None:
+            self.scales.setdefault(cell[2], mu)
+
+    def value(self, cell: Cell, text: str, written: str) -> float | None:
         """Read a value; one with a wrong unit is noted, and taken in the unit of the form."""
-        if not text:
-            return None
         try:
-            return cells.value(text, written, name, self.asked)
+            return cells.value(text, written, cell[2], self.asked) if text else None
         except InputError as error:
-            self.refuse(row, column, name, error)
-            return cells.bare(text, name, self.asked) if error.key.startswith("unit-") else None
+            self.refuse(cell, error)
+            return cells.bare(text, cell[2], self.asked) if error.key.startswith("unit-") else None
 
-    def direction(self, row: int, at: Mapping[str, int], name: str) -> tuple[float | None, int | None]:
+    def direction(self, cell: Cell, answered: bool) -> tuple[float | None, int | None]:
         """Read an angle or a sense; an angle is none that a scalar could have, and a sense none of a vector.
 
-        A dash says that there is no answer where nothing else is answered to a vector.
+        A dash says that there is no answer where nothing else is `answered` to a vector.
         """
-        column, vector = at.get("direction"), self.asked.quantities[name].kind == "vector"
-        text = self.grid.text(row, column)
-        answered = any(self.grid.text(row, at.get(kind)) not in cells.NONE for kind in NUMBERS)
-        if text in cells.NONE and (text not in ("-", "–") or (vector and not answered)):
-            return None, None
-        angle, sense = self.read((row, column, name), lambda: cells.direction(text, vector), NO_DIRECTION)
-        if angle is not None and self.asked.quantities[name].kind == "scalar":
-            self.refuse(row, column, name, InputError("answer-sense", text=quote(text)))
-            return None, None
+        text, kind = self.grid.text(*cell[:2]), self.asked.quantities[cell[2]].kind
+        if text in cells.NONE and (text not in ("-", "–") or (kind == "vector" and not answered)):
+            return NO_DIRECTION
+        angle, sense = self.read(cell, lambda: cells.direction(text, kind == "vector"), NO_DIRECTION)
+        if angle is not None and kind == "scalar":
+            self.refuse(cell, InputError("answer-sense", text=quote(text)))
+            return NO_DIRECTION
         return angle, sense
 
     def line(self, row: int, name: str, at: Mapping[str, int], units: Mapping[str, str], place: str) -> Line:
         """Read all that is answered to one question.
 
-        Parameters
-        ----------
-        at, units : mapping
-            By "mm", "mu", "value" and "direction": the columns there are, and the units over them or beside.
+        `at` and `units` have by "mm", "mu", "value" and "direction" the columns there are, and the units over them or
+        beside.
         """
-        paper, cell = self.number(row, at.get("mm"), name), (row, at.get("mm"), name)
-        mm, decimals = (
-            self.read(cell, lambda: cells.segment(paper, units.get("mm", "")), NO_SEGMENT) if paper else NO_SEGMENT
-        )
-        direction, sense = self.direction(row, at, name)
-        mu = self.mu(row, at.get("mu"), name, None, units.get("mu", ""))
-        text, written = self.number(row, at.get("value"), name), units.get("value", "")
+        of_mm, of_mu, of_value, of_direction = ((row, at.get(kind), name) for kind in (*NUMBERS, "direction"))
+        paper, mm, decimals = self.number(of_mm), None, 0
+        if paper:
+            mm, decimals = self.read(of_mm, lambda: cells.segment(paper, units.get("mm", "")), NO_SEGMENT)
+        answered = any(self.grid.text(row, at.get(kind)) not in cells.NONE for kind in NUMBERS)
+        direction, sense = self.direction(of_direction, answered)
+        mu = self.mu(of_mu, units.get("mu", ""))
+        text, written = self.number(of_value), units.get("value", "")
         if self.asked.quantities[name].kind == "scalar":
-            text, written, sense = self.sense(row, at.get("value"), name, (text, written, sense))
+            text, written, sense = self.sense(of_value, text, written, sense)
         else:
-            text, written, direction = self.side(row, at.get("value"), name, (text, written, direction))
-        value = self.value(row, at.get("value"), name, text, written)
+            text, written, direction = self.side(of_value, text, written, direction)
+        value = self.value(of_value, text, written)
         plus = value is not None and text.startswith("+")
         last = None if value is None else cells.rounded(text, value)
         return Line(name, place, mm, decimals, mu, value, direction, sense, plus, last)
 
-    def sense(
-        self, row: int, column: int | None, name: str, said: tuple[str, str, int | None]
-    ) -> tuple[str, str, int | None]:
+    def sense(self, cell: Cell, text: str, written: str, said: int | None) -> tuple[str, str, int | None]:
         """Take the sense out of a value and its unit; that of a column of its own counts where they contradict it."""
-        (text, of_value), (written, of_unit) = map(cells.split_sense, said[:2])
-        senses = of_value | of_unit | ({said[2]} if said[2] is not None else set())
+        (text, of_value), (written, of_unit) = map(cells.split_sense, (text, written))
+        senses = of_value | of_unit | ({said} if said is not None else set())
         if len(senses) > 1:
-            self.refuse(row, column, name, InputError("answer-senses", text=quote(self.grid.text(row, column))))
-            return text, written, said[2]
+            self.refuse(cell, InputError("answer-senses", text=quote(self.grid.text(*cell[:2]))))
+            return text, written, said
         return text, written, next(iter(senses), None)
 
-    def side(
-        self, row: int, column: int | None, name: str, said: tuple[str, str, float | None]
-    ) -> tuple[str, str, float | None]:
+    def side(self, cell: Cell, text: str, written: str, said: float | None) -> tuple[str, str, float | None]:
         """Take a side out of a vector's value and its unit, and note a sense; the column of directions counts first."""
-        bare = [cells.split_sense(text)[0] for text in said[:2]]
-        for text, rest in zip(said[:2], bare, strict=True):
-            if rest != text:
-                words = quote(text.replace(rest, "", 1).strip(" ,;"))
-                self.refuse(row, column, name, InputError("answer-vector-direction", text=words))
+        bare = [cells.split_sense(one)[0] for one in (text, written)]
+        for one, rest in zip((text, written), bare, strict=True):
+            if rest != one:
+                words = quote(one.replace(rest, "", 1).strip(" ,;"))
+                self.refuse(cell, InputError("answer-vector-direction", text=words))
         sign = bare[0][:1]
-        if sign in cells.SIGNS and bare[0][1:] and not FREE.match(name):
-            self.refuse(row, column, name, InputError("answer-vector-direction", text=quote(sign)))
+        if sign in cells.SIGNS and bare[0][1:] and not FREE.match(cell[2]):
+            self.refuse(cell, InputError("answer-vector-direction", text=quote(sign)))
         (text, of_value), (written, of_unit) = map(cells.split_side, bare)
-        sides = [angle for angle in (said[2], of_value, of_unit) if angle is not None]
-        return text, written, next(iter(sides), None)
+        return text, written, next((angle for angle in (said, of_value, of_unit) if angle is not None), None)
 
     def add(self, line: Line, row: int, column: int | None) -> None:
         """Keep a line that says anything, the first of each name."""
         if (line.mm, line.value, line.direction, line.sense) == (None,) * 4:
             return
         if line.name in self.lines:
-            self.refuse(row, column, line.name, InputError("answer-again", place=Written(self.lines[line.name].place)))
+            place = Written(self.lines[line.name].place)
+            self.refuse((row, column, line.name), InputError("answer-again", place=place))
             return
         self.lines[line.name] = line
 
@@ -228,19 +212,19 @@ def _form_row(sheet: _Sheet, row: int, columns: Mapping[str, int], over: Mapping
     """Read a row of a form; rows with nothing but a name are headings, or have no answer."""
     grid = sheet.grid
     if tidy(grid.text(row, columns["name"])) in cells.CALCULATIONS:
-        sheet.number(row, columns.get("value"), grid.text(row, columns["name"]))
+        sheet.number((row, columns.get("value"), grid.text(row, columns["name"])))
         return
     name = latin(grid.text(row, columns["name"]))
     filled = [kind for kind in (*NUMBERS, "direction") if grid.text(row, columns.get(kind)) not in cells.NONE - {"-"}]
-    if not name or not filled or column_kind(name) == "name" or not sheet.known(row, columns["name"], name):
+    if not name or not filled or column_kind(name) == "name" or name in sheet.asked.others:
+        return
+    if name not in sheet.asked.names:
+        sheet.refuse((row, columns["name"], name), unknown("quantity-unknown", name, sheet.asked.names))
         return
     written = grid.text(row, columns.get("unit"))
     scale_at = columns.get("mu") if grid.text(row, columns.get("mu")) not in cells.NONE else None
     if name in sheet.asked.scales:
-        at = columns.get("value") if scale_at is None else scale_at
-        mu = sheet.mu(row, at, name, name, written)
-        if mu is not None:
-            sheet.scales.setdefault(name, mu)
+        sheet.scale((row, columns.get("value") if scale_at is None else scale_at, name), written)
         return
     units = {**over, "value": written or over.get("value", "")}
     if scale_at is not None and sheet.asked.quantities[name].unit.endswith("/mm"):
@@ -295,9 +279,7 @@ def _class_row(sheet: _Sheet, row: int, parts: Mapping[str, Mapping[str, tuple[i
     for name, at in parts.items():
         if name in sheet.asked.scales:
             column, written = next(iter(at.values()))
-            mu = sheet.mu(row, column, name, name, written)
-            if mu is not None:
-                sheet.scales[name] = mu
+            sheet.scale((row, column, name), written)
             continue
         columns = {part: column for part, (column, _) in at.items()}
         units = {part: written for part, (_, written) in at.items()}

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from ...plans.hands.hand import Tolerance, preset
+from ...plans.hands.shaky import Tolerance, preset
 from ...plans.marking.answers import Answer, Line, Verdict
 from ...plans.marking.key import Question
 from ...plans.quantities import unit_of

@@ -24,8 +24,7 @@ from ...boards.batch import batch
 from ...boards.exact import STATUSES, ExactBoard, run
 from ...boards.precision import batch_in, run_in
 from ...contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
-from ...hands.hand import Hand
-from ...hands.shaky import Paper, draw
+from ...hands.shaky import Hand, Paper, draw
 from ...hands.spread import kept
 from ...laws import TURN, inclination
 from ...names import LEVER, role

@@ -18,8 +18,7 @@ from ....scales.errors import InputError
 from ...board import Program
 from ...boards.exact import SMALL, STATUSES, run
 from ...condition import conditions
-from ...hands.hand import Hand
-from ...hands.shaky import Paper, Shape, draw
+from ...hands.shaky import Hand, Paper, Shape, draw
 from ...hands.spread import kept
 from ...laws import TURN, dot
 from ...names import role
