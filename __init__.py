@@ -6,11 +6,11 @@ if TYPE_CHECKING:
     from .scales import KulmanError as KulmanError
     from .variants.batches.batch import batch as batch
     from .variants.charts.charts import chart as chart
-    from .variants.handouts import handout as handout
     from .variants.making.all_variants import all_variants as all_variants
     from .variants.marking.checks import check as check
     from .variants.notes import note as note
     from .variants.reader import load_task as load_task
+    from .variants.sheets import handout as handout
     from .variants.sheets import sheet as sheet
     from .variants.solution import solve as solve
     from .variants.sweeps.sweeps import sweep as sweep
@@ -22,7 +22,7 @@ _HOMES = {
     "batch": "variants.batches.batch",
     "chart": "variants.charts.charts",
     "check": "variants.marking.checks",
-    "handout": "variants.handouts",
+    "handout": "variants.sheets",
     "load_task": "variants.reader",
     "note": "variants.notes",
     "sheet": "variants.sheets",

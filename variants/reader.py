@@ -19,12 +19,11 @@ from ..scales.display import ANGLES, LENGTHS, METRE, PAPER, Display
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
-from .checks.basics import Checker, EnoughError, Field, array_of, as_is, label, one_of, record, text
+from .checks.basics import Checker, EnoughError, Field, Path, Places, array_of, as_is, label, one_of, record, text
 from .checks.names import Names, Settings, read_choices, read_givens, read_variants
 from .kinds import kind_of, table_in
 from .shelf import bundled, bundled_text
 from .task import WITH_FORCES, Given, LocatedError, Task
-from .toml_places import Path, Places
 
 LARGEST_FILE = 1_000_000
 # tomllib takes time as the square of the parts of a dotted key

@@ -15,7 +15,7 @@ from kulman.scales.errors import InputError
 from kulman.variants import roster as rosters
 from kulman.variants import tables
 from kulman.variants.roster import Digits, Schemes, read_roster, variant_of_book
-from kulman.variants.spreadsheets import headers
+from kulman.variants.spreadsheets import grid
 from kulman.variants.task import Task
 
 SCHEMES = ("scheme-01-compressor", "scheme-02-forging-press", "scheme-03-crank-rocker")
@@ -177,7 +177,7 @@ def _copy(task: Path, other: Path) -> Path:
     return other
 
 
-@pytest.mark.parametrize("module", [rosters, headers, tables, cells])
+@pytest.mark.parametrize("module", [rosters, grid, tables, cells])
 def test_examples_in_docstrings_say_what_comes_out(module: ModuleType) -> None:
     found = doctest.testmod(module)
 

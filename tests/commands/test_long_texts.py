@@ -22,6 +22,7 @@ from kulman.scales.numbers import quote, split_number
 from kulman.scales.units import parse as value_in
 from kulman.scales.units import unit
 from kulman.tests.support.answer_files import ASKED
+from kulman.variants.checks.basics import Places
 from kulman.variants.hands import hand_of
 from kulman.variants.making.new_variants import ranges_of, with_variants
 from kulman.variants.marking import cells
@@ -30,9 +31,8 @@ from kulman.variants.roster import _folded, variant_of_book
 from kulman.variants.sheets import variant_of_id
 from kulman.variants.shelf import _label, bundled_text
 from kulman.variants.solution import solve
-from kulman.variants.spreadsheets import headers
+from kulman.variants.spreadsheets import grid as headers
 from kulman.variants.tables import harmless
-from kulman.variants.toml_places import Places
 
 _OF_LINE = dict.fromkeys(map(ord, "'\n"))
 SLIDER = solve("nau-slider-crank", "example").task

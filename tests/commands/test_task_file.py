@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 
 from kulman.plans.linkages.mechanism import ZERO, Prismatic
 from kulman.scales.errors import InputError
+from kulman.variants.checks.basics import Places
 from kulman.variants.reader import load_task, read_file, read_text
 from kulman.variants.shelf import bundled, bundled_text, summary
-from kulman.variants.toml_places import Places
 
 PLACED = '''\
 # a comment [not a table]

@@ -13,8 +13,7 @@ import pytest
 from kulman import load_task
 from kulman.scales.errors import InputError
 from kulman.scales.units import format_unit
-from kulman.variants.making.new_variants import import_variants
-from kulman.variants.making.table_in import read_variants
+from kulman.variants.making.new_variants import import_variants, read_variants
 from kulman.variants.shelf import bundled
 from kulman.variants.task import Task
 

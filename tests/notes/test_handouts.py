@@ -16,8 +16,7 @@ from kulman.drawing.shapes import Arrow, Group, Line, Shape, Text, Vector
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.shapes import leaves
 from kulman.variants.case import Case
-from kulman.variants.handouts import drawing_for_print
-from kulman.variants.sheets import Sheet
+from kulman.variants.sheets import Sheet, drawing_for_print
 from kulman.variants.shelf import bundled
 
 GIVEN = ("givens", "data", "choices", "note", "structure", "scales")  # what a blank may show in full
@@ -46,7 +45,7 @@ def draw_once(monkeypatch: pytest.MonkeyPatch) -> None:
             kept[asked] = drawing_for_print(case)
         return kept[asked]
 
-    monkeypatch.setattr("kulman.variants.handouts.drawing_for_print", drawing)
+    monkeypatch.setattr("kulman.variants.sheets.drawing_for_print", drawing)
 
 
 @pytest.mark.parametrize("task", tasks())

@@ -29,12 +29,11 @@ from ...scales.packaged import packaged
 from ...scales.units import format_unit
 from ..case import Case, Request, Settings, all_known, by_name, plans_wanted
 from ..crew import Advance, Done, Journal, digest_of, on_cluster, remove_stale, shared_out
-from ..handouts import PAPER, begun_of_case, drawing_for_print
 from ..marking.wording import texts
 from ..notes import body_of, title_page
 from ..reader import load_task
 from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, read_roster
-from ..sheets import Sheet, drawing_of, said_of, sheet_id, sheet_of, stamp_of
+from ..sheets import PAPER, Sheet, begun_of_case, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of
 from ..spreadsheets.grid import SUFFIXES
 from ..tables import Cell, csv_table, table_bytes
 from ..task import Task

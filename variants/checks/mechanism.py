@@ -38,8 +38,7 @@ from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import ONE, unit
 from ..task import Bound
-from ..toml_places import Path
-from .basics import Checker, Field, array_of, as_is, link_number, name, on_link, one_of, record, record_of, rows
+from .basics import Checker, Field, Path, array_of, as_is, link_number, name, on_link, one_of, record, record_of, rows
 from .names import Names
 
 _RAD, _RAD_S, _RAD_S2 = unit("rad"), unit("rad/s"), unit("rad/s^2")

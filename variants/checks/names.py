@@ -12,8 +12,7 @@ from ...scales.names import cyrillic, latin, unknown
 from ...scales.numbers import quote, split_number
 from ...scales.units import ONE, Dimension, Unit, customary, parse, unit
 from ..task import Bound, Given, Variant
-from ..toml_places import Path
-from .basics import NAME, Checker, Field, Read, array_of, as_is, label, name, one_of, record, rows, text, word
+from .basics import NAME, Checker, Field, Path, Read, array_of, as_is, label, name, one_of, record, rows, text, word
 
 NEVER_NEGATIVE = {unit("kg").dimension, unit("kg*m^2").dimension, unit("rad/s").dimension}
 _M = unit("m")

@@ -73,7 +73,7 @@ if TYPE_CHECKING:
 @titled("student", *BLOCK)
 def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
     """Draw a handout of TASK: givens, scales and poles, no answers; with rulers that prove the print."""
-    from ..handouts import handout as handout_task
+    from ..sheets import handout as handout_task
 
     flat = [file for file in files if file.suffix.lower() == ".png"]
     if flat and options["hidden_key"]:  # a picture has no layers

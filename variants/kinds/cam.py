@@ -33,10 +33,9 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import unit
-from ..checks.basics import Checker, Field, array_of, one_of, record, rows, word
+from ..checks.basics import Checker, Field, Path, array_of, one_of, record, rows, word
 from ..checks.names import Names, Number, check_numbers, literal, word_or_choice
 from ..task import Bound, Given
-from ..toml_places import Path
 from .kind import Choices, Numbers, Plans, Scales, Sized
 
 if TYPE_CHECKING:

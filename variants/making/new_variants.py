@@ -1,4 +1,4 @@
-"""New variants of a task: made from ranges, or read from a spreadsheet; as a task file, with what is wrong."""
+"""New variants of a task: made from ranges, or read from a spreadsheet as departments keep them; as a task file."""
 
 from __future__ import annotations
 
@@ -13,22 +13,28 @@ from decimal import Decimal
 from functools import cache
 from itertools import starmap
 
+from ...drawing.writers import slug
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, KulmanError, messages
-from ...scales.numbers import quote
+from ...scales.numbers import SHOWN, quote
+from ...scales.units import parse
 from ..case import Request, Settings, by_name
 from ..crew import Advance
 from ..kinds import kind_of
 from ..reader import TaskFileError, load_task, read_text
 from ..sheets import draw_case
+from ..spreadsheets.grid import UNDERSTOOD, Grid, about_kind, column_kind, read_grid, symbol, variant_said
 from ..task import Given, LocatedError, Task
-from .table_in import Read, read_variants
 
 MOST = 1000  # variants that are made at once
 AROUND = 0.2  # a given that all variants have alike is varied by so much to either side, if there is one variant alone
 STEPS = 20  # into how many steps such a range is divided, at most
 TRIES = 50  # sets looked at for each variant that is wanted
 Judgement = tuple[KulmanError | None, KulmanError | None]
+_NUMBER = re.compile(r"[-−+0-9.,\s]+(?:[eE][-+]?\d+)?")
+_PARTED = re.compile(r"[,:;()\[\]]")  # parts of a header: what it is, its symbol, its unit
+PLAIN = "1"  # a unit of numbers that have none
+NOTHING = frozenset(UNDERSTOOD["none"])  # in the place of a unit
 _BETWEEN = re.compile(r"\.\.\.?|…|–")  # the first and the last value of a range
 _HEADER = re.compile(r"\s*\[")
 _VARIANT = re.compile(r"\s*\[\[\s*variant\s*\]\]|\s*\[\s*variant\s*\.")
@@ -69,12 +75,12 @@ def make_variants(
     found.resolve(None, fixed)
     spans = ranges_of(found, {name: str(text) for name, text in by_name("ranges", ranges).items()})
     spans = {name: one for name, one in spans.items() if name not in fixed}
-    rows: list[tuple[str, Mapping[str, str]]] = []
+    rows: dict[str, Mapping[str, str]] = {}
     for row in made(found, spans, count, seed, fixed):
-        rows.append((str(len(rows) + 1), row))
+        rows[str(len(rows) + 1)] = row
         if advance is not None:
             advance(1, count)
-    return _task_with(found, dict(rows))
+    return _task_with(found, rows)
 
 
 def import_variants(task: str | os.PathLike[str] | Task, file: str | os.PathLike[str]) -> NewVariants:
@@ -87,10 +93,9 @@ def import_variants(task: str | os.PathLike[str] | Task, file: str | os.PathLike
     for read in read_variants(os.fspath(file), found):
         reasons, remark = _judged(found, read, pages)
         if not reasons and read.id in rows:
-            reasons = (InputError("variant-twice"),)
-        left_out.extend(_at(read, reason) for reason in reasons)
-        if remark is not None:
-            remarks.append(_at(read, remark))
+            reasons = (LocatedError(read.place, InputError("variant-twice")),)
+        left_out.extend(reasons)
+        remarks.extend(remark)
         if not reasons:
             rows[read.id] = read.row
     if not rows:
@@ -98,29 +103,23 @@ def import_variants(task: str | os.PathLike[str] | Task, file: str | os.PathLike
     return replace(_task_with(found, rows), left_out=tuple(left_out), remarks=tuple(remarks))
 
 
-def _judged(task: Task, read: Read, pages: Callable[[], int]) -> tuple[tuple[KulmanError, ...], KulmanError | None]:
-    """Return why a variant is left out, if it is, and what makes it a poor exercise."""
+def _judged(
+    task: Task, read: Read, pages: Callable[[], int]
+) -> tuple[tuple[KulmanError, ...], tuple[KulmanError, ...]]:
+    """Return why a variant is left out, if it is, and what makes it a poor exercise, with the place."""
     if read.problems:
-        return read.problems, None
+        return read.problems, ()
     try:
         alone = _task_with(task, {read.id: read.row}).task
     except TaskFileError as error:
-        return tuple(map(_plainly, error.faults)), None
-    reason, remark = looked_at(alone, read.id, {}, pages)
-    return (() if reason is None else (reason,)), remark
-
-
-def _plainly(fault: InputError) -> KulmanError:
-    """Return a fault of a task file as one of a spreadsheet, which has no lines and keys."""
-    cause = fault.cause if isinstance(fault, LocatedError) else fault
-    return InputError("variants-missing", name=cause.data["name"]) if cause.key == "key-missing" else cause
-
-
-def _at(read: Read, error: KulmanError) -> KulmanError:
-    """Return an error with the variant's place before it, unless it says a cell."""
-    if isinstance(error, LocatedError) and error in read.problems:
-        return error
-    return LocatedError(read.place, error)
+        causes = (fault.cause if isinstance(fault, LocatedError) else fault for fault in error.faults)
+        # a spreadsheet has no lines and keys
+        plain = (InputError("variants-missing", name=c.data["name"]) if c.key == "key-missing" else c for c in causes)
+        return tuple(LocatedError(read.place, cause) for cause in plain), ()
+    reason, remark = (
+        () if one is None else (LocatedError(read.place, one),) for one in looked_at(alone, read.id, {}, pages)
+    )
+    return reason, remark
 
 
 def _task_with(task: Task, rows: Mapping[str, Mapping[str, str]]) -> NewVariants:
@@ -149,10 +148,8 @@ class Range:
     def pick(self, luck: random.Random) -> str:
         """Return one of the values as it is written."""
         row = [value for value in self.row if self.low <= value <= self.high]
-        if row:
-            return f"{luck.choice(row).normalize():f} {self.unit}".strip()
         count = int((self.high - self.low) / self.step) if self.step else 0
-        value = self.low + luck.randint(0, count) * self.step
+        value = luck.choice(row) if row else self.low + luck.randint(0, count) * self.step
         return f"{value.normalize():f} {self.unit}".strip()
 
 
@@ -183,31 +180,23 @@ def _read(given: Given, text: str, usual: Range | None) -> Range:
     first, (last, slash, by) = text.strip()[: between.start()], text.strip()[between.end() :].partition("/")
     if not first.strip() or not last.strip() or bool(slash) != bool(by.strip()):
         raise InputError("range-bad", text=quote(text))
-    unit = given.unit
-    low, high, step = (
-        _decimal(unit.from_si(_number(given, _with(part.strip(), text)))) if part else None
-        for part in (first, last, by)
-    )
-    assert low is not None
-    assert high is not None
+    low, high = (_value(given, part.strip(), text) for part in (first, last))
+    step = _value(given, by.strip(), text) if by else None
     if low > high or (step is not None and step <= 0):
         raise InputError("range-bad", text=quote(text))
     row = usual.row if usual is not None and step is None else ()
     if step is None:
         step = usual.step if usual is not None and 0 < usual.step <= high - low else _round_step(high - low)
-    return Range(unit.behind, low, high, step, row)
+    return Range(given.unit.behind, low, high, step, row)
 
 
-def _with(part: str, whole: str) -> str:
-    """Return a part of a range with the unit that stands at the end of the whole."""
+def _value(given: Given, part: str, whole: str) -> Decimal:
+    """Return the value of a part of a range, in the unit that stands at the end of the whole where it has none."""
     unit = re.search(r"[^\s.,/+\-eE].*", re.split(r"\d", whole)[-1], re.DOTALL)
-    return part if unit is None or re.search(r"[^\W\d]|°", part) else f"{part} {unit[0]}"
-
-
-def _number(given: Given, text: str) -> float:
-    value = given.read(text)
+    value = given.read(part if unit is None or re.search(r"[^\W\d]|°", part) else f"{part} {unit[0]}")
+    assert given.unit is not None
     assert isinstance(value, float)
-    return value
+    return _decimal(given.unit.from_si(value))
 
 
 def _spanned(task: Task, name: str, given: Given) -> Range | None:
@@ -345,3 +334,165 @@ def with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]]) -> s
 
     tables = ("\n".join(("[[variant]]", stated("id", number), *starmap(stated, row.items()))) for number, row in rows)
     return "\n\n".join((whole, *tables)) + "\n"
+
+
+@dataclass(frozen=True, slots=True)
+class Read:
+    """One variant of a spreadsheet: its givens as they are written, and what is wrong with its cells."""
+
+    id: str
+    place: str
+    row: Mapping[str, str]
+    problems: tuple[InputError, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Table:
+    """A grid seen so that variants are rows; `names` are the givens by column, `turned`: it lay on its side."""
+
+    grid: Grid
+    turned: bool
+    head: int
+    names: Mapping[int, tuple[str, str]]
+
+    @property
+    def _size(self) -> tuple[int, int]:
+        rows, columns = len(self.grid.rows), max(map(len, self.grid.rows), default=0)
+        return (columns, rows) if self.turned else (rows, columns)
+
+    def text(self, row: int, column: int) -> str:
+        """Return what a cell shows, in merged ones that of all."""
+        row, column = (column, row) if self.turned else (row, column)
+        return self.grid.shared(row, column).strip()
+
+    def place(self, row: int, column: int) -> str:
+        """Return the address of a cell."""
+        return self.grid.place(*((column, row) if self.turned else (row, column)))
+
+    @property
+    def id_column(self) -> int:
+        """Where the ids of the variants stand: under such a word, else before the first given where all differ."""
+        columns = range(self._size[1])
+        said = (column for column in columns if about_kind(self.text(self.head, column)) == "variant")
+        before = range(min(self.names) - 1, -1, -1)
+        return next(said, next(filter(self._tells, before), max(min(self.names) - 1, 0)))
+
+    def _tells(self, column: int) -> bool:
+        """Whether a column tells the rows that have numbers apart."""
+        rows = (row for row in self.rows if any(_NUMBER.fullmatch(self.text(row, at)) for at in self.names))
+        found = [self.text(row, column) for row in rows]
+        return "" not in found and len(set(found)) == len(found) > 0
+
+    @property
+    def rows(self) -> Iterator[int]:
+        """Go through the rows under the header."""
+        return iter(range(self.head + 1, self._size[0]))
+
+
+def read_variants(file: str, task: Task) -> list[Read]:
+    """Read the variants of a task from a spreadsheet, .csv or .xlsx.
+
+    A row, or a column, names the givens, `l_OA [mm]`; beside the names units may stand.
+    """
+    grid = read_grid(file)
+    table = max((_seen(grid, task, turned) for turned in (False, True)), key=lambda seen: len(seen.names))
+    if not table.names:
+        raise InputError("variants-header", file=quote(grid.file, SHOWN), known=", ".join(task.givens))
+    column, units = table.id_column, dict[int, str]()
+    found: list[Read] = []
+    for row in table.rows:
+        if not any(table.text(row, at) for at in table.names):
+            continue
+        if _is_units(table, row, column, task):
+            units = {at: table.text(row, at) for at in table.names if table.text(row, at) not in NOTHING}
+            continue
+        name = slug(variant_said(table.text(row, column))) if column not in table.names else ""
+        found.append(_read_row(table, row, name if name not in ("", "x") else str(len(found) + 1), units, task))
+    return found
+
+
+def _is_units(table: _Table, row: int, column: int, task: Task) -> bool:
+    """Whether a row holds the units of the givens: it says so, or units of theirs stand there, and no number."""
+    if column_kind(table.text(row, column)) == "unit":
+        return True
+    said = [(table.text(row, at), task.givens[name]) for at, (name, _) in table.names.items()]
+    return any(_is_unit(*one) for one in said) and not any(re.match(r"[-−+]?[0-9]", text) for text, _ in said)
+
+
+def _is_unit(text: str, given: Given) -> bool:
+    """Whether a text is a unit in which a given can be written."""
+    if given.unit is None or not text or text[0].isdigit():
+        return False
+    try:
+        parse(f"1 {text}", given.unit)
+    except InputError:
+        return False
+    return True
+
+
+def _seen(grid: Grid, task: Task, turned: bool) -> _Table:
+    """Look at a grid with variants in rows, or in columns: its header is where most givens are named."""
+    rows = list(map(list, grid.rows))
+    if turned:
+        width = max(map(len, rows), default=0)
+        rows = [[row[at] if at < len(row) else "" for row in rows] for at in range(width)]
+    symbols = {symbol(name): name for name in task.givens}
+    small = [letters.lower() for letters in symbols]
+    # in small letters, too, where these tell them apart
+    known = {letters.lower(): name for letters, name in symbols.items() if small.count(letters.lower()) == 1} | symbols
+    heads = [_names(row, task, known) for row in rows]
+    best = max(range(len(heads)), key=lambda at: (len(heads[at]), -at), default=0)
+    return _Table(grid, turned, best, heads[best] if heads else {})
+
+
+def _names(cells: list[str], task: Task, known: Mapping[str, str]) -> dict[int, tuple[str, str]]:
+    """Return the givens that cells name, with the units that stand beside them."""
+    found: dict[int, tuple[str, str]] = {}
+    for column, text in enumerate(cells):
+        parts = [part.strip() for part in _PARTED.split(text) if part.strip()]
+        named = ((at, name) for at, part in enumerate(parts) if (name := _named(part, at == 0, known)))
+        at, name = next(named, (0, ""))
+        if name and name not in (given for given, _ in found.values()):
+            found[column] = (name, _unit_beside(parts, at, task.givens[name]))
+    return found
+
+
+def _named(part: str, first: bool, known: Mapping[str, str]) -> str:
+    """Return the given that a part of a header names: as a whole, or as one of its words, `Маса шатуна m_2`."""
+    whole = symbol(part)
+    if len(whole) > 1 or first:
+        name = known.get(whole) or known.get(whole.lower())
+        if name:
+            return name
+    words = {known[letters] for word in part.split() if len(letters := symbol(word)) > 1 and letters in known}
+    return words.pop() if len(words) == 1 else ""
+
+
+def _unit_beside(parts: list[str], at: int, given: Given) -> str:
+    """Return the unit in a header: a part that is one, else what stands behind the name, to be refused with a value."""
+    others = [*parts[at + 1 :], *parts[:at]]
+    behind = parts[-1] if at < len(parts) - 1 else ""
+    return next((part for part in others if _is_unit(part, given)), behind)
+
+
+def _read_row(table: _Table, row: int, number: str, units: Mapping[int, str], task: Task) -> Read:
+    said: dict[str, str] = {}
+    problems: list[InputError] = []
+    for column, (name, unit) in table.names.items():
+        text, unit = table.text(row, column), unit or units.get(column, "")
+        if text:
+            said[name] = f"{text} {unit}" if unit not in ("", PLAIN) and _NUMBER.fullmatch(text) else text
+            try:
+                said[name] = _plain(task, name, said[name])
+            except InputError as error:
+                problems.append(LocatedError(f"{table.place(row, column)}, {name}", error))
+    return Read(number, f"{table.place(row, table.id_column)}, {number}", said, tuple(problems))
+
+
+def _plain(task: Task, name: str, text: str) -> str:
+    """Return a value as a task file has it: a decimal point, the given's own unit."""
+    given = task.givens[name]
+    value = given.read(text)
+    if given.unit is None or isinstance(value, str):
+        return str(value)
+    return f"{given.unit.from_si(value):.12g} {given.unit.behind}".strip()

@@ -12,8 +12,7 @@ from typing import NamedTuple
 from ...scales.errors import InputError
 from ...scales.numbers import quote, split_number
 from ...scales.units import Unit, bounded, converted, unit
-from ..spreadsheets.grid import Grid
-from ..spreadsheets.headers import UNDERSTOOD, tidy
+from ..spreadsheets.grid import UNDERSTOOD, Grid, tidy
 from .answers import Asked, Mu
 
 NONE = frozenset(UNDERSTOOD["none"])
