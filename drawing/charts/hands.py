@@ -9,18 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...plans.cams.chords import (
-    BETWEEN,
-    CLOSED,
-    MU_S,
-    NODES,
-    R_0,
-    S_MAX,
-    V_MAX,
-    WAYS,
-    Convergence,
-    Robustness,
-)
+from ...plans.cams import chords
 from ...plans.gears.solve import MILLI, ScaleErrors
 from ..gears.sheet import lettered
 from ..words import Words
@@ -41,13 +30,14 @@ HANDS: Mapping[str, tuple[Any, str]] = {  # line and marker of the curve of each
     "lenient": ((0, (5, 2)), "^"),
 }
 LOOKS: Mapping[str, tuple[str, str]] = {  # symbol and marker of each quantity of a cam
-    V_MAX: ("$V_{max}$", "s"),
-    S_MAX: ("$S_{max}$", "o"),
-    MU_S: ("$μ_{s}$", "x"),
-    R_0: ("$r_{0}$", "^"),
-    CLOSED: ("s", "D"),
+    chords.V_MAX: ("$V_{max}$", "s"),
+    chords.S_MAX: ("$S_{max}$", "o"),
+    chords.MU_S: ("$μ_{s}$", "x"),
+    chords.R_0: ("$r_{0}$", "^"),
+    chords.CLOSED: ("s", "D"),
 }
-FAMILIES: Mapping[str, tuple[Any, int]] = {NODES: ("-", 2), BETWEEN: ((0, (5, 2)), 1)}  # line, order of the error
+# line of each family of curves, and the order of its error
+FAMILIES: Mapping[str, tuple[Any, int]] = {chords.NODES: ("-", 2), chords.BETWEEN: ((0, (5, 2)), 1)}
 SHOWN = 1e-4  # per cent below which an error is rounding
 BY_COUNT: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (1, 1.3)))  # lines by the number of sections
 FACES: Mapping[str, tuple[str, str]] = {  # face and hatch of what has been closed
@@ -98,10 +88,10 @@ def curves_of_hands(
     return labels, points
 
 
-def sections_page(found: Convergence, words: Words, title: str, note: str) -> Figure:
+def sections_page(found: chords.Convergence, words: Words, title: str, note: str) -> Figure:
     """Draw errors against numbers of sections: chords alone, jumps on lines and between them; then drawn by hands."""
     # the scale factor errs as the stroke does
-    names = [name for name in found.quantities if name != MU_S or S_MAX not in found.quantities]
+    names = [name for name in found.quantities if name != chords.MU_S or chords.S_MAX not in found.quantities]
     tall = (TALL - GAP * (len(names) - 1)) / len(names)
     with page(title, note) as figure:
         _chords(box(figure, LEFT, FOOT, 118.0, TALL), found, names, words)
@@ -111,7 +101,7 @@ def sections_page(found: Convergence, words: Words, title: str, note: str) -> Fi
     return figure
 
 
-def _chords(axes: Axes, found: Convergence, names: Sequence[str], words: Words) -> None:
+def _chords(axes: Axes, found: chords.Convergence, names: Sequence[str], words: Words) -> None:
     """Draw the errors of chords alone, with the slopes that they should have."""
     axes.set_title(words["chart.chords_alone"], fontsize=TEXT + 1.5)
     axes.set(xlabel=words["chart.sections_axis"], ylabel=words["chart.sections_error"])
@@ -125,7 +115,7 @@ def _chords(axes: Axes, found: Convergence, names: Sequence[str], words: Words) 
             axes.plot(n, error, ls=FAMILIES[where][0], marker=marker, ms=4.4, **LOOK)
             points += list(zip(n.tolist(), error.tolist(), strict=True))
             labels.append(Label(float(n[-1]), float(error[-1]), symbol, must=True, size=TEXT))
-    logarithmic(axes, found.sections[NODES], words)
+    logarithmic(axes, found.sections[chords.NODES], words)
     axes.set_xlim(right=axes.get_xlim()[1] * 1.25)
     put(axes, labels, points)
     for where in found.sections:
@@ -138,13 +128,13 @@ def _visible(counts: tuple[int, ...], errors: NDArray[np.float64]) -> tuple[NDAr
     return n[error > SHOWN], error[error > SHOWN]
 
 
-def _slope(axes: Axes, found: Convergence, where: str, words: Words) -> None:
+def _slope(axes: Axes, found: chords.Convergence, where: str, words: Words) -> None:
     """Draw the slope of a family's order, beyond its curves where no other family has any, and say what it is."""
     curves = [_visible(found.sections[where], found.errors[where, name]) for name in found.quantities]
     curves = [(n, error) for n, error in curves if n.size > 2]
     if not curves:
         return
-    above, power = where == BETWEEN, FAMILIES[where][1]
+    above, power = where == chords.BETWEEN, FAMILIES[where][1]
     n, error = sorted(curves, key=lambda curve: float(curve[1][-1]))[-1 if above else 0]
     i = len(n) // 2
     low, high = float(n[i - 1]), float(n[i + 1])
@@ -157,9 +147,9 @@ def _slope(axes: Axes, found: Convergence, where: str, words: Words) -> None:
     axes.annotate(text, (middle, start * (low / middle) ** power), **place)
 
 
-def _hands(axes: Axes, found: Convergence, name: str, words: Words, across: str) -> None:
+def _hands(axes: Axes, found: chords.Convergence, name: str, words: Words, across: str) -> None:
     """Draw what every hand keeps of one quantity, beside chords without errors of drawing."""
-    key = "chart.by_hands_closed" if name == CLOSED else "chart.by_hands"
+    key = "chart.by_hands_closed" if name == chords.CLOSED else "chart.by_hands"
     axes.set_title(words[key].format(name=LOOKS[name][0]), fontsize=TEXT, pad=3.0)
     axes.set_xlabel(across)
     n = np.array(found.drawn, float)
@@ -167,9 +157,9 @@ def _hands(axes: Axes, found: Convergence, name: str, words: Words, across: str)
     ringed = {hand: (count, 100.0 * least) for hand, (count, least) in best.items()}
     errors = {hand: 100.0 * found.hands[hand, name] for hand in HANDS}
     labels, points = curves_of_hands(axes, n, errors, ringed, words)
-    counts, chords = _visible(found.sections[NODES], found.errors[NODES, name])
+    counts, alone = _visible(found.sections[chords.NODES], found.errors[chords.NODES, name])
     inside = counts <= n.max() * 1.01
-    axes.plot(counts[inside], chords[inside], color=GREY, lw=2.0, zorder=1)
+    axes.plot(counts[inside], alone[inside], color=GREY, lw=2.0, zorder=1)
     logarithmic(axes, found.drawn, words)
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, high * 1e-3), high * 1.6)
@@ -177,7 +167,7 @@ def _hands(axes: Axes, found: Convergence, name: str, words: Words, across: str)
     put(axes, labels, points)
 
 
-def closing_page(found: Robustness, words: Words, title: str, note: str) -> Figure:
+def closing_page(found: chords.Robustness, words: Words, title: str, note: str) -> Figure:
     """Draw how diagrams by chords stand errors: a section line beside a jump, and what closing a drawing brings."""
     with page(title, note) as figure:
         if found.beside:
@@ -188,14 +178,14 @@ def closing_page(found: Robustness, words: Words, title: str, note: str) -> Figu
     return figure
 
 
-def _missed(axes: Axes, found: Robustness, words: Words) -> None:
+def _missed(axes: Axes, found: chords.Robustness, words: Words) -> None:
     """Draw errors over the place of a section line beside its jump."""
     axes.set(title=words["chart.line_beside"], ylabel=words["chart.sections_error"])
     axes.set_xlabel(words["chart.late"], labelpad=2.0)
     counts = list(dict.fromkeys(n for n, _ in found.missed))
     labels, points = [], []
     for n, line in zip(counts, BY_COUNT, strict=False):
-        for name in (V_MAX, S_MAX, R_0):
+        for name in (chords.V_MAX, chords.S_MAX, chords.R_0):
             if (n, name) not in found.missed:
                 continue
             error, (symbol, marker) = 100.0 * found.missed[n, name], LOOKS[name]
@@ -213,11 +203,11 @@ def _missed(axes: Axes, found: Robustness, words: Words) -> None:
     axes.legend(loc="lower left", handlelength=3.0, **LEGEND)
 
 
-def _closings(axes: Axes, found: Robustness, words: Words) -> None:
+def _closings(axes: Axes, found: chords.Robustness, words: Words) -> None:
     """Draw for every hand a bar for each way of closing."""
     axes.set_title(words["chart.travel_error"])
     axes.grid(False, axis="x")
-    for k, way in enumerate(WAYS):
+    for k, way in enumerate(chords.WAYS):
         face, hatch = FACES[way]
         heights = [100.0 * closing.errors.get(way, 0.0) for closing in found.closings.values()]
         places = [i + (k - 1.5) * BAR for i in range(len(heights))]

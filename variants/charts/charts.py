@@ -8,7 +8,7 @@ import platform
 import textwrap
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
@@ -242,19 +242,9 @@ class AccuracyChart(Chart[Contest]):
 
     def _item(self, entry: Entry) -> dict[str, Any]:
         """Return an entry as data, in the order of the columns of the CSV."""
-        return {
-            "method": entry.method,
-            "setting": entry.setting,
-            "kind": entry.kind,
-            "error": entry.error,
-            "typical": entry.typical,
-            "quantity": entry.name,
-            "at": place_si(self.places, entry.place),
-            "seconds": entry.seconds,
-            "at_once": entry.at_once,
-            "failed": entry.failed,
-            "front": any(entry is one for one in self.found.front(entry.kind)),
-        }
+        front = any(entry is one for one in self.found.front(entry.kind))
+        item = dict(zip((*HEAD, "at", "seconds", "at_once", "failed"), astuple(entry), strict=True))
+        return item | {"at": place_si(self.places, entry.place), "front": front}
 
     def _shown(self, words: Words) -> tuple[Any, ...]:
         return self.scene.hand, self.places

@@ -7,26 +7,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from ...plans.cams.cam import (
-    AS_RISE,
-    CURVES,
-    DIAGRAMS_PART,
-    FOLLOWERS,
-    LAWS,
-    LIMITS,
-    NEAR,
-    ORDERS,
-    PLANS,
-    PLATE,
-    PROFILE_PART,
-    ROCKER,
-    ROLLER,
-    ROTATIONS,
-    SECTIONS,
-    VALUES,
-    Cam,
-    Curve,
-)
+from ...plans.cams import cam as cams
 from ...plans.solved import AT_LEAST, AT_MOST, Check
 from ...scales.display import Display
 from ...scales.errors import InputError
@@ -40,7 +21,6 @@ from .kind import Choices, Numbers, Plans, Scales, Sized
 
 if TYPE_CHECKING:
     from ...drawing.cams.scene import CamScene
-    from ...drawing.compose import Drawn
     from ...drawing.words import Words
     from ...plans.cams.profile import PlateProfile, RollerProfile
     from ...plans.cams.solve import SolvedCam
@@ -90,49 +70,49 @@ NUMBERS = {
     "e": Number(Bound.FREE, needed=False),
     "r_0_flat": Number(needed=False),
 }
-_STRAIGHT, _ROLLING = (ROLLER, PLATE), (ROLLER, ROCKER)
+_STRAIGHT, _ROLLING = (cams.ROLLER, cams.PLATE), (cams.ROLLER, cams.ROCKER)
 HAD_BY = {  # numbers that not every follower has
     "h": _STRAIGHT,
-    "psi": (ROCKER,),
+    "psi": (cams.ROCKER,),
     **dict.fromkeys(("gamma_rise", "gamma_fall", "R_roller"), _ROLLING),
-    **dict.fromkeys(("rho_flat", "margin", "r_0_flat"), (PLATE,)),
-    **dict.fromkeys(("l_rocker", "l_OC"), (ROCKER,)),
-    "e": (ROLLER,),
+    **dict.fromkeys(("rho_flat", "margin", "r_0_flat"), (cams.PLATE,)),
+    **dict.fromkeys(("l_rocker", "l_OC"), (cams.ROCKER,)),
+    "e": (cams.ROLLER,),
 }
 
 
-class Cams(Sized[Cam, "SolvedCam"]):
+class Cams(Sized[cams.Cam, "SolvedCam"]):
     """Disk cams with translating roller and flat-faced followers, or with a rocker."""
 
-    table, plans, choosing = "cam", PLANS, WORDS
+    table, plans, choosing = "cam", cams.PLANS, WORDS
     room, symbols, told = "cams", SYMBOLS, "steps"
     unasked = ("s_max", "s_close", "v_close")  # the stroke, which is given, and what should be nothing
     display = Display(size="mm", angle="deg")
     names = frozenset((*NUMBERS, *WORDS))
     segments, limits_add_up = False, True
 
-    def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Cam | None:
+    def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> cams.Cam | None:
         """Read `[cam]`, and hold the numbers of the task against those that such a cam needs."""
         before, path = len(checker.faults), (self.table,)
         curves = _curves(checker, (*path, "curve"), raw["curve"]) if isinstance(raw, dict) and "curve" in raw else ()
-        laws = (*LAWS, *(curve.name for curve in curves))
-        known = {"law": laws, "law_fall": (AS_RISE, *laws), "fall": ORDERS, "rotation": ROTATIONS, "limits": LIMITS}
+        laws = (*cams.LAWS, *(curve.name for curve in curves))
+        known = dict(zip(WORDS, (laws, (cams.AS_RISE, *laws), cams.ORDERS, cams.ROTATIONS, cams.LIMITS), strict=True))
         fields = {key: Field(word_or_choice(known[key], givens), required=key == "law") for key in WORDS}
         fields |= {
-            "followers": Field(array_of(one_of("follower-unknown", lambda: FOLLOWERS))),
+            "followers": Field(array_of(one_of("follower-unknown", lambda: cams.FOLLOWERS))),
             "sections": Field(_sections, required=False),
             "curve": Field(lambda checker, path, raw: None, required=False),  # read before what names them
         }
         read = record(checker, path, raw, fields)
         followers = tuple(dict.fromkeys(read.get("followers", ())))
-        if ROCKER in followers and len(followers) > 1:
+        if cams.ROCKER in followers and len(followers) > 1:
             checker.fault((*path, "followers"), InputError("follower-rocker"))
-        check_numbers(checker, names, _numbers_for(followers), VALUES, "cam-number-unknown")
+        check_numbers(checker, names, _numbers_for(followers), cams.VALUES, "cam-number-unknown")
         if len(checker.faults) > before:
             return None
-        return Cam(**{**read, "followers": followers, "curves": curves})
+        return cams.Cam(**{**read, "followers": followers, "curves": curves})
 
-    def fits(self, checker: Checker, subject: Cam, head: Mapping[str, Any]) -> None:
+    def fits(self, checker: Checker, subject: cams.Cam, head: Mapping[str, Any]) -> None:
         """Check that the scale factors are those that may be chosen."""
         known = ", ".join(SYMBOLS)
         for name, text in head.get("scales", {}).items():
@@ -147,7 +127,7 @@ class Cams(Sized[Cam, "SolvedCam"]):
         """Go through what no cam can have."""
         return (("", error) for error in impossible(values))
 
-    def solve(self, subject: Cam, values: Numbers, words: Choices, plans: Plans) -> SolvedCam:
+    def solve(self, subject: cams.Cam, values: Numbers, words: Choices, plans: Plans) -> SolvedCam:
         """Solve a cam; numbers that belong to none are refused."""
         for error in impossible(values):
             raise error
@@ -160,7 +140,7 @@ class Cams(Sized[Cam, "SolvedCam"]):
     def warnings(self, solved: SolvedCam) -> tuple[InputError, ...]:
         """Tell what is unusual, which rules are broken, and where a profile does not give the motion, or cannot."""
         found: list[InputError] = []
-        if PLATE in solved.cam.followers and solved.motion.velocity_jumps:
+        if cams.PLATE in solved.cam.followers and solved.motion.velocity_jumps:
             found.append(InputError("cam-no-plate"))
         found += _unusual(solved)
         for check in self.checks(solved, {}):
@@ -171,7 +151,7 @@ class Cams(Sized[Cam, "SolvedCam"]):
         for follower, profile in _profiles(solved):
             for undercut in profile.undercuts:
                 said_ends = {"start": _degrees(undercut.start), "end": _degrees(undercut.end)}
-                lost = math.degrees(undercut.lost) if follower == ROCKER else undercut.lost * MILLI
+                lost = math.degrees(undercut.lost) if follower == cams.ROCKER else undercut.lost * MILLI
                 found.append(InputError(f"cam-undercut-{follower}", lost=f"{lost:.3g}", **said_ends))
         return tuple(found)
 
@@ -187,7 +167,7 @@ class Cams(Sized[Cam, "SolvedCam"]):
         found: list[Check] = [*rules_of(solved)]
         for follower, profile in _profiles(solved):
             lost = max((undercut.lost for undercut in profile.undercuts), default=0.0)
-            ok, of_travel = not profile.undercuts, "rad" if follower == ROCKER else "m"
+            ok, of_travel = not profile.undercuts, "rad" if follower == cams.ROCKER else "m"
             name = f"undercut_{follower}"
             found.append(Check(name=name, ok=ok, value=lost, unit=of_travel, limit=0.0, relation=AT_MOST))
         if solved.plate is not None and solved.draws_profiles:
@@ -224,24 +204,20 @@ class Cams(Sized[Cam, "SolvedCam"]):
 
     def section(self, solved: SolvedCam, question: Question, current: str) -> str:
         """Return the section of a question: the three diagrams are one drawing."""
-        return DIAGRAMS_PART if question.plan in AXES else question.plan
+        return cams.DIAGRAMS_PART if question.plan in AXES else question.plan
 
     def plan_heading(self, solved: SolvedCam, plan: str, words: Words) -> str:
         """Return the heading of a plan, as the sheet has it."""
-        if plan == PROFILE_PART and solved.rocker is not None:
+        if plan == cams.PROFILE_PART and solved.rocker is not None:
             return words["heading.cam_rocker_profile"]
-        return super().plan_heading(solved, DIAGRAMS_PART if plan in AXES else plan, words)
+        return super().plan_heading(solved, cams.DIAGRAMS_PART if plan in AXES else plan, words)
 
-    def fitted(self, solved: SolvedCam, drawn: Drawn) -> tuple[SolvedCam, tuple[InputError, ...]]:
-        """Return the cam with diagrams as small as the format has room for, and with what lengths these are drawn."""
-        from ...plans.cams.solve import REDUCED, reduced
+    def drawn_lengths(self, solved: SolvedCam) -> dict[str, str]:
+        """Return with what lengths its diagrams are drawn."""
+        from ...plans.cams.solve import REDUCED
 
-        if drawn.reduction == 1.0:
-            return solved, ()
-        smaller = reduced(solved, drawn.reduction)
-        said = {name: _millimetres(smaller.givens[name]) for name in REDUCED if name != "mu_phi"}
-        said |= {"angle": _degrees(smaller.givens["mu_phi"]), "part": f"{drawn.reduction:g}"}
-        return smaller, (InputError("cam-smaller", format=drawn.format, **said),)
+        said = {name: _millimetres(solved.givens[name]) for name in REDUCED if name != "mu_phi"}
+        return said | {"angle": _degrees(solved.givens["mu_phi"])}
 
     def scene(self, case: Case, scales: Scales, words: Words) -> CamScene:
         """Return the cam with its letters, with the lengths that it has on the sheet."""
@@ -307,27 +283,27 @@ def _millimetres(length: float, digits: int = 4) -> str:
 
 def _sections(checker: Checker, path: Path, raw: object) -> int | None:
     """Read into how many sections a phase is divided at least."""
-    if isinstance(raw, int) and not isinstance(raw, bool) and SECTIONS <= raw <= MOST_SECTIONS:
+    if isinstance(raw, int) and not isinstance(raw, bool) and cams.SECTIONS <= raw <= MOST_SECTIONS:
         return raw
-    checker.fault(path, InputError("cam-sections", text=quote(raw), least=SECTIONS, most=MOST_SECTIONS))
+    checker.fault(path, InputError("cam-sections", text=quote(raw), least=cams.SECTIONS, most=MOST_SECTIONS))
     return None
 
 
-def _curves(checker: Checker, path: Path, raw: object) -> tuple[Curve, ...]:
+def _curves(checker: Checker, path: Path, raw: object) -> tuple[cams.Curve, ...]:
     """Read the laws of one's own."""
     fields = {
         "name": Field(word),
-        "kind": Field(one_of("choice-unknown", lambda: CURVES)),
+        "kind": Field(one_of("choice-unknown", lambda: cams.CURVES)),
         "at": Field(array_of(_plain)),
         "values": Field(array_of(_plain)),
     }
-    found: dict[str, tuple[Curve, Path]] = {}
+    found: dict[str, tuple[cams.Curve, Path]] = {}
     for row_path, row in rows(checker, path, raw):
         read = record(checker, row_path, row, fields)
         if len(read) < len(fields):
             continue
-        curve = Curve(**read)
-        if curve.name in found or curve.name in (*LAWS, AS_RISE):
+        curve = cams.Curve(**read)
+        if curve.name in found or curve.name in (*cams.LAWS, cams.AS_RISE):
             first = found[curve.name][1] if curve.name in found else row_path
             checker.twice((*row_path, "name"), curve.name, (*first, "name"))
             continue
@@ -352,7 +328,7 @@ def _numbers_for(followers: tuple[str, ...]) -> dict[str, Number]:
     """Return the numbers of a cam; those that none of the followers has are of no use, where there are followers."""
     found = dict(NUMBERS)
     for name, number in NUMBERS.items():
-        if {*HAD_BY.get(name, FOLLOWERS)}.isdisjoint(followers):
+        if {*HAD_BY.get(name, cams.FOLLOWERS)}.isdisjoint(followers):
             error = InputError("cam-number-unused", text=name, followers=", ".join(followers)) if followers else None
             found[name] = replace(number, needed=False, unused=error)
     return found
@@ -362,13 +338,14 @@ def impossible(values: Mapping[str, float]) -> Iterator[InputError]:
     """Go through what no cam can have among the numbers of a variant: those that a choice sets are bounded, too."""
     for name, number in NUMBERS.items():
         if name in values and not number.bound.admits(values[name]):
-            yield InputError(number.bound.value, text=f"{name} = {unit(VALUES[name] or '1').from_si(values[name]):.7g}")
+            shown = unit(cams.VALUES[name] or "1").from_si(values[name])
+            yield InputError(number.bound.value, text=f"{name} = {shown:.7g}")
     for name in ("phi_rise", "phi_fall"):
         if 0.0 < values[name] < SHORTEST:
             angles = {"angle": f"{math.degrees(values[name]):.4g}", "least": f"{math.degrees(SHORTEST):g}"}
             yield InputError("cam-phase-short", name=name, **angles)
     turned = sum(values[name] for name in ("phi_rise", "phi_upper", "phi_fall"))
-    if turned > 2.0 * math.pi + NEAR:
+    if turned > 2.0 * math.pi + cams.NEAR:
         yield InputError("cam-phases", angle=f"{math.degrees(turned):.7g}")
     if "r_0" in values and abs(values.get("e", 0.0)) >= values["r_0"]:
         yield InputError("cam-eccentric", e=_millimetres(values["e"], 7), r_0=_millimetres(values["r_0"], 7))

@@ -79,9 +79,9 @@ class Gears(Sized[GearPair, "SolvedGear"]):
             if rule == "tip" and solved.meshing.teeth[int(wheel) - 1].pointed:
                 found.append(InputError("gear-rule-pointed", wheel=wheel))
                 continue
-            said = _millimetres if rule in IN_LENGTHS else _plain
-            key = BROKEN[rule] if rule in BROKEN and check.value < 1.0 else RULES[rule]
-            found.append(InputError(key, value=said(check.value), limit=said(check.limit), wheel=wheel))
+            times = 1e3 if rule in IN_LENGTHS else 1.0  # in millimetres
+            said = {"value": f"{check.value * times:.4g}", "limit": f"{check.limit * times:.4g}", "wheel": wheel}
+            found.append(InputError(BROKEN[rule] if rule in BROKEN and check.value < 1.0 else RULES[rule], **said))
         return tuple(found)
 
     def checks(self, solved: SolvedGear, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
@@ -94,11 +94,3 @@ class Gears(Sized[GearPair, "SolvedGear"]):
 
 
 KIND = Gears()
-
-
-def _millimetres(length: float) -> str:
-    return f"{length * 1e3:.4g}"
-
-
-def _plain(value: float) -> str:
-    return f"{value:.4g}"

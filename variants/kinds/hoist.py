@@ -5,18 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
-from ...plans.hoist.hoist import (
-    DRAWN,
-    MAY_BE_RIGID,
-    NOT_NEGATIVE,
-    PARTS,
-    PLANS,
-    SIDES,
-    USUAL,
-    VALUES,
-    Hoist,
-    complete,
-)
+from ...plans.hoist import hoist as hoists
 from ...plans.names import role
 from ...plans.solved import Check
 from ...scales.errors import InputError
@@ -25,7 +14,6 @@ from ..task import Bound
 from .kind import Sized
 
 if TYPE_CHECKING:
-    from ...drawing.compose import Drawn
     from ...drawing.words import Words
     from ...plans.hoist.solve import SolvedHoist
     from ...plans.marking.key import Question
@@ -38,20 +26,20 @@ RULES = {  # what is told of a check that fails
     "strength": "hoist-rule-strength",
 }
 BOUNDS = {
-    **dict.fromkeys(VALUES, Bound.POSITIVE),
-    **dict.fromkeys(NOT_NEGATIVE, Bound.NOT_NEGATIVE),
-    **dict.fromkeys(PARTS, Bound.UP_TO_HALF),
-    **dict.fromkeys(MAY_BE_RIGID, Bound.RIGID),
+    **dict.fromkeys(hoists.VALUES, Bound.POSITIVE),
+    **dict.fromkeys(hoists.NOT_NEGATIVE, Bound.NOT_NEGATIVE),
+    **dict.fromkeys(hoists.PARTS, Bound.UP_TO_HALF),
+    **dict.fromkeys(hoists.MAY_BE_RIGID, Bound.RIGID),
 }
-NUMBERS = {name: Number(BOUNDS[name], default=USUAL.get(name)) for name in VALUES}
+NUMBERS = {name: Number(BOUNDS[name], default=hoists.USUAL.get(name)) for name in hoists.VALUES}
 
 
-class Hoists(Sized[Hoist, "SolvedHoist"]):
+class Hoists(Sized[hoists.Hoist, "SolvedHoist"]):
     """Loads that a rope takes off a beam, wound up on another beam."""
 
-    table, plans = "hoist", PLANS
-    room, made, numbers, units = "hoist", Hoist, NUMBERS, VALUES
-    known: ClassVar[Mapping[str, tuple[str, ...]]] = {"near_0": SIDES, "near_2": SIDES}
+    table, plans = "hoist", hoists.PLANS
+    room, made, numbers, units = "hoist", hoists.Hoist, NUMBERS, hoists.VALUES
+    known: ClassVar[Mapping[str, tuple[str, ...]]] = {"near_0": hoists.SIDES, "near_2": hoists.SIDES}
     choosing = tuple(known)
     symbols = ("mu_l", "mu_F_circle")  # those of the diagrams are found
     unasked = ("s_min", "t_P12_max")
@@ -59,7 +47,7 @@ class Hoists(Sized[Hoist, "SolvedHoist"]):
     def impossible(self, values: Mapping[str, float]) -> Iterator[tuple[str, InputError]]:
         """Say why no hoist has these numbers."""
         try:
-            complete(values)
+            hoists.complete(values)
         except InputError as error:
             yield "", error
 
@@ -82,16 +70,7 @@ class Hoists(Sized[Hoist, "SolvedHoist"]):
 
     def asks(self, solved: SolvedHoist, question: Question) -> bool:
         """Ask for what is calculated rather than for what a drawing gives in its place, and for no check."""
-        return super().asks(solved, question) and role(question.name).part != DRAWN
-
-    def fitted(self, solved: SolvedHoist, drawn: Drawn) -> tuple[SolvedHoist, tuple[InputError, ...]]:
-        """Return the hoist with diagrams as small as the format has room for, and tell how small that is."""
-        from ...plans.hoist.solve import reduced
-
-        if drawn.reduction == 1.0:
-            return solved, ()
-        smaller = InputError("hoist-smaller", format=drawn.format, part=f"{drawn.reduction:g}")
-        return reduced(solved, drawn.reduction), (smaller,)
+        return super().asks(solved, question) and role(question.name).part != hoists.DRAWN
 
     def lettered(self, words: Words, solved: SolvedHoist) -> Words:
         """Return the words with the letters of a hoist's quantities."""

@@ -325,6 +325,18 @@ class Sized(Kind[Subject, Answer]):
         drawn: Drawn = self._in("drawing", "sheet", f"{self.table.title()}Fitting")(contents).draw(paper)
         return drawn
 
+    def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:
+        """Return what is solved with diagrams as small as the format has room for, and tell how small that is."""
+        if drawn.reduction == 1.0:
+            return solved, ()
+        smaller: Answer = self._in("plans", "solve", "reduced")(solved, drawn.reduction)
+        said = {"format": drawn.format, "part": f"{drawn.reduction:g}", **self.drawn_lengths(smaller)}
+        return smaller, (InputError(f"{self.table}-smaller", **said),)
+
+    def drawn_lengths(self, solved: Answer) -> dict[str, str]:
+        """Return what is told of the lengths of smaller diagrams."""
+        return {}
+
     def scene(self, case: Case, scales: Scales, words: Words) -> Any:
         """Return the case with its letters, for what is said of it."""
         from ...drawing.formats import STYLES

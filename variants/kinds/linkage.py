@@ -159,17 +159,16 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         `lever` compares what balances the driver with Zhukovsky's lever, per cent; `compound` the plans of velocities
         and accelerations with the sums of compound motion, in parts of their longest vectors.
         """
-        found: list[Check] = []
         delta = quantities.get("delta_M_bal") or quantities.get("delta_F_bal")
-        if delta is not None and delta.value is not None:
-            agrees = abs(delta.value) < LEVER_AGREES
-            told = {"relation": WITHIN, "unit": "%", "quantity": delta.name}
-            found.append(Check(name="lever", ok=agrees, value=delta.value, limit=LEVER_AGREES, **told))
-        gap = disagreement(solved)
-        if gap is not None:
-            agrees = gap < COMPOUND_AGREES
-            found.append(Check(name="compound", ok=agrees, value=gap, limit=COMPOUND_AGREES, relation=WITHIN, unit=""))
-        return tuple(found)
+        routes = (
+            ("lever", delta.value if delta else None, LEVER_AGREES, "%", delta.name if delta else ""),
+            ("compound", disagreement(solved), COMPOUND_AGREES, "", ""),
+        )
+        return tuple(
+            Check(name=name, ok=abs(gap) < limit, value=gap, limit=limit, relation=WITHIN, unit=of, quantity=quantity)
+            for name, gap, limit, of, quantity in routes
+            if gap is not None
+        )
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the plans of one position, and the cycle where the task wants it."""
