@@ -12,7 +12,6 @@ Source: Bertyaev and others, Mechanics: course works with Mathcad, section 4.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
 
@@ -20,8 +19,8 @@ from ..board import Board, Program
 from ..names import Name, between, mark, pole, rate, role, spelled, vector
 from .dyads import RRP, RRR
 from .legs import AssurGroup
-from .mechanism import FRAME, ZERO, Link, Mechanism, Revolute
-from .parts import Bodies, Span
+from .mechanism import FRAME, ZERO, Mechanism, Revolute
+from .parts import Bodies, Body, Span
 
 VELOCITY, ACCELERATION = "V_at", "a_at"  # kinds of plans
 TOTAL = "total"  # the whole as compound motion gives it
@@ -35,32 +34,20 @@ class Closing(NamedTuple):
     normal: Name | None  # its normal acceleration on the circle
 
 
-@dataclass(frozen=True, slots=True)
 class Coupler:
-    """A link between two joints, whose `start` hangs on the link `carrier`, which turns about a pivot of the frame."""
+    """A link between two joints that hangs on the link `carrier`, which turns about a pivot of the frame.
 
-    span: Span
-    carrier: Link
-    pivot: str  # the joint about which the carrier turns
-    omega_e: str  # names of the transport rotation's angular velocity
-    epsilon_e: str  # and acceleration, `zero` where the carrier turns steadily
-    letters: Mapping[str, str]  # its points without the hinge; a point of two couplers takes the link's number, too
-    closing: Closing | None  # None where the other outer pair of its group moves
+    `letters` are those of its points without the hinge; a point of two couplers takes the link's number, too. `closing`
+    is None where the other outer pair of its group moves.
+    """
 
-    @property
-    def number(self) -> int:
-        """Number of the link."""
-        return self.span.number
-
-    @property
-    def hinge(self) -> str:
-        """The joint about which it turns relative to the carrier."""
-        return self.span.start
-
-    @property
-    def centre(self) -> Name:
-        """Name of its instant centre of velocities."""
-        return rate("P", self.number)
+    def __init__(self, span: Span, carrier: Body, letters: Mapping[str, str], closing: Closing | None) -> None:
+        self.span, self.number, self.letters, self.closing = span, span.number, letters, closing
+        self.hinge = span.start  # the joint about which it turns relative to the carrier
+        self.carrier, self.pivot = carrier.link, carrier.pin  # and the joint about which the carrier turns
+        # the transport rotation, whose acceleration is `zero` where the carrier turns steadily
+        self.omega_e, self.epsilon_e = str(carrier.omega), carrier.epsilon or ZERO
+        self.centre = rate("P", span.number)  # instant centre of velocities
 
 
 def couplers(mechanism: Mechanism, groups: Iterable[AssurGroup], bodies: Bodies) -> tuple[Coupler, ...]:
@@ -70,18 +57,13 @@ def couplers(mechanism: Mechanism, groups: Iterable[AssurGroup], bodies: Bodies)
     pinned = {n for p in mechanism.pairs if isinstance(p, Revolute) and FRAME in p.links for n in p.links}
     turning = [body for n, body in bodies.items() if n in pinned and body.pin in mechanism.frame_points and body.omega]
     for group, span in [(of, span) for of in groups for span in of.spans]:
-        link, start = span.link, span.start
-        carrying = (
-            body for body in turning if body.link is not link and start in body.link.points and start != body.pin
-        )
-        if (carrier := next(carrying, None)) is None:
+        carrying = (body for body in turning if body.link is not span.link and span.start in body.link.points)
+        if (carrier := next((body for body in carrying if body.pin != span.start), None)) is None:
             continue
         points = (span.end, *span.others)
         letters = {p: mechanism.letter_on(p, span.number) if p in taken else p for p in points}
         taken.update(points)
-        rates = str(carrier.omega), carrier.epsilon or ZERO
-        closing = _closing(mechanism, group, span)
-        found.append(Coupler(span, carrier.link, carrier.pin, *rates, letters, closing))
+        found.append(Coupler(span, carrier, letters, _closing(mechanism, group, span)))
     return tuple(found)
 
 

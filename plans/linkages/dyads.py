@@ -360,21 +360,17 @@ class RPP(AssurGroup):
         """Q of link 3 is where its path on the last link meets the parallel to u23 at its distance from A."""
         path, _, _ = self.outer.path(board)
         self.inner.lay_guide(board)
-        board.meet(self.Q, self._beside(board), self.inner.u, path, self.outer.u)
-        self.outer.place(board)
-        self.inner.place(board)
-
-    def _beside(self, board: Board) -> str:
-        """Mark a point as far from A across u23 as Q is."""
-        pair, (first, second) = self.inner.pair, (self.inner.link, self.outer.link)
+        pair, (first, second), beside = self.inner.pair, (self.inner.link, self.outer.link), self.A
         if self.inner.carries:
             shift, lay = pin_offset(board, pair, second, self.Q, first, self.A), board.lay
         else:
             shift, lay = pin_offset(board, pair, first, self.A, second, self.Q), board.back
-        if shift == ZERO:
-            return self.A
-        lay(f"_{self.inner.u}_{self.Q}", self.A, normal_of(self.inner.u), shift)
-        return f"_{self.inner.u}_{self.Q}"
+        if shift != ZERO:
+            beside = f"_{self.inner.u}_{self.Q}"  # a point as far from A across u23 as Q is
+            lay(beside, self.A, normal_of(self.inner.u), shift)
+        board.meet(self.Q, beside, self.inner.u, path, self.outer.u)
+        self.outer.place(board)
+        self.inner.place(board)
 
     def _move(self, board: Board, plan: str) -> None:
         """Through a2 the parallel to u23, through a4 (p when the guide stands) the parallel to u34: a3.

@@ -54,7 +54,7 @@ def _stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterab
     assert mechanism.stroke is not None
     sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate
     followed = {name for start in mechanism.starts for name in start_names(start.link)}
-    stated = {name for start in mechanism.starts for name in start.givens}
+    stated = {name for start in mechanism.starts for name in (start.x, start.y, start.angle, start.driver)}
     needed = {name: values[name] for name in {*motion, sense, *stated} & values.keys() - {driver_at} - followed}
     size = max((len(value) for value in needed.values() if getattr(value, "ndim", 0)), default=0)
     found = []

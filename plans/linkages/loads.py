@@ -27,7 +27,6 @@ from .mechanism import (
     Link,
     Load,
     Mechanism,
-    Pair,
     Prismatic,
     Revolute,
 )
@@ -179,10 +178,8 @@ def _couple(board: Board, moving: Moving, couple: Couple) -> None:
     """Lay down a moment: in its sense, or against the turning of its link."""
     size, omega = _size(board, moving.mechanism, couple), moving.bodies[couple.link].omega
     name = on_link(couple.name, couple.link)
-    if couple.sense is not None:
-        board.calc(name, "signed", size, couple.sense)
-    elif omega is None:
-        board.calc(name, "signed", size, ZERO)
+    if couple.sense is not None or omega is None:
+        board.calc(name, "signed", size, couple.sense or ZERO)
     else:
         board.calc(name, "resisting_moment", size, omega, moving.turning)
 
@@ -264,7 +261,7 @@ def lay_stroke(board: Board, moving: Moving) -> None:
     board.calc("_working", "working", f"{RATE}_working", reference, f"{CHANGE}_working")
 
 
-def output_pair(mechanism: Mechanism) -> Pair:
+def output_pair(mechanism: Mechanism) -> Revolute | Prismatic:
     """Return the pair of the output link with the frame.
 
     Raises

@@ -232,11 +232,6 @@ class Start:
     driver: str
     legs: tuple[int, int] | None = None
 
-    @property
-    def givens(self) -> tuple[str, ...]:
-        """Names of its values."""
-        return self.x, self.y, self.angle, self.driver
-
 
 def start_names(number: int) -> tuple[str, str, str, str, str]:
     """Return the names of the values that say where the central link lies, about, before it is laid down.
@@ -308,7 +303,7 @@ class Mechanism:
             names += [*pair.coordinates, pair.branch or ZERO]
             names += [pair.direction] if isinstance(pair, Prismatic) else []
         names += [load.direction or ZERO for load in self.loads] + [couple.sense or ZERO for couple in self.couples]
-        names += [name for start in self.starts for name in start.givens]
+        names += [name for start in self.starts for name in (start.x, start.y, start.angle, start.driver)]
         names += [name for diagram in self.diagrams for name in diagram.at]
         names += {name for diagram in self.diagrams for name in diagram.sizes}.difference(self.sizes)
         names += [self.gravity or ZERO, self.stroke.sense if self.stroke else ZERO]

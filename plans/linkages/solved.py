@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from ..condition import Condition
 
 TWICE = 2.0  # how much better another centre of moments must be: it costs moments that else nobody needs
-# which operands of a step are pins that must not coincide
-COINCIDENT = {"arcs": (0, 2), "tangent": (0, 1), "measure": (0, 1)}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,7 +53,7 @@ class SolvedLinkage(Solved):
         if trouble.status == "no-assembly":
             return self._apart(trouble)
         if step.verb != "meet":
-            pins = [step.operands[i] for i in COINCIDENT[step.verb]]
+            pins = step.operands[0], step.operands[2 if step.verb == "arcs" else 1]  # which must not coincide
             return PositionError("singular-pins", status_word="singular", first=pins[0], second=pins[1])
         key = f"singular-{step.plan}" if step.plan in (POSITION, "velocity", "acceleration") else "singular-forces"
         first, second = (_spoken(step.operands[i], self.program) for i in (1, 3))
@@ -113,7 +111,9 @@ def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:
 
 def scale_symbols(structure: Structure, program: Program) -> tuple[str, ...]:
     """Return the symbols of all scale factors that a task or a user may choose."""
-    return tuple(dict.fromkeys((*structure.scale_symbols, *_scale_of_plan(structure, program).values())))
+    forces = (scale_factor("F", part, links) for part, links in structure.parts.items())
+    symbols = (*map(scale_factor, ("l", "V", "a")), *forces, *_scale_of_plan(structure, program).values())
+    return tuple(dict.fromkeys(symbols))
 
 
 def disagreement(solved: SolvedLinkage) -> float | None:

@@ -15,7 +15,6 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 from ...scales.errors import InputError
-from ..names import Name, scale_factor
 from .mechanism import FRAME, Mechanism, Pair, Prismatic, Revolute
 
 TRIAD = "III"
@@ -97,12 +96,6 @@ class Structure:
         """Links of the driver and of each group, by the name that its forces go by."""
         return {str(self.driver): (self.driver,), **{group.name: group.links for group in self.groups}}
 
-    @property
-    def scale_symbols(self) -> tuple[Name, ...]:
-        """Symbols of the scale factors of its plans; the driver and each group have one for their forces."""
-        forces = (scale_factor("F", part, links) for part, links in self.parts.items())
-        return *map(scale_factor, ("l", "V", "a")), *forces
-
 
 @dataclass(frozen=True, slots=True)
 class Joint:
@@ -126,20 +119,22 @@ class Joint:
     def tree(self, links: Collection[int]) -> list[Pair]:
         """Return the pairs that hold `links` together, one less than there are links, named ones first."""
         own = [number for number in self.links if number in links]
-        ways = [self.pair(first, second) for i, first in enumerate(own) for second in own[i + 1 :]]
-        held, tree = [{number} for number in own], []
-        for pair in sorted(ways, key=lambda pair: not self.names(pair)):
+        held, tree = [{number} for number in own], list[Pair]()
+        for pair in self._named_first(combinations(own, 2)):
             parts = [part for part in held if part & {*pair.links}]
             if len(parts) == 2:
                 tree.append(pair)
                 held = [part for part in held if part not in parts] + [parts[0] | parts[1]]
-        return list[Pair](tree)
+        return tree
 
     def ties(self, links: Collection[int], known: Sequence[int]) -> list[Pair]:
         """Return the pair that holds `links` to one of the `known`: a named one, else to the first of these."""
         here = [own for own in links if own in self.links]
-        ways = [self.pair(own, other) for other in known if other in self.links for own in here]
-        return list[Pair](sorted(ways, key=lambda pair: not self.names(pair))[:1])
+        ways = ((own, other) for other in known if other in self.links for own in here)
+        return [*self._named_first(ways)[:1]]
+
+    def _named_first(self, ways: Iterable[tuple[int, int]]) -> list[Revolute]:
+        return sorted((self.pair(*way) for way in ways), key=lambda pair: not self.names(pair))
 
 
 def joints_of(pairs: Iterable[Pair]) -> tuple[Joint | Prismatic, ...]:
@@ -150,35 +145,30 @@ def joints_of(pairs: Iterable[Pair]) -> tuple[Joint | Prismatic, ...]:
     InputError
         When a joint of three links or more is given a pair too many.
     """
-    found: list[Joint | Prismatic] = []
+    joints: list[Joint | Prismatic] = []
     for pair in pairs:
         if isinstance(pair, Prismatic):
-            found.append(pair)
+            joints.append(pair)
             continue
         one = Joint(pair.point, pair.links, (pair,))
-        touching = [j for j in found if isinstance(j, Joint) and j.point == one.point and {*j.links} & {*one.links}]
+        touching = [j for j in joints if isinstance(j, Joint) and j.point == one.point and {*j.links} & {*one.links}]
+        place = joints.index(touching[0]) if touching else len(joints)
         for joint in touching:
-            links = dict.fromkeys((*joint.links, *one.links))
-            one = Joint(one.point, tuple(links), (*joint.named, *one.named))
-        place = found.index(touching[0]) if touching else len(found)
-        found = [joint for joint in found if joint not in touching]
-        found.insert(place, one)
-    for made in found:
+            joints.remove(joint)
+            one = Joint(one.point, tuple(dict.fromkeys((*joint.links, *one.links))), (*joint.named, *one.named))
+        joints.insert(place, one)
+    for made in joints:
         if isinstance(made, Joint) and len(made.named) >= len(made.links) > 2:
             raise InputError("joint-closed", point=made.point, links=listed(made.links), n=len(made.links) - 1)
-    return tuple(found)
+    return tuple(joints)
 
 
 def pairs_of(
     joints: Iterable[Joint | Prismatic], links: Collection[int], known: Sequence[int]
 ) -> tuple[tuple[Pair, ...], tuple[Pair, ...], bool]:
     """Return the pairs of `links` among themselves, those with `known` ones, and whether the task names all of them."""
-    inner: list[Pair] = []
-    outer: list[Pair] = []
-    named = True
-    for joint in joints:
-        if not any(number in links for number in joint.links):
-            continue
+    inner, outer, named = list[Pair](), list[Pair](), True
+    for joint in (joint for joint in joints if {*joint.links} & {*links}):
         if isinstance(joint, Joint):
             tree, ties = joint.tree(links), joint.ties(links, known)
             named = named and all(map(joint.names, (*tree, *ties)))
@@ -186,7 +176,7 @@ def pairs_of(
             outer += ties
         elif {*joint.links} <= {*links}:
             inner.append(joint)
-        elif {*joint.links} & {*links} and {*joint.links} & {*known}:
+        elif {*joint.links} & {*known}:
             outer.append(joint)
     return tuple(inner), tuple(outer), named
 

@@ -175,8 +175,7 @@ class Rivals:
         poses = rates if _order(name) == 1 else changes
         assert poses is not None
         if _turns(name):
-            row: Array = poses[contours.angle_of[int(of)]]
-            return row
+            return np.asarray(poses[contours.angle_of[int(of)]])
         form = contours.point(of)
         return contours.rate(form, pose, rates) if poses is rates else contours.change(form, pose, rates, poses)
 
@@ -234,8 +233,7 @@ def beside(cycle: Cycle, name: str, sizes: Array) -> Array:
     """Return the sizes beside which errors count: of a number that no plan shows the largest over the cycle."""
     if name not in plans_of(cycle.program):
         sizes = np.where(np.isnan(sizes), np.nan, np.nanmax(sizes, initial=0.0))
-    found: Array = np.where(sizes > 0.0, sizes, np.nan)
-    return found
+    return np.where(sizes > 0.0, sizes, np.nan)
 
 
 def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (), effort: Effort = FULL) -> Contest:

@@ -125,8 +125,6 @@ class Contours:
         """Return the vector from a link's origin to a place on it."""
         return Form({self.angle_of[link]: cmath.rect(1.0, self._ahead[link]) * self._at(place)})
 
-    # What the user asks for.
-
     def point(self, letter: str) -> Form:
         """Return the place of a lettered point."""
         if letter in self._m.frame_points:
@@ -153,8 +151,6 @@ class Contours:
             pose[row] = np.real((places[pair.point] - through) * np.conj(along))
         return pose
 
-    # A sum of vectors, and how it changes.
-
     def value(self, form: Form, pose: Array) -> Array:
         """Return a vector in every position, shape (N,)."""
         return self._turned(form, pose, self._turns(pose))
@@ -177,8 +173,7 @@ class Contours:
         return found
 
     def _turns(self, pose: Array) -> Array:
-        turns: Array = np.exp(1j * pose[: self.count])
-        return turns
+        return np.asarray(np.exp(1j * pose[: self.count]))
 
     def _turned(self, form: Form, pose: Array, turns: Array) -> Array:
         found = np.zeros(pose.shape[1], complex)
@@ -190,8 +185,6 @@ class Contours:
         """Return what turns with angle `k`, for an angle of zero."""
         ways = (way * pose[row] for row, way in form.ways.items() if self._turner[row] == k)
         return sum(ways, start=form.parts.get(k, 0j))
-
-    # The closure equations at any places of the driver.
 
     def solve(self, near: Array, places: Array, tolerance: float) -> Array:
         """Find poses by Newton's method, from a pose `near` each place of the driver, float64 of shape (N,).

@@ -64,15 +64,13 @@ class Stability:
     @property
     def angles(self) -> Array:
         """Angles of the worst intersection, degrees."""
-        found: Array = np.degrees(np.arcsin(np.clip(self.sines, 0.0, 1.0)))
-        return found
+        return np.asarray(np.degrees(np.arcsin(np.clip(self.sines, 0.0, 1.0))))
 
     def digits(self, name: str) -> Array:
         """Return how many digits of double precision are left of a quantity, beside the largest vector of its plan."""
         with np.errstate(divide="ignore"):
             lost = np.log10(np.maximum(self.conditions[name], 1.0))
-        found: Array = DIGITS - lost
-        return found
+        return np.asarray(DIGITS - lost)
 
 
 def stability(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: Hand, seed: int = 0) -> Stability:

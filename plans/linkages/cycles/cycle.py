@@ -249,8 +249,7 @@ def chords(values: Array, section: float) -> Array:
     >>> chords(np.array([0.0, 1.0, 4.0]), 0.5).tolist()
     [2.0, 6.0]
     """
-    slopes: Array = (values[1:] - values[:-1]) * (1.0 / section)
-    return slopes
+    return np.diff(values, axis=0) * (1.0 / section)
 
 
 def pole_distance(mu: float, mu_t: float, derived: float) -> float:
@@ -272,15 +271,13 @@ class Curve:
     @property
     def difference(self) -> Array:
         """Chords less plans."""
-        found: Array = self.chords - self.plans
-        return found
+        return np.asarray(self.chords - self.plans)
 
     @property
     def per_cent(self) -> Array:
         """Size of the difference in per cent of the largest size of the curve by plans."""
         size: float = np.nanmax(np.abs(self.plans), initial=0.0)
-        found: Array = np.abs(self.difference) * (100.0 / size if size else 0.0)
-        return found
+        return np.abs(self.difference) * (100.0 / size if size else 0.0)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -364,8 +361,7 @@ def velocities(at: Array, pin: complex, velocity: complex, omega: float) -> Arra
 
     Places P and A, the `pin`, are in metres, complex128; `velocity` is that of A, `omega` in rad/s.
     """
-    found: Array = LAWS["transport_speed"](omega, at - pin) + velocity
-    return found
+    return np.asarray(LAWS["transport_speed"](omega, at - pin) + velocity)
 
 
 def velocity_field(solved: SolvedLinkage, link: int, columns: int = 9, rows: int = 7) -> tuple[Array, Array]:

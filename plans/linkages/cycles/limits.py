@@ -156,8 +156,10 @@ class Reach:
     def trimmed(self, beside: float) -> tuple[Stretch, ...]:
         """Return the stretches less a little beside change points; without those that are hardly longer."""
         trimmed = []
+        turn, same = (TURN, SAME) if self.whole.closed else (0.0, SAME * self.whole.length)
         for stretch in self.stretches:
-            low, high = (beside if self._changes_at(end) else 0.0 for end in (stretch.low, stretch.high))
+            offs = [[abs(end - change) for change in self.changes] for end in (stretch.low, stretch.high)]
+            low, high = (beside if any(min(x, abs(x - turn)) < same for x in off) else 0.0 for off in offs)
             if not (low or high):
                 trimmed.append(stretch)
             elif stretch.length > 4.0 * beside:
@@ -170,18 +172,12 @@ class Reach:
         Links in line leave the motion undetermined. The angle between them is a root of the rounding there, small but
         not zero, and what is computed with it means nothing.
         """
-        spots = [(x, NEAR_CHANGE) for x in self.changes] + [(x, NEAR_LIMIT) for x in self.limits]
-        turns = self.whole.closed
-        found = np.zeros(places.shape, bool)
-        for spot, near in spots:
-            off = places - spot
-            away = np.minimum(off % TURN, -off % TURN) if turns else np.abs(off)
-            found |= away <= near * (1.0 if turns else self.whole.length)
+        turns, found = self.whole.closed, np.zeros(places.shape, bool)
+        for spots, near in ((self.changes, NEAR_CHANGE), (self.limits, NEAR_LIMIT)):
+            for off in (places - spot for spot in spots):
+                away = np.minimum(off % TURN, -off % TURN) if turns else np.abs(off)
+                found |= away <= near * (1.0 if turns else self.whole.length)
         return found
-
-    def _changes_at(self, place: float) -> bool:
-        turn, same = (TURN, SAME) if self.whole.closed else (0.0, SAME * self.whole.length)
-        return any(min(off, abs(off - turn)) < same for off in (abs(place - change) for change in self.changes))
 
     def _holds(self, stretch: Stretch, place: float) -> bool:
         if self.whole.closed:
@@ -225,10 +221,8 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     position = drive.along(program, values, program.names, MarginBoard, free)
     whole = _range(drive, values, between)
     if position.status in ("no-assembly", "singular"):
-        return Reach(whole, (), (Arc(whole.low, whole.high),), (), ())
-    stretches = _followed(drive, whole)
-    changes: list[float] = []
-    poles: list[float] = []
+        return Reach(whole, (), _gaps(whole, ()), (), ())
+    stretches, changes, poles = _followed(drive, whole), list[float](), list[float]()
 
     @remembering
     def margins(at: Array) -> Mapping[str, Array]:
@@ -331,12 +325,11 @@ def limiting_places(mechanism: Mechanism, values: Mapping[str, float]) -> tuple[
     found = reach_of(drive, values)
     if not found.stretches:
         return None
+    lows, highs = ([getattr(stretch, end) for stretch in found.stretches] for end in ("low", "high"))
     if not drive.turns:
-        below = [stretch.high for stretch in found.stretches if stretch.high <= drive.start]
-        above = [stretch.low for stretch in found.stretches if stretch.low >= drive.start]
+        below, above = [x for x in highs if x <= drive.start], [x for x in lows if x >= drive.start]
         return max(below, default=None), min(above, default=None)
-    below = [(stretch.high - drive.start) % TURN - TURN for stretch in found.stretches]
-    above = [(stretch.low - drive.start) % TURN for stretch in found.stretches]
+    below, above = [(x - drive.start) % TURN - TURN for x in highs], [(x - drive.start) % TURN for x in lows]
     return drive.start + max(below), drive.start + min(above)
 
 

@@ -206,8 +206,7 @@ class _Ends:
     def velocity(self, at: Array) -> Array:
         """Return the output's velocity per unit of the driver's."""
         assert self.output.rate
-        speeds: Array = self.along(at)[self.output.rate]
-        return speeds
+        return self.along(at)[self.output.rate]
 
     def motion(self, values: Mapping[str, float], found: Reach) -> OutputMotion:
         """Find its dead positions, from where to where it moves, and the ratio of times."""
@@ -241,24 +240,18 @@ class _Ends:
         median = np.median(speeds[np.isfinite(speeds)]) if np.isfinite(speeds).any() else 0.0
         roots = zeros(self.velocity, stretch)[0] if median > STILL * usual else speeds[:0]
         roots = roots[np.abs(self.velocity(roots)) <= median] if len(roots) else roots
-        places, ends = self._places(stretch, roots)
-        if not len(roots):
-            return [], ends
-        before = roots[-1] - stretch.length if stretch.closed else stretch.low
-        coming = self.velocity(0.5 * (roots + np.concatenate(([before], roots[:-1])))) > 0.0
-        return [Dead(*spot) for spot in zip(roots.tolist(), places, coming.tolist(), strict=True)], ends
-
-    def _places(self, stretch: Stretch, roots: Array) -> tuple[list[float], list[tuple[float, float]]]:
-        """Return the output's places at `roots`, and at the ends of an open stretch."""
         ends = [] if stretch.closed else [stretch.low, stretch.high]
         inside = [end + s * INSIDE * stretch.length for end, s in zip(ends, (1.0, -1.0), strict=False)]
         at = np.unique(np.concatenate((stretch.place(stretch.grid()), roots, ends, inside)))
         places = self.output.places(self.along(at))
         known = np.flatnonzero(np.isfinite(places))
-        found = [float(places[np.searchsorted(at, root)]) for root in roots]
-        if stretch.closed or not len(known):
-            return found, []
-        return found, [(float(places[i]), float(end)) for i, end in zip((known[0], known[-1]), ends, strict=True)]
+        found = [(float(places[i]), float(x)) for i, x in zip(known[[0, -1]], ends, strict=False)] if len(known) else []
+        if not len(roots):
+            return [], found
+        before = roots[-1] - stretch.length if stretch.closed else stretch.low
+        coming = self.velocity(0.5 * (roots + np.concatenate(([before], roots[:-1])))) > 0.0
+        there = places[np.searchsorted(at, roots)]
+        return [Dead(*spot) for spot in zip(roots.tolist(), there.tolist(), coming.tolist(), strict=True)], found
 
 
 def _ratio(output: Output, dead: Sequence[Dead], drive: Swept, values: Mapping[str, float]) -> float | None:

@@ -198,8 +198,6 @@ class _Course:
         """Return what there is one of for each mechanism, for some of them."""
         return each[which] if self.count > 1 else np.broadcast_to(each, len(which))
 
-    # What a run of the position plan says of every central link.
-
     def _look(self, at: Array, poses: Mapping[str, Array], which: Places) -> dict[str, Array]:
         """Lay all templates down with the driver at `at`, from where they lie; return what the plan says of them."""
         near = {AT: at}
@@ -221,10 +219,7 @@ class _Course:
         return {AT: np.array(at), **{name: np.array(look[name]) for name in names}}
 
     def _all(self, look: Mapping[str, Array], part: str, most: float) -> NDArray[np.bool_]:
-        held: NDArray[np.bool_] = np.logical_and.reduce([look[f"_{part}_{n}"] <= most for n in self._names])
-        return held
-
-    # Where the last group comes from, and how far it goes.
+        return np.asarray(np.logical_and.reduce([look[f"_{part}_{n}"] <= most for n in self._names]))
 
     def settle(self, at: Array, poses: Poses) -> None:
         """Lay the last central link down near where the task says that it starts, those before lie as in `poses`.

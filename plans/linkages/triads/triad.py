@@ -20,17 +20,9 @@ from ....scales.errors import InputError
 from ...board import Board
 from ...names import NORMAL, POINT, Name, arm, between, mark, moment, spelled, vector
 from ..legs import AssurGroup, Hinged, Leg, Slide, legs_of, normal_part
-from ..mechanism import ZERO, Link, Mechanism, Revolute, start_names
+from ..mechanism import ZERO, Mechanism, Revolute, start_names
 from ..parts import SYMBOLS, Bodies, Couples, Forces, Span, answer, hang, local_mark, moments_about
 from ..structure import Group, listed
-
-
-class Central(Span):
-    """The central link between two of its joints; its `third` is found before the points of its figure."""
-
-    def __init__(self, link: Link, start: str, end: str, third: str) -> None:
-        super().__init__(link, start, end)
-        self.others = tuple(point for point in self.others if point != third)
 
 
 class Triad(AssurGroup):
@@ -60,19 +52,17 @@ class Triad(AssurGroup):
             raise InputError("start-legs", link=number, known=listed(group.legs))
         third = next(leg for leg in legs if leg not in first)
         super().__init__(mechanism, group, (first[0], first[1], third))
+        self.by_number = legs  # that is their order
         B, C = [leg.end for leg in legs if leg is not third]
-        self.central = Central(mechanism.link(number), B, C, third.end)
+        self.central = Span(mechanism.link(number), B, C)
+        # the third joint is found before the points of the figure
+        self.central.others = tuple(point for point in self.central.others if point != third.end)
         self.spans, self.bodies = (self.central, *self.spans), (self.central.body, *self.bodies)
         # Assur's special point; its distance from the third leg's joint, the direction from it, the normal to that
         X, D = Name(f"X{number}", POINT, f"X{number}", links=(number,)), third.end
         self.X, self.XD = X, (between("l", X, D), between("e", X, D), between("n", X, D))
         # the other two joints, and names of their parts along and across XD
         self.figure = [(x.end, f"_along_{x.end}_{X}{D}", f"_across_{x.end}_{X}{D}") for x in first]
-
-    @property
-    def by_number(self) -> list[Leg]:
-        """The legs in the order of their numbers."""
-        return sorted(self.legs, key=lambda leg: leg.number)
 
     def position(self, board: Board) -> None:
         """B, C and D are where a template of the central link lies on the arcs, or the lines, of the three legs."""
