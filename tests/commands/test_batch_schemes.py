@@ -10,7 +10,7 @@ from types import ModuleType
 import pytest
 
 from kulman import batch, check, load_task
-from kulman.drawing import cells
+from kulman.drawing import titleblock
 from kulman.scales.errors import InputError
 from kulman.variants import roster as rosters
 from kulman.variants import tables
@@ -177,7 +177,7 @@ def _copy(task: Path, other: Path) -> Path:
     return other
 
 
-@pytest.mark.parametrize("module", [rosters, grid, tables, cells])
+@pytest.mark.parametrize("module", [rosters, grid, tables, titleblock])
 def test_examples_in_docstrings_say_what_comes_out(module: ModuleType) -> None:
     found = doctest.testmod(module)
 
