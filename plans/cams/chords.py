@@ -13,12 +13,12 @@ between lines. A hand errs the more the more chords it draws, so that for each t
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ...scales.errors import InputError
 from ..boards.exact import run
@@ -27,10 +27,9 @@ from ..hands.spread import kept
 from .cam import DIAGRAMS_PART, ROLLER, SIZES_PART
 from .construction import ACCELERATION, TRAVEL, VELOCITY, construct
 from .formulas import MM_PER_M
-from .motion import Division, Motion, Phase
+from .motion import Array, Division, Motion
 from .solve import EQUAL, SolvedCam, diagram_givens
 
-Array = NDArray[np.float64]
 V_MAX, S_MAX, MU_S, R_0 = "V_max_chord", "S_max_chord", "mu_s_chord", "r_0_tangents"
 EXACT = {V_MAX: "_V_max", S_MAX: "_S_max", MU_S: "mu_s"}  # what the exact curves give
 NEAR = 1e-6  # part of a section within which a jump lies on a line
@@ -40,10 +39,8 @@ MU_L = 1e-3  # m/mm, of plans that the sizes do not depend on
 
 @dataclass(frozen=True, slots=True)
 class Sectioned:
-    """The diagrams of a cam with so many `sections` of the rise: the construction as it is drawn, and its values."""
+    """The diagrams of a cam on a division: the construction as it is drawn, and its values."""
 
-    sections: int
-    angles: Array
     division: Division
     paper: Paper
     values: Mapping[str, Any]
@@ -59,73 +56,53 @@ def exact_values(solved: SolvedCam) -> dict[str, float]:
     return found
 
 
-def at_nodes(solved: SolvedCam, sections: int, names: Iterable[str]) -> Sectioned:
-    """Draw the diagrams with at least so many sections of a phase and every jump on a section line."""
-    return _sectioned(solved, *solved.motion.division(sections), tuple(names))
-
-
-def between(solved: SolvedCam, sections: int, names: Iterable[str]) -> Sectioned:
-    """Draw the diagrams with about so many equal sections of a phase, jumps about a third of a section beside lines.
+def between(motion: Motion, sections: int) -> Division:
+    """Return about so many equal sections of a phase, jumps about a third of a section beside lines.
 
     The first jump lies behind the line: so errors of all numbers of sections have the same sign.
     """
-    parts = inner_jumps(solved.motion)
+    parts = list(inner_jumps(motion).values())
 
     def off(count: int) -> float:
         beside = [part * count - math.floor(part * count) for part in parts]
         return abs(beside[0] - THIRD) + sum(abs(min(x, 1.0 - x) - THIRD) for x in beside)
 
-    count = min(range(sections, sections + max(5, sections // 8)), key=lambda count: round(off(count), ROUNDED))
-    return _sectioned(solved, *equal_division(solved.motion, count), tuple(names))
+    counts = range(sections, sections + max(5, sections // 8))
+    return equal_division(motion, min(counts, key=lambda count: round(off(count), ROUNDED)))
 
 
-def inner_jumps(motion: Motion) -> list[float]:
-    """Return the places of jumps of the acceleration within rise and fall, each as part of its phase."""
-    return [
-        part
+def inner_jumps(motion: Motion) -> dict[float, float]:
+    """Return the jumps of the acceleration within rise and fall: by angle, the place of each as part of its phase."""
+    return {
+        jump.phi: part
         for phase in (motion.rise, motion.fall)
         for jump in motion.jumps
         if jump.order == 2 and NEAR < (part := (jump.phi - phase.start) / phase.length) < 1.0 - NEAR
-    ]
+    }
 
 
-def equal_division(motion: Motion, count: int) -> tuple[Array, Division]:
+def equal_division(motion: Motion, count: int) -> Division:
     """Return section lines that divide rise and fall into `count` equal parts each, jumps wherever they lie."""
-
-    def lines(phase: Phase) -> Array:
-        return phase.start + phase.length * (np.arange(count + 1) / count)
-
-    rise, fall = lines(motion.rise), lines(motion.fall)
-    leave = count + (motion.upper.length > 0.0)
-    angles = np.concatenate((rise, fall if leave > count else fall[1:]))
-    places = [int(np.abs(angles - jump.phi).argmin()) for jump in motion.jumps]
-    close = NEAR * motion.rise.length / count
-    hit = (i for i, jump in zip(places, motion.jumps, strict=True) if abs(angles[i] - jump.phi) < close)
-    end = leave + count
-    return angles, Division(count, leave, end, tuple(i for i in hit if 0 < i < count or leave < i < end))
+    parts = np.arange(count + 1) / count
+    rise, fall = (phase.start + phase.length * parts for phase in (motion.rise, motion.fall))
+    return motion.divided(rise, fall, NEAR * motion.rise.length / count)
 
 
-def drawn_on(solved: SolvedCam, angles: Array, division: Division, names: tuple[str, ...]) -> Paper:
-    """Return the construction of some values on a division of one's own, as it is drawn."""
-    motion, given = solved.motion, solved.layout.given
-    sized = solved.roller is not None
-    fastest = int(np.abs(angles - motion.ds_max.phi).argmin())
+def drawn_on(solved: SolvedCam, division: Division, names: tuple[str, ...] = ()) -> Paper:
+    """Return the construction of some values on a division of one's own, as it is drawn; of the nodes without names."""
+    motion, given, sized = solved.motion, solved.layout.given, solved.roller is not None
+    fastest = int(np.abs(division.angles - motion.ds_max.phi).argmin())
     layout = replace(solved.layout, division=division, followers=(ROLLER,) if sized else (), fastest=fastest)
     program = construct(layout, (SIZES_PART,) if sized else (DIAGRAMS_PART,))
-    givens = {**solved.givens, **diagram_givens(motion, angles, division, given)}
-    return Paper(program.needed_for(names), givens, _worth(solved), solved.edges)
+    givens = {**solved.givens, **diagram_givens(motion, division, given)}
+    mus = {plan: EQUAL.get(mu, mu) for plan, mu in solved.scale_of_plan.items()}
+    worth = solved.worth({plan: solved.values.get(mu, MU_L) for plan, mu in mus.items()})
+    return Paper(program.needed_for(names or nodes(solved, division)), givens, worth, solved.edges)
 
 
-def _worth(solved: SolvedCam) -> dict[str, float]:
-    """Return what a millimetre of the plans that are drawn is worth to the board, SI."""
-    mus = ((plan, EQUAL.get(mu, mu)) for plan, mu in solved.scale_of_plan.items())
-    return solved.worth({plan: solved.values.get(mu, MU_L) for plan, mu in mus})
-
-
-def _sectioned(solved: SolvedCam, angles: Array, division: Division, names: tuple[str, ...]) -> Sectioned:
-    paper = drawn_on(solved, angles, division, (*names, *nodes(solved, division)))
-    values = run(paper.program, paper.givens).values
-    return Sectioned(division.top, angles, division, paper, values)
+def _sectioned(solved: SolvedCam, division: Division, names: Iterable[str]) -> Sectioned:
+    paper = drawn_on(solved, division, (*names, *nodes(solved, division)))
+    return Sectioned(division, paper, run(paper.program, paper.givens).values)
 
 
 def nodes(solved: SolvedCam, division: Division) -> tuple[str, ...]:
@@ -142,15 +119,11 @@ def ordinates(values: Mapping[str, Any], plan: str, division: Division, *shape: 
 AS_DRAWN, SPEED, STROKE, BOTH = WAYS = ("drawn", "speed", "stroke", "both")  # what has been closed
 
 
-def travel_errors(
-    solved: SolvedCam, angles: Array, division: Division, values: Mapping[str, Any], *shape: int
-) -> dict[str, Array]:
+def travel_errors(solved: SolvedCam, division: Division, values: Mapping[str, Any], *shape: int) -> dict[str, Array]:
     """Return the errors of a drawn travel on its worst section line, in parts of the stroke, by what has been closed.
 
     Parameters
     ----------
-    angles : array
-        Section lines, rad.
     values : mapping
         The nodes that have been drawn, each a number or an array of `shape`.
 
@@ -159,20 +132,16 @@ def travel_errors(
     dict of str to array of `shape`
         By `WAYS`; where the velocity is given there is none to be closed. The travel is scaled by its own stroke.
     """
-    x = angles * (1.0 / (solved.givens["mu_phi"] * MM_PER_M))
+    x = division.angles * (1.0 / (solved.givens["mu_phi"] * MM_PER_M))
     travel = ordinates(values, TRAVEL, division, *shape)
     closed = {AS_DRAWN: travel, STROKE: stroke_closed(travel, x)}
     if solved.layout.given == ACCELERATION:
         speed = ordinates(values, VELOCITY, division, *shape)
         closed[SPEED] = travel - drift(speed, x, division, solved.givens["H_v"])
         closed[BOTH] = stroke_closed(closed[SPEED], x)
-    exact = _column(solved.motion.at(angles, -1)[0] * (1.0 / solved.motion.h), travel)
-    found = {}
-    for way in WAYS:
-        if way in closed:
-            scaled = closed[way] * (1.0 / closed[way][division.top])
-            found[way] = np.max(np.abs(scaled - exact), axis=0)
-    return found
+    exact = _column(solved.motion.at(division.angles, -1)[0] * (1.0 / solved.motion.h), travel)
+    scaled = {way: closed[way] * (1.0 / closed[way][division.top]) for way in WAYS if way in closed}
+    return {way: np.max(np.abs(travel - exact), axis=0) for way, travel in scaled.items()}
 
 
 def stroke_closed(travel: Array, x: Array) -> Array:
@@ -271,26 +240,31 @@ def convergence(
     """
     chosen = tuple(name for name in compared(solved) if not quantities or name in quantities)
     exact = {name: value for name, value in exact_values(solved).items() if name in chosen}
-    divided = {NODES: at_nodes, **({BETWEEN: between} if inner_jumps(solved.motion) else {})}
+    divided: dict[str, Callable[[int], Division]] = {NODES: solved.motion.division}
+    if inner_jumps(solved.motion):
+        divided[BETWEEN] = partial(between, solved.motion)
+
+    def drawings(divide: Callable[[int], Division], counts: Iterable[int]) -> list[Sectioned]:
+        """Draw with each number of sections once."""
+        divisions = {division.top: division for division in map(divide, counts)}
+        return [_sectioned(solved, division, exact) for division in divisions.values()]
+
     wanted = tuple(sections)
-    found = {where: _unique(divide(solved, n, exact) for n in wanted) for where, divide in divided.items()}
+    found = {where: drawings(divide, wanted) for where, divide in divided.items()}
     errors = {
-        (where, name): np.array([_error(solved, one, name, exact) for one in ones])
-        for where, ones in found.items()
+        (where, name): np.array([_error(solved, drawing, name, exact) for drawing in every])
+        for where, every in found.items()
         for name in chosen
     }
     if all(np.abs(error).max() < ROUNDING for error in errors.values()):
         raise InputError("chart-exact-chords")
-    papers = _unique(at_nodes(solved, n, exact) for n in drawn)
-    by_hand = {
-        (name, quantity): np.array(kept_by_hand)
-        for name, hand in hands.items()
-        for quantity, kept_by_hand in zip(
-            chosen, zip(*(_by_hand(solved, one, hand, chosen, exact) for one in papers), strict=True), strict=False
-        )
-    }
-    counts = {where: tuple(one.sections for one in ones) for where, ones in found.items()}
-    return Convergence(exact, chosen, counts, errors, tuple(one.sections for one in papers), by_hand)
+    papers = drawings(solved.motion.division, drawn)
+    by_hand: dict[tuple[str, str], Array] = {}
+    for name, hand in hands.items():
+        kept_by_hand = [_by_hand(solved, drawing, hand, chosen, exact) for drawing in papers]
+        by_hand |= {(name, chosen[k]): np.array(errors) for k, errors in enumerate(zip(*kept_by_hand, strict=True))}
+    counts = {where: tuple(drawing.division.top for drawing in every) for where, every in found.items()}
+    return Convergence(exact, chosen, counts, errors, tuple(drawing.division.top for drawing in papers), by_hand)
 
 
 def compared(solved: SolvedCam) -> tuple[str, ...]:
@@ -298,31 +272,25 @@ def compared(solved: SolvedCam) -> tuple[str, ...]:
     return (*exact_values(solved), CLOSED)
 
 
-def _error(solved: SolvedCam, one: Sectioned, name: str, exact: Mapping[str, float]) -> float:
+def _error(solved: SolvedCam, drawing: Sectioned, name: str, exact: Mapping[str, float]) -> float:
     """Return the error of chords alone."""
     if name in exact:
-        return float(one.values[name] / exact[name] - 1.0)
-    found = travel_errors(solved, one.angles, one.division, one.values)
+        return float(drawing.values[name] / exact[name] - 1.0)
+    found = travel_errors(solved, drawing.division, drawing.values)
     return float(found.get(BOTH, found[STROKE]))
 
 
 def _by_hand(
-    solved: SolvedCam, one: Sectioned, hand: Hand, names: Iterable[str], exact: Mapping[str, float]
+    solved: SolvedCam, drawing: Sectioned, hand: Hand, names: Iterable[str], exact: Mapping[str, float]
 ) -> Iterator[float]:
     """Go through what most drawings of a hand keep."""
-    values = draw(one.paper, hand, np.random.default_rng(SEED), DRAWINGS).values
+    values = draw(drawing.paper, hand, np.random.default_rng(SEED), DRAWINGS).values
     for name in names:
         if name in exact:
-            drawings = np.broadcast_to(values[name], DRAWINGS)
-            yield float(kept(drawings, exact[name])) / exact[name]
+            yield float(kept(np.broadcast_to(values[name], DRAWINGS), exact[name])) / exact[name]
         else:
-            found = travel_errors(solved, one.angles, one.division, values, DRAWINGS)
+            found = travel_errors(solved, drawing.division, values, DRAWINGS)
             yield float(kept(found.get(BOTH, found[STROKE]), 0.0))
-
-
-def _unique(ones: Iterable[Sectioned]) -> list[Sectioned]:
-    """Leave out what has the number of sections of another."""
-    return list({one.sections: one for one in ones}.values())
 
 
 BESIDE_AT = (12, 24, 48)  # at which a line beside a jump is looked at
@@ -360,49 +328,36 @@ def robustness(solved: SolvedCam, hands: Mapping[str, Hand], sections: Iterable[
     missed: dict[tuple[int, str], Array] = {}
     beside = BESIDE if inner_jumps(solved.motion) else ()
     for count in sections if beside else ():
-        angles, division = solved.motion.division(count)
-        found = [_missed(solved, angles, division, part, tuple(exact)) for part in beside]
+        division = solved.motion.division(count)
+        papers = [drawn_on(solved, late(solved, division, part), tuple(exact)) for part in beside]
+        found = [run(paper.program, paper.givens).values for paper in papers]
         for name, value in exact.items():
-            missed[division.top, name] = np.array([values[name] for values in found]) / value - 1.0
-    angles, division = solved.motion.division(CLOSED_AT)
-    closings = {name: _closing(solved, angles, division, hand) for name, hand in hands.items()}
+            missed[division.top, name] = np.array([float(values[name]) for values in found]) / value - 1.0
+    division = solved.motion.division(CLOSED_AT)
+    closings = {name: _closing(solved, division, hand) for name, hand in hands.items()}
     return Robustness(beside, missed, division.top, closings)
 
 
-def late(solved: SolvedCam, angles: Array, part: float) -> Array:
+def late(solved: SolvedCam, division: Division, part: float) -> Division:
     """Return section lines, those at jumps within phases late by a part of the section that they move into."""
+    angles = division.angles
     moved = angles.copy()
-    for phase in (solved.motion.rise, solved.motion.fall):
-        for jump in solved.motion.jumps:
-            inside = NEAR < (jump.phi - phase.start) / phase.length < 1.0 - NEAR
-            if jump.order == 2 and inside:
-                i = int(np.abs(angles - jump.phi).argmin())
-                moved[i] += part * (angles[i + 1] - angles[i] if part > 0.0 else angles[i] - angles[i - 1])
-    return moved
+    for phi in inner_jumps(solved.motion):
+        i = int(np.abs(angles - phi).argmin())
+        moved[i] += part * (angles[i + 1] - angles[i] if part > 0.0 else angles[i] - angles[i - 1])
+    return replace(division, angles=moved)
 
 
-def _missed(
-    solved: SolvedCam, angles: Array, division: Division, part: float, names: tuple[str, ...]
-) -> dict[str, float]:
-    paper = drawn_on(solved, late(solved, angles, part), division, names)
-    values = run(paper.program, paper.givens).values
-    return {name: float(values[name]) for name in names}
-
-
-def _closing(solved: SolvedCam, angles: Array, division: Division, hand: Hand) -> Closing:
+def _closing(solved: SolvedCam, division: Division, hand: Hand) -> Closing:
     """Let a hand draw, and look at how it closes."""
-    paper = drawn_on(solved, angles, division, nodes(solved, division))
-    values = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS).values
-    travel = ordinates(values, TRAVEL, division, DRAWINGS)
-    speed = ordinates(values, VELOCITY, division, DRAWINGS) if solved.layout.given == ACCELERATION else None
-    found = travel_errors(solved, angles, division, values, DRAWINGS)
-    return Closing(
-        None if speed is None else _millimetres(speed[division.top]),
-        None if speed is None else _millimetres(speed[division.last]),
-        _millimetres(travel[division.last]),
-        {way: float(kept(errors, 0.0)) for way, errors in found.items()},
-    )
+    values = draw(drawn_on(solved, division), hand, np.random.default_rng(SEED), DRAWINGS).values
 
+    def ends(plan: str, *lines: int) -> list[float]:
+        found = ordinates(values, plan, division, DRAWINGS)
+        return [float(kept(found[line], 0.0)) * MM_PER_M for line in lines]
 
-def _millimetres(ordinates: Array) -> float:
-    return float(kept(ordinates, 0.0)) * MM_PER_M
+    given = solved.layout.given == ACCELERATION
+    top, last = ends(VELOCITY, division.top, division.last) if given else (None, None)
+    errors = travel_errors(solved, division, values, DRAWINGS)
+    kept_errors = {way: float(kept(error, 0.0)) for way, error in errors.items()}
+    return Closing(top, last, ends(TRAVEL, division.last)[0], kept_errors)

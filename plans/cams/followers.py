@@ -217,7 +217,7 @@ class RollerCam(RollingCam):
     by_tangents: RollerSizes
     offsets: Offsets | None = None
 
-    def givens(self) -> dict[str, float]:
+    def givens(self, division: Division) -> dict[str, float]:
         """Return the sizes as parts of the stroke, to which they are proportional, and the limits' tangents."""
         motion, sizes, sense = self.profile.motion, self.sizes, self.profile.sense
         found = {"_e_part": sizes.e / motion.h, "_s_0_part": sizes.s_0 / motion.h}
@@ -242,7 +242,7 @@ class PlateCam:
     profile: PlateProfile
     given: bool = False  # whether r_0 is given
 
-    def givens(self) -> dict[str, float]:
+    def givens(self, division: Division) -> dict[str, float]:
         """Return the least radius as a part of the stroke."""
         return {"_r_0_flat_part": self.sizes.r_0_min / self.profile.motion.h}
 
@@ -254,16 +254,16 @@ class RockerCam(RollingCam):
     rocker: Rocker
     sizes: RockerSizes
 
-    def givens(self, angles: Array, division: Division) -> dict[str, float]:
+    def givens(self, division: Division) -> dict[str, float]:
         """Return the rocker's positions, the directions of the limits, and sizes as parts of its length."""
-        psi, dpsi, _ = self.rocker.motion.at(angles, -1)
+        psi, dpsi, _ = self.rocker.motion.at(division.angles, -1)
         sizes, length, sense = self.sizes, self.sizes.l, self.rocker.sense
         x, y = sizes.e - length, sizes.s_0  # the pivot
         found = {"_centre_x_part": -x / length, "_centre_y_part": -y / length}
         found["_rho_part"] = self.profile.rho_min / length
         start = math.atan2(y, x)
         for i in division.lines:
-            turned = sense * float(angles[i])
+            turned = sense * float(division.angles[i])
             found |= {f"_swing{i}": float(psi[i]), f"_analogue{i}": sense * float(dpsi[i])}
             found |= {f"_arm_angle{i}": float(psi[i]) - turned, f"_pivot_angle{i}": start - turned}
             limit = self.limits.each[i not in division.rise]

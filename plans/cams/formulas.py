@@ -48,17 +48,12 @@ def _sharpest(stroke: Any, e: Any, s_0: Any, *parts: Any) -> Any:
     is e + i (s_0 + s) on paper that turns with the cam.
     """
     deep = max(np.ndim(size) for size in (stroke, e, s_0))
-    s, ds, d2s = (stroke * np.array(third).reshape(-1, *(1,) * deep) for third in _thirds(parts))
+    s, ds, d2s = stroke * np.array(parts).reshape(3, -1, *(1,) * deep)
     up, aside = s_0 + s, ds - e
     bend = up * (up - d2s) + aside * (aside + ds)
     convex = bend > 0.0
     radii = np.where(convex, np.sqrt(up * up + aside * aside) ** 3 / np.where(convex, bend, 1.0), np.inf)
     return as_number(np.min(radii, axis=0))
-
-
-def _thirds(parts: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
-    third = len(parts) // 3
-    return parts[:third], parts[third : 2 * third], parts[2 * third :]
 
 
 def _outermost(side: Any, *places: Any) -> Any:

@@ -30,14 +30,15 @@ SHORT = 1e-6  # rad, of a phase that nobody can draw: what rounded angles leave 
 WHOLE = 1e-9  # part of a section by which a node may be off an equal division
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Division:
-    """Numbers of section lines: the rise runs from 0 to `top`, the upper dwell to `leave`, the fall to `last`.
+    """Section lines at `angles`, rad: the rise has those from 0 to `top`, the fall those from `leave` to `last`.
 
-    The lower dwell is the rest of the turn; nothing changes in it, so that it has no sections. `jumps` are the lines
-    within a phase at which the acceleration jumps.
+    The upper dwell is between them. The lower dwell is the rest of the turn; nothing changes in it, so that it has no
+    sections. `jumps` are the lines within a phase at which the acceleration jumps.
     """
 
+    angles: Array
     top: int
     leave: int
     last: int
@@ -312,21 +313,28 @@ class Motion:
         """Angles at which the pieces join, 0 and a whole turn among them."""
         return (*(piece.low for _, piece in self._pieces), TURN)
 
-    def division(self, sections: int = 12) -> tuple[Array, Division]:
-        """Return angles of section lines, rad, and which of them bound the phases.
+    def divided(self, rise: Array, fall: Array, near: float) -> Division:
+        """Return section lines of rise and fall together; a jump is on one that is less than `near` rad from it."""
+        top = len(rise) - 1
+        leave = top + (self.upper.length > 0.0)
+        angles = np.concatenate((rise, fall if leave > top else fall[1:]))
+        last = leave + len(fall) - 1
+        lines = ((int(np.abs(angles - jump.phi).argmin()), jump.phi) for jump in self.jumps)
+        jumps = tuple(i for i, phi in lines if abs(angles[i] - phi) < near and (0 < i < top or leave < i < last))
+        return Division(angles, top, leave, last, jumps)
+
+    def division(self, sections: int = 12) -> Division:
+        """Return the section lines on which a cam is drawn.
 
         Rise and fall have at least as many sections each as asked for; jumps and inflexions lie on section lines. The
         sections of a phase are equal where some number of them, at most twice that asked for, puts all of them there.
         """
         marked = [*(jump.phi for jump in self.jumps), *self.inflexions]
         rise, fall = (_divided(phase, marked, sections) for phase in (self.rise, self.fall))
-        top = len(rise) - 1
-        leave = top + (self.upper.length > 0.0)
-        angles = np.concatenate((rise, fall if leave > top else fall[1:]))
-        places = [int(np.abs(angles - jump.phi).argmin()) for jump in self.jumps]
-        angles[places] = [jump.phi for jump in self.jumps]  # exactly, to have the limits of both sides there
-        last = leave + len(fall) - 1
-        return angles, Division(top, leave, last, tuple(i for i in places if 0 < i < top or leave < i < last))
+        found = self.divided(rise, fall, math.inf)
+        for jump in self.jumps:  # exactly, to have the limits of both sides there
+            found.angles[np.abs(found.angles - jump.phi).argmin()] = jump.phi
+        return found
 
     def samples(self, most: float = math.radians(0.5)) -> Array:
         """Return angles over the whole turn, from 0 to a turn, corners among them, at most `most` rad apart."""

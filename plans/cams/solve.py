@@ -50,16 +50,11 @@ from .sizes import RIGHT_ANGLE
 NUMBERS = {"_two": 2.0, "_minus_one": -1.0}
 
 
-def peak(motion: Motion, given: str) -> float:
-    """Return the greatest ordinate of the given diagram in the rise, SI: A_1, or the greatest ds/dphi."""
-    order = (0.0, 0.0, 1.0) if given == ACCELERATION else (0.0, 1.0, 0.0)
-    return motion.maximum(*order, (RISE,)).value
-
-
-def diagram_givens(motion: Motion, angles: Array, division: Division, given: str) -> dict[str, Any]:
+def diagram_givens(motion: Motion, division: Division, given: str) -> dict[str, Any]:
     """Return what the diagrams begin with: angles of section lines, and parts of the amplitude that is given."""
-    amplitude, top = peak(motion, given), motion.rise.length
-    order = 2 if given == ACCELERATION else 1
+    order, angles, top = 2 if given == ACCELERATION else 1, division.angles, motion.rise.length
+    # the greatest ordinate of the given diagram in the rise, SI: A_1, or the greatest ds/dphi
+    amplitude = motion.maximum(0.0, float(order == 1), float(order == 2), (RISE,)).value
     found: dict[str, Any] = dict(NUMBERS)
     middles = 0.5 * (angles[:-1] + angles[1:])
     means = motion.at(middles)[order]
@@ -80,12 +75,12 @@ def diagram_givens(motion: Motion, angles: Array, division: Division, given: str
     return found
 
 
-def profile_givens(motion: Motion, angles: Array, division: Division, sense: int) -> dict[str, float]:
+def profile_givens(motion: Motion, division: Division, sense: int) -> dict[str, float]:
     """Return the follower's axes in the inverted motion, and travels as parts of the stroke."""
-    s, ds, _ = motion.at(angles, -1)
+    s, ds, _ = motion.at(division.angles, -1)
     found = {"_sense": float(sense)}
     for i in division.lines:
-        found[f"_axis_angle{i}"] = RIGHT_ANGLE - sense * float(angles[i])
+        found[f"_axis_angle{i}"] = RIGHT_ANGLE - sense * float(division.angles[i])
         found |= {f"_s_part{i}": float(s[i]) / motion.h, f"_x_part{i}": sense * float(ds[i]) / motion.h}
     return found
 
@@ -160,6 +155,7 @@ SHOWN_ON = {
     **dict.fromkeys(("rho_min", "R_roller"), PROFILE),
     **dict.fromkeys(("r_0_flat", "R_plate"), PLATE_PROFILE),
 }
+LENGTHS = ("H_a", "H_v", "R_roller", "l_rocker", "r_0_flat")  # given ones that are results, too
 # how the numbers that a task has on the paper of the diagrams change with the size of the drawing
 REDUCED = {"l_A1": 1, "H_a": 1, "H_v": 1, "mu_phi": -1}
 UNITS = {
@@ -186,15 +182,19 @@ def unit_of(name: str) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SolvedCam(Solved):
-    """A cam solved; `angles` are those of the section lines, rad."""
+    """A cam solved."""
 
     cam: Cam
     motion: Motion
-    angles: Array
     layout: Layout
     roller: RollerCam | None
     plate: PlateCam | None
     rocker: RockerCam | None
+
+    @property
+    def angles(self) -> Array:
+        """The angles of the section lines, rad."""
+        return self.layout.division.angles
 
     @property
     def edges(self) -> tuple[str, ...]:
@@ -236,12 +236,11 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     """
     values = _of_plate_alone(values) if cam.followers == (PLATE,) else values
     motion = _motion(cam, values)
-    angles, division = motion.division(cam.sections)
     wanted = with_needs(plans, NEEDS)
     cams = _cams(cam, motion, values) if SIZES_PART in wanted else {}
-    layout = _layout(cam, motion, angles, division, cams)
+    layout = _layout(cam, motion, cams)
     program = construct(layout, wanted)
-    givens = {**values, **_givens(cam, motion, angles, layout, cams)}
+    givens = {**values, **_givens(cam, motion, layout, cams)}
     return SolvedCam(
         **_found(program, givens),
         program=program,
@@ -249,7 +248,6 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
         scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
         cam=cam,
         motion=motion,
-        angles=angles,
         layout=layout,
         roller=cams.get(ROLLER),
         plate=cams.get(PLATE),
@@ -272,8 +270,9 @@ def again(solved: SolvedCam, values: Mapping[str, float]) -> Mapping[str, Any]:
     cam = solved.cam
     motion = _motion(cam, values)
     angles = np.interp(solved.angles, solved.motion.corners, motion.corners)
-    cams = _cams(cam, motion, values) if solved.layout.followers else {}
-    return run(solved.program, {**values, **_givens(cam, motion, angles, solved.layout, cams)}).values
+    layout = replace(solved.layout, division=replace(solved.layout.division, angles=angles))
+    cams = _cams(cam, motion, values) if layout.followers else {}
+    return run(solved.program, {**values, **_givens(cam, motion, layout, cams)}).values
 
 
 def _of_plate_alone(values: Mapping[str, float]) -> Mapping[str, float]:
@@ -287,33 +286,35 @@ def _of_plate_alone(values: Mapping[str, float]) -> Mapping[str, float]:
 
 def _motion(cam: Cam, values: Mapping[str, float]) -> Motion:
     """Return the motion of the follower; the stroke of a rocker is that of its roller."""
-    if ROCKER in cam.followers:
-        values = {**values, "h": LAWS[ARC](values["psi"], values["l_rocker"])}
-    return motion_of(cam, values)
+    h = LAWS[ARC](values["psi"], values["l_rocker"]) if ROCKER in cam.followers else values["h"]
+    return motion_of(cam, {**values, "h": h})
 
 
 def _found(program: Program, givens: Mapping[str, Any]) -> dict[str, Any]:
     """Return what the construction gives with these numbers, by fields of a cam solved."""
     board = run(program, givens)
+    stated = {"mu_phi": Quantity("mu_phi", float(givens["mu_phi"]), unit_of("mu_phi"))} if "mu_phi" in givens else {}
+    lengths = {name: givens[name] for name in LENGTHS if name in givens}
     return {
         "givens": givens,
         "values": board.values,
-        "quantities": _stated(givens) | quantities(program, board.values, _lengths(givens), unit_of),
+        "quantities": stated | quantities(program, board.values, lengths, unit_of),
         "sines": board.sines,
         "status": board.status,
         "trouble": board.trouble,
     }
 
 
-def _layout(cam: Cam, motion: Motion, angles: Array, division: Division, cams: Mapping[str, Any]) -> Layout:
+def _layout(cam: Cam, motion: Motion, cams: Mapping[str, Any]) -> Layout:
     """Return what the construction depends on: a velocity that jumps is given, as no acceleration has it."""
     roller: RollerCam | None = cams.get(ROLLER)
     plate: PlateCam | None = cams.get(PLATE)
+    division = motion.division(cam.sections)
     return Layout(
         division,
         tuple(cams),
         VELOCITY if motion.velocity_jumps else ACCELERATION,
-        fastest=int(abs(angles - motion.ds_max.phi).argmin()),
+        fastest=int(abs(division.angles - motion.ds_max.phi).argmin()),
         limits=tuple(limit.name for limit in roller.limits.each) if roller else (),
         corner=roller.by_tangents.on if roller else (),
         ranged=roller is not None and roller.offsets is not None,
@@ -322,24 +323,17 @@ def _layout(cam: Cam, motion: Motion, angles: Array, division: Division, cams: M
     )
 
 
-def _givens(cam: Cam, motion: Motion, angles: Array, layout: Layout, cams: Mapping[str, Any]) -> dict[str, Any]:
+def _givens(cam: Cam, motion: Motion, layout: Layout, cams: Mapping[str, Any]) -> dict[str, Any]:
     """Return what the board begins with beside the numbers of the cam."""
-    division = layout.division
-    found = diagram_givens(motion, angles, division, layout.given)
-    found |= profile_givens(motion, angles, division, cam.sense)
-    if ROLLER in cams:
-        found |= cams[ROLLER].givens()
-    if PLATE in cams:
-        found |= cams[PLATE].givens()
-    if ROCKER in cams:
-        found |= cams[ROCKER].givens(angles, division)
+    found = diagram_givens(motion, layout.division, layout.given) | profile_givens(motion, layout.division, cam.sense)
+    for follower in cams.values():
+        found |= follower.givens(layout.division)
     return found
 
 
 def _shown_on(program: Program) -> dict[str, str]:
-    drawn = {*program.plans}
-    shown = SHOWN_ON | ({"r_0": ROCKER_SIZES, "l_OC": ROCKER_SIZES} if ROCKER_SIZES in drawn else {})
-    return shown_on(program) | {name: plan for name, plan in shown.items() if plan in drawn}
+    shown = SHOWN_ON | dict.fromkeys(("r_0", "l_OC"), ROCKER_SIZES) if ROCKER_SIZES in program.plans else SHOWN_ON
+    return shown_on(program) | {name: plan for name, plan in shown.items() if plan in program.plans}
 
 
 def _cams(cam: Cam, motion: Motion, values: Mapping[str, float]) -> dict[str, Any]:
@@ -353,16 +347,6 @@ def _cams(cam: Cam, motion: Motion, values: Mapping[str, float]) -> dict[str, An
         elif not motion.velocity_jumps:
             found[PLATE] = plate_cam(cam, motion, values)
     return found
-
-
-def _stated(values: Mapping[str, Any]) -> dict[str, Quantity]:
-    """Return the given scale factor of the axis of angles, which is a result, too."""
-    return {name: Quantity(name, float(values[name]), unit_of(name)) for name in ("mu_phi",) if name in values}
-
-
-def _lengths(values: Mapping[str, Any]) -> dict[str, float]:
-    """Return the given lengths that are results, too."""
-    return {name: values[name] for name in ("H_a", "H_v", "R_roller", "l_rocker", "r_0_flat") if name in values}
 
 
 # numbers that neither the motion nor the smallest sizes depend on

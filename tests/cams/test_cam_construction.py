@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -129,10 +130,11 @@ def errors(cam: Cam, sections: int, shift: float = 0.0) -> tuple[float, float]:
     """Return by which parts chords miss velocity and stroke; `shift` moves all inner section lines by a part."""
     motion = motion_of(cam, MADI)
     solved = solve_cam(Cam(cam.followers, cam.law, fall=cam.fall, sections=sections), MADI, ("diagrams",))
-    angles, division = solved.angles.copy(), solved.layout.division
+    division = replace(solved.layout.division, angles=solved.angles.copy())
+    angles = division.angles
     inside = [i for i in division.lines if i not in (0, division.top, division.leave, division.last)]
     angles[inside] += shift * (angles[1] - angles[0])
-    givens = solved.givens | diagram_givens(motion, angles, division, "diagram_a")
+    givens = solved.givens | diagram_givens(motion, division, "diagram_a")
     board = run(construct(solved.layout, ("diagrams",)), givens)
     drawn = (board.values["V_max_chord"] / board.values["_V_max"], board.values["S_max_chord"] / board.values["_S_max"])
     return abs(drawn[0] - 1.0), abs(drawn[1] - 1.0)

@@ -124,7 +124,8 @@ def test_extremes_are_exact(count: int) -> None:
 def test_jump_lies_on_a_section_line(u: float, count: int, equal: bool) -> None:
     motion = Motion(0.01, 2.0, 0.5, 2.0, law_of_motion("sawtooth", u))
 
-    angles, division = motion.division(12)
+    division = motion.division(12)
+    angles = division.angles
 
     assert (division.top, division.leave, division.last) == (count, count + 1, 2 * count + 1)
     assert [angles[i] for i in (0, division.top, division.leave, division.last)] == pytest.approx([0.0, 2.0, 2.5, 4.5])
@@ -136,7 +137,8 @@ def test_jump_lies_on_a_section_line(u: float, count: int, equal: bool) -> None:
 def test_inflexions_of_smooth_laws_lie_on_section_lines() -> None:
     motion = Motion(0.01, 2.0, 0.0, 3.0, law_of_motion("sine", 0.25), law_of_motion("polynomial-345", 0.6), "same")
 
-    angles, division = motion.division(12)
+    division = motion.division(12)
+    angles = division.angles
 
     assert motion.inflexions == pytest.approx((0.5, 2.0 + 0.6 * 3.0))
     for phi in motion.inflexions:

@@ -108,9 +108,8 @@ def test_chords_of_a_constant_velocity_have_no_error() -> None:
 
 def test_a_drafting_machine_draws_along_the_edges_without_an_error_of_direction() -> None:
     solved = cam()
-    angles, division = solved.motion.division(12)
     names = ("diagram_s.f12", "diagram_v.p1", "diagram_v.1")
-    paper = drawn_on(solved, angles, division, names)
+    paper = drawn_on(solved, solved.motion.division(12), names)
 
     machine, free = (
         draw(one, Hand(0.0, 1.0, 0.0), np.random.default_rng(1), 50).values for one in (paper, replace(paper, edges=()))
@@ -144,9 +143,9 @@ def test_a_line_beside_a_jump_errs_as_far_as_it_is_late() -> None:
 
 def test_only_lines_at_jumps_are_late() -> None:
     solved = cam()
-    angles, division = solved.motion.division(12)
+    division = solved.motion.division(12)
 
-    moved = late(solved, angles, 0.25) - angles
+    moved = late(solved, division, 0.25).angles - division.angles
 
     assert [*np.flatnonzero(moved)] == [*division.jumps]
     assert np.degrees(moved[list(division.jumps)]) == pytest.approx([2.25, 2.25])
@@ -154,7 +153,8 @@ def test_only_lines_at_jumps_are_late() -> None:
 
 def test_closing_takes_out_a_drift_of_the_velocity_exactly() -> None:
     """A velocity that is off by straight lines: so much is its integral off."""
-    division, x = Division(12, 13, 25), np.concatenate((np.linspace(0.0, 0.1, 13), np.linspace(0.12, 0.2, 13)))
+    x = np.concatenate((np.linspace(0.0, 0.1, 13), np.linspace(0.12, 0.2, 13)))
+    division = Division(x, 12, 13, 25)
     off = np.interp(x, [0.0, 0.1, 0.12, 0.2], [0.0, 0.004, 0.004, -0.002])
     speed = off + np.sin(2.0 * np.pi * x / 0.1) * np.where(x <= 0.1, 1.0, 0.0)
     fine = np.linspace(0.0, 0.2, 200_001)

@@ -13,7 +13,7 @@ from kulman.plans import contest as contests
 from kulman.plans.cams import rivals as races
 from kulman.plans.cams.chords import V_MAX, drawn_on, exact_values
 from kulman.plans.cams.motion import Motion
-from kulman.plans.cams.rivals import errors, in_extended, midpoint, on_lines, rivals, simpson
+from kulman.plans.cams.rivals import errors, in_extended, midpoint, rivals, simpson
 from kulman.plans.cams.solve import SolvedCam
 from kulman.plans.contest import Contest, Effort
 from kulman.plans.hands.shaky import preset
@@ -38,11 +38,11 @@ def race() -> Contest:
 
 
 def motion_errors(motion: Motion, way: object, sections: int) -> dict[str, float]:
-    cut = on_lines(motion, sections)
-    course = way(motion, "diagram_a", cut)  # type: ignore[operator]
+    division = motion.division(sections)
+    course = way(motion, "diagram_a", division)  # type: ignore[operator]
     return {
         kind: float(e.max())
-        for kind, e in errors(motion, cut.division, course, in_extended(motion, cut.angles)).items()
+        for kind, e in errors(motion, division, course, in_extended(motion, division.angles)).items()
     }
 
 
@@ -97,10 +97,8 @@ def test_a_hand_stands_beside_the_others() -> None:
 
 def test_construction_of_some_values_needs_few_steps() -> None:
     solved = cam()
-    angles, division = solved.motion.division(12)
+    division = solved.motion.division(12)
 
-    whole, part = (
-        drawn_on(solved, angles, division, names).program for names in (tuple(exact_values(solved)), (V_MAX,))
-    )
+    whole, part = (drawn_on(solved, division, names).program for names in (tuple(exact_values(solved)), (V_MAX,)))
 
     assert len(part.names) < 0.5 * len(whole.names)
