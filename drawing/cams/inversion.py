@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from ...plans.cams import course
-from ...plans.cams.course import dwelling, on_circle, rests, theta, transmission, up_at
+from ...plans.cams.construction import PROFILE
 from ...plans.cams.envelopes import Undercut
 from ...plans.cams.motion import LOWER
 from ...plans.cams.profile import RollerProfile
@@ -37,27 +37,26 @@ ASIDE = 0.5  # rad between a position and the radius dimensioned in it
 FLAT = 1e-6  # rad, of an angle that is not shown
 
 
-def heading(scene: CamScene, key: str, plan: str) -> tuple[str, str]:
-    """Return the heading of the plan of a cam: its name, its scale."""
-    return scene.words[key], f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(plan))}"
-
-
 def numbers(canvas: Canvas, scene: CamScene, e: float, radius: float) -> None:
     """Write the number of each position on its line, at `radius`; that of position 0 beside the rod."""
     height, solved = scene.style.text, scene.solved
     written: list[complex] = []
     for i in solved.layout.division.lines:
-        up = up_at(solved, i)
-        at = on_circle(e, radius, up)
+        up = course.up_at(solved, i)
+        at = course.on_circle(e, radius, up)
         if i == 0:  # beyond the cam's axis from there
             at = complex(-scene.style.label if e >= 0.0 else scene.style.label, at.imag)
         needed = lay_out(str(i), height).width + 0.3 * height
         on_rod = i > 0 and at.imag > 0.0 and abs(at.real - e) < scene.style.label
-        if not on_rod and all(
-            abs(at - other) > needed for other in written
-        ):  # where there are many, some have no number
-            canvas.add(Text(at - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
+        if not on_rod and all(abs(at - other) > needed for other in written):  # where there are many, some have none
+            number(canvas, at, i)
             written.append(at)
+
+
+def number(canvas: Canvas, at: complex, i: int) -> None:
+    """Write the number of a position about a place."""
+    height = canvas.style.text
+    canvas.add(Text(at - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
 
 
 def phases(canvas: Canvas, scene: CamScene, start: complex, radius: float, past: complex = 0j) -> None:
@@ -65,7 +64,7 @@ def phases(canvas: Canvas, scene: CamScene, start: complex, radius: float, past:
 
     No text stands at the line to `past`.
     """
-    motion, sense, words = scene.solved.motion, scene.solved.cam.sense, scene.words
+    motion, sense = scene.solved.motion, scene.solved.cam.sense
     first = swept(1.0 + 0j, start)
     for phase in motion.phases:
         if not phase.lasts:
@@ -75,7 +74,7 @@ def phases(canvas: Canvas, scene: CamScene, start: complex, radius: float, past:
         canvas.add(angle_dimension(0j, radius, begin, sweep, name, scene.style))
         for angle in (begin, begin + sweep):
             canvas.add(Line(polar(radius - 1.5, angle), polar(radius + 2.0, angle), Pen.THIN, role="extension"))
-        text = f"{words.symbol(name)} = {scene.degrees(phase.length)}"
+        text = scene.angle(name, phase.length)
         shares = OF_PHASE[2:] if phase.name == LOWER else OF_PHASE  # beside the radius dimensioned
         half = 0.6 * lay_out(text, scene.style.text).width / radius
         middles = [begin + share * sweep for share in shares]
@@ -103,7 +102,7 @@ def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: fl
         canvas.add(Line(a, b, Pen.AXIS, role="axis"))
     r = shaft_radius(reach, style, offset)
     canvas.add(shaft(0j, r, style))
-    middle = dwelling(scene.solved) + turned
+    middle = course.dwelling(scene.solved) + turned
     arrow, radius = middle - ARROW * sense, max(1.9 * r, offset + 0.6 * style.label)
     if polar(1.0, arrow).imag < -SIDEWAYS:  # the support is there
         arrow = -arrow
@@ -114,7 +113,7 @@ def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: fl
 def letter_centre(canvas: Canvas, scene: CamScene, reach: float, turned: float = 0.0, offset: float = 0.0) -> None:
     """Write the letter of the cam's centre, when all else is drawn: near the shaft, clear of all lines if it can be."""
     style, sense = scene.style, scene.solved.cam.sense
-    size, middle = max(shaft_radius(reach, style, offset), offset), dwelling(scene.solved) + turned
+    size, middle = max(shaft_radius(reach, style, offset), offset), course.dwelling(scene.solved) + turned
     turns = sorted(TURNS, key=lambda turn: abs(turn - BESIDE))
     far = (size + style.label * part for part in (0.8, 0.95, 1.1, 1.3, 1.6, 2.0))
     places = [polar(away, middle + turn * sense) for away in far for turn in turns]
@@ -128,8 +127,8 @@ def circle(radius: float, name: str) -> Group:
     return Group((Circle(0j, radius, Pen.THIN),), "circle", name)
 
 
-def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: float, free: Free) -> str:
-    """Dimension the radius of a circle about the cam's centre along a ray.
+def radius_at(canvas: Canvas, scene: CamScene, radius: tuple[str, float], angle: float, free: Free) -> str:
+    """Dimension a radius, by name and in m, of a circle about the cam's centre along a ray.
 
     The text runs along the ray: between the first two of the radii `free`, beyond the shaft, if need be without its
     number, or else beyond the third; that of a cam without room for letters stands where it finds a place.
@@ -139,8 +138,8 @@ def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: f
     str
         The number, if it has no place in the figure.
     """
-    style, size = scene.style, scene.drawn(value)
-    ray, whole = polar(1.0, angle), f"{scene.words.symbol(name)} = {scene.length(value)}"
+    name, style, size = radius[0], scene.style, scene.drawn(radius[1])
+    ray, whole = polar(1.0, angle), scene.dimension(*radius)
     low, high = max(shaft_radius(size, style), free[0]) + 1.0, min(free[1], size - style.arrow)
     text = whole if lay_out(whole, style.text).width < high - low else scene.words.symbol(name)
     left = "" if text == whole else whole
@@ -161,7 +160,7 @@ def radius_at(canvas: Canvas, scene: CamScene, name: str, value: float, angle: f
 
 def quiet(scene: CamScene) -> float:
     """Return the direction along which a radius is dimensioned: in the lower dwell, beside the letter of the centre."""
-    return dwelling(scene.solved) - RADIUS * scene.solved.cam.sense
+    return course.dwelling(scene.solved) - RADIUS * scene.solved.cam.sense
 
 
 def corners(canvas: Canvas, scene: CamScene, cuts: Sequence[Undercut]) -> None:
@@ -283,21 +282,17 @@ def _free(canvas: Canvas, places: list[complex]) -> bool:
 
 def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> list[str]:
     """Return the numbers of what has only a letter in the figure: the angles of one position, lengths."""
-    words, solved = scene.words, scene.solved
-    pressure = float(theta(solved, solved.angles[line]))
-    angles = {"theta": pressure, "gamma": transmission(pressure)}
-    lengths = {"rho_min": profile.rho_min, "h": solved.values["h"], "R_roller": profile.R}
-    said = (f"{words.symbol(name)}_{{{line}}} = {scene.degrees(angle)}" for name, angle in angles.items())
-    sizes = (f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size))
-    return [*said, *sizes]
+    pressure = float(course.theta(scene.solved, scene.solved.angles[line]))
+    texts = [scene.angle("theta", pressure, line), scene.angle("gamma", course.transmission(pressure), line)]
+    lengths = {"rho_min": profile.rho_min, "h": scene.solved.values["h"], "R_roller": profile.R}
+    return [*texts, *(scene.dimension(name, size) for name, size in lengths.items() if math.isfinite(size))]
 
 
-def roller_radius(canvas: Canvas, scene: CamScene, places: Sequence[complex], R: float) -> None:
-    """Dimension the radius of the roller R, m, about its centre, one of the `places`, on the side of a dwell."""
-    solved, words = scene.solved, scene.words
-    division, rest = solved.layout.division, rests(solved.motion)
-    line = division.last if rest else division.leave
-    at, aside = places[line], ASIDE if rest else -ASIDE
-    rim = at + up_at(solved, line, aside) * scene.drawn(R)
+def roller_radius(canvas: Canvas, scene: CamScene, R: float) -> None:
+    """Dimension the radius of the roller R, m, about its centre in a position on the side of a dwell."""
+    solved, words, rest = scene.solved, scene.words, course.rests(scene.solved.motion)
+    line = solved.layout.division.last if rest else solved.layout.division.leave
+    at, aside = scene.mm(f"{PROFILE}.B{line}"), ASIDE if rest else -ASIDE
+    rim = at + course.up_at(solved, line, aside) * scene.drawn(R)
     canvas.add(Group((Line(at, rim, Pen.THIN), Head(rim, rim - at)), "dimension", "R_roller"))
     canvas.label(words.symbol("R_roller"), rim, prefer=rim - at, clear=1.0, height=scene.style.text)

@@ -10,27 +10,9 @@ from ..figure import Figure, Stage
 from ..page import extent
 from ..shapes import Arc, Circle, Group, Line, Pen, Polyline, Text
 from ..symbols import Rod, fixed_pivot, polar, revolute, swept, unit
-from ..text import Box, lay_out
+from ..text import lay_out
 from ..view import Canvas, View, angle, linear
-from .inversion import (
-    Contact,
-    centre,
-    circle,
-    corners,
-    curves,
-    heading,
-    letter_centre,
-    lettered_sizes,
-    normal,
-    numbers,
-    past_normal,
-    phases,
-    quiet,
-    radius_at,
-    roller_radius,
-    sharpest,
-    undercut_notes,
-)
+from . import inversion
 from .scene import CamScene, is_aside, is_sharp, needed
 from .sizes_view import SHOWN
 
@@ -56,34 +38,37 @@ def roller_view(scene: CamScene) -> View:
     rod = Rod(e, s_0, outer + (PHASES + 1.2) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
     canvas.part("shaft")
-    centre(canvas, scene, r_0, rod.top + 12.0, offset=abs(e))
+    inversion.centre(canvas, scene, r_0, rod.top + 12.0, offset=abs(e))
     canvas.part("circles")
-    canvas.add(circle(r_0, "r_0"))
+    canvas.add(inversion.circle(r_0, "r_0"))
     if is_aside(scene):
-        canvas.add(circle(abs(e), "e"))
+        canvas.add(inversion.circle(abs(e), "e"))
     _roller_positions(canvas, scene, e, reach - 0.9 * label)
-    curves(canvas, scene, roller.profile)
+    inversion.curves(canvas, scene, roller.profile)
     canvas.part("lines")
-    numbers(canvas, scene, e, reach)
-    contact = _contact(scene, pressed(solved, SHOWN))
+    inversion.numbers(canvas, scene, e, reach)
+    i = pressed(solved, SHOWN)
+    pole, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "PBK")
+    contact = inversion.Contact(i, at, touch, pole, up_at(solved, i))
     canvas.part("circles")
     arcs = outer + PHASES * label
-    phases(canvas, scene, on_circle(e, arcs, 1j), arcs, past_normal(contact, scene.style))
+    inversion.phases(canvas, scene, on_circle(e, arcs, 1j), arcs, inversion.past_normal(contact, scene.style))
     canvas.part("sharpest")
-    sharpest(canvas, scene)
-    normal(canvas, scene, contact)
+    inversion.sharpest(canvas, scene)
+    inversion.normal(canvas, scene, contact)
     canvas.part("follower")
-    _roller_follower(canvas, scene, rod, R)
+    canvas.add(Group((Circle(complex(rod.x, rod.low), R, Pen.MAIN),), "roller", "0"), *rod.shapes())
+    canvas.add(revolute(complex(rod.x, rod.low), "B0", scene.style))
     left = _roller_sizes(canvas, scene, rod)
     canvas.part("shaft")
-    letter_centre(canvas, scene, r_0, offset=abs(e))
+    inversion.letter_centre(canvas, scene, r_0, offset=abs(e))
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
     notes = (
-        "; ".join([*lettered_sizes(scene, roller.profile, contact.line), *left]),
-        *undercut_notes(scene, roller.profile.undercuts),
+        "; ".join([*inversion.lettered_sizes(scene, roller.profile, contact.line), *left]),
+        *inversion.undercut_notes(scene, roller.profile.undercuts),
     )
-    return canvas.finish("profile", heading(scene, "heading.cam_profile", PROFILE), notes)
+    return canvas.finish("profile", scene.heading("heading.cam_profile", PROFILE), notes)
 
 
 def _roller_positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -> None:
@@ -101,46 +86,28 @@ def _roller_positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -
         canvas.add(scene.node(at, str(i)))
 
 
-def _contact(scene: CamScene, i: int) -> Contact:
-    """Return the position of a section line."""
-    pole, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "PBK")
-    return Contact(i, at, touch, pole, up_at(scene.solved, i))
-
-
-def _roller_follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
-    """Draw the roller and its rod in position 0, guided and pressed down by a spring."""
-    at = complex(rod.x, rod.low)
-    canvas.add(Group((Circle(at, R, Pen.MAIN),), "roller", "0"))
-    canvas.add(*rod.shapes())
-    canvas.add(revolute(at, "B0", scene.style))
-
-
 def _roller_sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
     """Dimension r_0, e, the roller and the stroke; return what has no place in the figure."""
-    solved, words = scene.solved, scene.words
-    roller, sense = needed(solved.roller), solved.cam.sense
-    middle = quiet(scene)
-    r_0, R = scene.drawn(roller.sizes.r_0), scene.drawn(roller.profile.R)
+    solved, sense, sizes = scene.solved, scene.solved.cam.sense, needed(scene.solved.roller).sizes
+    r_0, R = scene.drawn(sizes.r_0), needed(solved.roller).profile.R
     canvas.part("circles")
-    left = radius_at(
-        canvas, scene, "r_0", roller.sizes.r_0, middle, (0.0, scene.drawn(roller.sizes.r_0 - roller.profile.R), r_0)
-    )
-    level = rod.top + 6.0
+    free = (0.0, scene.drawn(sizes.r_0 - R), r_0)
+    left = inversion.radius_at(canvas, scene, ("r_0", sizes.r_0), inversion.quiet(scene), free)
     ends = complex(0.0, rod.top), complex(rod.x, rod.top)
-    linear(canvas, ends, 1j * (level - rod.top), f"{words.symbol('e')} = {scene.length(abs(roller.sizes.e))}", "e")
+    linear(canvas, ends, 6.0j, scene.dimension("e", abs(sizes.e)), "e")
     division = solved.layout.division
     canvas.part("profile")
-    roller_radius(canvas, scene, [scene.mm(f"{PROFILE}.B{i}") for i in division.lines], roller.profile.R)
+    inversion.roller_radius(canvas, scene, R)
     canvas.part("pitch")
     if rests(solved.motion):
         low = complex(rod.x, rod.low)
-        out = complex(-sense * max(R + OUT * scene.style.text, OUT * scene.style.label))
+        out = complex(-sense * max(scene.drawn(R) + OUT * scene.style.text, OUT * scene.style.label))
         ends = low, low + 1j * rod.stroke
     else:
         up = up_at(solved, division.top)
-        out = up * (-1j * sense) * (0.5 * R)
+        out = up * (-1j * sense) * (0.5 * scene.drawn(R))
         ends = on_circle(rod.x, r_0, up), scene.mm(f"{PROFILE}.B{division.top}")
-    linear(canvas, ends, out, words.symbol("h"), "h")
+    linear(canvas, ends, out, scene.words.symbol("h"), "h")
     return [left] if left else []
 
 
@@ -177,29 +144,34 @@ def rocker_view(scene: CamScene) -> View:
     outer = max(abs(pivot), far)
     turned = swept(1j, start)
     canvas.part("shaft")
-    centre(canvas, scene, r_0, far + 3.0, turned)
+    inversion.centre(canvas, scene, r_0, far + 3.0, turned)
     canvas.part("pivots")
-    canvas.add(circle(r_0, "r_0"), circle(abs(pivot), "l_OC"))
+    canvas.add(inversion.circle(r_0, "r_0"), inversion.circle(abs(pivot), "l_OC"))
     _rocker_positions(canvas, scene)
-    curves(canvas, scene, cam.profile)
+    inversion.curves(canvas, scene, cam.profile)
     canvas.part("pivots")
-    _rocker_numbers(canvas, scene, outer + NUMBERS * label)
+    for i in solved.layout.division.lines:  # beyond the pivots, each with a tick from its own
+        out, radius = unit(scene.mm(f"{PROFILE}.A{i}")), outer + NUMBERS * label
+        tick = scene.mm(f"{PROFILE}.A{i}"), out * (radius - 0.9 * label)
+        canvas.add(Line(*tick, Pen.THIN, role="position", name=str(i)))
+        inversion.number(canvas, out * radius, i)
     reach = outer + (PHASES + 1.0) * label
-    phases(canvas, scene, pivot, reach)
+    inversion.phases(canvas, scene, pivot, reach)
     canvas.part("sharpest")
-    sharpest(canvas, scene)
-    line = pressed(solved, SHOWN)
-    _rocker_normal(canvas, scene, line)
+    inversion.sharpest(canvas, scene)
+    _rocker_normal(canvas, scene, pressed(solved, SHOWN))
     canvas.part("follower")
     _rocker_follower(canvas, scene)
     left = _rocker_sizes(canvas, scene, dwelling(solved) + turned)
     canvas.part("shaft")
-    letter_centre(canvas, scene, r_0, turned)
+    inversion.letter_centre(canvas, scene, r_0, turned)
     edge = reach + 1.2 * label
     canvas.bounds = -edge, -edge, edge, edge
-    scale = f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(PROFILE))}"
-    notes = "; ".join([*_rocker_lettered(scene), *left]), *undercut_notes(scene, cam.profile.undercuts, rocks=True)
-    return canvas.finish("profile", (scene.words["heading.cam_rocker_profile"], scale), notes)
+    notes = (
+        "; ".join([*_rocker_lettered(scene), *left]),
+        *inversion.undercut_notes(scene, cam.profile.undercuts, rocks=True),
+    )
+    return canvas.finish("profile", scene.heading("heading.cam_rocker_profile", PROFILE), notes)
 
 
 def _rocker_positions(canvas: Canvas, scene: CamScene) -> None:
@@ -222,23 +194,13 @@ def _rocker_positions(canvas: Canvas, scene: CamScene) -> None:
         canvas.add(scene.node(at, f"B{i}"))
 
 
-def _rocker_numbers(canvas: Canvas, scene: CamScene, radius: float) -> None:
-    """Write the number of each position beyond its pivot, with a tick from the pivot towards it."""
-    height = scene.style.text
-    for i in scene.solved.layout.division.lines:
-        pivot = scene.mm(f"{PROFILE}.A{i}")
-        out = unit(pivot)
-        canvas.add(Line(pivot, out * (radius - 0.9 * scene.style.label), Pen.THIN, role="position", name=str(i)))
-        canvas.add(Text(out * radius - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
-
-
 def _rocker_normal(canvas: Canvas, scene: CamScene, i: int) -> None:
     """Draw the rocker of one position, and its normal through the instant centre on the line of both pivots."""
     pivot, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "ABK")
     pole = pivot * pole_share(scene.solved, i)
     canvas.part("normal")
     canvas.add(Group((Line(pivot, at, Pen.THIN),), "rocker", str(i)))
-    normal(canvas, scene, Contact(i, at, touch, pole, 1j * unit(at - pivot)))
+    inversion.normal(canvas, scene, inversion.Contact(i, at, touch, pole, 1j * unit(at - pivot)))
 
 
 def _rocker_follower(canvas: Canvas, scene: CamScene) -> None:
@@ -259,16 +221,18 @@ def _rocker_sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
     `quiet` is the middle of the lower dwell.
     """
     solved, words = scene.solved, scene.words
-    cam, division = needed(solved.rocker), solved.layout.division
-    sizes, R = cam.sizes, cam.profile.R
+    sizes, R = needed(solved.rocker).sizes, needed(solved.rocker).profile.R
     r_0, far = scene.drawn(sizes.r_0), scene.drawn(sizes.l_OC)
     canvas.part("pivots")
-    left = [radius_at(canvas, scene, "r_0", sizes.r_0, quiet, (0.0, scene.drawn(sizes.r_0 - R), r_0))]
-    left += [radius_at(canvas, scene, "l_OC", sizes.l_OC, quiet + ASIDE * solved.cam.sense, (r_0, far, far))]
+    free, beside = (0.0, scene.drawn(sizes.r_0 - R), r_0), quiet + ASIDE * solved.cam.sense
+    left = [
+        inversion.radius_at(canvas, scene, ("r_0", sizes.r_0), quiet, free),
+        inversion.radius_at(canvas, scene, ("l_OC", sizes.l_OC), beside, (r_0, far, far)),
+    ]
     canvas.part("profile")
-    roller_radius(canvas, scene, [scene.mm(f"{PROFILE}.B{i}") for i in division.lines], R)
+    inversion.roller_radius(canvas, scene, R)
     canvas.part("pitch")
-    top = division.top
+    top = solved.layout.division.top
     pivot = scene.mm(f"{PROFILE}.A{top}")
     low = -solved.cam.sense * float(solved.angles[top])
     rays = polar(scene.drawn(sizes.l), low), scene.mm(f"{PROFILE}.B{top}") - pivot
@@ -283,10 +247,10 @@ def _rocker_sizes(canvas: Canvas, scene: CamScene, quiet: float) -> list[str]:
 
 def _rocker_lettered(scene: CamScene) -> list[str]:
     """Return the numbers of what has only a letter in the figure."""
-    cam, words = needed(scene.solved.rocker), scene.words
+    cam = needed(scene.solved.rocker)
     lengths = {"l_rocker": cam.sizes.l, "R_roller": cam.profile.R, "rho_min": cam.profile.rho_min}
-    said = [f"{words.symbol(n)} = {scene.length(size)}" for n, size in lengths.items() if math.isfinite(size)]
-    return [*said, f"{words.symbol('psi')} = {scene.degrees(cam.rocker.motion.h)}"]
+    texts = [scene.dimension(name, size) for name, size in lengths.items() if math.isfinite(size)]
+    return [*texts, scene.angle("psi", cam.rocker.motion.h)]
 
 
 ROCKER_FIGURE = Figure(
@@ -316,26 +280,28 @@ def plate_view(scene: CamScene) -> View:
     rod = Rod(0.0, r_0 + THICK * label, outer + (PHASES + 1.2) * label, stroke, scene.style)
     reach = outer + NUMBERS * label
     canvas.part("shaft")
-    centre(canvas, scene, r_0, rod.top + 6.0)
+    inversion.centre(canvas, scene, r_0, rod.top + 6.0)
     canvas.part("circles")
-    canvas.add(circle(r_0, "r_0_flat"))
+    canvas.add(inversion.circle(r_0, "r_0_flat"))
     _plate_positions(canvas, scene, R, reach - 0.9 * label)
     canvas.part("profile")
     outline = scene.curve(plate.profile.outline().tolist())
     canvas.add(Group((Polyline(outline, Pen.MAIN, closed=True),), "curve", "practical"))
-    corners(canvas, scene, plate.profile.undercuts)
+    inversion.corners(canvas, scene, plate.profile.undercuts)
     canvas.part("circles")
-    numbers(canvas, scene, 0.0, reach)
-    phases(canvas, scene, 1j, outer + PHASES * label)
+    inversion.numbers(canvas, scene, 0.0, reach)
+    inversion.phases(canvas, scene, 1j, outer + PHASES * label)
     canvas.part("follower")
-    _plate_follower(canvas, scene, rod, R)
+    low = rod.low - THICK * label
+    plate_box = (complex(-R, low), complex(R, low), complex(R, rod.low), complex(-R, rod.low))
+    canvas.add(Group((Polyline(plate_box, Pen.MAIN, closed=True, fill="white"),), "plate", "0"), *rod.shapes())
     left = _plate_sizes(canvas, scene, rod, R)
-    notes = "; ".join([*left, *_plate_lettered(scene)]), *undercut_notes(scene, plate.profile.undercuts)
+    notes = "; ".join([*left, *_plate_lettered(scene)]), *inversion.undercut_notes(scene, plate.profile.undercuts)
     canvas.part("shaft")
-    letter_centre(canvas, scene, r_0)
+    inversion.letter_centre(canvas, scene, r_0)
     edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
-    return canvas.finish("plate_profile", heading(scene, "heading.cam_plate_profile", PLATE_PROFILE), notes)
+    return canvas.finish("plate_profile", scene.heading("heading.cam_plate_profile", PLATE_PROFILE), notes)
 
 
 def _plate_positions(canvas: Canvas, scene: CamScene, R: float, reach: float) -> None:
@@ -360,21 +326,14 @@ def _plate(scene: CamScene, i: int, R: float) -> tuple[complex, complex]:
     return at + 1j * up * R, at - 1j * up * R
 
 
-def _plate_follower(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> None:
-    """Draw the plate and its rod in position 0."""
-    low = rod.low - THICK * scene.style.label
-    corners = (complex(-R, low), complex(R, low), complex(R, rod.low), complex(-R, rod.low))
-    canvas.add(Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "plate", "0"))
-    canvas.add(*rod.shapes())
-
-
 def _plate_sizes(canvas: Canvas, scene: CamScene, rod: Rod, R: float) -> list[str]:
     """Dimension radii, the plate, how far to both sides it touches, the stroke; return what has no place there."""
     solved, words, sense = scene.solved, scene.words, scene.solved.cam.sense
     plate, motion = needed(solved.plate), solved.motion
-    middle, r_0 = quiet(scene), scene.drawn(plate.sizes.r_0)
+    r_0 = scene.drawn(plate.sizes.r_0)
     canvas.part("circles")
-    left_out = radius_at(canvas, scene, "r_0_flat", plate.sizes.r_0, middle, (0.0, r_0, r_0))
+    flat = ("r_0_flat", plate.sizes.r_0)
+    left_out = inversion.radius_at(canvas, scene, flat, inversion.quiet(scene), (0.0, r_0, r_0))
     canvas.part("follower")
     level, up = 1j * rod.low, 1j * scene.style.text
     _over(canvas, (level, level - sense * R), ABOVE[1] * up, words.symbol("R_plate"), "R_plate")
@@ -399,28 +358,21 @@ def _over(canvas: Canvas, ends: tuple[complex, complex], out: complex, text: str
     height = canvas.style.text
     over = Text(0.5 * (ends[0] + ends[1]) + out + 0.5j * height, text, height, "middle", role="label")
     narrow = abs(ends[1] - ends[0]) < lay_out(text, height).width + 1.0
-    taken = narrow or _crossed(canvas, extent((over,)))
+    x0, y0, x1, y1 = extent((over,))
+    ways = ((line.a, line.b - line.a) for line in canvas.shapes if isinstance(line, Line))  # of a plate or an axis
+    points = (a + way * (k / STEPS) for a, way in ways for k in range(STEPS + 1))
+    taken = narrow or any(x0 < point.real < x1 and y0 < point.imag < y1 for point in points)
     linear(canvas, ends, out, text if taken else "", name)
     if not taken:
         canvas.add(over)
 
 
-def _crossed(canvas: Canvas, place: Box) -> bool:
-    """Whether the line of a plate or an axis runs through a place."""
-    x0, y0, x1, y1 = place
-    lines = (shape for shape in canvas.shapes if isinstance(shape, Line))
-    ways = ((line.a, line.b - line.a) for line in lines)
-    points = (a + way * (k / STEPS) for a, way in ways for k in range(STEPS + 1))
-    return any(x0 < point.real < x1 and y0 < point.imag < y1 for point in points)
-
-
 def _plate_lettered(scene: CamScene) -> list[str]:
     """Return the numbers of what has only a letter in the figure."""
-    words, motion, plate = scene.words, scene.solved.motion, needed(scene.solved.plate)
-    sizes = {"h": motion.h, "R_plate": plate.sizes.R_plate}
-    lengths = [f"{words.symbol(name)} = {scene.length(size)}" for name, size in sizes.items()]
-    said = dict.fromkeys(scene.length(motion.maximum(0.0, way, 0.0).value) for way in (1.0, -1.0))
-    return [*lengths, f"{ANALOGUE} = |{words.symbol('ds')}|_{{max}} = {', '.join(said)}"]
+    motion, plate = scene.solved.motion, needed(scene.solved.plate)
+    lengths = [scene.dimension("h", motion.h), scene.dimension("R_plate", plate.sizes.R_plate)]
+    texts = dict.fromkeys(scene.length(motion.maximum(0.0, way, 0.0).value) for way in (1.0, -1.0))
+    return [*lengths, f"{ANALOGUE} = |{scene.words.symbol('ds')}|_{{max}} = {', '.join(texts)}"]
 
 
 PLATE_FIGURE = Figure(

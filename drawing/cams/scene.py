@@ -87,12 +87,24 @@ class CamScene(SubjectScene[SolvedCam]):
         """Return a length of the mechanism in mm, as a dimension has it."""
         return self.words.number(value * 1e3, 2)
 
+    def dimension(self, name: str, length: float) -> str:
+        """Return a length of the mechanism with its letter, as a dimension has it."""
+        return f"{self.words.symbol(name)} = {self.length(length)}"
+
+    def angle(self, name: str, angle: float, line: int | None = None) -> str:
+        """Return an angle with its letter, with the number of a section line for one of its position."""
+        return f"{self.words.symbol(name)}{'' if line is None else f'_{{{line}}}'} = {self.degrees(angle)}"
+
+    def heading(self, key: str, plan: str) -> tuple[str, str]:
+        """Return the heading of a plan to the scale of the profiles: its name, its scale."""
+        return self.words[key], f"{self.words.drawn_at(self.mu_l)};  {self.factor(self.scale(plan))}"
+
     def stated(self, name: str, value: float) -> str:
         """Return a length of the mechanism with its letter in mm, as a sentence has it; a given as it is given."""
         given = self.givens.get(name)
         if given is not None and given.unit == "mm" and not isinstance(given.value, str):
             return f"{self.words.symbol(name)} = {self.words.short(given.value)} {self.words.unit('mm')}"
-        return f"{self.words.symbol(name)} = {self.length(value)} {self.words.unit('mm')}"
+        return f"{self.dimension(name, value)} {self.words.unit('mm')}"
 
 
 def given(*names: str) -> Callable[[CamScene], str]:

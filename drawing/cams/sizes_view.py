@@ -6,27 +6,11 @@ at 45 degrees to the negative branch; along a rocker the analogues of its veloci
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
+from ...plans.cams import course
 from ...plans.cams.construction import PLATE_SIZES, ROCKER_SIZES, SIZES
-from ...plans.cams.course import (
-    Bound,
-    analogue,
-    analogue_end,
-    analogues,
-    bounds,
-    half_planes,
-    limit_direction,
-    offset_places,
-    outwards,
-    over_acceleration,
-    over_velocity,
-    pressed,
-    theta,
-    touch_of,
-    touch_of_plate,
-    transmission,
-)
 from ...plans.cams.followers import RockerCam, RollerCam
 from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.sizes import PHASE_OF, HalfPlane, wedge
@@ -62,7 +46,11 @@ def sizes_view(scene: CamScene) -> View:
     canvas = ROLLER_FIGURE.canvas(scene)
     centre = scene.mm(f"{SIZES}.C")
     canvas.part("points")
-    outline = _curve(canvas, scene)
+    outline = [0j]
+    for phase in (solved.motion.rise, solved.motion.fall):  # a line across where the velocity jumps
+        points = scene.curve(course.over_velocity(solved, phase), SIZES)
+        canvas.add(Group((Polyline(points, Pen.MAIN),), "curve", phase.name))
+        outline += points
     canvas.part("axes")
     _axes(canvas, scene, outline, centre.imag - 2 * PAST, "ds")
     planes = wedge(solved.motion, roller.limits, solved.cam.sense)
@@ -72,26 +60,20 @@ def sizes_view(scene: CamScene) -> View:
         canvas.part(f"tangent_{plane.name}")
         _limit(canvas, scene, plane, low)
     canvas.part("permitted")
-    _permitted(canvas, scene, planes, centre, low)
+    sides = [(plane.normal.conjugate(), scene.drawn(float(plane.least), SIZES)) for plane in planes]
+    reach = 2.5 * BELOW
+    canvas.add(hatched(sides, (centre.real - reach, low, centre.real + reach, 0.0), 2.5, "centre"))
     canvas.part("centre")
-    permitted_offsets(canvas, scene)
+    _permitted_offsets(canvas, scene)
     canvas.part("points")
-    _nodes(canvas, scene)
+    ends = [(i, phase, scene.mm(f"{SIZES}.{i}_{phase}")) for i, phase in _on_lines(scene)]
+    for at, group in _marked(canvas, scene, ends).items():
+        out = sum((course.outwards(solved, i, phase) for i, phase in group), 0j)
+        canvas.label(_numbers(group), at, prefer=out or 1j * at.imag, clear=0.8, height=small(scene.style.text))
     canvas.part("centre")
     aslant = _centre(canvas, scene, roller, centre)
     notes = (*transfer(scene, SIZES), f"{words['said.cam_permitted']};  {aslant}")
     return canvas.finish("sizes", (words["heading.cam_sizes"], scene.factor(scene.scale(SIZES))), notes)
-
-
-def _curve(canvas: Canvas, scene: CamScene) -> list[complex]:
-    """Draw the exact curve by phases, a line across where the velocity jumps; return its points."""
-    solved = scene.solved
-    every: list[complex] = [0j]
-    for phase in (solved.motion.rise, solved.motion.fall):
-        points = scene.curve(over_velocity(solved, phase), SIZES)
-        canvas.add(Group((Polyline(points, Pen.MAIN),), "curve", phase.name))
-        every += points
-    return every
 
 
 def _axes(canvas: Canvas, scene: CamScene, outline: list[complex], foot: float, letter: str) -> None:
@@ -106,8 +88,7 @@ def _axes(canvas: Canvas, scene: CamScene, outline: list[complex], foot: float, 
 
 def _limit(canvas: Canvas, scene: CamScene, plane: HalfPlane, low: float) -> None:
     """Draw a limit from above the point where it touches the curve down to `low`, with its angle to the axis."""
-    solved, words = scene.solved, scene.words
-    touch = scene.drawn(touch_of(solved, plane), SIZES)
+    touch = scene.drawn(course.touch_of(scene.solved, plane), SIZES)
     up = plane.normal.conjugate() * 1j  # along the line, upwards: a mirror image turns e + i s_0 down
     up = up if up.imag > 0.0 else -up
     foot = at_level(touch, up, low)
@@ -118,49 +99,68 @@ def _limit(canvas: Canvas, scene: CamScene, plane: HalfPlane, low: float) -> Non
     axis = at_level(touch, up, 0.0)
     across = -1.0 + 0j if up.real >= 0.0 else 1.0 + 0j  # below the axis, on the side of the ordinates
     gamma = abs(swept(across, -up))
-    name, text = f"gamma_{plane.name}", f"{words.symbol(f'gamma_{PHASE_OF[plane.name]}')} = {scene.degrees(gamma)}"
+    name, text = f"gamma_{plane.name}", scene.angle(f"gamma_{PHASE_OF[plane.name]}", gamma)
     angle(canvas, axis, (across, -up), ARC * scene.style.label, name, text)
 
 
-def _permitted(canvas: Canvas, scene: CamScene, planes: tuple[HalfPlane, ...], centre: complex, low: float) -> None:
-    """Hatch the permitted places of the cam's centre, beside the chosen one."""
-    sides = [(plane.normal.conjugate(), scene.drawn(float(plane.least), SIZES)) for plane in planes]
-    reach = 2.5 * BELOW
-    canvas.add(hatched(sides, (centre.real - reach, low, centre.real + reach, 0.0), 2.5, "centre"))
+def _on_lines(scene: CamScene) -> list[tuple[int, str]]:
+    """Return the section lines of rise and fall, each with the name of its phase."""
+    division = scene.solved.layout.division
+    return [*((i, RISE) for i in division.rise), *((i, FALL) for i in division.fall)]
 
 
-def _nodes(canvas: Canvas, scene: CamScene) -> None:
-    """Mark and number the points that the diagrams give on the section lines; numbers in one place stand together."""
-    shared: dict[complex, list[str]] = {}
-    out: dict[complex, complex] = {}
-    for i, phase in on_lines(scene):
-        at = scene.mm(f"{SIZES}.{i}_{phase}")
-        canvas.add(scene.node(at, f"{i}_{phase}"))
+def _marked(
+    canvas: Canvas, scene: CamScene, ends: Iterable[tuple[int, str, complex]], once: bool = False
+) -> dict[complex, list[tuple[int, str]]]:
+    """Mark the points of section lines; return places with the lines, and names of points, that share one number.
+
+    A line that is to stand `once` in a place has one mark there.
+    """
+    shared: dict[complex, list[tuple[int, str]]] = {}
+    for i, name, at in ends:
         key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
-        shared.setdefault(key, []).append(str(i))
-        out[key] = out.get(key, 0j) + outwards(scene.solved, i, phase)
-    for at, numbers in shared.items():
-        text = ", ".join(dict.fromkeys(numbers))
-        canvas.label(text, at, prefer=out[at] or 1j * at.imag, clear=0.8, height=small(scene.style.text))
+        group = shared.setdefault(key, [])
+        if not once or all(i != other for other, _ in group):
+            group.append((i, name))
+            canvas.add(scene.node(at, f"{i}_{name}"))
+    return shared
+
+
+def _numbers(group: list[tuple[int, str]]) -> str:
+    return ", ".join(dict.fromkeys(str(i) for i, _ in group))
+
+
+def _radius(canvas: Canvas, centre: complex, end: complex, name: str) -> complex:
+    """Draw the dimension line from the cam's centre to a point; return its direction."""
+    out = unit(end - centre)
+    canvas.add(Group((Line(centre, end, Pen.THIN), Head(end, out), Head(centre, -out)), "dimension", name))
+    return out
+
+
+def _mark_centre(canvas: Canvas, centre: complex, prefer: complex) -> None:
+    canvas.add(Group((Circle(centre, canvas.style.node * 1.5, Pen.MAIN, fill="white"),), "point", "O"))
+    canvas.label("O", centre, prefer=prefer, clear=1.0)
+
+
+def _turns(canvas: Canvas, scene: CamScene, centre: complex, middle: float) -> None:
+    """Show the sense of the cam."""
+    radius, sense = 2.4 * scene.style.label, float(scene.solved.cam.sense)
+    turning(canvas, centre, radius, middle, 1.4, sense, "omega", scene.words.symbol("omega"))
 
 
 def _centre(canvas: Canvas, scene: CamScene, roller: RollerCam, centre: complex) -> str:
     """Mark the chosen centre, dimension r_0 and e, draw a ray, the sense of the cam; return the ray's angle."""
-    solved, words, style = scene.solved, scene.words, scene.style
-    r_0 = f"{words.symbol('r_0')} = {scene.length(roller.sizes.r_0)}"
-    out = unit(centre)
-    canvas.add(Group((Line(centre, 0j, Pen.THIN), Head(0j, -out), Head(centre, out)), "dimension", "r_0"))
-    canvas.label(r_0, (centre, 0j), prefer=-1.0, clear=0.8, height=style.text)
+    words = scene.words
+    _radius(canvas, centre, 0j, "r_0")
+    text = scene.dimension("r_0", roller.sizes.r_0)
+    canvas.label(text, (centre, 0j), prefer=-1.0, clear=0.8, height=scene.style.text)
     across = complex(0.0, centre.imag)
-    text = f"{words.symbol('e')} = {scene.length(abs(roller.sizes.e))}"
-    linear(canvas, (across, centre), -1j * (BELOW + 8.0), text, "e")
-    canvas.add(Group((Circle(centre, style.node * 1.5, Pen.MAIN, fill="white"),), "point", "O"))
-    canvas.label("O", centre, prefer=-1 + 0j, clear=1.0)
-    sense = solved.cam.sense
-    turning(canvas, centre, 2.4 * style.label, 0.0, 1.4, float(sense), "omega", words.symbol("omega"))
+    linear(canvas, (across, centre), -1j * (BELOW + 8.0), scene.dimension("e", abs(roller.sizes.e)), "e")
+    _mark_centre(canvas, centre, -1 + 0j)
+    _turns(canvas, scene, centre, 0.0)
     canvas.part("pressure")
-    i = pressed(solved, SHOWN)
-    at = scene.drawn(analogue(solved, i), SIZES)
+    i = course.pressed(scene.solved, SHOWN)
+    at = scene.drawn(course.analogue(scene.solved, i), SIZES)
     canvas.add(Line(centre, at, Pen.DASHED, role="ray", name=str(i)))
     radius, text = 0.55 * abs(centre), f"{words.symbol('theta')}_{{{i}}}"
     canvas.add(Line(centre, centre + 1.12j * radius, Pen.AXIS, role="axis"))
@@ -168,15 +168,9 @@ def _centre(canvas: Canvas, scene: CamScene, roller: RollerCam, centre: complex)
     return f"{text} = {scene.degrees(swept(at - centre, 1j))}"
 
 
-def on_lines(scene: CamScene) -> list[tuple[int, str]]:
-    """Return the section lines of rise and fall, each with the name of its phase."""
-    division = scene.solved.layout.division
-    return [*((i, RISE) for i in division.rise), *((i, FALL) for i in division.fall)]
-
-
-def permitted_offsets(canvas: Canvas, scene: CamScene) -> None:
+def _permitted_offsets(canvas: Canvas, scene: CamScene) -> None:
     """Draw the circle of a given r_0 about the lowest place of the roller's centre, its permitted part thick."""
-    places = offset_places(scene.solved)
+    places = course.offset_places(scene.solved)
     if not places:
         return
     low, high, at = (scene.drawn(place, SIZES) for place in places)
@@ -208,20 +202,25 @@ ROLLER_FIGURE = Figure(
 
 def plate_sizes_view(scene: CamScene) -> View:
     """Draw the diagram, and what it gives: r_0min, and r_0 with the radius of curvature wanted."""
-    solved, words = scene.solved, scene.words
-    plate = needed(solved.plate)
-    canvas = PLATE_FIGURE.canvas(scene)
+    plate, canvas = needed(scene.solved.plate), PLATE_FIGURE.canvas(scene)
     canvas.part("points")
     outline = _plate_curve(canvas, scene)
     canvas.part("axes")
     _axes(canvas, scene, outline, -scene.drawn(plate.sizes.r_0, PLATE_SIZES) - PAST, "d2s")
-    canvas.part("tangent")
-    _tangent(canvas, scene, -1j * scene.drawn(plate.sizes.r_0_min, PLATE_SIZES))
+    canvas.part("tangent")  # from past the place where it touches to its foot on the axis
+    foot = -1j * scene.drawn(plate.sizes.r_0_min, PLATE_SIZES)
+    touch = scene.drawn(course.touch_of_plate(scene.solved), PLATE_SIZES)
+    canvas.add(Line(touch + ALONG * TANGENT, foot - ALONG * TANGENT, Pen.THIN, role="limit", name="convex"))
+    canvas.add(scene.node(touch, "convex", "touch", filled=True))
+    angle(canvas, foot, (1j, ALONG), 3.0 * scene.style.label, "tangent", "45°")
     canvas.part("points")
-    _plate_nodes(canvas, scene)
+    marks = [(i, end, f"{PLATE_SIZES}.{i}_{end}") for i, _ in _on_lines(scene) for end in ("before", "after")]
+    ends = [(i, end, scene.mm(mark)) for i, end, mark in marks if mark in scene.solved.values]
+    for at, group in _marked(canvas, scene, ends, once=True).items():  # at a jump both ends
+        canvas.label(_numbers(group), at, prefer=1j, clear=0.8, height=small(scene.style.text))
     canvas.part("centre")
     _plate_centre(canvas, scene)
-    heading = words["heading.cam_plate_sizes"], scene.factor(scene.scale(PLATE_SIZES))
+    heading = scene.words["heading.cam_plate_sizes"], scene.factor(scene.scale(PLATE_SIZES))
     return canvas.finish("plate_sizes", heading, transfer(scene, PLATE_SIZES))
 
 
@@ -230,7 +229,7 @@ def _plate_curve(canvas: Canvas, scene: CamScene) -> list[complex]:
     motion = scene.solved.motion
     every: list[complex] = []
     for phase in (motion.rise, motion.fall):
-        curves = [scene.curve(piece, PLATE_SIZES) for piece in over_acceleration(scene.solved, phase)]
+        curves = [scene.curve(piece, PLATE_SIZES) for piece in course.over_acceleration(scene.solved, phase)]
         canvas.add(Group(tuple(Polyline(points, Pen.MAIN) for points in curves), "curve", phase.name))
         ends = [(complex(0.0, curves[0][0].imag),), *curves, (complex(0.0, curves[-1][-1].imag),)]
         jumps(canvas, ends, phase.name)
@@ -238,41 +237,14 @@ def _plate_curve(canvas: Canvas, scene: CamScene) -> list[complex]:
     return every
 
 
-def _tangent(canvas: Canvas, scene: CamScene, foot: complex) -> None:
-    """Draw the tangent at 45 degrees from past the place where it touches to its foot on the axis, with its angle."""
-    touch = scene.drawn(touch_of_plate(scene.solved), PLATE_SIZES)
-    canvas.add(Line(touch + ALONG * TANGENT, foot - ALONG * TANGENT, Pen.THIN, role="limit", name="convex"))
-    canvas.add(scene.node(touch, "convex", "touch", filled=True))
-    angle(canvas, foot, (1j, ALONG), 3.0 * scene.style.label, "tangent", "45°")
-
-
-def _plate_nodes(canvas: Canvas, scene: CamScene) -> None:
-    """Mark and number the points on the section lines; at a jump both ends."""
-    shared: dict[complex, list[str]] = {}
-    for i, _ in on_lines(scene):
-        for end in ("before", "after"):
-            mark = f"{PLATE_SIZES}.{i}_{end}"
-            if mark not in scene.solved.values:
-                continue
-            at = scene.mm(mark)
-            key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
-            if str(i) not in shared.setdefault(key, []):
-                shared[key].append(str(i))
-                canvas.add(scene.node(at, f"{i}_{end}"))
-    for at, numbers in shared.items():
-        canvas.label(", ".join(numbers), at, prefer=1j, clear=0.8, height=small(scene.style.text))
-
-
 def _plate_centre(canvas: Canvas, scene: CamScene) -> None:
     """Dimension r_0min and r_0 downwards from the lowest place of the plate."""
     words, style, plate = scene.words, scene.style, needed(scene.solved.plate)
     low, centre = (-1j * scene.drawn(size, PLATE_SIZES) for size in (plate.sizes.r_0_min, plate.sizes.r_0))
-    canvas.add(Group((Circle(centre, 1.5 * style.node, Pen.MAIN, fill="white"),), "point", "O"))
-    canvas.label("O", centre, prefer=1 - 1j, clear=1.0)
+    _mark_centre(canvas, centre, 1 - 1j)
     sizes = ((low, "r_0_flat_min", plate.sizes.r_0_min), (centre, "r_0_flat", plate.sizes.r_0))
     for at, name, size in sizes:
-        symbol = words.symbol(name)
-        text = f"{symbol} = {scene.length(size)}"
+        symbol, text = words.symbol(name), scene.dimension(name, size)
         between = abs(at) - 2.0 * style.arrow
         if lay_out(text, style.text).width >= between > lay_out(symbol, style.text).width:
             text = symbol  # the number stands with the calculations
@@ -300,17 +272,22 @@ def rocker_sizes_view(scene: CamScene) -> View:
     _rocker(canvas, scene, cam)
     frame = _frame(scene, centre)
     canvas.part("limits")
-    _limits(canvas, scene)
-    for bound in bounds(scene.solved):
+    ends = [(i, phase, scene.drawn(course.analogue_end(scene.solved, i, phase))) for i, phase in _on_lines(scene)]
+    for i, phase, end in ends:  # towards the cam's centre
+        past = end + course.limit_direction(scene.solved, i, phase) * (LIMIT * scene.style.label)
+        canvas.add(Line(end, past, Pen.THIN, role="limit", name=f"{i}_{phase}"))
+    for bound in course.bounds(scene.solved):
         _bound(canvas, scene, bound, frame)
-    _rocker_permitted(canvas, scene, centre)
-    _rocker_nodes(canvas, scene)
+    x, y = centre.real, centre.imag
+    box = (x - 2.0 * AROUND, y - AROUND, x + 2.0 * AROUND, min(0.0, y + 2.0 * AROUND))
+    sides = [(normal, scene.drawn(least)) for normal, least in course.half_planes(scene.solved)]
+    canvas.add(hatched(sides, box, 2.5, "centre"))
+    _rocker_nodes(canvas, scene, ends)
     _rocker_sizes(canvas, scene, centre)
     canvas.part("pressure")
     _ray(canvas, scene, centre)
-    scale = f"{scene.words.drawn_at(scene.mu_l)};  {scene.factor(scene.scale(ROCKER_SIZES))}"
     notes = (*_rocker_lettered(scene, cam), *words["said.cam_analogues"].split("|"), words["said.cam_permitted"])
-    return canvas.finish(ROCKER_SIZES, (words["heading.cam_rocker_sizes"], scale), notes)
+    return canvas.finish(ROCKER_SIZES, scene.heading("heading.cam_rocker_sizes", ROCKER_SIZES), notes)
 
 
 def _rocker(canvas: Canvas, scene: CamScene, cam: RockerCam) -> None:
@@ -321,8 +298,8 @@ def _rocker(canvas: Canvas, scene: CamScene, cam: RockerCam) -> None:
     canvas.add(Arc(0j, l, -over, cam.rocker.motion.h + 2.0 * over, Pen.AXIS, role="path", name="B"))
     canvas.part("analogues")
     for phase in (cam.rocker.motion.rise, cam.rocker.motion.fall):
-        canvas.add(Group((Polyline(scene.curve(analogues(solved, phase)), Pen.MAIN),), "curve", phase.name))
-    division, shown = solved.layout.division, pressed(scene.solved, SHOWN)
+        canvas.add(Group((Polyline(scene.curve(course.analogues(solved, phase)), Pen.MAIN),), "curve", phase.name))
+    division, shown = solved.layout.division, course.pressed(scene.solved, SHOWN)
     canvas.part("positions")
     for i in division.lines:
         at, end = (scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for letter in "BD")
@@ -344,15 +321,7 @@ def _frame(scene: CamScene, centre: complex) -> Box:
     return left, centre.imag - AROUND, max(right + PAST, centre.real + AROUND), top + PAST
 
 
-def _limits(canvas: Canvas, scene: CamScene) -> None:
-    """Draw the direction of the limit at the end of each analogue, towards the cam's centre."""
-    for i, phase in on_lines(scene):
-        end = scene.drawn(analogue_end(scene.solved, i, phase))
-        past = end + limit_direction(scene.solved, i, phase) * (LIMIT * scene.style.label)
-        canvas.add(Line(end, past, Pen.THIN, role="limit", name=f"{i}_{phase}"))
-
-
-def _bound(canvas: Canvas, scene: CamScene, bound: Bound, frame: Box) -> None:
+def _bound(canvas: Canvas, scene: CamScene, bound: course.Bound, frame: Box) -> None:
     """Mark the end of the analogue whose limit comes nearest to the centre, and dimension the angle permitted."""
     cam, limit, arm, along = needed(scene.solved.rocker), bound.limit, bound.arm, bound.along
     end = scene.drawn(bound.end)
@@ -367,35 +336,21 @@ def _bound(canvas: Canvas, scene: CamScene, bound: Bound, frame: Box) -> None:
         canvas.add(Line(end, end + arm * (radius + 2.0), Pen.THIN, role="extension"))
 
 
-def _rocker_permitted(canvas: Canvas, scene: CamScene, centre: complex) -> None:
-    """Hatch the permitted places of the cam's centre, beside the chosen one."""
-    x, y = centre.real, centre.imag
-    box = (x - 2.0 * AROUND, y - AROUND, x + 2.0 * AROUND, min(0.0, y + 2.0 * AROUND))
-    sides = [(normal, scene.drawn(least)) for normal, least in half_planes(scene.solved)]
-    canvas.add(hatched(sides, box, 2.5, "centre"))
-
-
-def _rocker_nodes(canvas: Canvas, scene: CamScene) -> None:
+def _rocker_nodes(canvas: Canvas, scene: CamScene, ends: list[tuple[int, str, complex]]) -> None:
     """Mark the roller's centre and the end of the analogue in every position, and number the ends."""
-    shared: dict[complex, list[str]] = {}
     canvas.part("positions")
     for i in scene.solved.layout.division.lines:
-        at = scene.mm(f"{ROCKER_SIZES}.B{i}")
-        canvas.add(scene.node(at, f"B{i}"))
+        canvas.add(scene.node(scene.mm(f"{ROCKER_SIZES}.B{i}"), f"B{i}"))
     canvas.part("analogues")
-    for i, phase in on_lines(scene):
-        at = scene.drawn(analogue_end(scene.solved, i, phase))
-        canvas.add(scene.node(at, f"{i}_{phase}"))
-        key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
-        shared.setdefault(key, []).append(str(i))
-    middle, named = sum(shared) / len(shared), str(pressed(scene.solved, SHOWN))
+    shared = _marked(canvas, scene, ends)
+    middle, named, height = sum(shared) / len(shared), course.pressed(scene.solved, SHOWN), scene.style.text
     canvas.part("positions")
-    canvas.label(f"B_{{{named}}}", scene.mm(f"{ROCKER_SIZES}.B{named}"), prefer=1 + 0j, height=scene.style.text)
+    canvas.label(f"B_{{{named}}}", scene.mm(f"{ROCKER_SIZES}.B{named}"), prefer=1 + 0j, height=height)
     canvas.part("analogues")
-    for at, numbers in shared.items():
-        text = f"D_{{{named}}}" if numbers == [named] else ", ".join(dict.fromkeys(numbers))
-        height = scene.style.text if numbers == [named] else small(scene.style.text)
-        canvas.label(text, at, prefer=at - middle, clear=0.8, height=height)
+    for at, group in shared.items():
+        alone = [i for i, _ in group] == [named]
+        text = f"D_{{{named}}}" if alone else _numbers(group)
+        canvas.label(text, at, prefer=at - middle, clear=0.8, height=height if alone else small(height))
 
 
 def _rocker_sizes(canvas: Canvas, scene: CamScene, centre: complex) -> None:
@@ -404,23 +359,20 @@ def _rocker_sizes(canvas: Canvas, scene: CamScene, centre: complex) -> None:
     low, high = scene.mm(f"{ROCKER_SIZES}.B0"), scene.mm(f"{ROCKER_SIZES}.B{scene.solved.layout.division.top}")
     canvas.part("centre")
     for name, end in (("r_0", low), ("l_OC", 0j)):
-        out = unit(end - centre)
-        canvas.add(Group((Line(centre, end, Pen.THIN), Head(end, out), Head(centre, -out)), "dimension", name))
+        out = _radius(canvas, centre, end, name)
         canvas.label(words.symbol(name), (centre, end), prefer=out * 1j, clear=0.8, height=style.text)
     canvas.part("positions")
     out = 1j * unit(high) * 3.0 * style.label
     linear(canvas, (0j, high), out, words.symbol("l_rocker"), "l_rocker")
     angle(canvas, 0j, (low, high), 0.45 * abs(low), "psi", words.symbol("psi"), prefer=-1 + 0j)
     canvas.part("centre")
-    canvas.add(Group((Circle(centre, style.node * 1.5, Pen.MAIN, fill="white"),), "point", "O"))
-    canvas.label("O", centre, prefer=1 + 0j, clear=1.0)
-    sense = scene.solved.cam.sense
-    turning(canvas, centre, 2.4 * style.label, HALF_TURN, 1.4, float(sense), "omega", words.symbol("omega"))
+    _mark_centre(canvas, centre, 1 + 0j)
+    _turns(canvas, scene, centre, HALF_TURN)
 
 
 def _ray(canvas: Canvas, scene: CamScene, centre: complex) -> None:
     """Draw the direction of the normal in one position of the rise, and its angle to the rocker."""
-    i = pressed(scene.solved, SHOWN)
+    i = course.pressed(scene.solved, SHOWN)
     at, end = (scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for letter in "BD")
     canvas.add(Line(centre, end, Pen.DASHED, role="ray", name=str(i)))
     rays = nearer(unit(at), centre - end), centre - end
@@ -430,13 +382,13 @@ def _ray(canvas: Canvas, scene: CamScene, centre: complex) -> None:
 
 def _rocker_lettered(scene: CamScene, cam: RockerCam) -> tuple[str, str]:
     """Return the numbers of what has only a letter in the figure."""
-    words, solved, i = scene.words, scene.solved, pressed(scene.solved, SHOWN)
+    solved, i = scene.solved, course.pressed(scene.solved, SHOWN)
     lengths = {"r_0": cam.sizes.r_0, "l_OC": cam.sizes.l_OC, "l_rocker": cam.sizes.l}
     angles = {"psi": cam.rocker.motion.h, "gamma_rise": cam.limits.gamma_rise, "gamma_fall": cam.limits.gamma_fall}
-    shown = transmission(float(theta(solved, solved.angles[i])))
-    said = [f"{words.symbol(name)} = {scene.degrees(angle)}" for name, angle in angles.items()]
-    said.append(f"{words.symbol('gamma')}_{{{i}}} = {scene.degrees(shown)}")
-    return "; ".join(f"{words.symbol(name)} = {scene.length(size)}" for name, size in lengths.items()), "; ".join(said)
+    shown = course.transmission(float(course.theta(solved, solved.angles[i])))
+    texts = [scene.angle(name, angle) for name, angle in angles.items()]
+    texts.append(scene.angle("gamma", shown, i))
+    return "; ".join(scene.dimension(name, size) for name, size in lengths.items()), "; ".join(texts)
 
 
 ROCKER_FIGURE = Figure(
