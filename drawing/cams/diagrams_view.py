@@ -46,11 +46,11 @@ def diagrams_view(scene: CamScene) -> View:
     fields: list[Field] = []
     low = 0.0
     for plan in drawn:
-        most = _ends(scene, plan)[1]
+        least, most = _ends(scene, plan)
         if fields:
             low -= most + BETWEEN[scene.style.label]
-        fields.append(_field(scene, plan, 1j * low))
-        low += _ends(scene, plan)[0]
+        fields.append(_field(scene, plan, (least, most), 1j * low))
+        low += least
     canvas.part("scales")
     boxes = [_scales(canvas, scene, plan, field) for plan, field in zip(drawn, fields, strict=True)]
     canvas.part("sections")
@@ -85,9 +85,9 @@ def _nodes(scene: CamScene, plan: str) -> list[int]:
     return [i for i in scene.solved.layout.division.lines if f"{plan}.{i}" in scene.solved.values]
 
 
-def _field(scene: CamScene, plan: str, origin: complex) -> Field:
+def _field(scene: CamScene, plan: str, ends: tuple[float, float], origin: complex) -> Field:
     scale, words = scene.scale(plan), scene.words
-    low, high = _ends(scene, plan)
+    low, high = ends
     across = Axis(words.symbol("phi"), scene.across, 0.0, float(scene.solved.angles[-1]), {})
     return Field(origin, across, Axis(words.symbol(LETTER[plan]), scale, scale.measured(low), scale.measured(high), {}))
 
@@ -142,7 +142,7 @@ def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field, away: float
     if len(nodes) == len(solved.layout.division.sections) + 1 and plan != solved.layout.given:
         chords = tuple(Line(a, b, Pen.THIN, name=str(i)) for (_, a), (i, b) in pairwise(nodes))
         canvas.add(Group(chords, "chords", plan))
-        canvas.add(*(_mark(scene, at, "node", str(i)) for i, at in nodes))
+        canvas.add(*(scene.node(at, str(i)) for i, at in nodes))
     means = [(i, origin + mean) for i, mean in _means(scene, plan)]
     if means:
         curve = canvas.part(f"rays_{role(plan).of}")
@@ -150,7 +150,7 @@ def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field, away: float
         text = f"{words.symbol(name)} = {words.short(round(scene.paper(name), 2))}"
         fan(canvas, field, Pole(scene.paper(name), letter, name, text), means, away)
         canvas.part(curve if plan == solved.layout.given else f"means_{role(plan).of}")
-        canvas.add(*(_mark(scene, mean, "mean", str(i)) for i, mean in means))
+        canvas.add(*(scene.node(mean, str(i), "mean") for i, mean in means))
 
 
 def _means(scene: CamScene, plan: str) -> list[tuple[int, complex]]:
@@ -160,14 +160,9 @@ def _means(scene: CamScene, plan: str) -> list[tuple[int, complex]]:
     return [(i, scene.mm(f"{plan}.m{i}")) for i in scene.solved.layout.division.sections]
 
 
-def _mark(scene: CamScene, at: complex, role: str, name: str) -> Group:
-    return scene.node(at, name, role)
-
-
 def _amplitudes(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
     """Dimension the greatest ordinates in mm, to the right of the diagram."""
-    last, words = field.x.high, scene.words
-    motion = scene.solved.motion
+    last, words, motion = field.x.high, scene.words, scene.solved.motion
     s, ds, d2s = (float(order == ORDER[plan]) for order in range(3))
     phases = (RISE,) if plan == ACCELERATION else PHASES
     up, down = motion.maximum(s, ds, d2s, phases), motion.minimum(s, ds, d2s, phases)
@@ -176,21 +171,17 @@ def _amplitudes(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Non
         if not name or abs(extreme.value) < SAME * field.y.scale.mu:
             continue
         peak, foot = field.at(last, extreme.value), field.at(last, 0.0)
-        place = field.at(extreme.phi, extreme.value)
-        canvas.add(Line(place, peak, Pen.THIN, role="extension"))
+        canvas.add(Line(field.at(extreme.phi, extreme.value), peak, Pen.THIN, role="extension"))
         symbol = words.symbol("V_max" if name == "V_min" else name)
         linear(canvas, (foot, peak), 14.0, f"{symbol} = {words.short(round(abs(peak - foot), 2))}", name)
 
 
 def _phases(canvas: Canvas, scene: CamScene, field: Field) -> None:
     """Dimension the phases in degrees under the lowest diagram."""
-    motion = scene.solved.motion
-    for phase in motion.phases[:3]:
+    for phase in scene.solved.motion.phases[:3]:
         below = field.y.low - field.y.scale.measured(3.5 + scene.style.text)  # clear of the numbers
-        ends = field.at(phase.start, below), field.at(phase.end, below)
-        symbol = scene.words.symbol(f"phi_{phase.name}")
-        text = f"{symbol} = {scene.degrees(phase.length)}"
-        linear(canvas, ends, -1j * (2.0 * scene.style.text), text, f"phi_{phase.name}")
+        ends, name = (field.at(phase.start, below), field.at(phase.end, below)), f"phi_{phase.name}"
+        linear(canvas, ends, -1j * (2.0 * scene.style.text), scene.angle(name, phase.length), name)
 
 
 @dataclass(frozen=True, slots=True)
@@ -268,8 +259,9 @@ def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, com
         level = complex(foot.real, nearest.imag)
         canvas.add(*(Line(*part, Pen.DASHED, role="projection") for part in beside(nearest, level, boxes)))
     rays = canvas.part("axes")
+    lowest, highest = (end(foot, zero, key=lambda place: place.imag) for end, foot in ((min, feet[0]), (max, feet[-1])))
     if len(feet) > 1:
-        canvas.add(Line(min(feet[0], zero, key=_height), max(feet[-1], zero, key=_height), Pen.THIN, role="feet"))
+        canvas.add(Line(lowest, highest, Pen.THIN, role="feet"))
     wide = lay_out(beyond.text, height).width + AROUND if beyond else 0.0
     axis = beside(field.origin, at - max(AT_POLE, wide), boxes)
     canvas.add(*(Line(*part, Pen.THIN, role="axis") for part in axis))
@@ -277,11 +269,7 @@ def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, com
         canvas.part(rays)
         canvas.add(Text(at - wide - 1j * (height + 2.0 * AROUND), beyond.text, height, role="number"))
         canvas.part("axes")
-    mark_pole(canvas, pole, at, min(feet[0], zero, key=_height), 5.0)
-
-
-def _height(place: complex) -> float:
-    return place.imag
+    mark_pole(canvas, pole, at, lowest, 5.0)
 
 
 def _written(canvas: Canvas, found: Sequence[Number], middle: complex, height: float) -> Iterator[Box]:
@@ -350,8 +338,7 @@ def _pressure_limit(
 ) -> Box | None:
     """Draw a limit over its phase, and write it on the line; return the box of what stands among section lines."""
     name, limit = at
-    motion, height = scene.solved.motion, scene.style.text
-    phase = motion.rise if name == RISE else motion.fall
+    phase, height = scene.solved.motion.phase(name), scene.style.text
     ends = field.at(phase.start, limit), field.at(phase.end, limit)
     canvas.add(Group((Line(*ends, Pen.DASHED),), "limit", f"{name}{'' if limit > 0 else '-'}"))
     markup = f"[{scene.words.symbol('theta')}] = {scene.degrees(abs(limit))}"

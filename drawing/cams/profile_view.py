@@ -13,8 +13,7 @@ from ..symbols import Rod, fixed_pivot, polar, revolute, swept, unit
 from ..text import lay_out
 from ..view import Canvas, View, angle, linear
 from . import inversion
-from .scene import CamScene, is_aside, is_sharp, needed
-from .sizes_view import SHOWN
+from .scene import SHOWN, CamScene, is_aside, is_sharp, needed
 
 OUT = 1.5  # heights of letters from the roller to the dimension of the stroke
 NUMBERS, PHASES = 1.7, 2.8  # heights of letters from the outermost roller to the numbers, and to the arcs of the phases

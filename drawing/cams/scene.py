@@ -18,6 +18,7 @@ from ..words import Words
 
 Size = TypeVar("Size", float, complex)
 Part = TypeVar("Part")
+SHOWN = 0.6  # part of the greatest pressure angle: a ray clear of its limit, and of the vertical
 MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
 CENTRAL = 0.05  # mm, of a circle of the offset that is not drawn
 INDEXED = re.compile(r"([^_]+)(?:_\{?(.*?)\}?)?")  # a symbol: its letter, its index

@@ -22,12 +22,11 @@ from ..symbols import HALF_TURN, arc_between, at_level, fixed_pivot, nearer, swe
 from ..text import Box, lay_out
 from ..view import Canvas, View, angle, linear, turning
 from .diagrams_view import jumps
-from .scene import CamScene, given, needed
+from .scene import SHOWN, CamScene, given, needed
 from .text import transfer
 
 PAST = 8.0  # mm by which an axis runs past the curve, a rocker's path past its ends
 BELOW = 30.0  # mm of the permitted places shown below the lowest one
-SHOWN = 0.6  # part of the greatest pressure angle: a ray clear of its limit, and of the vertical
 ARC = 4.0  # radius of the arc of an angle in heights of letters
 LINE = 18.0  # mm by which a limit runs past the place where it touches
 OVER = 4.0 / 180.0 * HALF_TURN  # of the circle beyond the permitted part

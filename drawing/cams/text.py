@@ -1,33 +1,58 @@
-"""Calculations of a cam with their numbers: scale factors, sizes, rules of design; the table of its motion."""
+"""What is written of a cam: calculations with their numbers, the table of its motion, and the work step by step.
+
+Scale factors, sizes and rules of design stand beside the drawing. An explanatory note numbers the steps, and concludes.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from ...plans.cams.construction import ACCELERATION, PLATE_SIZES, SIZES
-from ...plans.cams.course import theta
+from ...plans.cams import course
+from ...plans.cams.cam import PLATE
+from ...plans.cams.construction import ACCELERATION, PLATE_SIZES, ROCKER_SIZES, SIZES
 from ...plans.cams.formulas import ARC
 from ...plans.cams.rules import Rule, rules_of
 from ...plans.cams.solve import SCALES
-from ..printed import DEGREES, Input, Shown, calculation, worked
+from ...scales.scale import Scale
+from ..handouts import Shown as Begun
+from ..notes.blocks import Sentences, Story
+from ..printed import DEGREES, Input, Shown, calculation, segment_decimals, worked
 from ..symbols import swept
 from ..table import table, text_block, words_of
 from ..view import View
-from .scene import CamScene, needed
+from .inversion import undercut_notes
+from .scene import MU_DIGITS, SHOWN, CamScene, is_aside, needed
 
 Lines = list[tuple[str, ...]]
 MM = Shown("mm", 1e3)
 FROM = {SIZES: ("mu_s", "mu_ds"), PLATE_SIZES: ("mu_s", "mu_d2s")}  # scale factors of the diagrams
 DRAWN = {"mu_s": "s", "mu_ds": "ds", "mu_d2s": "d2s"}  # what they draw
 ANGLES = {SIZES: ("nu", "mu_s", "mu_ds")}  # of the straight line that projects one diagram to the scale of the other
+RATES = {  # by time: the law by which each follows from one by the angle of the cam, and its unit
+    "mu_v": ("speed_scale", "(m/s)/mm"),
+    "mu_a": ("acceleration_scale", "(m/s^2)/mm"),
+    "v_max": ("speed_scale", "m/s"),
+    "a_max": ("acceleration_scale", "m/s^2"),
+}
 DECIMALS = 4
+PAPER = 2  # decimals of segments on paper
+Said = dict[str, str]
+Texts = Mapping[str, str]
 SAME = 1e-9  # part of the greatest value of its column within which two limits at a jump are one
 
 
 def scales_block(scene: CamScene, width: float) -> View:
     """Return the calculation of amplitudes, scale factors and greatest rates."""
-    lines = [*_amplitudes(scene), *_factors(scene), *_chords(scene), *_rates(scene)]
+    values, motion, lines = scene.solved.values, scene.solved.motion, Lines()
+    if "l_A2" in values:
+        terms = [_drawn(scene, "l_A1", True), Input(float(values["u"]), name="u")]
+        lines.append(worked(scene.words, "l_A2", "second_amplitude", terms, MM))
+    lines += [*_factors(scene), *_chords(scene)]
+    lines.append(_rate(scene, "v_max", "ds_max", motion.ds_max.value))
+    if _given_a(scene):
+        lines.append(_rate(scene, "a_max", "d2s_max", motion.d2s_max.value))
     return text_block("equations_scales", scene.words["heading.scales"], lines, scene.style, width)
 
 
@@ -37,7 +62,9 @@ def choices_block(scene: CamScene, note: str, width: float) -> View:
     words_given = ((name, given.value) for name, given in scene.givens.items() if isinstance(given.value, str))
     chosen = ((name, words.choice(name, value)) for name, value in words_given)
     lines: Lines = [(f"{words.texts.get(f'given.cam_{name}', about)}:", said) for name, (about, said) in chosen]
-    lines += _about(scene)
+    lines.append(tuple(words["said.cam_curves"].split("|")))
+    if (lower := scene.solved.motion.lower).lasts:
+        lines.append((words["said.cam_lower"].format(angle=scene.angle("phi_lower", lower.length)),))
     lines += [_smaller(scene)] if scene.reduction != 1.0 else []
     lines += [words_of(note)] if note else []
     return text_block("choices", words["heading.cam_choices"], lines, scene.style, width)
@@ -52,8 +79,7 @@ def roller_block(scene: CamScene, width: float) -> View:
     legs = [length("e", abs(sizes.e)), length("s_0", sizes.s_0)]
     lines: Lines = [worked(words, "r_0", "hypotenuse", legs, MM)]
     if "r_0_tangents" in solved.values:
-        pair = ((name, float(solved.values[name]) * 1e3) for name in ("r_0_tangents", "e_tangents"))
-        texts = (f"{words.symbol(name)} = {words.number(value, 2)} {mm}" for name, value in pair)
+        texts = (f"{scene.dimension(name, solved.values[name])} {mm}" for name in ("r_0_tangents", "e_tangents"))
         lines.append((f"{words['said.cam_tangents']}:", "; ".join(texts)))
     lines += [(line,) for line in offsets_line(scene)]
     lines += rules(scene)
@@ -66,9 +92,8 @@ def plate_block(scene: CamScene, width: float) -> View:
     values = scene.solved.values
     lines: Lines = []
     if "r_0_flat_tangent" in values:
-        tangent = float(values["r_0_flat_tangent"]) * 1e3
-        text = f"{words.symbol('r_0_flat_tangent')} = {words.number(tangent, 2)} {words.unit('mm')}"
-        lines.append((f"{words['said.cam_tangents']}:", text))
+        text = scene.dimension("r_0_flat_tangent", values["r_0_flat_tangent"])
+        lines.append((f"{words['said.cam_tangents']}:", f"{text} {words.unit('mm')}"))
     rho_flat, r_0 = length("rho_flat", values["rho_flat"], True), length("r_0_flat", plate.sizes.r_0, True)
     least = length("r_0_flat_min", plate.sizes.r_0_min)
     if plate.given:
@@ -90,14 +115,6 @@ def _given_a(scene: CamScene) -> bool:
     return scene.solved.layout.given == ACCELERATION
 
 
-def _amplitudes(scene: CamScene) -> Lines:
-    if "l_A2" not in scene.solved.values:
-        return []
-    u = float(scene.solved.values["u"])
-    terms = [_drawn(scene, "l_A1", True), Input(u, name="u")]
-    return [worked(scene.words, "l_A2", "second_amplitude", terms, MM)]
-
-
 def _drawn(scene: CamScene, name: str, exact: bool = False) -> Input:
     """Return a length on paper as it goes into a formula."""
     return Input(scene.paper(name), exact, name=name, times=1e3)
@@ -116,15 +133,16 @@ def _factors(scene: CamScene, mark: str = "") -> Lines:
         lines.append(worked(scene.words, f"{name}{mark}", "derived_scale", terms, Shown("m/mm")))
     if mark:
         return lines
-    lines.append(_rate(scene, "mu_v", "speed_scale", "mu_ds", mu("mu_ds"), "(m/s)/mm"))
+    lines.append(_rate(scene, "mu_v", "mu_ds", mu("mu_ds")))
     if _given_a(scene):
-        lines.append(_rate(scene, "mu_a", "acceleration_scale", "mu_d2s", mu("mu_d2s"), "(m/s^2)/mm"))
+        lines.append(_rate(scene, "mu_a", "mu_d2s", mu("mu_d2s")))
     return lines
 
 
-def _rate(scene: CamScene, name: str, law: str, of: str, value: float, unit: str) -> tuple[str, ...]:
+def _rate(scene: CamScene, name: str, of: str, value: float) -> tuple[str, ...]:
     """Return how a rate by time follows from one by the angle of the cam."""
     omega = Input(float(scene.solved.values["omega"]), True, name="omega")
+    law, unit = RATES[name]
     return worked(scene.words, name, law, [omega, Input(value, name=of)], Shown(unit))
 
 
@@ -137,16 +155,6 @@ def _chords(scene: CamScene) -> Lines:
     return [(f"{words['said.cam_by_chords']}:",), *_factors(scene, "_chord"), (closing,)]
 
 
-def _about(scene: CamScene) -> Lines:
-    """Say what the lines of the diagrams are, and what is not drawn."""
-    words, lower_dwell = scene.words, scene.solved.motion.lower
-    said: Lines = [tuple(words["said.cam_curves"].split("|"))]
-    if lower_dwell.lasts:
-        lower = f"{words.symbol('phi_lower')} = {scene.degrees(lower_dwell.length)}"
-        said.append((words["said.cam_lower"].format(angle=lower),))
-    return said
-
-
 def _smaller(scene: CamScene) -> tuple[str, ...]:
     """Say that the diagrams are smaller than the lengths given, and with what lengths they are drawn."""
     words, mm = scene.words, scene.words.unit("mm")
@@ -154,15 +162,6 @@ def _smaller(scene: CamScene) -> tuple[str, ...]:
     said = [f"{words.symbol(name)} = {length} {mm};" for name, length in lengths]
     axis = words["said.cam_axis"].format(angle=scene.degrees(scene.mu("mu_phi")))
     return (*words_of(words["said.cam_smaller"].format(part=words.short(scene.reduction))), *said, axis)
-
-
-def _rates(scene: CamScene) -> Lines:
-    """Return the greatest velocity and acceleration of the follower."""
-    motion = scene.solved.motion
-    lines = [_rate(scene, "v_max", "speed_scale", "ds_max", motion.ds_max.value, "m/s")]
-    if _given_a(scene):
-        lines.append(_rate(scene, "a_max", "acceleration_scale", "d2s_max", motion.d2s_max.value, "m/s^2"))
-    return lines
 
 
 def rules(scene: CamScene) -> Lines:
@@ -184,18 +183,17 @@ def _of_roller(scene: CamScene, rule: Rule) -> str:
 
 def _of_transmission(scene: CamScene, rule: Rule) -> str:
     """Return the least transmission angle of a phase beside the one permitted."""
-    least, permitted = (scene.words.symbol(name) for name in (f"{rule.name}_min", rule.name))
-    return f"{least} = {scene.degrees(rule.value)} ≥ {permitted} = {scene.degrees(rule.limit)}"
+    return f"{scene.angle(f'{rule.name}_min', rule.value)} ≥ {scene.angle(rule.name, rule.limit)}"
 
 
 def offsets_line(scene: CamScene) -> list[str]:
     """Return the offsets permitted at a given r_0, and the one chosen."""
-    roller, words = scene.solved.roller, scene.words
+    roller = scene.solved.roller
     if roller is None or roller.offsets is None:
         return []
     found, e = roller.offsets, roller.sizes.e
-    sizes = {"e_least": found.least, "e": e, "e_most": found.most}
-    least, chosen, most = (f"{words.symbol(n)} = {scene.length(size)} {words.unit('mm')}" for n, size in sizes.items())
+    sizes, mm = {"e_least": found.least, "e": e, "e_most": found.most}, scene.words.unit("mm")
+    least, chosen, most = (f"{scene.dimension(name, size)} {mm}" for name, size in sizes.items())
     if e < found.least:
         return [f"{chosen} < {least}"]
     return [f"{chosen} > {most}" if e > found.most else f"{least} ≤ {chosen} ≤ {most}"]
@@ -249,7 +247,7 @@ def motion_table(scene: CamScene) -> View:
     head = [words["table.cam_row"], f"{words.symbol('phi')}, °"]
     head += [f"{words.symbol(name)}, {mm}" for name in ("s", "ds", "d2s")]
     if solved.rolling is not None:
-        angles = [theta(solved, solved.angles, side) * DEGREES for side in (-1, 1)]
+        angles = [course.theta(solved, solved.angles, side) * DEGREES for side in (-1, 1)]
         columns.append(_column(scene, angles))
         head.append(f"{words.symbol('theta')}, °")
     rows = [[str(i), *cells] for i, cells in enumerate(zip(*columns, strict=True))]
@@ -264,3 +262,236 @@ def _column(scene: CamScene, limits: Sequence[Any]) -> list[str]:
         texts = [scene.words.number(value, 2) for value in ((a,) if abs(b - a) <= least else (a, b))]
         cells.append(" / ".join(texts))
     return cells
+
+
+# The work as a note tells it.
+
+
+def story(scene: CamScene, scales: Mapping[str, Scale], texts: Texts) -> Story:
+    """Return what the note of a cam says beside its views, and what their stages are told with: lengths as drawn.
+
+    The sentences of `texts` are by key.
+    """
+    followers = scene.solved.cam.followers
+    named = texts["cam.and"].join(texts[f"cam.for.{follower}"] for follower in followers)
+    aim = Sentences((texts["cam.aims" if len(followers) > 1 else "cam.aim"].format(followers=named),))
+    said = _said(scene, texts)
+    return Story(conclusions=tuple(conclusions(scene, texts)), before={"givens": (aim,)}, texts=texts, said=said)
+
+
+def begun(scene: CamScene, steps: int) -> dict[str, Begun]:
+    """Return what handouts show of the table: section lines, and their angles from the first step on."""
+    return {"motion": Begun(columns=2 if steps else 1)}
+
+
+def _said(scene: CamScene, texts: Texts) -> Said:
+    """Return what sentences may name: quantities with letters and units, lengths on paper."""
+    solved = scene.solved
+    found = _of_task(scene) | _of_diagrams(scene, texts)
+    if solved.rolling is not None:
+        found |= _of_pressure(scene)
+    if solved.roller is not None:
+        found |= _of_roller_sizes(scene, texts)
+    if solved.rocker is not None:
+        found |= _of_rocker(scene)
+    if solved.plate is not None:
+        found |= _of_plate(scene)
+    return found | _of_profiles(scene) if solved.draws_profiles else found
+
+
+def on_paper(scene: CamScene, mm: float) -> str:
+    """Return a length on paper with its unit, without zeros at the end."""
+    return f"{scene.words.short(round(mm, PAPER))} {scene.words.unit('mm')}"
+
+
+def read(scene: CamScene, plan: str, name: str, metres: float) -> str:
+    """Return a size as it is read from a plan: its millimetres times the scale factor."""
+    words, mu = scene.words, float(f"{scene.scale(plan).mu:.{MU_DIGITS}g}")
+    places, decimals = segment_decimals(metres, mu)
+    product = f"{words.number(metres / mu, places)}·{words.short(mu)} = {words.number(metres, decimals)}"
+    return f"{words.symbol(name)} = {product} {words.unit('m')} = {scene.length(metres)} {words.unit('mm')}"
+
+
+def _of_task(scene: CamScene) -> Said:
+    """Return what the task gives, and the section lines."""
+    solved, words = scene.solved, scene.words
+    division, motion = solved.layout.division, solved.motion
+    phases = [phase for phase in motion.phases[:3] if phase.lasts]
+    lengths = ((f"phi_{p.name}", p.length / scene.across.mu) for p in phases)
+    found = {"h": scene.stated("h", motion.h), "last": str(division.last), "n_rise": str(division.top)}
+    found["n_fall"] = str(division.last - division.leave)
+    found["phases"] = ", ".join(f"{words.symbol(name)} = {on_paper(scene, mm)}" for name, mm in lengths)
+    found["angles"] = ", ".join(scene.angle(f"phi_{p.name}", p.length) for p in phases)
+    found["per_mm"] = words["said.cam_axis"].format(angle=scene.degrees(scene.across.mu))
+    for name in ("gamma_rise", "gamma_fall"):
+        if name in solved.givens:
+            found[name] = scene.angle(name, solved.givens[name])
+    for name in ("R_roller", "l_rocker", "rho_flat", "margin", "r_0", "e", "l_OC"):
+        if name in solved.givens:
+            found[name] = scene.stated(name, solved.givens[name])
+    return found
+
+
+def _of_diagrams(scene: CamScene, texts: Texts) -> Said:
+    """Return poles, greatest ordinates and closing errors, mm of paper."""
+    solved, words = scene.solved, scene.words
+    names = ("H_a", "H_v", "v_close", "s_close", "S_max_chord", "l_A1", "l_A2")
+    drawn = {name: scene.paper(name) for name in names if name in solved.values}
+    drawn["S_max"] = solved.motion.h / scene.mu("mu_s")
+    drawn["V_max"] = solved.motion.ds_max.value / scene.mu("mu_ds")
+    found = {name: f"{words.symbol(name)} = {on_paper(scene, mm)}" for name, mm in drawn.items()}
+    for name in {"v_close", "s_close"} & drawn.keys():
+        found[name] = f"{words.symbol(name)} = {words.number(drawn[name], PAPER)} {words.unit('mm')}"
+    amplitudes = ("l_A1", "l_A2") if solved.layout.given == ACCELERATION else ("l_A1",)
+    found["amplitudes"] = ", ".join(found[name] for name in amplitudes if name in found)
+    jumps = solved.layout.division.jumps
+    lines = ", ".join(map(str, jumps))
+    return found | {"jumps": texts["cam.jumps"].format(lines=lines) if jumps else ""}
+
+
+def _of_pressure(scene: CamScene) -> Said:
+    """Return the angles of the position that is shown, the least ones of each phase, the permitted ones."""
+    solved = scene.solved
+    line = course.pressed(solved, SHOWN)
+    angle = float(course.theta(solved, solved.angles[line]))
+    found = {"theta": scene.angle("theta", angle, line)}
+    found["gamma"] = scene.angle("gamma", course.transmission(angle), line)
+    found |= {name: scene.angle(name, solved.values[name]) for name in ("gamma_rise_min", "gamma_fall_min")}
+    found |= {f"theta_{phase}": f"[θ] = {scene.degrees(abs(limit))}" for phase, limit in course.permitted(solved)}
+    return found | {"line": str(line), "rho_min": scene.stated("rho_min", needed(solved.rolling).profile.rho_min)}
+
+
+def _of_roller_sizes(scene: CamScene, texts: Texts) -> Said:
+    """Return what is read from S over ds/dphi, and what the plan of the cam begins with."""
+    solved, words, roller = scene.solved, scene.words, needed(scene.solved.roller)
+    sizes, sides = roller.sizes, (texts["cam.right"], texts["cam.left"])
+    found = {name: scene.stated(name, float(solved.values[name])) for name in ("r_0_tangents", "e_tangents")}
+    found |= {"r_0": scene.stated("r_0", sizes.r_0), "e": scene.stated("e", abs(sizes.e))}
+    found |= {"r_0_read": read(scene, SIZES, "r_0", sizes.r_0), "offsets": "".join(offsets_line(scene))}
+    found["rise_side"], found["fall_side"] = sides[:: solved.cam.sense]
+    found |= {"ratio_s": ratio(scene, "mu_s", "mu_s_ds"), "ratio_ds": ratio(scene, "mu_ds", "mu_s_ds")}
+    found["mu_s_ds"] = scene.factor(scene.scale(SIZES))
+    line = course.pressed(scene.solved, SHOWN)
+    ds = abs(course.analogue(solved, line).real)
+    found["OP"] = f"OP_{{{line}}} = |{words.symbol('ds')}| = {scene.length(ds)} {words.unit('mm')}"
+    return found
+
+
+def _of_profiles(scene: CamScene) -> Said:
+    """Return what the plans of the cam begin with: their scale, the radii of the first circles."""
+    solved = scene.solved
+    radii: dict[str, float] = {}
+    if solved.rocker is not None:
+        radii = {"r_0": solved.rocker.sizes.r_0, "l_OC": solved.rocker.sizes.l_OC}
+    elif solved.roller is not None:
+        radii = {"r_0": solved.roller.sizes.r_0}
+        if is_aside(scene):
+            radii["e"] = abs(solved.roller.sizes.e)
+    drawn = ", ".join(scene.stated(name, radius) for name, radius in radii.items())
+    return {"scale": scene.words.drawn_at(scene.mu_l), "radii": drawn}
+
+
+def _of_rocker(scene: CamScene) -> Said:
+    """Return what is read from the positions of a rocker, and what the plan of the cam begins with."""
+    solved, words, cam = scene.solved, scene.words, needed(scene.solved.rocker)
+    sizes = {"r_0": cam.sizes.r_0, "l_OC": cam.sizes.l_OC}
+    found = {name: scene.stated(name, size) for name, size in sizes.items()}
+    found |= {f"{name}_read": read(scene, ROCKER_SIZES, name, size) for name, size in sizes.items()}
+    found |= {"l_rocker": scene.stated("l_rocker", cam.sizes.l), "l_letter": words.symbol("l_rocker")}
+    found |= {"l_rocker_paper": on_paper(scene, cam.sizes.l / scene.mu_l), "l_OC_letter": words.symbol("l_OC")}
+    angles = {"psi": cam.rocker.motion.h, "psi_0": float(solved.values["psi_0"])}
+    found |= {name: scene.angle(name, angle) for name, angle in angles.items()}
+    dpsi = abs(course.turning(solved, course.pressed(solved, SHOWN)))
+    return found | {"ratio": words.short(float(f"{dpsi:.4g}"))}
+
+
+def _of_plate(scene: CamScene) -> Said:
+    """Return what is read from S over d2s/dphi2, and the plate."""
+    solved, words, plate = scene.solved, scene.words, needed(scene.solved.plate)
+    sizes = plate.sizes
+    found = {"r_0_flat": scene.stated("r_0_flat", sizes.r_0), "mu_s_d2s": scene.factor(scene.scale(PLATE_SIZES))}
+    found["r_0_flat_min_read"] = read(scene, PLATE_SIZES, "r_0_flat_min", sizes.r_0_min)
+    found["r_0_flat_tangent"] = scene.stated("r_0_flat_tangent", float(solved.values["r_0_flat_tangent"]))
+    found |= {"ratio_s_d2s": ratio(scene, "mu_s", "mu_s_d2s"), "ratio_d2s": ratio(scene, "mu_d2s", "mu_s_d2s")}
+    if "rho_flat_min" in solved.values:
+        found["rho_flat_min"] = scene.stated("rho_flat_min", float(solved.values["rho_flat_min"]))
+    parts = scene.length(solved.motion.ds_max.value), scene.length(solved.values["margin"])
+    total = f"{' + '.join(parts)} = {scene.length(sizes.R_plate)} {words.unit('mm')}"
+    return found | {"R_plate_sum": f"{words.symbol('R_plate')} = {total}"}
+
+
+def conclusions(scene: CamScene, texts: Texts) -> Iterator[str]:
+    """Go through the sentences for the end of the note."""
+    solved = scene.solved
+    yield _motion(scene, texts)
+    yield _concluded_chords(scene, texts)
+    if solved.rolling is not None:
+        yield from _roller(scene, texts)
+    if solved.plate is not None:
+        yield from _plate(scene, texts)
+    elif PLATE in solved.cam.followers and solved.motion.velocity_jumps:
+        yield texts["cam.conclusion.no_plate"]
+
+
+def _motion(scene: CamScene, texts: Texts) -> str:
+    """Tell the greatest velocity, and the greatest acceleration of a law that has one."""
+    words, values = scene.words, scene.solved.values
+    said = {
+        name: f"{words.symbol(name)} = {scene.value(float(values[name]))} {words.unit(RATES[name][1])}"
+        for name in ("v_max", "a_max")
+        if name in values
+    }
+    moved = texts["cam.roller_centre" if scene.solved.layout.rocks else "cam.follower"]
+    return texts[f"cam.conclusion.{'motions' if 'a_max' in said else 'motion'}"].format(of=moved, **said)
+
+
+def _concluded_chords(scene: CamScene, texts: Texts) -> str:
+    """Compare the stroke that chords draw with that of the exact curve."""
+    words = scene.words
+    exact, drawn = scene.solved.motion.h / scene.mu("mu_s"), scene.paper("S_max_chord")
+    gap = f"{words.symbol('s_close')} = {words.number(scene.paper('s_close'), PAPER)} {words.unit('mm')}"
+    part = words.number(100.0 * abs(drawn - exact) / exact, 2)
+    return texts["cam.conclusion.chords"].format(part=part, s_close=gap)
+
+
+def _roller(scene: CamScene, texts: Texts) -> Iterator[str]:
+    """Tell the sizes of a cam for a roller, the rules, and where the profile is undercut."""
+    solved = scene.solved
+    cam = needed(solved.rolling)
+    names = {"r_0": cam.sizes.r_0, "R_roller": cam.profile.R, "e": abs(cam.sizes.e)}
+    if solved.rocker is not None:
+        names["l_OC"] = solved.rocker.sizes.l_OC
+    said = {name: scene.stated(name, size) for name, size in names.items()}
+    yield texts[f"cam.conclusion.{'roller' if solved.rocker is None else 'rocker'}"].format(**said)
+    for rule in rules_of(solved):
+        key = f"cam.conclusion.{rule.name}_{'kept' if rule.ok else 'broken'}"
+        yield texts[key].format(**_rule(scene, rule))
+    yield from _undercuts(undercut_notes(scene, cam.profile.undercuts, rocks=solved.rocker is not None))
+
+
+def _rule(scene: CamScene, rule: Rule) -> dict[str, str]:
+    """Return a rule's numbers: sizes of the roller in mm, transmission angles in degrees."""
+    words = scene.words
+    if rule.of:
+        limit = f"{scene.length(rule.limit)} {words.unit('mm')}"
+        part = f"{words.short(rule.part)}·{words.symbol(rule.of)}"
+        return {"part": part, "limit": limit, rule.of: scene.stated(rule.of, rule.size)}
+    return {"value": scene.angle(f"{rule.name}_min", rule.value), "limit": scene.angle(rule.name, rule.limit)}
+
+
+def _plate(scene: CamScene, texts: Texts) -> Iterator[str]:
+    """Tell the sizes of a cam for a plate, and how its profile is curved."""
+    plate = needed(scene.solved.plate)
+    sizes, least = plate.sizes, float(plate.profile.rho_min)
+    said = {"r_0_flat": sizes.r_0, "R_plate": sizes.R_plate}
+    yield texts["cam.conclusion.plate"].format(**{name: scene.stated(name, size) for name, size in said.items()})
+    if 0.0 <= least < math.inf:
+        yield texts["cam.conclusion.convex"].format(rho=f"{scene.length(least)} {scene.words.unit('mm')}")
+    yield from _undercuts(undercut_notes(scene, plate.profile.undercuts))
+
+
+def _undercuts(notes: tuple[str, ...]) -> Iterator[str]:
+    """Join what the sheet says of an undercut profile to a sentence."""
+    if notes:
+        warning, *places = notes
+        yield f"{warning} {'; '.join(places)}."

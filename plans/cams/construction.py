@@ -22,7 +22,7 @@ A rocker has both of its own.
 On `rocker_sizes` the pivot is `0`; `B1` is the roller's centre in a position, `D1` the end of the analogue of its
 velocity, laid off along the rocker towards the pivot where it rises against the sense of the cam's turning. A cam's
 centre sees `D1` along the normal, so that the line through `D1` at the permitted transmission angle, of the direction
-`limit(1)`, bounds where it may lie. `C` is the centre of the smallest cam that all positions permit; `psi_0` the angle
+`_limit1`, bounds where it may lie. `C` is the centre of the smallest cam that all positions permit; `psi_0` the angle
 at the pivot between the rocker's lowest position and the line of centres.
 
 On its `profile` the pivot goes round the cam against its sense, `A1`; `B1` is the roller's centre, `D1` the same point
@@ -192,7 +192,7 @@ def plate_profile(board: Board, division: Division) -> None:
         board.back(k, b, f"_left{i}", f"_x{i}_exact")
 
 
-SIZES, PLATE_SIZES = "sizes", "plate_sizes"
+SIZES, PLATE_SIZES, ROCKER_SIZES = "sizes", "plate_sizes", "rocker_sizes"
 
 
 def ordinates(board: Board, division: Division, given: str) -> None:
@@ -242,8 +242,8 @@ def roller_sizes(board: Board, division: Division, limits: Iterable[str], corner
     board.calc("e_tangents", "component", RIGHT, "_centre")
 
 
-def smallest_roller_cam(board: Board) -> None:
-    """Mark the centre of the smallest cam that the exact curves permit."""
+def smallest_roller_cam(board: Board, ranged: bool) -> None:
+    """Mark the centre of the smallest cam that the exact curves permit, or of that of a given r_0, with its range."""
     board.calc("e", "part_of_travel", "h", "_e_part")
     board.calc("s_0", "part_of_travel", "h", "_s_0_part")
     board.calc("_below", "negative", "s_0")
@@ -252,12 +252,8 @@ def smallest_roller_cam(board: Board) -> None:
     board.distance("r_0", f"{SIZES}.0", f"{SIZES}.C")
     for phase in (RISE, FALL):
         board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
-
-
-def permitted_offsets(board: Board) -> None:
-    """Calculate between which offsets a given r_0 keeps the limits."""
-    board.calc("e_least", "part_of_travel", "h", "_e_least")
-    board.calc("e_most", "part_of_travel", "h", "_e_most")
+    for end in ("e_least", "e_most") if ranged else ():
+        board.calc(end, "part_of_travel", "h", f"_{end}")
 
 
 def plate_sizes(board: Board, division: Division) -> None:
@@ -289,14 +285,6 @@ def smallest_plate_cam(board: Board, given: bool) -> None:
     board.calc("R_plate", "enlarged", "ds_max", "margin")
 
 
-ROCKER_SIZES = "rocker_sizes"
-
-
-def limit(line: int) -> str:
-    """Return the name of the direction of the limit through `D` of a section line."""
-    return f"_limit{line}"
-
-
 def rocker_sizes(board: Board, division: Division) -> None:
     """Draw the rocker in all positions, their limits, and the centre of the smallest cam."""
     board.pole(f"{ROCKER_SIZES}.0")
@@ -307,9 +295,9 @@ def rocker_sizes(board: Board, division: Division) -> None:
         board.lay(b, f"{ROCKER_SIZES}.0", f"_arm{i}", "l_rocker")
         board.back(d, b, f"_arm{i}", f"_x{i}_arm")
         if i in division.rise or i in division.fall:
-            board.turn(limit(i), f"_limit_angle{i}")
-    for name, part in (("_centre_x", "_centre_x_part"), ("_centre_y", "_centre_y_part")):
-        board.calc(name, "part_of_travel", "l_rocker", part)
+            board.turn(f"_limit{i}", f"_limit_angle{i}")
+    for name in ("_centre_x", "_centre_y"):
+        board.calc(name, "part_of_travel", "l_rocker", f"{name}_part")
     board.place(f"{ROCKER_SIZES}.C", "_centre_x", "_centre_y")
     board.distance("r_0", f"{ROCKER_SIZES}.C", f"{ROCKER_SIZES}.B0")
     board.distance("l_OC", f"{ROCKER_SIZES}.0", f"{ROCKER_SIZES}.C")
@@ -373,9 +361,7 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
         ordinates(board, division, given)
         if ROLLER in layout.followers:
             roller_sizes(board, division, layout.limits, layout.corner)
-            smallest_roller_cam(board)
-            if layout.ranged:
-                permitted_offsets(board)
+            smallest_roller_cam(board, layout.ranged)
         if PLATE in layout.followers:
             plate_sizes(board, division)
             smallest_plate_cam(board, layout.plate_given)

@@ -85,7 +85,7 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
     """Disk cams with translating roller and flat-faced followers, or with a rocker."""
 
     table, plans, choosing = "cam", cams.PLANS, WORDS
-    room, symbols, told = "cams", SYMBOLS, "steps"
+    room, symbols = "cams", SYMBOLS
     unasked = ("s_max", "s_close", "v_close")  # the stroke, which is given, and what should be nothing
     display = Display(size="mm", angle="deg")
     names = frozenset((*NUMBERS, *WORDS))
@@ -162,9 +162,7 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
         `gamma_fall` the least transmission angles against the permitted ones; `undercut_...` tells how much travel a
         profile loses, `convex` how sharp the profile under a plate is.
         """
-        from ...plans.cams.rules import rules_of
-
-        found: list[Check] = [*rules_of(solved)]
+        found: list[Check] = [*self._in("plans", "rules", "rules_of")(solved)]
         for follower, profile in _profiles(solved):
             lost = max((undercut.lost for undercut in profile.undercuts), default=0.0)
             ok, of_travel = not profile.undercuts, "rad" if follower == cams.ROCKER else "m"
@@ -177,22 +175,19 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
 
     def as_drawn(self, solved: SolvedCam) -> SolvedCam:
         """Return the cam with chords and tangents in the place of closed forms."""
-        from ...plans.cams.rules import as_drawn
-
-        return as_drawn(solved)
+        drawn: SolvedCam = self._in("plans", "rules", "as_drawn")(solved)
+        return drawn
 
     def stands_for(self, solved: SolvedCam) -> dict[str, str]:
         """Return for what the sizes by chords and tangents stand."""
-        from ...plans.cams.rules import stands_for
-
-        return stands_for(solved)
+        exact: dict[str, str] = self._in("plans", "rules", "stands_for")(solved)
+        return exact
 
     def listed(self, solved: SolvedCam, plans: tuple[str, ...]) -> tuple[str, ...]:
         """Return what belongs to the plans, section by section, the chosen scale factors among it."""
-        from ...plans.cams.solve import listed
-
         chosen = (symbol for symbol in SYMBOLS if symbol in solved.scale_of_plan.values())
-        return listed((*chosen, *solved.quantities), plans)
+        names: tuple[str, ...] = self._in("plans", "solve", "listed")((*chosen, *solved.quantities), plans)
+        return names
 
     def _headed(self, solved: SolvedCam, section: str) -> str:
         named = {"profile": "profiles"} | ({"roller": "rocker"} if solved.rocker is not None else {})

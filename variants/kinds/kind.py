@@ -259,7 +259,6 @@ class Sized(Kind[Subject, Answer]):
     numbers: ClassVar[Mapping[str, Number]]
     units: ClassVar[Mapping[str, str]]  # of the numbers, SI
     unasked: ClassVar[tuple[str, ...]] = ()  # quantities that no form asks for
-    told: ClassVar[str] = "text"  # the module of the drawings that tells them
 
     def _in(self, layer: str, module: str, name: str) -> Any:
         """Return what a module of this kind's plans or drawings calls `name`; most need numpy."""
@@ -347,12 +346,12 @@ class Sized(Kind[Subject, Answer]):
 
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Tell the drawings step by step, and what is calculated with its numbers."""
-        story: Story = self._in("drawing", self.told, "story")(self.scene(case, scales, words), scales, texts)
+        story: Story = self._in("drawing", "text", "story")(self.scene(case, scales, words), scales, texts)
         return story
 
     def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what is drawn of the tables; drawings have stages."""
-        shown: Mapping[str, Shown] = self._in("drawing", self.told, "begun")(self.scene(case, scales, words), steps)
+        shown: Mapping[str, Shown] = self._in("drawing", "text", "begun")(self.scene(case, scales, words), steps)
         return shown
 
     def asks(self, solved: Answer, question: Question) -> bool:
