@@ -28,6 +28,7 @@ from ..solved import Solved
 from .cam import DIAGRAMS_PART, PLANS, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART, VALUES, Cam
 from .construction import (
     ACCELERATION,
+    ARC,
     DIAGRAMS,
     NEEDS,
     PLATE_PROFILE,
@@ -43,7 +44,6 @@ from .construction import (
     construct,
 )
 from .followers import PlateCam, RockerCam, RollerCam, RollingCam, plate_cam, rocker_cam, roller_cam
-from .formulas import ARC
 from .motion import FALL, RISE, Array, Division, Motion, motion_of
 from .sizes import RIGHT_ANGLE
 
@@ -269,7 +269,9 @@ def again(solved: SolvedCam, values: Mapping[str, float]) -> Mapping[str, Any]:
 
     cam = solved.cam
     motion = _motion(cam, values)
-    angles = np.interp(solved.angles, solved.motion.corners, motion.corners)
+    # up to the lower dwell, which begins where phases that fill the turn become shorter
+    places = (of.corners[: len(of.corners) - len(of.lower.pieces)] for of in (solved.motion, motion))
+    angles = np.interp(solved.angles, *places)
     layout = replace(solved.layout, division=replace(solved.layout.division, angles=angles))
     cams = _cams(cam, motion, values) if layout.followers else {}
     return run(solved.program, {**values, **_givens(cam, motion, layout, cams)}).values

@@ -44,6 +44,16 @@ def test_products_of_powers_have_the_sum_of_their_powers() -> None:
     assert {name: found[name].value for name in POWERS} == pytest.approx(POWERS, abs=1e-4)
 
 
+def test_phases_that_fill_the_turn_have_a_condition() -> None:
+    full = {"phi_rise": "150 deg", "phi_upper": "0 deg", "phi_fall": "210 deg"}
+
+    found = solve("madi-cam", set=full, only="diagrams", condition=True).conditions
+
+    assert {name: found[name].value for name in ("v_max", "a_max")} == pytest.approx(
+        {"v_max": 3.0, "a_max": 6.0}, abs=1e-3
+    )
+
+
 @pytest.mark.parametrize(
     ("numbers", "names"),
     [
