@@ -233,14 +233,8 @@ def aside(ordinates: Sequence[Sequence[tuple[int, float]]], text: float) -> floa
 def fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, complex]], away: float) -> None:
     """Draw projections of mean ordinates to a line `away` mm to the left, and rays from the pole to their feet.
 
-    Parameters
-    ----------
-    means : sequence of (number of the section, place of its mean ordinate)
-        Those of one height have one ray.
-    away : float
-        What `aside` has returned.
-
-    The pole, and the line from which its distance counts, are there with the axes, before any ray.
+    The `means` are numbers of sections with the places of their ordinates; those of one height have one ray. The pole,
+    and the line from which its distance counts, are there with the axes, before any ray.
     """
     style, zero = canvas.style, field.origin - away
     height = small(style.text)

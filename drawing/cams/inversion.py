@@ -131,12 +131,8 @@ def radius_at(canvas: Canvas, scene: CamScene, radius: tuple[str, float], angle:
     """Dimension a radius, by name and in m, of a circle about the cam's centre along a ray.
 
     The text runs along the ray: between the first two of the radii `free`, beyond the shaft, if need be without its
-    number, or else beyond the third; that of a cam without room for letters stands where it finds a place.
-
-    Returns
-    -------
-    str
-        The number, if it has no place in the figure.
+    number, or else beyond the third; that of a cam without room for letters stands where it finds a place. Returns the
+    number, if it has no place in the figure.
     """
     name, style, size = radius[0], scene.style, scene.drawn(radius[1])
     ray, whole = polar(1.0, angle), scene.dimension(*radius)

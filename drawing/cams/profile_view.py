@@ -149,11 +149,7 @@ def rocker_view(scene: CamScene) -> View:
     _rocker_positions(canvas, scene)
     inversion.curves(canvas, scene, cam.profile)
     canvas.part("pivots")
-    for i in solved.layout.division.lines:  # beyond the pivots, each with a tick from its own
-        out, radius = unit(scene.mm(f"{PROFILE}.A{i}")), outer + NUMBERS * label
-        tick = scene.mm(f"{PROFILE}.A{i}"), out * (radius - 0.9 * label)
-        canvas.add(Line(*tick, Pen.THIN, role="position", name=str(i)))
-        inversion.number(canvas, out * radius, i)
+    _rocker_numbers(canvas, scene, outer + NUMBERS * label)
     reach = outer + (PHASES + 1.0) * label
     inversion.phases(canvas, scene, pivot, reach)
     canvas.part("sharpest")
@@ -191,6 +187,15 @@ def _rocker_positions(canvas: Canvas, scene: CamScene) -> None:
             canvas.add(scene.node(pivot, f"A{i}"))
         canvas.part("pitch")
         canvas.add(scene.node(at, f"B{i}"))
+
+
+def _rocker_numbers(canvas: Canvas, scene: CamScene, radius: float) -> None:
+    """Write the number of each position beyond its pivot, with a tick from the pivot towards it."""
+    for i in scene.solved.layout.division.lines:
+        pivot = scene.mm(f"{PROFILE}.A{i}")
+        tick = pivot, unit(pivot) * (radius - 0.9 * scene.style.label)
+        canvas.add(Line(*tick, Pen.THIN, role="position", name=str(i)))
+        inversion.number(canvas, unit(pivot) * radius, i)
 
 
 def _rocker_normal(canvas: Canvas, scene: CamScene, i: int) -> None:

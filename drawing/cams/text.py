@@ -10,9 +10,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ...plans.cams import course
-from ...plans.cams.cam import PLATE
-from ...plans.cams.construction import ACCELERATION, PLATE_SIZES, ROCKER_SIZES, SIZES
-from ...plans.cams.formulas import ARC
+from ...plans.cams.cam import PLATE, VALUES
+from ...plans.cams.construction import ACCELERATION, ARC, PLATE_SIZES, ROCKER_SIZES, SIZES
 from ...plans.cams.rules import Rule, rules_of
 from ...plans.cams.solve import SCALES
 from ...scales.scale import Scale
@@ -286,8 +285,13 @@ def begun(scene: CamScene, steps: int) -> dict[str, Begun]:
 
 def _said(scene: CamScene, texts: Texts) -> Said:
     """Return what sentences may name: quantities with letters and units, lengths on paper."""
-    solved = scene.solved
-    found = _of_task(scene) | _of_diagrams(scene, texts)
+    solved, found = scene.solved, {}
+    units = {name: VALUES[name] for name in solved.givens if name in VALUES}
+    units |= {name: quantity.unit for name, quantity in solved.quantities.items()}
+    for name in (name for name, unit in units.items() if unit in ("m", "rad")):
+        value = float(solved.values[name])
+        found[name] = scene.stated(name, value) if units[name] == "m" else scene.angle(name, value)
+    found |= _of_task(scene) | _of_diagrams(scene, texts)
     if solved.rolling is not None:
         found |= _of_pressure(scene)
     if solved.roller is not None:
@@ -296,7 +300,11 @@ def _said(scene: CamScene, texts: Texts) -> Said:
         found |= _of_rocker(scene)
     if solved.plate is not None:
         found |= _of_plate(scene)
-    return found | _of_profiles(scene) if solved.draws_profiles else found
+    if solved.draws_profiles:  # the plans of the cam begin with their scale and the first circles
+        beside = ("l_OC",) if solved.rocker is not None else ("e",) * is_aside(scene)
+        radii = ("r_0", *beside) if solved.rolling is not None else ()
+        found |= {"scale": scene.words.drawn_at(scene.mu_l), "radii": ", ".join(found[name] for name in radii)}
+    return found
 
 
 def on_paper(scene: CamScene, mm: float) -> str:
@@ -318,18 +326,11 @@ def _of_task(scene: CamScene) -> Said:
     division, motion = solved.layout.division, solved.motion
     phases = [phase for phase in motion.phases[:3] if phase.lasts]
     lengths = ((f"phi_{p.name}", p.length / scene.across.mu) for p in phases)
-    found = {"h": scene.stated("h", motion.h), "last": str(division.last), "n_rise": str(division.top)}
+    found = {"last": str(division.last), "n_rise": str(division.top)}
     found["n_fall"] = str(division.last - division.leave)
     found["phases"] = ", ".join(f"{words.symbol(name)} = {on_paper(scene, mm)}" for name, mm in lengths)
     found["angles"] = ", ".join(scene.angle(f"phi_{p.name}", p.length) for p in phases)
-    found["per_mm"] = words["said.cam_axis"].format(angle=scene.degrees(scene.across.mu))
-    for name in ("gamma_rise", "gamma_fall"):
-        if name in solved.givens:
-            found[name] = scene.angle(name, solved.givens[name])
-    for name in ("R_roller", "l_rocker", "rho_flat", "margin", "r_0", "e", "l_OC"):
-        if name in solved.givens:
-            found[name] = scene.stated(name, solved.givens[name])
-    return found
+    return found | {"per_mm": words["said.cam_axis"].format(angle=scene.degrees(scene.across.mu))}
 
 
 def _of_diagrams(scene: CamScene, texts: Texts) -> Said:
@@ -356,7 +357,6 @@ def _of_pressure(scene: CamScene) -> Said:
     angle = float(course.theta(solved, solved.angles[line]))
     found = {"theta": scene.angle("theta", angle, line)}
     found["gamma"] = scene.angle("gamma", course.transmission(angle), line)
-    found |= {name: scene.angle(name, solved.values[name]) for name in ("gamma_rise_min", "gamma_fall_min")}
     found |= {f"theta_{phase}": f"[θ] = {scene.degrees(abs(limit))}" for phase, limit in course.permitted(solved)}
     return found | {"line": str(line), "rho_min": scene.stated("rho_min", needed(solved.rolling).profile.rho_min)}
 
@@ -365,42 +365,23 @@ def _of_roller_sizes(scene: CamScene, texts: Texts) -> Said:
     """Return what is read from S over ds/dphi, and what the plan of the cam begins with."""
     solved, words, roller = scene.solved, scene.words, needed(scene.solved.roller)
     sizes, sides = roller.sizes, (texts["cam.right"], texts["cam.left"])
-    found = {name: scene.stated(name, float(solved.values[name])) for name in ("r_0_tangents", "e_tangents")}
-    found |= {"r_0": scene.stated("r_0", sizes.r_0), "e": scene.stated("e", abs(sizes.e))}
+    found = {"e": scene.stated("e", abs(sizes.e)), "mu_s_ds": scene.factor(scene.scale(SIZES))}
     found |= {"r_0_read": read(scene, SIZES, "r_0", sizes.r_0), "offsets": "".join(offsets_line(scene))}
     found["rise_side"], found["fall_side"] = sides[:: solved.cam.sense]
     found |= {"ratio_s": ratio(scene, "mu_s", "mu_s_ds"), "ratio_ds": ratio(scene, "mu_ds", "mu_s_ds")}
-    found["mu_s_ds"] = scene.factor(scene.scale(SIZES))
     line = course.pressed(scene.solved, SHOWN)
     ds = abs(course.analogue(solved, line).real)
     found["OP"] = f"OP_{{{line}}} = |{words.symbol('ds')}| = {scene.length(ds)} {words.unit('mm')}"
     return found
 
 
-def _of_profiles(scene: CamScene) -> Said:
-    """Return what the plans of the cam begin with: their scale, the radii of the first circles."""
-    solved = scene.solved
-    radii: dict[str, float] = {}
-    if solved.rocker is not None:
-        radii = {"r_0": solved.rocker.sizes.r_0, "l_OC": solved.rocker.sizes.l_OC}
-    elif solved.roller is not None:
-        radii = {"r_0": solved.roller.sizes.r_0}
-        if is_aside(scene):
-            radii["e"] = abs(solved.roller.sizes.e)
-    drawn = ", ".join(scene.stated(name, radius) for name, radius in radii.items())
-    return {"scale": scene.words.drawn_at(scene.mu_l), "radii": drawn}
-
-
 def _of_rocker(scene: CamScene) -> Said:
     """Return what is read from the positions of a rocker, and what the plan of the cam begins with."""
     solved, words, cam = scene.solved, scene.words, needed(scene.solved.rocker)
     sizes = {"r_0": cam.sizes.r_0, "l_OC": cam.sizes.l_OC}
-    found = {name: scene.stated(name, size) for name, size in sizes.items()}
-    found |= {f"{name}_read": read(scene, ROCKER_SIZES, name, size) for name, size in sizes.items()}
-    found |= {"l_rocker": scene.stated("l_rocker", cam.sizes.l), "l_letter": words.symbol("l_rocker")}
-    found |= {"l_rocker_paper": on_paper(scene, cam.sizes.l / scene.mu_l), "l_OC_letter": words.symbol("l_OC")}
-    angles = {"psi": cam.rocker.motion.h, "psi_0": float(solved.values["psi_0"])}
-    found |= {name: scene.angle(name, angle) for name, angle in angles.items()}
+    found = {f"{name}_read": read(scene, ROCKER_SIZES, name, size) for name, size in sizes.items()}
+    found |= {"l_letter": words.symbol("l_rocker"), "l_OC_letter": words.symbol("l_OC")}
+    found["l_rocker_paper"] = on_paper(scene, cam.sizes.l / scene.mu_l)
     dpsi = abs(course.turning(solved, course.pressed(solved, SHOWN)))
     return found | {"ratio": words.short(float(f"{dpsi:.4g}"))}
 
@@ -409,12 +390,9 @@ def _of_plate(scene: CamScene) -> Said:
     """Return what is read from S over d2s/dphi2, and the plate."""
     solved, words, plate = scene.solved, scene.words, needed(scene.solved.plate)
     sizes = plate.sizes
-    found = {"r_0_flat": scene.stated("r_0_flat", sizes.r_0), "mu_s_d2s": scene.factor(scene.scale(PLATE_SIZES))}
-    found["r_0_flat_min_read"] = read(scene, PLATE_SIZES, "r_0_flat_min", sizes.r_0_min)
-    found["r_0_flat_tangent"] = scene.stated("r_0_flat_tangent", float(solved.values["r_0_flat_tangent"]))
+    found = {"r_0_flat_min_read": read(scene, PLATE_SIZES, "r_0_flat_min", sizes.r_0_min)}
+    found["mu_s_d2s"] = scene.factor(scene.scale(PLATE_SIZES))
     found |= {"ratio_s_d2s": ratio(scene, "mu_s", "mu_s_d2s"), "ratio_d2s": ratio(scene, "mu_d2s", "mu_s_d2s")}
-    if "rho_flat_min" in solved.values:
-        found["rho_flat_min"] = scene.stated("rho_flat_min", float(solved.values["rho_flat_min"]))
     parts = scene.length(solved.motion.ds_max.value), scene.length(solved.values["margin"])
     total = f"{' + '.join(parts)} = {scene.length(sizes.R_plate)} {words.unit('mm')}"
     return found | {"R_plate_sum": f"{words.symbol('R_plate')} = {total}"}

@@ -25,8 +25,7 @@ from ..boards.exact import run
 from ..hands.shaky import Hand, Paper, draw
 from ..hands.spread import kept
 from .cam import DIAGRAMS_PART, ROLLER, SIZES_PART
-from .construction import ACCELERATION, TRAVEL, VELOCITY, construct
-from .formulas import MM_PER_M
+from .construction import ACCELERATION, MM_PER_M, TRAVEL, VELOCITY, construct
 from .motion import Array, Division, Motion
 from .solve import EQUAL, SolvedCam, diagram_givens
 
@@ -122,15 +121,8 @@ AS_DRAWN, SPEED, STROKE, BOTH = WAYS = ("drawn", "speed", "stroke", "both")  # w
 def travel_errors(solved: SolvedCam, division: Division, values: Mapping[str, Any], *shape: int) -> dict[str, Array]:
     """Return the errors of a drawn travel on its worst section line, in parts of the stroke, by what has been closed.
 
-    Parameters
-    ----------
-    values : mapping
-        The nodes that have been drawn, each a number or an array of `shape`.
-
-    Returns
-    -------
-    dict of str to array of `shape`
-        By `WAYS`; where the velocity is given there is none to be closed. The travel is scaled by its own stroke.
+    The nodes among the `values` are numbers or arrays of `shape`, the errors too. They stand by `WAYS`; where the
+    velocity is given there is none to be closed. The travel is scaled by its own stroke.
     """
     x = division.angles * (1.0 / (solved.givens["mu_phi"] * MM_PER_M))
     travel = ordinates(values, TRAVEL, division, *shape)
@@ -153,12 +145,7 @@ def stroke_closed(travel: Array, x: Array) -> Array:
 def drift(speed: Array, x: Array, division: Division, pole_distance: float) -> Array:
     """Return by how much the travel falls when the velocity is brought back to zero at the ends of rise and fall.
 
-    Parameters
-    ----------
-    speed : array of shape (lines, ...)
-        Ordinates of the velocity on the section lines, m of paper.
-    x : array of shape (lines,)
-        Abscissas, m of paper.
+    The ordinates of `speed` have the shape (lines, ...), the abscissas `x` the shape (lines,), both in m of paper.
     """
     column = _column(x, speed)
     top, leave, last = division.top, division.leave, division.last
@@ -222,16 +209,9 @@ def convergence(
     sections: Iterable[int] = SECTIONS,
     drawn: Iterable[int] = DRAWN,
 ) -> Convergence:
-    """Draw the diagrams with more and more sections.
+    """Draw the diagrams of a cam, which has its sizes when r_0 is wanted, with more and more sections, and by `hands`.
 
-    Parameters
-    ----------
-    solved : SolvedCam
-        With its diagrams, and its sizes when r_0 is wanted.
-    hands : mapping of str to Hand
-        Hands by their names.
-    quantities : sequence of str
-        Of `compared`, all when empty.
+    The `quantities` are of `compared`, all when empty.
 
     Raises
     ------

@@ -116,17 +116,8 @@ def necks(envelope: Envelope, inside: float) -> list[tuple[float, float]]:
     """Return the deepest cuts of positions into places of the envelope that are not next to them.
 
     The depth is looked at in all cells; where it is greatest among its neighbours, and might be positive between
-    them, it is found exactly, so that no cut is too narrow.
-
-    Parameters
-    ----------
-    inside : float
-        Depth, m, up to which nothing is cut: rounding.
-
-    Returns
-    -------
-    list of (float, float)
-        Angles, rad, of the place that is cut and of the position that cuts it.
+    them, it is found exactly, so that no cut is too narrow. A cut is the angles, rad, of the place that is cut and of
+    the position that cuts it; up to the depth `inside`, m, nothing is cut: rounding.
     """
     phi = np.arange(CELLS) * (TURN / CELLS)
     depth = envelope.depth(envelope.practical(phi)[:, np.newaxis], phi)

@@ -199,14 +199,7 @@ def integrated(pieces: Sequence[Smooth]) -> tuple[Smooth, ...]:
 
 
 def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
-    """Return the law of this name, of `cam.LAWS`.
-
-    Parameters
-    ----------
-    name : str
-        Name of the law.
-    u : float
-        Length of the first lobe as part of the phase, between 0 and 1; the uniform law has none.
+    """Return the law of this name, of `cam.LAWS`, whose first lobe takes the part u of the phase; the uniform has none.
 
     Raises
     ------
@@ -230,12 +223,7 @@ def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
 def law_of_pieces(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
     """Return the law whose acceleration is made of straight pieces, in any scale, integrated exactly.
 
-    Parameters
-    ----------
-    at : sequence of float
-        Places of the nodes, from 0 to 1; twice the same place where the acceleration jumps.
-    values : sequence of float
-        Accelerations there.
+    `values` are the accelerations at the nodes `at`, from 0 to 1; twice the same place where the acceleration jumps.
 
     Raises
     ------
@@ -263,14 +251,8 @@ def law_of_points(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
     """Return the law whose travel runs smoothly through points, in any scale, and rests at both ends.
 
     The curve is the cubic spline with s' = 0 at the ends: of all smooth curves through the points that with the least
-    mean square of acceleration; the acceleration is a chain of straight pieces without jumps between the ends.
-
-    Parameters
-    ----------
-    at : sequence of float
-        Places of the points, rising from 0 to 1.
-    values : sequence of float
-        Travels there; the first is where the follower rests, the last the whole stroke.
+    mean square of acceleration; the acceleration is a chain of straight pieces without jumps between the ends. `values`
+    are the travels `at` places that rise from 0 to 1: the first is where the follower rests, the last the whole stroke.
 
     Raises
     ------

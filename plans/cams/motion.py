@@ -143,20 +143,10 @@ class _Table:
 
 
 class Motion:
-    """The travel s(phi) of a follower over one turn.
+    """The travel s(phi) of a follower over one turn, with the stroke h, m, or for a rocker its swing, rad.
 
-    Parameters
-    ----------
-    h : float
-        The stroke, m; for a rocker its swing, rad.
-    phi_rise, phi_upper, phi_fall : float
-        Lengths of the phases, rad; the lower dwell is the rest of the turn.
-    rise : LawOfMotion
-        Law of the rise.
-    fall : LawOfMotion, optional
-        Law of the fall; by default that of the rise.
-    order : {"mirror", "same"}
-        Whether the fall runs through its law backwards in time, or in the same order.
+    The phases have lengths in rad; the lower dwell is the rest of the turn. The fall has by default the law of the
+    rise, and runs through its law backwards in time, `mirror`, or in the `same` order.
 
     Raises
     ------

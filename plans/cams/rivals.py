@@ -21,8 +21,7 @@ from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
 from ..hands.shaky import Hand, draw
 from ..hands.spread import kept
 from .chords import DRAWINGS, SEED, drawn_on, equal_division, inner_jumps, nodes, ordinates
-from .construction import ACCELERATION, TRAVEL, VELOCITY
-from .formulas import MM_PER_M
+from .construction import ACCELERATION, MM_PER_M, TRAVEL, VELOCITY
 from .motion import TURN, Array, Division, Motion
 from .solve import SolvedCam
 
@@ -176,13 +175,7 @@ def _entries(solved: SolvedCam, way: Entry, division: Division, found: Mapping[s
 
 
 def rivals(solved: SolvedCam, clock: Clock, hand: Hand, effort: Effort = FULL) -> Contest:
-    """Let closed forms, chords, sums and a hand compete.
-
-    Parameters
-    ----------
-    clock : function
-        Returns seconds, best those of the processor: `time.process_time`.
-    """
+    """Let closed forms, chords, sums and a hand compete by a clock in seconds, best of the processor."""
     race = _Race(solved, clock, effort)
     found = [*race.closed(), *race.board(), *race.numerical(), *race.by_hand(hand)]
     kinds = [Kind(VELOCITIES, ("ds",))] if solved.layout.given == ACCELERATION else []

@@ -19,7 +19,7 @@ from ..board import Program, Step
 from ..boards.exact import run
 from ..solved import AT_LEAST, AT_MOST, Check
 from .cam import VALUES
-from .formulas import SHARPEST
+from .construction import SHARPEST
 from .profile import OF_R_0, OF_RHO_MIN
 from .solve import EXACT_OF, SolvedCam, unit_of
 

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import kulman.plans.cams.formulas
+import kulman.plans.cams.construction
 import kulman.plans.gears.geometry
 import kulman.plans.hoist.model  # noqa: F401
 from kulman.drawing.printed import Symbol, prints
