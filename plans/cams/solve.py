@@ -270,8 +270,8 @@ def again(solved: SolvedCam, values: Mapping[str, float]) -> Mapping[str, Any]:
     cam = solved.cam
     motion = _motion(cam, values)
     # up to the lower dwell, which begins where phases that fill the turn become shorter
-    places = (of.corners[: len(of.corners) - len(of.lower.pieces)] for of in (solved.motion, motion))
-    angles = np.interp(solved.angles, *places)
+    before, now = (of.corners[: len(of.corners) - len(of.lower.pieces)] for of in (solved.motion, motion))
+    angles = np.interp(solved.angles, before, now)
     layout = replace(solved.layout, division=replace(solved.layout.division, angles=angles))
     cams = _cams(cam, motion, values) if layout.followers else {}
     return run(solved.program, {**values, **_givens(cam, motion, layout, cams)}).values
