@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Array = NDArray[Any]
+Looks = Mapping[str, tuple[Any, str]]  # line and marker of each quantity
 LEFT, WIDE = 24.0, 232.0  # mm: the fields of stability
 FOOT, HEAD, GAP = 27.0, 27.0, 9.0
 LOOKS: tuple[tuple[Any, str], ...] = (
@@ -52,10 +53,14 @@ SHOWN = 3  # digits
 
 @dataclass(frozen=True, slots=True)
 class Abscissa:
-    """The driver's place as the axis shows it: its name and unit, degrees within a turn or millimetres."""
+    """The driver's place as the axis shows it: its name and unit, degrees within a turn or millimetres.
+
+    `apart` is where the mechanism cannot be assembled.
+    """
 
     label: str
     turns: bool
+    apart: Sequence[Arc]
 
     def shown(self, places: Array | float) -> Array:
         """Return places as they are shown."""
@@ -69,17 +74,20 @@ class Abscissa:
         else:
             axes.set_xlim(float(x.min()), float(x.max()))
 
+    def stretches(self) -> Iterator[tuple[float, float]]:
+        """Go through where the mechanism cannot be assembled, cut at the end of a turn."""
+        for arc in self.apart:
+            low, high = (float(self.shown(end)) for end in (arc.low, arc.high))
+            if self.turns and arc.high - arc.low >= TURN:
+                yield 0.0, 360.0
+            elif self.turns and high < low:
+                yield from ((low, 360.0), (0.0, high))
+            else:
+                yield low, high
 
-def stability_page(
-    found: Stability, words: Words, title: str, note: str, apart: Sequence[Arc], along: Abscissa
-) -> Figure:
-    """Draw what is lost over a cycle: the worst intersection, the condition, the error of drawing.
 
-    Parameters
-    ----------
-    apart : sequence of Arc
-        Where the mechanism cannot be assembled.
-    """
+def stability_page(found: Stability, words: Words, title: str, note: str, along: Abscissa) -> Figure:
+    """Draw what is lost over a cycle: the worst intersection, the condition, the error of drawing."""
     missed: dict[str, list[str]] = {}
     for name, in_mm in sorted(found.in_mm.items(), key=lambda item: not item[1]):
         missed.setdefault("millimetres" if in_mm else "per_cent", []).append(name)
@@ -98,7 +106,7 @@ def stability_page(
             _log(axes, words[f"chart.{key}"], words)
         for axes in fields:
             along.limit(axes, x)
-            _special(axes, found.spots, apart, along)
+            _special(axes, found.spots, along)
         _named(fields[0], found.spots, along, words)
         fields[-1].set_xlabel(along.label)
     return figure
@@ -123,9 +131,7 @@ def _angles(axes: Axes, x: Array, angles: Array, words: Words) -> None:
     axes.set_title(words["chart.angle"], fontsize=TEXT, pad=3.0)
 
 
-def _curves(
-    axes: Axes, x: Array, curves: Mapping[str, Array], looks: Mapping[str, tuple[Any, str]], words: Words
-) -> None:
+def _curves(axes: Axes, x: Array, curves: Mapping[str, Array], looks: Looks, words: Words) -> None:
     """Draw curves with a marker here and there, and the symbol of each at its right end."""
     ends = {}
     for number, (name, values) in enumerate(curves.items()):
@@ -150,7 +156,7 @@ def _widen(axes: Axes) -> None:
         axes.set_ylim(middle / 10.0 ** (DECADES / 2.0), middle * 10.0 ** (DECADES / 2.0))
 
 
-def _beside(axes: Axes, ends: Mapping[str, float], looks: Mapping[str, tuple[Any, str]], words: Words) -> None:
+def _beside(axes: Axes, ends: Mapping[str, float], looks: Looks, words: Words) -> None:
     """Write the symbols of curves to the right of the field, with their lines, none over another."""
     low, high = (math.log10(y) for y in axes.get_ylim())
     apart = 3.6 / (axes.get_position().height * HEIGHT)  # 3.6 mm
@@ -203,27 +209,13 @@ def _lost(low: float, high: float) -> list[float]:
     return found[:: math.ceil(len(found) / SHOWN_DIGITS) or 1]
 
 
-def _special(axes: Axes, spots: Sequence[Spot], apart: Sequence[Arc], along: Abscissa) -> None:
+def _special(axes: Axes, spots: Sequence[Spot], along: Abscissa) -> None:
     """Draw special places as vertical lines, and hatch what cannot be assembled."""
     for spot in spots:
         dashes = (0, (1, 2)) if spot.kind == DEAD else (0, (7, 2, 1, 2, 1, 2))
         axes.axvline(float(along.shown(spot.place)), color=BLACK, lw=0.8, ls=dashes, zorder=1)
-    for low, high in _stretches(apart, along):
+    for low, high in along.stretches():
         axes.axvspan(low, high, facecolor="none", edgecolor=LIGHT, hatch="///", lw=0.0, zorder=0)
-
-
-def _stretches(apart: Sequence[Arc], along: Abscissa) -> list[tuple[float, float]]:
-    """Return arcs as they are shown, cut at the end of a turn."""
-    found: list[tuple[float, float]] = []
-    for arc in apart:
-        low, high = (float(along.shown(end)) for end in (arc.low, arc.high))
-        if along.turns and arc.high - arc.low >= TURN:
-            found.append((0.0, 360.0))
-        elif along.turns and high < low:
-            found += [(low, 360.0), (0.0, high)]
-        else:
-            found.append((low, high))
-    return found
 
 
 def _named(axes: Axes, spots: Sequence[Spot], along: Abscissa, words: Words) -> None:

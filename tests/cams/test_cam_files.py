@@ -15,7 +15,7 @@ from kulman.scales.errors import InputError
 from kulman.scales.units import unit
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.kinds import MODULES, kind_of, table_in
-from kulman.variants.kinds.cam import NUMBERS, impossible
+from kulman.variants.kinds.cam import KIND, NUMBERS
 from kulman.variants.reader import check_text, load_task, read_text
 from kulman.variants.shelf import bundled, bundled_text
 
@@ -182,7 +182,7 @@ def test_what_only_solving_tells_is_a_fault_where_all_faults_are_asked_for() -> 
 def test_a_turn_is_as_long_for_the_checks_as_for_the_motion(excess: float, whole: bool) -> None:
     turn = {"phi_rise": math.pi, "phi_upper": 0.0, "phi_fall": math.pi + excess}
 
-    assert ([*impossible(turn)] == []) is whole
+    assert ([*KIND.impossible(turn)] == []) is whole
     if whole:
         assert Motion(1.0, *turn.values(), law_of_motion("sine", 0.5)).lower.length == pytest.approx(0.0, abs=1e-15)
     else:

@@ -14,46 +14,35 @@ from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.contest import FULL, Effort
 from ..case import all_known
 from ..tables import Cell, aligned
-from .charts import (
-    HANDS,
-    PERCENT,
-    AccuracyChart,
-    Chart,
-    ChartRequest,
-    Gallery,
-    Scene,
-    error_rows,
-    per_cent,
-    short,
-    wrapped,
-)
+from . import charts
 
 NOBODY = "exact"  # draws chords without errors
 EVERY = 5  # of the places of a line beside a jump stands in the table
 ORDINATES = ("speed_top", "speed_last", "stroke_last")
 
 
-def make(name: str, scene: Scene, asked: ChartRequest) -> Chart[Any]:
+def make(name: str, scene: charts.Scene, asked: charts.ChartRequest) -> charts.Chart[Any]:
     """Make one of the charts of a cam."""
     solved = SolvedCam.of(scene.case.solved)
     if name == "accuracy":
         return cam_accuracy_chart(scene, solved)
     if name == "stability":
-        return CamStabilityChart(scene, robustness(solved, HANDS))
+        return CamStabilityChart(scene, robustness(solved, charts.HANDS))
     all_known("quantity-unknown", asked.quantities, compared(solved))
-    return SectionsChart(scene, convergence(solved, HANDS, asked.quantities))
+    return SectionsChart(scene, convergence(solved, charts.HANDS, asked.quantities))
 
 
-CHARTS = Gallery(("sections", "accuracy", "stability"), {"quantities": ("sections",), "hand": ("accuracy",)}, make)
+USED_BY = {"quantities": ("sections",), "hand": ("accuracy",)}
+CHARTS = charts.Gallery(("sections", "accuracy", "stability"), USED_BY, make)
 
 
-def cam_accuracy_chart(scene: Scene, solved: SolvedCam, effort: Effort = FULL) -> AccuracyChart:
+def cam_accuracy_chart(scene: charts.Scene, solved: SolvedCam, effort: Effort = FULL) -> charts.AccuracyChart:
     """Let all ways to the motion of a cam compete."""
-    found = rivals(solved, time.process_time, HANDS[scene.hand], effort)
-    return AccuracyChart(scene, found, "rad", "chart.cam_compared")
+    found = rivals(solved, time.process_time, charts.HANDS[scene.hand], effort)
+    return charts.AccuracyChart(scene, found, "rad", "chart.cam_compared")
 
 
-class SectionsChart(Chart[Convergence]):
+class SectionsChart(charts.Chart[Convergence]):
     """Errors of the diagrams by chords against the number of sections, with and without errors of drawing."""
 
     heading, page = "chart.sections", staticmethod(sections_page)
@@ -67,12 +56,12 @@ class SectionsChart(Chart[Convergence]):
             orders = (found.order(where, name) for name in names)
             last = [words["chart.order"], *("–" if order is None else words.number(order, 2) for order in orders)]
             errors = [found.errors[where, name] for name in names]
-            rows += error_rows(words[f"chart.{where}"], [*map(str, counts)], errors, last, words)
-        for hand in HANDS:
+            rows += charts.error_rows(words[f"chart.{where}"], [*map(str, counts)], errors, last, words)
+        for hand in charts.HANDS:
             last = [words["chart.best"], *(str(found.best(hand, name)[0]) for name in names)]
             errors = [found.hands[hand, name] for name in names]
-            by_hand += error_rows(words[f"hand.{hand}"], [*map(str, found.drawn)], errors, last, words)
-        return "\n\n".join((aligned(rows), aligned(by_hand), wrapped(self.note(words))))
+            by_hand += charts.error_rows(words[f"hand.{hand}"], [*map(str, found.drawn)], errors, last, words)
+        return "\n\n".join((aligned(rows), aligned(by_hand), charts.wrapped(self.note(words))))
 
     def note(self, words: Words) -> str:
         """Return how often hands have drawn."""
@@ -85,7 +74,7 @@ class SectionsChart(Chart[Convergence]):
                 for name in found.quantities:
                     error = float(found.errors[where, name][i])
                     yield NOBODY, where, n, name, error, found.order(where, name), None
-        for hand in HANDS:
+        for hand in charts.HANDS:
             for i, n in enumerate(found.drawn):
                 for name in found.quantities:
                     best = found.best(hand, name)[0] == n
@@ -95,7 +84,7 @@ class SectionsChart(Chart[Convergence]):
         """Go through all errors: signed those of chords, of hands what 95 % of drawings keep."""
         yield "drawn_by", "jumps", "sections", "quantity", "error [%]", "order", "best"
         for by, where, n, name, error, order, best in self._items():
-            yield by, where, n, name, PERCENT * error, order, None if best is None else int(best)
+            yield by, where, n, name, charts.PERCENT * error, order, None if best is None else int(best)
 
     def _data(self) -> dict[str, Any]:
         """Return all errors, in parts of the exact values."""
@@ -103,7 +92,7 @@ class SectionsChart(Chart[Convergence]):
         return {
             "exact": {name: {"value": value, "unit": unit_of(name)} for name, value in found.exact.items()},
             "orders": {where: {name: found.order(where, name) for name in names} for where in found.sections},
-            "best": {hand: {name: found.best(hand, name)[0] for name in names} for hand in HANDS},
+            "best": {hand: {name: found.best(hand, name)[0] for name in names} for hand in charts.HANDS},
             "errors": [
                 {"drawn_by": by, "jumps": where, "sections": n, "quantity": name, "error": error}
                 for by, where, n, name, error, _, _ in self._items()
@@ -111,7 +100,7 @@ class SectionsChart(Chart[Convergence]):
         }
 
 
-class CamStabilityChart(Chart[Robustness]):
+class CamStabilityChart(charts.Chart[Robustness]):
     """What a line beside a jump does, and by how much drawings do not close."""
 
     heading, page = "chart.cam_stability", staticmethod(closing_page)
@@ -121,10 +110,10 @@ class CamStabilityChart(Chart[Robustness]):
         rows = [[words["chart.hand"], *(words[f"chart.{name}"] for name in ORDINATES)]]
         rows[0] += [words[f"chart.closed.{way}"] for way in WAYS]
         for hand, closing in self.found.closings.items():
-            cells = [short(words, getattr(closing, name)) for name in ORDINATES]
-            cells += [short(words, per_cent(closing.errors.get(way))) for way in WAYS]
+            cells = [charts.short(words, getattr(closing, name)) for name in ORDINATES]
+            cells += [charts.short(words, charts.per_cent(closing.errors.get(way))) for way in WAYS]
             rows.append([words[f"hand.{hand}"], *cells])
-        return "\n\n".join((self._missed(words), aligned(rows), wrapped(self.note(words))))
+        return "\n\n".join((self._missed(words), aligned(rows), charts.wrapped(self.note(words))))
 
     def note(self, words: Words) -> str:
         """Return what the numbers mean."""
@@ -136,8 +125,8 @@ class CamStabilityChart(Chart[Robustness]):
             return words["chart.no_jumps"]
         rows = [[words["chart.sections_n"], "", *(words.short(part) for part in found.beside[::EVERY])]]
         for n, name in found.missed:
-            tidy = [0.0 if abs(error) < ROUNDING else PERCENT * error for error in found.missed[n, name].tolist()]
-            rows.append([str(n), f"{name}, %", *(short(words, error) for error in tidy[::EVERY])])
+            parts = [0.0 if abs(error) < ROUNDING else error for error in found.missed[n, name][::EVERY].tolist()]
+            rows.append([str(n), f"{name}, %", *(charts.short(words, charts.PERCENT * part) for part in parts)])
         return "\n".join((f"{words['chart.late']}:", aligned(rows, (0, 1))))
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
@@ -145,13 +134,13 @@ class CamStabilityChart(Chart[Robustness]):
         yield "kind", "drawn_by", "sections", "late", "closed", "quantity", "error [%]", "size [mm]"
         for (n, name), errors in self.found.missed.items():
             for part, error in zip(self.found.beside, errors.tolist(), strict=True):
-                yield "jump", "exact", n, part, "", name, PERCENT * error, None
+                yield "jump", "exact", n, part, "", name, charts.PERCENT * error, None
         n = self.found.sections
         for hand, closing in self.found.closings.items():
             for name in ORDINATES:
                 yield "ordinate", hand, n, None, "", name, None, getattr(closing, name)
             for way, error in closing.errors.items():
-                yield "travel", hand, n, None, way, "s", PERCENT * error, None
+                yield "travel", hand, n, None, way, "s", charts.PERCENT * error, None
 
     def _data(self) -> dict[str, Any]:
         """Return errors in parts, ordinates in metres of paper."""

@@ -368,12 +368,14 @@ def chart(
     most = _per_cent(tolerance)
     of_kind("hand", hand, (str,), "str")
     scene = Scene(case, case.words(), hand)
-    arguments = {"quantities": bool(wanted), "hand": hand != HAND, "tolerance": most != TOLERANCE}
-    arguments["positions"] = positions is not None
-    changed = [argument for argument, other in arguments.items() if other]
     made = names or gallery.charts
-    used = {argument for argument, charts in gallery.used_by.items() if not frozenset(charts).isdisjoint(made)}
-    unused = [InputError("chart-unused", name=one, charts=", ".join(made)) for one in changed if one not in used]
+    changed = {"quantities": bool(wanted), "hand": hand != HAND}
+    changed |= {"tolerance": most != TOLERANCE, "positions": positions is not None}
+    unused = [
+        InputError("chart-unused", name=name, charts=", ".join(made))
+        for name, other in changed.items()
+        if other and frozenset(gallery.used_by.get(name, ())).isdisjoint(made)
+    ]
     found = _made(gallery, scene, names, ChartRequest(wanted, positions, most))
     return replace(found, warnings=(*unused, *found.warnings))
 

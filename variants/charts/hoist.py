@@ -23,19 +23,18 @@ from ...plans.hoist.solve import SolvedHoist
 from ...scales.errors import InputError
 from ...scales.units import format_unit, unit
 from ..tables import Cell, aligned
-from .charts import HANDS, PERCENT, AccuracyChart, Chart, ChartRequest, Gallery, Scene, per_cent, short, wrapped
+from .charts import HANDS, PERCENT, AccuracyChart, Chart, Gallery, Scene, per_cent, short, wrapped
 
 ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE = "accuracy", "stability", "roots", "depth", "choice"
 EVERY = 5  # of the places stands in the tables
 TABLED = (("F_max", "kN"), ("sigma_max", "MPa"))
 
 
-def make(name: str, scene: Scene, asked: ChartRequest) -> Chart[Any]:
-    """Make one of the charts of a hoist."""
-    return hoist_chart(name, scene, asked.tolerance)
-
-
-CHARTS = Gallery((ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE), {"tolerance": (DEPTH,), "hand": (ACCURACY,)}, make)
+CHARTS = Gallery(
+    (ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE),
+    {"tolerance": (DEPTH,), "hand": (ACCURACY,)},
+    lambda name, scene, asked: hoist_chart(name, scene, asked.tolerance),
+)
 
 
 def hoist_chart(name: str, scene: Scene, tolerance: float, effort: Effort = FULL) -> Chart[Any]:

@@ -30,19 +30,8 @@ from ...scales.units import format_unit
 from ..case import Case, all_known
 from ..sweeps.linkage import driver_name
 from ..tables import Cell, aligned
-from .charts import (
-    HANDS,
-    AccuracyChart,
-    Chart,
-    ChartRequest,
-    Gallery,
-    Scene,
-    place_column,
-    place_si,
-    place_value,
-    short,
-    wrapped,
-)
+from . import charts
+from .charts import AccuracyChart, Scene
 
 POSITIONS = {"accuracy": 36, "stability": 360, "depth": 360}
 LINES = 24  # of the table of stability
@@ -50,7 +39,7 @@ LOOKED = 12  # positions at which scale factors are looked for
 Found = TypeVar("Found", Depth, Stability)
 
 
-def make(name: str, scene: Scene, asked: ChartRequest) -> Chart[Any]:
+def make(name: str, scene: Scene, asked: charts.ChartRequest) -> charts.Chart[Any]:
     """Make one of the charts of a linkage; a cycle of so many positions is looked at once for all of them."""
     count = asked.positions or POSITIONS[name]
     if count not in scene.cycles:
@@ -61,12 +50,12 @@ def make(name: str, scene: Scene, asked: ChartRequest) -> Chart[Any]:
         return accuracy_chart(scene, whole, asked.quantities)
     if name == "stability":
         mus = scales_of_cycle(scene, whole)
-        found = stability(whole, asked.quantities or usual(whole), mus, HANDS[scene.hand])
+        found = stability(whole, asked.quantities or usual(whole), mus, charts.HANDS[scene.hand])
         return StabilityChart(scene, found, whole, mus)
     return DepthChart(scene, depth(whole, asked.tolerance), whole)
 
 
-CHARTS = Gallery(
+CHARTS = charts.Gallery(
     tuple(POSITIONS),
     {
         "quantities": ("accuracy", "stability"),
@@ -117,11 +106,11 @@ def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
         except InputError:  # too small for a plan, or for a scale factor that was asked for
             continue
         sheet = DrawnSheet(name, solved, {plan: scale.mu for plan, scale in scales.items()})
-        yield from by_hand(cycle, sheet, HANDS[scene.hand], found.kinds)
+        yield from by_hand(cycle, sheet, charts.HANDS[scene.hand], found.kinds)
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class _OfCycle(Chart[Found]):
+class _OfCycle(charts.Chart[Found]):
     """A chart with places of the driver: how they are shown and called."""
 
     cycle: Cycle
@@ -159,15 +148,15 @@ class DepthChart(_OfCycle[Depth]):
             values = [cost.balance, cost.balance_rms]
             values += [cost.reaction or 0.0, cost.reaction_rms or 0.0] if found.reaction else []
             tidy = (0.0 if value < 1e-10 else value for value in values)
-            rows.append([named, *(short(words, value) for value in tidy), self._place(words, cost.place)])
+            rows.append([named, *(charts.short(words, value) for value in tidy), self._place(words, cost.place)])
         return "\n".join((aligned(rows), "", depth_verdict(found, words, plain=True)))
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         errors = ("balance_max [%]", "balance_rms [%]", "reaction_max [%]", "reaction_rms [%]")
-        yield "without", "parts", *errors, place_column(self._places)
+        yield "without", "parts", *errors, charts.place_column(self._places)
         for c in self.found.costs:
             found = (c.balance, c.balance_rms, c.reaction, c.reaction_rms)
-            yield c.key, " ".join(c.parts), *found, place_value(self._places, c.place)
+            yield c.key, " ".join(c.parts), *found, charts.place_value(self._places, c.place)
 
     def _data(self) -> dict[str, Any]:
         found = self.found
@@ -191,7 +180,7 @@ class DepthChart(_OfCycle[Depth]):
             "parts": list(cost.parts),
             "balance": {"max": cost.balance, "rms": cost.balance_rms},
             "reaction": None if cost.reaction is None else {"max": cost.reaction, "rms": cost.reaction_rms},
-            "at": place_si(self._places, cost.place),
+            "at": charts.place_si(self._places, cost.place),
         }
 
 
@@ -214,12 +203,12 @@ class StabilityChart(_OfCycle[Stability]):
         step = max(len(found.places) // LINES, 1)
         rows = [head, *(self._row(i, words) for i in range(0, len(found.places), step))]
         worst = filter(None, (self._worst(name, words) for name in names))
-        return "\n".join((aligned(rows, ()), "", *worst, *self._spots(words), wrapped(self.note(words))))
+        return "\n".join((aligned(rows, ()), "", *worst, *self._spots(words), charts.wrapped(self.note(words))))
 
     def _row(self, i: int, words: Words) -> list[str]:
         found, status = self.found, self.found.statuses[i]
         columns = (found.angles, *found.conditions.values(), *(found.misses[name] for name in found.conditions))
-        cells = [self._place(words, found.places[i]), *(short(words, values[i]) for values in columns)]
+        cells = [self._place(words, found.places[i]), *(charts.short(words, values[i]) for values in columns)]
         return [*cells, "" if status == "ok" else words[f"status.{status}"]]
 
     def _worst(self, name: str, words: Words) -> str:
@@ -227,8 +216,8 @@ class StabilityChart(_OfCycle[Stability]):
         if not np.isfinite(values).any():
             return ""
         i = int(np.nanargmax(values))
-        at, digits = self._place(words, self.found.places[i]), short(words, float(self.found.digits(name)[i]))
-        return words["chart.worst"].format(name=name, condition=short(words, values[i]), digits=digits, place=at)
+        at, digits = self._place(words, self.found.places[i]), charts.short(words, float(self.found.digits(name)[i]))
+        return words["chart.worst"].format(name=name, condition=charts.short(words, values[i]), digits=digits, place=at)
 
     def _spots(self, words: Words) -> list[str]:
         """Say where special places are, all that is there on one line."""
@@ -251,14 +240,15 @@ class StabilityChart(_OfCycle[Stability]):
     def _rows(self) -> Iterator[Sequence[Cell]]:
         """Go through all positions."""
         found, names = self.found, tuple(self.found.conditions)
-        heads = [place_column(self._places), "status", "sine", "angle [deg]", "worst"]
+        heads = [charts.place_column(self._places), "status", "sine", "angle [deg]", "worst"]
         columns = []
         for name in names:
             heads += [f"K_{name}", f"digits_{name}", f"miss_{name} [{self._unit(name)}]"]
             columns += [found.conditions[name], found.digits(name), found.misses[name]]
         yield heads
         for i, at in enumerate(found.places):
-            head = place_value(self._places, at), found.statuses[i], float(found.sines[i]), float(found.angles[i])
+            place, status = charts.place_value(self._places, at), found.statuses[i]
+            head = place, status, float(found.sines[i]), float(found.angles[i])
             yield *head, found.worst[i], *(float(column[i]) for column in columns)
 
     def _data(self) -> dict[str, Any]:
@@ -266,7 +256,7 @@ class StabilityChart(_OfCycle[Stability]):
         return {
             "hand": self.scene.hand,
             "scales": dict(self.scales),
-            "places": [place_si(self._places, at) for at in found.places],
+            "places": [charts.place_si(self._places, at) for at in found.places],
             "statuses": list(found.statuses),
             "sines": found.sines,
             "worst": list(found.worst),
@@ -280,7 +270,8 @@ class StabilityChart(_OfCycle[Stability]):
                 for name in found.conditions
             },
             "spots": [
-                {"kind": spot.kind, "at": place_si(self._places, spot.place), "link": spot.link} for spot in found.spots
+                {"kind": spot.kind, "at": charts.place_si(self._places, spot.place), "link": spot.link}
+                for spot in found.spots
             ],
         }
 
@@ -288,8 +279,7 @@ class StabilityChart(_OfCycle[Stability]):
         name = driver_name(self.cycle)
         kind = role(name).kind or name
         unit = "°" if self.cycle.drive.turns else words.unit("mm")
-        along = Abscissa(f"{GREEK.get(kind, kind)}, {unit}", self.cycle.drive.turns)
-        return self.cycle.reach.apart, along
+        return (Abscissa(f"{GREEK.get(kind, kind)}, {unit}", self.cycle.drive.turns, self.cycle.reach.apart),)
 
 
 def usual(cycle: Cycle) -> tuple[str, ...]:

@@ -124,16 +124,32 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
                 checker.fault(("scales", name), unknown("scale-unknown", name, SYMBOLS, task=head.get("id", "")))
 
     def impossible(self, values: Numbers) -> Iterator[tuple[str, InputError]]:
-        """Go through what no cam can have."""
-        return (("", error) for error in impossible(values))
+        """Go through what no cam can have among the numbers of a variant: those that a choice sets are bounded, too."""
+        for name, number in NUMBERS.items():
+            if name in values and not number.bound.admits(values[name]):
+                shown = unit(cams.VALUES[name] or "1").from_si(values[name])
+                yield "", InputError(number.bound.value, text=f"{name} = {shown:.7g}")
+        for name in ("phi_rise", "phi_fall"):
+            if 0.0 < values[name] < SHORTEST:
+                angles = {"angle": f"{math.degrees(values[name]):.4g}", "least": f"{math.degrees(SHORTEST):g}"}
+                yield "", InputError("cam-phase-short", name=name, **angles)
+        turned = sum(values[name] for name in ("phi_rise", "phi_upper", "phi_fall"))
+        if turned > 2.0 * math.pi + cams.NEAR:
+            yield "", InputError("cam-phases", angle=f"{math.degrees(turned):.7g}")
+        if "r_0" in values and abs(values.get("e", 0.0)) >= values["r_0"]:
+            e, r_0 = (_millimetres(values[name], 7) for name in ("e", "r_0"))
+            yield "", InputError("cam-eccentric", e=e, r_0=r_0)
+        if "r_0" in values and values.get("R_roller", 0.0) >= values["r_0"]:
+            roller, r_0 = (_millimetres(values[name], 7) for name in ("R_roller", "r_0"))
+            yield "", InputError("cam-roller", roller=roller, r_0=r_0)
 
     def solve(self, subject: cams.Cam, values: Numbers, words: Choices, plans: Plans) -> SolvedCam:
         """Solve a cam; numbers that belong to none are refused."""
-        for error in impossible(values):
+        for _, error in self.impossible(values):
             raise error
         solved = super().solve(subject, {**values, "mu_phi": values["mu_phi"] * PER_MM}, words, plans)
         if "R_roller" in values and "r_0" in solved.values:
-            for error in impossible({**values, "r_0": solved.values["r_0"]}):
+            for _, error in self.impossible({**values, "r_0": solved.values["r_0"]}):
                 raise error
         return solved
 
@@ -327,22 +343,3 @@ def _numbers_for(followers: tuple[str, ...]) -> dict[str, Number]:
             error = InputError("cam-number-unused", text=name, followers=", ".join(followers)) if followers else None
             found[name] = replace(number, needed=False, unused=error)
     return found
-
-
-def impossible(values: Mapping[str, float]) -> Iterator[InputError]:
-    """Go through what no cam can have among the numbers of a variant: those that a choice sets are bounded, too."""
-    for name, number in NUMBERS.items():
-        if name in values and not number.bound.admits(values[name]):
-            shown = unit(cams.VALUES[name] or "1").from_si(values[name])
-            yield InputError(number.bound.value, text=f"{name} = {shown:.7g}")
-    for name in ("phi_rise", "phi_fall"):
-        if 0.0 < values[name] < SHORTEST:
-            angles = {"angle": f"{math.degrees(values[name]):.4g}", "least": f"{math.degrees(SHORTEST):g}"}
-            yield InputError("cam-phase-short", name=name, **angles)
-    turned = sum(values[name] for name in ("phi_rise", "phi_upper", "phi_fall"))
-    if turned > 2.0 * math.pi + cams.NEAR:
-        yield InputError("cam-phases", angle=f"{math.degrees(turned):.7g}")
-    if "r_0" in values and abs(values.get("e", 0.0)) >= values["r_0"]:
-        yield InputError("cam-eccentric", e=_millimetres(values["e"], 7), r_0=_millimetres(values["r_0"], 7))
-    if "r_0" in values and values.get("R_roller", 0.0) >= values["r_0"]:
-        yield InputError("cam-roller", roller=_millimetres(values["R_roller"], 7), r_0=_millimetres(values["r_0"], 7))

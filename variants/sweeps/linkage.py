@@ -21,7 +21,6 @@ from ...plans.linkages.mechanism import Driver, Mechanism
 from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
 from ...plans.solved import Columned
-from ...plans.zeros import Extreme
 from ...scales.arguments import of_kind
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit, parse, unit
@@ -103,7 +102,7 @@ class Sweep(Swept):
         if self.compared is not None:
             return self.chords(self.compared, language)
         cycle, words = self.cycle, self._words(language)
-        shown = _shown(cycle, chosen_columns(cycle, self.chosen) if self.chosen else main_columns(cycle), words)
+        shown = _shown(cycle, columns_of(cycle, self.chosen, whole=False), words)
         head = ["", *(f"{column.name}, {format_unit(column.unit, words.language)}" for column in shown)]
         statuses = ["" if status == "ok" else words[f"status.{status}"] for status in cycle.statuses]
         rows = [[str(k), *(_cell(words, column, k) for column in shown), said] for k, said in enumerate(statuses)]
@@ -121,7 +120,7 @@ class Sweep(Swept):
     def csv(self, language: str | None = None) -> str:
         """Return the columns of what is chosen, or all, as CSV, numbers in full precision."""
         cycle, words = self.cycle, self._words(language)
-        shown = _shown(cycle, chosen_columns(cycle, self.chosen) if self.chosen else all_columns(cycle), words)
+        shown = _shown(cycle, columns_of(cycle, self.chosen, whole=True), words)
         head = ["k", *(f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown), "status"]
         rows = ([k, *(column.values[k] for column in shown), status] for k, status in enumerate(cycle.statuses))
         return csv_text([head, *rows], words.language)
@@ -241,34 +240,22 @@ def _sized(cycle: Cycle, name: str) -> dict[str, Array]:
     return {"value": np.hypot(values.real, values.imag), **_parts(cycle, name)}
 
 
-def all_columns(cycle: Cycle) -> list[Columned]:
-    """Return columns of the links on the frame, of all points and of all quantities."""
-    columns = [column for output in cycle.outputs for column in output_columns(cycle, output)]
-    seen = {column.name for column in columns}
+def columns_of(cycle: Cycle, chosen: tuple[str, ...], whole: bool) -> list[Columned]:
+    """Return the columns of chosen points, by their letters, and links, by their numbers.
+
+    Without any how the outputs move, and all points and quantities if `whole`, else what balances the driver.
+    """
+    outputs = {str(output.link): output_columns(cycle, output) for output in cycle.outputs}
     points = [name for name in letters(cycle.mechanism) if name in cycle.values]
-    for name in (*points, *cycle.quantities):
-        if name not in seen:
-            columns += quantity_columns(cycle, name, name in points)
-    return columns
-
-
-def main_columns(cycle: Cycle) -> list[Columned]:
-    """Return the columns of a readable table: how the outputs move, and what balances the driver."""
-    columns = [column for output in cycle.outputs for column in output_columns(cycle, output)]
-    balance = next((name for name in BALANCES if name in cycle.values), None)
-    return columns + (list(quantity_columns(cycle, balance)) if balance else [])
-
-
-def chosen_columns(cycle: Cycle, chosen: tuple[str, ...]) -> list[Columned]:
-    """Return the columns of points, by their letters, and of links, by their numbers."""
     columns: list[Columned] = []
-    outputs = {str(output.link): output for output in cycle.outputs}
-    for one in chosen:
-        if one in outputs:
-            columns += output_columns(cycle, outputs[one])
-        for name in (one, f"V_{one}", f"a_{one}", f"omega_{one}", f"epsilon_{one}"):
+    for one in chosen or ("",):
+        columns += outputs.get(one, []) if chosen else [column for found in outputs.values() for column in found]
+        names: Iterable[str] = (one, f"V_{one}", f"a_{one}", f"omega_{one}", f"epsilon_{one}")
+        if not chosen:
+            names = (*points, *cycle.quantities) if whole else [name for name in BALANCES if name in cycle.values][:1]
+        for name in names:
             if name in cycle.values and all(column.name != name for column in columns):
-                columns += quantity_columns(cycle, name, name == one)
+                columns += quantity_columns(cycle, name, name in points)
     return columns
 
 
@@ -361,17 +348,13 @@ def _extremes(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
         size = max(abs(most.value), abs(least.value))
         if not np.isfinite(size) or most.value - least.value > CONSTANT * size:
             of = unit_of(name)
-            label = f"{name}, {format_unit(words.display.unit(of), words.language)}"
-            rows.append([label, *(cell for e in (most, least) for cell in _extreme(cycle, words, e, of))])
+            cells = [f"{name}, {format_unit(words.display.unit(of), words.language)}"]
+            for end in (most, least):
+                endless, size = "∞" if end.value > 0.0 else "−∞", words.display.value(end.value, of) + 0.0
+                cells.append(endless if math.isinf(end.value) else words.short(size, DIGITS))
+                cells.append(_at(cycle, words, end.at, ROUGHLY))
+            rows.append(cells)
     return aligned(rows, (0, 2, 4)) if len(rows) > 1 else ""
-
-
-def _extreme(cycle: Cycle, words: Words, extreme: Extreme, of: str) -> tuple[str, str]:
-    """Return an extreme value and where it is."""
-    value = "∞" if extreme.value > 0.0 else "−∞"
-    if not math.isinf(extreme.value):
-        value = words.short(words.display.value(extreme.value, of) + 0.0, DIGITS)
-    return value, _at(cycle, words, extreme.at, ROUGHLY)
 
 
 def _chords(name: str, of: str, curve: Curve, words: Words) -> str:
