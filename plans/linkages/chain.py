@@ -103,12 +103,6 @@ def moving_bodies(mechanism: Mechanism, structure: Structure) -> Bodies:
     return named(mechanism, structure)[1]
 
 
-def require_couplers(mechanism: Mechanism, structure: Structure) -> None:
-    """Refuse, with an InputError, to split motions where no link with two joints hangs on one that turns."""
-    if not hinged(mechanism, structure):
-        raise InputError("no-coupler")
-
-
 def named(mechanism: Mechanism, structure: Structure) -> tuple[tuple[AssurGroup, ...], Bodies]:
     """Name the parts of all groups, each for those attached to it."""
     for group in structure.groups:

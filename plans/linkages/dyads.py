@@ -23,26 +23,19 @@ from ..board import Board
 from ..names import Name, between, mark, rate, spelled, vector
 from .legs import AssurGroup, Hinged, Leg, Slide, coriolis, legs_of, normal_part, pin_offset, slider_body
 from .mechanism import ZERO, Mechanism, Prismatic
-from .parts import SYMBOLS, Bodies, Couples, Forces, Passed, answer, hang, moments_about, normal_of, size_of
+from .parts import SYMBOLS, Bodies, Couples, Forces, Passed, answer, hang, moments_about, normal_of
 from .structure import Group
 
 
 class Pinned(AssurGroup):
-    """What RRR, RRP and PRP have in common: B is found where the directions of both legs meet.
-
-    Raises
-    ------
-    InputError
-        When the frame is said to be a slider.
-    """
+    """What RRR, RRP and PRP have in common: B is found where the directions of both legs meet."""
 
     legs: tuple[Leg, Leg]
 
     def __init__(self, mechanism: Mechanism, group: Group, bodies: Bodies) -> None:
         first, second = legs_of(mechanism, group, bodies)
         if isinstance(first, Hinged) and (isinstance(second, Slide) or second.absolute):
-            # only one motion of B is absolute: that on a slider is, and where both pivots are fixed the group stands
-            # still
+            # only one motion of B is absolute: that on a slider; where both pivots are fixed the group stands still
             first.absolute = False
         super().__init__(mechanism, group, (first, second))
         self.B = first.end
@@ -106,10 +99,7 @@ class RRR(Pinned):
         answer(board, self.mechanism, "R", (i, j), (k, j), (m, k))
 
     def _across(self, board: Board, loads: Forces, couples: Couples) -> Name | None:
-        """Find the part of an outer reaction normal to CA from moments of the whole group about the other outer pair.
-
-        Returns the name of the part, None where no such moments are wanted.
-        """
+        """Find, where it is wanted, the part of a reaction normal to CA from moments of the group about A or C."""
         centre = dict(self.mechanism.centres).get(self.name)
         if centre is None:
             return None
@@ -262,7 +252,9 @@ class RPR(AssurGroup):
         """The guide's direction is that of the tangent through A to a circle about C: CA when it has no offset."""
         (slider, guide), (length, e, n) = self.bodies, self.CA
         offset = pin_offset(board, self.pair, self.slider, self.A, self.guide, self.C)
-        board.tangent(self.u, self.C, self.A, offset, self.pair.branch or "one", size_of(board, self.mechanism))
+        names = (*self.mechanism.coordinates, *(xy for at in self.mechanism.frame_points.values() for xy in at))
+        board.calc("_size", "largest", *dict.fromkeys(xy for xy in names if xy != ZERO))  # places are rounded by it
+        board.tangent(self.u, self.C, self.A, offset, self.pair.branch or "one", "_size")
         board.normal(normal_of(self.u), self.u)
         board.measure(length, self.C, self.A)
         board.direction(e, self.C, self.A, length)
@@ -334,7 +326,7 @@ class RPP(AssurGroup):
     Raises
     ------
     InputError
-        When the frame is said to be a slider, or link 3 slides in both pairs: its x axis cannot point along both.
+        When link 3 slides in both pairs: its x axis cannot point along both.
     """
 
     def __init__(self, mechanism: Mechanism, group: Group, bodies: Bodies) -> None:

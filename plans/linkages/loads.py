@@ -58,7 +58,8 @@ def lay_loads(board: Board, moving: Moving) -> None:
     Raises
     ------
     InputError
-        When a mass is to follow from the length of a link that has none, or a load resists the motion of a pivot.
+        When a mass is to follow from the length of a link that has none, a load resists the motion of a pivot, or the
+        mechanism has no output that moves to and fro on the frame.
     """
     mechanism = moving.mechanism
     for link in mechanism.links:  # mass and moment of inertia may follow from the distance of its two joints
@@ -68,7 +69,7 @@ def lay_loads(board: Board, moving: Moving) -> None:
         if link.inertia_factor:
             board.calc(str(link.inertia), "inertia_by_length", link.inertia_factor, str(link.mass), length)
     if needs_stroke(mechanism):
-        lay_stroke(board, moving)
+        _lay_stroke(board, moving)
     for diagram in mechanism.diagrams:
         _diagram(board, mechanism, diagram)
     for load in mechanism.loads:
@@ -210,13 +211,7 @@ def _diagram(board: Board, mechanism: Mechanism, diagram: Diagram) -> None:
 
 
 def in_order(diagram: Diagram, values: Mapping[str, Any]) -> None:
-    """Refuse a diagram whose places decrease, or lie beyond the stroke or a turn.
-
-    Raises
-    ------
-    InputError
-        With the name of the diagram.
-    """
+    """Refuse, with an InputError, a diagram whose places decrease, or lie beyond the stroke or a turn."""
     places = [values.get(name, 0.0) for name in diagram.at]
     low, most = (0.0, 1.0) if diagram.over == STROKE else (places[0], TURN * (1.0 + ROUNDING))
     wrong = [a > b for a, b in pairwise(places)] + [places[0] < low, places[-1] - low > most]
@@ -230,14 +225,8 @@ def needs_stroke(mechanism: Mechanism) -> bool:
     return over_stroke or any(load.stroke != BOTH for load in mechanism.acting)
 
 
-def lay_stroke(board: Board, moving: Moving) -> None:
-    """Find where the output stands between the ends of its working stroke, and which way it goes.
-
-    Raises
-    ------
-    InputError
-        When the mechanism has no output that moves to and fro on the frame.
-    """
+def _lay_stroke(board: Board, moving: Moving) -> None:
+    """Find where the output stands between the ends of its working stroke, and which way it goes."""
     stroke, pair = moving.mechanism.stroke, output_pair(moving.mechanism)
     assert stroke is not None
     body = moving.bodies[stroke.link]

@@ -170,13 +170,6 @@ class Span:
             board.similar(mark, start, end, f"_along_{point}", f"_across_{point}")
 
 
-def size_of(board: Board, mechanism: Mechanism) -> str:
-    """Calculate the largest coordinate of the mechanism: what its places are rounded by; return its name."""
-    names = (*mechanism.coordinates, *(xy for place in mechanism.frame_points.values() for xy in place))
-    board.calc("_size", "largest", *dict.fromkeys(xy for xy in names if xy != ZERO))
-    return "_size"
-
-
 def normal_of(direction: str) -> Name:
     """Return the name of the normal to a direction: n_AB to e_AB, n_u_30 to u_30."""
     along = role(direction)

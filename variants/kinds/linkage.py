@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ...plans.board import POSITION
 from ...plans.boards.exact import SMALL
 from ...plans.laws import TURN
-from ...plans.linkages.chain import PLANS, construct, require_couplers
+from ...plans.linkages.chain import PLANS, construct, hinged
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
 from ...plans.linkages.loads import in_order
 from ...plans.linkages.mechanism import Mechanism
@@ -64,8 +64,8 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             construct(subject, head["plans"])
             # a task that never splits a motion may use the names of what that would measure
             structure, program = construct(subject, {*PLANS} - {"compound"} | {*head["plans"]})
-            if "compound" in head["plans"]:
-                require_couplers(subject, structure)
+            if "compound" in head["plans"] and not hinged(subject, structure):
+                raise InputError("no-coupler")
         except InputError as error:
             before = len(checker.faults)
             if error.key == "start-missing":  # or it is that of another link
@@ -96,8 +96,8 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
     def solve(self, subject: Mechanism, values: Numbers, words: Choices, plans: Plans) -> SolvedLinkage:
         """Solve one position."""
         solved = solve_linkage(subject, values, plans)
-        if "compound" in plans:
-            require_couplers(solved.mechanism, solved.structure)
+        if "compound" in plans and not hinged(solved.mechanism, solved.structure):
+            raise InputError("no-coupler")
         return solved
 
     def scale_symbols(self, solved: SolvedLinkage) -> tuple[str, ...]:

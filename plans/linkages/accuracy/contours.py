@@ -25,7 +25,6 @@ from ...boards.exact import NAN
 from ..mechanism import FRAME, ZERO, Driver, Mechanism, Pair, Prismatic, Revolute
 
 Array = NDArray[Any]
-Place = tuple[str, str]
 ROUNDS = 20  # corrections after which Newton's method is given up
 
 
@@ -118,10 +117,10 @@ class Contours:
         row = next(row for row, guide in self._guides.items() if guide is pair)
         return on_slider - through - aside - Form({}, {row: along})
 
-    def _at(self, place: Place) -> complex:
+    def _at(self, place: tuple[str, str]) -> complex:
         return complex(self._v[place[0]], self._v[place[1]])
 
-    def _arm(self, link: int, place: Place) -> Form:
+    def _arm(self, link: int, place: tuple[str, str]) -> Form:
         """Return the vector from a link's origin to a place on it."""
         return Form({self.angle_of[link]: cmath.rect(1.0, self._ahead[link]) * self._at(place)})
 

@@ -31,7 +31,7 @@ Array = NDArray[Any]
 DIGITS = 16.0  # of double precision
 NOTHING_LEFT = 1e15  # K at which a quantity and the largest beside it are nothing but rounding
 DRAWINGS = 300
-AT_ONCE = 60_000  # drawings in one go, of all positions together
+AT_ONCE = 200  # positions that are drawn in one go
 DEAD, CHANGE, POLE, LIMIT = "dead", "change", "parallel", "limit"
 FORCES, MOMENTS, WEIGHTS, INERTIA, ALL = "inertia_forces", "inertia_moments", "weights", "inertia", "all"
 KINDS = {"inertia_force": FORCES, "inertia_moment": MOMENTS, "weight": WEIGHTS}
@@ -95,6 +95,7 @@ def _conditions(
     count, fixed = len(cycle.angles), signs(cycle.mechanism)
     sines, worst = np.full(count, np.nan), [""] * count
     found = {name: np.full(count, np.nan) for name in names}
+    needed = {step.name for step in cycle.program.needed_for(names)}
     # angles of a crank within a turn: of an angle its radians count as a given
     places = cycle.angles % TURN if cycle.drive.turns else cycle.angles
     for i, values in enumerate(cycle.each(places)):
@@ -102,22 +103,15 @@ def _conditions(
         if board.trouble is not None or lost[i]:
             sines[i] = 0.0 if board.status == "singular" or lost[i] else np.nan
             continue
-        sines[i], worst[i] = _worst(cycle.program, board.sines, names)
+        behind = worst_behind(cycle.program, board.sines)
+        sines[i] = min((behind[name] for name in names), default=1.0)
+        worst[i] = next((mark for mark, sine in board.sines.items() if mark in needed and abs(sine) == sines[i]), "")
         varied = [name for name, value in values.items() if name not in fixed and value]
         known = conditions(cycle.program, values, varied, board.values, board.sines)
         for name in names:
             value = known[name].value
             found[name][i] = value if value is not None and value < NOTHING_LEFT else np.nan
     return sines, tuple(worst), found
-
-
-def _worst(program: Program, sines: Mapping[str, float], names: Sequence[str]) -> tuple[float, str]:
-    """Return the least sine on which any of the names hangs, and the mark where the lines meet so."""
-    behind = worst_behind(program, sines)
-    least = min((behind[name] for name in names), default=1.0)
-    needed = {step.name for step in program.needed_for(names)}
-    marks = [mark for mark, sine in sines.items() if mark in needed and abs(sine) == least]
-    return least, marks[0] if marks else ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,10 +130,10 @@ def _misses(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: 
     """Return what most drawings keep, SI."""
     program = cycle.program.needed_for(names)
     givens = cycle.drive.givens(cycle.givens, cycle.angles, cycle.program)
-    count, some = len(cycle.angles), max(AT_ONCE // DRAWINGS, 1)
+    count = len(cycle.angles)
     found = {name: np.full(count, np.nan) for name in names}
-    for start in range(0, count, some):
-        part = slice(start, min(start + some, count))
+    for start in range(0, count, AT_ONCE):
+        part = slice(start, min(start + AT_ONCE, count))
         shape = (part.stop - start, DRAWINGS)
         here = {name: value[part, None] if np.ndim(value) else value for name, value in givens.items()}
         board = draw(Paper(program, here, mus), hand, _Alike(np.random.default_rng(seed)), shape)
@@ -253,8 +247,7 @@ def depth(cycle: Cycle, tolerance: float) -> Depth:
     model, kinds = Model(cycle), parts_of(cycle.program)
     single = [model.cost(part, (part,)) for part in kinds]
     groups = {kind: tuple(part for part, of in kinds.items() if of == kind) for kind in (FORCES, MOMENTS, WEIGHTS)}
-    groups[INERTIA] = groups[FORCES] + groups[MOMENTS]
-    groups[ALL] = tuple(kinds)
+    groups |= {INERTIA: groups[FORCES] + groups[MOMENTS], ALL: tuple(kinds)}
     own = {frozenset(parts): key for key, parts in reversed(groups.items())}  # all masses without weights are inertia
     differ = {key: parts for key, parts in groups.items() if len(parts) > 1 and own[frozenset(parts)] == key}
     several = [model.cost(key, parts) for key, parts in differ.items()]

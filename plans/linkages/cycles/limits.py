@@ -305,10 +305,8 @@ def _between(stretch: Stretch, cuts: list[float]) -> list[Stretch]:
 def _gaps(whole: Stretch, stretches: Iterable[Stretch]) -> tuple[Arc, ...]:
     """Return what the stretches leave of the whole range."""
     ordered = sorted(stretches, key=lambda stretch: stretch.low)
-    if not ordered:
-        return (Arc(whole.low, whole.high),)
     lows, highs = [stretch.low for stretch in ordered], [stretch.high for stretch in ordered]
-    if whole.closed:
+    if whole.closed and ordered:
         gaps = zip(highs, [*lows[1:], lows[0] + whole.length], strict=True)
         return tuple(Arc(low % TURN, low % TURN + (high - low)) for low, high in gaps if high > low)
     gaps = zip([whole.low, *highs], [*lows, whole.high], strict=True)
