@@ -47,7 +47,7 @@ class KulmanError(Exception):
 
     def text(self, language: str = "en") -> str:
         """Return the message as one line in `language`."""
-        data = self.data if language == "en" else {name: _comma(value) for name, value in self.data.items()}
+        data = {name: _shown(value, language) for name, value in self.data.items()}
         line = messages(language)[self.key].format(**data)
         return " ".join(line.split())
 
@@ -56,9 +56,11 @@ class KulmanError(Exception):
         return self.text()
 
 
-def _comma(value: object) -> object:
-    """Return a value of a message with decimal commas."""
-    if isinstance(value, Written) or not isinstance(value, (str, float)):
+def _shown(value: object, language: str) -> object:
+    """Return a value of a message in a language, with its decimal sign; an error, too."""
+    if isinstance(value, KulmanError):
+        return value.text(language)
+    if language == "en" or isinstance(value, Written) or not isinstance(value, (str, float)):
         return value
     return _DECIMAL.sub(r"\1,\2", str(value))
 

@@ -15,7 +15,7 @@ from typing import Any
 from ..drawing.words import notations
 from ..scales.arguments import of_kind
 from ..scales.choose import chooser
-from ..scales.display import ANGLES, LENGTHS, METRE, PAPER, Display
+from ..scales.display import ANGLES, LENGTHS, METRE, PAPER
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
@@ -63,16 +63,16 @@ def load_task(task: str | os.PathLike[str] | Task) -> Task:
     of_kind("task", task, (str, os.PathLike), "str | PathLike | Task")
     if isinstance(task, str) and task in bundled():
         return _load_bundled(task)
-    found, faults = read_file(task)
-    if found is None:
-        raise TaskFileError(_shown(task), faults)
-    return found
-
-
-def read_file(task: str | os.PathLike[str]) -> tuple[Task | None, tuple[InputError, ...]]:
-    """Read a task file of one's own, which must be a text: the task, or all its faults."""
     shown = _shown(task)
-    return read_text(_file_text(task, shown), shown)
+    return task_of(_file_text(task, shown), shown)
+
+
+def task_of(toml: str, file: str) -> Task:
+    """Return the task in the text of a file that messages call `file`; one with faults is a `TaskFileError`."""
+    found, faults = read_text(toml, file)
+    if found is None:
+        raise TaskFileError(file, faults)
+    return found
 
 
 def check_file(task: str | os.PathLike[str]) -> tuple[tuple[InputError, ...], tuple[InputError, ...]]:
@@ -84,7 +84,7 @@ def check_file(task: str | os.PathLike[str]) -> tuple[tuple[InputError, ...], tu
 
 
 def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]]:
-    """Read a task from the text of a file that messages call `file`: the task, or all its faults, as `read_file`."""
+    """Read a task from the text of a file that messages call `file`: the task, or all its faults."""
     found, faults, _ = _read(toml, file)
     return found, faults
 
@@ -122,11 +122,7 @@ def _read(
 @cache
 def _load_bundled(task: str) -> Task:
     """Return a bundled task; its `file` is `None`."""
-    name = f"{task}.toml"
-    found, faults = read_text(bundled_text(task), name)
-    if found is None:
-        raise TaskFileError(name, faults)
-    return replace(found, file=None)
+    return replace(task_of(bundled_text(task), f"{task}.toml"), file=None)
 
 
 def _shown(task: str | os.PathLike[str]) -> str:
@@ -222,12 +218,6 @@ def _display(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     return record(checker, path, raw, fields)
 
 
-def _units(usual: Display, said: dict[str, str]) -> Display:
-    """Return the units of results: those that a file says, else the usual ones of its kind."""
-    # a unit for whatever has lengths is that of lengths alone, too
-    return replace(usual, **{"size": "", **said} if "length" in said else said)
-
-
 def _in_languages(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     """Read what is said in each language of a sheet."""
     return record(checker, path, raw, {language: Field(text) for language in LANGUAGES})
@@ -260,7 +250,9 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
     givens = {key: _bounded(checker, given, names) for key, given in givens.items()}
     variants = read_variants(checker, raw["variant"], givens, names.optional) if "variant" in raw else {}
     _signs(checker, names, choices)
-    display = _units(kind.display, head.get("display", {}))
+    units = head.get("display", {})
+    # a unit for whatever has lengths is that of lengths alone, too
+    display = replace(kind.display, **{"size": "", **units} if "length" in units else units)
     if display.length != METRE and WITH_FORCES.intersection(head.get("plans", ())):
         checker.fault(("display", "length"), InputError("display-forces"))
     if subject is not None and "plans" in head:

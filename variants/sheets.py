@@ -56,34 +56,15 @@ class Sheet:
     views: tuple[View, ...] = ()
 
     def save(self, *paths: str | os.PathLike[str], tile: str | None = None) -> list[Path]:
-        """Write the sheet to each of `paths`; the suffix picks the writer.
+        """Write the sheet to each of `paths`; the suffix picks the writer. Returned, and refused, is what others save.
 
-        Parameters
-        ----------
-        tile : str, optional
-            Small paper, `A4` or `A3`, on which a PDF is spread at full size.
-
-        Returns
-        -------
-        list of Path
-            The files written; several pages as SVG or PNG become `x-1.svg`, `x-2.svg`, ...
-
-        Raises
-        ------
-        InputError
-            An unknown suffix, two outputs of one name, a missing extra, or a file that cannot be written: then none
-            is.
+        Several pages as SVG or PNG become `x-1.svg`, `x-2.svg`, ...; a PDF is spread at full size on pages of small
+        paper where a `tile` is said, `A4` or `A3`.
         """
         return write_pages(self.pages, *paths, tile=tile)
 
     def svg(self, page: int = 1) -> str:
-        """Return one page, counted from 1, as SVG text.
-
-        Raises
-        ------
-        InputError
-            There is no such page.
-        """
+        """Return one page, counted from 1, as SVG text."""
         from ..drawing.svg import write_svg
 
         of_kind("page", page, (int,), "int")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 from ..drawing.formats import format_named
@@ -105,8 +106,6 @@ class Solution:
 
     def _repr_html_(self) -> str:
         """Show the table in a notebook, what the task says of its data, and why a position has no plan."""
-        from html import escape
-
         said = [] if self.reason is None else [self.reason.text(self.words.language)]
         said += filter(None, [self.task.note_in(self.words.language)])
         return "".join(f"<p>{escape(text)}</p>" for text in said) + f"<pre>{escape(self.table())}</pre>"
@@ -150,14 +149,11 @@ class Solution:
         largest: dict[str, float] = {}
         for quantity in self.quantities.values():
             largest[quantity.unit] = max(largest.get(quantity.unit, 0.0), abs(quantity.value or 0.0))
-        listed = (self._named(name) for name in self.kind.listed(self.solved, self.plans))
-        return [_without_rounding(q, largest.get(q.unit, 0.0)) for q in listed if q is not None]
-
-    def _named(self, name: str) -> Quantity | None:
-        """Return a quantity, or a scale factor as one; None for what is undefined here."""
-        scale = self.scales.get(name)
-        chosen = None if scale is None else Quantity(name, scale.mu, scale.per_mm_unit)
-        return self.quantities.get(name, chosen)
+        # scale factors may be listed, too; what is undefined here is left out
+        known = {name: Quantity(name, scale.mu, scale.per_mm_unit) for name, scale in self.scales.items()}
+        known |= self.quantities
+        listed = (known[name] for name in self.kind.listed(self.solved, self.plans) if name in known)
+        return [_without_rounding(quantity, largest.get(quantity.unit, 0.0)) for quantity in listed]
 
     def _words(self, language: str | None) -> Words:
         return self.words if language is None else self.words.speaking(language)
@@ -170,7 +166,7 @@ class Solution:
         """
         words = self._words(language)
         rows = [
-            (*_row(words, quantity.shown(words.display)), *_accuracy(words, self.conditions.get(quantity.name)))
+            (*_row(words, quantity.shown(words.display)), *_condition(words, self.conditions.get(quantity.name)))
             for quantity in self._tidy()
         ]
         widths = [max((len(row[i]) for row in rows), default=0) for i in range(7)]
@@ -179,9 +175,10 @@ class Solution:
         for name, value, unit, parts, mm, condition, sine in rows:
             if name in headings:
                 lines += ["", headings[name]] if lines else [headings[name]]
+            accuracy = f"K {condition:{widths[5]}}  sin {sine}" if condition else ""
             lines.append(
                 f"{name:{widths[0]}}  {value:>{widths[1]}}  {unit:>{widths[2]}} {parts:{widths[3]}}"
-                f"  {mm:{widths[4]}}  {condition:{widths[5]}}  {sine}".rstrip()
+                f"  {mm:{widths[4]}}  {accuracy}".rstrip()
             )
         if self.scales:
             lines += [*([] if headings else [""]), self.scaled(words)]
@@ -232,14 +229,9 @@ def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
     return q.name, value, unit, "" if parts == "–" else parts, mm
 
 
-def _accuracy(words: Words, condition: Condition | None) -> tuple[str, str]:
+def _condition(words: Words, condition: Condition | None) -> tuple[str, str]:
     if condition is None:
         return "", ""
-    value, sine = _condition(words, condition)
-    return f"K {value}", f"sin {sine}"
-
-
-def _condition(words: Words, condition: Condition) -> tuple[str, str]:
     return "–" if condition.value is None else words.short(condition.value, 3), words.short(condition.sine, 3)
 
 

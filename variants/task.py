@@ -178,19 +178,9 @@ class Task:
     def resolve(
         self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None
     ) -> dict[str, float | str]:
-        """Return every given of a variant: numbers in SI, choices as words.
+        """Return every given of a variant, the first without an id: numbers in SI, choices as words.
 
-        Parameters
-        ----------
-        variant_id : str, optional
-            Without it the first variant.
-        settings : mapping, optional
-            Givens that replace those of the variant: quantities as text, or numbers in the given's own unit.
-
-        Raises
-        ------
-        InputError
-            An unknown variant or given, or a value that its given cannot take.
+        `settings` replace givens of the variant: quantities as text, or numbers in the given's own unit.
         """
         row = self.variant(variant_id).values
         resolved = {name: row.get(name, given.default) for name, given in self.givens.items()}

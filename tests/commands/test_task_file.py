@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from kulman.plans.linkages.mechanism import ZERO, Prismatic
 from kulman.scales.errors import InputError
 from kulman.variants.checks.basics import Places
-from kulman.variants.reader import load_task, read_file, read_text
+from kulman.variants.reader import load_task, read_text
 from kulman.variants.shelf import bundled, bundled_text, summary
 
 PLACED = '''\
@@ -260,7 +260,7 @@ def test_all_faults_are_found_at_once_in_the_order_of_their_lines(tmp_path: Path
     file = tmp_path / "t.toml"
     file.write_text(text, encoding="utf-8")
 
-    _, faults = read_file(file)
+    _, faults = read_text(file.read_text(encoding="utf-8-sig"), str(file))
 
     lines = [int(str(fault).removeprefix(str(file)).split(":")[1]) for fault in faults]
     assert len(faults) >= 5

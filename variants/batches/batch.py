@@ -374,12 +374,8 @@ def batch(
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
     done = Batch(students, outcomes, (error,) if listed.unread else ())
-    tables = {
-        KEY if len(once) == 1 else f"{Path(KEY).stem}-{slug(one.id)}.csv": key_rows(done, one, once, lang)
-        for one in once
-    }
-    for name, rows in {MANIFEST: manifest_rows(done, once, lang), **tables}.items():
-        put(place / name, csv_table(list(rows), lang))
+    for name, rows in tables(done, once, lang):
+        put(place / name, csv_table(rows, lang))
     return done
 
 
@@ -437,34 +433,22 @@ def roster_rows(tasks: Sequence[Task], language: str) -> Rows:
             yield "", "", *(() if alone else (task.id,)), variant
 
 
-def manifest_rows(batch: Batch, tasks: Sequence[Task], language: str) -> Rows:
-    """Go through the rows of the list: a header; who, which variant and sheet, which files, or what the problem is."""
-    said = packaged(__package__, "texts", language)
-    yield (*_about(tasks, language), said["files"], said["notes"])
-    for student, outcome in zip(batch.students, batch.outcomes, strict=True):
-        told = outcome.problem or "; ".join(outcome.notes)
-        yield (*_who(student, outcome, tasks), ", ".join(outcome.files), told)
+def tables(batch: Batch, tasks: Sequence[Task], language: str) -> Iterator[tuple[str, list[tuple[Cell, ...]]]]:
+    """Go through the tables of a class: the names of their files, and their rows.
 
-
-def key_rows(batch: Batch, task: Task, tasks: Sequence[Task], language: str) -> Rows:
-    """Go through the rows of the key of a task: a header; who, which variant and sheet, and every right value.
-
-    The columns are those of a class that hands in its answers; of several `tasks` only those who have this one are in.
+    The manifest lists who has which variant, sheet and files, or what the problem is. The key of a task has every right
+    value of those who have that one, in the columns in which a class hands in its answers.
     """
-    rows = zip(batch.students, batch.outcomes, strict=True)
-    own = [row for row in rows if len(tasks) == 1 or row[0].entry.task == task.id]
-    names = tuple(dict.fromkeys(name for _, outcome in own for name in outcome.key))
-    yield (*_about(tasks, language), *names)
-    for student, outcome in own:
-        yield (*_who(student, outcome, tasks), *(outcome.key.get(name) for name in names))
-
-
-def _about(tasks: Sequence[Task], language: str) -> tuple[str, ...]:
-    """Return what stands over who a student is; the task only where there are several."""
-    said = texts(language)
-    return tuple(said[f"about.{key}"] for key in (*WHO, *(("task",) if len(tasks) > 1 else ()), "variant", "sheet"))
-
-
-def _who(student: Student, outcome: Outcome, tasks: Sequence[Task]) -> tuple[Cell, ...]:
-    who = (getattr(student.entry.who, key) for key in WHO)
-    return (*who, *((student.entry.task,) if len(tasks) > 1 else ()), outcome.variant, outcome.sheet)
+    said, about, several = packaged(__package__, "texts", language), texts(language), len(tasks) > 1
+    head = tuple(about[f"about.{key}"] for key in (*WHO, *(("task",) if several else ()), "variant", "sheet"))
+    students = []
+    for student, outcome in zip(batch.students, batch.outcomes, strict=True):
+        who, task = student.entry.who, (student.entry.task,) if several else ()
+        students.append(((*(getattr(who, key) for key in WHO), *task, outcome.variant, outcome.sheet), outcome, task))
+    made = [(*row, ", ".join(got.files), got.problem or "; ".join(got.notes)) for row, got, _ in students]
+    yield MANIFEST, [(*head, said["files"], said["notes"]), *made]
+    for one in tasks:
+        own = [(row, got.key) for row, got, task in students if not several or task == (one.id,)]
+        names = tuple(dict.fromkeys(name for _, key in own for name in key))
+        rows = [(*head, *names), *((*row, *(key.get(name) for name in names)) for row, key in own)]
+        yield f"{Path(KEY).stem}-{slug(one.id)}.csv" if several else KEY, rows

@@ -170,16 +170,15 @@ def all_variants(
         As for `solve`, `make_variants`, `import_variants`, or an unknown quantity; or no variant has a solution: then
         why the first has none.
     """
-    new = _new(task, make, ranges, seed, table, set, advance)
-    asked = check(
-        task if new is None else new.task,
-        set=set,
-        only=only,
-        scales=scales,
-        preset=preset,
-        notation=notation,
-        lang=lang,
-    )
+    if make is not None and table is not None:
+        raise InputError("variants-both")
+    if make is None and (ranges or seed is not None):
+        raise InputError("variants-range")
+    new = None if table is None else import_variants(task, table)
+    if make is not None:
+        new = make_variants(task, make, ranges, set=set, seed=1 if seed is None else seed, advance=advance)
+    of = task if new is None else new.task
+    asked = check(of, set=set, only=only, scales=scales, preset=preset, notation=notation, lang=lang)
     request = asked.request
     keys: dict[str, Keyed] = {}
     problems: dict[str, KulmanError] = {}
@@ -195,27 +194,6 @@ def all_variants(
     wanted = tuple(dict.fromkeys(forms)) if quantities is None else names_of("quantities", tuple(quantities))
     all_known("quantity-unknown", wanted, known)
     return AllVariants(asked, keys, problems, wanted, new)
-
-
-def _new(
-    task: str | os.PathLike[str] | Task,
-    make: int | None,
-    ranges: Settings | None,
-    seed: int | None,
-    table: str | os.PathLike[str] | None,
-    settings: Settings | None,
-    advance: Advance | None,
-) -> NewVariants | None:
-    """Make new variants, or read them, where either is wanted."""
-    if make is not None and table is not None:
-        raise InputError("variants-both")
-    if make is None and (ranges or seed is not None):
-        raise InputError("variants-range")
-    if table is not None:
-        return import_variants(task, table)
-    if make is None:
-        return None
-    return make_variants(task, make, ranges, set=settings, seed=1 if seed is None else seed, advance=advance)
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,13 +15,13 @@ from itertools import starmap
 
 from ...drawing.writers import slug
 from ...scales.arguments import of_kind
-from ...scales.errors import InputError, KulmanError, messages
+from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import parse
 from ..case import Request, Settings, by_name
 from ..crew import Advance
 from ..kinds import kind_of
-from ..reader import TaskFileError, load_task, read_text
+from ..reader import TaskFileError, load_task, task_of
 from ..sheets import draw_case
 from ..spreadsheets.grid import UNDERSTOOD, Grid, about_kind, column_kind, read_grid, symbol, variant_said
 from ..task import Given, LocatedError, Task
@@ -125,11 +125,7 @@ def _judged(
 def _task_with(task: Task, rows: Mapping[str, Mapping[str, str]]) -> NewVariants:
     """Return a task with other variants; one that is no variant of the task is a `TaskFileError`."""
     text = with_variants(task.text, rows.items())
-    file = task.file or f"{task.id}.toml"
-    found, faults = read_text(text, file)
-    if found is None:
-        raise TaskFileError(file, faults)
-    return NewVariants(found, text)
+    return NewVariants(task_of(text, task.file or f"{task.id}.toml"), text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,19 +233,6 @@ def _round_step(width: Decimal) -> Decimal:
     return next(step * power for step in map(Decimal, (1, 2, 5, 10)) if step * power >= rough)
 
 
-class FruitlessError(LocatedError):
-    """So many sets in a row were no good exercise; what was wrong with the last."""
-
-    def __init__(self, place: str, cause: KulmanError, found: int) -> None:
-        super().__init__(place, cause)
-        self.found = found
-
-    def text(self, language: str = "en") -> str:
-        """Return what has been found and what was wrong last as one line in `language`."""
-        said = messages(language)["variants-hard"]
-        return f"{self.place}: {said.format(found=self.found, tries=TRIES, reason=self.cause.text(language))}"
-
-
 def made(
     task: Task, ranges: Mapping[str, Range], count: int, seed: int, fixed: Mapping[str, str]
 ) -> Iterator[dict[str, str]]:
@@ -274,9 +257,9 @@ def made(
                 break
         else:
             assert reason is not None
-            place = f"--make {count}"
-            few = reason.key == "variants-few"
-            raise LocatedError(place, reason) if few else FruitlessError(place, reason, number)
+            if reason.key != "variants-few":
+                reason = InputError("variants-hard", found=number, tries=TRIES, reason=reason)
+            raise LocatedError(f"--make {count}", reason)
 
 
 def looked_at(
