@@ -34,6 +34,7 @@ from .spots import (
 
 SOME = 300  # places on a leader, the cheapest for their own sake, that are looked at
 AGAIN = 4  # times that all labels are placed anew when some found no place
+ROUNDS = 3  # times that labels in trouble are looked through
 MANY = 24  # of these, for whom no order helps: the drawing is crowded
 
 __all__ = ["Labels", "Obstacles", "Request", "place"]
@@ -89,12 +90,8 @@ class _Board:
         self.down = np.zeros(len(self.x), dtype=bool)
         self.leaders: dict[int, Segment] = {}
 
-    def clashes(self, i: int, x: Reals, y: Reals) -> Flags:
-        """Tell, shape (K, L), which labels on the board label i would touch at x, y."""
-        return self._beside(i, x, y, 0.0)[0]
-
-    def _beside(self, i: int, x: Reals, y: Reals, apart: float) -> tuple[Flags, Flags]:
-        """Tell which labels label i would touch, and which it would touch or stand less than `apart` beside.
+    def beside(self, i: int, x: Reals, y: Reals, apart: float = 0.0) -> tuple[Flags, Flags]:
+        """Tell, shape (K, L), which labels label i would touch at x, y, and which also stand less than `apart` beside.
 
         Two letters side by side read as one word.
         """
@@ -108,7 +105,7 @@ class _Board:
 
     def best(self, i: int) -> tuple[float, int]:
         """Return the cost and the number of the best place of label i among the others."""
-        touched, close = self._beside(i, self.x[i], self.y[i], APART)
+        touched, close = self.beside(i, self.x[i], self.y[i], APART)
         cost = self.cost[i] + COVER * touched.sum(axis=1)
         cost += CLOSE * close.sum(axis=1)
         k = int(cost.argmin())
@@ -122,8 +119,7 @@ class _Board:
         """Put label i on a leader, on which no other label may stand from now on."""
         w = self.wanted
         self.now_x[i], self.now_y[i], self.now[i] = at.real, at.imag, 0.0
-        self.down[i] = True
-        self.leaders[i] = leader
+        self.down[i], self.leaders[i] = True, leader
         line = Bodies.strokes(*np.array([leader]).T)
         on = line.distance(self.x, self.y, w.hw[:, None], w.hh[:, None], slice(None)) < w.gap
         self.cost = self.cost + COVER * on
@@ -134,30 +130,30 @@ class _Board:
 
     def settle(self) -> None:
         """Leave alone who is in nobody's way; then the most constrained label chooses first."""
-        w = self.wanted
-        touch = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + w.gap + APART
-        touch &= abs(self.now_y[:, None] - self.now_y) < w.hh[:, None] + w.hh + w.gap
-        self.down |= touch.sum(axis=1) == 1
+        self.down |= self._touching(APART, 0.0).sum(axis=1) == 1
         free = (self.cost < COVER).sum(axis=1)
         rest = (~self.down).nonzero()[0]
-        for i in rest[np.lexsort((rest, free[rest], -w.priority[rest]))].tolist():
+        for i in rest[np.lexsort((rest, free[rest], -self.wanted.priority[rest]))].tolist():
             self.put(i, self.best(i)[1])
+
+    def _touching(self, apart: float, slack: float) -> Flags:
+        """Tell, shape (L, L), which labels touch one another, or stand less than `apart` beside one another."""
+        w = self.wanted
+        touch: Flags = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + w.gap + apart - slack
+        touch &= abs(self.now_y[:, None] - self.now_y) < w.hh[:, None] + w.hh + w.gap - slack
+        return touch
 
     def in_trouble(self) -> list[int]:
         """Labels that cover something or touch another label."""
-        w = self.wanted
-        touch = abs(self.now_x[:, None] - self.now_x) < w.hw[:, None] + w.hw + w.gap - SLACK
-        touch &= abs(self.now_y[:, None] - self.now_y) < w.hh[:, None] + w.hh + w.gap - SLACK
-        touch &= self.down & self.down[:, None]
+        touch = self._touching(0.0, SLACK) & self.down & self.down[:, None]
         bad = (self.now >= COVER) | (touch.sum(axis=1) > 1)
         found: list[int] = (bad & self.down).nonzero()[0].tolist()
         return found
 
-    def repair(self, rounds: int = 3) -> None:
+    def repair(self) -> None:
         """Give each label in trouble a place by moving those that block it."""
-        for _ in range(rounds):
-            moved = [i for i in self.in_trouble() if self._improve(i)]
-            if not moved:
+        for _ in range(ROUNDS):
+            if not [i for i in self.in_trouble() if self._improve(i)]:
                 return
 
     def _improve(self, i: int) -> bool:
@@ -165,7 +161,7 @@ class _Board:
         if cost < COVER:
             self.put(i, k)
             return True
-        blocked = self.clashes(i, self.x[i], self.y[i])
+        blocked, _ = self.beside(i, self.x[i], self.y[i])
         order = np.argsort(self.cost[i], kind="stable")[:24].tolist()
         return any(self.cost[i, k] < COVER and self._push(i, k, blocked[k].nonzero()[0].tolist()) for k in order)
 
@@ -295,7 +291,7 @@ def _leads(i: int, one: Wanted, grid: Grid, board: _Board, limit: float) -> tupl
     """
     few = grid.cost < limit
     x, y, cost = grid.x[few], grid.y[few], grid.cost[few]
-    cost = cost + COVER * board.clashes(i, x, y).sum(axis=1)
+    cost = cost + COVER * board.beside(i, x, y)[0].sum(axis=1)
     foot = one.feet(x + 1j * y)
     head = np.clip(foot.real, x - one.hw, x + one.hw) + 1j * np.clip(foot.imag, y - one.hh, y + one.hh)
     far = abs(head - foot)

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from .rows import SLACK, Column, Edge, Room, Row, Size, cut
+from .rows import SLACK, Column, Edge, Room, Row, Search, Size
 from .text import Box
 
 Corner: TypeAlias = tuple[float, float]
@@ -45,14 +45,18 @@ def pack(
     if not views:
         return []
     first, rest = _room(area, reserved, gap), _room(area, reserved if later is None else later, gap)
-    pages_of_rows = cut(views, first, rest, gap, 1, nested=False) or cut(views, first, rest, gap, 1, nested=True)
+
+    def cut(most: int | None, nested: bool) -> list[list[Row]] | None:
+        return Search(views, first, rest, gap, most, nested).cut()
+
+    pages_of_rows = cut(1, nested=False) or cut(1, nested=True)
     if pages_of_rows is None and any_order:
         taken = tuple((x0 - gap, y0 - gap, x1 + gap, y1 + gap) for x0, y0, x1, y1 in reserved)
         corners = _in_any_order(views, _Page(area, taken, gap))
         if corners is not None:
             return [Placement(0, x, y) for x, y in corners]
     if pages_of_rows is None and pages != 1:
-        pages_of_rows = cut(views, first, rest, gap, pages, nested=True)
+        pages_of_rows = cut(pages, nested=True)
     if pages_of_rows is None:
         return None
     places: dict[int, Placement] = {}

@@ -232,14 +232,7 @@ def _worthwhile(rows: list[Row]) -> list[Row]:
     return kept
 
 
-def cut(
-    views: Sequence[Size], first: Room, later: Room, gap: float, limit: int | None, nested: bool
-) -> list[list[Row]] | None:
-    """Cut the sequence into rows and pages: as few pages as possible, then the most even ones; None if none fit."""
-    return _Pages(views, first, later, gap, limit, nested).cut()
-
-
-class _Pages:
+class Search:
     """The search for the pages; `ended[i]` is the best way to end a page before view i, `opened[i]` a row only."""
 
     def __init__(
@@ -254,6 +247,7 @@ class _Pages:
         self.opened: list[list[_Part]] = [[] for _ in range(self.count + 1)]
 
     def cut(self) -> list[list[Row]] | None:
+        """Cut the sequence into rows and pages: as few pages as possible, then the most even ones; None if none fit."""
         for i in range(self.count):
             start = self.ended[i]
             if start is not None and (self.limit is None or start.pages < self.limit):
@@ -268,8 +262,15 @@ class _Pages:
                 rows = self.cutter.rows(i, room, Edge(), self._spent(i, parts, room))
                 for part in parts:
                     self._add(part, part.used, rows, room)
-        last = self.ended[self.count]
-        return None if last is None else _pages_of(last)
+        last = end = self.ended[self.count]
+        pages: list[list[Row]] = []
+        while end is not None and end.before is not None:
+            if end.row is None:
+                pages.append([])
+            else:
+                pages[-1].append(end.row)
+            end = end.before
+        return None if last is None else [rows[::-1] for rows in pages[::-1]]
 
     def _followed(self, i: int) -> list[_Part]:
         """Of the pages that end with a row before view `i` those that no other beats in both height and cost."""
@@ -310,15 +311,3 @@ class _Pages:
         pages, cost, best = part.pages + 1, part.cost + empty * empty / 2, self.ended[i]
         if used <= room.height + SLACK and (best is None or (pages, cost) < (best.pages, best.cost)):
             self.ended[i] = _Part(pages, 0.0, cost, part)
-
-
-def _pages_of(last: _Part) -> list[list[Row]]:
-    pages: list[list[Row]] = []
-    part: _Part | None = last
-    while part is not None and part.before is not None:
-        if part.row is None:
-            pages.append([])
-        else:
-            pages[-1].append(part.row)
-        part = part.before
-    return [rows[::-1] for rows in pages[::-1]]

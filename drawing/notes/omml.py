@@ -27,6 +27,18 @@ PAIRS = {"(": ")", "[": "]"}
 _NAMED = frozenset("ΔΣ")
 _SYMBOL = 2  # letters of a name at most; a longer one is a word, and makes words of its neighbours
 _ENDS = frozenset("=+−<>≤≥≈→⊥∥,;:")  # of a unit
+# Forms: a line over a formula (`top`) or under it (`bot`), a quotient, a root, brackets as high as what they hold, and
+# scripts by whether any stand above and below.
+_BAR = '<m:bar><m:barPr><m:pos m:val="{place}"/></m:barPr><m:e>{inner}</m:e></m:bar>'
+_FRACTION = "<m:f><m:num>{above}</m:num><m:den>{below}</m:den></m:f>"
+_ROOT = '<m:rad><m:radPr><m:degHide m:val="1"/></m:radPr><m:deg/><m:e>{inner}</m:e></m:rad>'
+_BRACKETED = '<m:d><m:dPr><m:begChr m:val="{open}"/><m:endChr m:val="{close}"/></m:dPr><m:e>{inner}</m:e></m:d>'
+_SCRIPTS = {
+    (False, False): "{base}",
+    (True, False): "<m:sSup><m:e>{base}</m:e><m:sup>{above}</m:sup></m:sSup>",
+    (False, True): "<m:sSub><m:e>{base}</m:e><m:sub>{below}</m:sub></m:sSub>",
+    (True, True): "<m:sSubSup><m:e>{base}</m:e><m:sub>{below}</m:sub><m:sup>{above}</m:sup></m:sSubSup>",
+}
 
 
 def quoted(text: str) -> str:
@@ -48,7 +60,8 @@ def node(found: Node, upright: bool = False) -> str:
         return run(found.text) if len(found.text) == 1 else _script(found)
     if isinstance(found, Ruled):
         inner = "".join(map(node, found.parts)) or run(_EMPTY, "p")
-        return {"bar": bar(inner, "top"), "u": bar(inner, "bot"), "uu": bar(bar(inner, "bot"), "bot")}[found.kind]
+        once = _BAR.format(place="top" if found.kind == "bar" else "bot", inner=inner)
+        return _BAR.format(place="bot", inner=once) if found.kind == "uu" else once
     return scripted(node(found.base, upright), *scripts(found))
 
 
@@ -65,51 +78,20 @@ def _script(found: Node) -> str:
     return node(found)
 
 
-def bar(inner: str, place: str) -> str:
-    """Return a formula with a line over it (`top`) or under it (`bot`)."""
-    return f'<m:bar><m:barPr><m:pos m:val="{place}"/></m:barPr><m:e>{inner}</m:e></m:bar>'
-
-
 def scripted(base: str, above: str, below: str) -> str:
     """Return a formula with what stands above and below behind it."""
-    e, sup, sub = f"<m:e>{base}</m:e>", f"<m:sup>{above}</m:sup>", f"<m:sub>{below}</m:sub>"
-    match bool(above), bool(below):
-        case True, True:
-            return f"<m:sSubSup>{e}{sub}{sup}</m:sSubSup>"
-        case True, False:
-            return f"<m:sSup>{e}{sup}</m:sSup>"
-        case False, True:
-            return f"<m:sSub>{e}{sub}</m:sSub>"
-        case _:
-            return base
-
-
-def fraction(above: str, below: str) -> str:
-    """Return a quotient."""
-    return f"<m:f><m:num>{above}</m:num><m:den>{below}</m:den></m:f>"
-
-
-def root(inner: str) -> str:
-    """Return a square root."""
-    return f'<m:rad><m:radPr><m:degHide m:val="1"/></m:radPr><m:deg/><m:e>{inner}</m:e></m:rad>'
-
-
-def bracketed(inner: str, signs: str) -> str:
-    """Return a formula between two brackets as high as it is."""
-    pair = f'<m:begChr m:val="{signs[0]}"/><m:endChr m:val="{signs[1]}"/>'
-    return f"<m:d><m:dPr>{pair}</m:dPr><m:e>{inner}</m:e></m:d>"
+    return _SCRIPTS[bool(above), bool(below)].format(base=base, above=above, below=below)
 
 
 @dataclass(frozen=True, slots=True)
 class Atom:
-    """A part of a line: its kind, its characters, how it is shown, also without its brackets; `above`, `below` it."""
+    """A part of a line: its kind, its characters, how it is shown, also without its brackets, its scripts."""
 
     kind: str
     text: str
     shown: str
     bare: str = ""
-    above: str = ""
-    below: str = ""
+    scripts: tuple[str, str] = ("", "")
 
     @property
     def inside(self) -> str:
@@ -152,13 +134,13 @@ def _atoms(parts: Iterable[Node]) -> Iterator[Atom]:
                     Atom(str(found.lastgroup), found.group(), _plain(found)) for found in _TOKENS.finditer(text)
                 )
             case Scripted(base=Plain(text=text)) if text in PAIRS.values():
-                yield Atom("close", text, node(part), "", *scripts(part))
+                yield Atom("close", text, node(part), "", scripts(part))
             case Scripted(base=Plain(text=text)) if text in _FUNCTIONS:
                 yield Atom("function", text, scripted(run(text, "p"), *scripts(part)))
             case Scripted(base=Plain(text=text)) if text[:1].isdigit():
                 yield Atom("number", text, node(part))
             case Scripted(base=Plain(text=text)):
-                yield Atom("name", text, node(part), "", *scripts(part))
+                yield Atom("name", text, node(part), "", scripts(part))
             case _:
                 yield Atom("name", "", node(part))
 
@@ -197,7 +179,7 @@ def _unit_end(atoms: list[Atom], at: int) -> int:
 
 
 def _upright(atom: Atom) -> str:
-    return scripted(run(atom.text, "nor"), atom.above, atom.below) if atom.kind in ("word", "name") else atom.shown
+    return scripted(run(atom.text, "nor"), *atom.scripts) if atom.kind in ("word", "name") else atom.shown
 
 
 def _joined(atoms: list[Atom]) -> list[Atom]:
@@ -207,7 +189,7 @@ def _joined(atoms: list[Atom]) -> list[Atom]:
         both = (one, other)
         if {one.kind, other.kind} == {"word", "name"} and not any(atom.text in ("", *_NAMED) for atom in both):
             found[place : place + 2] = [
-                replace(atom, shown=scripted(run(atom.text, "p"), atom.above, atom.below)) for atom in both
+                replace(atom, shown=scripted(run(atom.text, "p"), *atom.scripts)) for atom in both
             ]
     return found
 
@@ -252,9 +234,8 @@ def built_up(markup: str) -> str:
         if atom.kind == "close" and opened and PAIRS[found[opened[-1]].text] == atom.text:
             start = opened.pop()
             inner = _line(found[start + 1 :])
-            whole = bracketed(inner, found[start].text + atom.text)
-            scripted_whole = scripted(whole, atom.above, atom.below)
-            found[start:] = [Atom("name", "", scripted_whole, inner if scripted_whole == whole else "")]
+            shown = scripted(_BRACKETED.format(open=found[start].text, close=atom.text, inner=inner), *atom.scripts)
+            found[start:] = [Atom("name", "", shown, "" if any(atom.scripts) else inner)]
             continue
         if atom.kind == "open":
             opened.append(len(found))
@@ -271,7 +252,7 @@ def _line(atoms: list[Atom]) -> str:
         after = factors[place + 1].kind if place + 1 < len(factors) else ""
         if product and product[-1].kind == "stroke" and atom.kind == "factor":
             above = product[0].inside if len(product) == 2 else "".join(part.shown for part in product[:-1])
-            product = [Atom("factor", "", fraction(above, atom.inside))]
+            product = [Atom("factor", "", _FRACTION.format(above=above, below=atom.inside))]
         elif atom.kind == "factor" or (product and atom.kind in ("dot", "stroke") and after == "factor"):
             product.append(atom)
         else:
@@ -307,13 +288,9 @@ def _factors(atoms: list[Atom]) -> list[Atom]:
             found += heads or [atoms[start]]
             at = at if heads else start + 1
             continue
-        found.append(_factor(heads, body))
+        if heads and heads[-1].kind == "root":
+            body[0] = Atom("name", "", _ROOT.format(inner=body[0].inside))
+            heads.pop()
+        shown = "".join(atom.shown for atom in (*heads, *body))
+        found.append(Atom("factor", "", shown, body[0].bare if len(body) == 1 and not heads else ""))
     return found
-
-
-def _factor(heads: list[Atom], body: list[Atom]) -> Atom:
-    if heads and heads[-1].kind == "root":
-        body = [Atom("name", "", root(body[0].inside)), *body[1:]]
-        heads = heads[:-1]
-    shown = "".join(atom.shown for atom in (*heads, *body))
-    return Atom("factor", "", shown, body[0].bare if len(body) == 1 and not heads else "")
