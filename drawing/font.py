@@ -257,38 +257,27 @@ def _subset_tables(source: Font, characters: Iterable[str]) -> dict[str, bytes]:
     }
 
 
-def _directory(tables: dict[str, bytes]) -> bytes:
+def _directory(tables: dict[str, bytes], sums: dict[str, int]) -> bytes:
     power = 1 << (len(tables).bit_length() - 1)
     entries = struct.pack(">L4H", 0x10000, len(tables), 16 * power, power.bit_length() - 1, 16 * (len(tables) - power))
     at = 12 + 16 * len(tables)
     for tag, data in tables.items():
-        entries += struct.pack(">4sLLL", tag.encode(), _checksum(data), at, len(data))
+        entries += struct.pack(">4sLLL", tag.encode(), sums[tag], at, len(data))
         at += len(_padded(data))
     return entries
 
 
-@lru_cache(maxsize=4)
-def _tables(characters: str) -> tuple[dict[str, bytes], dict[str, bytes]]:
-    """Return the tables of a subset without and with the sum of the whole file, which both forms are made of."""
-    plain = _subset_tables(font(), characters)
-    whole = _directory(plain) + b"".join(map(_padded, plain.values()))
-    head = bytearray(plain["head"])
-    struct.pack_into(">L", head, 8, (0xB1B0AFBA - _checksum(whole)) & 0xFFFFFFFF)
-    return plain, plain | {"head": bytes(head)}
-
-
-@lru_cache(maxsize=64)
-def subset(characters: str) -> bytes:
-    """Return a TrueType font with the glyphs of `characters` only: the same outlines and advances, no hinting."""
-    plain, whole = _tables(characters)
-    return _directory(plain) + b"".join(map(_padded, whole.values()))
-
-
 @lru_cache(maxsize=64)
 def web_subset(characters: str) -> bytes:
-    """Return the same subset in the compressed form of web pages (WOFF 1)."""
-    plain, whole = _tables(characters)
+    """Return a font with the glyphs of `characters` only, compressed as web pages have it (WOFF 1), without hinting.
+
+    It is always smaller than the plain file of which it has the checksums.
+    """
+    plain = _subset_tables(font(), characters)
     sums = {tag: _checksum(data) for tag, data in plain.items()}
+    head, file = bytearray(plain["head"]), _directory(plain, sums) + b"".join(map(_padded, plain.values()))
+    struct.pack_into(">L", head, 8, (0xB1B0AFBA - _checksum(file)) & 0xFFFFFFFF)
+    whole = plain | {"head": bytes(head)}
     size = 12 + sum(16 + len(_padded(data)) for data in plain.values())
     at, entries, body = 44 + 20 * len(plain), b"", b""
     for tag, data in whole.items():

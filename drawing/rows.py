@@ -7,7 +7,6 @@ side by side. So the order is always clear: rows from the top, columns from the 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
 from math import inf
 from operator import itemgetter
 from typing import NamedTuple, TypeAlias, TypeVar
@@ -97,16 +96,112 @@ class _Part(NamedTuple):
     row: Row | None = None
 
 
-@dataclass(slots=True)
-class Cutter:
-    """Cuts one sequence of views into rows; keeps what it has found out about the columns."""
+def _best(items: list[_T], most: int) -> list[_T]:
+    """Those that no other beats in both width and height; if too many, those that waste the least."""
+    if len(items) == 1:
+        return items
+    kept: list[_T] = []
+    lowest = inf
+    for item in sorted(items, key=_by_size):
+        if item.height < lowest - SLACK:
+            kept.append(item)
+            lowest = item.height
+    return kept if len(kept) <= most else sorted(kept, key=lambda item: item.width * item.height)[:most]
 
-    views: Sequence[Size]
-    gap: float
-    nested: bool  # may a layer hold several views?
-    waste: float  # mm2 of a row that may stay empty
-    everywhere: bool  # may a page end after any view?
-    found: dict[int, list[Column]] = field(default_factory=dict)
+
+def _worthwhile(rows: list[Row]) -> list[Row]:
+    """Those that no other beats in both height and cost."""
+    kept: list[Row] = []
+    for row in sorted(rows, key=lambda row: row[:2]):
+        if not kept or row.cost < kept[-1].cost - SLACK:
+            kept.append(row)
+    return kept
+
+
+class Search:
+    """The search for rows and pages of a sequence of views; what it has found out about columns it keeps.
+
+    `ended[i]` is the best way to end a page before view i, `opened[i]` a row only.
+    """
+
+    def __init__(
+        self, views: Sequence[Size], first: Room, later: Room, gap: float, limit: int | None, nested: bool
+    ) -> None:
+        self.views, self.rooms, self.gap, self.limit = views, (first, later), gap, limit
+        self.nested = nested  # may a layer hold several views?
+        areas = [(w + gap) * (h + gap) for w, h in views]
+        self.left = [sum(areas[i:]) for i in range(len(views) + 1)]
+        # mm2 of a row of a single page that may stay empty
+        self.waste = (first.width + gap) * (first.height + gap) - self.left[0] if limit == 1 else inf
+        self.found: dict[int, list[Column]] = {}
+        self.ended: list[_Part | None] = [_Part(0, 0.0, 0.0)] + [None] * len(views)
+        self.opened: list[list[_Part]] = [[] for _ in range(len(views) + 1)]
+
+    def cut(self) -> list[list[Row]] | None:
+        """Cut the sequence into rows and pages: as few pages as possible, then the most even ones; None if none fit."""
+        for i in range(len(self.views)):
+            start = self.ended[i]
+            if start is not None and (self.limit is None or start.pages < self.limit):
+                room = self.rooms[start.pages > 0]
+                for head in room.heads:
+                    self._add(start, -self.gap, self.rows(i, room, head), room)
+                if room.over:
+                    self._add(start, room.over, self.rows(i, room, Edge()), room)
+            parts = self._followed(i)
+            if parts:
+                room = self.rooms[parts[0].pages > 0]
+                rows = self.rows(i, room, Edge(), self._spent(i, parts, room))
+                for part in parts:
+                    self._add(part, part.used, rows, room)
+        last = end = self.ended[len(self.views)]
+        pages: list[list[Row]] = []
+        while end is not None and end.before is not None:
+            if end.row is None:
+                pages.append([])
+            else:
+                pages[-1].append(end.row)
+            end = end.before
+        return None if last is None else [rows[::-1] for rows in pages[::-1]]
+
+    def _followed(self, i: int) -> list[_Part]:
+        """Of the pages that end with a row before view `i` those that no other beats in both height and cost."""
+        kept: list[_Part] = []
+        for part in sorted(self.opened[i], key=lambda part: part[:3]):
+            if not kept or (part.pages == kept[0].pages and part.cost < kept[-1].cost - SLACK):
+                kept.append(part)
+        if len(kept) > KEPT_PAGES:
+            kept = [kept[k * (len(kept) - 1) // (KEPT_PAGES - 1)] for k in range(KEPT_PAGES)]
+        return kept
+
+    def _spent(self, i: int, parts: list[_Part], room: Room) -> float:
+        """Return the area that all these parts of a single page leave empty above view `i`."""
+        if self.limit != 1:
+            return 0.0
+        highest = min(part.used for part in parts)
+        return (highest + self.gap) * (room.width + self.gap) - (self.left[0] - self.left[i]) - SLACK
+
+    def _add(self, part: _Part, used: float, rows: tuple[list[Row], list[Row]], room: Room) -> None:
+        lowest = room.height + SLACK - self.gap - used
+        for row in rows[0]:
+            if row.height > lowest:
+                continue
+            low = used + self.gap + row.height
+            if self.limit == 1 and (room.height - low) * (room.width + self.gap) < self.left[row.end] - SLACK:
+                continue
+            grown = _Part(part.pages, low, part.cost + row.cost, part, row)
+            self.opened[row.end].append(grown)
+            if room.under and (self.limit != 1 or row.end == len(self.views)):
+                self._end(grown, row.end, low + self.gap + room.under, room)
+        for row in rows[1]:
+            if row.height <= lowest:
+                low = used + self.gap + row.height
+                self._end(_Part(part.pages, low, part.cost + row.cost, part, row), row.end, low, room)
+
+    def _end(self, part: _Part, i: int, used: float, room: Room) -> None:
+        empty = (room.height - used) / room.height
+        pages, cost, best = part.pages + 1, part.cost + empty * empty / 2, self.ended[i]
+        if used <= room.height + SLACK and (best is None or (pages, cost) < (best.pages, best.cost)):
+            self.ended[i] = _Part(pages, 0.0, cost, part)
 
     def columns(self, i: int, room: Room) -> list[Column]:
         """Columns that begin with view `i`, the narrow ones first."""
@@ -166,7 +261,7 @@ class Cutter:
             kept = _best(partial[k], KEPT_ROWS)
             if k > i:
                 opened += _worthwhile([self._row(p, p.height, k, room, head, Edge()) for p in kept])
-                if self.everywhere or k == count:
+                if self.limit != 1 or k == count:
                     closed += self._closed(partial[k], k, room, head)
             over, thick = head.box if k == i and head.box[1] else (0.0, -gap)
             for before in kept if k < count else ():
@@ -208,106 +303,3 @@ class Cutter:
     def _row(self, p: _Partial, height: float, end: int, room: Room, head: Edge, tail: Edge) -> Row:
         empty = 1 - p.area / ((room.width + self.gap) * (height + self.gap))
         return Row(height, p.cost + empty * empty * height / room.height, end, head, tail, p)
-
-
-def _best(items: list[_T], most: int) -> list[_T]:
-    """Those that no other beats in both width and height; if too many, those that waste the least."""
-    if len(items) == 1:
-        return items
-    kept: list[_T] = []
-    lowest = inf
-    for item in sorted(items, key=_by_size):
-        if item.height < lowest - SLACK:
-            kept.append(item)
-            lowest = item.height
-    return kept if len(kept) <= most else sorted(kept, key=lambda item: item.width * item.height)[:most]
-
-
-def _worthwhile(rows: list[Row]) -> list[Row]:
-    """Those that no other beats in both height and cost."""
-    kept: list[Row] = []
-    for row in sorted(rows, key=lambda row: row[:2]):
-        if not kept or row.cost < kept[-1].cost - SLACK:
-            kept.append(row)
-    return kept
-
-
-class Search:
-    """The search for the pages; `ended[i]` is the best way to end a page before view i, `opened[i]` a row only."""
-
-    def __init__(
-        self, views: Sequence[Size], first: Room, later: Room, gap: float, limit: int | None, nested: bool
-    ) -> None:
-        self.count, self.rooms, self.gap, self.limit = len(views), (first, later), gap, limit
-        least = [(w + gap) * (h + gap) for w, h in views]
-        self.left = [sum(least[i:]) for i in range(self.count + 1)]
-        waste = (first.width + gap) * (first.height + gap) - self.left[0] if limit == 1 else inf
-        self.cutter = Cutter(views, gap, nested, waste, limit != 1)
-        self.ended: list[_Part | None] = [_Part(0, 0.0, 0.0)] + [None] * self.count
-        self.opened: list[list[_Part]] = [[] for _ in range(self.count + 1)]
-
-    def cut(self) -> list[list[Row]] | None:
-        """Cut the sequence into rows and pages: as few pages as possible, then the most even ones; None if none fit."""
-        for i in range(self.count):
-            start = self.ended[i]
-            if start is not None and (self.limit is None or start.pages < self.limit):
-                room = self.rooms[start.pages > 0]
-                for head in room.heads:
-                    self._add(start, -self.gap, self.cutter.rows(i, room, head), room)
-                if room.over:
-                    self._add(start, room.over, self.cutter.rows(i, room, Edge()), room)
-            parts = self._followed(i)
-            if parts:
-                room = self.rooms[parts[0].pages > 0]
-                rows = self.cutter.rows(i, room, Edge(), self._spent(i, parts, room))
-                for part in parts:
-                    self._add(part, part.used, rows, room)
-        last = end = self.ended[self.count]
-        pages: list[list[Row]] = []
-        while end is not None and end.before is not None:
-            if end.row is None:
-                pages.append([])
-            else:
-                pages[-1].append(end.row)
-            end = end.before
-        return None if last is None else [rows[::-1] for rows in pages[::-1]]
-
-    def _followed(self, i: int) -> list[_Part]:
-        """Of the pages that end with a row before view `i` those that no other beats in both height and cost."""
-        kept: list[_Part] = []
-        for part in sorted(self.opened[i], key=lambda part: part[:3]):
-            if not kept or (part.pages == kept[0].pages and part.cost < kept[-1].cost - SLACK):
-                kept.append(part)
-        if len(kept) > KEPT_PAGES:
-            kept = [kept[k * (len(kept) - 1) // (KEPT_PAGES - 1)] for k in range(KEPT_PAGES)]
-        return kept
-
-    def _spent(self, i: int, parts: list[_Part], room: Room) -> float:
-        """Return the area that all these parts of a single page leave empty above view `i`."""
-        if self.limit != 1:
-            return 0.0
-        highest = min(part.used for part in parts)
-        return (highest + self.gap) * (room.width + self.gap) - (self.left[0] - self.left[i]) - SLACK
-
-    def _add(self, part: _Part, used: float, rows: tuple[list[Row], list[Row]], room: Room) -> None:
-        lowest = room.height + SLACK - self.gap - used
-        for row in rows[0]:
-            if row.height > lowest:
-                continue
-            low = used + self.gap + row.height
-            if self.limit == 1 and (room.height - low) * (room.width + self.gap) < self.left[row.end] - SLACK:
-                continue
-            grown = _Part(part.pages, low, part.cost + row.cost, part, row)
-            self.opened[row.end].append(grown)
-            if room.under and (self.cutter.everywhere or row.end == self.count):
-                self._end(grown, row.end, low + self.gap + room.under, room)
-        for row in rows[1]:
-            if row.height <= lowest:
-                low = used + self.gap + row.height
-                self._end(_Part(part.pages, low, part.cost + row.cost, part, row), row.end, low, room)
-
-    def _end(self, part: _Part, i: int, used: float, room: Room) -> None:
-        empty = (room.height - used) / room.height
-        pages, cost, best = part.pages + 1, part.cost + empty * empty / 2, self.ended[i]
-        if used <= room.height + SLACK and (best is None or (pages, cost) < (best.pages, best.cost)):
-            self.ended[i] = _Part(pages, 0.0, cost, part)

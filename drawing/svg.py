@@ -11,7 +11,7 @@ from functools import lru_cache
 from math import cos, degrees, isfinite, pi, sin
 from typing import BinaryIO, assert_never
 
-from .font import FAMILY, subset, web_subset
+from .font import FAMILY, web_subset
 from .page import Page, parts_of
 from .pens import Pens, arrow_parts, head_outline, length_of
 from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
@@ -24,10 +24,7 @@ _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"
 
 
 def write_svg(page: Page, stream: BinaryIO) -> None:
-    """Write one page as SVG in UTF-8; the same page gives the same bytes.
-
-    Raises ValueError: a coordinate is not a finite number.
-    """
+    """Write one page as SVG in UTF-8, always the same bytes. Raises ValueError: a coordinate is not a finite number."""
     stream.write(svg_text(page).encode("utf-8", "replace"))
 
 
@@ -59,9 +56,7 @@ def _style(characters: str) -> str:
     """Return the style sheet with the glyphs of `characters`, so that every reader sees the same letters."""
     face = ""
     if characters:
-        plain, packed = subset(characters), web_subset(characters)
-        data, kind = (packed, "woff") if len(packed) < len(plain) else (plain, "ttf")
-        source = f"data:font/{kind};base64,{b64encode(data).decode()}"
+        source = f"data:font/woff;base64,{b64encode(web_subset(characters)).decode()}"
         face = f"@font-face{{font-family:'{FAMILY}';src:url({source})}}\n"
     return f"<style>\n{face}text{{font-kerning:none;font-variant-ligatures:none;white-space:pre}}\n</style>\n"
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import pi
-from typing import assert_never
+from typing import NamedTuple, assert_never
 
 from .areas import coarser
 from .formats import Style
@@ -56,18 +56,25 @@ class View:
         return Group(tuple(shifted(shape, by) for shape in self.shapes), "view", self.name)
 
 
+class _Letter(NamedTuple):
+    """A letter that is asked for, the stage to which it belongs, and what the notes say where it is left out."""
+
+    request: Request
+    markup: str
+    height: float
+    stage: str
+    spare: str
+
+
 @dataclass(slots=True)
 class Canvas:
     """Where a view is drawn; letters are asked for here and placed when all lines are known."""
 
     style: Style
     shapes: list[Shape] = field(default_factory=list)
-    _requests: list[Request] = field(default_factory=list)
-    _markup: list[tuple[str, float]] = field(default_factory=list)
+    _letters: dict[str, _Letter] = field(default_factory=dict)  # by the names under which they are placed
     _boxes: list[Box] = field(default_factory=list)
-    _spare: dict[str, str] = field(default_factory=dict)
     _begun: list[tuple[int, str]] = field(default_factory=list)
-    _lettered: list[str] = field(default_factory=list)
     bounds: Box | None = None  # letters stay inside of it
     coarse: float = 0.0  # mm by which letters may take a curve of many points for a shorter broken line
     parts: Mapping[str, str] = field(default_factory=dict)  # stages of a figure, with those in which they are drawn
@@ -110,12 +117,9 @@ class Canvas:
         height = height or self.style.label
         layout = lay_out(markup, height)
         size = layout.width, layout.top - layout.bottom
-        name = str(len(self._requests))
-        self._requests.append(Request(name, *size, anchor, clear, prefer, priority, strict, afield=not spare))
-        self._markup.append((markup, height))
-        self._lettered.append(self._begun[-1][1] if self._begun else "")
-        if spare:
-            self._spare[name] = spare
+        name, stage = str(len(self._letters)), self._begun[-1][1] if self._begun else ""
+        request = Request(name, *size, anchor, clear, prefer, priority, strict, afield=not spare)
+        self._letters[name] = _Letter(request, markup, height, stage, spare)
 
     def write(self, markup: str, places: Sequence[complex], height: float, gap: float = 0.8) -> bool:
         """Write a letter about the first of some places that is clear of all that is drawn; tell whether there is one.
@@ -132,52 +136,40 @@ class Canvas:
 
     def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
         """Place the letters, write the heading lines and smaller notes above, and close the view."""
-        left, placed = self._placed()
+        kept, placed = self._placed()
         starts = [0, *(start for start, _ in self._begun), len(self.shapes)]
         names = ["", *(name for _, name in self._begun)]
         parts = [name for name, (a, b) in zip(names, pairwise(starts), strict=True) for _ in range(a, b)]
-        parts += (self._lettered[int(request.name)] for request in left)
-        kept = {request.name for request in left}
-        spare = [text for name, text in self._spare.items() if name not in kept]
+        parts += (letter.stage for letter in kept.values())
+        spare = [letter.spare for name, letter in self._letters.items() if name not in kept]
         notes = (*notes, *("; ".join(spare[i : i + EACH]) for i in range(0, len(spare), EACH)))
-        for request in left:
-            markup, height = self._markup[int(request.name)]
-            corner = placed.corners[request.name]
-            at = corner - 1j * lay_out(markup, height).bottom
-            self.shapes.append(Text(at, markup, height, role="label"))
+        for label, letter in kept.items():
+            at = placed.corners[label] - 1j * lay_out(letter.markup, letter.height).bottom
+            self.shapes.append(Text(at, letter.markup, letter.height, role="label"))
         for label, ends in placed.leaders.items():
-            self.shapes.append(Line(*ends, Pen.THIN, role="leader", name=self._markup[int(label)][0]))
-            parts.append(self._lettered[int(label)])
+            self.shapes.append(Line(*ends, Pen.THIN, role="leader", name=kept[label].markup))
+            parts.append(kept[label].stage)
         x0, y0, x1, y1 = write_above(self.shapes, heading, notes, self.style)
         box = x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
         every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._begun else ()
         return View(name, tuple(self.shapes), box, heading, tuple(notes), parts=every, stages=self.stages)
 
-    def _placed(self) -> tuple[list[Request], Labels]:
+    def _placed(self) -> tuple[dict[str, _Letter], Labels]:
         """Place the letters; leave out spare ones that cover something, or that stand in the way of others."""
         shapes = [coarser(shape, self.coarse) for shape in self.shapes] if self.coarse else self.shapes
-        obstacles, left = _obstacles(shapes, self._boxes, self.style), self._requests
-        placed = place(left, obstacles, bounds=self.bounds)
-        while placed.failed or placed.crossed:
-            out = {name for name in placed.failed if name in self._spare}
+        obstacles, kept = _obstacles(shapes, self._boxes, self.style), self._letters
+        while True:
+            placed = place([letter.request for letter in kept.values()], obstacles, bounds=self.bounds)
+            spare = [name for name, letter in kept.items() if letter.spare]
+            out = {name for name in placed.failed if name in spare}
             # or numbers of arms that lines cross, which say the same under the heading
-            out = out or {name for name in placed.crossed if self._spare.get(name) == self._markup[int(name)][0]}
-            if not out and placed.failed:
-                out = self._in_the_way(placed, {request.name for request in left})
+            out = out or {name for name in placed.crossed if kept[name].spare == kept[name].markup}
+            if not out and spare:  # for each letter that found no place the nearest one
+                corners = placed.corners
+                out = {min(spare, key=lambda n: abs(corners[n] - corners[failed])) for failed in placed.failed}
             if not out:
-                break
-            left = [request for request in left if request.name not in out]
-            placed = place(left, obstacles, bounds=self.bounds)
-        return left, placed
-
-    def _in_the_way(self, placed: Labels, left: set[str]) -> set[str]:
-        """Return for each letter that found no place the nearest spare one."""
-        spare = [name for name in self._spare if name in left]
-        near = {
-            min(spare, key=lambda name: abs(placed.corners[name] - placed.corners[failed]), default="")
-            for failed in placed.failed
-        }
-        return {name for name in near if name}
+                return kept, placed
+            kept = {name: letter for name, letter in kept.items() if name not in out}
 
 
 def write_above(shapes: list[Shape], heading: tuple[str, ...], notes: tuple[str, ...], style: Style) -> Box:
