@@ -87,16 +87,9 @@ WIDELY = 8  # rows of the key that leave room for more
 
 
 def accuracy_page(contest: Contest, words: Words, title: str, note: str, hand: str, places: str) -> Figure:
-    """Draw a contest.
+    """Draw a contest, with a note of how and on what it was measured, and with the name of the hand that draws.
 
-    Parameters
-    ----------
-    note : str
-        How and on what it was measured.
-    hand : str
-        Name of the hand that draws.
-    places : {"rad", "m", "s"}
-        SI unit of the places of entries: of angles the steps are angles, too.
+    `places` is the SI unit of the places of entries, rad, m or s: of angles the steps are angles, too.
     """
     with page(title, note) as figure:
         placed = list(zip(contest.kinds, FIELDS, strict=False))
@@ -143,9 +136,9 @@ def _align(fields: Sequence[Axes]) -> None:
 
     lows, highs = zip(*(axes.get_ylim() for axes in fields), strict=True)
     lefts = [axes.get_xlim()[0] for axes in fields]
+    low, top = 10.0 ** math.floor(math.log10(min(lows))), 10.0 ** math.ceil(math.log10(max(highs)))
     for axes in fields:
-        axes.set_xlim(10.0 ** math.floor(math.log10(min(lefts))), 10.0)
-        axes.set_ylim(10.0 ** math.floor(math.log10(min(lows))), 10.0 ** math.ceil(math.log10(max(highs))))
+        axes.set(xlim=(10.0 ** math.floor(math.log10(min(lefts))), 10.0), ylim=(low, top))
         axes.xaxis.set_major_locator(LogLocator(100.0, numticks=20))
         axes.xaxis.set_minor_locator(NullLocator())
         axes.yaxis.set_major_locator(LogLocator(10.0, numticks=20))

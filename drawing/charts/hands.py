@@ -73,10 +73,7 @@ def curves_of_hands(
 ) -> tuple[list[Label], list[tuple[float, float]]]:
     """Draw what every hand keeps of a quantity, per cent, one place of each in a ring.
 
-    Returns
-    -------
-    labels, points
-        For `put`; the labels stand at the ends of the curves.
+    Returns labels at the ends of the curves, and points, for `put`.
     """
     labels, points = [], []
     for hand, (line, marker) in HANDS.items():

@@ -153,12 +153,7 @@ class Label:
 def put(axes: Axes, labels: Iterable[Label], points: Sequence[tuple[float, float]], taken: Iterable[Box] = ()) -> None:
     """Put labels beside their points, those that must stand first; what finds no room is left out.
 
-    Parameters
-    ----------
-    points : sequence of (x, y)
-        All points that stay free, in the data's coordinates.
-    taken : iterable of box
-        Other boxes that do, x0, y0, x1, y1 in pixels.
+    All `points`, in the data's coordinates, stay free, and so do the boxes `taken`, x0, y0, x1, y1 in pixels.
     """
     renderer: Any = axes.figure.canvas.get_renderer()  # type: ignore[attr-defined]
     frame = axes.get_window_extent(renderer)
@@ -169,14 +164,11 @@ def put(axes: Axes, labels: Iterable[Label], points: Sequence[tuple[float, float
         x, y = axes.transData.transform((label.x, label.y))
         text = axes.text(0.0, 0.0, label.text, fontsize=label.size, transform=None, ha="center", va="center", zorder=5)
         extent = text.get_window_extent(renderer)
-        found = _free(x, y, extent.width, extent.height, label.prefer, busy, (frame.x0, frame.y0, frame.x1, frame.y1))
-        if found is None:
-            if not label.must:
-                text.remove()
-                continue
-            found = (x, y + 2.0 * POINT, 0.0)
-        at_x, at_y, reach = found
         text.remove()
+        found = _free(x, y, extent.width, extent.height, label.prefer, busy, (frame.x0, frame.y0, frame.x1, frame.y1))
+        if found is None and not label.must:
+            continue
+        at_x, at_y, reach = found or (x, y + 2.0 * POINT, 0.0)
         _write(axes, label, (x, y), (at_x, at_y), reach)
         half_w, half_h = extent.width / 2.0, extent.height / 2.0
         busy.append((at_x - half_w, at_y - half_h, at_x + half_w, at_y + half_h))

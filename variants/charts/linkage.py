@@ -82,13 +82,7 @@ def _unreachable(case: Case) -> PositionError:
 
 
 def accuracy_chart(scene: Scene, cycle: Cycle, names: Sequence[str], effort: Effort = FULL) -> AccuracyChart:
-    """Let all methods compete.
-
-    Raises
-    ------
-    InputError
-        With the key `chart-no-rivals`: nothing that is wanted can be compared.
-    """
+    """Let all methods compete; `chart-no-rivals` where nothing that is wanted can be compared."""
     found = contest(cycle, len(cycle.angles), time.process_time, names, effort)
     if not found.kinds:
         raise InputError("chart-no-rivals")
@@ -294,14 +288,8 @@ def usual(cycle: Cycle) -> tuple[str, ...]:
 def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
     """Return scale factors, by plan, at which plans of all positions find room where lines do not meet flatly.
 
-    They are the coarsest that the task's own choice gives at some positions of the cycle.
-
-    Raises
-    ------
-    InputError
-        What is chosen gives none at any of them.
-    PositionError
-        None of them can be assembled.
+    They are the coarsest that the task's own choice gives at some positions of the cycle. Refused are a choice that
+    gives none at any of them, and a mechanism that none of them can be assembled in.
     """
     case, mus, reason = scene.case, dict[str, float](), None
     values = case.task.values(case.variant, case.settings)

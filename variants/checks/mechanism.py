@@ -74,15 +74,10 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> model.Link
         return None if None in letters or None in lettered.values() else names.on_axis(lettered)
 
     place = array_of(names.place, 2)
-    fields = {
-        "number": Field(link_number),
-        "points": Field(points),
-        "centre": Field(name, required=False),
-        "mass": Field(names.value(_KG), required=False),
-        "inertia": Field(names.value(_KG_M2), required=False),
-        "per_length": Field(names.above_zero(_KG_M), required=False),
-        "inertia_factor": Field(names.above_zero(ONE), required=False),
-    }
+    fields = {"number": Field(link_number), "points": Field(points), "centre": Field(name, required=False)}
+    fields |= {key: Field(names.value(of), required=False) for key, of in (("mass", _KG), ("inertia", _KG_M2))}
+    factors = ("per_length", _KG_M), ("inertia_factor", ONE)
+    fields |= {key: Field(names.above_zero(of), required=False) for key, of in factors}
     read = record(checker, path, raw, fields)
     if not {"number", "points"} <= read.keys():
         return None

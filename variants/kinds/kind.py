@@ -125,10 +125,7 @@ class Kind(ABC, Generic[Subject, Answer]):
 
     @abstractmethod
     def first_scales(self, solved: Answer, choosers: Choosers, plans: Plans) -> tuple[Format, Scales]:
-        """Return the format and the scale factors by plan of the sheet, as they follow from the extents of its plans.
-
-        Nothing is drawn for that; where the sheet cannot keep them, it says so.
-        """
+        """Return format and scale factors by plan as they follow from the extents of plans, of which none is drawn."""
 
     def conditions(self, case: Case) -> dict[str, Condition]:
         """Return the condition of every quantity; what has none is refused."""
@@ -205,10 +202,7 @@ class Kind(ABC, Generic[Subject, Answer]):
         return True
 
     def as_drawn(self, solved: Answer) -> Answer:
-        """Return what has been solved as a student draws it: what hangs on a drawing hangs on it, and not on formulas.
-
-        It is marked, and drawn by hands. Its values may differ from those of `solved`, which are right, too.
-        """
+        """Return what has been solved as a student draws it, with what hangs on the drawing: it is marked."""
         return solved
 
     def stands_for(self, solved: Answer) -> dict[str, str]:

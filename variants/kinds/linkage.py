@@ -311,13 +311,7 @@ def _degrees(angle: float) -> str:
 
 
 def placed(case: Case) -> SolvedLinkage:
-    """Return what is drawn, in its position: a structure is drawn with its scheme.
-
-    Raises
-    ------
-    PositionError
-        There is none.
-    """
+    """Return what is drawn, in its position: a structure is drawn with its scheme; refuse what has none."""
     solved = SolvedLinkage.of(case.solved)
     if POSITION in solved.program.plans:
         return solved

@@ -53,13 +53,7 @@ class Sweep(Swept):
 
     @classmethod
     def of(cls, case: Case, words: Words, asked: SweepRequest) -> Sweep:
-        """Solve a linkage over its whole cycle.
-
-        Raises
-        ------
-        InputError
-            An unknown point, a place of the driver that is none, an end where a crank goes round.
-        """
+        """Solve a linkage over its whole cycle; refuse unknown points, no places, an end where a crank goes round."""
         mechanism = case.task.mechanism
         chosen = names_of("points", asked.points, (str, int))
         all_known("motion-unknown", chosen, (*letters(mechanism), *(str(link.number) for link in mechanism.links)))
@@ -165,10 +159,7 @@ class Sweep(Swept):
     def drawn(self) -> Sheet:
         """Return the sheet with the plan of positions and the diagrams by plans and by chords.
 
-        Raises
-        ------
-        PositionError
-            The position that the task itself names, which the plan of positions shows, has no plan.
+        Refused is a position of the task's own, which the plan of positions shows, that has no plan.
         """
         case, words = self.case, self.words
         error = case.solved.error()
