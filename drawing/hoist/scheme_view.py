@@ -211,14 +211,14 @@ def flow_view(scene: HoistScene) -> View:
     beyond = order.index("stress")  # a level more, for the two boxes before it
     levels = {name: -(k + (k >= beyond)) * STEP * h for k, name in enumerate(order)}
     for name, text in texts.items():
-        _block(canvas, name, text, (levels[name], widest), h)
+        _block(canvas, name, text, (1j * levels[name], widest), h)
     _ways(canvas, scene, levels, widest, found["F_12_max"] > found["P_12_max"], ok)
     return canvas.finish("flow", (words["heading.hoist_flow"],), (words["hoist.taken"],))
 
 
-def _block(canvas: Canvas, name: str, text: str, place: tuple[float, float], h: float) -> None:
-    """Draw a block: rounded, slanted, a diamond or a rectangle, with its text."""
-    level, wide = place
+def _block(canvas: Canvas, name: str, text: str, place: tuple[complex, float], h: float) -> None:
+    """Draw a block about its middle, as wide: rounded, slanted, a diamond or a rectangle, with its text."""
+    at, wide = place
     half, up, lean = 0.5 * wide, 0.5 * TALL * h, TALL * h
     kind = KINDS.get(name, "")
     corners = {
@@ -227,9 +227,9 @@ def _block(canvas: Canvas, name: str, text: str, place: tuple[float, float], h: 
         "round": ((-half + up, -up), (half - up, -up), (half, 0.0), (half - up, up), (-half + up, up), (-half, 0.0)),
         "diamond": ((-half - lean, 0.0), (0.0, -POINTED * up), (half + lean, 0.0), (0.0, POINTED * up)),
     }[kind]
-    outline = tuple(complex(x, level + y) for x, y in corners)
+    outline = tuple(at + complex(*corner) for corner in corners)
     canvas.add(Group((Polyline(outline, Pen.MAIN, closed=True, fill="white"),), "block", name))
-    canvas.add(Text(complex(0.0, level - 0.5 * h), text, h, "middle", role="block"))
+    canvas.add(Text(at - 0.5j * h, text, h, "middle", role="block"))
 
 
 def _ways(canvas: Canvas, scene: HoistScene, levels: dict[str, float], wide: float, resting: bool, ok: bool) -> None:
@@ -263,9 +263,7 @@ def _choice(canvas: Canvas, scene: HoistScene, levels: dict[str, float], corner:
         text = f"{words.symbol('F_max')} = {words.symbol(name)}"
         half = 0.5 * lay_out(text, h).width + 0.7 * h
         at = complex(side * (half + 0.8 * h), middle)
-        outline = tuple(at + complex(x * half, y * up) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
-        canvas.add(Group((Polyline(outline, Pen.MAIN, closed=True, fill="white"),), "block", name))
-        canvas.add(Text(at - 0.5j * h, text, h, "middle", role="block"))
+        _block(canvas, name, text, (at, 2.0 * half), h)
         first = complex(side * corner, level), complex(side * corner, middle), at + side * half
         _way(canvas, first, taken, f"larger-{name}")
         joint = complex(at.real, low + up + 1.6 * h)
