@@ -74,7 +74,7 @@ def _circles(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
 
 def _involute(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
     """Draw the tangents with the points of the involute, and the curve through these."""
-    i = wheel.number
+    i, height = wheel.number, scene.style.text
     for k in (*_divisions(scene, wheel), TIP):
         foot, end = scene.mm(f"T{i}_{k}"), scene.mm(f"E{i}_{k}")
         canvas.part("tangents")
@@ -83,22 +83,16 @@ def _involute(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
             canvas.part(stage)
             canvas.add(_division(scene, at, f"{letter}{i}_{k}"))
     canvas.part("parts")
-    for k in _divisions(scene, wheel):
-        _number(canvas, scene, wheel, k)
+    for k in _divisions(scene, wheel):  # numbered on PN and the base circle, or here alone where both are one
+        foot, part = scene.mm(f"T{i}_{k}"), scene.mm(f"D{i}_{k}")
+        inward = unit(wheel.centre - foot)
+        canvas.add(_division(scene, part, f"D{i}_{k}"))
+        canvas.label(str(k), foot, prefer=inward, clear=1.0, height=height)
+        if k and abs(part - foot) > height:
+            canvas.label(str(k), part, prefer=-inward, clear=1.0, height=height)
     canvas.part("involutes")
     curve = wheel.flank(0.0, wheel.sizes[f"rho_a{i}"])
     canvas.add(Group((Polyline(curve, Pen.MAIN),), "curve", f"involute_{i}"))
-
-
-def _number(canvas: Canvas, scene: GearScene, wheel: Wheel, k: int) -> None:
-    """Number a division of PN, and the same on the base circle; where both are one, only this."""
-    i, height = wheel.number, scene.style.text
-    foot, part = scene.mm(f"T{i}_{k}"), scene.mm(f"D{i}_{k}")
-    inward = unit(wheel.centre - foot)
-    canvas.add(_division(scene, part, f"D{i}_{k}"))
-    canvas.label(str(k), foot, prefer=inward, clear=1.0, height=height)
-    if k and abs(part - foot) > height:
-        canvas.label(str(k), part, prefer=-inward, clear=1.0, height=height)
 
 
 def _division(scene: GearScene, at: complex, name: str) -> Group:

@@ -234,7 +234,8 @@ def cut_of(solved: SolvedGear) -> float:
 
 Way = Callable[[list[View], Format, Norm], list[Placement] | None]
 BESIDE = ("rolled", "part")  # ladders of what stands beside the meshing
-SMALLER = sorted(product(range(3), repeat=len(BESIDE)), key=sum)  # rungs further at which a page is tried
+# rungs further at which a page is tried
+SMALLER = [dict(zip(BESIDE, steps, strict=True)) for steps in sorted(product(range(3), repeat=len(BESIDE)), key=sum)]
 LEAST = 0.25  # part of the area that what stands beside the meshing keeps at the last of these
 FULL = 0.75  # part of a format that views may cover
 GearFigure = Figure[GearScene]
@@ -313,7 +314,10 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
     def on_pages(self, sheet: Format) -> Found:
         """Take one page, with what is beside the meshing smaller where it must be, or several."""
         first = self.fitted(sheet, self._least(sheet))
-        smaller = [self._stepped(first, steps) for steps in SMALLER]
+        last = {ladder: len(self.ladders[ladder]) - 1 for ladder in BESIDE}
+        smaller = [
+            first | {ladder: min(first[ladder] + steps[ladder], last[ladder]) for ladder in BESIDE} for steps in SMALLER
+        ]
         area = 0.0  # of the views at the last of these
         for view, figure in self.sized(sheet, first):
             area += view.size[0] * view.size[1] * (LEAST if {*figure.ladders} & {*BESIDE} else 1.0)
@@ -336,13 +340,6 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
         lines = {"mu_l": (sizes["a_w"], high), "near": (2.0 * sizes["p"], wide), "rolled": (sizes["l_N1N2"], wide)}
         for name, (length, most) in lines.items():
             rungs[name] = next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
-        return rungs
-
-    def _stepped(self, rungs: Rungs, steps: Sequence[int]) -> Rungs:
-        """Return rungs so many steps further down the ladders of what stands beside the meshing."""
-        for ladder, count in zip(BESIDE, steps, strict=True):
-            for _ in range(count):
-                rungs = self.lower(rungs, ladder)
         return rungs
 
     def _placed(self, sheet: Format, rungs: Rungs, way: Way) -> Found | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 
-from ...plans.board import Step
 from ...plans.gears.construction import MESHING, THETA
 from ...plans.gears.gear import SHIFTS, VALUES, WHEELS, unit_of
 from ...plans.gears.geometry import POINTS
@@ -174,18 +173,11 @@ CENTRES: dict[str, Callable[[Symbol], str]] = {
 
 def begun(scene: GearScene, steps: int) -> dict[str, Begun]:
     """Return what handouts show of the tables: the rows of what is given."""
-    found = {name: Begun(rows=frozenset()) for name in ("points", "checks")}
-    return found | {"data": Begun(rows=frozenset(_given(scene)), columns=2)}
-
-
-def _given(scene: GearScene) -> Iterator[str]:
-    """Go through the first cells of the rows of what is given, and of the heads between them."""
     shifts = [name for name in SHIFTS if name in scene.givens]
-    yield ""
-    for name, kind in (*PAIR, *OF_WHEELS):
-        known = name in ("m", "alpha", "h_a", "h_l", "c", "z") or name in shifts
-        if known or (name == "x" and shifts[:2] == ["x_1", "x_2"]):
-            yield named(scene, name, kind)
+    known = ["m", "alpha", "h_a", "h_l", "c", "z", *shifts, *(["x"] if shifts[:2] == ["x_1", "x_2"] else [])]
+    cells = (named(scene, name, kind) for name, kind in (*PAIR, *OF_WHEELS) if name in known)
+    found = {name: Begun(rows=frozenset()) for name in ("points", "checks")}
+    return found | {"data": Begun(rows=frozenset(("", *cells)), columns=2)}
 
 
 def calculations_block(scene: GearScene, name: str, width: float) -> View:
@@ -200,21 +192,19 @@ def calculations_block(scene: GearScene, name: str, width: float) -> View:
 
 def _calculations(scene: GearScene, names: Iterable[str], symbol: str = "") -> Lines:
     """Return the calculations of quantities, under one symbol if that is named; without what is undefined."""
-    steps = scene.solved.program.by_name
-    return [_calculation(scene, steps[name], symbol or name) for name in names if math.isfinite(scene.size(name))]
-
-
-def _calculation(scene: GearScene, step: Step, symbol: str) -> tuple[str, ...]:
-    """Return one calculation: symbols, numbers, result."""
-    words, (unit, times, decimals) = scene.words, printed(step.name)
-    if not prints(step.law, len(step.operands)):
-        number = words.number(scene.size(step.name) * times, decimals or 0)
-        return (f"{words.symbol(symbol)} = {number}{words.unit(unit) if unit else ''}",)
-    result = _input(scene, step.name)
-    if result.exact:  # without zeros at its end
-        decimals = len(f"{result.value:.{SHORT}f}".rstrip("0").rpartition(".")[2])
-    inputs = [_input(scene, name) for name in step.operands]
-    return worked(words, symbol, step.law, inputs, Shown(unit, times, decimals))
+    words, lines = scene.words, Lines()
+    for step in (scene.solved.program.by_name[name] for name in names if math.isfinite(scene.size(name))):
+        unit, times, decimals = printed(step.name)
+        if not prints(step.law, len(step.operands)):
+            number = words.number(scene.size(step.name) * times, decimals or 0)
+            lines.append((f"{words.symbol(symbol or step.name)} = {number}{words.unit(unit) if unit else ''}",))
+            continue
+        result = _input(scene, step.name)
+        if result.exact:  # without zeros at its end
+            decimals = len(f"{result.value:.{SHORT}f}".rstrip("0").rpartition(".")[2])
+        inputs = [_input(scene, name) for name in step.operands]
+        lines.append(worked(words, symbol or step.name, step.law, inputs, Shown(unit, times, decimals)))
+    return lines
 
 
 def printed(name: str) -> Shown:
@@ -278,7 +268,13 @@ def conclusions(scene: GearScene, texts: Texts) -> Iterator[str]:
     yield texts["gear.conclusion.shifts"].format(alpha_w=scene.angle("alpha_w"), **lengths, **numbers)
     for rule in RULES:
         yield from _judged(scene, texts, rule)
-    yield from _wear(scene, texts)
+    values = {name: scene.size(f"{name}_{end}") for name, end in STEEPEST.items()}
+    if all(map(math.isfinite, values.values())):
+        words = scene.words
+        said = {name: f"{words.symbol(name)} = {words.number(value, 2)}" for name, value in values.items()}
+        sizes = {round(abs(value), 2) for value in values.values()}
+        worse = "both" if len(sizes) == 1 else max(values, key=lambda name: abs(values[name]))
+        yield texts[f"gear.conclusion.wear_{worse}"].format(**said)
 
 
 def _judged(scene: GearScene, texts: Texts, rule: str) -> Iterator[str]:
@@ -301,15 +297,3 @@ def _compared(scene: GearScene, check: Check) -> str:
     value, limit = (number_of(scene, check, side) for side in (check.value, check.limit))
     of = f"{words.symbol(check.of)} = " if check.of else ""
     return f"{words.symbol(check.quantity)} = {value} {sign} {of}{limit}"
-
-
-def _wear(scene: GearScene, texts: Texts) -> Iterator[str]:
-    """Tell where the wheels slide most, and which of them more."""
-    values = {name: scene.size(f"{name}_{end}") for name, end in STEEPEST.items()}
-    if not all(map(math.isfinite, values.values())):
-        return
-    words = scene.words
-    said = {name: f"{words.symbol(name)} = {words.number(value, 2)}" for name, value in values.items()}
-    sizes = {round(abs(value), 2) for value in values.values()}
-    worse = "both" if len(sizes) == 1 else max(values, key=lambda name: abs(values[name]))
-    yield texts[f"gear.conclusion.wear_{worse}"].format(**said)

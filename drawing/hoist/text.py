@@ -228,7 +228,11 @@ def conclusions(scene: HoistScene, texts: Texts) -> Iterator[str]:
     else:
         wrong = (check.name for check in scene.solved.forces.checks if not check.ok)
         yield from (texts[f"hoist.conclusion.{name}"] for name in wrong if name != STRENGTH)
-    yield _strength(scene, texts)
+    ok = scene.solved.forces.ok[STRENGTH]
+    safety = f"[σ]/{scene.words.symbol('sigma_max')} = {scene.value(scene.size('safety'))}"
+    limit = f"{'≥' if ok else '<'} K = {scene.words.short(scene.size('K'))}"
+    stress = scene.stated("sigma_max", scene.size("sigma_max") * 1e-6, "MPa")
+    yield texts[f"hoist.conclusion.{'strong' if ok else 'weak'}"].format(stress=stress, safety=f"{safety} {limit}")
     if scene.solved.forces.motion is None:  # where the rope goes slack the article says little
         exact, printed = scene.size("P_12_max"), scene.size("P_12_max_printed")
         part = scene.words.number(100.0 * abs(printed - exact) / exact, 1)
@@ -246,16 +250,6 @@ def _greatest(scene: HoistScene, texts: Texts) -> str:
     when = scene.stated("T_1" if after else "t_F12_max", unit="s")
     key = f"hoist.conclusion.greatest_{'after' if after else 'before'}"
     return texts[key].format(force=force, P_st=scene.stated("P_st"), factor=factor, when=when)
-
-
-def _strength(scene: HoistScene, texts: Texts) -> str:
-    """Tell stress and safety of the rope."""
-    words, ok = scene.words, scene.solved.forces.ok[STRENGTH]
-    safety = f"[σ]/{words.symbol('sigma_max')} = {scene.value(scene.size('safety'))}"
-    limit = f"K = {words.short(scene.size('K'))}"
-    stress = scene.stated("sigma_max", scene.size("sigma_max") * 1e-6, "MPa")
-    key = f"hoist.conclusion.{'strong' if ok else 'weak'}"
-    return texts[key].format(stress=stress, safety=f"{safety} {'≥' if ok else '<'} {limit}")
 
 
 def _bent(scene: HoistScene, texts: Texts) -> Iterator[str]:

@@ -58,11 +58,7 @@ def complete(values: Mapping[str, float]) -> dict[str, float]:
     """Return the givens with the standard rack where nothing else is given, and with both shifts.
 
     The `values` are `m z_1 z_2` and, of `x_1 x_2 x_sum a_w`, what fixes the shifts; what `STANDARD` has may be missing.
-
-    Raises
-    ------
-    InputError
-        Numbers of which no pair can be made: the wheels, the rack, the shifts, the teeth, the meshing.
+    Raises InputError of numbers of which no pair can be made: wheels, rack, shifts, teeth, meshing.
     """
     found = {**STANDARD, **values}
     for _, error in impossible(found):
@@ -107,8 +103,11 @@ def balanced(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
     The larger x_1 is, the nearer A1 is to the pole and the farther A2: theta_12 at A1 only rises, theta_21 at A2 only
     falls, between the shifts that put A1 into N1 and A2 into N2; there may be none between.
     """
-    least, most = _between(values, x_sum)
-    low, high = least, most
+    wanted = ("l_N1N2", "d_b1", "d_b2", "d_a1", "d_a2", "alpha_w")
+    sizes = geometry({**values, "x_1": 0.0, "x_2": x_sum}, wanted)
+    _apart(values, x_sum, sizes["alpha_w"])
+    ends = [math.hypot(2.0 * sizes["l_N1N2"], sizes[f"d_b{i}"]) - sizes[f"d_a{i}"] for i in WHEELS]
+    low, high = least, most = -0.5 * ends[1] / values["m"], 0.5 * ends[0] / values["m"]
     for _ in range(HALVINGS):
         middle = 0.5 * (low + high)
         if not low < middle < high:
@@ -118,15 +117,6 @@ def balanced(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
     if not least < low < high < most:
         raise InputError("gear-no-balance", x_sum=f"{x_sum:.6g}")
     return low, x_sum - low
-
-
-def _between(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
-    """Return the x_1 that puts A1 into N1, and that which puts A2 into N2."""
-    wanted = ("l_N1N2", "d_b1", "d_b2", "d_a1", "d_a2", "alpha_w")
-    found = geometry({**values, "x_1": 0.0, "x_2": x_sum}, wanted)
-    _apart(values, x_sum, found["alpha_w"])
-    most = [math.hypot(2.0 * found["l_N1N2"], found[f"d_b{i}"]) - found[f"d_a{i}"] for i in WHEELS]
-    return -0.5 * most[1] / values["m"], 0.5 * most[0] / values["m"]
 
 
 def _meshes(values: Mapping[str, float], given: str) -> None:
@@ -282,12 +272,7 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     """Solve a gear pair, whose senses and materials are chosen.
 
     The `values` are its numbers in SI by name, as `complete` takes them; the `plans` wanted, of `gear.PLANS`, come with
-    those that they need.
-
-    Raises
-    ------
-    InputError
-        Numbers of which no pair can be made.
+    those that they need. Raises InputError of numbers of which no pair can be made.
     """
     found = complete(values)
     sizes = geometry(found)

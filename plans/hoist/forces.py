@@ -104,10 +104,7 @@ class Forces:
 def forces(values: Mapping[str, Any]) -> Forces:
     """Return the forces of one hoist, whose givens are in SI; what `USUAL` has may be left out.
 
-    Raises
-    ------
-    InputError
-        Givens that no hoist can have, named.
+    Raises InputError of givens that no hoist can have, named.
     """
     givens = complete(values)
     found = model(givens)

@@ -72,23 +72,19 @@ def complete(values: Mapping[str, Any]) -> dict[str, float]:
     """Return the givens of one hoist as numbers, with what is usual where nothing else is given.
 
     The `values` have the names of `VALUES`, in SI; `I_0` and `I_2` may be infinite: a rigid beam.
-
-    Raises
-    ------
-    InputError
-        `hoist-missing`, `hoist-number`, `hoist-positive`, `hoist-not-negative`, `hoist-beta` of a single number,
-        `hoist-still` of a rope that is not wound up at all.
+    Raises InputError: `hoist-missing`, `hoist-number`, `hoist-positive`, `hoist-not-negative`, `hoist-beta` of a single
+    number, `hoist-still` of a rope that is not wound up at all.
     """
     found = {name: _number(name, values) for name in VALUES}
     for name, value in found.items():
         if name in NOT_NEGATIVE:
-            if value < 0.0:
-                raise InputError("hoist-not-negative", name=name, text=f"{value:.7g}")
-        elif not value > 0.0:
-            key = "hoist-beta" if name in PARTS else "hoist-positive"
+            key, permitted = "hoist-not-negative", value >= 0.0
+        elif name in PARTS:
+            key, permitted = "hoist-beta", 0.0 < value <= NEAREST
+        else:
+            key, permitted = "hoist-positive", value > 0.0
+        if not permitted:
             raise InputError(key, name=name, text=f"{value:.7g}")
-        elif name in PARTS and value > NEAREST:
-            raise InputError("hoist-beta", name=name, text=f"{value:.7g}")
     if found["V_0"] == 0.0 == found["a"]:
         raise InputError("hoist-still")
     return found
@@ -116,9 +112,8 @@ def in_range(found: Mapping[str, float]) -> None:
         of_rigid = math.isinf(value) and name in RIGID and math.isinf(found[RIGID[name]])
         if not math.isfinite(value) and not of_rigid:
             raise InputError("hoist-range", name=name)
-    for name in FINITE:
-        if not found[name] > 0.0:
-            raise InputError("hoist-range", name=name)
+    if vanished := [name for name in FINITE if not found[name] > 0.0]:
+        raise InputError("hoist-range", name=vanished[0])
     turns = found["k"] * found["t_1"] / TURN
     if math.isfinite(found["k"]) and turns > MOST_SWINGS:
         raise InputError("hoist-stiff", n=f"{turns:.3g}")

@@ -247,7 +247,7 @@ def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
     take = STEPPERS[method]
     first, (t_1, state) = _until_lift_off(hoists, take, h)
     last = np.ceil(2.0 * math.pi / (hoists.k_1 * h)).astype(np.int64) + 1
-    second = _steps(take, hoists.lifted(), (t_1, state), h, int(last.max()))
+    second = _trace(itertools.islice(_rows(take, hoists.lifted(), (t_1, state), h), int(last.max()) + 1))
     F_12_t1 = hoists.force(t_1, state)
     F_12_max = np.maximum(F_12_t1, _peak(hoists, take, Hoists.on_support, first, t_1))
     end = t_1 + 2.0 * math.pi / hoists.k_1
@@ -260,7 +260,8 @@ def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
 
 def _missed(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
     until = hoists.latest() + 2.0 * math.pi / hoists.k_1
-    trace = _steps(STEPPERS[method], hoists.one_sided(), _rest(h), h, int(np.ceil(until / h).max()) + 1)
+    rows = _rows(STEPPERS[method], hoists.one_sided(), _rest(h), h)
+    trace = _trace(itertools.islice(rows, int(np.ceil(until / h).max()) + 2))
     t, force = trace[0], hoists.force(*trace)
     off = (hoists.lift(*trace) >= 0.0).argmax(axis=0)
     own = np.arange(len(off))
@@ -303,11 +304,6 @@ def _rows(take: Stepper, motion: Motion, begin: Trace, h: Array) -> Iterator[Tra
     for i in itertools.count():
         state = take(motion, t + i * h, state, h)
         yield t + (i + 1) * h, state
-
-
-def _steps(take: Stepper, motion: Motion, begin: Trace, h: Array, count: int) -> Trace:
-    """Go so many steps."""
-    return _trace(itertools.islice(_rows(take, motion, begin, h), count + 1))
 
 
 def _until_lift_off(hoists: Hoists, take: Stepper, h: Array) -> tuple[Trace, Trace]:

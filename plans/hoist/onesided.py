@@ -119,7 +119,11 @@ class Curve:
             if self.at(end) >= -room and (self.p_2 <= 0.0 or square <= 0.0):
                 return None
             return min((t for t in zeros if 0.0 < t <= end and self.slope(t) < 0.0), default=None)
-        for low, high in self._reached(end, room):
+        straight = Curve(self.p_0 - self.swing - room, self.p_1, self.p_2)
+        ends = [0.0, *sorted(t for t in straight._zeros()[1] if 0.0 < t < end), end]
+        for low, high in pairwise(ends):
+            if not straight.at(0.5 * (low + high)) < 0.0:
+                continue  # its swing does not reach zero there
             begin, value = low, max(self.at(low), 0.0)
             for turning in chain(self.turnings(high, low), (high,)):
                 other = self.at(turning)
@@ -127,14 +131,6 @@ class Curve:
                     return zero_between(self.at, self.slope, begin, turning) if value > 0.0 else begin
                 begin, value = turning, other
         return None
-
-    def _reached(self, end: float, room: float) -> Iterator[tuple[float, float]]:
-        """Go through the times before `end`, from and to, at which its swing may reach zero: one, or two."""
-        straight = Curve(self.p_0 - self.swing - room, self.p_1, self.p_2)
-        ends = [0.0, *sorted(t for t in straight._zeros()[1] if 0.0 < t < end), end]
-        for low, high in pairwise(ends):
-            if straight.at(0.5 * (low + high)) < 0.0:
-                yield low, high
 
     def _zeros(self) -> tuple[float, list[float]]:
         """Return the discriminant of its parabola, and where that is zero; where it turns if it nowhere is."""

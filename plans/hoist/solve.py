@@ -182,10 +182,7 @@ def solve_hoist(
     The `values` are its numbers in SI, as `hoist.complete` takes them, the `plans` wanted those of `hoist.PLANS`: the
     numbers, with the circle, need none. Diagrams on paper have about `part_of` their usual size.
 
-    Raises
-    ------
-    InputError
-        Numbers that no hoist can have, or a motion of too many pieces.
+    Raises InputError of numbers that no hoist can have, or of a motion of too many pieces.
     """
     found = forces(values)
     layout = layout_of(hoist, found)
