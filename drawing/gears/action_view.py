@@ -47,21 +47,14 @@ def action_view(overall: GearScene) -> View:
     canvas.part(ANSWERS)
     _dimensions(canvas, scene)
     heading = scene.words["heading.gear_action"], scene.factor(scene.mu_l)
-    notes = *ratios(scene), *scene.words["said.gear_zones"].split("|"), *_lacking(scene)
-    return canvas.finish("action", heading, notes)
-
-
-def _lacking(scene: GearScene) -> tuple[str, ...]:
-    """Say how long the flanks touch, and the contact ratio of that, where undercut or pointed teeth lack a part."""
-    words = scene.words
-    first, last = scene.touching
-    if not scene.lacking:
-        return ()
-    parts = [Input(length * 1e3) for length in (last - first, scene.size("p_b"))]
-    (length, pitch), result = calculation(words, lambda x, y: x / y, parts)
-    mm = words.unit("mm")
-    ratio = f"{words.symbol('epsilon_flanks')} = {length} {mm}/{pitch} {mm} = {result}"
-    return words["said.gear_lacking"].format(length=scene.length(last - first)), ratio
+    notes, words = [*ratios(scene), *scene.words["said.gear_zones"].split("|")], scene.words
+    if scene.lacking:  # say how long the flanks touch, and the contact ratio of that
+        touching, mm = scene.touching[1] - scene.touching[0], words.unit("mm")
+        parts = [Input(length * 1e3) for length in (touching, scene.size("p_b"))]
+        (length, pitch), result = calculation(words, lambda x, y: x / y, parts)
+        notes.append(words["said.gear_lacking"].format(length=scene.length(touching)))
+        notes.append(f"{words.symbol('epsilon_flanks')} = {length} {mm}/{pitch} {mm} = {result}")
+    return canvas.finish("action", heading, tuple(notes))
 
 
 def ratios(scene: GearScene) -> tuple[str, ...]:

@@ -17,7 +17,6 @@ from ..view import Canvas, View, angle, linear, turning
 from ..words import indexed
 from .sheet import TOOTH, GearScene
 
-Span = tuple[float, float]
 PENS = {"a": Pen.THIN, "w": Pen.EXTREME, "": Pen.AXIS, "b": Pen.DASHED, "f": Pen.THIN}
 PAST = 8.0  # mm of a line beyond what it goes to
 PITCH = 1.9  # heights of letters between diameters written under one another
@@ -35,16 +34,6 @@ Pair = tuple[Wheel, Wheel]
 STRIP, STROKES = 0.5, 0.5  # width of the strip along an active flank, distance of its strokes, in heights of letters
 ROUNDING = 1.0 + 1e-9
 ENDS = ("start", "end")  # of the engagement
-
-
-def beside_teeth(wheel: Wheel) -> Span:
-    """Return between which angles from the direction to the pole the circles of a wheel are drawn, just beyond teeth.
-
-    The second one lies on the free side, away from the line of action.
-    """
-    lean = abs(wheel.angle(wheel.centre + wheel.facing))
-    reach = 0.5 * SHOWN * wheel.pitch + PAST / wheel.radius("a")
-    return -wheel.side * min(reach + lean, WIDEST), wheel.side * min(reach - lean, WIDEST)
 
 
 def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, end: float, others: Sequence[complex]) -> None:
@@ -257,7 +246,11 @@ def _circles(canvas: Canvas, scene: GearScene, pair: Pair, to_end: bool) -> tupl
 
     Each has a line of its own; the base circle reaches `to_end` of the line of action.
     """
-    spans = [beside_teeth(wheel) for wheel in pair]
+    spans = []  # angles from the direction to the pole just beyond the teeth; the second away from the line of action
+    for wheel in pair:
+        lean = abs(wheel.angle(wheel.centre + wheel.facing))
+        reach = 0.5 * SHOWN * wheel.pitch + PAST / wheel.radius("a")
+        spans.append((-wheel.side * min(reach + lean, WIDEST), wheel.side * min(reach - lean, WIDEST)))
     tips = [[wheel.on(wheel.radius("a"), a) for a in span] for wheel, span in zip(pair, spans, strict=True)]
     others = [*tips[0], *tips[1], *(point for wheel in pair for point in wheel.outline())]
     for wheel, span in zip(pair, spans, strict=True):

@@ -241,14 +241,7 @@ def story(scene: GearScene, scales: Mapping[str, Scale], texts: Mapping[str, str
 
     The `scales` are by plan, the sentences of `texts` by key.
     """
-    theta = scales[THETA].mu if THETA in scales else scene.size("mu_theta") * 1e-3
-    said = _said(scene, scales[MESHING].mu if MESHING in scales else 1e-3, theta)
-    return Story(conclusions=tuple(conclusions(scene, texts)), texts=texts, said=said)
-
-
-def _said(scene: GearScene, mu: float, mu_theta: float) -> dict[str, str]:
-    """Return what sentences may name: sizes with letters and units, angles, radii and segments on paper."""
-    words, sizes = scene.words, scene.solved.sizes
+    words, sizes, mu = scene.words, scene.solved.sizes, scales[MESHING].mu if MESHING in scales else 1e-3
     mm = words.unit("mm")
     found = {name: f"{scene.stated(name)} {mm}" for name in SIZES} | {name: scene.angle(name) for name in ANGLES}
     for name in RADII:
@@ -257,8 +250,8 @@ def _said(scene: GearScene, mu: float, mu_theta: float) -> dict[str, str]:
         found[f"{name}_drawn"] = f"{words.number(sizes[name] / mu, PAPER)} {mm}"
     for i, rolled in zip(WHEELS, scene.solved.layout.rollings, strict=True):
         found[f"parts_{i}"] = str(rolled.parts)
-    found["mu_theta"] = theta_said(words, mu_theta)
-    return found
+    found["mu_theta"] = theta_said(words, scales[THETA].mu if THETA in scales else scene.size("mu_theta") * 1e-3)
+    return Story(conclusions=tuple(conclusions(scene, texts)), texts=texts, said=found)
 
 
 def conclusions(scene: GearScene, texts: Texts) -> Iterator[str]:

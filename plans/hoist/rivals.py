@@ -37,6 +37,7 @@ from .roots import FINDERS, Equation, Found, approximations, find, lift_off_equa
 from .solve import SolvedHoist, board_givens
 
 Array = NDArray[np.float64]
+Pair = tuple[Any, Any]  # a method and its setting, or the ends of what is compared
 LIFT_OFF, COURSE, PEAK = "lift_off", "course", "peak"
 KINDS = (Kind(LIFT_OFF, ("t_1",)), Kind(COURSE, ("F_12", "P_12")), Kind(PEAK, ("F_max",)))
 FORMULAS, MISSED, DRAWN, HAND = "hoist-closed", "rk4-missed", "hoist-drawn", "hand"
@@ -95,7 +96,7 @@ class _Race:
             t_1 = timed(partial(model, many, ("t_1",)), self.clock) / size
             whole = timed(partial(model, many, AFTER), self.clock) / size
             alone = model(self.values, ("t_1",))["t_1"]
-            yield from self._entries(FORMULAS, size, follow(self.values, alone), (t_1, whole), size)
+            yield from self._entries((FORMULAS, size), follow(self.values, alone), (t_1, whole), size)
 
     def finders(self) -> Iterator[Entry]:
         """Go through closed forms with each way to the root, and tolerances."""
@@ -106,11 +107,11 @@ class _Race:
                 x = find(finder, equation, tolerance).root
                 alone = timed(partial(find, finder, equation, tolerance), self.clock)
                 if not np.isfinite(x):
-                    yield from self._nothing(finder, tolerance)
+                    yield from self._nothing((finder, tolerance))
                     continue
                 t_1 = x / found["k"]
                 after = timed(partial(follow, self.values, t_1), self.clock)
-                yield from self._entries(finder, tolerance, follow(self.values, t_1), (alone, alone + after), 1)
+                yield from self._entries((finder, tolerance), follow(self.values, t_1), (alone, alone + after), 1)
 
     def steps(self) -> Iterator[Entry]:
         """Go through integrators and steps; runs that are refused, or too long, give nothing."""
@@ -119,22 +120,20 @@ class _Race:
         ways = [(method, method, True) for method in STEPPERS] + [(MISSED, RK4, False)]
         for name, method, located in ways:
             for step in (*STEPS, *(TINY if method == EXPLICIT else ())):
-                if angle > step * MOST_STEPS * (10 if method == EXPLICIT else 1):
-                    yield from self._nothing(name, step)
-                    continue
-                run, spent = ran(partial(integrate, found, method, step, located), self.clock)
-                if run.refused[0]:
-                    yield from self._nothing(name, step)
+                too_long = angle > step * MOST_STEPS * (10 if method == EXPLICIT else 1)
+                work = partial(integrate, found, method, step, located)
+                run, spent = (None, 0.0) if too_long else ran(work, self.clock)
+                if run is None or run.refused[0]:
+                    yield from self._nothing((name, step))
                     continue
                 known = ~np.isnan(run.F_12[:, 0])
                 t, force = run.t[known, 0], run.F_12[known, 0]
                 course = t, self._course(t, force)
-                yield from self._three(name, step, (run.t_1[0], run.F_max[0]), course, (spent, spent), 1)
+                yield from self._three((name, step), (run.t_1[0], run.F_max[0]), course, (spent, spent), 1)
 
-    def _nothing(self, method: str, setting: float) -> Iterator[Entry]:
+    def _nothing(self, way: Pair) -> Iterator[Entry]:
         """Go through what a method gives that has failed, or is refused."""
-        at = float(self.right["t_1"])
-        yield from (Entry(method, setting, kind.name, None, None, "", at, None, 1, 1.0) for kind in KINDS)
+        return (Entry(*way, kind.name, None, None, "", float(self.right["t_1"]), None, 1, 1.0) for kind in KINDS)
 
     def _course(self, t: Array, force: Array) -> Array:
         """Return errors of a force over time, in parts of the greatest."""
@@ -142,31 +141,21 @@ class _Race:
         errors: Array = np.abs((force - right) * (1.0 / self.right["F_max"])).astype(float)
         return errors
 
-    def _entries(
-        self, method: str, setting: float, found: Mapping[str, Any], seconds: tuple[float, float], at_once: int
-    ) -> Iterator[Entry]:
+    def _entries(self, way: Pair, found: Mapping[str, Any], seconds: Pair, at_once: int) -> Iterator[Entry]:
         course = self.places, self._course(self.places, rope_forces(found, self.places)[1])
-        yield from self._three(method, setting, (found["t_1"], found["F_max"]), course, seconds, at_once)
+        return self._three(way, (found["t_1"], found["F_max"]), course, seconds, at_once)
 
-    def _three(
-        self,
-        method: str,
-        setting: float,
-        ends: tuple[Any, Any],
-        course: tuple[Array, Array],
-        seconds: tuple[float, float],
-        at_once: int,
-    ) -> Iterator[Entry]:
+    def _three(self, way: Pair, ends: Pair, course: Pair, seconds: Pair, at_once: int) -> Iterator[Entry]:
         """Go through the errors of the three kinds: `seconds` of the lift-off alone, and of everything."""
         pairs = zip(ends, ("t_1", "F_max"), strict=True)
         t_1, peak = (float(abs(np.longdouble(found) / self.right[name] - 1.0)) for found, name in pairs)
         t, errors = course
         worst, end = int(np.argmax(errors)), float(self.right["t_1"])
         name = "F_12" if t[worst] < self.right["t_1"] else "P_12"
-        yield Entry(method, setting, LIFT_OFF, t_1, t_1, "t_1", end, seconds[0], at_once, 0.0)
+        yield Entry(*way, LIFT_OFF, t_1, t_1, "t_1", end, seconds[0], at_once, 0.0)
         most, middle = float(errors[worst]), float(np.median(errors))
-        yield Entry(method, setting, COURSE, most, middle, name, float(t[worst]), seconds[1], at_once, 0.0)
-        yield Entry(method, setting, PEAK, peak, peak, "F_max", end, seconds[1], at_once, 0.0)
+        yield Entry(*way, COURSE, most, middle, name, float(t[worst]), seconds[1], at_once, 0.0)
+        yield Entry(*way, PEAK, peak, peak, "F_max", end, seconds[1], at_once, 0.0)
 
 
 def rivals(values: Mapping[str, float], clock: Clock, effort: Effort = FULL) -> Contest:
