@@ -13,13 +13,13 @@ from ...plans.cams import course
 from ...plans.cams.construction import PLATE_SIZES, ROCKER_SIZES, SIZES
 from ...plans.cams.followers import RockerCam, RollerCam
 from ...plans.cams.motion import FALL, RISE
-from ...plans.cams.sizes import PHASE_OF, HalfPlane, wedge
+from ...plans.cams.sizes import PHASE_OF, HalfPlane, Limit, wedge
 from ..areas import hatched
 from ..diagram import small
 from ..figure import Figure, Stage
 from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, arc_between, at_level, fixed_pivot, nearer, swept, unit
-from ..text import Box, lay_out
+from ..text import lay_out
 from ..view import Canvas, View, angle, linear, turning
 from .diagrams_view import jumps
 from .scene import SHOWN, CamScene, given, needed
@@ -269,14 +269,14 @@ def rocker_sizes_view(scene: CamScene) -> View:
     canvas, words, cam = ROCKER_FIGURE.canvas(scene), scene.words, needed(scene.solved.rocker)
     centre = scene.mm(f"{ROCKER_SIZES}.C")
     _rocker(canvas, scene, cam)
-    frame = _frame(scene, centre)
+    low = centre.imag - AROUND
     canvas.part("limits")
     ends = [(i, phase, scene.drawn(course.analogue_end(scene.solved, i, phase))) for i, phase in _on_lines(scene)]
     for i, phase, end in ends:  # towards the cam's centre
         past = end + course.limit_direction(scene.solved, i, phase) * (LIMIT * scene.style.label)
         canvas.add(Line(end, past, Pen.THIN, role="limit", name=f"{i}_{phase}"))
     for bound in course.bounds(scene.solved):
-        _bound(canvas, scene, bound, frame)
+        _bound(canvas, scene, bound, low)
     x, y = centre.real, centre.imag
     box = (x - 2.0 * AROUND, y - AROUND, x + 2.0 * AROUND, min(0.0, y + 2.0 * AROUND))
     sides = [(normal, scene.drawn(least)) for normal, least in course.half_planes(scene.solved)]
@@ -312,20 +312,12 @@ def _rocker(canvas: Canvas, scene: CamScene, cam: RockerCam) -> None:
     canvas.label("C", 0j, prefer=-1 + 1j, clear=style.pair + 1.0)
 
 
-def _frame(scene: CamScene, centre: complex) -> Box:
-    """Return the box in which limits are drawn: from beside the centre to above the highest position."""
-    ends = [scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for i in scene.solved.layout.division.lines for letter in "BD"]
-    right, top = max(end.real for end in ends), max(end.imag for end in ends)
-    left = min(min(end.real for end in ends), centre.real - AROUND)
-    return left, centre.imag - AROUND, max(right + PAST, centre.real + AROUND), top + PAST
-
-
-def _bound(canvas: Canvas, scene: CamScene, bound: course.Bound, frame: Box) -> None:
+def _bound(canvas: Canvas, scene: CamScene, bound: tuple[Limit, complex, complex, complex], low: float) -> None:
     """Mark the end of the analogue whose limit comes nearest to the centre, and dimension the angle permitted."""
-    cam, limit, arm, along = needed(scene.solved.rocker), bound.limit, bound.arm, bound.along
-    end = scene.drawn(bound.end)
+    cam, (limit, far, arm, along) = needed(scene.solved.rocker), bound
+    end = scene.drawn(far)
     canvas.add(scene.node(end, limit.name, "touch", filled=True))
-    canvas.add(Line(end, at_level(end, along, frame[1]), Pen.THIN, role="bound", name=limit.name))
+    canvas.add(Line(end, at_level(end, along, low), Pen.THIN, role="bound", name=limit.name))
     if PHASE_OF[limit.name] != limit.name and limit.name not in cam.sizes.on:
         return
     text, radius = scene.words.symbol(f"gamma_{PHASE_OF[limit.name]}"), 5.0 * scene.style.label

@@ -50,7 +50,7 @@ def scales_block(scene: CamScene, width: float) -> View:
         lines.append(worked(scene.words, "l_A2", "second_amplitude", terms, MM))
     lines += [*_factors(scene), *_chords(scene)]
     lines.append(_rate(scene, "v_max", "ds_max", motion.ds_max.value))
-    if _given_a(scene):
+    if scene.solved.layout.given == ACCELERATION:
         lines.append(_rate(scene, "a_max", "d2s_max", motion.d2s_max.value))
     return text_block("equations_scales", scene.words["heading.scales"], lines, scene.style, width)
 
@@ -110,10 +110,6 @@ def length(name: str, value: float, exact: bool = False) -> Input:
     return Input(float(value) * 1e3, exact, name=name, times=1e3)
 
 
-def _given_a(scene: CamScene) -> bool:
-    return scene.solved.layout.given == ACCELERATION
-
-
 def _drawn(scene: CamScene, name: str, exact: bool = False) -> Input:
     """Return a length on paper as it goes into a formula."""
     return Input(scene.paper(name), exact, name=name, times=1e3)
@@ -126,14 +122,16 @@ def _factors(scene: CamScene, mark: str = "") -> Lines:
     highest = scene.paper("S_max_chord") if mark else solved.motion.h / mu("mu_s")
     terms = [Input(h, solved.rocker is None, name="h"), Input(highest, name=f"S_max{mark}", times=1e3)]
     lines = [worked(scene.words, f"mu_s{mark}", "scale_factor", terms, Shown("m/mm"))]
-    for name, base, pole in [("mu_ds", "mu_s", "H_v")] + [("mu_d2s", "mu_ds", "H_a")] * _given_a(scene):
+    for name, base, pole in [("mu_ds", "mu_s", "H_v")] + [("mu_d2s", "mu_ds", "H_a")] * (
+        scene.solved.layout.given == ACCELERATION
+    ):
         factors = (Input(mu(factor), name=factor) for factor in (f"{base}{mark}", "mu_phi"))
         terms = [*factors, _drawn(scene, pole, True)]
         lines.append(worked(scene.words, f"{name}{mark}", "derived_scale", terms, Shown("m/mm")))
     if mark:
         return lines
     lines.append(_rate(scene, "mu_v", "mu_ds", mu("mu_ds")))
-    if _given_a(scene):
+    if scene.solved.layout.given == ACCELERATION:
         lines.append(_rate(scene, "mu_a", "mu_d2s", mu("mu_d2s")))
     return lines
 
@@ -400,36 +398,22 @@ def _of_plate(scene: CamScene) -> Said:
 
 def conclusions(scene: CamScene, texts: Texts) -> Iterator[str]:
     """Go through the sentences for the end of the note."""
-    solved = scene.solved
-    yield _motion(scene, texts)
-    yield _concluded_chords(scene, texts)
+    solved, words, values = scene.solved, scene.words, scene.solved.values
+    rates = [name for name in ("v_max", "a_max") if name in values]
+    said = {name: f"{scene.value(float(values[name]))} {words.unit(RATES[name][1])}" for name in rates}
+    said = {name: f"{words.symbol(name)} = {rate}" for name, rate in said.items()}
+    moved = texts["cam.roller_centre" if solved.layout.rocks else "cam.follower"]
+    yield texts[f"cam.conclusion.{'motions' if 'a_max' in said else 'motion'}"].format(of=moved, **said)
+    exact, drawn = solved.motion.h / scene.mu("mu_s"), scene.paper("S_max_chord")  # of the stroke
+    gap = f"{words.symbol('s_close')} = {words.number(scene.paper('s_close'), PAPER)} {words.unit('mm')}"
+    part = words.number(100.0 * abs(drawn - exact) / exact, 2)
+    yield texts["cam.conclusion.chords"].format(part=part, s_close=gap)
     if solved.rolling is not None:
         yield from _roller(scene, texts)
     if solved.plate is not None:
         yield from _plate(scene, texts)
     elif PLATE in solved.cam.followers and solved.motion.velocity_jumps:
         yield texts["cam.conclusion.no_plate"]
-
-
-def _motion(scene: CamScene, texts: Texts) -> str:
-    """Tell the greatest velocity, and the greatest acceleration of a law that has one."""
-    words, values = scene.words, scene.solved.values
-    said = {
-        name: f"{words.symbol(name)} = {scene.value(float(values[name]))} {words.unit(RATES[name][1])}"
-        for name in ("v_max", "a_max")
-        if name in values
-    }
-    moved = texts["cam.roller_centre" if scene.solved.layout.rocks else "cam.follower"]
-    return texts[f"cam.conclusion.{'motions' if 'a_max' in said else 'motion'}"].format(of=moved, **said)
-
-
-def _concluded_chords(scene: CamScene, texts: Texts) -> str:
-    """Compare the stroke that chords draw with that of the exact curve."""
-    words = scene.words
-    exact, drawn = scene.solved.motion.h / scene.mu("mu_s"), scene.paper("S_max_chord")
-    gap = f"{words.symbol('s_close')} = {words.number(scene.paper('s_close'), PAPER)} {words.unit('mm')}"
-    part = words.number(100.0 * abs(drawn - exact) / exact, 2)
-    return texts["cam.conclusion.chords"].format(part=part, s_close=gap)
 
 
 def _roller(scene: CamScene, texts: Texts) -> Iterator[str]:

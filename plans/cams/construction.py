@@ -170,14 +170,6 @@ def mean(section: int) -> Name:
     return Name(f"_mean{section}", "mean", str(section))
 
 
-def axes(board: Board, plan: str, sections: Iterable[int]) -> None:
-    """Draw the axes of a diagram and its section lines."""
-    board.pole(f"{plan}.0")
-    for i in sections:
-        board.calc(f"_x{i}", "on_axis", f"_phi{i}", "mu_phi")
-        board.lay(foot(plan, i), f"{plan}.0", RIGHT, f"_x{i}")
-
-
 def integrate(board: Board, plan: str, onto: str, pole_distance: str, sections: Iterable[int]) -> None:
     """Integrate the diagram `plan`, whose mean ordinates are marked, by chords onto the diagram `onto`."""
     origin, pole = f"{plan}.0", f"{plan}.O"
@@ -195,7 +187,10 @@ def diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
     board.turn(RIGHT, "zero")
     board.normal(UP, RIGHT)
     for plan in DIAGRAMS[DIAGRAMS.index(given) :]:
-        axes(board, plan, sections)
+        board.pole(f"{plan}.0")
+        for i in sections:
+            board.calc(f"_x{i}", "on_axis", f"_phi{i}", "mu_phi")
+            board.lay(foot(plan, i), f"{plan}.0", RIGHT, f"_x{i}")
     for i in sections:  # mean ordinates, each in the middle of its section
         board.calc(f"_middle{i}", "on_axis", f"_phi_middle{i}", "mu_phi")
         board.calc(mean(i), "part_of_amplitude", "l_A1", f"_part{i}")

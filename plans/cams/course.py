@@ -251,18 +251,11 @@ def _limit_along(arm: complex, limit: Limit, sense: int) -> complex:
     return direction if direction.imag < 0.0 else -direction
 
 
-@dataclass(frozen=True, slots=True)
-class Bound:
-    """A limit that comes nearest to the cam's centre: the end of the analogue, the rocker and the limit there."""
+def bounds(solved: SolvedCam) -> Iterator[tuple[Limit, complex, complex, complex]]:
+    """Go through the limits, each where it comes nearest to the cam's centre.
 
-    limit: Limit
-    end: complex
-    arm: complex
-    along: complex
-
-
-def bounds(solved: SolvedCam) -> Iterator[Bound]:
-    """Go through the limits, each where it comes nearest to the centre."""
+    With each go the end of the analogue there, m, and the directions of the rocker and of the limit.
+    """
     cam = _rocker(solved)
     rocker = cam.rocker
     for limit in cam.limits.each:
@@ -271,7 +264,7 @@ def bounds(solved: SolvedCam) -> Iterator[Bound]:
         psi, dpsi, _ = (float(v) for v in rocker.motion.at(at, side))
         arm = cmath.rect(1.0, psi)
         end = arm * (cam.sizes.l * (1.0 - rocker.sense * dpsi))
-        yield Bound(limit, end, arm, _limit_along(arm, limit, rocker.sense))
+        yield limit, end, arm, _limit_along(arm, limit, rocker.sense)
 
 
 def half_planes(solved: SolvedCam) -> Iterator[tuple[complex, float]]:

@@ -43,30 +43,22 @@ def rules_of(solved: SolvedCam) -> tuple[Rule, ...]:
     found = solved.rolling
     if found is None:
         return ()
-    profile, sizes = found.profile, found.sizes
-    parts = (
-        ("roller_of_radius", OF_R_0, "r_0", sizes.r_0),
-        ("roller_of_curvature", OF_RHO_MIN, "rho_min", profile.rho_min),
-    )
-    rollers = (_of_roller(name, profile.R, part, of, size) for name, part, of, size in parts if math.isfinite(size))
-    return (*rollers, *_of_transmission(solved))
-
-
-def _of_roller(name: str, R: float, part: float, of: str, size: float) -> Rule:
-    limit = part * size
-    ok = limit * (1.0 + ROUNDING) >= R
-    return Rule(
-        name=name, ok=ok, value=R, unit="m", limit=limit, relation=AT_MOST, quantity="R_roller", of=of,
-        part=part, size=size,
-    )  # fmt: skip
-
-
-def _of_transmission(solved: SolvedCam) -> Iterator[Rule]:
-    for name in ("gamma_rise", "gamma_fall"):
-        quantity = f"{name}_min"
-        least, permitted = float(solved.values[quantity]), float(solved.givens[name])
-        ok = least >= permitted * (1.0 - ROUNDING)
-        yield Rule(name=name, ok=ok, value=least, unit="rad", limit=permitted, relation=AT_LEAST, quantity=quantity)
+    rules, R = [], found.profile.R
+    sizes = {"radius": (OF_R_0, "r_0", found.sizes.r_0), "curvature": (OF_RHO_MIN, "rho_min", found.profile.rho_min)}
+    for name, (part, of, size) in sizes.items():
+        limit = part * size
+        if math.isfinite(size):
+            rules.append(Rule(
+                name=f"roller_of_{name}", ok=limit * (1.0 + ROUNDING) >= R, value=R, unit="m", limit=limit,
+                relation=AT_MOST, quantity="R_roller", of=of, part=part, size=size,
+            ))  # fmt: skip
+    for phase in ("gamma_rise", "gamma_fall"):
+        least, permitted = float(solved.values[f"{phase}_min"]), float(solved.givens[phase])
+        rules.append(Rule(
+            name=phase, ok=least >= permitted * (1.0 - ROUNDING), value=least, unit="rad", limit=permitted,
+            relation=AT_LEAST, quantity=f"{phase}_min",
+        ))  # fmt: skip
+    return tuple(rules)
 
 
 DEGREE = math.radians(1.0)
@@ -74,19 +66,14 @@ DEGREE = math.radians(1.0)
 USUAL_GIVEN = {
     "h": (1e-4, 0.5),
     "psi": (0.5 * DEGREE, 60.0 * DEGREE),
-    "l_rocker": (5e-3, 2.0),
-    "l_OC": (5e-3, 2.0),
-    "phi_rise": (5.0 * DEGREE, 355.0 * DEGREE),
-    "phi_fall": (5.0 * DEGREE, 355.0 * DEGREE),
+    **dict.fromkeys(("l_rocker", "l_OC"), (5e-3, 2.0)),
+    **dict.fromkeys(("phi_rise", "phi_fall"), (5.0 * DEGREE, 355.0 * DEGREE)),
     "omega": (1e-2, 3e3),
-    "u": (0.05, 0.95),
-    "u_fall": (0.05, 0.95),
+    **dict.fromkeys(("u", "u_fall"), (0.05, 0.95)),
     "l_A1": (0.01, 0.4),
-    "H_a": (5e-3, 0.2),
-    "H_v": (5e-3, 0.2),
+    **dict.fromkeys(("H_a", "H_v"), (5e-3, 0.2)),
     "mu_phi": (0.25 * DEGREE, 10.0 * DEGREE),
-    "gamma_rise": (20.0 * DEGREE, 85.0 * DEGREE),
-    "gamma_fall": (20.0 * DEGREE, 85.0 * DEGREE),
+    **dict.fromkeys(("gamma_rise", "gamma_fall"), (20.0 * DEGREE, 85.0 * DEGREE)),
     "R_roller": (1e-3, 0.1),
     "rho_flat": (0.0, 0.2),
     "margin": (0.0, 0.05),
@@ -115,9 +102,8 @@ def unusual(solved: SolvedCam) -> Iterator[Unusual]:
 def _beyond(solved: SolvedCam, usual: dict[str, tuple[float, float]]) -> Iterator[Unusual]:
     for name, (least, most) in usual.items():
         value = solved.givens.get(name) if usual is USUAL_GIVEN else solved.values.get(name)
-        if value is not None and not least * (1.0 - 1e-9) <= value <= most * (1.0 + 1e-9):
-            unit = VALUES[name] if name in VALUES else unit_of(name)
-            yield Unusual(name, unit, float(value), least, most)
+        if value is not None and not least * (1.0 - ROUNDING) <= value <= most * (1.0 + ROUNDING):
+            yield Unusual(name, VALUES.get(name, unit_of(name)), float(value), least, most)
 
 
 HEIGHTS = {"_S_max": "S_max_chord", "_V_max": "V_max_chord"}  # ordinates that only a drawing shows keep its name

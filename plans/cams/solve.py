@@ -91,18 +91,8 @@ PRESSURES = ("gamma_rise_min", "gamma_fall_min")  # also what the plan of pressu
 NAMES = {
     CHORDS: ("s_close", "v_close"),
     ROLLER: (
-        "mu_s_ds",
-        "r_0",
-        "e",
-        "s_0",
-        "e_least",
-        "e_most",
-        "r_0_tangents",
-        "e_tangents",
-        "l_rocker",
-        "l_OC",
-        "psi_0",
-        *PRESSURES,
+        *("mu_s_ds", "r_0", "e", "s_0", "e_least", "e_most", "r_0_tangents", "e_tangents"),
+        *("l_rocker", "l_OC", "psi_0", *PRESSURES),
     ),
     PLATE: ("mu_s_d2s", "r_0_flat_tangent", "r_0_flat_min", "r_0_flat", "rho_flat_min", "R_plate"),
     PROFILE: ("mu_l", "R_roller", "rho_min"),
@@ -159,19 +149,9 @@ LENGTHS = ("H_a", "H_v", "R_roller", "l_rocker", "r_0_flat")  # given ones that 
 # how the numbers that a task has on the paper of the diagrams change with the size of the drawing
 REDUCED = {"l_A1": 1, "H_a": 1, "H_v": 1, "mu_phi": -1}
 UNITS = {
-    "v_max": "m/s",
-    "a_max": "m/s^2",
-    "mu_phi": "rad/mm",
-    "mu_v": "(m/s)/mm",
-    "mu_a": "(m/s^2)/mm",
-    "mu_s": "m/mm",
-    "mu_ds": "m/mm",
-    "mu_d2s": "m/mm",
-    "nu": "rad",
-    "nu_a": "rad",
-    "psi_0": "rad",
-    "gamma_rise_min": "rad",
-    "gamma_fall_min": "rad",
+    **{"v_max": "m/s", "a_max": "m/s^2", "mu_phi": "rad/mm", "mu_v": "(m/s)/mm", "mu_a": "(m/s^2)/mm"},
+    **dict.fromkeys(("mu_s", "mu_ds", "mu_d2s"), "m/mm"),
+    **dict.fromkeys(("nu", "nu_a", "psi_0", *PRESSURES), "rad"),
 }
 
 
