@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from ...plans.cams import course
 from ...plans.cams.construction import PROFILE
-from ...plans.cams.envelopes import Undercut
+from ...plans.cams.envelopes import Envelope, Undercut
 from ...plans.cams.motion import LOWER
 from ...plans.cams.profile import RollerProfile
 from ..formats import Style
@@ -167,9 +167,9 @@ def corners(canvas: Canvas, scene: CamScene, cuts: Sequence[Undercut]) -> None:
         canvas.label(_corner(cuts, k), corner, prefer=-corner, clear=radius + 0.5, height=scene.style.text)
 
 
-def undercut_notes(scene: CamScene, cuts: Sequence[Undercut], rocks: bool = False) -> tuple[str, ...]:
-    """Say where a profile does not give the motion; the travels of a rocker that `rocks` are angles."""
-    words, found = scene.words, []
+def undercut_notes(scene: CamScene, profile: Envelope) -> tuple[str, ...]:
+    """Say where a profile does not give the motion; the travels of a rocker are angles."""
+    words, rocks, cuts, found = scene.words, scene.solved.rocker is not None, profile.undercuts, []
     for k, cut in enumerate(cuts):
         lost = cut.lost * DEGREES if rocks else cut.lost * 1e3
         unit = "°" if rocks else f" {words.unit('mm')}"
@@ -253,7 +253,13 @@ def _angle(canvas: Canvas, letter: str, name: str, at: complex, rays: tuple[comp
     """Dimension the angle between two rays near a radius at which its letter is clear of all lines."""
     style, height = canvas.style, canvas.style.text
     start, sweep = swept(1.0 + 0j, rays[0]), swept(*rays)
-    free = [far * part for part in PARTS if _free(canvas, [at + ray * (far * part) for ray in rays])]
+    boxes, reach = [extent((shape,)) for shape in canvas.shapes if isinstance(shape, Text)], style.arrow
+
+    def is_free(places: list[complex]) -> bool:  # whether arrowheads there are clear of all numbers
+        beside = ((x0 - reach, y0 - reach, x1 + reach, y1 + reach) for x0, y0, x1, y1 in boxes)
+        return not any(x0 < p.real < x1 and y0 < p.imag < y1 for x0, y0, x1, y1 in beside for p in places)
+
+    free = [far * part for part in PARTS if is_free([at + ray * (far * part) for ray in rays])]
     for radius in free:
         beside = (radius + away * height for away in (1.0, -1.0, 1.2, -1.3))
         places = [at + polar(away, start + share * sweep) for away in beside for share in SHARES]
@@ -265,15 +271,6 @@ def _angle(canvas: Canvas, letter: str, name: str, at: complex, rays: tuple[comp
     middle = at + polar(far, start + 0.5 * sweep)
     canvas.add(angle_dimension(at, far, start, sweep, name, style))
     canvas.label(letter, middle, prefer=middle - at, clear=0.8, height=height)
-
-
-def _free(canvas: Canvas, places: list[complex]) -> bool:
-    """Whether arrowheads in these places are clear of all numbers."""
-    reach = canvas.style.arrow
-    for x0, y0, x1, y1 in (extent((shape,)) for shape in canvas.shapes if isinstance(shape, Text)):
-        if any(x0 - reach < p.real < x1 + reach and y0 - reach < p.imag < y1 + reach for p in places):
-            return False
-    return True
 
 
 def lettered_sizes(scene: CamScene, profile: RollerProfile, line: int) -> list[str]:

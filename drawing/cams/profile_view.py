@@ -65,7 +65,7 @@ def roller_view(scene: CamScene) -> View:
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
     notes = (
         "; ".join([*inversion.lettered_sizes(scene, roller.profile, contact.line), *left]),
-        *inversion.undercut_notes(scene, roller.profile.undercuts),
+        *inversion.undercut_notes(scene, roller.profile),
     )
     return canvas.finish("profile", scene.heading("heading.cam_profile", PROFILE), notes)
 
@@ -164,7 +164,7 @@ def rocker_view(scene: CamScene) -> View:
     canvas.bounds = -edge, -edge, edge, edge
     notes = (
         "; ".join([*_rocker_lettered(scene), *left]),
-        *inversion.undercut_notes(scene, cam.profile.undercuts, rocks=True),
+        *inversion.undercut_notes(scene, cam.profile),
     )
     return canvas.finish("profile", scene.heading("heading.cam_rocker_profile", PROFILE), notes)
 
@@ -300,7 +300,7 @@ def plate_view(scene: CamScene) -> View:
     plate_box = (complex(-R, low), complex(R, low), complex(R, rod.low), complex(-R, rod.low))
     canvas.add(Group((Polyline(plate_box, Pen.MAIN, closed=True, fill="white"),), "plate", "0"), *rod.shapes())
     left = _plate_sizes(canvas, scene, rod, R)
-    notes = "; ".join([*left, *_plate_lettered(scene)]), *inversion.undercut_notes(scene, plate.profile.undercuts)
+    notes = "; ".join([*left, *_plate_lettered(scene)]), *inversion.undercut_notes(scene, plate.profile)
     canvas.part("shaft")
     inversion.letter_centre(canvas, scene, r_0)
     edge = outer + (PHASES + 1.2) * label

@@ -133,30 +133,25 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
 
     def figures(self, scene: CamScene, width: float) -> Iterator[CamFigure]:
         """Go through the figures of a sheet in the order of the work; lines of text are at most `width` mm long."""
-        return (figure for plan in self.contents.plans for figure in self._figures_of(plan, width))
-
-    def _figures_of(self, plan: str, width: float) -> Iterator[CamFigure]:
-        """Go through the figures of one part of a sheet."""
         from . import diagrams_view, profile_view, sizes_view, text
 
-        solved, narrow = self.contents.solved, NARROW * width
-        if plan == DIAGRAMS_PART:
-            yield Figure("givens", _givens)
-            yield Figure("choices", partial(text.choices_block, note=self.contents.note, width=narrow), ("reduction",))
-            yield Figure("motion", text.motion_table)
-            yield diagrams_view.DIAGRAMS_FIGURE
-            yield Figure("equations_scales", partial(text.scales_block, width=width), ("reduction",))
-        elif plan == PRESSURE_PART and solved.rolling is not None:
-            yield diagrams_view.PRESSURE_FIGURE
-        for follower in (ROLLER, ROCKER, PLATE):
-            if getattr(solved, follower) is None:
-                continue
-            if plan == SIZES_PART:
-                yield sizes_view.FIGURES[follower]
-                block = partial(text.SIZES_OF[follower], width=width if follower == PLATE else narrow)
-                yield Figure(f"equations_{follower}", block)
-            elif plan == PROFILE_PART:
-                yield profile_view.FIGURES[follower]
+        solved, narrow, note = self.contents.solved, NARROW * width, self.contents.note
+        for plan in self.contents.plans:
+            if plan == DIAGRAMS_PART:
+                yield Figure("givens", _givens)
+                yield Figure("choices", partial(text.choices_block, note=note, width=narrow), ("reduction",))
+                yield Figure("motion", text.motion_table)
+                yield diagrams_view.DIAGRAMS_FIGURE
+                yield Figure("equations_scales", partial(text.scales_block, width=width), ("reduction",))
+            elif plan == PRESSURE_PART and solved.rolling is not None:
+                yield diagrams_view.PRESSURE_FIGURE
+            for follower in (follower for follower in (ROLLER, ROCKER, PLATE) if getattr(solved, follower)):
+                if plan == SIZES_PART:
+                    yield sizes_view.FIGURES[follower]
+                    block = partial(text.SIZES_OF[follower], width=width if follower == PLATE else narrow)
+                    yield Figure(f"equations_{follower}", block)
+                elif plan == PROFILE_PART:
+                    yield profile_view.FIGURES[follower]
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""

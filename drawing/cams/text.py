@@ -12,6 +12,7 @@ from typing import Any
 from ...plans.cams import course
 from ...plans.cams.cam import PLATE, VALUES
 from ...plans.cams.construction import ACCELERATION, ARC, PLATE_SIZES, ROCKER_SIZES, SIZES
+from ...plans.cams.envelopes import Envelope
 from ...plans.cams.rules import Rule, rules_of
 from ...plans.cams.solve import SCALES
 from ...scales.scale import Scale
@@ -428,7 +429,7 @@ def _roller(scene: CamScene, texts: Texts) -> Iterator[str]:
     for rule in rules_of(solved):
         key = f"cam.conclusion.{rule.name}_{'kept' if rule.ok else 'broken'}"
         yield texts[key].format(**_rule(scene, rule))
-    yield from _undercuts(undercut_notes(scene, cam.profile.undercuts, rocks=solved.rocker is not None))
+    yield from _undercuts(scene, cam.profile)
 
 
 def _rule(scene: CamScene, rule: Rule) -> dict[str, str]:
@@ -449,11 +450,11 @@ def _plate(scene: CamScene, texts: Texts) -> Iterator[str]:
     yield texts["cam.conclusion.plate"].format(**{name: scene.stated(name, size) for name, size in said.items()})
     if 0.0 <= least < math.inf:
         yield texts["cam.conclusion.convex"].format(rho=f"{scene.length(least)} {scene.words.unit('mm')}")
-    yield from _undercuts(undercut_notes(scene, plate.profile.undercuts))
+    yield from _undercuts(scene, plate.profile)
 
 
-def _undercuts(notes: tuple[str, ...]) -> Iterator[str]:
+def _undercuts(scene: CamScene, profile: Envelope) -> Iterator[str]:
     """Join what the sheet says of an undercut profile to a sentence."""
-    if notes:
+    if notes := undercut_notes(scene, profile):
         warning, *places = notes
         yield f"{warning} {'; '.join(places)}."

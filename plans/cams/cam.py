@@ -56,6 +56,7 @@ VALUES = {
     "e": "m",
     "r_0_flat": "m",
 }
+CHOICES = ("law", "law_fall", "fall", "rotation", "limits")  # fields that may hold the name of a choice
 NEAR = 1e-12  # rad, within which two angles are one: by so much the phases may be longer than a turn
 SECTIONS = 12  # of a phase, at least: what a student can draw, and enough for a smooth curve
 
@@ -92,10 +93,8 @@ class Cam:
 
     def chosen(self, words: Mapping[str, str]) -> Cam:
         """Return the cam with the words of a variant in the place of the names of the choices."""
-        law, law_fall, fall, rotation, limits = (
-            words.get(word, word) for word in (self.law, self.law_fall, self.fall, self.rotation, self.limits)
-        )
-        return replace(self, law=law, law_fall=law_fall, fall=fall, rotation=rotation, limits=limits)
+        chosen = {key: words.get(word := getattr(self, key), word) for key in CHOICES}
+        return replace(self, **chosen)
 
     @property
     def sense(self) -> int:

@@ -12,7 +12,7 @@ of `mu_s`, `r_0_tangents` that of `r_0`, and all that hangs on these hangs on th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from ..board import Program, Step
@@ -125,34 +125,23 @@ def stands_for(solved: SolvedCam) -> dict[str, str]:
 
 def as_drawn(solved: SolvedCam) -> SolvedCam:
     """Return the cam as a student draws it: of values that are drawn those have the plain names."""
-    named = stands_for(solved)
-    made = {*solved.program.names}
+    named, made = stands_for(solved), {*solved.program.names}
     instead = {exact: drawn for exact, drawn in HEIGHTS.items() if {exact, drawn} <= made}
-    left_out = {*named.values(), *instead}
-    steps = [step for step in solved.program if step.name not in left_out]
-    renamed = [_renamed(step, {**named, **instead}) for step in steps]
+    left_out, names = {*named.values(), *instead}, named | instead
     bends = solved.roller is not None and not solved.motion.velocity_jumps  # else the pitch curve has corners
     numbers = _curved(solved) if bends else {}
-    at_centre = ("h", "e", "s_0", *numbers) if numbers else ()
-    by_tangents = "e_tangents" in named
-    program = Program(tuple(_in_order(one for step in renamed for one in _measured(step, at_centre, by_tangents))))
-    numbers |= solved.givens
+    steps = []
+    for step in (step for step in solved.program if step.name not in left_out):
+        operands = tuple(names.get(name, name) for name in step.operands)
+        drawn = step._replace(name=names.get(step.name, step.name), operands=operands)
+        if drawn.name == "s_0" and "e_tangents" in named:  # it goes with r_0 and e
+            drawn = drawn._replace(law="other_leg", operands=("r_0", "e"))
+        elif drawn.name == "rho_min" and numbers:  # the curvature is that of the drawn cam
+            drawn = drawn._replace(law=SHARPEST, operands=("h", "e", "s_0", *numbers))
+        steps.append(drawn)
+    program, numbers = Program(tuple(_in_order(steps))), {**numbers, **solved.givens}
     board = run(program, numbers)
     return replace(solved, program=program, givens=numbers, values=board.values, sines=board.sines)
-
-
-def _renamed(step: Step, names: Mapping[str, str]) -> Step:
-    operands = tuple(names.get(name, name) for name in step.operands)
-    return step.but(name=names.get(step.name, step.name), operands=operands)
-
-
-def _measured(step: Step, at_centre: tuple[str, ...], by_tangents: bool) -> tuple[Step, ...]:
-    """Return a step as it is done on a drawing: s_0 goes with r_0 and e, the curvature is that of the drawn cam."""
-    if by_tangents and step.name == "s_0":
-        return (step.but(law="other_leg", operands=("r_0", "e")),)
-    if step.name == "rho_min" and at_centre:
-        return (step.but(law=SHARPEST, operands=at_centre),)
-    return (step,)
 
 
 def _curved(solved: SolvedCam) -> dict[str, float]:

@@ -10,7 +10,7 @@ table to the board, as it is to a student: parts of the amplitude, of the travel
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -320,15 +320,14 @@ def _shown_on(program: Program) -> dict[str, str]:
 
 def _cams(cam: Cam, motion: Motion, values: Mapping[str, float]) -> dict[str, Any]:
     """Return the cam for every follower; a plate cannot follow a velocity that jumps."""
-    found: dict[str, Any] = {}
-    for follower in cam.followers:
-        if follower == ROLLER:
-            found[ROLLER] = roller_cam(cam, motion, values)
-        elif follower == ROCKER:
-            found[ROCKER] = rocker_cam(cam, values)
-        elif not motion.velocity_jumps:
-            found[PLATE] = plate_cam(cam, motion, values)
-    return found
+    makers: dict[str, Callable[[], Any]] = {
+        ROLLER: lambda: roller_cam(cam, motion, values),
+        ROCKER: lambda: rocker_cam(cam, values),
+        PLATE: lambda: plate_cam(cam, motion, values),
+    }
+    return {
+        follower: makers[follower]() for follower in cam.followers if follower != PLATE or not motion.velocity_jumps
+    }
 
 
 # numbers that neither the motion nor the smallest sizes depend on
