@@ -133,11 +133,11 @@ def as_drawn(solved: SolvedCam) -> SolvedCam:
     steps = []
     for step in (step for step in solved.program if step.name not in left_out):
         operands = tuple(names.get(name, name) for name in step.operands)
-        drawn = step._replace(name=names.get(step.name, step.name), operands=operands)
+        drawn = step.but(name=names.get(step.name, step.name), operands=operands)
         if drawn.name == "s_0" and "e_tangents" in named:  # it goes with r_0 and e
-            drawn = drawn._replace(law="other_leg", operands=("r_0", "e"))
+            drawn = drawn.but(law="other_leg", operands=("r_0", "e"))
         elif drawn.name == "rho_min" and numbers:  # the curvature is that of the drawn cam
-            drawn = drawn._replace(law=SHARPEST, operands=("h", "e", "s_0", *numbers))
+            drawn = drawn.but(law=SHARPEST, operands=("h", "e", "s_0", *numbers))
         steps.append(drawn)
     program, numbers = Program(tuple(_in_order(steps))), {**numbers, **solved.givens}
     board = run(program, numbers)
