@@ -15,14 +15,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ...plans.board import POSITION, Step
-from ...plans.linkages.compound import ACCELERATION, COMPOUND, VELOCITY, Closing, Coupler
+from ...plans.linkages.compound import ACCELERATION, COMPOUND, VELOCITY, Coupler
 from ...plans.linkages.mechanism import ZERO
 from ...plans.names import POLE, Name, mark, role, spelled
 from ...plans.names import vector as vector_named
 from ..figure import ANSWERS
 from ..printed import Input, calculation
 from ..shapes import Arrow, Group, Line, Pen, Shape, Vector
-from ..symbols import clear_ray, turning_arrow
+from ..symbols import clear_ray, turning_arrow, unit
 from ..view import Canvas, View
 from .calculations.equations import (
     Factor,
@@ -60,8 +60,6 @@ def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
         canvas.part(ANSWERS)
         edge = Edge(f"V_{hinge}", "velocity.p", f"velocity.{hinge}")
         _vector(canvas, scene, scene.vector(edge, at=scene.mm(hinge)))
-    for at in points:
-        _arm_measured(canvas, scene, at)
     _at_points(canvas, scene, points)
     beyond = [note for c in couplers for note in _instant_centre(canvas, scene, c, figures)]
     for c in couplers:
@@ -78,7 +76,6 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     group = next(g for g in scene.solved.structure.groups if coupler.number in g.links)
     # the link that carries the coupler, itself, the other of its group
     figures = _mechanism(canvas, scene, sorted({coupler.carrier.number, *group.links}))
-    _arm_measured(canvas, scene, at)
     _at_points(canvas, scene, [at])
     _sliding_sense(canvas, scene, at, figures)
     for rate in (coupler.omega_e, coupler.epsilon_e):
@@ -93,15 +90,11 @@ def _finish(
     canvas: Canvas, name: str, heading: tuple[str, ...], points: Sequence[At], notes: Sequence[str] = ()
 ) -> View:
     """Finish a figure with the insets of its points; it says which vectors are zero."""
-    zero = (
-        at.scene.words["said.zero"].format(vector=at.scene.letter(vector.quantity))
-        for at in points
-        for vector in at.vectors()
-        if abs(vector.tip - vector.tail) < 1e-6
-    )
-    return with_insets(
-        canvas, name, heading, (*notes, *zero), [(at, window) for at in points for window in windows(at)]
-    )
+    every = ((at.scene, vector) for at in points for vector in at.vectors())
+    zero = [scene.letter(vector.quantity) for scene, vector in every if abs(vector.tip - vector.tail) < 1e-6]
+    said = (points[0].scene.words["said.zero"].format(vector=letter) for letter in zero)
+    shown = [(at, window) for at in points for window in windows(at)]
+    return with_insets(canvas, name, heading, (*notes, *said), shown)
 
 
 def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Skeleton]:
@@ -109,16 +102,16 @@ def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Ske
     figures = draw_links(canvas, scene, numbers)
     draw_frame(canvas, scene, numbers, figures)
     canvas.shapes[start:] = [_thin(shape) for shape in canvas.shapes[start:]]
-    joints = {point for number in numbers for point in pins_of(scene, number)}
-    centres = [block.at for figure in figures for block in figure.blocks]
-    blocks = {p for p in joints if any(abs(centre - scene.mm(p)) < scene.style.pair for centre in centres)}
+    joints, style = {point for number in numbers for point in pins_of(scene, number)}, scene.style
+    blocks = [block.at for figure in figures for block in figure.blocks]
     for point in dict.fromkeys(p for number in numbers for p in scene.mechanism.link(number).points):
         at = scene.mm(point)
         canvas.part(point)
         if point not in joints:
             canvas.add(scene.point(at, point))
-        reach = scene.style.slider[1] / 2 if point in blocks else scene.style.pair
-        canvas.label(scene.words.mark(point), at, clear=reach + 0.8, priority=1)
+        in_block = point in joints and any(abs(block - at) < style.pair for block in blocks)
+        clear = (style.slider[1] / 2 if in_block else style.pair) + 0.8
+        canvas.label(scene.words.mark(point), at, clear=clear, priority=1)
     return figures
 
 
@@ -131,18 +124,15 @@ def _thin(shape: Shape) -> Shape:
     return shape
 
 
-def _arm_measured(canvas: Canvas, scene: Scene, at: At) -> None:
-    start, end = scene.mm(at.coupler.pivot), scene.mm(at.point)
-    rim = scene.style.pair
-    if abs(end - start) > 4 * rim:
-        e = (end - start) / abs(end - start)
-        name = f"l_{at.coupler.pivot}{at.point}"
-        canvas.part(name)
-        canvas.add(Line(start + e * rim, end - e * rim, Pen.AXIS, role="measured", name=name))
-
-
 def _at_points(canvas: Canvas, scene: Scene, points: Sequence[At]) -> None:
-    """Draw the construction lines and the vectors at the points; what an inset shows has its letters there."""
+    """Draw the arms, the construction lines and the vectors at points; what an inset shows has its letters there."""
+    rim = scene.style.pair
+    for at in points:
+        start, end, name = scene.mm(at.coupler.pivot), scene.mm(at.point), f"l_{at.coupler.pivot}{at.point}"
+        if abs(end - start) > 4 * rim:
+            e = unit(end - start)
+            canvas.part(name)
+            canvas.add(Line(start + e * rim, end - e * rim, Pen.AXIS, role="measured", name=name))
     for at in points:
         shown = windows(at)
         canvas.part(mark(at.plan, at.letter))
@@ -159,7 +149,6 @@ def _at_points(canvas: Canvas, scene: Scene, points: Sequence[At]) -> None:
 
 
 def _vector(canvas: Canvas, scene: Scene, vector: Vector, lettered: bool = True) -> None:
-    """Draw a vector with its letter; one too short for an arrowhead is only a line."""
     length = abs(vector.tip - vector.tail)
     canvas.add(replace(vector, head="none") if length < scene.style.arrow else vector)
     if lettered and length > 1e-6:
@@ -223,26 +212,19 @@ def _turn(canvas: Canvas, scene: Scene, rate: str, centre: str) -> None:
 def compound_told(teller: Teller, view: str) -> Iterator[Told]:
     """Go through the steps of one figure: the mechanism once more, then the vectors of every point."""
     scene, points = teller.scene, teller.figures[view]
-    first = scene.program.on(points[0].plan)[0]
-    marks = (point for link in scene.mechanism.links for point in link.points)
-    yield Told(first, teller.say("compound_mechanism"), others=tuple(marks))
+    marks = tuple(point for link in scene.mechanism.links for point in link.points)
+    yield Told(scene.program.on(points[0].plan)[0], teller.say("compound_mechanism"), others=marks)
     for at in points:
         if at.kind == "V":
-            yield _distance(teller, at)
+            name = f"l_{at.coupler.pivot}{at.point}"
+            step, said = teller.reading.made[name], " ".join(measured(scene, name, POSITION))
+            start, end = map(teller.mark, step.operands)
+            yield Told(step, teller.say("compound_distance", start=start, end=end, sum=said))
         for step in scene.program.on(at.plan):
             if step.verb in POINT_STEPS:
                 yield from POINT_STEPS[step.verb](teller, at, step)
         if at.kind == "V" and at.point == [*at.coupler.letters][-1] and scene.defined(at.coupler.centre):
             yield _centre_told(teller, at.coupler)
-
-
-def _distance(teller: Teller, at: At) -> Told:
-    """Tell the arm of the transport rotation, which is measured on the drawing."""
-    name = f"l_{at.coupler.pivot}{at.point}"
-    step = teller.reading.made[name]
-    start, end = (teller.mark(mark) for mark in step.operands)
-    said = " ".join(measured(teller.scene, name, POSITION))
-    return Told(step, teller.say("compound_distance", start=start, end=end, sum=said))
 
 
 def _hung(teller: Teller, at: At, step: Step) -> Iterator[Told]:
@@ -276,7 +258,7 @@ def _measured(teller: Teller, at: At, step: Step) -> Iterator[Told]:
     """Tell what is measured: the part that was known by direction, then the whole."""
     found = {step.name: "compound_read"}
     if role(step.name).hidden:
-        closing = _closing(at.coupler, at.point) if at.kind == "a" else None
+        closing = at.coupler.closing if at.point == at.coupler.span.end and at.kind == "a" else None
         parts = [tangential(closing.normal)] if closing is not None and closing.normal is not None else []
         found = dict.fromkeys(parts, "compound_read") | {f"{at.kind}_{at.point}": "compound_whole"}
     for name, key in found.items():
@@ -311,8 +293,8 @@ def compound_lines(scene: Scene, c: Coupler, kind: str, only: str = "") -> list[
     What is said of the whole coupler stands before the first of its points.
     """
     points = [point for point in c.letters if only in ("", point)]
-    lines = list(_of_the_whole(scene, c, kind)) if next(iter(c.letters)) in points else []
-    return [*lines, *(line for point in points for line in _lines_of_point(scene, c, point, kind))]
+    whole = _of_the_whole(scene, c, kind) if next(iter(c.letters)) in points else ()
+    return [*whole, *(line for point in points for line in _lines_of_point(scene, c, point, kind))]
 
 
 def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Said]:
@@ -323,7 +305,7 @@ def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Said]:
         said = words["said.split"].format(pivot=words.mark(c.pivot), hinge=words.mark(c.hinge), **links)
         yield tuple(said.split("|"))
     if c.closing is None:
-        whole, carrier = _rates(c, kind)
+        whole, carrier = ("omega", c.omega_e) if kind == "V" else ("epsilon", c.epsilon_e)
         yield _sum_of_rates(scene, f"{whole}_r_{c.number}", f"{whole}_{c.number}", carrier, -1.0)
         if kind == "V":
             yield from _centre(scene, c)
@@ -331,7 +313,8 @@ def _of_the_whole(scene: Scene, c: Coupler, kind: str) -> Iterator[Said]:
 
 def _lines_of_point(scene: Scene, c: Coupler, point: str, kind: str) -> Iterator[Said]:
     """Go through the vectors of a point as they are hung; where its end is closed they give the relative rate."""
-    letter, closing, (whole, carrier) = c.letters[point], _closing(c, point), _rates(c, kind)
+    letter, closing = c.letters[point], c.closing if point == c.span.end else None
+    whole, carrier = ("omega", c.omega_e) if kind == "V" else ("epsilon", c.epsilon_e)
     plan, rate = spelled(VELOCITY if kind == "V" else ACCELERATION, letter), f"{whole}_r_{c.number}"
     relative = f"V_{letter}_r" if kind == "V" else f"a_{letter}_rt"
     yield _vectors(scene, c, point, kind)
@@ -356,15 +339,6 @@ def _lines_of_point(scene: Scene, c: Coupler, point: str, kind: str) -> Iterator
     yield measured(scene, f"{kind}_{point}", plan)
 
 
-def _rates(c: Coupler, kind: str) -> tuple[str, str]:
-    """Return the kind of rates that go with velocities or accelerations, and that of the carrier."""
-    return ("omega", c.omega_e) if kind == "V" else ("epsilon", c.epsilon_e)
-
-
-def _closing(c: Coupler, point: str) -> Closing | None:
-    return c.closing if point == c.span.end else None
-
-
 def _known_parts(scene: Scene, c: Coupler, point: str) -> Iterator[Said]:
     """Go through the parts that the velocities give: normal ones, the tangential one of transport, Coriolis."""
     letter, distance = c.letters[point], factor(scene, f"l_{c.pivot}{point}")
@@ -379,7 +353,6 @@ def _known_parts(scene: Scene, c: Coupler, point: str) -> Iterator[Said]:
 
 
 def _normal(scene: Scene, c: Coupler, normal: Name) -> Said:
-    """Return the normal part on the circle of the end, which the other link of the group draws."""
     group = next(group for group in scene.solved.structure.groups if c.number in group.links)
     link = scene.mechanism.link(next(number for number in group.links if number != c.number))
     pivot = next(point for point in link.points if point in scene.mechanism.frame_points)
@@ -393,7 +366,7 @@ def tangential(normal: Name) -> Name:
 
 def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Said:
     """Return the vector equation of a point, and along which lines its unknown vectors lie."""
-    closing, letter = _closing(c, point), c.letters[point]
+    closing, letter = c.closing if point == c.span.end else None, c.letters[point]
     *parts, last = (scene.letter(vector_named(kind, letter, part=part)) for part in COMPOUND[kind])
     whole, notes = scene.letter(f"{kind}_{point}"), list[str]()
     if closing is not None:
@@ -408,7 +381,6 @@ def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Said:
 
 
 def _centre(scene: Scene, c: Coupler) -> Iterator[Said]:
-    """Go through what places the instant centre: the two rotations cancel there."""
     words = scene.words
     if not scene.defined(c.centre):
         yield tuple(words["said.no_centre"].format(link=_name(scene, c.number)).split("|"))
@@ -421,10 +393,9 @@ def _centre(scene: Scene, c: Coupler) -> Iterator[Said]:
 
 def _product(scene: Scene, name: str, *factors: Factor) -> Said:
     """Return a quantity as a product of magnitudes; of a rate the sense, too."""
-    head = role(name).kind
-    line = worked(scene.words, scene.words.symbol(name), [Product(factors)], UNITS.get(head, "m"))
-    sense = sensed(scene.words, scene.solved.values[name]) if head in ("omega", "epsilon") else ""
-    return noted(line, sense)
+    kind = role(name).kind
+    line = worked(scene.words, scene.words.symbol(name), [Product(factors)], UNITS.get(kind, "m"))
+    return noted(line, sensed(scene.words, scene.solved.values[name]) if kind in ("omega", "epsilon") else "")
 
 
 def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float) -> Said:

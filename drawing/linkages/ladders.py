@@ -40,14 +40,8 @@ POINT, ZERO = 0.035, 1e-4  # parts of the longest vector below which another is 
 # mm^2 of equations and tables: for the structure, a link, a quantity of a plan, the equations of moments of a group,
 # a load diagram
 STRUCTURE, LINK, DIAGRAM, HEADINGS = 15000.0, 1700.0, 13500.0, 4000.0
-TEXTS = {
-    "velocity": 3300.0,
-    "acceleration": 3300.0,
-    "forces": 4700.0,
-    "lever": 2000.0,
-    VELOCITY: 8000.0,
-    ACCELERATION: 8000.0,
-}
+TEXTS = {"velocity": 3300.0, "acceleration": 3300.0, "forces": 4700.0, "lever": 2000.0}
+TEXTS |= {VELOCITY: 8000.0, ACCELERATION: 8000.0}
 MOMENTS = {"RRR": 16000.0, TRIAD: 45000.0}
 
 
@@ -73,30 +67,26 @@ def mus_of(extents: Extents, rungs: Rungs) -> dict[str, float]:
 def extents_of(solved: SolvedLinkage, choosers: Choosers, plans: Sequence[str]) -> Extents:
     """Return what the figures of a linkage take up, what its texts do, and the ladders of its scale factors."""
     figures = tuple(_figures(solved, plans)) if POSITION in solved.scale_of_plan else ()  # a structure has no extent
-    return Extents(figures, _texts(solved, plans), ladders_of(solved, choosers))
+    return Extents(figures, _texts(solved, plans), _ladders(solved, choosers))
 
 
-def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
+def _ladders(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
     """Return for each scale factor of the plans its values from the wanted one to ever coarser ones."""
-    plans = solved.scale_of_plan
 
     def value(name: str) -> float:
         item = solved.quantities.get(name)
-        if name in plans.values():
-            size = longest[name]
-        else:
-            size = abs(item.value or 0.0) if item is not None else abs(float(solved.values.get(name, 0.0)))
+        size = solved.values.get(name, 0.0) if item is None else item.value or 0.0
+        size = longest[name] if name in longest else abs(float(size))
         if not size > 0.0:
             raise InputError("scale-of-zero", quantity=name)
         return size
 
-    longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys(plans.values())}
+    longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys(solved.scale_of_plan.values())}
     ladders: dict[str, Ladder] = {}
     for symbol, size in longest.items():
         chooser, kind = choosers.get(symbol), role(symbol).of
-        weight = WEIGHTS[kind]
         if chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
-            values = Round(symbol, weight * max(LONGEST["A1"])).ladder(value) if size > 0.0 else (1.0,)
+            values = Round(symbol, WEIGHTS[kind] * max(LONGEST["A1"])).ladder(value) if size > 0.0 else (1.0,)
         elif isinstance(chooser, CrankScale):
             values = chooser.ladder(value, ladders["mu_l"].values)
         else:
@@ -105,7 +95,7 @@ def ladders_of(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
         ladders[symbol] = Ladder(
             values,
             size,
-            weight=weight,
+            weight=WEIGHTS[kind],
             least={name: LARGER[kind] * mm for name, mm in LEAST.items()},
             root="mu_l" if isinstance(chooser, CrankScale) else "",
             # of what the task or the user has fixed several pages are better than a coarser one
@@ -129,14 +119,15 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
             Extent(symbols[p], _around(marks_on(solved, p)), SPLIT) for p in symbols if role(p).kind == ACCELERATION
         )
     if "forces" in plans:
+        apart = Extent("", (0.0, 0.0), APART, part=KINETOSTATICS)
         for group in solved.structure.groups:
-            points = [point for link in solved.mechanism.links if link.number in group.links for point in link.points]
-            size = _around([solved.point(point) for point in points])
+            links = (link for link in solved.mechanism.links if link.number in group.links)
+            size = _around([solved.point(point) for link in links for point in link.points])
             yield Extent("mu_l", size, GROUPS.get(group.kind, GROUP), part=KINETOSTATICS)
-            yield from (Extent("", (0.0, 0.0), APART, part=KINETOSTATICS) for _ in links_apart(solved, group))
+            yield from (apart for _ in links_apart(solved, group))
         for plan in (plan for plan in symbols if role(plan).kind == FORCES):
             yield from _plan(solved, plan, KINETOSTATICS)
-        yield Extent("", (0.0, 0.0), APART, part=KINETOSTATICS)
+        yield apart
     if "lever" in plans:
         high, wide = _around(marks_on(solved, "velocity"))
         yield Extent("mu_V", (wide, high), LEVER, HEADING, part=KINETOSTATICS)
@@ -153,10 +144,9 @@ def _plan(solved: SolvedLinkage, plan: str, part: int) -> Iterator[Extent]:
 
 def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> tuple[float, float]:
     """Return what equations and tables take, mm^2 on A1, of both parts of the work."""
-    kinematics = STRUCTURE + LINK * len(solved.mechanism.links) if "structure" in plans else 0.0
-    forces = 0.0
-    shown = (solved.shown_on.get(name, "") for name in solved.quantities)
-    count = Counter(role(plan).kind or plan for plan in shown)
+    kinematics, forces = STRUCTURE + LINK * len(solved.mechanism.links) if "structure" in plans else 0.0, 0.0
+    shown = (role(solved.shown_on.get(name, "")) for name in solved.quantities)
+    count = Counter(plan.kind or plan for plan in shown)
     for plan in ("velocity", "acceleration", VELOCITY, ACCELERATION):
         kinematics += TEXTS[plan] * count[plan] + HEADINGS * (count[plan] > 0)
     for plan in {"forces", "lever"} & {*plans}:
@@ -216,20 +206,13 @@ def _largest(solved: SolvedLinkage, symbol: str) -> float:
 
 def by_plan(solved: SolvedLinkage, mus: Mapping[str, float]) -> dict[str, Scale]:
     """Return the scale factors of the plans from their values by symbol."""
-    plans = solved.scale_of_plan.items()
+    plans, driver = solved.scale_of_plan.items(), solved.mechanism.driver
     scales = {plan: Scale(symbol, mus[symbol], UNITS[role(symbol).of]) for plan, symbol in plans}
     if POSITION not in scales:  # of a structure alone nothing is drawn to scale
         return scales
-    return {**scales, DRIVER: _of_driver(solved, scales[POSITION])}
-
-
-def _of_driver(solved: SolvedLinkage, scale: Scale) -> Scale:
-    """Return the scale factor of the driver drawn apart: its own, larger one where the crank is short on the plan."""
-    driver = solved.mechanism.driver
-    if not isinstance(driver, Driver):
-        return scale
-    crank = abs(solved.point(driver.point) - solved.point(driver.pivot))
-    if not 0.0 < crank < CRANK * scale.mu:
-        return scale
-    finer = [mu for mu in steps(crank / CRANK / 10.0) if mu <= crank / CRANK]
-    return Scale(f"{scale.symbol}_{driver.link}", finer[-1], scale.unit)
+    scale = scales[DRIVER] = scales[POSITION]
+    crank = abs(solved.point(driver.point) - solved.point(driver.pivot)) if isinstance(driver, Driver) else 0.0
+    if 0.0 < crank < CRANK * scale.mu:  # short on the plan: drawn apart, it is larger
+        finer = [mu for mu in steps(crank / CRANK / 10.0) if mu <= crank / CRANK]
+        scales[DRIVER] = Scale(f"{scale.symbol}_{driver.link}", finer[-1], scale.unit)
+    return scales

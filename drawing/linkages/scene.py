@@ -11,7 +11,7 @@ from ...plans.linkages.compound import ACCELERATION, VELOCITY
 from ...plans.linkages.mechanism import Driver, Mechanism, Prismatic
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Structure
-from ...plans.names import inertia, rate, role
+from ...plans.names import FORCES, inertia, rate, role
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
 from ..figure import ANSWERS
@@ -86,8 +86,7 @@ class Scene(SubjectScene[SolvedLinkage]):
 
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""
-        plan = role(mark).plan
-        return self.solved.point(mark) * (1.0 / self.scales[plan].mu)
+        return self.solved.point(mark) * (1.0 / self.scales[role(mark).plan].mu)
 
     def run_of(self, pair: Prismatic) -> tuple[float, float]:
         """Return how far a slider goes back and forth of its place, mm."""
@@ -126,11 +125,8 @@ class Scene(SubjectScene[SolvedLinkage]):
 
     def segment(self, name: str) -> str:
         """Return the printed millimetres of a quantity that a plan shows."""
-        item = self.solved.quantities[name]
-        value = item.value or 0.0
-        plan = self.figure_of(name)
-        places, _ = segment_decimals(value, self.scales[plan].mu)
-        return self.words.number(abs(value) / self.scales[plan].mu, places)
+        value, mu = self.solved.quantities[name].value or 0.0, self.scales[self.figure_of(name)].mu
+        return self.words.number(abs(value) / mu, segment_decimals(value, mu)[0])
 
     def figure_of(self, name: str) -> str:
         """Return the plan, or the figure with a scale factor of its own, on which a quantity is a segment, or ""."""
@@ -150,13 +146,10 @@ class Scene(SubjectScene[SolvedLinkage]):
 
 def plan_heading(words: Words, structure: Structure, plan: str) -> str:
     """Return the heading of a plan; that of a plan of forces names its group or its link."""
-    drawn = role(plan)
-    if drawn.kind != "forces":
-        return words[f"heading.{plan}"]
-    links = structure.parts.get(drawn.of, ())
-    if len(links) > 1:
-        return words["heading.group_forces"].format(links=", ".join(map(str, links)))
-    return words["heading.link_forces"].format(link=drawn.of)
+    links, number = structure.parts.get(role(plan).of, ()), role(plan).of
+    key = "group_forces" if len(links) > 1 else "link_forces"
+    text: str = words[f"heading.{key if role(plan).kind == FORCES else plan}"]
+    return text.format(links=", ".join(map(str, links)), link=number)
 
 
 def arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
@@ -164,12 +157,12 @@ def arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
     driver = solved.mechanism.driver
     if not isinstance(driver, Driver):
         return frozenset()
-    loads = {load.name for load in solved.mechanism.loads_on(driver.link)}
-    forces = {inertia("F", driver.link), rate("G", driver.link), *loads}
-    forces |= {solved.mechanism.pair("R", link.number, driver.link) for link in solved.mechanism.links}
-    taken = {s.name for s in solved.program if s.verb == "moment" and s.operands[0] in forces}
-    taken &= {s.name for s in solved.program if s.verb == "moment" and s.operands[2] == driver.pivot}
-    return frozenset(s.name for s in solved.program if s.verb == "arm" and s.operands[0] in taken)
+    mechanism, number = solved.mechanism, driver.link
+    forces = {inertia("F", number), rate("G", number), *(load.name for load in mechanism.loads_on(number))}
+    forces |= {mechanism.pair("R", link.number, number) for link in mechanism.links}
+    moments = solved.program.which(("moment",))
+    taken = {s.name for s in moments if s.operands[0] in forces and s.operands[2] == driver.pivot}
+    return frozenset(s.name for s in solved.program.which(("arm",)) if s.operands[0] in taken)
 
 
 def is_at_point(plan: str) -> bool:

@@ -33,6 +33,7 @@ from .calculations.tables import givens_table, results_parts, results_table, str
 from .compound import acceleration_figure, block_name, compound_heading, compound_lines, velocity_figure
 from .figures.acting import lever_view
 from .figures.group import driver_view, group_view, link_view
+from .figures.inset import ACCELERATIONS, VELOCITIES
 from .figures.plan import plan_view
 from .figures.scheme import scheme
 from .ladders import by_plan, chosen, extents_of, links_apart, marks_on, mus_of
@@ -46,7 +47,8 @@ LinkageFigure = Figure[Scene]
 # views with which the part of the forces begins
 OF_FORCES = ("load_", "equations_forces_loads", "group_", "driver", "lever")
 
-Found = tuple[list[View], Mapping[str, Scale], list[Placement]]
+Fitted = tuple[list[View], Mapping[str, Scale]]
+Found = tuple[*Fitted, list[Placement]]
 # mm from the left bottom corner of the trimmed sheet
 ZONES: dict[str, Box] = {
     "positions": (25.0, 330.0, 355.0, 572.0),
@@ -129,10 +131,9 @@ def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> It
     single = len(solved.structure.groups) < 2
     for i, plan in enumerate(drawn[:1] if single else drawn):
         own = drawn if single else [plan]
+        names = [f"equations_{'kinematics' if whole else plan}" for whole in (single, len(own) > 1)]
         lines = partial(kinematics_text, plans=own, before=drawn[:i])
-        name = "equations_kinematics" if single else f"equations_{plan}"
-        heading = "heading.equations_kinematics" if len(own) > 1 else f"heading.equations_{plan}"
-        yield _text(name, lines, width, heading)
+        yield _text(names[0], lines, width, f"heading.{names[1]}")
     yield from _results(solved, drawn)
 
 
@@ -145,12 +146,12 @@ def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
         return _text(block_name(coupler, kind), lines, width, partial(compound_heading, c=coupler, kind=kind))
 
     if couplers:
-        yield Figure("compound_velocity", partial(velocity_figure, couplers=couplers), ("mu_V", "mu_l"))
+        yield Figure(VELOCITIES, partial(velocity_figure, couplers=couplers), ("mu_V", "mu_l"))
     yield from (text(coupler, "V") for coupler in couplers)
     for coupler in couplers:
         for point, letter in coupler.letters.items():
             draw = partial(acceleration_figure, coupler=coupler, point=point)
-            yield Figure(f"compound_a_{letter}", draw, (scale_factor("a", letter), "mu_l"))
+            yield Figure(f"{ACCELERATIONS}{letter}", draw, (scale_factor("a", letter), "mu_l"))
         yield text(coupler, "a")
 
 
@@ -221,14 +222,13 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     fitting = Fitting(contents)
     usual, rungs = chosen(fitting.extents, sheet)
     found, candidate = None, FORMATS["A1"]
-    if contents.cycle is not None and {"velocity", "acceleration"} <= {*contents.plans} and sheet in (None, candidate):
+    if contents.cycle is not None and {*PLANS} <= {*contents.plans} and sheet in (None, candidate):
         found = zoned(fitting, candidate, rungs)
-    if found is None:
-        formats = [sheet] if sheet is not None else from_format(usual)
-        for candidate in formats:
-            found = _single(fitting, candidate, rungs, candidate is formats[-1])
-            if found is not None:
-                break
+    formats = [] if found else [sheet] if sheet is not None else from_format(usual)
+    for candidate in formats:
+        found = _single(fitting, candidate, rungs, candidate is formats[-1])
+        if found is not None:
+            break
     found = found or _on_pages(fitting, candidate, rungs)
     if found is None:
         raise InputError("sheet-too-small", format=candidate.name)
@@ -247,11 +247,8 @@ def _single(fitting: Fitting, sheet: Format, rungs: Rungs, last: bool) -> Found 
     if taken != rungs and not last:
         return None  # a larger format may hold them
     sizes, norm = [view.size for view in views], fitting.contents.norm
-    places = arrange(sizes, sheet, norm, 1)
-    if places is None:
-        places = arrange_halves(sizes, forces_begin(views), sheet, norm)
-    if places is None:
-        places = arrange(sizes, sheet, norm, 1, any_order=True)
+    places = arrange(sizes, sheet, norm, 1) or arrange_halves(sizes, forces_begin(views), sheet, norm)
+    places = places or arrange(sizes, sheet, norm, 1, any_order=True)
     return None if places is None else (views, scales, places)
 
 
@@ -367,9 +364,7 @@ class Fitting:
         """Whether the task or the user has fixed a scale factor."""
         return self.extents.ladders[symbol].fixed
 
-    def fitted(
-        self, sheet: Format, rungs: Rungs, first: bool = False
-    ) -> tuple[tuple[list[View], Mapping[str, Scale]], Rungs]:
+    def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> tuple[Fitted, Rungs]:
         """Return views, scale factors and rungs for pages of `sheet`: these rungs, coarser ones where they must be.
 
         What is fixed, too, becomes coarser only where a page cannot hold it alone. With `first` all have room even on
@@ -410,51 +405,39 @@ class Fitting:
 
     def build(self, sheet: Format, rungs: Rungs) -> tuple[list[tuple[View, str]], Mapping[str, Scale]]:
         """Draw all figures with the scale factors on these rungs; each with the ladder that sizes it, or ""."""
-        contents = self.contents
+        contents, solved, mus = self.contents, self.contents.solved, mus_of(self.extents, rungs)
         text_width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
-        mus = mus_of(self.extents, rungs)
-        words, style = lettered(contents.words, contents.solved), STYLES[sheet.letters]
-        scene = Scene(contents.solved, words, style, contents.givens, by_plan(contents.solved, mus), self.runs)
+        words, style = lettered(contents.words, solved), STYLES[sheet.letters]
+        scene = Scene(solved, words, style, contents.givens, by_plan(solved, mus), self.runs)
         built = []
         for figure in figures(contents, text_width):
             # of two scale factors the one with the longer lines makes the figure as large as it is
-            symbol = max(figure.ladders, key=lambda s: _reach(contents.solved, s) / mus[s], default="")
+            symbol = max(figure.ladders, key=lambda s: _reach(solved, s) / mus[s], default="")
             built.append((self._drawn(sheet, figure, scene), self.extents.root(symbol)))
         return built, scene.scales
 
     def _drawn(self, sheet: Format, figure: LinkageFigure, scene: Scene) -> View:
         """Draw a figure, unless it has been drawn for this format at the same of the scale factors that it used."""
-        drawings = self._drawings.setdefault((sheet.name, figure.name), [])
+        drawings, watched = self._drawings.setdefault((sheet.name, figure.name), []), Scales(scene.scales)
         for used, view in drawings:
             if all(scene.scales[plan] == scale for plan, scale in used.items()):
                 return view
-        watched = Scales(scene.scales)
-        view = figure.draw(replace(scene, scales=watched))
-        drawings.append((watched.used, view))
-        return view
+        drawings.append((watched.used, figure.draw(replace(scene, scales=watched))))
+        return drawings[-1][1]
 
     def _does_not_fit(self, sheet: Format, symbol: str, size: tuple[float, float]) -> InputError:
         """Say which format, or which scale factor, would do."""
         norm, mu = self.contents.norm, self.extents.ladders[symbol].values[-1]
         width, height = room(sheet, norm)
-        excess = max(size[0] / width, size[1] / height)
+        fits = steps(mu * max(size[0] / width, size[1] / height) * 1.1)[0]
         rooms = {name: room(FORMATS[name], norm) for name in SIZES}
-        larger = [name for name, (w, h) in rooms.items() if w >= size[0] and h >= size[1]]
-        return InputError(
-            "plan-too-large" if larger else "plan-too-large-everywhere",
-            symbol=symbol,
-            mu=f"{mu:g}",
-            unit=Scale(symbol, mu, UNITS[role(symbol).of]).per_mm_unit,
-            format=sheet.name,
-            fits=f"{steps(mu * excess * 1.1)[0]:g}",
-            larger=larger[0] if larger else "",
-        )
+        larger = next((name for name, (w, h) in rooms.items() if w >= size[0] and h >= size[1]), "")
+        key, unit = "plan-too-large" + ("" if larger else "-everywhere"), Scale(symbol, mu, UNITS[role(symbol).of])
+        said = {"mu": f"{mu:g}", "unit": unit.per_mm_unit, "format": sheet.name}
+        return InputError(key, symbol=symbol, fits=f"{fits:g}", larger=larger, **said)
 
 
 def _reach(solved: SolvedLinkage, symbol: str) -> float:
     """Return the longest distance between marks of the plans that a scale factor sizes, in its own unit."""
-    longest = 0.0
-    for plan in (plan for plan, name in solved.scale_of_plan.items() if name == symbol):
-        marks = marks_on(solved, plan)
-        longest = max((longest, *(abs(a - b) for a in marks for b in marks)))
-    return longest
+    plans = (marks_on(solved, plan) for plan, name in solved.scale_of_plan.items() if name == symbol)
+    return max((abs(a - b) for marks in plans for a in marks for b in marks), default=0.0)

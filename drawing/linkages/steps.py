@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
-from itertools import chain
 
 from ...plans.board import POSITION
 from ...plans.boards.exact import SMALL
@@ -42,8 +41,7 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
     equations = {plan: kinematics_lines(scene, plan, lengths) for plan in plans}
     views = {"equations_kinematics", *(f"equations_{plan}" for plan in plans)}
     for view, points in teller.figures.items():
-        lines = [compound_lines(scene, at.coupler, at.kind, at.point) for at in points]
-        equations[view] = [*chain.from_iterable(lines)]
+        equations[view] = [line for at in points for line in compound_lines(scene, at.coupler, at.kind, at.point)]
         views |= {block_name(at.coupler, at.kind) for at in points}
     before: dict[str, tuple[Block, ...]] = {}
     if any(role(plan).kind == FORCES for plan in steps):
@@ -65,25 +63,20 @@ def drawn_views(teller: Teller) -> list[str]:
 
 
 def told_of(teller: Teller, view: str) -> Iterator[Told]:
-    """Go through the steps of a view, each with its sentence."""
+    """Return the steps of a view, each with its sentence."""
     if view in teller.figures:
-        yield from compound_told(teller, view)
-    elif view == "lever":
-        yield from lever_told(teller)
-    else:
-        yield from _plan(teller, view)
+        return compound_told(teller, view)
+    return lever_told(teller) if view == "lever" else _plan(teller, view)
 
 
 def _plan(teller: Teller, plan: str) -> Iterator[Told]:
-    """Go through the steps of a plan; instant centres of compound motion are marked on its own figure."""
     centres = {at.coupler.centre for points in teller.figures.values() for at in points}
     for step in teller.scene.program.on(plan):
         hidden = role(step.name).hidden and step.verb not in ("place", "read")
         arm = plan == POSITION and step.verb == "read"  # that a calculation takes
-        if step.verb in TOLD and step.name not in centres and not hidden and not arm:
-            text = TOLD[step.verb](teller, step)
-            if text:
-                yield Told(step, text, before=step.verb in SET)
+        text = "" if hidden or arm or step.name in centres or step.verb not in TOLD else TOLD[step.verb](teller, step)
+        if text:
+            yield Told(step, text, before=step.verb in SET)
 
 
 def begun(scene: Scene, steps: int) -> dict[str, Shown]:
@@ -93,12 +86,9 @@ def begun(scene: Scene, steps: int) -> dict[str, Shown]:
 
 
 def _begun(teller: Teller, view: str, steps: int) -> Shown:
-    every, before = list(told_of(teller, view)), ""
-    drawn = {
-        name: told.before or number <= steps
-        for number, told in enumerate(every, 1)
-        for name in (told.step.name, *told.others)
-    }
+    every, before, drawn = list(told_of(teller, view)), "", dict[str, bool]()
+    for number, told in enumerate(every, 1):
+        drawn |= dict.fromkeys((told.step.name, *told.others), told.before or number <= steps)
     for step in teller.scene.program.on(view):  # what nothing is said of is drawn with what stands before it
         before = step.name if step.name in drawn else before
         drawn.setdefault(step.name, drawn.get(before, False))
@@ -131,27 +121,21 @@ def conclusions(teller: Teller) -> Iterator[str]:
 
 def _extremes(teller: Teller, key: str, names: Iterable[str]) -> Iterator[str]:
     """Tell the largest and the smallest of some vectors; of forces on one another only one."""
-    scene = teller.scene
-    listed = tuple(names)
-    found = {name: size_of(scene, name) for name in listed if _other_side(scene, name) not in listed}
+    scene, listed = teller.scene, tuple(names)
+    pairs = filter(None, map(_pair, listed))
+    twice = {scene.mechanism.pair("R", pair[1], pair[0]) for pair in pairs}  # both are as large
+    found = {n: size_of(scene, n) for n in listed if not (n in twice and _pair(n)[0] > _pair(n)[1])}
     moving = sorted((name for name in found if found[name] > 0.0), key=lambda name: found[name])
-    if moving and not math.isclose(found[moving[0]], found[moving[-1]], rel_tol=SAME):
+    if moving:
         low, high = (_alike(teller, found, name) for name in (moving[0], moving[-1]))
-        yield teller.texts[key].format(high=high, low=low)
-    elif moving:
-        yield teller.texts[f"{key}_one"].format(value=_alike(teller, found, moving[0]))
+        one = math.isclose(found[moving[0]], found[moving[-1]], rel_tol=SAME)
+        yield teller.texts[f"{key}_one" if one else key].format(value=low, high=high, low=low)
 
 
 def _pair(name: str) -> tuple[int, ...]:
     """Return the links of a whole reaction, that which acts first; nothing where a quantity is none."""
     quantity = role(name)
     return quantity.links if quantity.kind == "R" and not quantity.part else ()
-
-
-def _other_side(scene: Scene, name: str) -> str:
-    """Return the reaction that stands for this one, too, since both are as large; nothing where it is itself that."""
-    pair = _pair(name)
-    return scene.mechanism.pair("R", pair[1], pair[0]) if pair and pair[0] > pair[1] else ""
 
 
 def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:
@@ -165,16 +149,14 @@ def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:
 
 
 def _fastest(teller: Teller, rate: str) -> Iterator[str]:
-    """Tell which of the links that are moved turns fastest, or speeds up most."""
     scene = teller.scene
     driver = str(scene.solved.structure.driver)
     names = [f"{rate}_{link.number}" for link in scene.mechanism.links if str(link.number) != driver]
     values = {name: rate_of(scene, name) for name in names if name in scene.solved.quantities}
-    fastest = max(values, key=lambda name: abs(values[name]), default=None)
-    if fastest is None or values[fastest] == 0.0:
-        return
-    value, sense = _alike(teller, values, fastest), sensed(scene.words, values[fastest])
-    yield teller.texts[f"conclusion.{rate}"].format(value=value, sense=sense)
+    fastest = max(values, key=lambda name: abs(values[name]), default="")
+    if values.get(fastest):
+        value, sense = _alike(teller, values, fastest), sensed(scene.words, values[fastest])
+        yield teller.texts[f"conclusion.{rate}"].format(value=value, sense=sense)
 
 
 def _balance(teller: Teller, name: str) -> Iterator[str]:

@@ -16,7 +16,7 @@ from ..printed import HUNDREDTHS, POINT, Input, Symbol, calculation
 from .calculations.equations import Product, ends_of, factor, is_given, line_of, paper, size_of
 from .calculations.kinematics import triangles
 from .calculations.tables import printed_segment
-from .figures.acting import hung_on_lever, letter_of
+from .figures.acting import hung_on_lever, letter_of, moments_on_lever
 from .figures.inset import At, figures_of
 from .reading import Reading
 from .scene import Scene
@@ -62,12 +62,6 @@ class Teller:
         """Return the letter of a mark."""
         return self.scene.words.mark(name)
 
-    def distance(self, start: str, end: str) -> str:
-        """Return the length of a segment on its plan, with its unit."""
-        scale = self.scene.scales[role(end).plan]
-        size = abs(self.scene.solved.point(end) - self.scene.solved.point(start))
-        return self.on_paper(size / scale.mu if size >= POINT * scale.mu else 0.0)
-
     def radius(self, name: str) -> str:
         """Return a length of the mechanism as it is taken into the compass."""
         return self.drawn(name, POSITION)
@@ -95,12 +89,6 @@ class Teller:
         words = self.scene.words
         return f"{words.number(words.display.segment(mm), 2)} {words.unit(words.display.paper)}"
 
-    def place(self, mark: str) -> str:
-        """Return the coordinates of a mark of the mechanism on paper."""
-        words, at = self.scene.words, self.scene.mm(mark)
-        x, y = (words.short(round(words.display.segment(part), 2)) for part in (at.real, at.imag))
-        return self.say("coordinates", x=x, y=y, unit=words.unit(words.display.paper))
-
     def line(self, direction: str, back: bool = False) -> str:
         """Return a line by its direction, with the sense in which a normal part is laid off."""
         text, made = line_of(self.scene, direction), self.reading.made.get(direction)
@@ -125,13 +113,6 @@ class Teller:
         value = f"{words.short(given.value)}{'°' if given.unit == 'deg' else words.unit(given.unit)}"
         return self.say("angle", symbol=words.symbol(name), value=value)
 
-    def hung(self, vector: str) -> str:
-        """Return the letter of a vector that is hung on others; of a reaction the one that it answers, too."""
-        made, letter = self.reading.made.get(vector), self.scene.letter(vector)
-        return (
-            letter if made is None or made.law != "opposite" else f"{letter} = −{self.scene.letter(made.operands[0])}"
-        )
-
     def along(self, vector: str) -> str:
         """Return how a vector that is hung on others lies, by the law that gives it; nothing where that is said so."""
         made = self.reading.made.get(vector)
@@ -142,8 +123,11 @@ class Teller:
             own = laid.verb in ("lay", "back") and laid.operands[0] == made.operands[0]
             return self.line(laid.operands[1], back=laid.verb == "back") if own else ""
         match made.law:
-            case "transport_speed" | "transport_tangential" | "transport_normal":
-                return self._on_arm(made)
+            case "transport_speed" | "transport_tangential" | "transport_normal":  # of a turn about a pin
+                pin, point = (self.mark(mark) for mark in self.reading.made[made.operands[1]].operands)
+                if made.law == "transport_normal":
+                    return f"∥ {pin}{point} ({point} → {pin})"
+                return self.say("in_sense", line=f"⊥ {pin}{point}", rate=self.scene.words.symbol(made.operands[0]))
             case "coriolis":
                 rate, turned = made.operands
                 return self.say("turned_by", vector=self.scene.letter(turned), rate=self.scene.words.symbol(rate))
@@ -154,13 +138,6 @@ class Teller:
             case "along":
                 return self._given(made)
         return ""
-
-    def _on_arm(self, made: Step) -> str:
-        arm = self.reading.made[made.operands[1]]
-        pin, point = (self.mark(mark) for mark in arm.operands)
-        if made.law == "transport_normal":
-            return f"∥ {pin}{point} ({point} → {pin})"
-        return self.say("in_sense", line=f"⊥ {pin}{point}", rate=self.scene.words.symbol(made.operands[0]))
 
     def _given(self, made: Step) -> str:
         """Return the line of a load: that of the plan along which it acts, or its angle."""
@@ -178,7 +155,10 @@ def _pole(teller: Teller, step: Step) -> str:
 
 def _place(teller: Teller, step: Step) -> str:
     """A point of the frame, or a guide of the frame with its angle."""
-    place, guide, letters = teller.place(step.name), role(step.name).of, guide_letters(teller.scene.program)
+    words, at = teller.scene.words, teller.scene.mm(step.name)
+    guide, letters = role(step.name).of, guide_letters(teller.scene.program)
+    x, y = (words.short(round(words.display.segment(part), 2)) for part in (at.real, at.imag))
+    place = teller.say("coordinates", x=x, y=y, unit=words.unit(words.display.paper))
     if not role(step.name).hidden:
         return teller.say("place", point=teller.mark(step.name), place=place)
     if role(step.name).kind != ORIGIN or guide not in letters:
@@ -205,13 +185,14 @@ def _lay(teller: Teller, step: Step) -> str:
 
 
 def _chain(teller: Teller, step: Step) -> str:
-    """A vector that is known in full, hung on another one."""
     start, vector = step.operands
     a, b = teller.mark(start), teller.mark(step.name)
     if teller.scene.vanishes(vector):
         return teller.say("zero", vector=teller.scene.letter(vector), start=a, end=b)
-    line = teller.along(vector)
-    parts = {"length": teller.segment(f"{a}{b}", vector, step.plan), "vector": teller.hung(vector)}
+    line, letter, made = teller.along(vector), teller.scene.letter(vector), teller.reading.made.get(vector)
+    if made is not None and made.law == "opposite":  # a reaction, and the one that it answers
+        letter = f"{letter} = −{teller.scene.letter(made.operands[0])}"
+    parts = {"length": teller.segment(f"{a}{b}", vector, step.plan), "vector": letter}
     return teller.say("vector", start=a, line=line, **parts) if line else teller.say("chain", start=a, **parts)
 
 
@@ -255,7 +236,8 @@ def _similar(teller: Teller, step: Step) -> str:
     start, end, *_ = step.operands
     a, b, s = (teller.mark(mark) for mark in (start, end, step.name))
     if step.plan == POSITION:
-        one, other = (teller.distance(mark, step.name) for mark in (start, end))
+        sizes = (abs(teller.scene.mm(mark) - teller.scene.mm(step.name)) for mark in (start, end))
+        one, other = (teller.on_paper(size if size >= POINT else 0.0) for size in sizes)
         return teller.say("corner", point=s, segment=f"{a}{b}", first=f"{a}{s}", one=one, second=f"{b}{s}", other=other)
     plan, link = triangles(teller.scene, step)
     return teller.say("similar", point=s, segment=f"{a}{b}", plan=plan, link=link)
@@ -267,7 +249,6 @@ def _same(teller: Teller, step: Step) -> str:
 
 
 def _read(teller: Teller, step: Step) -> str:
-    """A vector that is measured, not laid off: its millimetres times the scale factor."""
     tail, tip = step.operands
     edge = teller.reading.between(tail, tip)
     if edge is None or edge.name != step.name or teller.reading.is_hung(edge):
@@ -314,7 +295,6 @@ def _path(teller: Teller, joint: str, leg: tuple[str, ...]) -> str:
 
 
 def _incline(teller: Teller, step: Step) -> str:
-    """A guide on a moving link: the angle from the link's own direction to its."""
     letters, values, base = guide_letters(teller.scene.program), teller.scene.solved.values, step.operands[0]
     if step.name not in letters:
         return ""
@@ -352,21 +332,15 @@ def lever_told(teller: Teller) -> Iterator[Told]:
     for step in teller.scene.program.on("lever"):
         if step.verb == "pole":
             yield Told(step, _pole(teller, step), before=True)
-    yield from _turned(teller)
+        elif step.verb == "normal":
+            segment = f"{teller.mark('velocity.p')}{teller.mark(step.operands[0])}"
+            yield Told(step, teller.say("turned", segment=segment))
     hung: dict[str, list[Step]] = {}
-    for step in teller.scene.program.which(("moment",)):
-        if step.operands[2] == "lever.p":
-            hung.setdefault(step.operands[1], []).append(step)
+    for step in moments_on_lever(teller.scene):
+        hung.setdefault(step.operands[1], []).append(step)
     for mark, moments in hung.items():
         yield _hung(teller, mark, moments)
     yield from _balance(teller)
-
-
-def _turned(teller: Teller) -> Iterator[Told]:
-    for step in teller.scene.program.on("lever"):
-        if step.verb == "normal":
-            segment = f"{teller.mark('velocity.p')}{teller.mark(step.operands[0])}"
-            yield Told(step, teller.say("turned", segment=segment))
 
 
 def _hung(teller: Teller, mark: str, moments: list[Step]) -> Told:

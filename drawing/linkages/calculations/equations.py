@@ -97,8 +97,8 @@ def by_law(words: Words, head: str, law: Callable[..., Any], operands: Sequence[
     texts, result = calculation(words, found, [Input(factor.value, factor.exact, factor.places) for factor in factors])
     formula, reckoned = found(*(factor.letter for factor in factors)).chunks, found(*map(Symbol.of, texts)).chunks
     formula[0] = f"{head} = {formula[0]}"
-    formula[-1] += " ="
-    reckoned[-1] += " ="
+    for chunks in (formula, reckoned):
+        chunks[-1] += " ="
     return (*formula, *reckoned, f"{result} {words.unit(words.display.unit(unit))}".rstrip())
 
 
@@ -125,9 +125,8 @@ def _operand(scene: Scene, name: str) -> Product:
 def distance(scene: Scene, start: str, end: str) -> Product:
     """Return a distance on the plan of the mechanism as its millimetres and the scale factor."""
     words, size = scene.words, abs(scene.solved.point(end) - scene.solved.point(start))
-    return Product(
-        (segment(scene, words.mark(start) + words.mark(end), POSITION, size), paper(words, scene.scales[POSITION]))
-    )
+    own = segment(scene, words.mark(start) + words.mark(end), POSITION, size)
+    return Product((own, paper(words, scene.scales[POSITION])))
 
 
 def moments_in_letters(own: Symbol, others: Iterable[Product]) -> list[str]:
@@ -153,9 +152,9 @@ def rate_of(scene: Scene, name: str) -> float:
 
 def factor(scene: Scene, name: str, power: int = 1) -> Factor:
     """Return a value of the construction as a factor in the units shown; a given is exact."""
-    plain = role(name).shown
-    value = scene.words.display.value(size_of(scene, name), unit_of(plain))
-    return Factor(scene.words.symbol(plain), value, is_given(scene, name), power)
+    words, plain = scene.words, role(name).shown
+    value = words.display.value(size_of(scene, name), unit_of(plain))
+    return Factor(words.symbol(plain), value, is_given(scene, name), power)
 
 
 def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
@@ -171,17 +170,14 @@ def is_given(scene: Scene, name: str) -> bool:
 
 def paper(words: Words, scale: Scale) -> Factor:
     """Return the factor that makes millimetres of a plan the value that they show: μ, below the bar if mm per unit."""
-    power = -1 if words.per_unit else 1
-    value = words.factor(scale)
-    return Factor(words.symbol(scale.symbol), value, exact=True, power=power)
+    return Factor(words.symbol(scale.symbol), words.factor(scale), exact=True, power=-1 if words.per_unit else 1)
 
 
 def noted(line: Sequence[str], *notes: str) -> tuple[str, ...]:
     """Return a line with notes behind it, commas between; empty notes are none."""
-    *chunks, last = (*line, *(note for note in notes if note))
-    behind = len([note for note in notes if note])
-    cut = len(chunks) - behind
-    return (*chunks[:cut], *(f"{chunk}," for chunk in chunks[cut:]), last)
+    *before, end = line
+    *parted, last = (end, *filter(None, notes))
+    return (*before, *(f"{chunk}," for chunk in parted), last)
 
 
 def sensed(words: Words, value: float) -> str:
@@ -253,24 +249,16 @@ def line_note(scene: Scene, vector: str, direction: str) -> str:
 
 def line_of(scene: Scene, direction: str) -> str:
     """Return a line by the name of its direction: ∥ AB, ⊥ AB, ∥ x–x."""
-    reading = scene.reading
-    step = reading.made[direction]
-    if step.verb == "normal":
-        return f"⊥ {_line(scene, step.operands[0])}"
-    return f"∥ {_line(scene, direction)}"
+    step = scene.reading.made[direction]
+    sign, along = ("⊥", step.operands[0]) if step.verb == "normal" else ("∥", direction)
+    letters = guide_letters(scene.program).get(along)
+    return f"{sign} {letters or ''.join(map(scene.words.mark, ends_of(scene.reading, along)))}"
 
 
 def line_through(scene: Scene, point: str, direction: str) -> str:
     """Return the line through a point: AB, or (B ⊥ x–x)."""
     line = line_of(scene, direction)
     return line.removeprefix("∥ ") if line.startswith("∥ ") else f"({scene.words.mark(point)} {line})"
-
-
-def _line(scene: Scene, direction: str) -> str:
-    guides = guide_letters(scene.program)
-    if direction in guides:
-        return guides[direction]
-    return "".join(scene.words.mark(point) for point in ends_of(scene.reading, direction))
 
 
 def ends_of(reading: Reading, direction: str) -> tuple[str, str]:
@@ -326,13 +314,9 @@ def _chords(
 
 def _two_ways(scene: Scene, whole: str, normal: str, note: str, along: str) -> tuple[str, ...]:
     """Return the equation of a reaction by its parts along and across its link, and along and across another line."""
-    parts = [f"{whole}_t", f"{whole}_m"]
-    unknowns = [normal, f"{whole}_p"]
-    texts = [
-        f"{known(scene.letter(x))} + {by_direction(scene.letter(y))}" for x, y in zip(parts, unknowns, strict=True)
-    ]
-    equation = (f"{scene.letter(whole)} = {texts[0]}", f"= {texts[1]}")
-    return noted(equation, note, line_note(scene, unknowns[1], along))
+    ways = ((f"{whole}_t", normal), (f"{whole}_m", f"{whole}_p"))
+    first, second = (f"= {known(scene.letter(x))} + {by_direction(scene.letter(y))}" for x, y in ways)
+    return noted((f"{scene.letter(whole)} {first}", second), note, line_note(scene, f"{whole}_p", along))
 
 
 def path(edges: Iterable[Edge], start: str, end: str) -> list[str]:

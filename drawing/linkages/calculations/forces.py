@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import replace
+from itertools import chain
 
 from ....plans.board import Step
 from ....plans.linkages.mechanism import ZERO, Driver, Revolute
@@ -44,25 +45,25 @@ def force_parts(solved: SolvedLinkage) -> tuple[str, ...]:
 
 def equations_heading(scene: Scene, part: str) -> str:
     """Return the heading of the equations of a part."""
-    words, groups = scene.words, {group.name: group for group in scene.solved.structure.groups}
-    if part in groups:
-        return words["heading.equations_links"].format(links=", ".join(map(str, sorted(groups[part].links))))
+    words, links = scene.words, {group.name: sorted(group.links) for group in scene.solved.structure.groups}
     if part in (WHOLE, LOADS):
         return words["heading.equations_loads" if part else "heading.equations_forces"]
-    return words["heading.equations_link"].format(link=part)
+    key = "heading.equations_links" if part in links else "heading.equations_link"
+    return words[key].format(links=", ".join(map(str, links.get(part, ()))), link=part)
 
 
 def force_lines(scene: Scene, part: str = WHOLE) -> Lines:
     """Return the lines of the part in order of construction."""
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
-    lines: Lines = []
-    for step in scene.program:
-        if step.law in LOADING:
-            lines += _load(scene, step) if part in (WHOLE, LOADS) else []
-        elif part != LOADS:
-            told = _force(scene, step)
-            lines += told if told and part in (WHOLE, _part(scene, step)) else []
-    return lines
+    loads = (_load(scene, step) for step in scene.program if step.law in LOADING and part in (WHOLE, LOADS))
+    forces = (lines for own, _, lines in _forces(scene) if part in (WHOLE, own))
+    return [*chain.from_iterable(loads), *chain.from_iterable(forces)]
+
+
+def _forces(scene: Scene) -> Iterator[tuple[str, Step, Lines]]:
+    """Go through the steps of the force plans that have equations, each with its part and these."""
+    told = ((step, _force(scene, step)) for step in scene.program if step.law not in LOADING)
+    return ((_part(scene, step), step, lines) for step, lines in told if lines)
 
 
 def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, Lines]:
@@ -72,17 +73,13 @@ def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, Lines]
     last plan of its group.
     """
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))
-    poles = [step for step in scene.program if step.verb == "pole" and role(step.name).plan.kind == FORCES]
-    last = {_part(scene, step): role(step.name).plan for step in poles}
-    found: dict[str, Lines] = {role(step.name).plan: [] for step in poles}
-    held: dict[str, list[tuple[Step, Lines]]] = {}
-    for step in scene.program:
-        told = [] if step.law in LOADING else _force(scene, step)
-        if step in poles:
-            before = held.pop(_part(scene, step), [])
-            found[role(step.name).plan] += [*(line for _, lines in before for line in lines), *told]
-        elif told:
-            held.setdefault(_part(scene, step), []).append((step, told))
+    last, found, held = dict[str, str](), dict[str, Lines](), dict[str, list[tuple[Step, Lines]]]()
+    for part, step, lines in _forces(scene):
+        if step.verb == "pole":
+            last[part] = plan = role(step.name).plan
+            found[plan] = [*(line for _, told in held.pop(part, []) for line in told), *lines]
+        else:
+            held.setdefault(part, []).append((step, lines))
     for part, after in held.items():
         for step, lines in after:
             number = link_of(scene, step.operands[1] if step.verb == "arm" else step.name)
@@ -114,18 +111,15 @@ def _load(scene: Scene, step: Step) -> Lines:
     """Tell a mass, a load, a weight, a force or moment of inertia, or a sum of couples."""
     if role(step.name).hidden or not scene.defined(step.name):
         return []
-    words = scene.words
+    words, mechanism = scene.words, scene.mechanism
     if step.law in UNITS:
         return [size_by_law(scene, words.symbol(step.name), step, UNITS[step.law])]
     if step.law == "sum":
-        return _sum_of_couples(scene, step)
-    mechanism = scene.mechanism
-    loads = {load.name: load.magnitude for load in mechanism.loads}
-    loads |= {couple.name: couple.magnitude for couple in mechanism.couples}
-    if step.name not in loads:
-        return []
+        products = terms(scene, step.operands)
+        return [_solved_for(scene, step.name, products, 1.0) if products else (f"{words.symbol(step.name)} = 0",)]
+    loads = {load.name: load.magnitude for load in mechanism.loads} | {c.name: c.magnitude for c in mechanism.couples}
     made = scene.reading.made.get(step.operands[0])
-    if made is None and step.law not in RESISTING:
+    if step.name not in loads or (made is None and step.law not in RESISTING):
         return []
     notes = [words["said.diagram"]] if loads[step.name] in {d.name for d in mechanism.diagrams} else []
     size, unit = size_of(scene, step.name), scene.solved.quantities[step.name].unit
@@ -137,13 +131,11 @@ def _load(scene: Scene, step: Step) -> Lines:
     return [noted((stated(words, words.symbol(step.name), size, unit),), *notes)]
 
 
-def _sum_of_couples(scene: Scene, step: Step) -> Lines:
-    words, value = scene.words, scene.solved.values[step.name]
-    products = terms(scene, step.operands)
-    if not products:
-        return [(f"{words.symbol(step.name)} = 0",)]
-    line = worked(words, words.symbol(step.name), turned(products, math.copysign(1.0, value)), "N*m")
-    return [noted(line, sensed(words, value))]
+def _solved_for(scene: Scene, moment: str, products: Iterable[Product], sign: float) -> tuple[str, ...]:
+    """Return a moment as the sum of others, with numbers and its sense; `sign` is that of the sum in it."""
+    words, value = scene.words, scene.solved.values[moment]
+    turn = math.copysign(sign, sign * value)
+    return noted(worked(words, words.symbol(moment), turned(products, turn), "N*m"), sensed(words, value))
 
 
 # Moments and force plans
@@ -209,15 +201,14 @@ def _reach(scene: Scene, name: str, length: str) -> Product:
 
 def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> Lines:
     """Tell the moments about a joint, solved for a moment: of a guide's reaction, or the balancing one."""
-    words, value = scene.words, scene.solved.values[step.name]
+    words = scene.words
     found, point = terms(scene, sum_of.operands), about(scene, sum_of)
     head = _head(scene, str(link_of(scene, step.name)), point)
     if not found:
         arm = next((s for s in scene.reading.users(step.name) if s.verb == "arm"), None)
         zeros = [f"{words.symbol(arm.operands[1])}·{words.symbol(arm.name)}", words.symbol(arm.name)] if arm else []
         return [(head, *(f"{zero} = 0," for zero in zeros[:-1]), f"{[words.symbol(step.name), *zeros][-1]} = 0")]
-    line = worked(words, words.symbol(step.name), turned(found, -math.copysign(1.0, value)), "N*m")
-    return [(head, *noted(line, sensed(words, value)))]
+    return [(head, *_solved_for(scene, step.name, found, -1.0))]
 
 
 def _arm(scene: Scene, step: Step) -> Lines:
@@ -265,14 +256,12 @@ def on_arm(scene: Scene, arm: str) -> tuple[Factor, ...]:
 
 def about(scene: Scene, step: Step) -> str:
     """Return the point about which the moments of a calculation are taken."""
-    reading = scene.reading
-    moments = (made for name in step.operands if (made := reading.made.get(name)) is not None and made.verb == "moment")
-    point = next((moment.operands[2] for moment in moments), "")
-    return point or _joint(scene, link_of(scene, step.name))
-
-
-def _joint(scene: Scene, number: int) -> str:
-    """Return the joint about which a link without loads would turn: its pin in the group, or the group's only one."""
+    made = (scene.reading.made.get(name) for name in step.operands)
+    point = next((moment.operands[2] for moment in made if moment is not None and moment.verb == "moment"), "")
+    if point:
+        return point
+    # about which a link without loads would turn: its pin in the group, or the group's only one
+    number = link_of(scene, step.name)
     group, driver = group_of(scene, number), scene.mechanism.driver
     if group is None:
         return driver.pivot if isinstance(driver, Driver) else driver.point

@@ -33,10 +33,8 @@ from .equations import (
 )
 
 PLANS = ("velocity", "acceleration")
-TOLD = (
-    *("circular_speed", "centripetal", "circular_acceleration", "normal_part", "turning", "coriolis"),
-    *("transport_speed", "transport_normal", "transport_tangential"),
-)
+TOLD = ["circular_speed", "centripetal", "circular_acceleration", "normal_part", "turning", "coriolis"]
+TOLD += ["transport_speed", "transport_normal", "transport_tangential"]
 BEFORE_MEETING = ("normal_part", "coriolis")
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 
@@ -58,8 +56,7 @@ def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> L
     `told` are the lengths of which other lines have told already.
     """
     told, apart = told if told is not None else set(), found_here(scene.program)
-    lines: Lines = []
-    held: Lines = []  # of a group's known parts, which come after its vector equation
+    lines, held = Lines(), Lines()  # these of a group's known parts, which come after its vector equation
     for step in (s for s in scene.program if stage_of(s) == plan and s.name not in apart):
         if step.verb == "meet":
             lines += [*_special_point(scene, step), meeting(scene, step), *held]
@@ -90,7 +87,7 @@ def stage_of(step: Step) -> str:
 def _is_met(scene: Scene, step: Step) -> bool:
     """Whether a line that finds a point begins at the end of the vector of a step, where no point has its end."""
     users, absolute = scene.reading.users, scene.reading.absolute
-    ends = [user.name for user in users(step.name) if user.verb == "chain" and absolute(user.name) is None]
+    ends = (user.name for user in users(step.name) if user.verb == "chain" and absolute(user.name) is None)
     return any(user.verb == "meet" for end in ends for user in users(end))
 
 
@@ -134,17 +131,14 @@ def _formula(scene: Scene, step: Step) -> tuple[str, ...]:
 
 def _turning_alike(scene: Scene, step: Step) -> Lines:
     """Return a rate that is given, from revolutions per minute where it is so, or that of another link."""
-    words, value = scene.words, rate_of(scene, step.name)
-    symbol, unit = words.symbol(step.name), unit_of(step.name)
-    sense = sensed(words, value)
-    if step.law == "same_turning":
-        symbol = f"{symbol} = {words.symbol(step.operands[0])}"
-    given, line = scene.givens.get(step.operands[0]), [stated(words, symbol, abs(value), unit)]
+    words, value, given = scene.words, rate_of(scene, step.name), scene.givens.get(step.operands[0])
+    symbol, of, unit = words.symbol(step.name), words.symbol(step.operands[0]), unit_of(step.name)
     if given is not None and given.unit == "rpm" and not isinstance(given.value, str):
         texts, result = calculation(words, lambda n: math.pi * n / 30.0, [Input(given.value, exact=True)])
-        line = [f"{symbol} = π{words.symbol(step.operands[0])}/30 =", f"π·{texts[0]}/30 ="]
-        line.append(f"{result} {words.unit(unit)}")
-    return [noted(line, sense)]
+        line = [f"{symbol} = π{of}/30 =", f"π·{texts[0]}/30 =", f"{result} {words.unit(unit)}"]
+    else:
+        line = [stated(words, f"{symbol} = {of}" if step.law == "same_turning" else symbol, abs(value), unit)]
+    return [noted(line, sensed(words, value))]
 
 
 def _special_point(scene: Scene, step: Step) -> Lines:
@@ -173,20 +167,18 @@ def _given(scene: Scene, step: Step) -> tuple[str, ...]:
 def triangles(scene: Scene, step: Step) -> tuple[str, str]:
     """Return the triangle on a plan that is similar to one of a link, and that one, by the letters of their corners."""
     words, plan = scene.words, (step.operands[0], step.operands[1], step.name)
-    link = on_link(scene.program, plan)
-    return "".join(map(words.mark, plan)), "".join(map(words.mark, link))
+    return "".join(map(words.mark, plan)), "".join(map(words.mark, on_link(scene.program, plan)))
 
 
 def _similarity(scene: Scene, step: Step) -> Lines:
     """Return where a point of a link stands on a plan by the theorem of similarity."""
-    words = scene.words
-    start, end, first, second = step.operands
+    words, (start, end, first, second) = scene.words, step.operands
     if step.verb == "similar":
         plan, link = triangles(scene, step)
         return [tuple(words["said.similar"].format(plan=plan, link=link).split("|"))]
-    a, b, s = (words.mark(mark) for mark in (start, end, step.name))
     if size_of(scene, first) == 0.0:
         return []
+    a, b, s = map(words.mark, (start, end, step.name))
     ab = segment(scene, f"{a}{b}", step.plan, abs(scene.solved.point(end) - scene.solved.point(start)))
     ratio = Product((ab, factor(scene, first), factor(scene, second, -1)))
     return [worked(words, f"{a}{s}", [ratio], words.display.paper)]
@@ -195,23 +187,21 @@ def _similarity(scene: Scene, step: Step) -> Lines:
 def _absolute(scene: Scene, step: Step) -> Lines:
     """Return the absolute vector of a point that was hung from parts, or moves like another."""
     reading, (tail, tip) = scene.reading, step.operands
-    made = reading.made[tip]
+    made, whole = reading.made[tip], reading.absolute(tip)
     if role(tail).kind != POLE or made.name == tail:
         return []
     if made.verb == "same":
         other = reading.absolute(made.operands[0])
-        return [summed(scene, step.name, [other.name])[:1]] if other is not None else []
-    whole = reading.absolute(tip)
-    if whole is None or whole.name != step.name:
-        return []
-    parts = reading.parts(whole)
+        parts = [] if other is None else [other]
+    else:
+        parts = reading.parts(whole) if whole is not None and whole.name == step.name else []
     return [summed(scene, step.name, [edge.name for edge in parts])] if parts else []
 
 
 def _comparison(scene: Scene, rate: str) -> tuple[str, ...]:
-    w, link = scene.words, role(rate).of
-    speed = f"omega_{link}"
-    omega, epsilon = rate_of(scene, speed), rate_of(scene, rate)
+    words, link = scene.words, role(rate).of
+    omega, epsilon = rate_of(scene, f"omega_{link}"), rate_of(scene, rate)
     still = "said.translates" if omega == 0.0 else "said.steady"
     key = still if omega * epsilon == 0.0 else "said.speeds_up" if omega * epsilon > 0 else "said.slows_down"
-    return tuple(w[key].format(link=link, omega=w.symbol(speed), epsilon=w.symbol(rate)).split("|"))
+    symbols = {"omega": words.symbol(f"omega_{link}"), "epsilon": words.symbol(rate)}
+    return tuple(words[key].format(link=link, **symbols).split("|"))

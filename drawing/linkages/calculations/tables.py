@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations, groupby, pairwise
 from typing import TypeAlias
@@ -92,7 +91,9 @@ def _cut(solved: SolvedLinkage, kind: str, names: list[str]) -> list[Part]:
     for name in names:
         links = _links_of(solved, name)  # it stands with the last group of those that it concerns
         by_group[next((group for group in reversed(groups) if links & {*group}), groups[0])].append(name)
-    pieces = [(links, chunk) for links, own in by_group.items() for chunk in _chunks(own)]
+    counts = ((links, own, math.ceil(len(own) / ROWS)) for links, own in by_group.items())
+    # what is too long for one table in equal pieces
+    pieces = [(at, own[k * len(own) // n : (k + 1) * len(own) // n]) for at, own, n in counts for k in range(n)]
     whole, parts = all(len(own) <= ROWS for own in by_group.values()), []
     for count, run in enumerate(_evenly(pieces), start=1):
         numbers = ", ".join(map(str, sorted({number for own, _ in run for number in own})))
@@ -114,12 +115,6 @@ def _evenly(pieces: list[_Piece]) -> list[list[_Piece]]:
         if longest(best) <= ROWS:
             return best
     return []
-
-
-def _chunks(names: list[str]) -> Iterator[list[str]]:
-    count = math.ceil(len(names) / ROWS)
-    for k in range(count):
-        yield names[k * len(names) // count : (k + 1) * len(names) // count]
 
 
 def _links_of(solved: SolvedLinkage, name: str) -> set[int]:
@@ -148,10 +143,9 @@ def results_table(scene: Scene, part: Part) -> View:
     heading = words[f"heading.results_{part.kind}"]
     if part.number:
         heading = f"{heading} ({part.number})"
-    elif part.links.isdigit():
-        heading = words["table.of_link"].format(heading=heading, link=part.links)
     elif part.links:
-        heading = words["table.of_links"].format(heading=heading, links=part.links)
+        key = "table.of_link" if part.links.isdigit() else "table.of_links"
+        heading = words[key].format(heading=heading, link=part.links, links=part.links)
     head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
     head[1] = head[1].format(unit=words.unit(words.display.paper))
     angles = [words["table.angle"]] if words.notation["angles"] else []
@@ -161,23 +155,27 @@ def results_table(scene: Scene, part: Part) -> View:
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:
-    words, turning = scene.words, role(q.name).kind in RATES
-    value = rate_of(scene, q.name) if turning else words.display.value(q.value or 0.0, q.unit)
+    words, kind, value = scene.words, role(q.name).kind, _value(scene, q)
     symbol, unit = words.symbol(q.name), words.unit(words.display.unit(q.unit))
-    plan = POSITION if role(q.name).kind == "l" else scene.figure_of(q.name)
-    if plan in scene.scales:
+    if _plan(scene, q) in scene.scales:
         return [symbol, *printed_segment(scene, q), unit]
     # the magnitude of a force; a difference that is rounding noise is 0
-    size = abs(value) if role(q.name).kind == "F" else value
-    size = 0.0 if role(q.name).kind == "delta" and abs(size) < 1e-6 else size
+    size = abs(value) if kind == "F" else 0.0 if kind == "delta" and abs(value) < 1e-6 else value
     return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, size), unit]
+
+
+def _value(scene: Scene, q: Quantity) -> float:
+    turning = role(q.name).kind in RATES
+    return rate_of(scene, q.name) if turning else scene.words.display.value(q.value or 0.0, q.unit)
+
+
+def _plan(scene: Scene, q: Quantity) -> str:
+    return POSITION if role(q.name).kind == "l" else scene.figure_of(q.name)
 
 
 def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str, str]:
     """Return how a segment on a plan, its own if none is said, its scale factor and its value are printed."""
-    words, turning = scene.words, role(q.name).kind in RATES
-    value = rate_of(scene, q.name) if turning else words.display.value(q.value or 0.0, q.unit)
-    plan = plan or (POSITION if role(q.name).kind == "l" else scene.figure_of(q.name))
+    words, value, plan = scene.words, _value(scene, q), plan or _plan(scene, q)
     scale, times = scene.scales[plan], enlarged(scene, q.name, plan)
     number = words.factor(Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit))
     mu = 1.0 / number if words.per_unit else number
@@ -203,39 +201,27 @@ def structure_lines(scene: Scene) -> Lines:
     ]
     text, _, tail = words["structure.formula"].partition("{formula}")
     first, *rest = formula(s, words.frame)
-    lines.append((text.strip(), first, *rest[:-1], *(f"{last}{tail}" for last in rest[-1:])))
-    return lines
+    return [*lines, (text.strip(), first, *rest[:-1], *(f"{last}{tail}" for last in rest[-1:]))]
 
 
 def _group(scene: Scene, group: Group) -> tuple[str, ...]:
-    words = scene.words
-    text = words["structure.group"].format(
-        links=_links(group), group_class=CLASSES[group.group_class], order=group.order
-    )
-    *parts, last = text.split(", ")
-    if group.kind in GROUPS:
-        parts, last = [*parts, last], words[f"kind.{group.kind}"]
-    return (*(f"{part}," for part in parts), last)
+    words, said = scene.words, {"links": _links(group), "group_class": CLASSES[group.group_class], "order": group.order}
+    parts = words["structure.group"].format(**said).split(", ")
+    parts += [words[f"kind.{group.kind}"]] if group.kind in GROUPS else []
+    return (*(f"{part}," for part in parts[:-1]), parts[-1])
 
 
 def formula(structure: Structure, frame: str = "0") -> list[str]:
     """Return the formula of structure in chunks: groups that hang on the same links before stand side by side, ∥."""
     chunks = [f"I({frame}, {structure.driver})"]
-    for _, groups in groupby(_levels(structure), key=lambda item: item[0]):
-        texts = [f"{CLASSES[g.group_class]}_{{{g.view or g.order}}}({_links(g)})" for _, g in groups]
+    level = {0: 0, structure.driver: 0}  # of each link the length of the chain that leads to it from the driver
+    for group in structure.groups:
+        level |= dict.fromkeys(group.links, 1 + max(level[number] for number in group.before))
+    levels = groupby(sorted(structure.groups, key=lambda g: level[g.links[0]]), key=lambda g: level[g.links[0]])
+    for _, groups in levels:
+        texts = [f"{CLASSES[g.group_class]}_{{{g.view or g.order}}}({_links(g)})" for g in groups]
         chunks.append("→ " + " ∥ ".join(texts))
     return chunks
-
-
-def _levels(structure: Structure) -> list[tuple[int, Group]]:
-    """Return the groups with the length of the chain that leads to each from the driver, by this length."""
-    level = {0: 0, structure.driver: 0}
-    found = []
-    for group in structure.groups:
-        own = 1 + max(level[number] for number in group.before)
-        level |= dict.fromkeys(group.links, own)
-        found.append((own, group))
-    return sorted(found, key=lambda item: item[0])
 
 
 def _links(group: Group) -> str:

@@ -9,7 +9,6 @@ from math import cos, radians
 from typing import NamedTuple
 
 from ....plans.board import Step
-from ....plans.laws import cross
 from ....plans.linkages.mechanism import Pair, Prismatic
 from ....plans.linkages.structure import Group
 from ....plans.names import COUPLE, lever_arm, role, spelled
@@ -39,19 +38,6 @@ class Moment(NamedTuple):
     arm: str
     at: str
     about: str
-
-
-class Contact(NamedTuple):
-    """Where the reaction of a guide acts: the arm's name, the pin from which it is counted, along `u`, metres.
-
-    `couple` names the moment of a reaction that has no size: then there is a couple and no arm.
-    """
-
-    arm: str
-    pin: str
-    u: complex
-    offset: float
-    couple: str
 
 
 def loads(scene: Scene, number: int) -> Hung:
@@ -111,24 +97,6 @@ def _link_of(scene: Scene, force: str) -> int | None:
     own = [load.link for load in scene.mechanism.loads if load.name == force]
     moving = {link.number for link in scene.mechanism.links}
     return next(iter(own + [on for on in role(force).links[-1:] if on in moving]), None)
-
-
-def contact(scene: Scene, pin: str, pair: Prismatic, number: int, other: int) -> Contact | None:
-    """Return where the reaction R of link `other` on `number` in a prismatic pair acts, both ways of naming tried."""
-    for links in ((other, number), (number, other)):
-        index = scene.mechanism.index(*links)
-        step = scene.reading.made.get(f"h_{index}")
-        if step is not None and step.verb == "arm" and step.operands[1] == f"R_{index}":
-            break
-    else:
-        return None
-    (moment, reaction), u = step.operands, scene.solved.point(scene.solved.guide_name(pair))
-    value = float(scene.solved.values[moment])
-    # the moment of the loads, which the reaction balances, or that of the reaction itself
-    turning = -value if role(moment).hidden else value
-    size = cross(u, complex(scene.solved.values[reaction])) if scene.direction(reaction) != 0 else 0.0
-    couple = moment if size == 0.0 and not scene.vanishes(moment) else ""
-    return Contact(step.name, pin, u, turning / size if size else 0.0, couple)
 
 
 @dataclass(slots=True)
@@ -278,7 +246,7 @@ def drawn_with(scene: Scene) -> dict[str, str]:
     A force is hung with the first one on its mark; an image on which nothing hangs is turned with the last one.
     """
     first, found = dict[str, str](), dict[str, str]()
-    for step in _moments_on_lever(scene):
+    for step in moments_on_lever(scene):
         found[step.operands[0]] = first.setdefault(step.operands[1], step.name)
     couples = {role(name).of: step for name, step in reversed(found.items()) if role(name).part == COUPLE}
     at_pole = [role(name) for name, _ in hung_on_lever(scene) if name not in found]
@@ -348,7 +316,7 @@ def lines_of_lever(scene: Scene) -> list[Edge]:
 
 def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
     """Return (force, mark) of all that hangs on the lever, the balancing force last."""
-    hung = [(step.operands[0], step.operands[1]) for step in _moments_on_lever(scene)]
+    hung = [(step.operands[0], step.operands[1]) for step in moments_on_lever(scene)]
     # of a couple on a link that turns about a pivot the second force stands at the pole: it has no moment
     pulling = {name for name, _ in hung}
     made = (step.name for step in scene.program if role(step.name).part == COUPLE and step.law in ("along", "opposite"))
@@ -357,7 +325,8 @@ def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
     return [*hung, (balance, f"lever.{scene.mechanism.driver.point}")]
 
 
-def _moments_on_lever(scene: Scene) -> Iterator[Step]:
+def moments_on_lever(scene: Scene) -> Iterator[Step]:
+    """Go through the moments that are taken about the pole of the lever."""
     return (step for step in scene.program.which(("moment",)) if step.operands[2] == "lever.p")
 
 

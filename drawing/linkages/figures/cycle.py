@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,41 +112,30 @@ def paths(scene: Scene, cycle: Cycle) -> Iterator[tuple[str, tuple[complex, ...]
         if any(abs(first - other) < STRAIGHT for other in seen) or _is_straight(path):
             continue
         seen.append(first)
-        for piece in _pieces(path):
-            yield name, piece
+        pieces = (piece[np.isfinite(piece)] for piece in np.split(path, np.flatnonzero(~np.isfinite(path))))
+        yield from ((name, tuple(piece.tolist())) for piece in pieces if len(piece) > 1)
 
 
 def _is_straight(path: np.ndarray) -> bool:
     known = path[np.isfinite(path)]
     if len(known) < 2:
         return True
-    far = known[np.argmax(np.abs(known - known[0]))] - known[0]
-    if abs(far) < STRAIGHT:
-        return True
-    return bool(np.max(np.abs(((known - known[0]) / far).imag)) * abs(far) < STRAIGHT)
-
-
-def _pieces(path: np.ndarray) -> Iterator[tuple[complex, ...]]:
-    breaks = np.flatnonzero(~np.isfinite(path))
-    for piece in np.split(path, breaks):
-        known = piece[np.isfinite(piece)]
-        if len(known) > 1:
-            yield tuple(known.tolist())
+    ways = known - known[0]
+    far = ways[np.argmax(np.abs(ways))]
+    return bool(abs(far) < STRAIGHT or np.max(np.abs((ways / far).imag)) * abs(far) < STRAIGHT)
 
 
 def _output_point(cycle: Cycle) -> str:
     """Return a point of the main output that moves, to be numbered like the crank's."""
-    motion = main_output(cycle)
-    if motion is None:
-        return cycle.mechanism.driver.point
-    points = cycle.mechanism.link(motion.output.link).points
-    held = cycle.mechanism.frame_points
-    shared = [pair.point for pair in cycle.mechanism.pairs if motion.output.link in pair.links]
-    return next((p for p in (*shared, *points) if p not in held and p in points), cycle.mechanism.driver.point)
+    mechanism, motion = cycle.mechanism, main_output(cycle)
+    number = mechanism.driver.link if motion is None else motion.output.link
+    points = [] if motion is None else mechanism.link(number).points
+    shared = [pair.point for pair in mechanism.pairs if number in pair.links]
+    free = (p for p in (*shared, *points) if p in points and p not in mechanism.frame_points)
+    return next(free, mechanism.driver.point)
 
 
 def _number(canvas: Canvas, scene: Scene, stands: Mapping[int, Scene], point: str) -> None:
-    """Number the places of a point; places that coincide share one label."""
     at: dict[complex, list[str]] = {}
     for number, stand in stands.items():
         place = stand.mm(point)
@@ -169,9 +158,8 @@ def _ways(scene: Scene, stands: Iterable[Scene]) -> dict[str, tuple[float, float
     found = {}
     for pair in scene.mechanism.pairs:
         if isinstance(pair, Prismatic) and FRAME in pair.links:
-            name, point = scene.solved.guide_name(pair), pair.point
-            at, u = scene.solved.point(point), scene.solved.point(name)
-            ways = [dot(stand.solved.point(point) - at, u) for stand in stands]
+            name, at = scene.solved.guide_name(pair), scene.solved.point(pair.point)
+            ways = [dot(stand.solved.point(pair.point) - at, scene.solved.point(name)) for stand in stands]
             low, high = scene.runs.get(name, (0.0, 0.0))
             found[name] = min([low, *ways]), max([high, *ways])
     return found
@@ -180,10 +168,8 @@ def _ways(scene: Scene, stands: Iterable[Scene]) -> dict[str, tuple[float, float
 def _notes(scene: Scene, cycle: Cycle, dead: list[float]) -> tuple[str, ...]:
     if not dead:
         return ()
-    if cycle.drive.turns:
-        places = "; ".join(f"{scene.words.number(math.degrees(angle), 2)}°" for angle in dead)
-    else:
-        places = "; ".join(f"{scene.words.number(place * 1e3, 2)} {scene.words['unit.mm']}" for place in dead)
+    times, unit = (180.0 / math.pi, "°") if cycle.drive.turns else (1e3, f" {scene.words['unit.mm']}")
+    places = "; ".join(f"{scene.words.number(place * times, 2)}{unit}" for place in dead)
     symbol = scene.words.symbol(role(cycle.drive.variable).shown)
     return (scene.words["said.dead"].format(symbol=symbol, places=places),)
 
@@ -231,8 +217,7 @@ def field_view(scene: Scene, link: int) -> View:
     return canvas.finish("field", (*heading, scene.words.scale(scale)))
 
 
-@dataclass(frozen=True, slots=True)
-class Band:
+class Band(NamedTuple):
     """One of the diagrams over one another: its smooth curve, the points found by chords, its scale factor."""
 
     name: str
@@ -271,7 +256,10 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
         if number:
             _pole(canvas, scene, fields[-1], bands[number - 1 : number + 1], f"P_{{{number}}}")
         low += below
-    _chords(canvas, fields[0], drawn, float(np.nanmin(dense.s)))
+    travel = (drawn.s - np.nanmin(dense.s)).tolist()
+    ends = (fields[0].at(t, s) for t, s in zip(drawn.times.tolist(), travel, strict=True))
+    chords = Polyline(tuple(end for end in ends if math.isfinite(end.imag)), Pen.THIN)  # of the travel
+    canvas.add(Group((chords,), "chords", "s"))
     scales = [across]
     if cycle.drive.turns:  # a sliding driver has no angle
         scales.append(Scale("mu_phi", rounded(2.0 * math.pi / length, 6), "rad"))
@@ -279,19 +267,11 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     return canvas.finish("diagrams", heading, _chord_notes(scene, drawn, bands))
 
 
-def _chords(canvas: Canvas, field: Field, drawn: Diagrams, least: float) -> None:
-    ends = [field.at(t, s - least) for t, s in zip(drawn.times.tolist(), drawn.s.tolist(), strict=True)]
-    known = tuple(end for end in ends if math.isfinite(end.imag))
-    canvas.add(Group((Polyline(known, Pen.THIN),), "chords", "s"))
-
-
 def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion: OutputMotion) -> tuple[Band, ...]:
     """Choose the scale factors: round ones with which the diagrams are tall enough and the poles near enough."""
-    tall = TALL * LENGTH[scene.style.label]
-    slides, link = motion.output.slides, motion.output.link
-    names = (f"s_{link}", f"V_{link}", f"a_{link}") if slides else (f"phi_{link}", f"omega_{link}", f"epsilon_{link}")
-    unit = "m" if slides else "rad"
-    travel = dense.s - np.nanmin(dense.s)
+    tall, travel = TALL * LENGTH[scene.style.label], dense.s - np.nanmin(dense.s)
+    kinds, unit = (("s", "V", "a"), "m") if motion.output.slides else (("phi", "omega", "epsilon"), "rad")
+    names = [f"{kind}_{motion.output.link}" for kind in kinds]
     bands = [Band(names[0], _round(f"mu_{names[0]}", travel, tall, unit), travel)]
     for name, values, found, per in zip(
         names[1:], (dense.v, dense.a), (drawn.velocity, drawn.acceleration), ("s", "s^2"), strict=True
@@ -367,33 +347,32 @@ def load_diagram(scene: Scene, diagram: Diagram) -> View:
     """Draw what the task gives: the diagram with its scale factors, and the ordinate of the calculated position."""
     canvas, words = scene.canvas(), scene.words
     every: Sequence[Load | Couple] = (*scene.mechanism.loads, *scene.mechanism.couples)
-    loads = [load for load in every if load.magnitude == diagram.name]
+    loads, (span, unit) = [load for load in every if load.magnitude == diagram.name], _span(scene, diagram)
     forth, back = (_points(scene, diagram, names) for names in (diagram.values, diagram.back or ()))
     field = _load_field(scene, diagram, loads, [*forth, *back])
     axes(canvas, field)
     curve(canvas, field, forth, diagram.name)
     curve(canvas, field, back, f"{diagram.name}_back", Pen.DASHED)
-    _here(canvas, scene, field, diagram, loads)
+    if loads:
+        _here(canvas, scene, field, diagram, loads[0])
     notes = [words["said.load_back"]] if back else []
     if not back and loads and loads[0].stroke != BOTH:
         notes.append(words["said.load_working" if loads[0].stroke == WORKING else "said.load_idle"])
     if diagram.over != ANGLE:
-        size, unit = _travel(scene)
-        shown = words.display.unit(unit)
-        notes.append(f"H = {value_text(words, words.display.value(size, unit))} {words.unit(shown)}")
+        shown = words.unit(words.display.unit(unit))
+        notes.append(f"H = {value_text(words, words.display.value(span, unit))} {shown}")
     heading = (words["heading.load"], words.scale(field.x.scale), words.scale(field.y.scale))
     return canvas.finish(f"load_{diagram.name}", heading, tuple(notes))
 
 
 def _value(scene: Scene, name: str) -> float:
-    """Return a given of a diagram; of one called like a load the magnitude."""
     values = scene.solved.values
     return float(values.get(f"|{name}|", values.get(name, 0.0)))
 
 
 def _points(scene: Scene, diagram: Diagram, names: Sequence[str]) -> list[tuple[float, float]]:
     """Return places and values of one stroke, in SI; over the angle the first value comes again after a turn."""
-    span = 1.0 if diagram.over == ANGLE else _travel(scene)[0]
+    span, _ = _span(scene, diagram)
     points = [(_value(scene, at) * span, _value(scene, name)) for at, name in zip(diagram.at, names, strict=False)]
     if diagram.over == ANGLE and points:
         points.append((points[0][0] + 2.0 * math.pi, points[0][1]))
@@ -402,8 +381,11 @@ def _points(scene: Scene, diagram: Diagram, names: Sequence[str]) -> list[tuple[
     return points
 
 
-def _travel(scene: Scene) -> tuple[float, str]:
+def _span(scene: Scene, diagram: Diagram) -> tuple[float, str]:
+    """Return what a place of 1 on a diagram is, and its unit: a radian, or the whole stroke."""
     mechanism, values = scene.mechanism, scene.solved.values
+    if diagram.over == ANGLE:
+        return 1.0, "rad"
     assert mechanism.stroke is not None
     number = mechanism.stroke.link
     slides = any(isinstance(p, Prismatic) and number in p.links and FRAME in p.links for p in mechanism.pairs)
@@ -414,47 +396,37 @@ def _load_field(
     scene: Scene, diagram: Diagram, loads: Sequence[Load | Couple], points: list[tuple[float, float]]
 ) -> Field:
     """Choose round scale factors and return the axes with their divisions."""
-    words, letter = scene.words, scene.style.label
-    moment = bool(loads) and isinstance(loads[0], Couple)
-    turns = diagram.over == ANGLE
-    unit = "rad" if turns else _travel(scene)[1]
-    low, high = min(x for x, _ in points), max(x for x, _ in points)
-    across = Scale("mu_phi" if unit == "rad" else "mu_s", steps(high / (LOAD_WIDE * letter))[0], unit)
-    sizes = [abs(y) for _, y in points]
-    up = Scale(
-        "mu_M" if moment else "mu_F", steps((max(sizes) or 1.0) / (LOAD_TALL * letter))[0], "N*m" if moment else "N"
-    )
+    words, letter, turns = scene.words, scene.style.label, diagram.over == ANGLE
+    (_, unit), (xs, ys) = _span(scene, diagram), zip(*points, strict=True)
+    across = Scale("mu_phi" if unit == "rad" else "mu_s", steps(max(xs) / (LOAD_WIDE * letter))[0], unit)
+    symbol, up_unit = ("mu_M", "N*m") if loads and isinstance(loads[0], Couple) else ("mu_F", "N")
+    up = Scale(symbol, steps((max(map(abs, ys)) or 1.0) / (LOAD_TALL * letter))[0], up_unit)
     places = {x: words.short(round(math.degrees(x), 6)) + "°" for x, _ in points} if turns else _parts(scene, diagram)
-    divisions = {y: words.short(y) for y in sorted({y for _, y in points}) if y}
+    divisions = {y: words.short(y) for y in sorted({*ys}) if y}
     of = " = ".join(words.symbol(load.name) for load in loads) or words.symbol(diagram.name)
-    x = Axis(words.symbol("phi") if turns else "s", across, low, high, places)
-    least, most = min(0.0, *(y for _, y in points)), max(0.0, *(y for _, y in points))
-    return Field(0j, x, Axis(f"{of}, {words.unit(up.unit)}", up, least, most, divisions))
+    x = Axis(words.symbol("phi") if turns else "s", across, min(xs), max(xs), places)
+    return Field(0j, x, Axis(f"{of}, {words.unit(up.unit)}", up, min(0.0, *ys), max(0.0, *ys), divisions))
 
 
 def _parts(scene: Scene, diagram: Diagram) -> dict[float, str]:
     """Return the places of a diagram over the stroke, written as parts of it."""
-    span, found = _travel(scene)[0], {0.0: "0"}
-    for name in diagram.at:
-        part = _value(scene, name)
-        if part:
-            found[part * span] = "H" if part == 1.0 else f"{scene.words.short(part)}H"
-    return {**found, span: "H"}
+    span, _ = _span(scene, diagram)
+    parts = filter(None, (_value(scene, name) for name in diagram.at))
+    return {0.0: "0"} | {part * span: f"{scene.words.short(part)}H" for part in parts} | {span: "H"}
 
 
-def _here(canvas: Canvas, scene: Scene, field: Field, diagram: Diagram, loads: Sequence[Load | Couple]) -> None:
-    values, words = scene.solved.values, scene.words
+def _here(canvas: Canvas, scene: Scene, field: Field, diagram: Diagram, load: Load | Couple) -> None:
+    """Mark the calculated position and the load that acts there."""
+    values, words, acting = scene.solved.values, scene.words, scene.solved.size(load.name)
     if diagram.over == ANGLE:
         place = float(values[f"_diagram_{diagram.name}_angle"])
     else:
-        place = min(max(float(values["_stroke_part"]), 0.0), 1.0) * _travel(scene)[0]
+        place = min(max(float(values["_stroke_part"]), 0.0), 1.0) * _span(scene, diagram)[0]
     size = float(values[f"_diagram_{diagram.name}"])
-    for load in loads[:1]:
-        acting = scene.solved.size(load.name)
-        if abs(acting - abs(size)) > 1e-9 * abs(size):  # it does not act in this stroke
-            size = 0.0
-        text = f"{words.symbol(load.name)} = {value_text(words, acting)} {words.unit(field.y.scale.unit)}"
-        at = field.at(place, size)
-        canvas.add(Line(field.at(place, 0.0), at, Pen.DASHED, role="ordinate", name=load.name))
-        canvas.add(Circle(at, scene.style.node, Pen.THIN, fill="white", role="ordinate", name=load.name))
-        canvas.label(text, at, prefer=1.0 + 1.0j, clear=1.2, height=scene.style.text)
+    if abs(acting - abs(size)) > 1e-9 * abs(size):  # it does not act in this stroke
+        size = 0.0
+    text = f"{words.symbol(load.name)} = {value_text(words, acting)} {words.unit(field.y.scale.unit)}"
+    at = field.at(place, size)
+    canvas.add(Line(field.at(place, 0.0), at, Pen.DASHED, role="ordinate", name=load.name))
+    canvas.add(Circle(at, scene.style.node, Pen.THIN, fill="white", role="ordinate", name=load.name))
+    canvas.label(text, at, prefer=1.0 + 1.0j, clear=1.2, height=scene.style.text)

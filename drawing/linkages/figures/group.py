@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from ....plans.board import POSITION
+from ....plans.laws import cross
 from ....plans.linkages.mechanism import FRAME, Driver, Pair, Prismatic
 from ....plans.linkages.structure import Group
 from ....plans.names import role
@@ -17,7 +18,7 @@ from ...symbols import turning_arrow
 from ...view import View
 from ..ladders import DRIVER
 from ..scene import Scene
-from .acting import LEAST, Arm, Arrows, Contact, Moment, contact, couples, handed, loads, moments_of, reactions, zeros
+from .acting import LEAST, Arm, Arrows, Moment, couples, handed, loads, moments_of, reactions, zeros
 from .links import NEAR, Skeleton, draw_frame, draw_links, foot_of, guide_of, letter_links
 from .scheme import special_points
 
@@ -62,31 +63,52 @@ class Sketch(Arrows):
         if not figure.strokes:
             return figure.blocks[0][:2] if figure.blocks else (figure.pins[0], 1 + 0j)
         a, b = max(figure.strokes, key=lambda stroke: round(abs(stroke[1] - stroke[0]), 3))
-        busy = [*figure.nodes, *self.at]
-        places = [a + (b - a) * share for share in SHARES]
+        busy = [*((other, 2.0) for other in (*figure.nodes, *self.at)), *((other, 1.0) for other in self.turning)]
 
         def room(at: complex) -> float:
-            others = [2.0 * abs(other - at) / self.scene.style.force for other in busy]
-            return round(min([*others, *(abs(other - at) / self.scene.style.force for other in self.turning)]), 3)
+            return round(min(times * abs(other - at) / self.scene.style.force for other, times in busy), 3)
 
+        places = (a + (b - a) * share for share in SHARES)
         return max(places, key=lambda at: min(room(at), 1.5)), (b - a) / abs(b - a)
 
-    def contact(self, found: Contact, reaction: str) -> complex:
-        """Draw how far from its pin along the guide the reaction acts, with its millimetres; return the place."""
-        scene, pin, name = self.scene, self.scene.mm(found.pin), found.arm
-        at = pin + found.u * (found.offset / scene.scales[POSITION].mu)
-        if found.couple:
-            return pin
-        if abs(at - pin) > LEAST:
-            e, parts = (at - pin) / abs(at - pin), list[Shape]([Line(pin, at, Pen.THIN)])
-            if abs(at - pin) > 2.2 * scene.style.arrow:
-                parts += [Head(at, e), Head(pin, -e)]
-            self.canvas.add(Shapes(tuple(parts), "arm", name))
-            text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
-            self.canvas.label(text, (pin, at), clear=0.9, height=scene.style.text, strict=True, spare=text)
+    def contact(self, pin: str, pair: Prismatic, number: int) -> tuple[complex, str]:
+        """Draw how far from a pin along the guide the reaction on a link acts, with its millimetres.
+
+        Returns
+        -------
+        complex
+            The place where it acts.
+        str
+            The moment of a reaction that has no size: a couple, without an arm. Otherwise "".
+        """
+        scene, start, u = self.scene, self.scene.mm(pin), guide_of(self.scene, pair)
+        other = next(n for n in pair.links if n != number)
+        named = {scene.mechanism.index(*links) for links in ((other, number), (number, other))}
+        arms = (s for s in scene.program.which(("arm",)) if s.operands[1] in {f"R_{index}" for index in named})
+        step = next((s for s in arms if s.name in {f"h_{index}" for index in named}), None)
+        if step is None:
+            return start, ""
+        (moment, reaction), name, values = step.operands, step.name, scene.solved.values
+        size = cross(u, complex(values[reaction])) if scene.direction(reaction) != 0 else 0.0
+        if size == 0.0 and not scene.vanishes(moment):
+            return start, moment
+        # the moment of the loads, which the reaction balances, or that of the reaction itself
+        turning = -float(values[moment]) if role(moment).hidden else float(values[moment])
+        at = start + u * ((turning / size if size else 0.0) / scene.scales[POSITION].mu)
+        if abs(at - start) > LEAST:
+            self._arm_along(name, start, at)
         elif scene.defined(name) and scene.direction(reaction) != 0:
             self.zero.append(name)
-        return at
+        return at, ""
+
+    def _arm_along(self, name: str, start: complex, end: complex) -> None:
+        """Draw the arm of a guide's reaction along the guide, from the pin to where it acts, with its millimetres."""
+        scene, e, parts = self.scene, (end - start) / abs(end - start), list[Shape]([Line(start, end, Pen.THIN)])
+        if abs(end - start) > 2.2 * scene.style.arrow:
+            parts += [Head(end, e), Head(start, -e)]
+        self.canvas.add(Shapes(tuple(parts), "arm", name))
+        text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
+        self.canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True, spare=text)
 
     def arms(self, moments: Iterable[Moment]) -> None:
         """Draw the arm of each force from the joint about which its moment is taken."""
@@ -101,11 +123,10 @@ class Sketch(Arrows):
             key = moment.about, complex(round(foot.real, 3), round(foot.imag, 3))
             arms.setdefault(key, (moment, foot, []))[2].append(moment)
         for first, foot, sharing in arms.values():
-            names, forces = (
-                tuple(dict.fromkeys(each)) for each in zip(*((m.arm, m.force) for m in sharing), strict=True)
-            )
             if scene.defined(first.arm):
-                arm = Arm(forces, names, scene.mm(first.at), scene.direction(first.force), foot)
+                names = tuple(dict.fromkeys(moment.arm for moment in sharing))
+                forces, e = tuple(moment.force for moment in sharing), scene.direction(first.force)
+                arm = Arm(forces, names, scene.mm(first.at), e, foot)
                 arm.draw(self.canvas, scene, scene.mm(first.about))
 
     def letter_others(self, points: Iterable[str]) -> None:
@@ -147,18 +168,16 @@ def group_view(scene: Scene, group: Group) -> View:
 
 
 def _react(sketch: Sketch, pin: str, pair: Pair, own: int, names: list[str]) -> None:
-    """Hang a reaction on its joint, or where it acts on a slider with this `pin`, a pure couple in its place."""
     scene, on_guide = sketch.scene, sketch.scene.mm(pair.point)
     if not isinstance(pair, Prismatic):
         for name in names:
             sketch.hang(name, on_guide)
         return
-    found = contact(scene, pin, pair, own, next(number for number in pair.links if number != own))
-    at, u = sketch.contact(found, names[0]) if found else scene.mm(pin), guide_of(scene, pair)
+    (at, couple), u = sketch.contact(pin, pair, own), guide_of(scene, pair)
     for name in names:
         sketch.hang(name, on_guide + u * ((at - on_guide) / u).real)
-    if found and found.couple:
-        sketch.couple(found.couple, next(figure for figure in sketch.figures if figure.number == own))
+    if couple:
+        sketch.couple(couple, next(figure for figure in sketch.figures if figure.number == own))
 
 
 def _load(sketch: Sketch, numbers: Iterable[int]) -> None:
@@ -207,7 +226,6 @@ def driver_view(scene: Scene) -> View:
 
 
 def _crank(sketch: Sketch, driver: Driver) -> None:
-    """Hang R_01 on the pivot, loads that stand there, and what balances the crank."""
     scene, o = sketch.scene, sketch.scene.mm(driver.pivot)
     foot = foot_of(scene, driver.pivot, sketch.figures)
     sketch.bar(o, (foot * rect(1.0, lean) for lean in (-0.5, 0.0, 0.5)))

@@ -70,7 +70,6 @@ def _host(i: int, shown: Sequence[Window]) -> int | None:
 
 
 def _framed(canvas: Canvas, box: Box, times: float, name: str, numeral: str) -> None:
-    """Frame the surroundings that an inset shows, where they are seen `times` as large, under its numeral."""
     x0, y0, x1, y1 = (side * times for side in box)
     wide, high = (max(0.0, LEAST_FRAME - size) / 2 for size in (x1 - x0, y1 - y0))
     frame = x0 - wide, y0 - high, x1 + wide, y1 + high
@@ -256,7 +255,6 @@ class ForcePlan:
         return found
 
     def _short(self, times: float) -> list[Vector]:
-        """Return the forces that are shorter than an arrowhead where they are drawn `times` as large."""
         return [v for v in self.vectors() if abs(v.tip - v.tail) * times < self.scene.style.arrow]
 
     def _window(self, cluster: Sequence[Vector]) -> Window:

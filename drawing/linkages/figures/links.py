@@ -190,7 +190,6 @@ def _through(pins: list[complex], strokes: tuple[Stroke, ...]) -> tuple[Corner, 
 
 
 def _on_blocks(blocks: Iterable[Block], strokes: Sequence[Stroke]) -> Iterator[Corner]:
-    """Go through the corners between a block and each line of its own link that leaves it."""
     for at, u, size in blocks:
         for e in rays_of(at, strokes):
             rim = rim_of(u, size, e)
@@ -424,7 +423,6 @@ def _letter_point(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) ->
 
 
 def _tie(scene: Scene, at: complex, figure: Skeleton) -> Iterator[Line]:
-    """Return a thin line to a centre of mass that stands neither on a line of its link nor between them."""
     foot = min((*(nearest(*s, at) for s in figure.strokes), *figure.nodes), key=lambda foot: abs(foot - at))
     inside = len(figure.bars) > 2 and is_inside([a for a, _ in figure.bars], at)
     reach, e = abs(foot - at), (at - foot) / (abs(foot - at) or 1.0)

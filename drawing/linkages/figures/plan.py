@@ -80,9 +80,8 @@ def _said(scene: Scene, plan: str, vectors: Iterable[Edge]) -> Iterator[str]:
 
 def triangles(program: Program, plan: str) -> Iterator[Triangle]:
     """Go through the marks of each triangle of a plan that is similar to one of a link."""
-    for step in program.on(plan):
-        if step.verb == "similar":
-            yield (step.operands[0], step.operands[1], step.name)
+    similar = (step for step in program.on(plan) if step.verb == "similar")
+    return ((step.operands[0], step.operands[1], step.name) for step in similar)
 
 
 def on_link(program: Program, triangle: Triangle) -> Triangle:
@@ -90,11 +89,10 @@ def on_link(program: Program, triangle: Triangle) -> Triangle:
 
     At the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism.
     """
-    start, end, mark = triangle
-    point = role(mark).of
-    own = read(program).made[point].operands
-    first, second = (own[i] if role(m).kind == POLE else role(m).of for i, m in enumerate((start, end)))
-    return first, second, point
+    *ends, point = map(role, triangle)
+    own = read(program).made[point.of].operands
+    first, second = (own[i] if end.kind == POLE else end.of for i, end in enumerate(ends))
+    return first, second, point.of
 
 
 def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke]) -> None:
@@ -108,22 +106,20 @@ def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke])
     else:
         figures = [*triangles(program, plan)]
         figures += [step.operands[:2] for step in program.on(plan) if step.verb == "divide"]
-    for marks in figures:
-        for i, first in enumerate(marks[1:], 1):
-            for second in marks[:i]:
-                side = scene.mm(second), scene.mm(first)
-                if abs(side[1] - side[0]) > NEAR and not any(_covers(line, side) for line in lines):
-                    canvas.part(scene.last((first, second)))
-                    canvas.add(Line(*side, Pen.THIN, role="similarity", name=f"{second} {first}"))
-                    lines.append(side)
+    pairs = [(a, b) for marks in figures for i, a in enumerate(marks) for b in marks[:i]]
+    for first, second in pairs:
+        side = scene.mm(second), scene.mm(first)
+        if abs(side[1] - side[0]) > NEAR and not any(_covers(line, side) for line in lines):
+            canvas.part(scene.last((first, second)))
+            canvas.add(Line(*side, Pen.THIN, role="similarity", name=f"{second} {first}"))
+            lines.append(side)
 
 
 def _covers(line: Stroke, side: Stroke) -> bool:
-    start, way = line[0], line[1] - line[0]
+    way = line[1] - line[0]
     if abs(way) < NEAR:
         return False
-    feet = [(end - start) / way for end in side]
-    spare = NEAR / abs(way)
+    feet, spare = [(end - line[0]) / way for end in side], NEAR / abs(way)
     return all(abs(foot.imag) < spare and -spare < foot.real < 1.0 + spare for foot in feet)
 
 
@@ -141,10 +137,8 @@ def said_flat(scene: Scene, plan: str) -> Iterator[str]:
         from ....plans.linkages.solved import worst_condition  # needs numpy, and few positions need it
 
         quantity, condition = worst_condition(solved, plan)
-        said = _meeting(scene, mark, sine)
-        kind = solved.quantities[quantity].kind
-        symbol = words.mark(quantity) if kind == "point" else words.symbol(quantity)
-        said |= {"quantity": symbol, "condition": _large(scene, condition)}
+        symbol = words.mark if solved.quantities[quantity].kind == "point" else words.symbol
+        said = {**_meeting(scene, mark, sine), "quantity": symbol(quantity), "condition": _large(scene, condition)}
         pins = pins_together(solved.program, solved.values, mark)
         if pins is None:
             yield words["said.ill_position"].format(**said)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from cmath import phase, rect
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
 
@@ -70,18 +70,13 @@ def scheme(scene: Scene) -> View:
     return canvas.finish("position", scene.heading("heading.position", "position"), tuple(said_flat(scene, POSITION)))
 
 
-def angle_said(scene: Scene, driver: Driver) -> tuple[float, str]:
-    """Return the angle of the crank from the axis x, not negative, and what is written at it."""
-    phi = math.remainder(scene.solved.values[driver.angle], 2 * math.pi)
-    phi = phi + 2 * math.pi if phi < -1e-12 else phi
-    return phi, f"{scene.words.symbol(driver.angle)} = {scene.words.short(round(math.degrees(phi), 9))}°"
-
-
 def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
     """Dimension phi from the axis x, and draw the arrows of omega_1 and epsilon_1 on the other side."""
     o, style = scene.mm(driver.pivot), scene.style
     crank_mm = abs(scene.mm(driver.point) - o)
-    phi, text = angle_said(scene, driver)
+    phi = math.remainder(scene.solved.values[driver.angle], 2 * math.pi)
+    phi = phi + 2 * math.pi if phi < -1e-12 else phi
+    text = f"{scene.words.symbol(driver.angle)} = {scene.words.short(round(math.degrees(phi), 9))}°"
     radius = max(0.45 * crank_mm, 9.0)
     zero = o + max(crank_mm, radius + 6.0) * 1.1
     canvas.add(Line(o + style.pair, zero, Pen.THIN, role="zero-direction", name=driver.angle))
@@ -101,19 +96,14 @@ def turning_of_driver(
     canvas: Canvas, scene: Scene, driver: Driver, radii: Sequence[float], spread: float, wanted: float
 ) -> None:
     """Draw the arrows of omega_1 and epsilon_1 about the pivot where there is room, near the direction `wanted`."""
-    o, words = scene.mm(driver.pivot), scene.words
+    o, values = scene.mm(driver.pivot), scene.solved.values
+    omega, epsilon = (f"{kind}_{driver.link}" for kind in ("omega", "epsilon"))
     canvas.part(ANSWERS)
-    omega = scene.solved.values.get(f"omega_{driver.link}")
-    sense = math.copysign(1.0, omega) if omega else scene.solved.values[driver.sense]
-    arrows = [(f"omega_{driver.link}", sense)]
-    epsilon = scene.solved.values.get(f"epsilon_{driver.link}")
-    if epsilon:
-        arrows.append((f"epsilon_{driver.link}", math.copysign(1.0, epsilon)))
-    for name, turn in arrows:
-        busy = list(obstacles(canvas.shapes))
-        at, middle = free_arc(o, radii, spread, wanted, busy)
-        canvas.add(turning_arrow(o, at, middle, spread, turn, name))
-        canvas.label(words.symbol(name), o + rect(at, middle), prefer=rect(1.0, middle))
+    for name, turn in ((omega, values.get(omega) or values[driver.sense]), (epsilon, values.get(epsilon))):
+        if turn:
+            at, middle = free_arc(o, radii, spread, wanted, list(obstacles(canvas.shapes)))
+            canvas.add(turning_arrow(o, at, middle, spread, math.copysign(1.0, turn), name))
+            canvas.label(scene.words.symbol(name), o + rect(at, middle), prefer=rect(1.0, middle))
 
 
 def _speed(canvas: Canvas, scene: Scene, driver: SlidingDriver) -> None:
@@ -124,8 +114,9 @@ def _speed(canvas: Canvas, scene: Scene, driver: SlidingDriver) -> None:
         canvas.part(ANSWERS)
         up, e = guide_up(scene, pair), u * math.copysign(1.0, speed)
         tail = at + up * (scene.style.slider[1] / 2 + 3.0) - e * (0.3 * scene.style.force)
-        canvas.add(Arrow(tail, tail + e * 0.6 * scene.style.force, Pen.THIN, name=driver.speed))
-        canvas.label(scene.words.symbol(f"V_{driver.point}", bar=True), (tail, tail + e * 0.6 * scene.style.force))
+        tip = tail + e * 0.6 * scene.style.force
+        canvas.add(Arrow(tail, tip, Pen.THIN, name=driver.speed))
+        canvas.label(scene.words.symbol(f"V_{driver.point}", bar=True), (tail, tip))
 
 
 def _frame_number(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
@@ -156,12 +147,12 @@ def axes(canvas: Canvas, scene: Scene) -> None:
     pivots = [scene.mm(point) for point in scene.mechanism.frame_points]
     pairs = [p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and FRAME in p.links]
     joints = {scene.mm(pair.point) for pair in scene.mechanism.pairs}  # near them is the less room for a letter
-    letters, per_mm = guide_letters(scene.program), 1.0 / scene.scales[POSITION].mu
+    letters = guide_letters(scene.program)
     for pair in pairs:
         at, u, name = scene.mm(pair.point), guide_of(scene, pair), scene.solved.guide_name(pair)
         feet = [(pivot - at) / u for pivot in pivots]
         near = [foot.real for foot in feet if abs(foot.imag) < 0.3 * abs(foot.real)]
-        way = near[:1] or [end * per_mm for end in scene.runs.get(name, ())]
+        way = near[:1] or scene.run_of(pair)
         line = at + u * (min(0.0, *way) - PAST), at + u * (max(0.0, *way) + PAST)
         canvas.add(Line(*line, Pen.AXIS))
         # of several axes the far ends meet at one pivot
@@ -175,9 +166,8 @@ def moving_guides(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> 
     """Letter the guides of moving links that have letters: those that no two pins name."""
     letters = guide_letters(scene.program)
     for pair in (p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and FRAME not in p.links):
-        letter = letters.get(scene.solved.guide_name(pair))
+        letter, u = letters.get(scene.solved.guide_name(pair)), guide_of(scene, pair)
         figure = next(figure for figure in figures if figure.number == pair.links[1])
-        u = guide_of(scene, pair)
         ends = [end for stroke in figure.guides for end in stroke if abs(((end - scene.mm(pair.point)) / u).imag) < 0.1]
         if letter and ends:
             far = max(ends, key=lambda end: (min(abs(end - pin) for pin in (*figure.pins, 1e9 + 0j)), end.real))
@@ -195,25 +185,20 @@ def found_by(canvas: Canvas, scene: Scene, step: Step) -> None:
     elif step.verb == "arcs":
         _arc(canvas, scene, step.operands[0], step.name, CROSS, f"{name}_1")
         _arc(canvas, scene, step.operands[2], step.name, CROSS, f"{name}_2")
-    elif step.verb == "template":
-        _leg(canvas, scene, step)
+    elif step.verb == "template":  # the path that a leg leaves to its joint of the central link
+        own, legs = step.operands[0], step.operands[-12:]  # joint on the template, start, radius, direction of each leg
+        joint = next(i for i in (0, 4, 8) if legs[i] == own)
+        start, radius, direction = legs[joint + 1 : joint + 4]
+        if radius != ZERO:
+            _arc(canvas, scene, start, step.name, CROSS, name)
+        else:
+            _line(canvas, scene, start, direction, step.name, step.name)
     elif step.verb == "tangent":
         _touched(canvas, scene, step)
     elif step.verb == "meet":
         for i in (0, 2):
             start, direction = step.operands[i : i + 2]
             _line(canvas, scene, start, direction, step.name, f"{step.name}_{i // 2 + 1}")
-
-
-def _leg(canvas: Canvas, scene: Scene, step: Step) -> None:
-    """Draw the path that a leg leaves to its joint of the central link: an arc, or a line."""
-    own, legs = step.operands[0], step.operands[-12:]  # joint on the template, start, radius, direction of each leg
-    joint = next(i for i in (0, 4, 8) if legs[i] == own)
-    start, radius, direction = legs[joint + 1 : joint + 4]
-    if radius != ZERO:
-        _arc(canvas, scene, start, step.name, CROSS, f"arc_{step.name}")
-    else:
-        _line(canvas, scene, start, direction, step.name, step.name)
 
 
 def _line(canvas: Canvas, scene: Scene, start: str, direction: str, point: str, name: str) -> None:
@@ -235,18 +220,17 @@ def _arc(canvas: Canvas, scene: Scene, centre: str, point: str, past: float, nam
         return
     past = max(past, min(math.sqrt(2.0 * abs(way) * LEAVES), LONGEST))
     spread = min(2 * past / abs(way), math.tau)
-    start = phase(way) - spread / 2
-    canvas.add(Arc(scene.mm(centre), abs(way), start, spread, Pen.THIN, role="construction", name=name))
+    ends = phase(way) - spread / 2, spread
+    canvas.add(Arc(scene.mm(centre), abs(way), *ends, Pen.THIN, role="construction", name=name))
 
 
 def _touched(canvas: Canvas, scene: Scene, step: Step) -> None:
     centre, point, offset = step.operands[:3]
     radius = abs(scene.solved.values[offset]) / scene.scales[POSITION].mu
     if radius > scene.style.pair:
-        u = scene.solved.point(step.name)
-        side = math.copysign(1.0, scene.solved.values[offset]) * 1j * u
-        start, sweep = phase(side) - 0.7, 1.4
-        canvas.add(Arc(scene.mm(centre), radius, start, sweep, Pen.THIN, role="construction", name=f"arc_{point}"))
+        side = math.copysign(1.0, scene.solved.values[offset]) * 1j * scene.solved.point(step.name)
+        ends = phase(side) - 0.7, 1.4
+        canvas.add(Arc(scene.mm(centre), radius, *ends, Pen.THIN, role="construction", name=f"arc_{point}"))
 
 
 def special_points(canvas: Canvas, scene: Scene, wanted: Iterable[str] | None = None) -> None:
@@ -266,8 +250,7 @@ def special_points(canvas: Canvas, scene: Scene, wanted: Iterable[str] | None = 
             canvas.label(scene.words.mark(step.name), at, clear=scene.style.node + 0.8)
 
 
-@dataclass(frozen=True, slots=True)
-class Turn:
+class Turn(NamedTuple):
     """A rate of a link read off a plan: the vector that turns its joint `end` about its joint `start`."""
 
     rate: str
@@ -286,9 +269,8 @@ def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
     shown: dict[int, list[Turn]] = {}
     for step in scene.program:
         if step.law == "turning" and not is_relative(step.name):
-            vector, normal, _ = step.operands
-            # the direction whose normal it is runs from one joint to another
-            joints = scene.reading.made[scene.reading.made[normal].operands[0]].operands[:2]
+            (vector, normal, _), made = step.operands, scene.reading.made
+            joints = made[made[normal].operands[0]].operands[:2]  # between which the direction runs whose normal it is
             e = scene.direction(vector)
             if e != 0 and scene.defined(step.name):
                 turn = Turn(step.name, vector, *joints)
@@ -300,12 +282,10 @@ def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
 
 
 def _arcs(canvas: Canvas, scene: Scene, shown: Sequence[Turn], figure: Skeleton) -> None:
-    """Draw the arcs of one link across one of its lines, that between the joints of the rate if there is one."""
-    ends, own = (scene.mm(shown[0].start), scene.mm(shown[0].end)), figure.strokes
+    own = figure.strokes
     rays = [ray for line in own for ray in (line, line[::-1])]
-    belongs = shown[0].start in scene.mechanism.link(figure.number).points
-    if belongs or not rays:
-        rays.insert(0, ends)
+    if shown[0].start in scene.mechanism.link(figure.number).points or not rays:
+        rays.insert(0, (scene.mm(shown[0].start), scene.mm(shown[0].end)))
     force, wanted = scene.style.force, [PLACES[role(turn.rate).kind] for turn in shown]
     # centres of mass are drawn with their letters, later
     marks = [scene.mm(point) for link in scene.mechanism.links for point in link.points]
@@ -320,7 +300,6 @@ def _arcs(canvas: Canvas, scene: Scene, shown: Sequence[Turn], figure: Skeleton)
 
 
 def _carried(canvas: Canvas, scene: Scene, turn: Turn, e: complex, taken: dict[tuple[complex, complex], float]) -> None:
-    """Draw the vector at the joint that it turns, beyond another one on the same ray."""
     b = scene.mm(turn.end)
     key = complex(round(b.real, 3), round(b.imag, 3)), complex(round(e.real, 6), round(e.imag, 6))
     start = taken.get(key, 0.0)
@@ -330,8 +309,7 @@ def _carried(canvas: Canvas, scene: Scene, turn: Turn, e: complex, taken: dict[t
     canvas.label(scene.letter(turn.vector), (b + e * (length * 0.6), b + e * length), clear=1.0)
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(NamedTuple):
     """Where an arc stands: about the point `centre`, on both sides of the ray at the angle `along`."""
 
     centre: complex
@@ -398,11 +376,10 @@ def free_arc(
     """Return radius and middle direction of an arc about a point, off all that is drawn, near `wanted`."""
     middles = wanted + np.arange(-12, 12) * (np.pi / 12)
     tries = [(radius, middle) for radius in radii for middle in middles.tolist()]
-    angles = np.array([middle for _, middle in tries])[:, None] + spread * np.linspace(-0.5, 0.5, SAMPLES)
-    points = centre + np.array([radius for radius, _ in tries])[:, None] * np.exp(1j * angles)
-    away = np.array([abs(middle - wanted) for _, middle in tries])
-    first = np.array([radius != radii[0] for radius, _ in tries])
-    cost = crowd(points, busy) + 0.1 * away + 0.2 * first
+    every, angles = np.array(tries).T
+    turns = np.exp(1j * (angles[:, None] + spread * np.linspace(-0.5, 0.5, SAMPLES)))
+    far = 0.1 * np.abs(angles - wanted) + 0.2 * (every != radii[0])
+    cost = crowd(centre + every[:, None] * turns, busy) + far
     return tries[int(np.round(cost, 6).argmin())]
 
 
@@ -426,16 +403,13 @@ def crowd(points: np.ndarray, busy: Sequence[Obstacle]) -> np.ndarray:
     # to each obstacle the nearest point counts, and much more where the arc crosses it
     close = np.zeros((len(points), len(busy)))
     close[i, j] = (np.clip(1.0 - gap / CLEAR, 0.0, 1.0) + CROSSING * (gap < CROSSED)).max(axis=1)
-    result: np.ndarray = close @ weight
-    return result
+    return np.asarray(close @ weight)
 
 
 def _gaps(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return how far points are from the lines from `a` to `b`."""
     way = b - a
     along = np.clip(((points - a) * way.conj()).real / np.maximum(np.abs(way), NEAR) ** 2, 0.0, 1.0)
-    gaps: np.ndarray = np.abs(points - a - along * way)
-    return gaps
+    return np.asarray(np.abs(points - a - along * way))
 
 
 def _tries(ray: Stroke, busy: Sequence[Obstacle], force: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -457,8 +431,7 @@ def _points(places: Sequence[Place]) -> np.ndarray:
 def _along_arcs(centres: np.ndarray, along: np.ndarray, radii: np.ndarray, spreads: np.ndarray) -> np.ndarray:
     """Return points along arcs, a row for each, about one centre or each about its own."""
     turns = np.exp(1j * (along[:, None] + spreads[:, None] * np.linspace(-0.5, 0.5, SAMPLES)))
-    points: np.ndarray = centres[:, None] + radii[:, None] * turns
-    return points
+    return np.asarray(centres[:, None] + radii[:, None] * turns)
 
 
 def obstacles(shapes: Iterable[Shape]) -> Iterator[Obstacle]:
