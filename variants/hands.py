@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ..drawing.words import Words
-from ..plans.board import Program, Step
+from ..plans.board import Program
 from ..plans.hands.shaky import PRESETS, Hand, Paper, Tolerance, preset
 from ..plans.hands.spread import DRAWINGS, SEED, Expectation, expectations
 from ..plans.linkages.legs import guide_letters
@@ -183,19 +183,15 @@ def _worst(expected: Expectation, program: Program, words: Words) -> str:
         force, _, about = step.operands
         said = words["hand.arm"].format(name=f"{force}, {_plain(words.mark(about))}")
     elif step.verb in LINES:
-        said = words["hand.line"].format(name=_line(step, program))
+        # a link has the name of its ends, a guide its letters, or the pins on it
+        own = "".join(step.operands[:2]) if step.verb == "tangent" else role(step.name).shown.letters
+        said = words["hand.line"].format(name=guide_letters(program).get(step.name, own))
     else:
         plan = step.plan.kind
         where = words[f"hand.plan.{plan if plan in PLANS else 'compound'}"]
         mark = role(step.name).of if plan in LETTERED else _plain(words.mark(step.name))
         said = f"{words['hand.mark'].format(name=mark)}, {where}"
     return f"{said} {share}".rstrip()
-
-
-def _line(step: Step, program: Program) -> str:
-    """Return the name of a line: of a link by its ends, of a guide by its letters, or by the pins on it."""
-    own = "".join(step.operands[:2]) if step.verb == "tangent" else role(step.name).shown.letters
-    return guide_letters(program).get(step.name, own)
 
 
 def _plain(markup: str) -> str:

@@ -326,10 +326,6 @@ def _measure(b: ShakyBoard, exact: Operate, start: Any, end: Any) -> Any:
     return abs(found + b._reading(first))
 
 
-def _angle(b: ShakyBoard, exact: Operate, first: Any, second: Any) -> Any:
-    return exact(first, second) + b._direction_error()
-
-
 def _read(b: ShakyBoard, exact: Operate, tail: Any, tip: Any) -> Any:
     """Read a vector, its length and its direction: the tip is seen a little off, seen from the tail."""
     found, (first, second) = exact(tail, tip), b._operands
@@ -368,7 +364,7 @@ SHAKY: Mapping[str, Operate] = {
     "similar": _similar,
     "measure": _measure,
     "distance": _measure,
-    "angle": _angle,
+    "angle": lambda b, exact, first, second: exact(first, second) + b._direction_error(),
     "read": _read,
     "moment": _moment,
 }

@@ -33,6 +33,20 @@ class Answer:
         """Whether it says nothing that can be marked."""
         return not any(map(known, (self.mm, self.value, self.direction, self.sense)))
 
+    def values(self, mu: float | None = None) -> tuple[float, ...]:
+        """Return the values that it may mean, signed: the one written, else mm times or through mu.
+
+        `mu` is that of other lines of the plan, for a line that has none.
+        """
+        return (self.value,) if self.value is not None and known(self.value) else self.measured(mu)
+
+    def measured(self, mu: float | None) -> tuple[float, ...]:
+        """Return the values that the millimetres mean, in either convention of the scale factor."""
+        factor = self.mu if known(self.mu) else mu
+        if self.mm is None or not known(self.mm) or not factor or not known(factor):
+            return ()
+        return tuple(dict.fromkeys(x for x in (self.mm * factor, self.mm / factor) if math.isfinite(x)))
+
 
 @dataclass(frozen=True, slots=True)
 class Said:
@@ -44,14 +58,10 @@ class Said:
 
     def taken(self, follows: Any) -> Any:
         """Return the value to go on with: what the answer does not say is taken from what follows without it."""
-        if isinstance(follows, complex):
-            return self._vector(follows)
-        size = abs(follows) if self.size is None else self.size
-        return size * (self.sign if self.sign is not None else -1.0 if follows < 0.0 else 1.0)
-
-    def _vector(self, follows: complex) -> complex:
         length = abs(follows)
         size = length if self.size is None else self.size
+        if not isinstance(follows, complex):
+            return size * (self.sign if self.sign is not None else -1.0 if follows < 0.0 else 1.0)
         if self.direction is not None:
             return self.direction * size
         return follows * (size * (1.0 / length)) if length else follows
@@ -60,24 +70,6 @@ class Said:
 def known(number: float | None) -> bool:
     """Whether a number is there, and is one."""
     return number is not None and math.isfinite(number)
-
-
-def values_of(answer: Answer, mu: float | None = None) -> tuple[float, ...]:
-    """Return the values that an answer may mean, signed: the one written, else mm times or through mu.
-
-    `mu` is that of other lines of the plan, for a line that has none.
-    """
-    if answer.value is not None and known(answer.value):
-        return (answer.value,)
-    return measured(answer, mu)
-
-
-def measured(answer: Answer, mu: float | None = None) -> tuple[float, ...]:
-    """Return the values that the millimetres mean, in either convention of the scale factor."""
-    factor = answer.mu if known(answer.mu) else mu
-    if answer.mm is None or not known(answer.mm) or not factor or not known(factor):
-        return ()
-    return tuple(dict.fromkeys(x for x in (answer.mm * factor, answer.mm / factor) if math.isfinite(x)))
 
 
 def nearest(values: tuple[float, ...], ours: float) -> float:

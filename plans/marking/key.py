@@ -207,14 +207,8 @@ def tolerances(
     short side closes a plan of long vectors no better. Of an arm it is that of the way to the point of the force, and
     what a point misses where lines of the mechanism cross that run on from short links. A
     part that is calculated and laid off (a_BA_n) misses no more than its calculation and its two marks, where that is
-    less. A calculated quantity inherits what the segments in it may miss; data have none.
-
-    Parameters
-    ----------
-    values, sines : mapping
-        Of an exact run.
-    most : Tolerance
-        A preset's, or one's own.
+    less. A calculated quantity inherits what the segments in it may miss; data have none. Values and sines are those of
+    an exact run.
     """
     rule = _Rule(paper, values, worst_behind(paper.program, sines, same_plan), most, {}, _longest(paper, values))
     for step in paper.program:
@@ -259,7 +253,8 @@ class _Rule:
             missed += self.astray.get(about, 0.0)
             return size * missed + arm * self.allowed.get(force, 0.0)
         if step.verb == "arm":
-            return self._arm(*step.operands)
+            size = abs(values[step.operands[1]])
+            return self.allowed[step.operands[0]] / size if size else 0.0
         if step.verb == "calc":
             return self._inherited(step)
         is_point = step.verb in POINTS and "." not in step.name
@@ -299,10 +294,6 @@ class _Rule:
 
     def _mu(self, mark: str) -> float:
         return float(self.paper.mus[role(mark).plan])
-
-    def _arm(self, moment: str, force: str) -> float:
-        size = abs(self.values[force])
-        return self.allowed[moment] / size if size else 0.0
 
     def _inherited(self, step: Step) -> float:
         """Return by how much a calculated value differs when what is in it does, each alone, together."""

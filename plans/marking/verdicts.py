@@ -16,30 +16,13 @@ from typing import Any, NamedTuple
 from ...scales.names import unknown
 from ..board import Step
 from ..names import role
-from .allowance import Allowance
-from .answers import (
-    NEVER,
-    SIZE,
-    Answer,
-    Line,
-    Miss,
-    Said,
-    Verdict,
-    known,
-    measured,
-    miss,
-    nearest,
-    ratio,
-    readings,
-    values_of,
-)
+from .answers import NEVER, SIZE, Answer, Line, Miss, Said, Verdict, known, miss, nearest, ratio, readings
 from .key import Key, Question, behind, hanging_on
-from .student import StudentBoard, Take, settled, settled_in
+from .student import Allowance, StudentBoard, Take, settled, settled_in
 
 DECIMALS = tuple(10.0**power for power in (-3, -2, -1, 1, 2, 3))  # mm, cm, dm
-ANGLES = tuple(
-    x for times in (180.0 / math.pi, 30.0 / math.pi) for x in (times, 1.0 / times)
-)  # degrees, turns a minute
+# degrees, turns a minute
+ANGLES = tuple(x for times in (180.0 / math.pi, 30.0 / math.pi) for x in (times, 1.0 / times))
 UNITS = {
     "m": DECIMALS,
     "m/s": DECIMALS,
@@ -303,7 +286,7 @@ class Marker:
 
     def _take(self, names: Iterable[str]) -> None:
         for name in names:
-            values = values_of(self.answers[name], self.mus[name])
+            values = self.answers[name].values(self.mus[name])
             self.ways[name] = self._readings(name, values)
             near = (nearest(values, abs(self.key[name])),) if len(values) > 1 else values
             self.taken[name] = self.ways[name][0] if near == values else self._readings(name, near)[0]
@@ -391,7 +374,7 @@ class Marker:
         clear = held.miss.off > CLEAR and held.miss.about == SIZE
         if clear and self._is_unit(name, value):
             return held._replace(verdict=Verdict.SCALE)
-        instead, written = measured(answer, self.mus[name]), answer.value
+        instead, written = answer.measured(self.mus[name]), answer.value
         if written is not None and instead and not self._agrees(name, written, instead):
             by_mm = self._held(self._readings(name, instead), name, value).verdict
             if held.verdict.passed is not by_mm.passed:
@@ -443,7 +426,7 @@ class Marker:
 
     def _is_unit(self, name: str, value: Any) -> bool:
         """Whether a line is right in another unit that its quantity may have."""
-        units, values = UNITS.get(self.key.questions[name].unit, ()), values_of(self.answers[name], self.mus[name])
+        units, values = UNITS.get(self.key.questions[name].unit, ()), self.answers[name].values(self.mus[name])
         return self._fits(name, value, [x * unit for x in values for unit in units])
 
     def _is_scale(self, name: str, value: Any) -> bool:
@@ -452,7 +435,7 @@ class Marker:
         # an arm hangs on the direction of a force, and shows no scale when that is wrong
         true = self._true(question.plan) if mm and question.step.verb != "arm" else None
         own = (mm * true,) if true is not None and mm else ()
-        return self._fits(name, value, (*measured(self.answers[name], self.mus[name]), *own))
+        return self._fits(name, value, (*self.answers[name].measured(self.mus[name]), *own))
 
     def _fits(self, name: str, value: Any, others: Iterable[float]) -> bool:
         """Whether a line would pass with one of other values, and that in a few parts of a hundred."""

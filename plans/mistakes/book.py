@@ -108,7 +108,8 @@ class Book:
         ids = [id for id, mistake in MISTAKES.items() if mistake.by_scale]
         kept = [s for s in self.signatures if s.broken.mistake not in ids]
         paper = replace(key.paper, mus={**key.paper.mus, **mus})
-        return Book(key, _ordered([*kept, *_moving(key, broken(paper, key.values, ids))]), self.turned)
+        all_of_them = sorted([*kept, *_moving(key, broken(paper, key.values, ids))], key=lambda s: s.broken.mistake)
+        return Book(key, tuple(all_of_them), self.turned)
 
 
 @dataclass(frozen=True)
@@ -157,11 +158,7 @@ def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> 
 
 def book(key: Key) -> Book:
     """Run every mistake that concerns a key; those that change nothing are left out."""
-    return Book(key, _ordered(_moving(key, broken(key.paper, key.values))), Turned(key))
-
-
-def _ordered(found: Iterable[Signature]) -> tuple[Signature, ...]:
-    return tuple(sorted(found, key=lambda one: one.broken.mistake))
+    return Book(key, tuple(_moving(key, broken(key.paper, key.values))), Turned(key))
 
 
 def _moving(key: Key, found: Iterable[Broken]) -> Iterator[Signature]:

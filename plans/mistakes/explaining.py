@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from ..board import Step
 from ..hands.shaky import Paper
 from ..marking.again import Judged
-from ..marking.answers import FREE, Answer, Line, Said, Verdict, known, measured, nearest
+from ..marking.answers import FREE, Answer, Line, Said, Verdict, known, nearest
 from ..marking.key import behind
 from ..marking.verdicts import Marking
-from .book import MISTAKES, Book, Signature, broken, key_of, signatures
+from .book import MISTAKES, Book, Complex, Floats, Signature, broken, key_of, signatures
 from .data import other_orders, transposed
 from .rules import Broken, Scene
 
@@ -40,8 +40,6 @@ BEAM = 4  # chains of mistakes that are made longer
 LOCAL = 16  # mistakes at one line that are looked at closely
 LINES = 3  # lines that stay wrong to which a mistake more is sought
 DEPTH = 4  # mistakes of one student that are named
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,11 +106,11 @@ class _Answers:
     """The answers of one student as columns: sizes, directions (unit vectors or signs, zero where not said)."""
 
     size: Floats
-    way: NDArray[np.complex128]
+    way: Complex
     free: NDArray[np.bool_]
     angle: Floats
 
-    def misses(self, book: Book, table: NDArray[np.complex128], most: Floats) -> Floats:
+    def misses(self, book: Book, table: Complex, most: Floats) -> Floats:
         """Return the misses of rows of values, in tolerances, NaN where nothing is said; shape of `table`.
 
         What has been found on another way is held against what that gives.
@@ -129,7 +127,7 @@ class _Answers:
         here = slice(place, place + 1)
         return _Answers(self.size[here], self.way[here], self.free[here], self.angle[here])
 
-    def missed(self, vector: NDArray[np.bool_], table: NDArray[np.complex128], most: Floats) -> Floats:
+    def missed(self, vector: NDArray[np.bool_], table: Complex, most: Floats) -> Floats:
         """Return the misses of rows of values; `vector` tells which of them are vectors."""
         sizes = np.abs(table)
         with np.errstate(all="ignore"):
@@ -230,9 +228,8 @@ class _Search:
         table = np.array([one.row[place] for one in made])[:, None]
         most = np.array([one.allowed[place] for one in made])[:, None]
         usual = chain[-1].row[place] if chain else self.book.right[place]
-        near = np.minimum(
-            self._misses_of(place, table, most), self._misses_of(place, *self._times(lines[place], table, usual))
-        )
+        own = self._misses_of(place, *self._times(lines[place], table, usual))
+        near = np.minimum(self._misses_of(place, table, most), own)
         ordered = [made[i] for i in np.argsort(near, kind="stable") if near[i] <= 1.0]
         return [more for one in ordered[:LOCAL] if (more := self._found((*chain, one), lines[place].name)) is not None]
 
@@ -280,19 +277,17 @@ class _Search:
 
     def _meant(self, line: Line, answer: Answer, other: float) -> bool:
         """Whether mm times mu gives another number than is written, or what is calculated from earlier numbers does."""
-        if answer.mm and any(abs(x - other) <= EXACT * other for x in measured(answer, self.mus.get(line.plan))):
+        if answer.mm and any(abs(x - other) <= EXACT * other for x in answer.measured(self.mus.get(line.plan))):
             return True
         if line.follows != line.follows or not self._calculated(line.name):
             return False
         return bool(abs(other - abs(line.follows)) <= min(line.allowed, CLOSE * other))
 
-    def _misses_of(self, place: int, table: NDArray[np.complex128], most: Floats) -> Floats:
+    def _misses_of(self, place: int, table: Complex, most: Floats) -> Floats:
         """Return by how many tolerances the answer of one line misses a column of values."""
         return np.asarray(self.said.of_line(place).missed(self.book.vector[place], table, most)[:, 0])
 
-    def _times(
-        self, line: Line, table: NDArray[np.complex128], usual: complex
-    ) -> tuple[NDArray[np.complex128], Floats]:
+    def _times(self, line: Line, table: Complex, usual: complex) -> tuple[Complex, Floats]:
         """Return what follows from a student's own values where mistakes make a line so many times the usual value."""
         follows = complex(line.follows)
         with np.errstate(all="ignore"):

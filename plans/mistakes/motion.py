@@ -183,11 +183,11 @@ def point_wrong(scene: Scene) -> Iterator[Change]:
 # Rates of links.
 
 
-def rates(scene: Scene, plan: str) -> Iterator[tuple[Step, Step]]:
-    """Go through the rates that follow from a reading on a plan, with the reading."""
-    for step in scene.calculated("turning"):
+def rates(scene: Scene, plan: str = "", law: str = "turning") -> Iterator[tuple[Step, Step]]:
+    """Go through the rates (or normal parts) that follow from a reading on a plan, with the reading."""
+    for step in scene.calculated(law):
         reading = scene.steps.get(step.operands[0])
-        if reading is not None and reading.verb == "read" and plan in (reading.plan, reading.plan.kind):
+        if reading is not None and reading.verb == "read" and plan in ("", reading.plan, reading.plan.kind):
             yield step, reading
 
 
@@ -282,18 +282,10 @@ def normal_of_slotted_link(scene: Scene) -> Iterator[Change]:
         yield Change.instead(step, "away", verb="lay")
 
 
-def normal_laws(scene: Scene) -> Iterator[tuple[Step, Step]]:
-    """Go through the calculations of normal parts, with the readings of their velocities."""
-    for step in scene.calculated("normal_part"):
-        reading = scene.steps.get(step.operands[0])
-        if reading is not None and reading.verb == "read":
-            yield step, reading
-
-
 @mistake("M40")
 def normal_from_another(scene: Scene) -> Iterator[Change]:
     """The normal part is calculated from the absolute velocity, or from the angular velocity of the crank."""
-    for step, reading in normal_laws(scene):
+    for step, reading in rates(scene, law="normal_part"):
         for other in scene.made_by("read", plan=reading.plan):
             start, end = other.operands
             if end == reading.operands[1] and start != reading.operands[0]:
@@ -305,7 +297,7 @@ def normal_from_another(scene: Scene) -> Iterator[Change]:
 @mistake("M41")
 def square_lost(scene: Scene) -> Iterator[Change]:
     """The normal part is v / l, or omega l^2: a square is lost, or is in the wrong place."""
-    for step, reading in normal_laws(scene):
+    for step, reading in rates(scene, law="normal_part"):
         size = length_of(reading.name)
         for how, law in (("v/l", "rate_over"), ("omega l^2", "circular_speed")):
             last = step.but(operands=(size[-1].name, step.operands[1]), law=law)
@@ -317,7 +309,7 @@ def normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...]]]:
 
     Parts of links of groups are calculated from the relative velocity, omega being its size over the length.
     """
-    for step, reading in normal_laws(scene):
+    for step, reading in rates(scene, law="normal_part"):
         size = length_of(reading.name)
         yield step, (*size, Step("calc", f"_omega_of_{step.name}", (size[-1].name, step.operands[1]), "rate_over"))
     for step in scene.calculated("centripetal"):

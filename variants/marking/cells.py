@@ -1,4 +1,7 @@
-"""What stands in a cell of an answer: a segment, a scale factor, a value, a direction, a calculation; or why none."""
+"""What stands in a cell of an answer: a segment, a scale factor, a value, a direction, a calculation; or why none.
+
+What cannot be read is refused with an InputError.
+"""
 
 from __future__ import annotations
 
@@ -70,10 +73,7 @@ def of_paper(written: str) -> bool:
 def checked(grid: Grid, row: int, column: int | None) -> str:
     """Return the text of a cell for a number; nothing where there is no answer.
 
-    Raises
-    ------
-    InputError
-        A formula that nobody has worked out, or a date that a spreadsheet has made of a number.
+    It is refused where it is a formula that nobody has worked out, or a date that a spreadsheet has made of a number.
     """
     text = grid.text(row, column)
     at = (row, column if column is not None else -1)
@@ -99,10 +99,7 @@ def signed(text: str) -> str:
 def segment(text: str, written: str) -> tuple[float, int]:
     """Return millimetres of paper, and the decimals with which they are written; `written` is the column's unit.
 
-    Raises
-    ------
-    InputError
-        No number, another unit than of length, a negative length.
+    What is no number is refused, and another unit than of length, or a negative one.
     """
     number, rest = split_number(text)
     own = known(rest) if rest else known(written) if written else MM
@@ -115,19 +112,10 @@ def segment(text: str, written: str) -> tuple[float, int]:
 
 
 def scale_factor(text: str, written: str, per_mm: str, display_per_mm: str) -> Mu:
-    """Return a scale factor in SI per millimetre.
+    """Return a scale factor in SI per millimetre; a unit may be `written` beside the number.
 
-    Parameters
-    ----------
-    written : str
-        A unit that stands beside the number, if any.
-    per_mm, display_per_mm : str
-        The unit per millimetre in SI, and as the task shows it: what a bare number is meant in.
-
-    Raises
-    ------
-    InputError
-        No number, one that is not positive, or a unit that is none of a scale factor of this plan.
+    The unit per millimetre is that in SI, and as the task shows it: what a bare number is meant in. What is no number
+    is refused, and one that is not positive, or a unit that is none of a scale factor of this plan.
     """
     number, rest = split_number(text)
     if number <= 0.0:
@@ -144,10 +132,7 @@ def scale_factor(text: str, written: str, per_mm: str, display_per_mm: str) -> M
 def value(text: str, written: str, name: str, asked: Asked) -> float:
     """Return a value in the unit of its quantity; its own stands in the cell, or beside it, or is that of the form.
 
-    Raises
-    ------
-    InputError
-        No number, an unknown unit, or one that does not fit the quantity.
+    What is no number is refused, and an unknown unit, or one that does not fit the quantity.
     """
     number, rest = split_number(text)
     own = unit(asked.quantities[name].unit)  # SI, but of a scale factor SI per millimetre
@@ -240,10 +225,7 @@ def _kind_of(word: str, *kinds: str) -> str:
 def direction(text: str, vector: bool = False) -> tuple[float | None, int | None]:
     """Return an angle in radians from the x axis, or a sense; of a vector a number is an angle, also 1.
 
-    Raises
-    ------
-    InputError
-        Neither an angle in degrees nor a sense, or two senses; of a vector no angle.
+    What is neither an angle in degrees nor a sense is refused, and two senses; of a vector what is no angle.
     """
     if vector and _ANGLE.fullmatch(text):
         return converted(split_number(text)[0], DEGREE, DEGREE), None

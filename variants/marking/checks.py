@@ -62,7 +62,10 @@ class Check:
         task, language = self.request.task, self.request.language
         key = Desk(self).keyed(self.request.variant or next(iter(task.variants)), {})
         if self.roster is not None:
-            rows = [class_header(key.parts, language, self.rubric.directions != "ignored"), *self._students()]
+            rows = [class_header(key.parts, language, self.rubric.directions != "ignored")]
+            for entry in self.roster.entries:  # the sheet id is for them to copy
+                who, variant = entry.who, entry.variant_of(task, self.digits)
+                rows.append((who.student, who.group, who.book, who.number, variant, ""))
             bold, frozen = [0], 1
         else:
             rows = list(form_rows(key, {"task": task.id, "variant": self.request.variant or ""}))
@@ -71,12 +74,6 @@ class Check:
             bold = [n for n, row in enumerate(rows) if n >= frozen - 1 and (len(row) == 1 or row[0] == columns)]
         looks = rows, language, task.id, bold, frozen
         return save_all((file,), TABLES, lambda path: [(path, table_bytes(path, *looks))])[0]
-
-    def _students(self) -> Iterator[tuple[str, ...]]:
-        """Go through the rows of a class's form: who they are, which variant; the sheet id is for them to copy."""
-        for entry in self.roster.entries if self.roster else ():
-            variant = entry.variant_of(self.request.task, self.digits)
-            yield entry.who.student, entry.who.group, entry.who.book, entry.who.number, variant, ""
 
     def read(self, *names: str, warn: Callable[[KulmanError], None] | None = None) -> list[Answers]:
         """Read the answers in files, folders, patterns.

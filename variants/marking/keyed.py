@@ -99,9 +99,6 @@ def class_header(parts: Iterable[Section], language: str, directions: bool) -> t
     return tuple(columns)
 
 
-PER_CENT = "%"  # what is compared in per cent is not asked
-
-
 def solved(request: Request) -> Solution:
     """Solve what is asked for; a position without a plan is an error, too."""
     found = solution_of(request)
@@ -125,6 +122,11 @@ class Keyed:
     def book(self) -> Book:
         """What every mistake would give: costs more than the key, and is needed where an answer is wrong."""
         return book(self.key)
+
+    def scale_of(self, name: str) -> str:
+        """Return the scale factor of the plan on which a quantity stands; nothing where there is none."""
+        question = self.key.questions.get(name)
+        return "" if question is None else self.solution.solved.scale_of_plan.get(question.plan, "")
 
     @cached_property
     def needed(self) -> dict[str, float]:
@@ -165,10 +167,10 @@ class Keyed:
 
 
 def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> Asked:
-    """Return what can be answered in a task; the quantities of `names` alone where they are given."""
+    """Return what can be answered in a task, of `names` alone where they are given, but nothing in per cent."""
     made = frozenset(solution.drawn_by_students.program.names if names is None else names)
     quantities = {
-        name: q for name, q in solution.quantities.items() if name in made and q.kind != "point" and q.unit != PER_CENT
+        name: q for name, q in solution.quantities.items() if name in made and q.kind != "point" and q.unit != "%"
     }
     scales = {s.symbol: s.unit for s in solution.scales.values() if s.symbol not in solution}  # chosen, not found
     return Asked(quantities, scales, solution.words.display)

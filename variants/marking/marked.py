@@ -43,7 +43,7 @@ class Misfit:
     names: tuple[str, ...]
 
 
-def misfits(answers: Answers, key: Key, scale_of_plan: Mapping[str, str]) -> Iterator[Misfit]:
+def misfits(answers: Answers, key: Keyed) -> Iterator[Misfit]:
     """Go through the scale factors in rows of their own that do not fit what stands under them.
 
     The values must be nearer to the right ones than the segments times the factor: where the values are wrong, it is
@@ -51,12 +51,11 @@ def misfits(answers: Answers, key: Key, scale_of_plan: Mapping[str, str]) -> Ite
     """
     by_symbol: dict[str, list[Written]] = {}
     for line in answers.lines.values():
-        question = key.questions.get(line.name)
-        symbol = "" if question is None else scale_of_plan.get(question.plan, "")
+        symbol = key.scale_of(line.name)
         if symbol in answers.scales and line.mu is None and (line.mm or 0.0) >= SHORT and line.value:
             by_symbol.setdefault(symbol, []).append(line)
     for symbol, lines in by_symbol.items():
-        found = _misfit(symbol, lines, answers.scales[symbol], key)
+        found = _misfit(symbol, lines, answers.scales[symbol], key.key)
         if found is not None:
             yield found
 
@@ -213,7 +212,7 @@ class Desk:
         key = self.keyed(variant, settings)
         notes += self._sheet(answers, key)
         rubric = self.check.rubric
-        found = tuple(misfits(answers, key.key, key.solution.solved.scale_of_plan))
+        found = tuple(misfits(answers, key))
         given, undefined = _given(answers, key, {misfit.symbol: misfit.fits for misfit in found})
         given = [rubric.compared(answer, key.key.questions[answer.name]) for answer in given]
         notes += undefined
@@ -260,11 +259,10 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
     """
     given, notes = [], list[KulmanError]()
     for line in answers.lines.values():
-        question = key.key.questions.get(line.name)
-        if question is None:
+        if line.name not in key.key.questions:
             notes.append(InputError("marked-undefined", place=quote(line.place, SHOWN), text=line.name))
             continue
-        symbol = key.solution.solved.scale_of_plan.get(question.plan, "")
+        symbol = key.scale_of(line.name)
         written = line.mu or answers.scales.get(symbol)
         mu = None if written is None else fits.get(symbol, written.value) if line.mu is None else line.mu.value
         mm = None if line.mu is None and _on_other_drawing(line, symbol, answers, key.solution) else line.mm

@@ -217,9 +217,7 @@ def students_scales(marked: Marked) -> dict[str, float]:
     key, answers = marked.marking.key, marked.answers
     found = dict(key.paper.mus)
     for name, line in answers.lines.items():
-        question = key.questions.get(name)
-        symbol = "" if question is None else marked.keyed.solution.solved.scale_of_plan.get(question.plan, "")
-        mu = line.mu or answers.scales.get(symbol)
+        question, mu = key.questions.get(name), line.mu or answers.scales.get(marked.keyed.scale_of(name))
         if question is not None and mu is not None and question.plan in found:
             found[question.plan] = mu.nearest(key.paper.mus[question.plan])
     return found

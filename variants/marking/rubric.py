@@ -65,7 +65,8 @@ class Rubric:
         if self.weights:
             shares = {line.name: self.weights.get(line.name, 1.0) for line in lines}
         else:
-            shares = {line.name: 0.0 if zero(line) else 1.0 + NEEDED * needed[line.name] for line in lines}
+            zero = {line.name for line in lines if abs(line.right) <= NOTHING * line.allowed}
+            shares = {line.name: 1.0 + NEEDED * needed[line.name] for line in lines} | dict.fromkeys(zero, 0.0)
             whole = dict.fromkeys(by_plan.values(), 0.0)
             for name, share in shares.items():
                 whole[by_plan[name]] += share
@@ -87,11 +88,6 @@ class Rubric:
         signed = answer.value is None or (question.unit == "1" and not question.vector)
         value = answer.value if signed else abs(answer.value or 0.0)
         return replace(answer, value=value, direction=None, sense=None, plus=False)
-
-
-def zero(line: Line) -> bool:
-    """Whether nothing but zero is right."""
-    return bool(abs(line.right) <= NOTHING * line.allowed)
 
 
 def wants_direction(line: Line) -> bool:
@@ -154,9 +150,9 @@ def _table(path: Path) -> dict[str, Any]:
         return tomllib.loads(data.decode("utf-8-sig"))
     except FileNotFoundError:
         raise InputError("file-missing", file=shown) from None
-    except (OSError, ValueError, RecursionError) as problem:
-        if isinstance(problem, OSError):
-            raise InputError("file-unreadable", file=shown) from None
+    except OSError:
+        raise InputError("file-unreadable", file=shown) from None
+    except (ValueError, RecursionError):
         raise InputError("rubric-toml", file=shown) from None
 
 
@@ -175,13 +171,10 @@ class _Reader:
             if key not in known:
                 raise self._at(key, unknown("key-unknown", key, known))
         worth = {Verdict(name): value for name, value in self._numbers("worth", list(map(str, Verdict))).items()}
-        found = self._numbers("tolerance", ("mm", "percent", "degrees"))
+        own = self._numbers("tolerance", ("mm", "percent", "degrees"))
+        part = own["percent"] / 100.0 if "percent" in own else tolerance.part
         rubric = Rubric(
-            Tolerance(
-                found.get("mm", tolerance.mm),
-                found["percent"] / 100.0 if "percent" in found else tolerance.part,
-                found.get("degrees", tolerance.degrees),
-            ),
+            Tolerance(own.get("mm", tolerance.mm), part, own.get("degrees", tolerance.degrees)),
             self._number("out_of", self.raw.get("out_of", 100.0)),
             self._numbers("weights", self.asked.quantities),
             {**WORTH, **worth},
@@ -199,7 +192,7 @@ class _Reader:
         if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
             raise self._at("asked", InputError("rubric-names"))
         for name in names:
-            if name not in self.asked.quantities or self.asked.quantities[name].kind == "point":
+            if name not in self.asked.quantities:
                 raise self._at("asked", unknown("quantity-unknown", name, self.asked.quantities))
         return tuple(names)
 
