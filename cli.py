@@ -17,6 +17,7 @@ from .scales.language import VARIABLE, of_environment, speaking, system_language
 from .scales.numbers import SHOWN, quote
 from .variants.commands.console import (
     BLOCK,
+    LONGEST,
     Group,
     Word,
     count,
@@ -32,7 +33,6 @@ from .variants.commands.console import (
     output,
     print_json,
     refuse,
-    refuse_long,
     said,
     say_written,
     tiled,
@@ -60,7 +60,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def _run(words: Sequence[str]) -> int:
     """Run a command and return its status."""
     try:
-        refuse_long(words)
+        if too_long := [word for word in words if len(word) > LONGEST]:
+            raise InputError("cli-long", text=quote(too_long[0]), n=LONGEST)
         status = commands.main(list(words), prog_name="kulman", standalone_mode=False)
         flush()
     except click.UsageError as error:

@@ -54,7 +54,9 @@ class Note(Saved):
         """Return the document, the figures of Markdown beside it; or the one picture."""
         suffix = path.suffix.lower()
         if suffix not in DOCUMENTS:
-            return self._picture(path)
+            if self.figure is None:
+                raise InputError("note-figure-missing", file=quote(path, SHOWN), known=", ".join(self.figures))
+            return [(path, self._drawn(self.figures[self.figure], suffix))]
         if self.figure is not None:
             raise InputError("note-figure-alone", file=quote(path, SHOWN), figure=quote(self.figure))
         if suffix in ALONE:
@@ -66,11 +68,6 @@ class Note(Saved):
             (path, text.encode("utf-8", "surrogateescape")),  # names of figures may be any bytes
             *((path.with_name(name), self._drawn(figure, ".svg")) for name, figure in pictures),
         ]
-
-    def _picture(self, path: Path) -> Files:
-        if self.figure is None:
-            raise InputError("note-figure-missing", file=quote(path, SHOWN), known=", ".join(self.figures))
-        return [(path, self._drawn(self.figures[self.figure], path.suffix.lower()))]
 
     def _drawn(self, figure: Figure, suffix: str) -> bytes:
         stream = io.BytesIO()

@@ -85,14 +85,12 @@ def check_file(task: str | os.PathLike[str]) -> tuple[tuple[InputError, ...], tu
 
 def read_text(toml: str, file: str) -> tuple[Task | None, tuple[InputError, ...]]:
     """Read a task from the text of a file that messages call `file`: the task, or all its faults."""
-    found, faults, _ = _read(toml, file)
-    return found, faults
+    return _read(toml, file)[:2]
 
 
 def check_text(toml: str, file: str) -> tuple[tuple[InputError, ...], tuple[InputError, ...]]:
     """Return faults and remarks of the text of a file that messages call `file`, as `check_file`."""
-    _, faults, remarks = _read(toml, file, thorough=True)
-    return faults, remarks
+    return _read(toml, file, thorough=True)[1:]
 
 
 def _read(
@@ -201,11 +199,9 @@ def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
         said = text(checker, (*path, name), value)
         if said is None:
             continue
-        try:
+        with checker.at((*path, name)):
             chooser(name, said)
             good[name] = said
-        except InputError as error:
-            checker.fault((*path, name), error)
     return good
 
 
@@ -260,11 +256,7 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
     if checker.faults or subject is None:
         return None
     task = Task(
-        id=head["id"],
-        title=head["title"],
-        source=head["source"],
-        notation=head["notation"],
-        plans=head["plans"],
+        **{name: head[name] for name in ("id", "title", "source", "notation", "plans")},
         givens=givens,
         choices={
             key: {word: {name: s.value for name, s in settings.items()} for word, settings in words.items()}

@@ -145,9 +145,18 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
     if isinstance(of, Task):
         rows = [row for row in rows if not columns.other(row)]
         columns = replace(columns, about={kind: column for kind, column in columns.about.items() if kind != "task"})
-    read, heads = _told if each else _entry, enumerate(grid.rows[header])
+
+    def read(row: int) -> Entry:
+        try:
+            return _entry(columns, row)
+        except InputError as error:
+            if not each:
+                raise
+            return Entry(Who.of(columns.said(row)), "", {}, grid.place(row), error)
+
+    heads = enumerate(grid.rows[header])
     unread = (text for column, text in heads if column not in columns.read and any(map(str.isalpha, text)))
-    return Roster(tuple(read(columns, row) for row in rows), tuple(unread))
+    return Roster(tuple(map(read, rows)), tuple(unread))
 
 
 def _columns(grid: Grid, header: int, of: Task | Schemes) -> _Columns:
@@ -167,14 +176,6 @@ def _columns(grid: Grid, header: int, of: Task | Schemes) -> _Columns:
             error = unknown("given-unknown", part[0], known, task=", ".join(schemes.ids))
             raise LocatedError(grid.place(header, column), error)
     return _Columns(grid, about, givens, schemes, isinstance(of, Schemes))
-
-
-def _told(columns: _Columns, row: int) -> Entry:
-    """Read one student; what is wrong is said with the student."""
-    try:
-        return _entry(columns, row)
-    except InputError as error:
-        return Entry(Who.of(columns.said(row)), "", {}, columns.grid.place(row), error)
 
 
 def _entry(columns: _Columns, row: int) -> Entry:
@@ -277,21 +278,15 @@ def variant_of_book(task: Task, book: str, digits: int | str | Digits = 1) -> st
     number = meant.number(VARIANT, book)
     if number is None:
         return ""
-    names = _numbered(task.variants) or dict(enumerate(task.variants, 1))
+    names = dict[int, str]()
+    for name in task.variants:  # by the one number in the id of each, `7`, `V07`; those without one are left out
+        if own := re.fullmatch(r"[^\W\d]*(\d{1,9})", name):
+            names.setdefault(int(own[1]), name)
+    names = names or dict(enumerate(task.variants, 1))
     if number not in names:
         number = number or meant.top(VARIANT)
     order = list(names.values())
     return names.get(number) or order[(number - (0 not in names)) % len(order)]
-
-
-def _numbered(variants: Mapping[str, object]) -> dict[int, str]:
-    """Return the variants by the one number in the id of each, `7`, `V07`; those without one are left out."""
-    found: dict[int, str] = {}
-    for name in variants:
-        number = re.fullmatch(r"[^\W\d]*(\d{1,9})", name)
-        if number is not None:
-            found.setdefault(int(number[1]), name)
-    return found
 
 
 @dataclass(frozen=True, slots=True)

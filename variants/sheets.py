@@ -283,7 +283,10 @@ def handout(
         drawn = begun_of_case(case, drawing, steps)
     else:
         drawn = sheet_of(case, drawing, stamp_of(case))
-        pages = drawn.pages if over is None else (_alone(drawn, over),)
+        figures = {view.name: view for view in drawn.views if not (view.rows or view.lines)}
+        if over is not None and over not in figures:
+            raise unknown("figure-unknown", over, figures)
+        pages = drawn.pages if over is None else (over_page(figures[over], drawn.pages[0]),)
         drawn = replace(drawn, pages=tuple(map(marked, pages)))
     if hidden_key:
         drawn = replace(drawn, pages=tuple(map(keyed, drawn.pages, drawing.placed)))
@@ -291,14 +294,6 @@ def handout(
         return drawn
     sheet, norm = drawing.sheet, drawing.norm
     return replace(drawn, pages=tuple(gridded(page, sheet, norm, at == 0) for at, page in enumerate(drawn.pages)))
-
-
-def _alone(drawn: Sheet, over: str) -> Page:
-    """Return a page with one view."""
-    figures = {view.name: view for view in drawn.views if not (view.rows or view.lines)}
-    if over not in figures:
-        raise unknown("figure-unknown", over, figures)
-    return over_page(figures[over], drawn.pages[0])
 
 
 def drawing_for_print(case: Case) -> Drawn:

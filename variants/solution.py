@@ -65,11 +65,7 @@ class Solution:
     @property
     def checks(self) -> dict[str, dict[str, Any]]:
         """What a second route, or a rule of good design, says, by name: as JSON has it."""
-        return {check.name: check.to_json() for check in self._checks}
-
-    @property
-    def _checks(self) -> tuple[Check, ...]:
-        return self.kind.checks(self.solved, self.quantities)
+        return {check.name: check.to_json() for check in self.kind.checks(self.solved, self.quantities)}
 
     @property
     def kind(self) -> Kind[Any, Any]:
@@ -183,7 +179,8 @@ class Solution:
         if self.scales:
             lines += [*([] if headings else [""]), self.scaled(words)]
         if self.kind.judged:
-            lines += ["", words[self.kind.judged], aligned(_judged(self._checks, words), (0, 1, 3))]
+            judged = _judged(self.kind.checks(self.solved, self.quantities), words)
+            lines += ["", words[self.kind.judged], aligned(judged, (0, 1, 3))]
         return "\n".join(lines)
 
     def scaled(self, words: Words) -> str:

@@ -189,20 +189,17 @@ class Task:
                 resolved |= dict.fromkeys((name for name in others if name in resolved), None)
         for name, value in (settings or {}).items():
             if name not in self.givens:
-                raise self._no_given(name)
+                from .kinds import kind_of  # which know tasks
+
+                if name in kind_of(self.kind).names:
+                    known = ", ".join(self.givens)
+                    raise InputError("given-absent", text=name, task=quote(self.id), known=known)
+                raise unknown("given-unknown", name, self.givens, task=self.id)
             try:
                 resolved[name] = self.givens[name].read(value)
             except InputError as error:
                 raise LocatedError(name, error) from error
         return {name: value for name, value in resolved.items() if value is not None}
-
-    def _no_given(self, name: str) -> InputError:
-        """Return what to say of a given that the task has not; that of its kind it is one, if it is."""
-        from .kinds import kind_of  # which know tasks
-
-        if name in kind_of(self.kind).names:
-            return InputError("given-absent", text=name, task=quote(self.id), known=", ".join(self.givens))
-        return unknown("given-unknown", name, self.givens, task=self.id)
 
     def values(
         self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -219,13 +220,13 @@ def test_only_what_a_batch_has_left_half_written_is_swept(tmp_path: Path, made: 
 def test_what_a_killed_run_has_torn_costs_no_other_line(tmp_path: Path, torn: bytes) -> None:
     path = tmp_path / JOURNAL
     outcome = Outcome("1", "id", {"x.svg": "0"}, {}, (), "")
-    journal = Journal(path, Outcome.from_json, Outcome.to_json)
+    journal = Journal(path, Outcome.from_json, asdict)
     journal.note("first", outcome)
     path.write_bytes(path.read_bytes() + torn)
-    journal = Journal(path, Outcome.from_json, Outcome.to_json)
+    journal = Journal(path, Outcome.from_json, asdict)
     journal.note("second", outcome)
 
-    found = Journal(path, Outcome.from_json, Outcome.to_json)
+    found = Journal(path, Outcome.from_json, asdict)
 
     assert (found.found("first"), found.found("second")) == (outcome, outcome)
 

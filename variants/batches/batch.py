@@ -8,8 +8,8 @@ import sys
 import traceback
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, fields, replace
-from functools import cached_property
+from dataclasses import asdict, dataclass, field, fields, replace
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -41,7 +41,6 @@ from ..task import Task
 MANIFEST, KEY = "manifest.csv", "key.csv"
 One: TypeAlias = str | os.PathLike[str] | Task
 Tasks: TypeAlias = One | Sequence[One]
-Rows = Iterator[tuple[Cell, ...]]
 NOTE, HANDOUT = "note", "handout"
 KEPT = 32  # variants whose drawings a process keeps for the next students that have them
 NOTES = {NOTE: ".pdf", "docx": ".docx"}
@@ -92,10 +91,6 @@ class Outcome(Made):
         if not isinstance(data["files"], dict):
             raise TypeError
         return cls(**{**data, "notes": tuple(data["notes"])})
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the outcome as plain data."""
-        return {item.name: getattr(self, item.name) for item in fields(self)}
 
     def there(self, folder: Path) -> bool:
         """Whether the files are in the folder as they were made; a problem is looked at again."""
@@ -261,7 +256,7 @@ Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
 def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance) -> tuple[Outcome, ...]:
     """Make what is not there yet; write it, and note it, as it comes."""
     sweep_parts(folder, lambda name: _OWN.match(name) is not None)
-    journal = Journal(folder / JOURNAL, Outcome.from_json, Outcome.to_json)
+    journal = Journal(folder / JOURNAL, Outcome.from_json, asdict)
     of = making.digests()
     digests = [digest_of(f"{of.get(student.entry.task)} {student!r}") for student in students]
     found = {
@@ -369,7 +364,12 @@ def batch(
     listed = read_roster(os.fspath(roster), schemes, each=True)
     students = tuple(Student(number, entry) for number, entry in enumerate(listed.entries, 1))
     place = folder_for(folder)
-    outcomes = run(making, students, place, _crew(jobs, dask), advance or (lambda done, whole: None))
+    if dask is not None:
+        crew: Crew = partial(on_cluster, address=dask)
+    else:  # an item may kill its process, which is not this one unless that is asked for
+        alone = 0 if jobs != 1 else None
+        crew = partial(shared_out, jobs=jobs or os.cpu_count() or 1, alone=alone, afresh=making.afresh)
+    outcomes = run(making, students, place, crew, advance or (lambda done, whole: None))
     unread = Written(", ".join(quote(head, SHOWN) for head in listed.unread))
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
@@ -410,27 +410,10 @@ def _asked_of(request: Request) -> Request:
 def write_roster(task: Tasks, file: str | os.PathLike[str], lang: str = "uk") -> Path:
     """Write a roster to fill in, .csv or .xlsx: a row for each variant. As it is, each has a sheet without a name."""
     tasks = _once(_tasks(task))
-    rows = list(roster_rows(tasks, lang))
+    said, alone = texts(lang), len(tasks) == 1
+    head = tuple(said[f"about.{key}"] for key in ("student", "group", *(() if alone else ("task",)), "variant"))
+    rows = [head, *(("", "", *(() if alone else (one.id,)), name) for one in tasks for name in one.variants)]
     return save_all((file,), SUFFIXES, lambda path: [(path, table_bytes(path, rows, lang, tasks[0].id, [0], 1))])[0]
-
-
-def _crew(jobs: int | None, dask: str | None) -> Crew:
-    """Return who does the work."""
-    if dask is None:
-        # an item may kill its process, which is not this one unless that is asked for
-        return lambda making, students: shared_out(
-            making, students, jobs or os.cpu_count() or 1, 0 if jobs != 1 else None, making.afresh
-        )
-    return lambda making, students: on_cluster(making, students, dask)
-
-
-def roster_rows(tasks: Sequence[Task], language: str) -> Rows:
-    """Go through the rows of a roster to fill in: a header, and a row for each variant of each task."""
-    said, alone = texts(language), len(tasks) == 1
-    yield tuple(said[f"about.{key}"] for key in ("student", "group", *(() if alone else ("task",)), "variant"))
-    for task in tasks:
-        for variant in task.variants:
-            yield "", "", *(() if alone else (task.id,)), variant
 
 
 def tables(batch: Batch, tasks: Sequence[Task], language: str) -> Iterator[tuple[str, list[tuple[Cell, ...]]]]:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from ..task import Task
 
 CLOSED = 1
-LONGEST = 10_000  # characters of a word of the command line
+LONGEST = 10_000  # characters of a word of the command line: longer is no name, number or path
 # what the title blocks of a class have in common, but for the group that the roster says
 BLOCK = ("group", "teacher", "department", "designation", "date")
 VARIANTS = (__package__ or "").rpartition(".")[0]
@@ -118,13 +118,6 @@ def progress() -> Iterator[Callable[[int, int], None]]:
             bar.update(done)
 
         yield advance
-
-
-def refuse_long(words: Sequence[str]) -> None:
-    """Refuse a command line with a word that is longer than any name, number or path."""
-    for word in words:
-        if len(word) > LONGEST:
-            raise InputError("cli-long", text=quote(word), n=LONGEST)
 
 
 def usage_error(error: click.UsageError, words: Sequence[str], commands: click.Group) -> InputError:

@@ -37,7 +37,6 @@ from .console import (
 if TYPE_CHECKING:
     from ..marking.answers import Answers
     from ..marking.checks import Check
-    from ..marking.result import Result
 
 
 @click.command(
@@ -281,41 +280,26 @@ def _mark(
     asked: Check, found: list[Answers], files: tuple[Path, ...], folder: str | None, moodle: Path | None, **how: Any
 ) -> None:
     """Mark one student, or a class: to files, and to the console."""
-    from ..marking.report import REPORTS
+    from ..marking.checks import write_tables
+    from ..marking.report import REPORTS, report_text, to_json, write_reports
+    from ..marking.result import class_lines
 
     reports = [file for file in files if file.suffix.lower() in REPORTS]
     alone = len(found) == 1 and folder is None and moodle is None and len(reports) == len(files)
     if not alone and (how["as_json"] or reports):
         raise InputError("check-class")
     if alone:
-        _mark_one(asked, found[0], files, how["as_json"])
+        told = asked.mark(found[0])
+        if how["as_json"]:
+            print_json(to_json(told))
+        elif not files:
+            click.echo(report_text(told), nl=False)
+        write_reports(told, files)
     else:
         with progress() as advance:
             results = asked.mark_all(found, folder, advance, how["jobs"] or None)
-        _print_class(asked, found, results, files, moodle)
+        write_tables(asked, results, found, files, moodle)
+        absent = asked.roster.missing(one.who for one in found) if asked.roster else []
+        for line in class_lines(results, absent, asked.request.language):
+            click.echo(line)
     say_written((*files, *filter(None, (folder, moodle))), how["as_json"])
-
-
-def _mark_one(asked: Check, answers: Answers, files: tuple[Path, ...], as_json: bool) -> None:
-    """Mark one student: the report to files, else to the console."""
-    from ..marking.report import report_text, to_json, write_reports
-
-    told = asked.mark(answers)
-    if as_json:
-        print_json(to_json(told))
-    elif not files:
-        click.echo(report_text(told), nl=False)
-    write_reports(told, files)
-
-
-def _print_class(
-    asked: Check, found: list[Answers], results: list[Result], files: tuple[Path, ...], moodle: Path | None
-) -> None:
-    """Write the tables of a class, and print a line per student."""
-    from ..marking.checks import write_tables
-    from ..marking.result import class_lines
-
-    write_tables(asked, results, found, files, moodle)
-    absent = asked.roster.missing(one.who for one in found) if asked.roster else []
-    for line in class_lines(results, absent, asked.request.language):
-        click.echo(line)

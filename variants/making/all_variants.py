@@ -62,8 +62,13 @@ class AllVariants(Result):
 
     def table(self, language: str | None = None) -> str:
         """Return the values as lines of text, a column for each variant."""
-        rows = [tuple(self._text(cell) for cell in row) for row in self._rows()]
-        return aligned(rows, left=(0, 1))
+
+        def shown(cell: Cell) -> str:
+            if cell is None:
+                return "–"
+            return cell if isinstance(cell, str) else self.words.short(float(cell), 6)
+
+        return aligned([tuple(map(shown, row)) for row in self._rows()], left=(0, 1))
 
     def to_json(self) -> dict[str, Any]:
         """Return what `kulman variants --json` prints: values in SI by variant."""
@@ -90,11 +95,6 @@ class AllVariants(Result):
     @property
     def _language(self) -> str:
         return self.check.request.language
-
-    def _text(self, cell: Cell) -> str:
-        if cell is None:
-            return "–"
-        return cell if isinstance(cell, str) else self.words.short(float(cell), 6)
 
     def _rows(self) -> Iterator[tuple[Cell, ...]]:
         """Go through the rows: a header, and a quantity each with its unit and a value for every variant."""

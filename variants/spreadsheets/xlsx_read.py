@@ -14,9 +14,9 @@ import re
 import warnings
 import zipfile
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from datetime import date, time, timedelta
-from functools import reduce
+from functools import cache, reduce
 from itertools import islice
 from typing import Any
 from xml.parsers import expat
@@ -216,15 +216,12 @@ def _formats(parts: _Parts, name: str | None) -> str:
     return f"<numFmts>{''.join(own)}</numFmts><cellXfs>{''.join(looks) or '<xf/>'}</cellXfs>"
 
 
-class _Columns(dict[str, int]):
-    """The numbers of columns, counted from 0, by their letters."""
-
-    def __missing__(self, name: str) -> int:
-        """Return the number of a column that is met for the first time."""
-        if not _LETTERS.fullmatch(name):
-            raise _BrokenError
-        self[name] = number = reduce(lambda number, letter: 26 * number + ord(letter) - ord("A") + 1, name, 0) - 1
-        return number
+@cache
+def _column(name: str) -> int:
+    """Return the number of a column, counted from 0, by its letters."""
+    if not _LETTERS.fullmatch(name):
+        raise _BrokenError
+    return reduce(lambda number, letter: 26 * number + ord(letter) - ord("A") + 1, name, 0) - 1
 
 
 class _Sheet:
@@ -234,7 +231,7 @@ class _Sheet:
     """
 
     def __init__(self, texts: Sequence[str], parts: _Parts) -> None:
-        self.texts, self.parts, self.columns = texts, parts, _Columns()
+        self.texts, self.parts = texts, parts
         self.formulas: set[tuple[int, int]] = set()
         self.merged: list[tuple[tuple[int, int], tuple[int, int]]] = []
         self._parser: Any = expat.ParserCreate()
@@ -268,7 +265,7 @@ class _Sheet:
             address = given.get("r", "")
             if address and not address.endswith(self._number):
                 raise _BrokenError
-            column = self.columns[address[: -len(self._number)]] if address else self._column + 1
+            column = _column(address[: -len(self._number)]) if address else self._column + 1
             self._pass(column - self._column)
             self._column, self._kind, self._has, self._pieces = column, given.get("t", "n"), "", []
         elif depth == 3:
@@ -304,16 +301,14 @@ class _Sheet:
             and len(self.merged) < grid.MOST_ROWS
             and (found := _RANGE.fullmatch(given.get("ref", "")))
         ):
-            first, last = ((int(found[at + 1]) - 1, self.columns[found[at]]) for at in (1, 3))
+            first, last = ((int(found[at + 1]) - 1, _column(found[at])) for at in (1, 3))
             self.merged.append((first, last))
 
     def _pass(self, places: int) -> None:
         """Go on to the next row or cell; those that are left out take a little time, too."""
-        self.parts.cells -= 1 + places // BLANKS
         if places < 1:
             raise _BrokenError
-        if self.parts.cells < 0:
-            raise grid.too_many_texts(self.parts.file)
+        self.parts.spend(1 + places // BLANKS)
 
     def _text(self, piece: str) -> None:
         """Take a piece of what a cell shows."""
@@ -373,36 +368,29 @@ def _packed(rows: bytes, texts: Sequence[str], formats: str) -> io.BytesIO:
 
 
 def _grid(file: str, sheet: _Sheet, packed: io.BytesIO) -> grid.Grid:
-    """Read the rows by openpyxl."""
-    rows: list[list[str]] = []
-    dates: set[tuple[int, int]] = set()
-    for number, values in enumerate(islice(_read(file, packed), grid.MOST_ROWS)):
-        cells = [_shown(value) for value in values]
-        dates.update((number, column) for column, value in enumerate(values) if isinstance(value, TIMES))
-        while cells and not cells[-1]:
-            cells.pop()
-        rows.append(cells)
-    for row, column in sheet.formulas:
-        rows[row] += [""] * (column + 1 - len(rows[row]))
-        rows[row][column] = "="
-    formulas = frozenset(sheet.formulas)
-    merged = grid.by_row(sheet.merged, len(rows))
-    return grid.Grid(file, grid.bounded(file, list(map(tuple, rows))), formulas, frozenset(dates), merged)
-
-
-def _read(file: str, packed: io.BytesIO) -> Iterator[tuple[Any, ...]]:
-    """Go through the rows of a workbook of one sheet; what openpyxl says of looks does not matter here."""
+    """Read the rows of a workbook of one sheet by openpyxl; what it says of looks does not matter here."""
     from openpyxl import load_workbook
 
+    rows: list[list[str]] = []
+    dates: set[tuple[int, int]] = set()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            book = load_workbook(packed, read_only=True, data_only=True)
-            [sheet] = book.worksheets
-            sheet.reset_dimensions()
-            yield from sheet.iter_rows(values_only=True)
+            [only] = load_workbook(packed, read_only=True, data_only=True).worksheets
+            only.reset_dimensions()
+            for number, values in enumerate(islice(only.iter_rows(values_only=True), grid.MOST_ROWS)):
+                dates.update((number, column) for column, value in enumerate(values) if isinstance(value, TIMES))
+                cells = [_shown(value) for value in values]
+                while cells and not cells[-1]:
+                    cells.pop()
+                rows.append(cells)
     except Exception as problem:  # whatever it does not like of a number or a kind of cell
         raise InputError("answers-not-xlsx", file=quote(file, SHOWN)) from problem
+    for row, column in sheet.formulas:
+        rows[row] += [""] * (column + 1 - len(rows[row]))
+        rows[row][column] = "="
+    formulas, merged = frozenset(sheet.formulas), grid.by_row(sheet.merged, len(rows))
+    return grid.Grid(file, grid.bounded(file, list(map(tuple, rows))), formulas, frozenset(dates), merged)
 
 
 def _shown(value: Any) -> str:
