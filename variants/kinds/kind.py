@@ -6,7 +6,7 @@ import time
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
 
 from ...plans.solved import Check, Solved
 from ...scales.choose import Choosers
@@ -85,29 +85,25 @@ class Kind(ABC, Generic[Subject, Answer]):
         """
         if any(path[:1] != ("variant",) for path in checker.faulty):
             return
-        wrong = {path[1] for path in checker.faulty if len(path) > 1}
+        wrong, subject = {path[1] for path in checker.faulty if len(path) > 1}, cast(Any, task.subject)
         for row, variant in enumerate(task.variants):
             path = ("variant", row)
             if time.process_time() - checker.begun > TRIED_FOR:
                 counts = {"n": len(task.variants) - row, "all": len(task.variants), "file": checker.file}
                 checker.remark_of(path, variant, InputError("check-untried", **counts))
                 return
-            if row not in wrong:
-                self._try(checker, task, variant, path)
-
-    def _try(self, checker: Checker, task: Task, variant: str, path: tuple[str, int]) -> None:
-        """Solve one variant, whose table is at `path`."""
-        subject: Any = task.subject
-        try:
-            solved = self.solve(subject, task.values(variant), task.words(variant), task.plans)
-            error = solved.error()
-        except InputError as refused:
-            checker.fault_of(path, variant, refused)
-            return
-        if error is not None:
-            checker.fault_of(path, variant, error)
-        for remark in self.remarks(task, variant, solved):
-            checker.remark_of(path, variant, remark)
+            if row in wrong:
+                continue
+            try:
+                solved = self.solve(subject, task.values(variant), task.words(variant), task.plans)
+                error = solved.error()
+            except InputError as refused:
+                checker.fault_of(path, variant, refused)
+                continue
+            if error is not None:
+                checker.fault_of(path, variant, error)
+            for remark in self.remarks(task, variant, solved):
+                checker.remark_of(path, variant, remark)
 
     def remarks(self, task: Task, variant: str, solved: Answer) -> Iterator[InputError]:
         """Go through what a teacher should know of a variant that is no fault of it."""
@@ -357,15 +353,11 @@ class Sized(Kind[Subject, Answer]):
         limits: dict[str, float] = self._in("plans", "solve", "tolerances_of")(drawn, paper, tolerance)
         return limits
 
-    def _section_of(self, name: str) -> str:
-        section: str = self._in("plans", "solve", "section_of")(name)
-        return section
-
     def headings(self, solved: Answer, words: Words) -> dict[str, str]:
         """Return the headings of the sections of the note, each by its first quantity."""
         first: dict[str, str] = {}
         for name in self.listed(solved, self.plans):
-            first.setdefault(self._section_of(name), name)
+            first.setdefault(self._in("plans", "solve", "section_of")(name), name)
         return {name: words[f"heading.{self.table}_{self._headed(solved, section)}"] for section, name in first.items()}
 
     def _headed(self, solved: Answer, section: str) -> str:
@@ -374,7 +366,8 @@ class Sized(Kind[Subject, Answer]):
 
     def section(self, solved: Answer, question: Question, current: str) -> str:
         """Return the section of a question: that of the note."""
-        return self._section_of(question.name)
+        section: str = self._in("plans", "solve", "section_of")(question.name)
+        return section
 
     def plan_heading(self, solved: Answer, plan: str, words: Words) -> str:
         """Return the heading of a section, or of a plan, as the sheet has it."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -123,7 +123,8 @@ class Sweep(Swept):
         """Return the cycle, of chosen points and links only, or of all."""
         cycle, turns = self.cycle, self.cycle.drive.turns
         names = quantities_of(cycle, self.chosen)
-        points = (point for point in letters(cycle.mechanism) if not self.chosen or point in self.chosen)
+        known = (point for point in letters(cycle.mechanism) if point in cycle.values)
+        points = [point for point in known if not self.chosen or point in self.chosen]
         return {
             "driver": {
                 "name": driver_name(cycle),
@@ -136,8 +137,10 @@ class Sweep(Swept):
             "places": cycle.angles,
             "times": cycle.times,
             "statuses": cycle.statuses,
-            "points": {name: {"unit": "m", **_parts(cycle, name)} for name in points if name in cycle.values},
-            "quantities": {name: {"unit": unit_of(name), **_sized(cycle, name)} for name in names},
+            "points": {
+                name: {"unit": "m", **_parts(cycle, name, point=True)} for name in points if name in cycle.values
+            },
+            "quantities": {name: {"unit": unit_of(name), **_parts(cycle, name)} for name in names},
             "outputs": [_output_data(cycle, motion) for motion in cycle.motions],
             "extremes": {
                 name: {
@@ -213,22 +216,13 @@ def output_columns(cycle: Cycle, output: Output) -> list[Columned]:
     return [place, *(Columned(name, of, values) for name, of, values in found if values is not None)]
 
 
-def quantity_columns(cycle: Cycle, name: str, point: bool = False) -> Iterator[Columned]:
-    """Go through the columns of a quantity: of a vector its size and components, of a point its coordinates."""
-    of = unit_of(name)
-    for part, values in (_parts if point else _sized)(cycle, name).items():
-        yield Columned(name if part == "value" else f"{name}.{part}", of, values)
-
-
-def _parts(cycle: Cycle, name: str) -> dict[str, Array]:
-    return {"x": cycle.values[name].real, "y": cycle.values[name].imag}
-
-
-def _sized(cycle: Cycle, name: str) -> dict[str, Array]:
+def _parts(cycle: Cycle, name: str, point: bool = False) -> dict[str, Array]:
+    """Return the values of a quantity: of a vector its size and components, of a point its coordinates."""
     values = cycle.values[name]
     if not np.iscomplexobj(values):
         return {"value": values}
-    return {"value": np.hypot(values.real, values.imag), **_parts(cycle, name)}
+    size = {} if point else {"value": np.hypot(values.real, values.imag)}
+    return {**size, "x": values.real, "y": values.imag}
 
 
 def columns_of(cycle: Cycle, chosen: tuple[str, ...], whole: bool) -> list[Columned]:
@@ -246,7 +240,9 @@ def columns_of(cycle: Cycle, chosen: tuple[str, ...], whole: bool) -> list[Colum
             names = (*points, *cycle.quantities) if whole else [name for name in BALANCES if name in cycle.values][:1]
         for name in names:
             if name in cycle.values and all(column.name != name for column in columns):
-                columns += quantity_columns(cycle, name, name in points)
+                for part, values in _parts(cycle, name, name in points).items():
+                    title = name if part == "value" else f"{name}.{part}"
+                    columns.append(Columned(title, unit_of(name), values))
     return columns
 
 
