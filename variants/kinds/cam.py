@@ -107,7 +107,12 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
         followers = tuple(dict.fromkeys(read.get("followers", ())))
         if cams.ROCKER in followers and len(followers) > 1:
             checker.fault((*path, "followers"), InputError("follower-rocker"))
-        check_numbers(checker, names, _numbers_for(followers), cams.VALUES, "cam-number-unknown")
+        numbers = dict(NUMBERS)  # those that none of the followers has are of no use, where there are followers
+        for name, number in NUMBERS.items():
+            if {*HAD_BY.get(name, cams.FOLLOWERS)}.isdisjoint(followers):
+                error = InputError("cam-number-unused", text=name, followers=", ".join(followers))
+                numbers[name] = replace(number, needed=False, unused=error if followers else None)
+        check_numbers(checker, names, numbers, cams.VALUES, "cam-number-unknown")
         if len(checker.faults) > before:
             return None
         return cams.Cam(**{**read, "followers": followers, "curves": curves})
@@ -333,13 +338,3 @@ def _plain(checker: Checker, path: Path, raw: object) -> float | None:
     """Read a plain number."""
     setting = literal(checker, path, raw)
     return None if setting is None else setting.value
-
-
-def _numbers_for(followers: tuple[str, ...]) -> dict[str, Number]:
-    """Return the numbers of a cam; those that none of the followers has are of no use, where there are followers."""
-    found = dict(NUMBERS)
-    for name, number in NUMBERS.items():
-        if {*HAD_BY.get(name, cams.FOLLOWERS)}.isdisjoint(followers):
-            error = InputError("cam-number-unused", text=name, followers=", ".join(followers)) if followers else None
-            found[name] = replace(number, needed=False, unused=error)
-    return found

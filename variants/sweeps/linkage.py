@@ -29,7 +29,7 @@ from ..kinds.linkage import placed
 from ..sheets import Sheet, sheet_of
 from ..tables import aligned, csv_text
 from ..task import LocatedError, Task, plain_number
-from .sweeps import CSV, DIGITS, SweepRequest, Swept
+from .sweeps import CSV, DIGITS, SweepRequest, Swept, ends_data
 
 Array = NDArray[Any]
 SECTIONS = POSITIONS = 12
@@ -143,11 +143,7 @@ class Sweep(Swept):
             "quantities": {name: {"unit": unit_of(name), **_parts(cycle, name)} for name in names},
             "outputs": [_output_data(cycle, motion) for motion in cycle.motions],
             "extremes": {
-                name: {
-                    "unit": unit_of(name),
-                    "max": {"value": most.value, "at": most.at},
-                    "min": {"value": least.value, "at": least.at},
-                }
+                name: ends_data(unit_of(name), (most.value, most.at), (least.value, least.at))
                 for name, (most, least) in cycle.extremes(names).items()
             },
             "unreachable": [{"from": arc.low, "to": arc.high} for arc in cycle.reach.apart],

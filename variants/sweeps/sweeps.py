@@ -224,8 +224,8 @@ class SizedSweep(Swept):
         for column in self._columns(self._places(self.count)):
             found["columns"][column.name] = {"unit": column.unit, "value": column.values}
         for ends in self._extremes():
-            most, least = {"value": ends.most, "at": ends.most_at}, {"value": ends.least, "at": ends.least_at}
-            found["extremes"][ends.name] = {"unit": ends.unit, "max": most, "min": least}
+            most, least = (ends.most, ends.most_at), (ends.least, ends.least_at)
+            found["extremes"][ends.name] = ends_data(ends.unit, most, least)
         return {name: columns for name, columns in found.items() if columns}
 
     def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
@@ -241,6 +241,11 @@ class SizedSweep(Swept):
     def __repr__(self) -> str:
         """Return task, variant and the number of places."""
         return f"<{type(self).__name__} {self.task.id} {self.variant}: {self.count} {self.places}>"
+
+
+def ends_data(of: str, most: tuple[float, float], least: tuple[float, float]) -> dict[str, Any]:
+    """Return the largest and the smallest value, each with its place, as data."""
+    return {"unit": of} | {key: {"value": x, "at": at} for key, (x, at) in (("max", most), ("min", least))}
 
 
 def in_degrees_and_millimetres(column: Columned) -> Columned:
