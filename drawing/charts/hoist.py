@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...plans.hoist.depth import MANY, HoistDepth, Simplification
+from ...plans.hoist.depth import MANY, Changes, HoistDepth
 from ...plans.hoist.forces import Choice, Trial
 from ...plans.hoist.integrators import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET, growth
 from ...plans.hoist.rivals import RootRace, StepLimits, Ways
@@ -174,16 +174,16 @@ def _simplified(axes: Axes, found: HoistDepth, words: Words) -> None:
     axes.grid(False, axis="y")
     axes.set(xscale="log", xlim=(LEAST, MOST), ylim=(len(found.simpler) - 0.4, -0.6))
     axes.axvline(PERCENT * found.tolerance, **LIMIT)
-    for row, one in enumerate(found.simpler):
-        _row(axes, row, one, words)
-    names = [words[f"chart.hoist.without.{one.key}"] for one in found.simpler]
+    for row, changes in enumerate(found.simpler.values()):
+        _row(axes, row, changes, words)
+    names = [words[f"chart.hoist.without.{key}"] for key in found.simpler]
     axes.set_yticks(range(len(names)), names, fontsize=TEXT)
     decimals(words, axes.xaxis)
     axes.minorticks_off()
 
 
-def _row(axes: Axes, row: int, one: Simplification, words: Words) -> None:
-    force, time = one.changes["F_max"], one.changes["t_1"]
+def _row(axes: Axes, row: int, changes: Changes, words: Words) -> None:
+    force, time = changes["F_max"], changes["t_1"]
     if force is None:
         return
     at = min(max(PERCENT * abs(force), LEAST), MOST)

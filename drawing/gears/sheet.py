@@ -105,10 +105,8 @@ class GearScene(SubjectScene[SolvedGear]):
 
     def scale(self, plan: str) -> Scale:
         """Return the scale factor of a plan as it is drawn."""
-        symbol, unit = SCALES[plan], UNITS[plan]
-        if plan == MESHING:
-            return Scale(symbol, self.mu_l, unit)
-        return Scale(symbol, (rho_mu if plan == SLIDING else theta_mu)(self.solved, self.style.label, self.part), unit)
+        mu = self.mu_l if plan == MESHING else sliding_mu(self.solved, plan, self.style.label, self.part)
+        return Scale(SCALES[plan], mu, UNITS[plan])
 
     def wheels(self, rho_1: float | None = None) -> tuple[Wheel, Wheel]:
         """Return both wheels on the paper while they touch at `rho_1`, m from N1; by default at the pole."""
@@ -195,7 +193,7 @@ def first_scales(solved: SolvedGear, choosers: Choosers, plans: Sequence[str]) -
     values = {MESHING: mu_ladder(solved, choosers)[0]}
     if SLIDING in solved.scale_of_plan:
         height, part = STYLES[sheet.letters].label, parts_of(plans)[0]
-        values |= {SLIDING: rho_mu(solved, height, part), THETA: theta_mu(solved, height, part)}
+        values |= {plan: sliding_mu(solved, plan, height, part) for plan in (SLIDING, THETA)}
     return sheet, {plan: Scale(symbol, values[plan], UNITS[plan]) for plan, symbol in solved.scale_of_plan.items()}
 
 
@@ -204,23 +202,17 @@ def parts_of(plans: Sequence[str]) -> tuple[float, ...]:
     return PARTS[1:] if {MESHING_PART, SLIDING_PART} <= {*plans} else PARTS
 
 
-def rho_mu(solved: SolvedGear, letters: float, part: float = 1.0) -> float:
-    """Return the scale factor of the line of action, the given one or a coarser one of its series, m/mm.
+def sliding_mu(solved: SolvedGear, plan: str, letters: float, part: float) -> float:
+    """Return the scale factor of a diagram of sliding, the given one or a coarser one of its series, SI per mm.
 
-    `letters` are so high, mm; diagrams have `part` of their usual size.
+    `letters` are so high, mm; diagrams have `part` of their usual size. Raises InputError where the given one of
+    specific sliding is so coarse that the diagram is a line.
     """
-    given = float(solved.values["mu_rho"]) * PAPER_MM
-    return steps(max(given, solved.sizes["l_N1N2"] / (ALONG[letters] * part)))[0]
-
-
-def theta_mu(solved: SolvedGear, letters: float, part: float = 1.0) -> float:
-    """Return the scale factor of specific sliding, the given one or a coarser one of its series, 1/mm.
-
-    Raises InputError where the given one is so coarse that the diagram is a line.
-    """
-    wanted = float(solved.values["mu_theta"]) * PAPER_MM
+    wanted = float(solved.values[SCALES[plan]]) * PAPER_MM
+    if plan == SLIDING:
+        return steps(max(wanted, solved.sizes["l_N1N2"] / (ALONG[letters] * part)))[0]
     depth = 1.0 - cut_of(solved)
-    not_a_point("mu_theta", wanted, depth, "1")
+    not_a_point(SCALES[plan], wanted, depth, UNITS[plan])
     return steps(max(depth / (HIGH[letters] * part), wanted * (1.0 - 1e-9)))[0]
 
 
@@ -239,23 +231,20 @@ SMALLER = [dict(zip(BESIDE, steps, strict=True)) for steps in sorted(product(ran
 LEAST = 0.25  # part of the area that what stands beside the meshing keeps at the last of these
 FULL = 0.75  # part of a format that views may cover
 GearFigure = Figure[GearScene]
+
+
+def _page(*below: Nest) -> Nest:
+    """Return a page with the meshing on the left, and so much below the involutes and the data."""
+    return row(column(TURNED, "meshing"), column(row("rolling", "data"), row(*below)))
+
+
 # everything on one page, for sheets without the worked formulas
-LAYOUT = row(
-    column(TURNED, "meshing"),
-    column(row("rolling", "data"), row(column("action", "sliding"), column("points", "checks", "contour", BLOCK))),
-)
+LAYOUTS = (_page(column("action", "sliding"), column("points", "checks", "contour", BLOCK)),)
 # what is drawn, where the calculations need a further page; where it has no room, the meshing with what belongs to it
 FIRST_PAGES = (
-    row(
-        column(TURNED, "meshing"),
-        column(row("rolling", "data"), row(column("action", "checks", "points"), column("sliding", BLOCK))),
-    ),
-    row(
-        column(TURNED, "meshing"),
-        column(row("rolling", "data"), row(column("action", "contour"), column("checks", BLOCK))),
-    ),
+    _page(column("action", "checks", "points"), column("sliding", BLOCK)),
+    _page(column("action", "contour"), column("checks", BLOCK)),
 )
-LAYOUTS = (LAYOUT,)
 
 
 class GearFitting(Fitting[SolvedGear, GearScene]):

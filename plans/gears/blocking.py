@@ -197,10 +197,8 @@ class Plane:
     """The plane of the shifts of a pair."""
 
     values: Mapping[str, float]  # the complete givens; their x_1 and x_2 are the chosen point
-    # the least thickness of a tooth at its tip, in modules, that the curves `thin_1` and `thin_2` stand for
-    least_tip: float
-    # corners of the window in which the curves are traced
-    low: complex
+    least_tip: float  # thickness of a tooth at its tip, in modules, that the curves `thin_1` and `thin_2` stand for
+    low: complex  # corner of the window in which the curves are traced
     high: complex
     cells: int = CELLS
     _traced: dict[str, list[Places]] = field(default_factory=dict, repr=False)
@@ -216,30 +214,23 @@ class Plane:
 
         Shifts are compared in modules, radii of curvature and thicknesses as well.
         """
-        names = tuple(wanted)
-        places = np.asarray(places, complex)
-        found = geometry(
-            {**self.values, "x_1": places.real, "x_2": places.imag}, [name for key in names for name in COMPARED[key]]
-        )
-        return {name: self._measure(name, [found[part] for part in COMPARED[name]]) for name in names}
-
-    def _measure(self, name: str, parts: list[Array]) -> Array:
-        kind, unit = OF_CURVE[name][0], 1.0 / self.values["m"]
-        if kind == "contact":
-            return np.asarray(parts[0] - RATIOS[name])
-        if kind in ("pointed", "thin"):
-            return np.asarray(parts[0] * unit - (self.least_tip if kind == "thin" else 0.0))
-        return np.asarray((parts[0] - parts[1]) * (unit if kind == "interference" else 1.0))
-
-    def measure(self, name: str) -> Callable[[Any], Array]:
-        """Return one of the functions."""
-        return lambda places: self.measures(places, (name,))[name]
+        names, places, unit = tuple(wanted), np.asarray(places, complex), 1.0 / self.values["m"]
+        shifted = {**self.values, "x_1": places.real, "x_2": places.imag}
+        found, measured = geometry(shifted, [part for name in names for part in COMPARED[name]]), {}
+        for name in names:
+            kind, (value, *limit) = OF_CURVE[name][0], (found[part] for part in COMPARED[name])
+            if kind == "contact":
+                measured[name] = np.asarray(value - RATIOS[name])
+            elif kind in ("pointed", "thin"):
+                measured[name] = np.asarray(value * unit - (self.least_tip if kind == "thin" else 0.0))
+            else:
+                measured[name] = np.asarray((value - limit[0]) * (unit if kind == "interference" else 1.0))
+        return measured
 
     def permits(self, places: Any, curves: Iterable[str] = BLOCKING, room: float = 0.0) -> NDArray[np.bool_]:
         """Return whether places are on the permitted side of all of some curves, or nearer to them than `room`."""
-        names = tuple(curves)
-        found = self.measures(places, names)
-        inside: NDArray[np.bool_] = np.logical_and.reduce([found[name] >= -room for name in names])
+        found = self.measures(places, curves).values()
+        inside: NDArray[np.bool_] = np.logical_and.reduce([measure >= -room for measure in found])
         return inside
 
     def curve(self, name: str) -> list[Places]:
@@ -247,14 +238,17 @@ class Plane:
         if name not in self._traced:
             if not self._on_grid:  # of all curves at once: they share most of what is calculated
                 self._on_grid.update(self.measures(grid(self.low, self.high, self.cells)))
-            self._traced[name] = traced(self.measure(name), self.low, self.high, self.cells, self._on_grid[name])
+
+            def measure(places: Any) -> Array:
+                return self.measures(places, (name,))[name]
+
+            self._traced[name] = traced(measure, self.low, self.high, self.cells, self._on_grid[name])
         return self._traced[name]
 
-    def crossings(self, curves: Iterable[str] = BLOCKING) -> list[Crossing]:
-        """Return where curves cross each other inside the window."""
-        found = []
-        reach = 2.0 * abs(self.high - self.low) / self.cells
-        for pair in combinations(tuple(curves), 2):
+    def crossings(self) -> list[Crossing]:
+        """Return where the curves that block cross each other inside the window."""
+        found, reach = [], 2.0 * abs(self.high - self.low) / self.cells
+        for pair in combinations(BLOCKING, 2):
             first, second = pair
             starts = near_crossings(self.curve(first), self.curve(second))
             if starts.size:
@@ -262,37 +256,29 @@ class Plane:
                 found += [Crossing(first, second, place) for place in places.tolist()]
         return found
 
-    def corners(self, curves: Iterable[str] = BLOCKING) -> list[Crossing]:
+    def corners(self) -> list[Crossing]:
         """Return the corners of the contour: crossings that all other curves permit."""
-        names = tuple(curves)
         found = []
-        for corner in self.crossings(names):
-            others = [name for name in names if name not in (corner.first, corner.second)]
+        for corner in self.crossings():
+            others = [name for name in BLOCKING if name not in (corner.first, corner.second)]
             if bool(self.permits(corner.place, others, SAME)):
                 found.append(corner)
         return found
 
-    def contour(self, curves: Iterable[str] = BLOCKING) -> list[tuple[str, Places]]:
+    def contour(self) -> list[tuple[str, Places]]:
         """Return the pieces of curves that all others permit: the sides of the contour, from corner to corner.
 
         A piece that the window cuts off has no corner at that end.
         """
-        names = tuple(curves)
-        corners, found = self.corners(names), []
-        for name in names:
+        corners, found = self.corners(), []
+        for name in BLOCKING:
             own = np.array([corner.place for corner in corners if name in (corner.first, corner.second)], complex)
-            others = [other for other in names if other != name]
+            others = [other for other in BLOCKING if other != name]
             for run in self.curve(name):
-                inside = self.permits(run, others)
-                for begin, end in _stretches(inside):
-                    found.append((name, _to_corners(run, begin, end, own)))
+                changes = np.diff(np.concatenate(([0], self.permits(run, others).astype(int), [0])))
+                ends = (np.flatnonzero(side * changes > 0).tolist() for side in (1, -1))  # of stretches inside
+                found += [(name, _to_corners(run, begin, end, own)) for begin, end in zip(*ends, strict=True)]
         return found
-
-
-def _stretches(inside: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Return the stretches that are inside: indices of their first place and after their last."""
-    changes = np.diff(np.concatenate(([0], inside.astype(int), [0])))
-    return list(zip(np.flatnonzero(changes > 0).tolist(), np.flatnonzero(changes < 0).tolist(), strict=True))
 
 
 def _to_corners(run: Places, begin: int, end: int, corners: Places) -> Places:

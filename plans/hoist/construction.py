@@ -33,7 +33,7 @@ from ..laws import TURN
 from ..names import Name, role
 from .forces import ROPE_1, Forces
 from .hoist import BEAMS_PART, CIRCLE_PART, DRAWN, FORCES_PART, LEFT, PLANS, ROOTS_PART, SCHEME_PART, Hoist
-from .model import CIRCLE, HORIZONTAL, ONE_SIDED, TWO_SIDED, rope_force
+from .model import CIRCLE, HORIZONTAL, ONE_SIDED, TWO_SIDED, moved, rope_force
 from .roots import extremes
 
 FORCES = "forces"
@@ -67,44 +67,48 @@ def part(i: int, sections: int) -> str:
     return f"_part_{i}_{sections}"
 
 
-def resting(board: Board, sections: int) -> None:
-    """Draw both forces until the lift-off by the formulas (9) and (10)."""
+def resting(board: Board, sections: int, moves: bool) -> None:
+    """Draw both forces until the lift-off by the formulas (9) and (10), or as a motion gives them."""
     for i in range(sections + 1):
-        time = f"_t_{RESTING}{i}"
-        board.calc(time, "product", "t_1", part(i, sections))
-        board.calc(f"_lag_{RESTING}{i}", "lagging", "V_t", "a", "k", time)
-        board.calc(f"_F_01_{i}", "support_force", "C", f"_lag_{RESTING}{i}", "P_st")
-        rope_force(board, f"_F_12_{i}", time)
-        _rest_points(board, i, time)
+        time, support, rope = f"_t_{RESTING}{i}", f"_F_01_{i}", f"_F_12_{i}"
+        if moves:
+            moved(time, support, rope)(board)
+        else:
+            board.calc(time, "product", "t_1", part(i, sections))
+            board.calc(f"_lag_{RESTING}{i}", "lagging", "V_t", "a", "k", time)
+            board.calc(support, "support_force", "C", f"_lag_{RESTING}{i}", "P_st")
+            rope_force(board, rope, time)
+        abscissa = line(board, FORCES, f"{RESTING}{i}", time)
+        point(board, FORCES, f"S{i}", abscissa, support, "mu_F")
+        point(board, FORCES, f"R{i}", abscissa, rope, "mu_F")
 
 
-def _rest_points(board: Board, i: int, time: str) -> None:
-    abscissa = line(board, FORCES, f"{RESTING}{i}", time)
-    point(board, FORCES, f"S{i}", abscissa, f"_F_01_{i}", "mu_F")
-    point(board, FORCES, f"R{i}", abscissa, f"_F_12_{i}", "mu_F")
-
-
-def hanging(board: Board, sections: int) -> None:
-    """Draw the force of the rope over one swing, from the points of the circle."""
-    board.calc("_period", "period", "k_1")
+def hanging(board: Board, sections: int, moves: bool) -> None:
+    """Draw the force of the rope over one swing, from the points of the circle, or as a motion gives it."""
+    if not moves:
+        board.calc("_period", "period", "k_1")
     for i in range(sections + 1):
-        at, time = f"{CIRCLE}.{i + 1}" if i else f"{CIRCLE}.1", f"_T_{HANGING}{i}"
-        board.calc(time, "product", "_period", part(i, sections))
-        if i:
-            board.calc(f"_run{i}", "product", "_turn", part(i, sections))
-            board.calc(f"_angle{i}", "excess", "phi_1", f"_run{i}")
-            board.turn(f"_ray{i}", f"_angle{i}")
-            board.lay(at, f"{CIRCLE}.C", f"_ray{i}", "R")
-        board.read(f"_from_C{i}", f"{CIRCLE}.C", at)
-        board.calc(f"_swing{i}", "component", f"_from_C{i}", HORIZONTAL)
-        board.calc(f"_P_12_{i}", "suspended_force", "P_m", f"_swing{i}")
-        _hang_point(board, i, time)
+        if moves:
+            moved(f"_T_{HANGING}{i}", f"_P_12_{i}")(board)
+        else:
+            swing(board, i, sections)
+        board.calc(f"_t_{HANGING}{i}", "later", "t_1", f"_T_{HANGING}{i}")
+        abscissa = line(board, FORCES, f"{HANGING}{i}", f"_t_{HANGING}{i}")
+        point(board, FORCES, f"P{i}", abscissa, f"_P_12_{i}", "mu_F")
 
 
-def _hang_point(board: Board, i: int, time: str) -> None:
-    board.calc(f"_t_{HANGING}{i}", "later", "t_1", time)
-    abscissa = line(board, FORCES, f"{HANGING}{i}", f"_t_{HANGING}{i}")
-    point(board, FORCES, f"P{i}", abscissa, f"_P_12_{i}", "mu_F")
+def swing(board: Board, i: int, sections: int) -> None:
+    """Turn the circle by i sections of a swing, and read the force of the rope there."""
+    at = f"{CIRCLE}.{i + 1}"
+    board.calc(f"_T_{HANGING}{i}", "product", "_period", part(i, sections))
+    if i:
+        board.calc(f"_run{i}", "product", "_turn", part(i, sections))
+        board.calc(f"_angle{i}", "excess", "phi_1", f"_run{i}")
+        board.turn(f"_ray{i}", f"_angle{i}")
+        board.lay(at, f"{CIRCLE}.C", f"_ray{i}", "R")
+    board.read(f"_from_C{i}", f"{CIRCLE}.C", at)
+    board.calc(f"_swing{i}", "component", f"_from_C{i}", HORIZONTAL)
+    board.calc(f"_P_12_{i}", "suspended_force", "P_m", f"_swing{i}")
 
 
 def extreme_points(board: Board, least: str) -> None:
@@ -117,18 +121,6 @@ def extreme_points(board: Board, least: str) -> None:
     board.calc("_mu_w_0", "ratio", "mu_F", "C_01")
     point(board, FORCES, "M", line(board, FORCES, "fM", "t_F12_max"), "F_12_max", "mu_F")
     point(board, FORCES, "L", line(board, FORCES, "fL", least), "P_12_min", "mu_F")
-
-
-def moving(board: Board, before: int, after: int) -> None:
-    """Draw the forces of a motion that the formulas are not valid for, with the ordinates that it gives."""
-    for i in range(before + 1):
-        for name in (f"_t_{RESTING}{i}", f"_F_01_{i}", f"_F_12_{i}"):
-            board.calc(name, "given", f"{name}_motion")
-        _rest_points(board, i, f"_t_{RESTING}{i}")
-    for i in range(after + 1):
-        for name in (f"_T_{HANGING}{i}", f"_P_12_{i}"):
-            board.calc(name, "given", f"{name}_motion")
-        _hang_point(board, i, f"_T_{HANGING}{i}")
 
 
 def diameter(board: Board, slack: bool) -> None:
@@ -324,13 +316,15 @@ class Layout:
 
 def layout_of(hoist: Hoist, forces: Forces) -> Layout:
     """Return what the construction of a hoist with these forces depends on."""
-    found, moved = forces.found, forces.motion is not None
-    bent = tuple(i for i in BENT if math.isfinite(found[f"I_{i}"]))
-    resting_sections = SECTIONS * max(1, min(math.ceil(_turns(found)), int(MOST_TURNS)))
-    slack = found["P_m"] < found["R"]
-    roots = roots_of(found) if forces.ok[ROPE_1] else None
+    found, moves = forces.found, forces.motion is not None
     return Layout(
-        (hoist.near_0, hoist.near_2), moved, resting_sections, SECTIONS * (2 if moved else 1), bent, slack, roots
+        near=(hoist.near_0, hoist.near_2),
+        moved=moves,
+        resting=SECTIONS * max(1, min(math.ceil(_turns(found)), int(MOST_TURNS))),
+        hanging=SECTIONS * (2 if moves else 1),
+        bent=tuple(i for i in BENT if math.isfinite(found[f"I_{i}"])),
+        slack=found["P_m"] < found["R"],
+        roots=roots_of(found) if forces.ok[ROPE_1] else None,
     )
 
 
@@ -369,12 +363,9 @@ def _constructed(layout: Layout, wanted: frozenset[str]) -> Program:
         scheme(board, dict(zip(BENT, layout.near, strict=True)))
     if CIRCLE_PART in wanted:
         diameter(board, layout.slack)
-    if FORCES_PART in wanted and layout.moved:
-        moving(board, layout.resting, layout.hanging)
-    elif FORCES_PART in wanted:
-        resting(board, layout.resting)
-        hanging(board, layout.hanging)
     if FORCES_PART in wanted:
+        resting(board, layout.resting, layout.moved)
+        hanging(board, layout.hanging, layout.moved)
         extreme_points(board, "_t_P12_min")
     if ROOTS_PART in wanted and layout.roots is not None:
         lift_off_plan(board, layout.roots.sections, layout.roots.lift_off)

@@ -220,12 +220,8 @@ MANY = 8  # masses that stand for a rope with its mass spread out, where many ro
 RATIOS = tuple(10.0 ** (0.25 * i - 3.0) for i in range(13))  # G_2 / G_1, from 0.001 to 1
 
 
-@dataclass(frozen=True, slots=True)
-class Simplification:
-    """What a simpler model changes, in parts of what the full one gives; None where nothing can be compared."""
-
-    key: str
-    changes: Mapping[str, float | None]
+# what a simpler model changes, in parts of what the full one gives; None where nothing can be compared
+Changes = Mapping[str, float | None]
 
 
 @dataclass(frozen=True, slots=True)
@@ -249,7 +245,7 @@ class HoistDepth:
     """How deep the model must be."""
 
     full: Mapping[str, float]  # the quantities of the full model, of `COMPARED`, SI
-    simpler: tuple[Simplification, ...]  # in the order of `SIMPLER`, the article's formula last
+    simpler: Mapping[str, Changes]  # in the order of `SIMPLER`, the article's formula last
     # ropes of more and more masses, as far as they can be followed; empty where the rope weighs nothing, the support is
     # rigid or formulas are not valid
     ropes: tuple[Heavy, ...]
@@ -275,15 +271,12 @@ class HoistDepth:
     @property
     def spare(self) -> tuple[str, ...]:
         """Simplifications that change the greatest force by no more than the tolerance."""
-        changes = {simpler.key: simpler.changes["F_max"] for simpler in self.simpler}
-        return tuple(key for key, part in changes.items() if part is not None and abs(part) <= self.tolerance)
+        parts = {key: changes["F_max"] for key, changes in self.simpler.items()}
+        return tuple(key for key, part in parts.items() if part is not None and abs(part) <= self.tolerance)
 
 
 def depth(
-    values: Mapping[str, float],
-    tolerance: float,
-    masses: Iterable[int] = MASSES,
-    ratios: Iterable[float] = RATIOS,
+    values: Mapping[str, float], tolerance: float, masses: Iterable[int] = MASSES, ratios: Iterable[float] = RATIOS
 ) -> HoistDepth:
     """Look at simpler models of a hoist with complete givens, SI, and at ropes of many masses.
 
@@ -292,19 +285,19 @@ def depth(
     whole = forces(values)
     found = whole.found
     full = {name: found[name] for name in COMPARED}
-    simpler = [Simplification(k, _changes(full, forces({**values, **other}).found)) for k, other in SIMPLER.items()]
+    simpler = {key: _changes(full, forces({**values, **other}).found) for key, other in SIMPLER.items()}
     printed = dict.fromkeys(COMPARED, math.nan)
     printed |= dict.fromkeys(("P_12_max", "F_max"), found["P_12_max_printed"])
-    simpler.append(Simplification(PRINTED, _changes(full, printed)))
+    simpler[PRINTED] = _changes(full, printed)
     swings = math.isfinite(found["C_01"]) and whole.motion is None
     followed = (_followed(found, n) for n in masses) if swings and values["G_2"] > 0.0 else ()
     ropes = tuple(rope for rope in followed if rope is not None)
     compared = (_at_ratio(values, ratio) for ratio in ratios) if swings else ()
     lighter = tuple(one for one in compared if one is not None)
-    return HoistDepth(full, tuple(simpler), ropes, values["G_2"] / values["G_1"], lighter, tolerance)
+    return HoistDepth(full, simpler, ropes, values["G_2"] / values["G_1"], lighter, tolerance)
 
 
-def _changes(full: Mapping[str, float], other: Mapping[str, Any]) -> dict[str, float | None]:
+def _changes(full: Mapping[str, float], other: Mapping[str, Any]) -> Changes:
     changes = {name: float(other[name]) / full[name] - 1.0 for name in COMPARED}
     return {name: change if math.isfinite(change) else None for name, change in changes.items()}
 

@@ -50,7 +50,7 @@ from .construction import (
 from .construction import SECTIONS as BEAM_SECTIONS
 from .forces import Forces, article_force, course, forces, motion_givens
 from .hoist import PLANS, VALUES, Hoist, complete
-from .model import CIRCLE, HORIZONTAL, SECTIONS, rest_of_root, section_of
+from .model import CIRCLE, HORIZONTAL, SECTIONS, motion_given, rest_of_root, section_of
 
 TIMES, ORDINATES, SPAN, BEND = 180.0, 120.0, 160.0, 40.0  # mm of paper that axes should take
 WIDEST = 2.0  # ratio of neighbours in the series of scale factors
@@ -91,7 +91,7 @@ def _ordinates(forces: Forces, layout: Layout) -> dict[str, float]:
         given |= {f"_t_{RESTING}{i}": t, f"_F_01_{i}": F_01[i], f"_F_12_{i}": F_12[i]}
     for i, t in enumerate(after.tolist()):
         given |= {f"_T_{HANGING}{i}": t - t_1, f"_P_12_{i}": F_12[layout.resting + 1 + i]}
-    return {f"{name}_motion": value for name, value in given.items()}
+    return {motion_given(name): value for name, value in given.items()}
 
 
 def scale_factors(found: Mapping[str, float], layout: Layout, end: float, part_of: float = 1.0) -> dict[str, float]:

@@ -184,9 +184,9 @@ class HoistDepthChart(Chart[HoistDepth]):
     def table(self, words: Words) -> str:
         """Return what every simplification changes, ropes of more and more masses, one mass over the rope's weight."""
         rows = [[words["chart.hoist.simpler"], *(f"{name}, %" for name in COMPARED)]]
-        for one in self.found.simpler:
-            cells = [short(words, per_cent(one.changes[name])) for name in COMPARED]
-            rows.append([words[f"chart.hoist.without.{one.key}"], *cells])
+        for key, changes in self.found.simpler.items():
+            cells = [short(words, per_cent(changes[name])) for name in COMPARED]
+            rows.append([words[f"chart.hoist.without.{key}"], *cells])
         parts = [aligned(rows), self._ropes(words), self._one_mass(words), "\n".join(depth_verdict(self.found, words))]
         return "\n\n".join(part for part in (*parts, wrapped(self.note(words))) if part)
 
@@ -214,8 +214,8 @@ class HoistDepthChart(Chart[HoistDepth]):
         """Go through simplifications, ropes, weights of the rope."""
         yield "kind", "key", "masses", "ratio", "t_1 [%]", "F_12_max [%]", "P_12_max [%]", "F_max [%]", "F_drum [%]"
         found = self.found
-        for one in found.simpler:
-            yield "simpler", one.key, 1, None, *(per_cent(one.changes[name]) for name in COMPARED), None
+        for key, parts in found.simpler.items():
+            yield "simpler", key, 1, None, *(per_cent(parts[name]) for name in COMPARED), None
         for rope in found.ropes:
             others = (rope.t_1, rope.F_12_max, rope.P_12_max, max(rope.F_12_max, rope.P_12_max))
             changes = [PERCENT * (value / found.full[n] - 1.0) for n, value in zip(COMPARED, others, strict=True)]
@@ -231,7 +231,7 @@ class HoistDepthChart(Chart[HoistDepth]):
         return {
             "full": dict(found.full),
             "tolerance": found.tolerance,
-            "simpler": [{"without": one.key, "changes": dict(one.changes)} for one in found.simpler],
+            "simpler": [{"without": key, "changes": dict(changes)} for key, changes in found.simpler.items()],
             "spare": list(found.spare),
             "ropes": [asdict(rope) for rope in found.ropes],
             "ratio": found.ratio,
