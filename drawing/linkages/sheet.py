@@ -131,9 +131,9 @@ def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> It
     single = len(solved.structure.groups) < 2
     for i, plan in enumerate(drawn[:1] if single else drawn):
         own = drawn if single else [plan]
-        names = [f"equations_{'kinematics' if whole else plan}" for whole in (single, len(own) > 1)]
+        about, heading = ("kinematics" if whole else plan for whole in (single, len(own) > 1))
         lines = partial(kinematics_text, plans=own, before=drawn[:i])
-        yield _text(names[0], lines, width, f"heading.{names[1]}")
+        yield _text(f"equations_{about}", lines, width, f"heading.equations_{heading}")
     yield from _results(solved, drawn)
 
 
@@ -432,7 +432,8 @@ class Fitting:
         fits = steps(mu * max(size[0] / width, size[1] / height) * 1.1)[0]
         rooms = {name: room(FORMATS[name], norm) for name in SIZES}
         larger = next((name for name, (w, h) in rooms.items() if w >= size[0] and h >= size[1]), "")
-        key, unit = "plan-too-large" + ("" if larger else "-everywhere"), Scale(symbol, mu, UNITS[role(symbol).of])
+        key = "plan-too-large" if larger else "plan-too-large-everywhere"
+        unit = Scale(symbol, mu, UNITS[role(symbol).of])
         said = {"mu": f"{mu:g}", "unit": unit.per_mm_unit, "format": sheet.name}
         return InputError(key, symbol=symbol, fits=f"{fits:g}", larger=larger, **said)
 
