@@ -24,18 +24,7 @@ from ..printed import Input, calculation
 from ..shapes import Arrow, Group, Line, Pen, Shape, Vector
 from ..symbols import clear_ray, turning_arrow, unit
 from ..view import Canvas, View
-from .calculations.equations import (
-    Factor,
-    Product,
-    by_direction,
-    factor,
-    known,
-    line_note,
-    line_of,
-    noted,
-    sensed,
-    worked,
-)
+from .calculations.equations import Factor, Product, by_direction, factor, known, line_of, noted, sensed, worked
 from .calculations.tables import printed_segment
 from .figures.inset import ACCELERATIONS, VELOCITIES, At, windows, with_insets
 from .figures.links import Skeleton, draw_frame, draw_links, pins_of, rays_at, rays_of
@@ -176,11 +165,10 @@ def _sliding_sense(canvas: Canvas, scene: Scene, at: At, figures: Sequence[Skele
 
 def _instant_centre(canvas: Canvas, scene: Scene, c: Coupler, figures: Sequence[Skeleton]) -> Iterator[str]:
     """Mark the instant centre and the rays to it; say in words that it lies far away, or nowhere."""
-    symbol = scene.words.symbol(c.centre)
-    ends = [end for figure in figures for stroke in figure.strokes for end in stroke]
+    symbol, ends = scene.words.symbol(c.centre), [e for figure in figures for stroke in figure.strokes for e in stroke]
     size = max((abs(a - b) for a in ends for b in ends), default=0.0)
     if not scene.defined(c.centre):
-        yield scene.words["said.no_centre"].format(link=scene.words.ends.get(str(c.number), c.number))
+        yield scene.words["said.no_centre"].format(link=_name(scene, c.number))
         return
     P = scene.mm(c.centre)
     if min((abs(P - end) for end in ends), default=0.0) > FAR * size:
@@ -232,9 +220,9 @@ def _hung(teller: Teller, at: At, step: Step) -> Iterator[Told]:
     letter = teller.scene.letter(vector)
     if teller.scene.vanishes(vector):
         yield Told(step, teller.say("compound_zero", vector=letter))
-        return
-    parts = {"start": _start(teller, at, start), "line": teller.along(vector), "mm": teller.drawn(vector, at.plan)}
-    yield Told(step, teller.say("compound_vector", vector=letter, **parts))
+    else:
+        parts = {"start": _start(teller, at, start), "line": teller.along(vector), "mm": teller.drawn(vector, at.plan)}
+        yield Told(step, teller.say("compound_vector", vector=letter, **parts))
 
 
 def _start(teller: Teller, at: At, mark: str) -> str:
@@ -247,8 +235,7 @@ def _start(teller: Teller, at: At, mark: str) -> str:
 
 def _met(teller: Teller, at: At, step: Step) -> Iterator[Told]:
     p, u, q, w = step.operands
-    lines = [(teller.line(direction), _start(teller, at, mark)) for mark, direction in ((p, u), (q, w))]
-    (one, first), (other, second) = lines
+    (one, first), (other, second) = ((teller.line(line), _start(teller, at, mark)) for mark, line in ((p, u), (q, w)))
     whole = teller.scene.letter(f"{at.kind}_{at.point}")
     text = teller.say("compound_meet", one=one, first=first, other=other, second=second, whole=whole)
     yield Told(step, text)
@@ -370,12 +357,11 @@ def _vectors(scene: Scene, c: Coupler, point: str, kind: str) -> Said:
     *parts, last = (scene.letter(vector_named(kind, letter, part=part)) for part in COMPOUND[kind])
     whole, notes = scene.letter(f"{kind}_{point}"), list[str]()
     if closing is not None:
-        notes = [f"{last} {line_of(scene, c.span.n)}", f"{whole} {line_of(scene, closing.direction)}"]
-        whole = by_direction(whole)
-    if closing is not None and kind == "a" and closing.normal is not None:
-        across = tangential(closing.normal)
-        notes[1] = line_note(scene, across, closing.direction)
-        whole = f"{known(scene.letter(closing.normal))} + {by_direction(scene.letter(across))}"
+        normal, unknown = closing.normal if kind == "a" else None, whole
+        if normal is not None:  # then only the tangential part of the whole is known by direction
+            unknown = scene.letter(tangential(normal))
+        notes = [f"{last} {line_of(scene, c.span.n)}", f"{unknown} {line_of(scene, closing.direction)}"]
+        whole = (f"{known(scene.letter(normal))} + " if normal is not None else "") + by_direction(unknown)
     first, *others = (*map(known, parts), known(last) if closing is None else by_direction(last))
     return noted((f"{whole} = {first}", *(f"+ {term}" for term in others)), *notes)
 

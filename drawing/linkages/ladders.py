@@ -158,7 +158,6 @@ def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> tuple[float, float]:
 
 
 def _mechanism(solved: SolvedLinkage) -> Size:
-    """Return width and height of the mechanism with the arrow of its crank."""
     places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
     driver = solved.mechanism.driver
     if isinstance(driver, Driver):

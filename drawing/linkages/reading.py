@@ -11,8 +11,11 @@ from itertools import combinations
 from ...plans.board import POSITION, Program, Step
 from ...plans.linkages.parts import SYMBOLS
 from ...plans.linkages.solved import SolvedLinkage
-from ...plans.names import CORIOLIS, COUPLE, NORMAL, role
+from ...plans.names import CORIOLIS, COUPLE, NORMAL, POLE, role
 from ..words import Words
+
+Triangle = tuple[str, str, str]
+HUNG = ("lay", "back", "chain")  # verbs that lay a vector off from a mark
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,8 +61,7 @@ class Reading:
 
         Otherwise that which ends at it, hung on the way to where that one begins.
         """
-        absolute = self.absolute(mark, before)
-        if absolute is not None:
+        if (absolute := self.absolute(mark, before)) is not None:
             return [absolute]
         end = next((e for e in self._beside(mark) if e.tip == mark and e.at < before), None)
         return [] if end is None else [*self.way(end.tail, before), end]
@@ -67,17 +69,13 @@ class Reading:
     def parts(self, whole: Edge) -> list[Edge]:
         """Return the vectors of which an absolute one was hung together; none where it was not."""
         step = self.made[whole.tip]
-        if step.verb not in ("lay", "back", "chain"):
-            return []
-        last = self.between(step.operands[0], step.name)
-        if last is None or last.name == whole.name:
-            return []
-        return [*self.way(step.operands[0], len(self.made)), last]
+        last = self.between(step.operands[0], step.name) if step.verb in HUNG else None
+        return [] if last is None or last.name == whole.name else [*self.way(last.tail, len(self.made)), last]
 
     def is_hung(self, edge: Edge) -> bool:
         """Whether a vector was laid off or hung, not read between marks that were there."""
         step = self.made[edge.tip]
-        return step.verb in ("lay", "back", "chain") and step.operands[0] == edge.tail
+        return step.verb in HUNG and step.operands[0] == edge.tail
 
     def drawn_with(self, edge: Edge) -> str:
         """Return the step that draws a vector: that of its end where it was hung, else the first that measures it."""
@@ -86,14 +84,9 @@ class Reading:
 
     def visible(self, name: str) -> str:
         """Return the quantity that a calculated size is: `a_BA_n`, which the plan shows, of `_a_BA_n`."""
-        if not role(name).hidden:
-            return name
-        for step in self.program:
-            if step.verb in ("lay", "back") and step.operands[2] == name:
-                edge = self.between(step.operands[0], step.name)
-                if edge is not None:
-                    return edge.name
-        return role(name).shown
+        laid = (s for s in self.program.which(("lay", "back")) if role(name).hidden and s.operands[2] == name)
+        edges = (self.between(step.operands[0], step.name) for step in laid)
+        return next((edge.name for edge in edges if edge is not None), role(name).shown)
 
     def users(self, name: str) -> Iterator[Step]:
         """Go through the steps that need a name."""
@@ -105,10 +98,10 @@ def read(program: Program) -> Reading:
     """Look through a program once."""
     edges: dict[str, list[Edge]] = {}
     for at, step in enumerate(program):
-        if step.verb == "read":
-            edges.setdefault(step.plan, []).append(Edge(step.name, step.operands[0], step.operands[1], at))
-        elif step.verb == "chain":
-            edges.setdefault(step.plan, []).append(Edge(step.operands[1], step.operands[0], step.name, at))
+        if step.verb in ("read", "chain"):
+            tail, last = step.operands
+            name, tip = (step.name, last) if step.verb == "read" else (last, step.name)
+            edges.setdefault(step.plan, []).append(Edge(name, tail, tip, at))
     return Reading(
         program,
         {step.name: step for step in program},
@@ -121,14 +114,8 @@ def lettered(words: Words, solved: SolvedLinkage) -> Words:
     """Return the words for the sheet of one mechanism."""
     reading = read(solved.program)
     frame = str(len(solved.mechanism.links) + 1) if words.notation["frame"] == "last" else "0"
-    return replace(
-        words,
-        seconds=_seconds(reading),
-        letters=_ends(reading, words),
-        frame=frame,
-        ends=_joints(solved),
-        parted=solved.mechanism.parted,
-    )
+    letters, seconds, ends = _ends(reading, words), _seconds(reading), _joints(solved)
+    return replace(words, seconds=seconds, letters=letters, frame=frame, ends=ends, parted=solved.mechanism.parted)
 
 
 def _seconds(reading: Reading) -> frozenset[str]:
@@ -186,3 +173,20 @@ def meetings(steps: Iterable[Step]) -> Iterator[tuple[Step, int, str, str]]:
         if step.verb == "meet":
             p, u, q, w = step.operands
             yield from ((step, 1, p, u), (step, 2, q, w))
+
+
+def triangles(program: Program, plan: str) -> Iterator[Triangle]:
+    """Go through the marks of each triangle of a plan that is similar to one of a link."""
+    similar = (step for step in program.on(plan) if step.verb == "similar")
+    return ((step.operands[0], step.operands[1], step.name) for step in similar)
+
+
+def on_link(program: Program, triangle: Triangle) -> Triangle:
+    """Return the points of the link to whose triangle that of a plan is similar.
+
+    At the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism.
+    """
+    *ends, point = map(role, triangle)
+    own = read(program).made[point.of].operands
+    first, second = (own[i] if end.kind == POLE else end.of for i, end in enumerate(ends))
+    return first, second, point.of

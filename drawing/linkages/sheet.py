@@ -26,9 +26,8 @@ from ..rungs import SheetContents
 from ..table import note_block, text_block
 from ..text import Box
 from ..view import View
-from .calculations.equations import Lines
+from .calculations.equations import PLANS, Lines, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
-from .calculations.kinematics import PLANS, kinematics_text
 from .calculations.tables import givens_table, results_parts, results_table, structure_lines
 from .compound import acceleration_figure, block_name, compound_heading, compound_lines, velocity_figure
 from .figures.acting import lever_view
@@ -138,7 +137,6 @@ def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> It
 
 
 def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
-
     couplers = hinged(solved.mechanism, solved.structure)
 
     def text(coupler: Coupler, kind: str) -> LinkageFigure:

@@ -16,9 +16,8 @@ from ..figure import GIVEN
 from ..handouts import Shown
 from ..notes.blocks import Block, Equations, Heading, Story
 from ..printed import value_text
-from .calculations.equations import rate_of, sensed, size_of, stated
+from .calculations.equations import kinematics_lines, rate_of, sensed, size_of, stated
 from .calculations.forces import LOADS, force_lines, force_parts, lines_by_plan
-from .calculations.kinematics import kinematics_lines
 from .calculations.tables import printed_segment
 from .compound import block_name, compound_lines, compound_told
 from .figures.inset import ENLARGED
@@ -160,7 +159,6 @@ def _fastest(teller: Teller, rate: str) -> Iterator[str]:
 
 
 def _balance(teller: Teller, name: str) -> Iterator[str]:
-    """Tell which way what balances the driver acts, and what that means."""
     scene, words = teller.scene, teller.scene.words
     item, driver = scene.solved.quantities.get(name), scene.mechanism.driver
     by_moment = isinstance(driver, Driver) and driver.balance == MOMENT
@@ -192,9 +190,8 @@ def _compared(teller: Teller, name: str) -> Iterator[str]:
 def _angles(teller: Teller) -> Iterator[str]:
     """Tell where lines meet at less than 20 degrees, or at which angle the flattest ones do."""
     words = teller.scene.words
-    # compound motion meets the same lines once more
-    drawn_plans = {plan for plan in teller.scene.scales if not is_at_point(plan)}
-    drawn = {mark: sine for mark, sine in teller.scene.solved.sines.items() if role(mark).plan in drawn_plans}
+    plans = {plan for plan in teller.scene.scales if not is_at_point(plan)}  # compound motion meets the same lines
+    drawn = {mark: sine for mark, sine in teller.scene.solved.sines.items() if role(mark).plan in plans}
     flat = sorted((mark for mark in drawn if 0.0 < drawn[mark] < SMALL), key=lambda mark: drawn[mark])
     if flat:
         listed = "; ".join(_met(teller, mark, drawn[mark]) for mark in flat)

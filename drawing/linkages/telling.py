@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from ...plans.board import POSITION, Step
 from ...plans.linkages.legs import guide_letters
@@ -13,8 +14,7 @@ from ...plans.names import ORIGIN, role
 from ...scales.packaged import packaged
 from .. import notes
 from ..printed import HUNDREDTHS, POINT, Input, Symbol, calculation
-from .calculations.equations import Product, ends_of, factor, is_given, line_of, paper, size_of
-from .calculations.kinematics import triangles
+from .calculations.equations import Product, ends_of, factor, is_given, line_of, paper, size_of, triangles
 from .calculations.tables import printed_segment
 from .figures.acting import hung_on_lever, letter_of, moments_on_lever
 from .figures.inset import At, figures_of
@@ -22,12 +22,10 @@ from .reading import Reading
 from .scene import Scene
 
 DOWN = 270.0  # degrees
-LINES = ("lay", "back")
 FIRST_PATH, OF_PATH = 6, 4  # where the paths of a template's joints begin among its operands, operands of a path
 
 
-@dataclass(frozen=True, slots=True)
-class Told:
+class Told(NamedTuple):
     """A sentence, the step that it tells of, and `others` that draw in it beside this one.
 
     What is there `before` only sets a drawing up, as a pole does: a handout shows it from the start.
@@ -62,10 +60,6 @@ class Teller:
         """Return the letter of a mark."""
         return self.scene.words.mark(name)
 
-    def radius(self, name: str) -> str:
-        """Return a length of the mechanism as it is taken into the compass."""
-        return self.drawn(name, POSITION)
-
     def segment(self, letters: str, name: str, plan: str) -> str:
         """Return a segment by its letters with the length at which it is drawn; lengths may have the same letters."""
         text = self.drawn(name, plan)
@@ -80,9 +74,8 @@ class Teller:
         length = Product((value, replace(mu, power=-mu.power)))
         inputs = [Input(value.value, value.exact), Input(mu.value, exact=True)]
         texts, result = calculation(words, lambda *x: length.of(x), inputs, HUNDREDTHS)
-        return (
-            f"{length.in_letters} = {length.of([*map(Symbol.of, texts)])} = {result} {words.unit(words.display.paper)}"
-        )
+        numbers, unit = length.of([*map(Symbol.of, texts)]), words.unit(words.display.paper)
+        return f"{length.in_letters} = {numbers} = {result} {unit}"
 
     def on_paper(self, mm: float) -> str:
         """Return a length on paper with its unit."""
@@ -104,12 +97,10 @@ class Teller:
     def angle(self, direction: str) -> str:
         """Return the angle of the driver as the task gives it; nothing for other lines."""
         made = self.reading.made.get(direction)
-        if made is None or made.verb != "turn" or not is_given(self.scene, name := made.operands[0]):
-            return ""
-        given = self.scene.givens.get(name)
+        name, words = made.operands[0] if made is not None and made.verb == "turn" else "", self.scene.words
+        given = self.scene.givens.get(name) if is_given(self.scene, name) else None
         if given is None or isinstance(given.value, str):
             return ""
-        words = self.scene.words
         value = f"{words.short(given.value)}{'°' if given.unit == 'deg' else words.unit(given.unit)}"
         return self.say("angle", symbol=words.symbol(name), value=value)
 
@@ -154,7 +145,6 @@ def _pole(teller: Teller, step: Step) -> str:
 
 
 def _place(teller: Teller, step: Step) -> str:
-    """A point of the frame, or a guide of the frame with its angle."""
     words, at = teller.scene.words, teller.scene.mm(step.name)
     guide, letters = role(step.name).of, guide_letters(teller.scene.program)
     x, y = (words.short(round(words.display.segment(part), 2)) for part in (at.real, at.imag))
@@ -211,14 +201,14 @@ def _through(teller: Teller, mark: str, direction: str) -> str:
 
 def _arc(teller: Teller, step: Step) -> str:
     centre, radius, through, direction, _ = step.operands
-    parts = {"centre": teller.mark(centre), "mm": teller.radius(radius), "point": teller.mark(step.name)}
+    parts = {"centre": teller.mark(centre), "mm": teller.drawn(radius, POSITION), "point": teller.mark(step.name)}
     return teller.say("arc", line=_through(teller, through, direction), **parts)
 
 
 def _arcs(teller: Teller, step: Step) -> str:
     first, radius, second, other, _ = step.operands
-    parts = {"first": teller.mark(first), "one": teller.radius(radius), "second": teller.mark(second)}
-    return teller.say("arcs", other=teller.radius(other), point=teller.mark(step.name), **parts)
+    parts = {"first": teller.mark(first), "one": teller.drawn(radius, POSITION), "second": teller.mark(second)}
+    return teller.say("arcs", other=teller.drawn(other, POSITION), point=teller.mark(step.name), **parts)
 
 
 def _divide(teller: Teller, step: Step) -> str:
@@ -266,20 +256,19 @@ def _read(teller: Teller, step: Step) -> str:
 
 
 def _tangent(teller: Teller, step: Step) -> str:
-    """The line of a slotted link, through the pivot and the block's pin, or past the pivot at a distance."""
     centre, point, offset, *_ = step.operands
     a, b = teller.mark(centre), teller.mark(point)
     if size_of(teller.scene, offset) == 0.0:
         return teller.say("joined", line=f"{a}{b}", start=a, end=b)
-    return teller.say("tangent", line=teller.line(step.name), centre=a, mm=teller.radius(offset), point=b)
+    return teller.say("tangent", line=teller.line(step.name), centre=a, mm=teller.drawn(offset, POSITION), point=b)
 
 
 def _template(teller: Teller, step: Step) -> str:
     """A joint of a link of which a template is laid on the paths of its joints, told with the first of them."""
-    joint, where, point = step.operands[0], step.operands[1:], teller.mark(step.name)
-    laid = [other for other in teller.scene.program.which(("template",)) if other.operands[1:] == where]
+    joint, *where = step.operands
+    laid = [other for other in teller.scene.program.which(("template",)) if [*other.operands[1:]] == where]
     if laid[0].name != step.name:
-        return teller.say("template_more", point=point)
+        return teller.say("template_more", point=teller.mark(step.name))
     names = {other.operands[0]: teller.mark(other.name) for other in laid}
     legs = [step.operands[i : i + OF_PATH] for i in range(FIRST_PATH, len(step.operands), OF_PATH)]
     paths = ", ".join(_path(teller, names[leg[0]], leg) for leg in legs)
@@ -299,31 +288,18 @@ def _incline(teller: Teller, step: Step) -> str:
     if step.name not in letters:
         return ""
     turn, own = (cmath.phase(complex(values[name])) for name in (step.name, base))
-    angle = _degrees(teller, turn - own)
-    return teller.say("guide_on_link", line=letters[step.name], base=teller.plain_line(base), angle=angle)
+    said = {"line": letters[step.name], "base": teller.plain_line(base)}
+    return teller.say("guide_on_link", angle=_degrees(teller, turn - own), **said)
 
 
 def _degrees(teller: Teller, angle: float) -> str:
-    degrees = round(math.degrees(angle) % 180.0, 2) % 180.0
-    return f"{teller.scene.words.short(degrees)}°"
+    return f"{teller.scene.words.short(round(math.degrees(angle) % 180.0, 2) % 180.0)}°"
 
 
 TOLD: Mapping[str, Callable[[Teller, Step], str]] = {
-    "pole": _pole,
-    "place": _place,
-    "lay": _lay,
-    "back": _lay,
-    "chain": _chain,
-    "meet": _meet,
-    "arc": _arc,
-    "arcs": _arcs,
-    "divide": _divide,
-    "similar": _similar,
-    "same": _same,
-    "read": _read,
-    "tangent": _tangent,
-    "incline": _incline,
-    "template": _template,
+    **{"pole": _pole, "place": _place, "lay": _lay, "back": _lay, "chain": _chain, "meet": _meet, "arc": _arc},
+    **{"arcs": _arcs, "divide": _divide, "similar": _similar, "same": _same, "read": _read, "tangent": _tangent},
+    **{"incline": _incline, "template": _template},
 }
 
 
@@ -360,7 +336,6 @@ def _hung(teller: Teller, mark: str, moments: list[Step]) -> Told:
 
 
 def _balance(teller: Teller) -> Iterator[Told]:
-    """Tell the force that balances, at the end of the driver's velocity and normal to it when turned."""
     point = teller.scene.mechanism.driver.point
     step = teller.reading.made.get(f"lever.{point}")
     if step is not None and step.verb == "normal":

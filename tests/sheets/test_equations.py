@@ -10,9 +10,8 @@ from functools import lru_cache
 import pytest
 
 from kulman.drawing.formats import STYLES
-from kulman.drawing.linkages.calculations.equations import Lines
+from kulman.drawing.linkages.calculations.equations import Lines, kinematics_lines
 from kulman.drawing.linkages.calculations.forces import force_lines, force_parts, lever_lines
-from kulman.drawing.linkages.calculations.kinematics import kinematics_lines
 from kulman.drawing.linkages.calculations.tables import ROWS, formula, results_parts
 from kulman.drawing.linkages.ladders import first_scales
 from kulman.drawing.linkages.reading import lettered

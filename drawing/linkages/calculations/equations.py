@@ -1,26 +1,33 @@
-"""Parts of equations: underlines of known vectors, sums of products whose printed numbers recompute."""
+"""Equations: underlines of known vectors, sums of products that recompute as they are printed; those of kinematics."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from ....plans.board import POSITION, Step
 from ....plans.laws import form_of
+from ....plans.linkages.compound import found_here
 from ....plans.linkages.legs import guide_letters
+from ....plans.linkages.mechanism import ZERO
 from ....plans.linkages.parts import SYMBOLS
 from ....plans.names import CORIOLIS, NORMAL, POLE, role, vector
 from ....plans.quantities import unit_of
 from ....scales.scale import Scale
 from ...printed import POINT, Input, Symbol, calculation, ruler_decimals, value_text
 from ...words import Words
-from ..reading import Edge, Reading
+from ..reading import Reading, on_link
 from ..scene import Scene
 
 Lines = list[tuple[str, ...]]
 DIRECTIONS = ("direction", "turn", "normal", "incline", "decline")  # verbs that make them
+PLANS = ("velocity", "acceleration")
+TOLD = ["circular_speed", "centripetal", "circular_acceleration", "normal_part", "turning", "coriolis"]
+TOLD += ["transport_speed", "transport_normal", "transport_tangential"]
+STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
+BEFORE_MEETING = ("normal_part", "coriolis")
 
 
 def known(text: str) -> str:
@@ -191,8 +198,7 @@ def stated(words: Words, symbol: str, value: float, unit: str) -> str:
     return f"{symbol} = {value_text(words, words.display.value(value, unit))} {words.unit(shown)}"
 
 
-@dataclass(frozen=True, slots=True)
-class Side:
+class Side(NamedTuple):
     """One way from the pole to a point: vectors known in full, then one along the line `direction`."""
 
     knowns: tuple[str, ...]
@@ -210,10 +216,10 @@ def meeting(scene: Scene, step: Step) -> tuple[str, ...]:
     p, u, q, w = step.operands
     sides = sorted((_side(reading, step, p, u), _side(reading, step, q, w)), key=lambda side: len(side.knowns))
     whole = reading.absolute(step.name)
-    texts = [" + ".join((*_double(scene, side.knowns), by_direction(scene.letter(side.unknown)))) for side in sides]
+    texts = [" + ".join((*in_full(scene, side.knowns), by_direction(scene.letter(side.unknown)))) for side in sides]
     if whole is not None and all(side.knowns or side.unknown != whole.name for side in sides):
         texts.insert(0, scene.letter(whole.name))
-    notes = [line_note(scene, side.unknown, side.direction) for side in sides]
+    notes = (line_note(scene, side.unknown, side.direction) for side in sides)
     return noted((texts[0], *(f"= {text}" for text in texts[1:])), *notes)
 
 
@@ -238,7 +244,7 @@ def _named(reading: Reading, start: str, tip: str) -> str:
 
 def summed(scene: Scene, whole: str, parts: Sequence[str]) -> tuple[str, ...]:
     """Return `whole = a + b` of parts that are known in full."""
-    first, *rest = _double(scene, parts)
+    first, *rest = in_full(scene, parts)
     return (f"{scene.letter(whole)} = {first}", *(f"+ {text}" for text in rest))
 
 
@@ -271,71 +277,169 @@ def ends_of(reading: Reading, direction: str) -> tuple[str, str]:
     return lay.operands[0], lay.name
 
 
-def closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
-    """Go through the sums of forces of a plan: the one that closes it, then those that its chords show."""
-    reading = scene.reading
-    edges = reading.on(plan)
-    meet = next((step for step in scene.program.on(plan) if step.verb == "meet"), None)
-    if meet is None:
-        last = edges[-1]
-        around = path([e for e in edges if e is not last], last.tip, last.tail)
-        yield _zero(scene, around, (), last.name)
-        return
-    p, u, q, w = meet.operands
-    firm = [e for e in edges if reading.is_hung(e)]
-    lines = ((reading.between(p, meet.name), u), (reading.between(meet.name, q), w))
-    found = [edge for edge, _ in lines if edge is not None]
-    notes = [line_note(scene, edge.name, along) for edge, along in lines if edge is not None]
-    by_moments = next((e for e in edges if {e.tail, e.tip} & {p, q} and role(e.name).part == "m"), None)
-    if by_moments is not None:
-        whole, along = role(by_moments.name).whole, next(line for edge, line in lines if edge is None)
-        yield _two_ways(scene, whole, found[0].name, notes[0], along)
-        edges = tuple(sorted((e for e in edges if e is not by_moments), key=lambda e: e.name != whole))
-        yield from _chords(scene, edges, [*firm, *found], ())
-        return
-    yield noted(_zero(scene, path(firm, q, p), [edge.name for edge in found], ""), *notes)
-    yield from _chords(scene, edges, [*firm, *found], edges)
-
-
-def _chords(
-    scene: Scene, edges: Sequence[Edge], ready: list[Edge], others: Sequence[Edge]
-) -> Iterable[tuple[str, ...]]:
-    """Go through the sums of forces that the chords of a plan show, by what is ready before each, or by all others."""
-    for chord in (e for e in edges if e not in ready):
-        parts = path(ready, chord.tail, chord.tip)
-        if parts and all(role(part).whole == chord.name != part for part in parts):  # of one reaction
-            yield summed(scene, chord.name, parts)
-        else:
-            around = path([e for e in others or ready if e is not chord], chord.tip, chord.tail)
-            yield _zero(scene, around, (), chord.name)
-        if not others:
-            ready = [*ready, chord]
-
-
-def _two_ways(scene: Scene, whole: str, normal: str, note: str, along: str) -> tuple[str, ...]:
-    """Return the equation of a reaction by its parts along and across its link, and along and across another line."""
-    ways = ((f"{whole}_t", normal), (f"{whole}_m", f"{whole}_p"))
-    first, second = (f"= {known(scene.letter(x))} + {by_direction(scene.letter(y))}" for x, y in ways)
-    return noted((f"{scene.letter(whole)} {first}", second), note, line_note(scene, f"{whole}_p", along))
-
-
-def path(edges: Iterable[Edge], start: str, end: str) -> list[str]:
-    """Return the shortest way of vectors, tip to tail, from one mark to another."""
-    ways, queue, every = {start: list[str]()}, [start], list(edges)
-    for mark in queue:
-        for edge in every:
-            if edge.tail == mark and edge.tip not in ways:
-                ways[edge.tip] = [*ways[mark], edge.name]
-                queue.append(edge.tip)
-    return ways.get(end, [])
-
-
-def _zero(scene: Scene, knowns: Sequence[str], lines: Sequence[str], unknown: str) -> tuple[str, ...]:
-    """Return a sum of forces that is zero: known in full, known by direction, to be found."""
-    texts = _double(scene, knowns) + [by_direction(scene.letter(name)) for name in lines]
-    texts += [scene.letter(unknown)] if unknown else []
-    return (texts[0], *(f"+ {text}" for text in texts[1:]), "= 0")
-
-
-def _double(scene: Scene, names: Iterable[str]) -> list[str]:
+def in_full(scene: Scene, names: Iterable[str]) -> list[str]:
+    """Return the letters of vectors that are known in full."""
     return [known(scene.letter(name)) for name in names]
+
+
+def kinematics_text(scene: Scene, plans: Sequence[str], before: Sequence[str]) -> Lines:
+    """Return the equations of plans; lengths that those of the plans `before` take have been told with these."""
+    steps = [step for step in scene.program if step.law]
+    told = {name for step in steps if stage_of(step) in before for name in step.operands}
+    lines = [line for plan in plans for line in kinematics_lines(scene, plan, told)]
+    if "velocity" in (*plans, *before):
+        return lines
+    given = (step for step in steps if step.law == "signed" and role(step.name).kind == "omega")
+    return [*(line for step in given for line in _turning_alike(scene, step)), *lines]  # the crank's omega alone
+
+
+def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> Lines:
+    """Return the equations of one plan in order of construction, the vector equation of a group before its numbers.
+
+    `told` are the lengths of which other lines have told already.
+    """
+    told, apart = told if told is not None else set(), found_here(scene.program)
+    lines, held = Lines(), Lines()  # these of a group's known parts, which come after its vector equation
+    for step in (s for s in scene.program if stage_of(s) == plan and s.name not in apart):
+        if step.verb == "meet":
+            lines += [*_special_point(scene, step), meeting(scene, step), *held]
+            held.clear()
+        elif step.law in TOLD:
+            here = held if step.law in BEFORE_MEETING or _is_met(scene, step) else lines
+            here += [*_lengths(scene, step, told), _formula(scene, step)]
+        elif step.law == "given":
+            lines.append(_given(scene, step))
+        elif step.law in ("signed", "same_turning"):
+            lines += _turning_alike(scene, step)
+        elif step.verb in ("divide", "similar"):
+            lines += _similarity(scene, step)
+        elif step.verb == "read":
+            lines += _absolute(scene, step)
+        if role(step.name).kind == "epsilon" and step.law != "same_turning":
+            lines.append(_comparison(scene, step.name))
+    return lines
+
+
+def stage_of(step: Step) -> str:
+    """Return the plan to which a step of the kinematics belongs; nothing for other steps."""
+    if step.plan != POSITION or step.verb == "read":
+        return step.plan
+    return STAGES.get(role(step.name).kind, "") if step.verb == "calc" else ""
+
+
+def _is_met(scene: Scene, step: Step) -> bool:
+    """Whether a line that finds a point begins at the end of the vector of a step, where no point has its end."""
+    users, absolute = scene.reading.users, scene.reading.absolute
+    ends = (user.name for user in users(step.name) if user.verb == "chain" and absolute(user.name) is None)
+    return any(user.verb == "meet" for end in ends for user in users(end))
+
+
+def _lengths(scene: Scene, step: Step, told: set[str]) -> Iterator[tuple[str, ...]]:
+    """Go through the lengths for a step that are not given, each told once.
+
+    They are measured on the plan of the mechanism, or follow from the coordinates of a link's joints.
+    """
+    measured = (made for name in step.operands if (made := scene.reading.made.get(name)) and made.verb == "measure")
+    for name, made in ((made.name, made) for made in measured if made.name not in told):
+        told.add(name)
+        symbol = scene.words.symbol(role(name).shown)
+        if role(made.operands[0]).hidden:
+            yield (stated(scene.words, symbol, size_of(scene, name), "m"),)
+        else:
+            yield worked(scene.words, symbol, [distance(scene, *made.operands)], "m")
+
+
+def _formula(scene: Scene, step: Step) -> tuple[str, ...]:
+    """Return what a law gives, with its numbers, and how the vector lies.
+
+    It says in which sense a link turns, which way a normal part is laid off, how that of Coriolis is turned.
+    """
+    words, reading, name = scene.words, scene.reading, scene.reading.visible(step.name)
+    line = size_by_law(scene, words.symbol(name), step, unit_of(name))
+    if step.law == "turning":
+        return noted(line, sensed(words, rate_of(scene, name)))
+    if step.law == "normal_part":
+        back = next(s for s in reading.users(step.name) if s.verb == "back")
+        start, end = (words.mark(point) for point in reading.made[back.operands[1]].operands[:2])
+        return noted(line, f"{scene.letter(name)} ∥ {start}{end} ({end} → {start})")
+    if step.law == "coriolis":
+        omega, v = step.operands
+        parts = {"part": scene.letter(name), "vector": scene.letter(v), "omega": words.symbol(omega)}
+        first, *rest = words["said.coriolis"].format(**parts).split("|")
+        return (*noted(line, first), *rest)
+    return line
+
+
+def _turning_alike(scene: Scene, step: Step) -> Lines:
+    """Return a rate that is given, from revolutions per minute where it is so, or that of another link."""
+    words, value, given = scene.words, rate_of(scene, step.name), scene.givens.get(step.operands[0])
+    symbol, of, unit = words.symbol(step.name), words.symbol(step.operands[0]), unit_of(step.name)
+    if given is not None and given.unit == "rpm" and not isinstance(given.value, str):
+        texts, result = calculation(words, lambda n: math.pi * n / 30.0, [Input(given.value, exact=True)])
+        line = [f"{symbol} = π{of}/30 =", f"π·{texts[0]}/30 =", f"{result} {words.unit(unit)}"]
+    else:
+        line = [stated(words, f"{symbol} = {of}" if step.law == "same_turning" else symbol, abs(value), unit)]
+    return [noted(line, sensed(words, value))]
+
+
+def _special_point(scene: Scene, step: Step) -> Lines:
+    """Say where a point stands that no link has, such as Assur's special point, when it is found for the first time."""
+    point, made = role(step.name).of, scene.reading.made.get(role(step.name).of)
+    lettered = {point for link in scene.mechanism.links for point in link.points}
+    if step.plan != "velocity" or made is None or made.verb != "meet" or point in lettered:
+        return []
+    p, u, q, w = made.operands
+    lines = f"{line_through(scene, p, u)} ∩ {line_through(scene, q, w)}"
+    return [(scene.words["said.special_point"].format(point=scene.words.mark(point)), lines)]
+
+
+def _given(scene: Scene, step: Step) -> tuple[str, ...]:
+    words, name, given = scene.words, scene.reading.visible(step.name), step.operands[0]
+    if given == ZERO:
+        return (f"{words.symbol(name)} = 0",)
+    head = " = ".join(dict.fromkeys((words.symbol(name), words.symbol(given))))
+    line = stated(words, head, float(scene.solved.values[given]), unit_of(name))
+    laid = next(user for user in scene.reading.users(step.name) if user.verb == "lay")
+    return noted((line,), line_note(scene, name, laid.operands[1]))
+
+
+def triangles(scene: Scene, step: Step) -> tuple[str, str]:
+    """Return the triangle on a plan that is similar to one of a link, and that one, by the letters of their corners."""
+    words, plan = scene.words, (step.operands[0], step.operands[1], step.name)
+    return "".join(map(words.mark, plan)), "".join(map(words.mark, on_link(scene.program, plan)))
+
+
+def _similarity(scene: Scene, step: Step) -> Lines:
+    words, (start, end, first, second) = scene.words, step.operands
+    if step.verb == "similar":
+        plan, link = triangles(scene, step)
+        return [tuple(words["said.similar"].format(plan=plan, link=link).split("|"))]
+    if size_of(scene, first) == 0.0:
+        return []
+    a, b, s = map(words.mark, (start, end, step.name))
+    ab = segment(scene, f"{a}{b}", step.plan, abs(scene.solved.point(end) - scene.solved.point(start)))
+    ratio = Product((ab, factor(scene, first), factor(scene, second, -1)))
+    return [worked(words, f"{a}{s}", [ratio], words.display.paper)]
+
+
+def _absolute(scene: Scene, step: Step) -> Lines:
+    """Return the absolute vector of a point that was hung from parts, or moves like another."""
+    reading, (tail, tip) = scene.reading, step.operands
+    made, whole = reading.made[tip], reading.absolute(tip)
+    if role(tail).kind != POLE or made.name == tail:
+        return []
+    if made.verb == "same":
+        other = reading.absolute(made.operands[0])
+        parts = [] if other is None else [other]
+    else:
+        parts = reading.parts(whole) if whole is not None and whole.name == step.name else []
+    return [summed(scene, step.name, [edge.name for edge in parts])] if parts else []
+
+
+def _comparison(scene: Scene, rate: str) -> tuple[str, ...]:
+    words, link = scene.words, role(rate).of
+    omega, epsilon = rate_of(scene, f"omega_{link}"), rate_of(scene, rate)
+    still = "said.translates" if omega == 0.0 else "said.steady"
+    key = still if omega * epsilon == 0.0 else "said.speeds_up" if omega * epsilon > 0 else "said.slows_down"
+    symbols = {"omega": words.symbol(f"omega_{link}"), "epsilon": words.symbol(rate)}
+    return tuple(words[key].format(link=link, **symbols).split("|"))

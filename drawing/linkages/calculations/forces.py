@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 
@@ -14,25 +14,9 @@ from ....plans.linkages.structure import Group
 from ....plans.names import FORCES, role
 from ....scales.display import AS_INSIDE
 from ...printed import POINT, Symbol, value_text
+from ..reading import Edge
 from ..scene import Scene
-from .equations import (
-    Factor,
-    Lines,
-    Product,
-    closed,
-    ends_of,
-    factor,
-    moments_in_letters,
-    noted,
-    paper,
-    segment,
-    sensed,
-    size_by_law,
-    size_of,
-    stated,
-    turned,
-    worked,
-)
+from . import equations as eq
 
 WHOLE, LOADS = "", "loads"
 
@@ -52,7 +36,7 @@ def equations_heading(scene: Scene, part: str) -> str:
     return words[key].format(links=", ".join(map(str, links.get(part, ()))), link=part)
 
 
-def force_lines(scene: Scene, part: str = WHOLE) -> Lines:
+def force_lines(scene: Scene, part: str = WHOLE) -> eq.Lines:
     """Return the lines of the part in order of construction."""
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
     loads = (_load(scene, step) for step in scene.program if step.law in LOADING and part in (WHOLE, LOADS))
@@ -60,20 +44,20 @@ def force_lines(scene: Scene, part: str = WHOLE) -> Lines:
     return [*chain.from_iterable(loads), *chain.from_iterable(forces)]
 
 
-def _forces(scene: Scene) -> Iterator[tuple[str, Step, Lines]]:
+def _forces(scene: Scene) -> Iterator[tuple[str, Step, eq.Lines]]:
     """Go through the steps of the force plans that have equations, each with its part and these."""
     told = ((step, _force(scene, step)) for step in scene.program if step.law not in LOADING)
     return ((_part(scene, step), step, lines) for step, lines in told if lines)
 
 
-def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, Lines]:
+def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, eq.Lines]:
     """Return the equations that stand before each force plan, by plan: moments first, then the sums that it shows.
 
     What is found of a link after its plans stands with the figure of that link where it is `apart`, or else with the
     last plan of its group.
     """
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))
-    last, found, held = dict[str, str](), dict[str, Lines](), dict[str, list[tuple[Step, Lines]]]()
+    last, found, held = dict[str, str](), dict[str, eq.Lines](), dict[str, list[tuple[Step, eq.Lines]]]()
     for part, step, lines in _forces(scene):
         if step.verb == "pole":
             last[part] = plan = role(step.name).plan
@@ -96,24 +80,19 @@ def _part(scene: Scene, step: Step) -> str:
     return plan if plan in known else str(scene.solved.structure.driver) if group is None else group.name
 
 
-# Loads, weights and inertia
-
-
-UNITS = {
-    **{"mass_by_length": "kg", "inertia_by_length": "kg*m^2", "inertia_moment": "N*m"},
-    **{"weight": "N", "inertia_force": "N"},
-}
+UNITS = {"mass_by_length": "kg", "inertia_by_length": "kg*m^2", "inertia_moment": "N*m"}
+UNITS |= {"weight": "N", "inertia_force": "N"}
 RESISTING = ("resisting_force", "resisting_along", "resisting_moment")
 LOADING = (*UNITS, *RESISTING, "along", "signed", "sum")
 
 
-def _load(scene: Scene, step: Step) -> Lines:
+def _load(scene: Scene, step: Step) -> eq.Lines:
     """Tell a mass, a load, a weight, a force or moment of inertia, or a sum of couples."""
     if role(step.name).hidden or not scene.defined(step.name):
         return []
     words, mechanism = scene.words, scene.mechanism
     if step.law in UNITS:
-        return [size_by_law(scene, words.symbol(step.name), step, UNITS[step.law])]
+        return [eq.size_by_law(scene, words.symbol(step.name), step, UNITS[step.law])]
     if step.law == "sum":
         products = terms(scene, step.operands)
         return [_solved_for(scene, step.name, products, 1.0) if products else (f"{words.symbol(step.name)} = 0",)]
@@ -122,26 +101,23 @@ def _load(scene: Scene, step: Step) -> Lines:
     if step.name not in loads or (made is None and step.law not in RESISTING):
         return []
     notes = [words["said.diagram"]] if loads[step.name] in {d.name for d in mechanism.diagrams} else []
-    size, unit = size_of(scene, step.name), scene.solved.quantities[step.name].unit
+    size, unit = eq.size_of(scene, step.name), scene.solved.quantities[step.name].unit
     if step.law in RESISTING and size > 0.0:
         against = words.symbol(step.operands[1], bar=step.law != "resisting_moment")
         notes.append(words["said.against"].format(motion=against))
     elif size == 0.0:
         notes.append(words["said.idle"])
-    return [noted((stated(words, words.symbol(step.name), size, unit),), *notes)]
+    return [eq.noted((eq.stated(words, words.symbol(step.name), size, unit),), *notes)]
 
 
-def _solved_for(scene: Scene, moment: str, products: Iterable[Product], sign: float) -> tuple[str, ...]:
+def _solved_for(scene: Scene, moment: str, products: Iterable[eq.Product], sign: float) -> tuple[str, ...]:
     """Return a moment as the sum of others, with numbers and its sense; `sign` is that of the sum in it."""
     words, value = scene.words, scene.solved.values[moment]
     turn = math.copysign(sign, sign * value)
-    return noted(worked(words, words.symbol(moment), turned(products, turn), "N*m"), sensed(words, value))
+    return eq.noted(eq.worked(words, words.symbol(moment), eq.turned(products, turn), "N*m"), eq.sensed(words, value))
 
 
-# Moments and force plans
-
-
-def _force(scene: Scene, step: Step) -> Lines:
+def _force(scene: Scene, step: Step) -> eq.Lines:
     """Tell a step of the force plans: a sum of moments, or the sums of forces of a plan."""
     if step.verb == "pole" and role(step.name).plan.kind == FORCES:
         return list(closed(scene, role(step.name).plan))
@@ -167,7 +143,7 @@ def _head(scene: Scene, links: str, point: str) -> str:
     return f"ΣM_{{{scene.words.mark(point)}}}({links}) = 0:"
 
 
-def _for_a_force(scene: Scene, step: Step) -> Lines:
+def _for_a_force(scene: Scene, step: Step) -> eq.Lines:
     """Tell the moments about a joint, solved for a force: drawn as it acts, its moment turns against the others."""
     words, reading = scene.words, scene.reading
     length, *moments = step.operands
@@ -175,7 +151,7 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
     laid = next((s for s in reading.users(step.name) if s.verb in ("lay", "back")), None)
     point = about(scene, step)
     if laid is not None and not any(map(_is_sum, moments)):
-        point = ends_of(reading, reading.made[laid.operands[1]].operands[0])[laid.verb == "lay"]
+        point = eq.ends_of(reading, reading.made[laid.operands[1]].operands[0])[laid.verb == "lay"]
     head = _head(scene, links_in(scene, link_of(scene, step.name), point), point)
     arm = _reach(scene, name, length)
     own = Symbol.of(words.symbol(name)) * arm.in_letters
@@ -184,22 +160,20 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
     values = scene.solved.values
     sign, turn = math.copysign(SIGNS[step.law], SIGNS[step.law] * values[length]), math.copysign(1.0, values[step.name])
     return [
-        (head, *moments_in_letters(own * (sign * turn), found), "= 0"),
-        worked(words, words.symbol(name), turned(found, -sign * turn), "N", arm),
+        (head, *eq.moments_in_letters(own * (sign * turn), found), "= 0"),
+        eq.worked(words, words.symbol(name), eq.turned(found, -sign * turn), "N", arm),
     ]
 
 
-def _reach(scene: Scene, name: str, length: str) -> Product:
+def _reach(scene: Scene, name: str, length: str) -> eq.Product:
     """Return the arm of the force to be found: a length, or what was measured from the point to the force's line."""
-    reading = scene.reading
-    made = reading.made.get(length)
+    made = scene.reading.made.get(length)
     if made is None or made.verb == "measure":
-        return Product((factor(scene, length),))
-    arm = next(s for s in reading.program if s.verb == "arm" and s.operands[1] == name)
-    return Product(on_arm(scene, arm.name))
+        return eq.Product((eq.factor(scene, length),))
+    return eq.Product(on_arm(scene, next(s.name for s in scene.program.which(("arm",)) if s.operands[1] == name)))
 
 
-def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> Lines:
+def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> eq.Lines:
     """Tell the moments about a joint, solved for a moment: of a guide's reaction, or the balancing one."""
     words = scene.words
     found, point = terms(scene, sum_of.operands), about(scene, sum_of)
@@ -211,17 +185,17 @@ def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> Lines:
     return [(head, *_solved_for(scene, step.name, found, -1.0))]
 
 
-def _arm(scene: Scene, step: Step) -> Lines:
+def _arm(scene: Scene, step: Step) -> eq.Lines:
     words, (moment, reaction) = scene.words, step.operands
     if scene.solved.values[moment] == 0.0:
         return []  # told with the moment
     if not scene.defined(step.name):
         return [(f"{words.symbol(reaction)} = 0:", words["said.couple"].format(moment=words.symbol(moment)))]
-    product = Product((factor(scene, moment), factor(scene, reaction, -1)))
-    return [worked(words, words.symbol(step.name), [product], "m")]
+    product = eq.Product((eq.factor(scene, moment), eq.factor(scene, reaction, -1)))
+    return [eq.worked(words, words.symbol(step.name), [product], "m")]
 
 
-def terms(scene: Scene, names: Iterable[str]) -> list[Product]:
+def terms(scene: Scene, names: Iterable[str]) -> list[eq.Product]:
     """Return the moments that are not zero, each with its sign, counter-clockwise positive."""
     found = []
     for name in names:
@@ -229,29 +203,28 @@ def terms(scene: Scene, names: Iterable[str]) -> list[Product]:
         factors = _factors(scene, name) if value != 0.0 else ()
         # a force whose line passes through the point has no moment but rounding
         if factors and min(factor.value for factor in factors if not factor.exact) >= POINT:
-            found.append(Product(factors, math.copysign(1.0, value)))
+            found.append(eq.Product(factors, math.copysign(1.0, value)))
     return found
 
 
-def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
+def _factors(scene: Scene, name: str) -> tuple[eq.Factor, ...]:
     """Return what makes a moment: a force and its arm, a couple's power, or a couple that is known."""
-    reading = scene.reading
-    step = reading.made.get(name)
+    step = scene.reading.made.get(name)
     if step is not None and step.verb == "moment":
-        arm = next(s for s in reading.users(name) if s.verb == "arm")
-        return factor(scene, step.operands[0]), *on_arm(scene, arm.name)
+        arm = next(user.name for user in scene.reading.users(name) if user.verb == "arm")
+        return eq.factor(scene, step.operands[0]), *on_arm(scene, arm)
     if step is not None and step.law == "couple_on_lever":
-        scale = paper(scene.words, scene.scales["lever"])
-        over = Factor(scale.symbol, scale.value, scale.exact, -scale.power)
-        return factor(scene, step.operands[0]), factor(scene, step.operands[1]), over
-    return (factor(scene, name),)
+        scale = eq.paper(scene.words, scene.scales["lever"])
+        over = eq.Factor(scale.symbol, scale.value, scale.exact, -scale.power)
+        return eq.factor(scene, step.operands[0]), eq.factor(scene, step.operands[1]), over
+    return (eq.factor(scene, name),)
 
 
-def on_arm(scene: Scene, arm: str) -> tuple[Factor, ...]:
+def on_arm(scene: Scene, arm: str) -> tuple[eq.Factor, ...]:
     """Return an arm in mm, and the scale factor unless the plan's own cancels, as on the lever."""
     plan = scene.figure_of(arm)
-    own = segment(scene, scene.words.symbol(arm), plan, size_of(scene, arm))
-    return (own,) if plan == "lever" else (own, paper(scene.words, scene.scales[plan]))
+    own = eq.segment(scene, scene.words.symbol(arm), plan, eq.size_of(scene, arm))
+    return (own,) if plan == "lever" else (own, eq.paper(scene.words, scene.scales[plan]))
 
 
 def about(scene: Scene, step: Step) -> str:
@@ -292,7 +265,73 @@ def links_in(scene: Scene, number: int, point: str) -> str:
     return ", ".join(map(str, sorted(group.links)))
 
 
-def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
+def closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
+    """Go through the sums of forces of a plan: the one that closes it, then those that its chords show."""
+    reading = scene.reading
+    edges = reading.on(plan)
+    meet = next((step for step in scene.program.on(plan) if step.verb == "meet"), None)
+    if meet is None:
+        last = edges[-1]
+        around = path([e for e in edges if e is not last], last.tip, last.tail)
+        yield _zero(scene, around, (), last.name)
+        return
+    p, u, q, w = meet.operands
+    firm = [e for e in edges if reading.is_hung(e)]
+    lines = ((reading.between(p, meet.name), u), (reading.between(meet.name, q), w))
+    found = [edge for edge, _ in lines if edge is not None]
+    notes = [eq.line_note(scene, edge.name, along) for edge, along in lines if edge is not None]
+    by_moments = next((e for e in edges if {e.tail, e.tip} & {p, q} and role(e.name).part == "m"), None)
+    if by_moments is not None:
+        whole, along = role(by_moments.name).whole, next(line for edge, line in lines if edge is None)
+        yield _two_ways(scene, whole, found[0].name, notes[0], along)
+        edges = tuple(sorted((e for e in edges if e is not by_moments), key=lambda e: e.name != whole))
+        yield from _chords(scene, edges, [*firm, *found], ())
+        return
+    yield eq.noted(_zero(scene, path(firm, q, p), [edge.name for edge in found], ""), *notes)
+    yield from _chords(scene, edges, [*firm, *found], edges)
+
+
+def _chords(
+    scene: Scene, edges: Sequence[Edge], ready: list[Edge], others: Sequence[Edge]
+) -> Iterable[tuple[str, ...]]:
+    """Go through the sums of forces that the chords of a plan show, by what is ready before each, or by all others."""
+    for chord in (e for e in edges if e not in ready):
+        parts = path(ready, chord.tail, chord.tip)
+        if parts and all(role(part).whole == chord.name != part for part in parts):  # of one reaction
+            yield eq.summed(scene, chord.name, parts)
+        else:
+            around = path([e for e in others or ready if e is not chord], chord.tip, chord.tail)
+            yield _zero(scene, around, (), chord.name)
+        if not others:
+            ready = [*ready, chord]
+
+
+def _two_ways(scene: Scene, whole: str, normal: str, note: str, along: str) -> tuple[str, ...]:
+    """Return the equation of a reaction by its parts along and across its link, and along and across another line."""
+    ways = ((f"{whole}_t", normal), (f"{whole}_m", f"{whole}_p"))
+    first, second = (f"= {eq.known(scene.letter(x))} + {eq.by_direction(scene.letter(y))}" for x, y in ways)
+    return eq.noted((f"{scene.letter(whole)} {first}", second), note, eq.line_note(scene, f"{whole}_p", along))
+
+
+def path(edges: Iterable[Edge], start: str, end: str) -> list[str]:
+    """Return the shortest way of vectors, tip to tail, from one mark to another."""
+    ways, queue, every = {start: list[str]()}, [start], list(edges)
+    for mark in queue:
+        for edge in every:
+            if edge.tail == mark and edge.tip not in ways:
+                ways[edge.tip] = [*ways[mark], edge.name]
+                queue.append(edge.tip)
+    return ways.get(end, [])
+
+
+def _zero(scene: Scene, knowns: Sequence[str], lines: Sequence[str], unknown: str) -> tuple[str, ...]:
+    """Return a sum of forces that is zero: known in full, known by direction, to be found."""
+    texts = eq.in_full(scene, knowns) + [eq.by_direction(scene.letter(name)) for name in lines]
+    texts += [scene.letter(unknown)] if unknown else []
+    return (texts[0], *(f"+ {text}" for text in texts[1:]), "= 0")
+
+
+def lever_lines(scene: Scene, with_loads: bool = False) -> eq.Lines:
     """Return the moments on Zhukovsky's lever and what balances the driver by it; where that is wanted, loads first."""
     lines = force_lines(scene, LOADS) if with_loads else []
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
@@ -302,46 +341,42 @@ def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
     return lines
 
 
-def _couple(scene: Scene, step: Step) -> Lines:
-    words = scene.words
+def _couple(scene: Scene, step: Step) -> eq.Lines:
     pair = [s.name for s in scene.program if role(s.name).whole == step.name != s.name]
-    if not scene.defined(step.name):
-        return []
-    symbols = " = ".join(dict.fromkeys(words.symbol(name) for name in pair))
-    return [size_by_law(scene, symbols, step, "N")]
+    symbols = " = ".join(dict.fromkeys(map(scene.words.symbol, pair)))
+    return [eq.size_by_law(scene, symbols, step, "N")] if scene.defined(step.name) else []
 
 
-def _sum(scene: Scene, step: Step) -> Lines:
+def _sum(scene: Scene, step: Step) -> eq.Lines:
     """Sum of moments about the pole, each force times its arm in mm, solved for the balancing force."""
     words = scene.words
     speed, *moments = step.operands
     found = terms(scene, moments)
     laid = next(s for s in scene.reading.users(speed) if s.verb in ("lay", "back"))
-    reach = segment(scene, words.mark(laid.operands[0]) + words.mark(laid.name), "lever", size_of(scene, speed))
+    reach = eq.segment(scene, words.mark(laid.operands[0]) + words.mark(laid.name), "lever", eq.size_of(scene, speed))
     # the balancing force along the line of its point's velocity has the moment -F * V, with the signs of both
     turn = math.copysign(1.0, scene.solved.values[step.name] * scene.solved.values[speed])
     symbol = words.symbol(step.name)
     own = Symbol.of(symbol) * reach.letter * -turn
-    lines: Lines = [(f"ΣM_{{{words.mark('lever.p')}}} = 0:", *moments_in_letters(own, found), "= 0")]
+    lines: eq.Lines = [(f"ΣM_{{{words.mark('lever.p')}}} = 0:", *eq.moments_in_letters(own, found), "= 0")]
     if found:
-        lines.append(worked(words, symbol, turned(found, turn), "N", Product((reach,))))
+        lines.append(eq.worked(words, symbol, eq.turned(found, turn), "N", eq.Product((reach,))))
     return lines
 
 
-def _difference(scene: Scene, step: Step) -> Lines:
+def _difference(scene: Scene, step: Step) -> eq.Lines:
     words, values = scene.words, scene.solved.values
     lever, plan = (abs(values[name]) for name in step.operands)
     if lever == 0.0:
         return []
-    a, b = value_text(words, lever), value_text(words, plan)
-    first, second = (words.symbol(name) for name in step.operands)
+    (a, b), (first, second) = (value_text(words, size) for size in (lever, plan)), map(words.symbol, step.operands)
     head = f"{words.symbol(step.name)} = ({first} − {second})/{first}·100 % ="
     return [(head, f"({a} − {b})/{a}·100 % =", f"{words.number(values[step.name], 2)} %")]
 
 
-TOLD: dict[str, Callable[[Scene, Step], Lines]] = {
+TOLD: dict[str, Callable[[Scene, Step], eq.Lines]] = {
     "couple": _couple,
     "moment_equation": _sum,
-    "crank_moment": lambda scene, step: [size_by_law(scene, scene.words.symbol(step.name), step, "N*m")],
+    "crank_moment": lambda scene, step: [eq.size_by_law(scene, scene.words.symbol(step.name), step, "N*m")],
     "difference": _difference,
 }

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
 from itertools import combinations, groupby, pairwise
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from ....plans.board import POSITION
 from ....plans.linkages.compound import found_here
@@ -34,8 +33,7 @@ _Piece: TypeAlias = tuple[tuple[int, ...], list[str]]  # links of a group, names
 CLASSES = {2: "II", 3: "III", 4: "IV"}
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(NamedTuple):
     """One table of results: the kind of plan, the names of its rows, the links they belong to ("" for all).
 
     Where a group of links has more rows than a table, the tables of its kind are numbered instead.
@@ -184,7 +182,6 @@ def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str
 
 
 def _angle(scene: Scene, q: Quantity) -> str:
-    """Return the angle of a vector from the axis x, degrees."""
     if q.x is None or q.y is None or math.hypot(q.x, q.y) == 0.0:
         return scene.words["table.calculated"]
     return scene.words.number(math.degrees(math.atan2(q.y, q.x)) % 360.0, 1)

@@ -66,10 +66,9 @@ def couples(scene: Scene, number: int) -> list[str]:
     """Return the names of the couples on a link: of inertia, outer ones, and those that guides on it hand on."""
     mechanism = scene.mechanism
     names = [f"M_i{number}", *(couple.name for couple in mechanism.couples if couple.link == number)]
-    for _, pair, own in _attached(scene, number):
-        if isinstance(pair, Prismatic):
-            handed_on = (f"M_{mechanism.index(own, number)}", f"_M_{own}")
-            names += [name for name in handed_on if scene.defined(name)][:1]
+    for own in (own for _, pair, own in _attached(scene, number) if isinstance(pair, Prismatic)):
+        handed_on = (f"M_{mechanism.index(own, number)}", f"_M_{own}")
+        names += [name for name in handed_on if scene.defined(name)][:1]
     return [name for name in names if scene.defined(name)]
 
 
@@ -83,10 +82,10 @@ def reactions(scene: Scene, group: Group) -> list[tuple[Pair, int, list[str]]]:
 
 def moments_of(scene: Scene, numbers: tuple[int, ...]) -> list[Moment]:
     """Return the moments that the construction takes of forces on these links, each arm once."""
-    taken = {step.name: step.operands for step in scene.program if step.verb == "moment"}
+    taken = {step.name: step.operands for step in scene.program.which(("moment",))}
     found: dict[str, Moment] = {}
-    for step in scene.program:
-        if step.verb == "arm" and step.operands[0] in taken:
+    for step in scene.program.which(("arm",)):
+        if step.operands[0] in taken:
             force, at, about = taken[step.operands[0]]
             if role(about).plan != "lever" and _link_of(scene, force) in numbers:
                 found.setdefault(step.name, Moment(force, step.name, at, about))
@@ -94,9 +93,9 @@ def moments_of(scene: Scene, numbers: tuple[int, ...]) -> list[Moment]:
 
 
 def _link_of(scene: Scene, force: str) -> int | None:
-    own = [load.link for load in scene.mechanism.loads if load.name == force]
-    moving = {link.number for link in scene.mechanism.links}
-    return next(iter(own + [on for on in role(force).links[-1:] if on in moving]), None)
+    own = (load.link for load in scene.mechanism.loads if load.name == force)
+    acted = (link.number for link in scene.mechanism.links if link.number in role(force).links[-1:])
+    return next(own, None) or next(acted, None)
 
 
 @dataclass(slots=True)
@@ -150,21 +149,18 @@ class Arrows:
 
     def _start(self, at: complex, ray: complex, start: float) -> float:
         """Return where on a ray there is room for an arrow: beyond links and arrows that lie along it."""
-        first, taken = start, []
-        lying = [(s, self.scene.style.pair + 1.0, 0.5) for s in self.strokes]
-        lying += [(s, SPARE, ALONG) for s in self._lying]
-        for (a, b), spare, aside in lying:
-            ends = [(end - at) / ray for end in (a, b)]
+        first, taken, spare = start, [], self.scene.style.pair + 1.0
+        lying = [*((s, spare, 0.5) for s in self.strokes), *((s, SPARE, ALONG) for s in self._lying)]
+        for stroke, spare, aside in lying:
+            ends = [(end - at) / ray for end in stroke]
             if all(abs(end.imag) < aside for end in ends):
-                low, high = sorted(end.real for end in ends)
-                taken.append((low, high, spare))
+                taken.append((*sorted(end.real for end in ends), spare))
         for low, high, spare in sorted(taken):
             if low < start + self._length(start > first) - 0.5 and high > start + 0.5:
                 start = high + spare
         return start
 
     def _length(self, beyond: bool) -> float:
-        """Return the length of an arrow, one `beyond` another on its line being shorter, to stay near its point."""
         return self.scene.style.force * (SHORTER if beyond else 1.0)
 
 
@@ -172,8 +168,7 @@ def _place(at: complex) -> complex:
     return complex(round(at.real, 2), round(at.imag, 2))
 
 
-@dataclass(frozen=True, slots=True)
-class Arm:
+class Arm(NamedTuple):
     """An arm: the forces on one line, the names of their arms, where they hang, their direction, the line's foot."""
 
     forces: tuple[str, ...]
@@ -231,8 +226,7 @@ def lever_view(scene: Scene) -> View:
         each.draw(canvas, scene, pole, shifts.get(number, 0j))
     canvas.part(hung[-1][0])  # the velocity of the driver's point is the arm of the force that balances
     text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{point}')} = {scene.segment(f'V_{point}')}"
-    ends = pole, image(scene, f"lever.{point}")
-    canvas.label(text, ends, clear=0.9, height=scene.style.text, spare=text)
+    canvas.label(text, (pole, image(scene, hung[-1][1])), clear=0.9, height=scene.style.text, spare=text)
     letters = {mark: letter_of(scene, mark) for mark in marks} | {"lever.p": words.mark("lever.p")}
     letter_marks(canvas, scene, letters, places, ("lever.p",))
     gone = [arm_of(name) for name, _ in hung if scene.direction(name) != 0]
@@ -307,8 +301,8 @@ def lines_of_lever(scene: Scene) -> list[Edge]:
     kept: dict[frozenset[complex], Edge] = {}
     for start, end, name in ends:
         line = Edge(name, f"lever.{start}", f"lever.{end}")
-        images = (image(scene, mark) for mark in (line.tail, line.tip))
-        places = frozenset(complex(round(at.real, 4), round(at.imag, 4)) for at in images)
+        both = (image(scene, mark) for mark in (line.tail, line.tip))
+        places = frozenset(complex(round(at.real, 4), round(at.imag, 4)) for at in both)
         if len(places) == 2:
             kept.setdefault(places, line)
     return list(kept.values())
@@ -342,17 +336,12 @@ def staggered(pole: complex, arms: Sequence[Arm], middle: complex, step: float) 
 
     Arms are side by side when they make a small angle; each is moved away from the middle of the figure.
     """
-    shifts: dict[int, complex] = {}
-    by_length = sorted((abs(each.foot - pole), i) for i, each in enumerate(arms) if abs(each.foot - pole) >= LEAST)
-    bundles: list[tuple[complex, list[int]]] = []  # direction of the shortest of them, their numbers
-    for reach, i in by_length:
-        way = (arms[i].foot - pole) * (1.0 / reach)
-        bundle = next((numbers for other, numbers in bundles if (way.conjugate() * other).real > BESIDE), None)
-        if bundle is None:
-            bundles.append((way, [i]))
-            continue
-        outward = arms[i].along
+    shifts, bundles = dict[int, complex](), dict[complex, int]()  # how many, by the direction of the shortest of them
+    for reach, i in sorted((abs(each.foot - pole), i) for i, each in enumerate(arms) if abs(each.foot - pole) >= LEAST):
+        way, outward = (arms[i].foot - pole) * (1.0 / reach), arms[i].along
+        first = next((other for other in bundles if (way.conjugate() * other).real > BESIDE), way)
         outward *= -1.0 if (outward.conjugate() * (middle - pole)).real > 0 else 1.0
-        shifts[i] = outward * step * len(bundle)
-        bundle.append(i)
+        if first in bundles:
+            shifts[i] = outward * step * bundles[first]
+        bundles[first] = bundles.get(first, 0) + 1
     return shifts

@@ -47,8 +47,7 @@ LOAD_WIDE, LOAD_TALL = 18.0, 9.0  # heights of a letter that a load diagram is w
 
 def main_output(cycle: Cycle) -> OutputMotion | None:
     """Return the output that the task names, else the last one that has a stroke."""
-    stroke = cycle.mechanism.stroke
-    moving = [motion for motion in cycle.motions if motion.travel is not None]
+    stroke, moving = cycle.mechanism.stroke, [motion for motion in cycle.motions if motion.travel is not None]
     named = [motion for motion in moving if stroke is not None and motion.output.link == stroke.link]
     return next(iter(named or moving[-1:]), None)
 
@@ -102,16 +101,14 @@ def paths(scene: Scene, cycle: Cycle) -> Iterator[tuple[str, tuple[complex, ...]
     """Go through the paths of all lettered points, mm, each in pieces where it breaks; straight ones left out."""
     span = cycle.range
     places = np.linspace(span.low, span.high, DENSE + 1)
-    names = [name for link in cycle.mechanism.links for name in link.points]
-    points = [name for name in dict.fromkeys(names) if name in cycle.program.names]
-    found = cycle.at(places, [point for point in points if point not in cycle.mechanism.frame_points])
+    names = dict.fromkeys(name for link in cycle.mechanism.links for name in link.points)
+    points = [name for name in names if name in cycle.program.names and name not in cycle.mechanism.frame_points]
     seen: list[complex] = []
-    for name, values in found.items():
-        path = values * (1.0 / scene.scales["position"].mu)
-        first = complex(path[0])
-        if any(abs(first - other) < STRAIGHT for other in seen) or _is_straight(path):
+    for name, values in cycle.at(places, points).items():
+        path = values * (1.0 / scene.scales[POSITION].mu)
+        if any(abs(path[0] - other) < STRAIGHT for other in seen) or _is_straight(path):
             continue
-        seen.append(first)
+        seen.append(complex(path[0]))
         pieces = (piece[np.isfinite(piece)] for piece in np.split(path, np.flatnonzero(~np.isfinite(path))))
         yield from ((name, tuple(piece.tolist())) for piece in pieces if len(piece) > 1)
 
@@ -142,9 +139,8 @@ def _number(canvas: Canvas, scene: Scene, stands: Mapping[int, Scene], point: st
         key = next((other for other in at if abs(other - place) < CLOSE), place)
         at.setdefault(key, []).append(str(number))
     middle = sum(at) / len(at) if at else 0j
-    ends = [place - middle for place in at]
-    far = max(ends, key=abs, default=0j)
-    straight = bool(far) and all(abs((way / far).imag) * abs(far) < STRAIGHT for way in ends)
+    far = max((place - middle for place in at), key=abs, default=0j)
+    straight = bool(far) and all(abs(((place - middle) / far).imag) * abs(far) < STRAIGHT for place in at)
     for place, numbers in at.items():
         # beside a straight path all on one side, outside of a curved one
         away = -slider_up(far / abs(far)) if straight else place - middle
@@ -178,20 +174,17 @@ def coupler(solved: SolvedLinkage) -> int | None:
     """Return the first link with two joints that is not on the frame: only such a link has a field worth drawing."""
     mechanism = solved.mechanism
     on_frame = {number for pair in mechanism.pairs if FRAME in pair.links for number in pair.links}
-    for number in (n for group in solved.structure.groups for n in group.links if n not in on_frame):
-        joints = {pair.point for pair in mechanism.pairs if number in pair.links}
-        if len(joints) > 1 and solved.values.get(f"omega_{number}"):
-            return number
-    return None
+    free = (n for group in solved.structure.groups for n in group.links if n not in on_frame)
+    turning = (number for number in free if solved.values.get(f"omega_{number}"))
+    return next((n for n in turning if len({p.point for p in mechanism.pairs if n in p.links}) > 1), None)
 
 
 def _grid(scene: Scene, link: int) -> tuple[int, int]:
     """Return how many columns and rows stand so far apart that arrows have room between them."""
     pitch = PITCH * scene.style.arrow * scene.scales[POSITION].mu
     points = [scene.solved.point(point) for point in scene.mechanism.link(link).points]
-    width, height = (float(np.ptp(part)) for part in (np.real(points), np.imag(points)))
-    side = max(width, height)
-    wanted = ((part + 2.0 * MARGIN * side) / pitch for part in (width, height))
+    sides = [float(np.ptp(part)) for part in (np.real(points), np.imag(points))]
+    wanted = ((part + 2.0 * MARGIN * max(sides)) / pitch for part in sides)
     columns, rows = (max(2, round(min(count, MOST)) + 1) for count in wanted)
     return columns, rows
 
@@ -202,15 +195,13 @@ def field_view(scene: Scene, link: int) -> View:
     places, velocities = velocity_field(scene.solved, link, *_grid(scene, link))
     per_mm = 1.0 / scene.scales[POSITION].mu
     nearest = min(abs(places[0, 1] - places[0, 0]), abs(places[1, 0] - places[0, 0])) * per_mm
-    largest = float(np.max(np.abs(velocities)))
-    scale = Scale("mu_V", steps(largest / (APART * nearest))[0], "m/s")
+    scale = Scale("mu_V", steps(float(np.max(np.abs(velocities))) / (APART * nearest))[0], "m/s")
     for at, velocity in zip(places.ravel().tolist(), velocities.ravel().tolist(), strict=True):
-        tail, value = at * per_mm, abs(velocity)
+        tail = at * per_mm
         tip = tail + velocity * (1.0 / scale.mu)
-        short = abs(tip - tail) < scene.style.arrow
+        head: HeadPlace = "none" if abs(tip - tail) < scene.style.arrow else "tip"
         canvas.add(Circle(tail, 0.3, Pen.THIN, fill="black"))
-        head: HeadPlace = "none" if short else "tip"
-        canvas.add(Vector(tail, tip, f"v_{link}", value, scale.unit, scale.mu, Pen.THIN, head=head))
+        canvas.add(Vector(tail, tip, f"v_{link}", abs(velocity), scale.unit, scale.mu, Pen.THIN, head=head))
     figures = draw_links(canvas, scene, [link], framed=False)
     letter_links(canvas, scene, figures)
     heading = scene.heading("heading.field", POSITION, link=str(link))
@@ -273,9 +264,8 @@ def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion
     kinds, unit = (("s", "V", "a"), "m") if motion.output.slides else (("phi", "omega", "epsilon"), "rad")
     names = [f"{kind}_{motion.output.link}" for kind in kinds]
     bands = [Band(names[0], _round(f"mu_{names[0]}", travel, tall, unit), travel)]
-    for name, values, found, per in zip(
-        names[1:], (dense.v, dense.a), (drawn.velocity, drawn.acceleration), ("s", "s^2"), strict=True
-    ):
+    rates = (dense.v, drawn.velocity, "s"), (dense.a, drawn.acceleration, "s^2")
+    for name, (values, found, per) in zip(names[1:], rates, strict=True):
         shown, chords = _cut(values, found.chords)
         scale = _round(f"mu_{name}", shown, tall, f"{unit}/{per}")
         for mu in steps(scale.mu):
@@ -304,9 +294,8 @@ def _round(symbol: str, values: Array, tall: float, unit: str) -> Scale:
 def _field(scene: Scene, band: Band, across: Scale, drawn: Diagrams, origin: complex) -> Field:
     times = drawn.times.tolist()
     x = Axis("t", across, 0.0, times[-1], {t: str(k) for k, t in enumerate(times)})
-    low, high = band.ends
     letter = f"{scene.words.symbol(band.name)};  {scene.words.scale(band.scale)}"
-    return Field(origin, x, Axis(letter, band.scale, low, high, {}))
+    return Field(origin, x, Axis(letter, band.scale, *band.ends, {}))
 
 
 def _draw(canvas: Canvas, scene: Scene, field: Field, band: Band) -> None:

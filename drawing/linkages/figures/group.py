@@ -102,7 +102,6 @@ class Sketch(Arrows):
         return at, ""
 
     def _arm_along(self, name: str, start: complex, end: complex) -> None:
-        """Draw the arm of a guide's reaction along the guide, from the pin to where it acts, with its millimetres."""
         scene, e, parts = self.scene, (end - start) / abs(end - start), list[Shape]([Line(start, end, Pen.THIN)])
         if abs(end - start) > 2.2 * scene.style.arrow:
             parts += [Head(end, e), Head(start, -e)]
@@ -131,9 +130,10 @@ class Sketch(Arrows):
 
     def letter_others(self, points: Iterable[str]) -> None:
         """Letter the points of other links at which their forces act on these: pins that slide along their guides."""
-        own = {p for figure in self.figures for p in self.scene.mechanism.link(figure.number).points}
+        mechanism = self.scene.mechanism
+        own = {p for figure in self.figures for p in mechanism.link(figure.number).points} | {*mechanism.frame_points}
         for point in dict.fromkeys(points):
-            if point not in own and point not in self.scene.mechanism.frame_points:
+            if point not in own:
                 at = self.scene.mm(point)
                 self.canvas.add(self.scene.point(at, point))
                 self.canvas.label(self.scene.words.mark(point), at, clear=self.scene.style.node + 0.8)

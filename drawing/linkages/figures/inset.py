@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple, TypeAlias
 
 from ....plans.board import Step
@@ -215,8 +215,7 @@ def _placed(figure: Box, insets: Sequence[View], right: bool) -> Iterator[Group]
         x, y = (x, y + height + GAP) if right else (x + width + GAP, y)
 
 
-@dataclass(frozen=True, slots=True)
-class ForcePlan:
+class ForcePlan(NamedTuple):
     """A plan of forces; its insets show what is too short for an arrowhead, where that is more than one force."""
 
     scene: Scene
@@ -282,8 +281,7 @@ def enlarged(scene: Scene, quantity: str, plan: str) -> float:
     """Return how many times as large as on its plan a force can be read in an inset, 1 where it is in none."""
     if role(plan).kind != FORCES:
         return 1.0
-    forces = ForcePlan(scene, plan)
-    shown = forces.windows()
+    shown = (forces := ForcePlan(scene, plan)).windows()
     own = [vector for vector in forces.vectors() if vector.quantity == quantity] if shown else []
     return min((w.times for w in shown if any(_seen(scene, w, v) for v in own)), default=1.0)
 
@@ -340,8 +338,7 @@ def letter_marks(
             canvas.add(Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
 
 
-@dataclass(frozen=True, slots=True)
-class At:
+class At(NamedTuple):
     """The vectors of one point of a coupler: the plan drawn there, and where the point stands."""
 
     scene: Scene

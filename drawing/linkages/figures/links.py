@@ -120,20 +120,15 @@ def block_size(scene: Scene, pair: Prismatic) -> tuple[float, float]:
 
 def _rail(scene: Scene, pair: Prismatic) -> Stroke:
     """Return the line along which the slider runs on a moving link, longer at both ends than the slider's way."""
-    at, u, spare, (low, high) = (
-        scene.mm(pair.point),
-        guide_of(scene, pair),
-        SPARE * scene.style.slider[0],
-        scene.run_of(pair),
-    )
+    at, u, spare = scene.mm(pair.point), guide_of(scene, pair), SPARE * scene.style.slider[0]
+    low, high = scene.run_of(pair)
     return at + u * (low - spare), at + u * (high + spare)
 
 
 def _apart(nodes: list[complex]) -> list[complex]:
     found: list[complex] = []
     for node in nodes:
-        if all(abs(node - other) > NEAR for other in found):
-            found.append(node)
+        found += [node] if all(abs(node - other) > NEAR for other in found) else []
     return found
 
 

@@ -6,19 +6,18 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from ....plans.board import POSITION, Program
+from ....plans.board import POSITION
 from ....plans.boards.exact import ILL, SMALL
-from ....plans.names import FORCES, POLE, role
+from ....plans.names import FORCES, role
 from ....plans.quantities import intersections, pins_together, point_of
 from ...shapes import Line, Pen
 from ...view import Canvas, View
-from ..reading import Edge, meetings, read
+from ..reading import Edge, meetings, on_link, triangles
 from ..scene import Scene, plan_heading
 from .inset import ForcePlan, construction_line, in_inset, letter_marks, with_insets
 from .links import NEAR, Stroke
 
 SHORT = 2.0  # mm below which a vector cannot be drawn as an arrow
-Triangle = tuple[str, str, str]
 LARGE = 1e4  # above it a number is written with a power of ten
 
 
@@ -76,23 +75,6 @@ def _said(scene: Scene, plan: str, vectors: Iterable[Edge]) -> Iterator[str]:
         if length < SHORT:
             said = scene.words["said.zero" if length < 1e-6 else "said.short"]
             yield said.format(vector=scene.letter(edge.name), mm=scene.words.number(length, 2))
-
-
-def triangles(program: Program, plan: str) -> Iterator[Triangle]:
-    """Go through the marks of each triangle of a plan that is similar to one of a link."""
-    similar = (step for step in program.on(plan) if step.verb == "similar")
-    return ((step.operands[0], step.operands[1], step.name) for step in similar)
-
-
-def on_link(program: Program, triangle: Triangle) -> Triangle:
-    """Return the points of the link to whose triangle that of a plan is similar.
-
-    At the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism.
-    """
-    *ends, point = map(role, triangle)
-    own = read(program).made[point.of].operands
-    first, second = (own[i] if end.kind == POLE else end.of for i, end in enumerate(ends))
-    return first, second, point.of
 
 
 def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke]) -> None:
@@ -157,7 +139,6 @@ def _meeting(scene: Scene, mark: str, sine: float) -> dict[str, str]:
 
 
 def _large(scene: Scene, value: float) -> str:
-    """Return a number with three digits, a large one as `2,5·10^{6}`."""
     if value < LARGE:
         return scene.words.short(float(f"{value:.3g}"))
     mantissa, _, power = f"{value:.1e}".partition("e")

@@ -108,12 +108,11 @@ def turning_of_driver(
 
 def _speed(canvas: Canvas, scene: Scene, driver: SlidingDriver) -> None:
     pair = next(p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and driver.link in p.links)
-    at, u = scene.mm(pair.point), guide_of(scene, pair)
     speed = scene.solved.values[driver.speed]
     if speed:
         canvas.part(ANSWERS)
-        up, e = guide_up(scene, pair), u * math.copysign(1.0, speed)
-        tail = at + up * (scene.style.slider[1] / 2 + 3.0) - e * (0.3 * scene.style.force)
+        up, e = guide_up(scene, pair), guide_of(scene, pair) * math.copysign(1.0, speed)
+        tail = scene.mm(pair.point) + up * (scene.style.slider[1] / 2 + 3.0) - e * (0.3 * scene.style.force)
         tip = tail + e * 0.6 * scene.style.force
         canvas.add(Arrow(tail, tip, Pen.THIN, name=driver.speed))
         canvas.label(scene.words.symbol(f"V_{driver.point}", bar=True), (tail, tip))
@@ -125,20 +124,15 @@ def _frame_number(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> 
     driver, zero = mechanism.driver, scene.words.frame
     for pair in mechanism.pairs:
         if isinstance(pair, Prismatic) and FRAME in pair.links:
-            at, u = scene.mm(pair.point), guide_of(scene, pair)
-            length, height = style.slider
-            below = -guide_up(scene, pair)
-            edge = at + below * (height / 2 + style.hatch[0])
+            at, u, (length, height) = scene.mm(pair.point), guide_of(scene, pair), style.slider
+            edge = at - guide_up(scene, pair) * (height / 2 + style.hatch[0])
             canvas.keep_clear(*(at + u * (s * length * 1.1) for s in (-1, 1)), edge - u * length, edge + u * length)
             if pair.links[0] == driver.link:
                 canvas.label(zero, edge + u * length, prefer=u, clear=1.0)
     if isinstance(driver, Driver):
         pivot, down = scene.mm(driver.pivot), foot_of(scene, driver.pivot, figures)
-        _, height, base = style.pivot
-        foot = pivot + down * (height + style.pair)
-        crank_to = scene.mm(driver.point) - pivot
-        side = -1.0 if crank_to.real > 0 > crank_to.imag else 1.0
-        across = 1j * down * side
+        foot, crank = pivot + down * (style.pivot[1] + style.pair), scene.mm(driver.point) - pivot
+        base, across = style.pivot[2], 1j * down * (-1.0 if crank.real > 0 > crank.imag else 1.0)
         canvas.label(zero, foot + across * base / 2 + down * 0.5 * style.hatch[0], prefer=across, clear=1.0)
 
 
@@ -202,7 +196,6 @@ def found_by(canvas: Canvas, scene: Scene, step: Step) -> None:
 
 
 def _line(canvas: Canvas, scene: Scene, start: str, direction: str, point: str, name: str) -> None:
-    """Draw the line from a mark, along a direction, past the point that lies on it."""
     at, e = scene.mm(point), scene.solved.point(direction)
     way = ((at - scene.mm(start)) / e).real
     past = math.copysign(2 * CROSS, way)
@@ -216,12 +209,11 @@ def _arc(canvas: Canvas, scene: Scene, centre: str, point: str, past: float, nam
     A vector carried to the joint lies along the tangent: the arc must leave it before it ends.
     """
     way = scene.mm(point) - scene.mm(centre)
-    if not way:  # the joints coincide on paper
-        return
-    past = max(past, min(math.sqrt(2.0 * abs(way) * LEAVES), LONGEST))
-    spread = min(2 * past / abs(way), math.tau)
-    ends = phase(way) - spread / 2, spread
-    canvas.add(Arc(scene.mm(centre), abs(way), *ends, Pen.THIN, role="construction", name=name))
+    if way:  # else the joints coincide on paper
+        past = max(past, min(math.sqrt(2.0 * abs(way) * LEAVES), LONGEST))
+        spread = min(2 * past / abs(way), math.tau)
+        ends = phase(way) - spread / 2, spread
+        canvas.add(Arc(scene.mm(centre), abs(way), *ends, Pen.THIN, role="construction", name=name))
 
 
 def _touched(canvas: Canvas, scene: Scene, step: Step) -> None:
@@ -240,10 +232,8 @@ def special_points(canvas: Canvas, scene: Scene, wanted: Iterable[str] | None = 
     """
     mechanism = scene.mechanism
     lettered = {point for link in mechanism.links for point in link.points} | {*mechanism.frame_points}
-    for step in scene.program.on(POSITION):
-        if step.verb != "meet" or role(step.name).hidden or step.name in lettered:
-            continue
-        if wanted is None or step.name in wanted:
+    for step in (step for step in scene.program.on(POSITION) if step.verb == "meet" and step.name not in lettered):
+        if not role(step.name).hidden and (wanted is None or step.name in wanted):
             found_by(canvas, scene, step)
             at = scene.mm(step.name)
             canvas.add(scene.point(at, step.name))
@@ -302,8 +292,7 @@ def _arcs(canvas: Canvas, scene: Scene, shown: Sequence[Turn], figure: Skeleton)
 def _carried(canvas: Canvas, scene: Scene, turn: Turn, e: complex, taken: dict[tuple[complex, complex], float]) -> None:
     b = scene.mm(turn.end)
     key = complex(round(b.real, 3), round(b.imag, 3)), complex(round(e.real, 6), round(e.imag, 6))
-    start = taken.get(key, 0.0)
-    length = 0.62 * scene.style.force + start
+    length = 0.62 * scene.style.force + taken.get(key, 0.0)
     taken[key] = length + 0.2 * scene.style.force
     canvas.add(Arrow(b, b + e * length, Pen.THIN, name=turn.vector))
     canvas.label(scene.letter(turn.vector), (b + e * (length * 0.6), b + e * length), clear=1.0)
