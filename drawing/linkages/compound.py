@@ -60,8 +60,7 @@ def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
 
 def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     """Draw the accelerations of one point of a coupler: the chain of its parts, closed by the absolute one."""
-    canvas = scene.canvas()
-    at = At(scene, coupler, point, "a")
+    canvas, at = scene.canvas(), At(scene, coupler, point, "a")
     group = next(g for g in scene.solved.structure.groups if coupler.number in g.links)
     # the link that carries the coupler, itself, the other of its group
     figures = _mechanism(canvas, scene, sorted({coupler.carrier.number, *group.links}))

@@ -174,9 +174,7 @@ def marks_on(solved: SolvedLinkage, plan: str) -> list[complex]:
 
 
 def _around(places: Sequence[complex]) -> Size:
-    if not places:
-        return 0.0, 0.0
-    across, up = [z.real for z in places], [z.imag for z in places]
+    across, up = [z.real for z in places] or [0.0], [z.imag for z in places] or [0.0]
     return max(across) - min(across), max(up) - min(up)
 
 
@@ -195,9 +193,8 @@ def links_apart(solved: SolvedLinkage, group: Group) -> tuple[int, ...]:
 def _largest(solved: SolvedLinkage, symbol: str) -> float:
     """Return the largest quantity on the plans of a scale factor, the size of the mechanism on its own plan."""
     plans, shown = solved.scale_of_plan, solved.shown_on
-    if symbol == plans[POSITION]:
+    if symbol == plans[POSITION]:  # on which all lengths are
         return solved.extent
-    # lengths are those of the plan of the mechanism
     on = {name: POSITION if role(name).kind == "l" else shown.get(name, "") for name in solved.quantities}
     drawn = (q.value or 0.0 for name, q in solved.quantities.items() if plans.get(on[name]) == symbol)
     return max(map(abs, drawn), default=0.0)

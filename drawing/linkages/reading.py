@@ -102,12 +102,8 @@ def read(program: Program) -> Reading:
             tail, last = step.operands
             name, tip = (step.name, last) if step.verb == "read" else (last, step.name)
             edges.setdefault(step.plan, []).append(Edge(name, tail, tip, at))
-    return Reading(
-        program,
-        {step.name: step for step in program},
-        {step.name: at for at, step in enumerate(program)},
-        {plan: tuple(vectors) for plan, vectors in edges.items()},
-    )
+    made, number = {step.name: step for step in program}, {step.name: at for at, step in enumerate(program)}
+    return Reading(program, made, number, {plan: tuple(vectors) for plan, vectors in edges.items()})
 
 
 def lettered(words: Words, solved: SolvedLinkage) -> Words:
@@ -120,12 +116,9 @@ def lettered(words: Words, solved: SolvedLinkage) -> Words:
 
 def _seconds(reading: Reading) -> frozenset[str]:
     """Return the second force of each couple on the lever, and its arm."""
-    found = set()
-    for step in reading.program:
-        if step.law == "opposite" and role(step.name).part == COUPLE:
-            found.add(step.name)
-            found.update(arm.name for moment in reading.users(step.name) for arm in reading.users(moment.name))
-    return frozenset(name for name in found if role(name).part == COUPLE or role(name).kind == "h")
+    forces = [s.name for s in reading.program if s.law == "opposite" and role(s.name).part == COUPLE]
+    arms = (arm.name for name in forces for moment in reading.users(name) for arm in reading.users(moment.name))
+    return frozenset((*forces, *(name for name in arms if role(name).part == COUPLE or role(name).kind == "h")))
 
 
 def _joints(solved: SolvedLinkage) -> dict[str, str]:

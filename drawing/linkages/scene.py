@@ -101,8 +101,7 @@ class Scene(SubjectScene[SolvedLinkage]):
 
     def vanishes(self, name: str) -> bool:
         """Whether a quantity is zero, or rounding beside the largest of its unit."""
-        unit = unit_of(role(name).shown)
-        if unit not in self._largest:
+        if (unit := unit_of(role(name).shown)) not in self._largest:
             sizes = (abs(q.value or 0.0) for q in self.solved.quantities.values() if q.unit == unit)
             self._largest[unit] = max(sizes, default=0.0)
         return self.solved.size(name) <= ROUNDING * self._largest[unit]

@@ -276,16 +276,13 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
             break
         if first and any(taken[symbol] > rung for symbol, rung in rungs.items() if fitting.is_fixed(symbol)):
             break
-        places = placed(views)
-        if places is not None:
+        if (places := placed(views)) is not None:
             return views, scales, places
     (views, scales), _ = fitting.fitted(sheet, rungs)
     wide, high = room(sheet, norm, first=True)
     begin = next((view for view in views if view.size[0] <= wide and view.size[1] <= high), None)
-    if begin is None:
-        return None
-    views = [begin, *(view for view in views if view is not begin)]
-    places = placed(views)
+    views = [begin, *(view for view in views if view is not begin)] if begin is not None else []
+    places = placed(views) if views else None
     return None if places is None else (views, scales, places)
 
 
@@ -298,11 +295,8 @@ def zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
         views = [view for view, _ in built]
         zones = [zone_of(view.name, structure) for view in views]
         placed, tight = _place(views, zones, structure)
-        coarser: dict[str, str] = {}
-        for (_, symbol), zone in zip(built, zones, strict=True):
-            own = bool(symbol) and zone in tight - crowded and role(symbol).of == OWN[zone]
-            if own and not fitting.is_fixed(symbol):
-                coarser[symbol] = zone
+        own = ((s, zone) for (_, s), zone in zip(built, zones, strict=True) if s and zone in tight - crowded)
+        coarser = {s: zone for s, zone in own if role(s).of == OWN[zone] and not fitting.is_fixed(s)}
         if not coarser:
             break
         for symbol, zone in coarser.items():

@@ -315,12 +315,11 @@ def _two_ways(scene: Scene, whole: str, normal: str, note: str, along: str) -> t
 
 def path(edges: Iterable[Edge], start: str, end: str) -> list[str]:
     """Return the shortest way of vectors, tip to tail, from one mark to another."""
-    ways, queue, every = {start: list[str]()}, [start], list(edges)
-    for mark in queue:
-        for edge in every:
-            if edge.tail == mark and edge.tip not in ways:
-                ways[edge.tip] = [*ways[mark], edge.name]
-                queue.append(edge.tip)
+    ways, every = {start: list[str]()}, list(edges)
+    for mark in (queue := [start]):
+        for edge in (edge for edge in every if edge.tail == mark and edge.tip not in ways):
+            ways[edge.tip] = [*ways[mark], edge.name]
+            queue.append(edge.tip)
     return ways.get(end, [])
 
 

@@ -117,9 +117,8 @@ def _evenly(pieces: list[_Piece]) -> list[list[_Piece]]:
 
 def _links_of(solved: SolvedLinkage, name: str) -> set[int]:
     """Return the links that a quantity concerns: of a point the first that has it, of a reaction both."""
-    mechanism = solved.mechanism
+    mechanism, quantity = solved.mechanism, role(name)
     loads = {load.name: load.link for load in mechanism.loads} | {c.name: c.link for c in mechanism.couples}
-    quantity = role(name)
     if name in loads or (quantity.kind == "h" and quantity.of in loads):
         return {loads.get(name) or loads[quantity.of]}
     numbers = {link.number for link in mechanism.links}

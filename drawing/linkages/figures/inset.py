@@ -109,7 +109,7 @@ def _window(scene: Scene, short: Vector, vectors: Sequence[Vector]) -> Window:
     ends = {short.tail, short.tip}
     for vector in sorted(vectors, key=lambda vector: abs(vector.tip - vector.tail)):
         wider = ends | {vector.tail, vector.tip}
-        if (_near(vector.tail, ends) or _near(vector.tip, ends)) and max(size_of(wider)) * times <= WIDEST:
+        if _hangs(vector, ends) and max(size_of(wider)) * times <= WIDEST:
             ends = wider
     return window_about(ends, times, NARROWEST)
 
@@ -121,8 +121,8 @@ def window_about(ends: set[complex], times: float, narrowest: float) -> Window:
     return Window((x0 - wide, y0 - high, x1 + wide, y1 + high), times)
 
 
-def _near(end: complex, ends: set[complex]) -> bool:
-    return any(abs(end - other) < 1e-6 for other in ends)
+def _hangs(vector: Vector, ends: set[complex]) -> bool:
+    return any(abs(end - other) < 1e-6 for end in (vector.tail, vector.tip) for other in ends)
 
 
 def _box(ends: set[complex]) -> Box:
@@ -296,7 +296,7 @@ def _clusters(vectors: Sequence[Vector]) -> list[list[Vector]]:
     clusters: list[list[Vector]] = []
     for vector in vectors:
         ends = {vector.tail, vector.tip}
-        own = [c for c in clusters if any(_near(other.tail, ends) or _near(other.tip, ends) for other in c)]
+        own = [c for c in clusters if any(_hangs(other, ends) for other in c)]
         clusters = [c for c in clusters if c not in own] + [[*(v for c in own for v in c), vector]]
     return clusters
 
