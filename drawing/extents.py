@@ -56,10 +56,7 @@ class Extent:
 
 
 def visible(chooser: Chooser | None, symbol: str, mu: float, largest: float, unit: str) -> None:
-    """Refuse a scale factor that a user has fixed, at which a plan is a point.
-
-    `largest` is the largest quantity on the plan, in SI `unit`s.
-    """
+    """Refuse a scale factor that a user has fixed and at which the `largest` quantity, in SI `unit`s, is a point."""
     if chooser is not None and chooser.firm:
         not_a_point(symbol, mu, largest, unit)
 

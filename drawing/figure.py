@@ -1,23 +1,43 @@
-"""A figure of a sheet as a table of stages: the view draws them all, a handout the first ones, the note tells them."""
+"""What sheets show: figures as tables of stages, and sheets of cams, gears and hoists down the ladders of their sizes.
+
+A view draws all stages of a figure, a handout the first ones, the note tells them; a sheet is drawn smaller until every
+view has room.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
-from dataclasses import dataclass
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, Generic, TypeVar
 
 from ..plans.board import Program
-from ..plans.names import is_shown
+from ..plans.names import is_shown, role
+from ..plans.solved import Solved
+from ..scales.choices import SIZES
+from ..scales.choose import Choosers
+from ..scales.errors import InputError
+from ..scales.scale import Scale
+from .compose import Drawn, Nest, arrange, arrange_closely, compose, zoned
+from .extents import Rungs, from_format
+from .formats import Format, Style, room
+from .packing import Placement
+from .pens import Norm
+from .printed import DEGREES, value_text
+from .shapes import Circle, Group, Pen
 from .view import Canvas, View
+from .words import Given, Words
 
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
 GIVEN = "given"  # what is drawn before any step
 ANSWERS = "answers"  # what is drawn in no stage, but with all the work: what it comes to
 NUMBER = re.compile(r"\d+")
-
 Scene = TypeVar("Scene")
+Subject = TypeVar("Subject", bound=Solved)
+Found = tuple[Rungs, list[View], list[Placement]]
+TEXT_WIDTH = {"A1": 200.0, "A2": 175.0, "A3": 150.0, "A4": 175.0}  # mm of lines of text, by the letters of a format
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,3 +102,180 @@ def family(name: str) -> str:
     ('profile.E#', 'r_0')
     """
     return name if is_shown(name) else NUMBER.sub("#", name)
+
+
+@dataclass(frozen=True, slots=True)
+class SheetContents(Generic[Subject]):
+    """What a sheet shows: a solved subject, the plans wanted, choosers of scales, givens, words, norm.
+
+    `note` is what the task says of its data, in the language of the sheet.
+    """
+
+    solved: Subject
+    plans: tuple[str, ...]
+    choosers: Choosers
+    givens: Mapping[str, Given]
+    words: Words
+    norm: Norm = "gost"
+    note: str = field(default="", kw_only=True)
+
+
+@dataclass(frozen=True, slots=True)
+class SubjectScene(Generic[Subject]):
+    """What is solved, on a certain format, in certain words."""
+
+    solved: Subject
+    words: Words
+    style: Style
+    givens: Mapping[str, Given]
+
+    def value(self, value: float) -> str:
+        """Return a value with the usual digits."""
+        return value_text(self.words, value)
+
+    def degrees(self, angle: float) -> str:
+        """Return an angle as a dimension has it: to a hundredth of a degree, without zeros at the end."""
+        return f"{self.words.short(round(float(angle) * DEGREES, 2))}°"
+
+    def node(self, at: complex, name: str, role: str = "node", filled: bool = False, pen: Pen = Pen.THIN) -> Group:
+        """Return the mark of a point of a figure."""
+        return Group((Circle(at, self.style.node, pen, fill="black" if filled else "white"),), role, name)
+
+
+class Fitting(ABC, Generic[Subject, Scene]):
+    """Draws what a sheet shows for any format: a figure again only where a ladder it depends on has another rung.
+
+    `words` are those of the contents with the letters of the subject; `ladders` say how small things may be drawn, by
+    name, the wanted size first.
+    """
+
+    first_scales: Callable[..., tuple[Format, Mapping[str, Scale]]]  # of what is solved, by choosers, for plans
+
+    def __init__(
+        self, contents: SheetContents[Subject], words: Words, ladders: Mapping[str, tuple[float, ...]]
+    ) -> None:
+        self.contents, self.words, self.ladders = contents, words, ladders
+        self.wanted = dict.fromkeys(ladders, 0)  # the first rung of each
+        self._drawn: dict[tuple[object, ...], View] = {}
+
+    @abstractmethod
+    def scene(self, sheet: Format, rungs: Rungs) -> Scene:
+        """Return the scene of a sheet on a format."""
+
+    @abstractmethod
+    def figures(self, scene: Scene, width: float) -> Iterable[Figure[Scene]]:
+        """Go through the figures of a sheet in the order of the work; lines of text are at most `width` mm long."""
+
+    @abstractmethod
+    def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
+        """Return the scale factors of the plans as they are drawn."""
+
+    @abstractmethod
+    def on_a_page(self, sheet: Format, last: bool) -> Found | None:
+        """Place everything on one page; on the `last` format what may give way is smaller where that helps."""
+
+    def part(self, rungs: Rungs) -> float:
+        """Return what a millimetre of the task's diagrams is on the sheet."""
+        return 1.0
+
+    def enlarged(self, sheet: Format, rungs: Rungs, first: bool) -> Rungs:
+        """Return rungs at which what has become too small for nothing is larger again."""
+        return rungs
+
+    def sized(self, sheet: Format, rungs: Rungs) -> list[tuple[View, Figure[Scene]]]:
+        """Return the views of a sheet in the order of the work, each with its figure."""
+        scene = self.scene(sheet, rungs)
+        width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
+        return [(self._view(scene, sheet, rungs, figure), figure) for figure in self.figures(scene, width)]
+
+    def _view(self, scene: Scene, sheet: Format, rungs: Rungs, figure: Figure[Scene]) -> View:
+        key = sheet.name, figure.name, *(rungs[ladder] for ladder in figure.ladders)
+        if key not in self._drawn:
+            self._drawn[key] = figure.draw(scene)
+        return self._drawn[key]
+
+    def views(self, sheet: Format, rungs: Rungs) -> list[View]:
+        """Return the views of a sheet in the order of the work."""
+        return [view for view, _ in self.sized(sheet, rungs)]
+
+    def placed(self, sheet: Format, rungs: Rungs, layouts: Sequence[Nest] = (), any_order: bool = True) -> Found | None:
+        """Try one page at these rungs: in the zones of a layout, in reading order or, if need be, in `any_order`."""
+        views, norm = self.views(sheet, rungs), self.contents.norm
+        places = zoned(layouts, views, sheet, norm)
+        if places is None and may_fit(views, sheet):
+            places = arrange([view.size for view in views], sheet, norm, 1, any_order)
+        return None if places is None else (rungs, views, places)
+
+    def draw(self, sheet: Format | None = None) -> Drawn:
+        """Draw on `sheet`, or on the smallest format of which one page holds everything, from the usual one on.
+
+        Raises InputError: a view has no room on a page of the format.
+        """
+        contents = self.contents
+        usual = sheet or self.first_scales(contents.solved, contents.choosers, contents.plans)[0]
+        formats = [usual] if sheet else from_format(usual)
+        for candidate in formats:
+            found = self.on_a_page(candidate, candidate is formats[-1])
+            if found is not None:
+                break
+        rungs, views, places = found or self.on_pages(candidate)
+        return compose(views, places, self.scales(candidate, rungs), candidate, contents.norm, self.part(rungs))
+
+    def on_pages(self, sheet: Format) -> Found:
+        """Take several pages in reading order, or fewer on which views stand closely.
+
+        Raises InputError: a view has no room on any page.
+        """
+        norm = self.contents.norm
+        for first in (False, True):  # where nothing stands on the first page as it is, all becomes small enough for it
+            rungs = self.enlarged(sheet, self.fitted(sheet, self.wanted, first), first)
+            views = self.views(sheet, rungs)
+            sizes = [view.size for view in views]
+            ways = [way for way in (arrange(sizes, sheet, norm, None), arrange_closely(sizes, sheet, norm)) if way]
+            if ways:
+                return rungs, views, min(ways, key=pages)
+        raise InputError("sheet-too-small", format=sheet.name)
+
+    def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> Rungs:
+        """Return the first rungs, from these on, at which every view has room on a page of its own.
+
+        `first` tells that it may be the first page, with the larger title block.
+        Raises InputError: a view has none at the last rung.
+        """
+        wide, high = room(sheet, self.contents.norm, first)
+        while True:
+            tight = {f.ladders: v.size for v, f in self.sized(sheet, rungs) if v.size[0] > wide or v.size[1] > high}
+            if not tight:
+                return rungs
+            for ladders, size in tight.items():
+                name = next((ladder for ladder in ladders if self.has_next(rungs, ladder)), None)
+                if name is None:
+                    raise self._refusal(sheet, ladders, size)
+                rungs = self.lower(rungs, name)
+
+    def _refusal(self, sheet: Format, ladders: tuple[str, ...], size: tuple[float, float]) -> InputError:
+        """Return why a drawing of this size, mm, has no room: its scale factor is fixed, or no format is larger."""
+        fixed = next((name for name in ladders if role(name).kind == "mu" and len(self.ladders[name]) == 1), None)
+        if fixed is not None:
+            return InputError("plan-too-fine", symbol=fixed, mu=f"{self.ladders[fixed][0]:g}", format=sheet.name)
+        if sheet.name != SIZES[-1]:
+            return InputError("sheet-too-small", format=sheet.name)
+        return InputError("sheet-too-large", wide=f"{size[0]:.0f}", high=f"{size[1]:.0f}")
+
+    def has_next(self, rungs: Rungs, ladder: str) -> bool:
+        """Whether a ladder has a further rung."""
+        return rungs[ladder] + 1 < len(self.ladders[ladder])
+
+    def lower(self, rungs: Rungs, ladder: str) -> Rungs:
+        """Return the rungs with the next one of a ladder, where it has one."""
+        return rungs | {ladder: rungs[ladder] + self.has_next(rungs, ladder)}
+
+
+def pages(places: Sequence[Placement]) -> int:
+    """Return how many pages are taken."""
+    return max(place.page for place in places)
+
+
+def may_fit(views: Sequence[View], sheet: Format) -> bool:
+    """Whether views have less area than a format."""
+    return sum(view.size[0] * view.size[1] for view in views) < sheet.width * sheet.height

@@ -98,8 +98,8 @@ def _ruled(lines: Ruling) -> list[Shape]:
 
 
 def _changes(caption: dict[str, str], y: float) -> list[Text]:
-    cells = ((caption[key], (float(x0), y, float(x1), y + 5.0), key) for key, x0, x1 in CHANGES)
-    return [text for plain, cell, key in cells for text in fitted(plain, cell, CAPTION, name=key)]
+    cells = (fitted(caption[key], (float(x0), y, float(x1), y + 5.0), CAPTION, name=key) for key, x0, x1 in CHANGES)
+    return [text for cell in cells for text in cell]
 
 
 def form_1(stamp: Stamp) -> list[Shape]:

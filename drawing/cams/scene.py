@@ -13,7 +13,7 @@ from ...plans.cams.solve import EXACT_OF, SCALES, SolvedCam
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale
-from ..rungs import SubjectScene
+from ..figure import SubjectScene
 from ..words import Words
 
 Size = TypeVar("Size", float, complex)

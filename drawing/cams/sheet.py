@@ -13,9 +13,8 @@ from ...scales.choose import Choosers, Fixed, From
 from ...scales.scale import Scale, rounded, steps
 from ..compose import BLOCK, TURNED, column, row
 from ..extents import Rungs, not_a_point, smallest, visible
-from ..figure import Figure
+from ..figure import Figure, Fitting, Found, SheetContents, may_fit
 from ..formats import STYLES, Format, room
-from ..rungs import Fitting, Found, SheetContents, may_fit
 from ..table import givens_view
 from ..view import View
 from .scene import CamScene, lettered

@@ -20,11 +20,10 @@ from ...scales.errors import InputError
 from ...scales.scale import Scale, steps
 from ..compose import BLOCK, TURNED, Nest, arrange, column, names, row, zoned
 from ..extents import Rungs, not_a_point, smallest, visible
-from ..figure import Figure
+from ..figure import Figure, Fitting, Found, SheetContents, SubjectScene, pages
 from ..formats import STYLES, Format, room
 from ..packing import Placement
 from ..pens import Norm
-from ..rungs import Fitting, Found, SheetContents, SubjectScene, pages
 from ..table import note_block
 from ..view import View
 from ..words import Words

@@ -17,9 +17,8 @@ from ...plans.solved import PAPER_MM
 from ...scales.choose import Choosers, From
 from ...scales.scale import Scale, steps
 from ..extents import Rungs, smallest, visible
-from ..figure import Figure
+from ..figure import Figure, Fitting, Found, SheetContents, SubjectScene
 from ..formats import STYLES, Format
-from ..rungs import Fitting, Found, SheetContents, SubjectScene
 from ..table import note_block
 from ..words import Words
 

@@ -14,9 +14,8 @@ from ...plans.linkages.structure import Structure
 from ...plans.names import FORCES, inertia, rate, role
 from ...plans.quantities import unit_of
 from ...scales.scale import Scale
-from ..figure import ANSWERS
+from ..figure import ANSWERS, SubjectScene
 from ..printed import segment_decimals
-from ..rungs import SubjectScene
 from ..shapes import Group, Pen, Vector
 from ..view import Canvas
 from ..words import Words

@@ -19,10 +19,9 @@ from ...scales.errors import InputError
 from ...scales.scale import Scale, steps
 from ..compose import Drawn, arrange, arrange_halves, arrange_parts, compose
 from ..extents import Rungs, from_format
-from ..figure import Figure
+from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, printable, room
 from ..packing import Placement, pack
-from ..rungs import SheetContents
 from ..table import note_block, text_block
 from ..text import Box
 from ..view import View

@@ -42,12 +42,13 @@ SPACES = {
 _LONG_AGO = (1980, 1, 1, 0, 0, 0)  # the first date that a file in a ZIP can have: the same note, the same bytes
 TWIPS = 1440 / 25.4  # of a millimetre
 HEIGHT = 2.8  # mm of a capital of the text: lines are estimated with the font of the sheet, which is wider
-_BEFORE_NAMES, _BEFORE_DATE = 85.0, 30.0  # mm
+_BEFORE = 85.0, 30.0  # mm before names, before the date
 EMU = 36000  # of a millimetre
 WIDE = 180.0  # mm of a line
 INDENT = 8.0  # mm before an equation; what goes on in another line stands in twice as far
 FIGURES = 1000  # before the number of a figure to which something refers, among those of headings
 LISTS = 3  # the number of the first list of steps
+_END = '<w:r><w:fldChar w:fldCharType="end"/></w:r>'  # of a field
 PAD = 4.0  # mm in a cell beside its text
 _PICTURES = "http://schemas.openxmlformats.org/drawingml/2006"
 _SVG = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
@@ -292,18 +293,15 @@ def _text(part: Node, properties: str) -> str:
     return words(part.base.text, properties) + raised
 
 
-def _field(kind: str) -> str:
-    return f'<w:r><w:fldChar w:fldCharType="{kind}"/></w:r>'
-
-
 def _begun(order: str) -> str:
+    """Return the beginning of a field, up to what it shows."""
     told = f'<w:r><w:instrText xml:space="preserve"> {quoted(order)} </w:instrText></w:r>'
-    return f"{_field('begin')}{told}{_field('separate')}"
+    return f'<w:r><w:fldChar w:fldCharType="begin"/></w:r>{told}<w:r><w:fldChar w:fldCharType="separate"/></w:r>'
 
 
 def _number_field(order: str, number: int) -> str:
     """Return a field that shows a number: of a caption, or of what it refers to."""
-    return _begun(order) + words(str(number)) + _field("end")
+    return _begun(order) + words(str(number)) + _END
 
 
 def _bookmark(inside: str, mark: str, number: int) -> str:
@@ -321,17 +319,13 @@ def _title(document: Document) -> Iterator[str]:
     yield paragraph("Title", words(said["title.note"]))
     yield paragraph("Subtitle", words(page.title))
     yield paragraph("TitleLine", words(said["title.variant"].format(variant=page.variant)))
-    down = _down(_BEFORE_NAMES)
+    names, date = (f'<w:spacing w:before="{round(mm * TWIPS)}"/>' for mm in _BEFORE)
     for name in ("student", "group", "teacher"):
         value = words(getattr(page, name) or "_" * 24)
-        yield paragraph("TitleName", f"{words(said[f'title.{name}'])}<w:r><w:tab/></w:r>{value}", down)
-        down = ""
-    yield paragraph("TitleLine", words(page.date), _down(_BEFORE_DATE))
+        yield paragraph("TitleName", f"{words(said[f'title.{name}'])}<w:r><w:tab/></w:r>{value}", names)
+        names = ""
+    yield paragraph("TitleLine", words(page.date), date)
     yield paragraph("TitleLine", words(page.identity, '<w:sz w:val="18"/><w:szCs w:val="18"/>'))
-
-
-def _down(mm: float) -> str:
-    return f'<w:spacing w:before="{round(mm * TWIPS)}"/>'
 
 
 def _contents(document: Document) -> Iterator[str]:
@@ -340,12 +334,12 @@ def _contents(document: Document) -> Iterator[str]:
     before = _begun(r'TOC \o "1-2" \h \z \u')
     entries = [letters(block.text) for block in document.blocks if isinstance(block, Heading)]
     for number, entry in enumerate(entries, 1):
-        page = _begun(rf"PAGEREF {_mark(number)} \h") + _field("end")
+        page = _begun(rf"PAGEREF {_mark(number)} \h") + _END
         shown = f"{words(f'{number} {entry}')}<w:r><w:tab/></w:r>{page}"
         linked = f'<w:hyperlink w:anchor="{_mark(number)}" w:history="1">{shown}</w:hyperlink>'
         yield paragraph("TOC1", before + linked)
         before = ""
-    yield paragraph("TOC1", f'{before}{_field("end")}<w:r><w:br w:type="page"/></w:r>')
+    yield paragraph("TOC1", f'{before}{_END}<w:r><w:br w:type="page"/></w:r>')
 
 
 def blocks_in_word(document: Document, pictures: Sequence[Picture]) -> str:

@@ -91,24 +91,21 @@ def _title(document: Document) -> str:
     rows = [(said[f"title.{name}"], getattr(page, name)) for name in ("student", "group", "teacher")]
     cells = "".join(f"[{_text(label)}], [{_text(value or '_' * 24)}],\n" for label, value in rows)
     about = said["title.variant"].format(variant=page.variant)
-    return "\n".join(
-        (
-            "#page(numbering: none)[",
-            f"#align(center)[{_text(page.department)}]",
-            "#v(60mm)",
-            f'#align(center)[#text(size: 16pt, weight: "bold")[{_text(said["title.note"])}]]',
-            f"#align(center)[#text(size: 14pt)[{_text(page.title)}]]",
-            f"#align(center)[{_text(about)}]",
-            "#v(1fr)",
-            f"#align(right)[#grid(columns: 2, align: left, gutter: 4mm,\n{cells})]",
-            "#v(30mm)",
-            f"#align(center)[{_text(page.date)}]",
-            f"#align(center)[#text(size: 9pt)[{_text(page.identity)}]]",
-            "]",
-            f"#outline(title: {_quoted(said['contents'])})",
-            "#pagebreak()",
-        )
-    )
+    return f"""\
+#page(numbering: none)[
+#align(center)[{_text(page.department)}]
+#v(60mm)
+#align(center)[#text(size: 16pt, weight: "bold")[{_text(said["title.note"])}]]
+#align(center)[#text(size: 14pt)[{_text(page.title)}]]
+#align(center)[{_text(about)}]
+#v(1fr)
+#align(right)[#grid(columns: 2, align: left, gutter: 4mm,\n{cells})]
+#v(30mm)
+#align(center)[{_text(page.date)}]
+#align(center)[#text(size: 9pt)[{_text(page.identity)}]]
+]
+#outline(title: {_quoted(said["contents"])})
+#pagebreak()"""
 
 
 def _block(block: Block, number: int, said: dict[str, str]) -> str:

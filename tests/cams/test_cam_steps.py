@@ -13,12 +13,11 @@ import pytest
 
 from kulman import note
 from kulman.drawing.cams.sheet import CamFitting
-from kulman.drawing.figure import Figure, family
+from kulman.drawing.figure import Figure, SheetContents, family
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts import begun_pages
 from kulman.drawing.notes.blocks import Sentences, Steps, Story
 from kulman.drawing.page import Page
-from kulman.drawing.rungs import SheetContents
 from kulman.drawing.shapes import Group, Shape, Text
 from kulman.drawing.view import View
 from kulman.plans.cams.cam import LAWS, PLANS

@@ -307,7 +307,7 @@ class Sized(Kind[Subject, Answer]):
 
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a case."""
-        from ...drawing.rungs import SheetContents
+        from ...drawing.figure import SheetContents
 
         note = case.task.note_in(words.language)
         contents = SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm, note=note)
