@@ -13,7 +13,7 @@ from ...plans.cams import course
 from ...plans.cams.cam import PLATE, VALUES
 from ...plans.cams.construction import ACCELERATION, ARC, PLATE_SIZES, ROCKER_SIZES, SIZES
 from ...plans.cams.envelopes import Envelope
-from ...plans.cams.rules import Rule, rules_of
+from ...plans.cams.rules import rules_of
 from ...plans.cams.solve import SCALES
 from ...scales.scale import Scale
 from ..handouts import Shown as Begun
@@ -164,24 +164,17 @@ def _smaller(scene: CamScene) -> tuple[str, ...]:
 
 def rules(scene: CamScene) -> Lines:
     """Return the rules of good design, each with its numbers and whether it is kept."""
-    lines: Lines = []
+    words, mm, lines = scene.words, scene.words.unit("mm"), Lines()
     for rule in rules_of(scene.solved):
-        sides = _of_roller(scene, rule) if rule.of else _of_transmission(scene, rule)
-        lines.append((sides, f"({scene.words['said.ok' if rule.ok else 'said.fails']})"))
+        if rule.of:  # the roller's radius beside the greatest one, a part of a size
+            factors = [Input(rule.part, True), Input(rule.size * 1e3)]
+            (part, size), limit = calculation(words, lambda a, b: a * b, factors)
+            roller = f"{words.symbol('R_roller')} = {words.short(round(rule.value * 1e3, 6))} {mm}"
+            text = f"{roller} ≤ {words.short(rule.part)}·{words.symbol(rule.of)} = {part}·{size} = {limit} {mm}"
+        else:
+            text = f"{scene.angle(f'{rule.name}_min', rule.value)} ≥ {scene.angle(rule.name, rule.limit)}"
+        lines.append((text, f"({words['said.ok' if rule.ok else 'said.fails']})"))
     return lines
-
-
-def _of_roller(scene: CamScene, rule: Rule) -> str:
-    """Return the roller's radius beside the greatest one, a part of a size."""
-    words, mm = scene.words, scene.words.unit("mm")
-    (part, size), limit = calculation(words, lambda a, b: a * b, [Input(rule.part, True), Input(rule.size * 1e3)])
-    roller = f"{words.symbol('R_roller')} = {words.short(round(rule.value * 1e3, 6))} {mm}"
-    return f"{roller} ≤ {words.short(rule.part)}·{words.symbol(rule.of)} = {part}·{size} = {limit} {mm}"
-
-
-def _of_transmission(scene: CamScene, rule: Rule) -> str:
-    """Return the least transmission angle of a phase beside the one permitted."""
-    return f"{scene.angle(f'{rule.name}_min', rule.value)} ≥ {scene.angle(rule.name, rule.limit)}"
 
 
 def offsets_line(scene: CamScene) -> list[str]:
@@ -419,27 +412,21 @@ def conclusions(scene: CamScene, texts: Texts) -> Iterator[str]:
 
 def _roller(scene: CamScene, texts: Texts) -> Iterator[str]:
     """Tell the sizes of a cam for a roller, the rules, and where the profile is undercut."""
-    solved = scene.solved
-    cam = needed(solved.rolling)
+    solved, words, cam = scene.solved, scene.words, needed(scene.solved.rolling)
     names = {"r_0": cam.sizes.r_0, "R_roller": cam.profile.R, "e": abs(cam.sizes.e)}
     if solved.rocker is not None:
         names["l_OC"] = solved.rocker.sizes.l_OC
     said = {name: scene.stated(name, size) for name, size in names.items()}
     yield texts[f"cam.conclusion.{'roller' if solved.rocker is None else 'rocker'}"].format(**said)
     for rule in rules_of(solved):
-        key = f"cam.conclusion.{rule.name}_{'kept' if rule.ok else 'broken'}"
-        yield texts[key].format(**_rule(scene, rule))
+        if rule.of:
+            part = f"{words.short(rule.part)}·{words.symbol(rule.of)}"
+            limit = f"{scene.length(rule.limit)} {words.unit('mm')}"
+            said = {"part": part, "limit": limit, rule.of: scene.stated(rule.of, rule.size)}
+        else:
+            said = {"value": scene.angle(f"{rule.name}_min", rule.value), "limit": scene.angle(rule.name, rule.limit)}
+        yield texts[f"cam.conclusion.{rule.name}_{'kept' if rule.ok else 'broken'}"].format(**said)
     yield from _undercuts(scene, cam.profile)
-
-
-def _rule(scene: CamScene, rule: Rule) -> dict[str, str]:
-    """Return a rule's numbers: sizes of the roller in mm, transmission angles in degrees."""
-    words = scene.words
-    if rule.of:
-        limit = f"{scene.length(rule.limit)} {words.unit('mm')}"
-        part = f"{words.short(rule.part)}·{words.symbol(rule.of)}"
-        return {"part": part, "limit": limit, rule.of: scene.stated(rule.of, rule.size)}
-    return {"value": scene.angle(f"{rule.name}_min", rule.value), "limit": scene.angle(rule.name, rule.limit)}
 
 
 def _plate(scene: CamScene, texts: Texts) -> Iterator[str]:

@@ -99,11 +99,6 @@ def drawn_on(solved: SolvedCam, division: Division, names: tuple[str, ...] = ())
     return Paper(program.needed_for(names or nodes(solved, division)), givens, worth, solved.edges)
 
 
-def _sectioned(solved: SolvedCam, division: Division, names: Iterable[str]) -> Sectioned:
-    paper = drawn_on(solved, division, (*names, *nodes(solved, division)))
-    return Sectioned(division, paper, run(paper.program, paper.givens).values)
-
-
 def nodes(solved: SolvedCam, division: Division) -> tuple[str, ...]:
     """Return the marks of the nodes that are drawn: of the travel, and of the velocity where it is not given."""
     plans = (TRAVEL, VELOCITY) if solved.layout.given == ACCELERATION else (TRAVEL,)
@@ -226,8 +221,11 @@ def convergence(
 
     def drawings(divide: Callable[[int], Division], counts: Iterable[int]) -> list[Sectioned]:
         """Draw with each number of sections once."""
-        divisions = {division.top: division for division in map(divide, counts)}
-        return [_sectioned(solved, division, exact) for division in divisions.values()]
+        found = []
+        for division in {division.top: division for division in map(divide, counts)}.values():
+            paper = drawn_on(solved, division, (*exact, *nodes(solved, division)))
+            found.append(Sectioned(division, paper, run(paper.program, paper.givens).values))
+        return found
 
     wanted = tuple(sections)
     found = {where: drawings(divide, wanted) for where, divide in divided.items()}

@@ -221,10 +221,11 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     layout = _layout(cam, motion, cams)
     program = construct(layout, wanted)
     givens = {**values, **_givens(cam, motion, layout, cams)}
+    shown = SHOWN_ON | dict.fromkeys(("r_0", "l_OC") if ROCKER_SIZES in program.plans else (), ROCKER_SIZES)
     return SolvedCam(
         **_found(program, givens),
         program=program,
-        shown_on=_shown_on(program),
+        shown_on=shown_on(program) | {name: plan for name, plan in shown.items() if plan in program.plans},
         scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
         cam=cam,
         motion=motion,
@@ -311,11 +312,6 @@ def _givens(cam: Cam, motion: Motion, layout: Layout, cams: Mapping[str, Any]) -
     for follower in cams.values():
         found |= follower.givens(layout.division)
     return found
-
-
-def _shown_on(program: Program) -> dict[str, str]:
-    shown = SHOWN_ON | dict.fromkeys(("r_0", "l_OC"), ROCKER_SIZES) if ROCKER_SIZES in program.plans else SHOWN_ON
-    return shown_on(program) | {name: plan for name, plan in shown.items() if plan in program.plans}
 
 
 def _cams(cam: Cam, motion: Motion, values: Mapping[str, float]) -> dict[str, Any]:
