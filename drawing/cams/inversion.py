@@ -98,6 +98,7 @@ def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: fl
     circle that the follower's line touches, mm.
     """
     style, sense = scene.style, scene.solved.cam.sense
+    canvas.part("shaft")
     for a, b in ((complex(-reach - PAST, 0.0), complex(reach + PAST, 0.0)), (complex(0.0, -reach - PAST), 1j * top)):
         canvas.add(Line(a, b, Pen.AXIS, role="axis"))
     r = shaft_radius(reach, style, offset)
@@ -113,6 +114,7 @@ def centre(canvas: Canvas, scene: CamScene, reach: float, top: float, turned: fl
 def letter_centre(canvas: Canvas, scene: CamScene, reach: float, turned: float = 0.0, offset: float = 0.0) -> None:
     """Write the letter of the cam's centre, when all else is drawn: near the shaft, clear of all lines if it can be."""
     style, sense = scene.style, scene.solved.cam.sense
+    canvas.part("shaft")
     size, middle = max(shaft_radius(reach, style, offset), offset), course.dwelling(scene.solved) + turned
     turns = sorted(TURNS, key=lambda turn: abs(turn - BESIDE))
     far = (size + style.label * part for part in (0.8, 0.95, 1.1, 1.3, 1.6, 2.0))
@@ -210,6 +212,7 @@ def curves(canvas: Canvas, scene: CamScene, profile: RollerProfile) -> None:
 
 def sharpest(canvas: Canvas, scene: CamScene) -> None:
     """Mark the place of the least radius of curvature of the pitch curve, and the radius."""
+    canvas.part("sharpest")
     found = course.sharpest_place(scene.solved)
     if found is None:
         return

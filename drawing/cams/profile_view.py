@@ -34,9 +34,8 @@ def roller_view(scene: CamScene) -> View:
     R, r_0 = scene.drawn(roller.profile.R), scene.drawn(roller.sizes.r_0)
     outer = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + R
     label = scene.style.label
-    rod = Rod(e, s_0, outer + (PHASES + 1.2) * label, stroke, scene.style)
-    reach = outer + NUMBERS * label
-    canvas.part("shaft")
+    reach, edge = outer + NUMBERS * label, outer + (PHASES + 1.2) * label
+    rod = Rod(e, s_0, edge, stroke, scene.style)
     inversion.centre(canvas, scene, r_0, rod.top + 12.0, offset=abs(e))
     canvas.part("circles")
     canvas.add(inversion.circle(r_0, "r_0"))
@@ -46,27 +45,17 @@ def roller_view(scene: CamScene) -> View:
     inversion.curves(canvas, scene, roller.profile)
     canvas.part("lines")
     inversion.numbers(canvas, scene, e, reach)
-    i = pressed(solved, SHOWN)
-    pole, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "PBK")
-    contact = inversion.Contact(i, at, touch, pole, up_at(solved, i))
+    contact = _contact(scene, pressed(solved, SHOWN))
     canvas.part("circles")
     arcs = outer + PHASES * label
     inversion.phases(canvas, scene, on_circle(e, arcs, 1j), arcs, inversion.past_normal(contact, scene.style))
-    canvas.part("sharpest")
     inversion.sharpest(canvas, scene)
     inversion.normal(canvas, scene, contact)
-    canvas.part("follower")
-    canvas.add(Group((Circle(complex(rod.x, rod.low), R, Pen.MAIN),), "roller", "0"), *rod.shapes())
-    canvas.add(revolute(complex(rod.x, rod.low), "B0", scene.style))
-    left = _roller_sizes(canvas, scene, rod)
-    canvas.part("shaft")
+    left = _roller_follower(canvas, scene, rod)
     inversion.letter_centre(canvas, scene, r_0, offset=abs(e))
-    edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
-    notes = (
-        "; ".join([*inversion.lettered_sizes(scene, roller.profile, contact.line), *left]),
-        *inversion.undercut_notes(scene, roller.profile),
-    )
+    lettered = [*inversion.lettered_sizes(scene, roller.profile, contact.line), *left]
+    notes = "; ".join(lettered), *inversion.undercut_notes(scene, roller.profile)
     return canvas.finish("profile", scene.heading("heading.cam_profile", PROFILE), notes)
 
 
@@ -85,10 +74,18 @@ def _roller_positions(canvas: Canvas, scene: CamScene, e: float, reach: float) -
         canvas.add(scene.node(at, str(i)))
 
 
-def _roller_sizes(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
-    """Dimension r_0, e, the roller and the stroke; return what has no place in the figure."""
+def _contact(scene: CamScene, i: int) -> inversion.Contact:
+    pole, at, touch = (scene.mm(f"{PROFILE}.{letter}{i}") for letter in "PBK")
+    return inversion.Contact(i, at, touch, pole, up_at(scene.solved, i))
+
+
+def _roller_follower(canvas: Canvas, scene: CamScene, rod: Rod) -> list[str]:
+    """Draw the roller and its rod in position 0, dimension r_0, e, R and h; return what has no place there."""
     solved, sense, sizes = scene.solved, scene.solved.cam.sense, needed(scene.solved.roller).sizes
-    r_0, R = scene.drawn(sizes.r_0), needed(solved.roller).profile.R
+    r_0, R, at = scene.drawn(sizes.r_0), needed(solved.roller).profile.R, complex(rod.x, rod.low)
+    canvas.part("follower")
+    canvas.add(Group((Circle(at, scene.drawn(R), Pen.MAIN),), "roller", "0"), *rod.shapes())
+    canvas.add(revolute(at, "B0", scene.style))
     canvas.part("circles")
     free = (0.0, scene.drawn(sizes.r_0 - R), r_0)
     left = inversion.radius_at(canvas, scene, ("r_0", sizes.r_0), inversion.quiet(scene), free)
@@ -142,7 +139,6 @@ def rocker_view(scene: CamScene) -> View:
     far = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in solved.layout.division.lines) + scene.drawn(cam.profile.R)
     outer = max(abs(pivot), far)
     turned = swept(1j, start)
-    canvas.part("shaft")
     inversion.centre(canvas, scene, r_0, far + 3.0, turned)
     canvas.part("pivots")
     canvas.add(inversion.circle(r_0, "r_0"), inversion.circle(abs(pivot), "l_OC"))
@@ -152,20 +148,15 @@ def rocker_view(scene: CamScene) -> View:
     _rocker_numbers(canvas, scene, outer + NUMBERS * label)
     reach = outer + (PHASES + 1.0) * label
     inversion.phases(canvas, scene, pivot, reach)
-    canvas.part("sharpest")
     inversion.sharpest(canvas, scene)
     _rocker_normal(canvas, scene, pressed(solved, SHOWN))
     canvas.part("follower")
     _rocker_follower(canvas, scene)
     left = _rocker_sizes(canvas, scene, dwelling(solved) + turned)
-    canvas.part("shaft")
     inversion.letter_centre(canvas, scene, r_0, turned)
     edge = reach + 1.2 * label
     canvas.bounds = -edge, -edge, edge, edge
-    notes = (
-        "; ".join([*_rocker_lettered(scene), *left]),
-        *inversion.undercut_notes(scene, cam.profile),
-    )
+    notes = "; ".join([*_rocker_lettered(scene), *left]), *inversion.undercut_notes(scene, cam.profile)
     return canvas.finish("profile", scene.heading("heading.cam_rocker_profile", PROFILE), notes)
 
 
@@ -281,9 +272,8 @@ def plate_view(scene: CamScene) -> View:
     r_0, stroke, R = map(scene.drawn, (plate.sizes.r_0, solved.motion.h, plate.sizes.R_plate))
     label = scene.style.label
     outer = max(abs(end) for i in solved.layout.division.lines for end in _plate(scene, i, R))
-    rod = Rod(0.0, r_0 + THICK * label, outer + (PHASES + 1.2) * label, stroke, scene.style)
-    reach = outer + NUMBERS * label
-    canvas.part("shaft")
+    reach, edge = outer + NUMBERS * label, outer + (PHASES + 1.2) * label
+    rod = Rod(0.0, r_0 + THICK * label, edge, stroke, scene.style)
     inversion.centre(canvas, scene, r_0, rod.top + 6.0)
     canvas.part("circles")
     canvas.add(inversion.circle(r_0, "r_0_flat"))
@@ -301,9 +291,7 @@ def plate_view(scene: CamScene) -> View:
     canvas.add(Group((Polyline(plate_box, Pen.MAIN, closed=True, fill="white"),), "plate", "0"), *rod.shapes())
     left = _plate_sizes(canvas, scene, rod, R)
     notes = "; ".join([*left, *_plate_lettered(scene)]), *inversion.undercut_notes(scene, plate.profile)
-    canvas.part("shaft")
     inversion.letter_centre(canvas, scene, r_0)
-    edge = outer + (PHASES + 1.2) * label
     canvas.bounds = -edge, -edge, edge, rod.top + 16.0
     return canvas.finish("plate_profile", scene.heading("heading.cam_plate_profile", PLATE_PROFILE), notes)
 

@@ -52,16 +52,7 @@ def sizes_view(scene: CamScene) -> View:
         outline += points
     canvas.part("axes")
     _axes(canvas, scene, outline, centre.imag - 2 * PAST, "ds")
-    planes = wedge(solved.motion, roller.limits, solved.cam.sense)
-    apex = scene.drawn(complex(roller.by_tangents.e, -roller.by_tangents.s_0), SIZES)
-    low = min(centre.imag, apex.imag) - BELOW
-    for plane in planes:
-        canvas.part(f"tangent_{plane.name}")
-        _limit(canvas, scene, plane, low)
-    canvas.part("permitted")
-    sides = [(plane.normal.conjugate(), scene.drawn(float(plane.least), SIZES)) for plane in planes]
-    reach = 2.5 * BELOW
-    canvas.add(hatched(sides, (centre.real - reach, low, centre.real + reach, 0.0), 2.5, "centre"))
+    _limits(canvas, scene, roller, centre)
     canvas.part("centre")
     _permitted_offsets(canvas, scene)
     canvas.part("points")
@@ -83,6 +74,19 @@ def _axes(canvas: Canvas, scene: CamScene, outline: list[complex], foot: float, 
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
     canvas.label(scene.words.symbol("s"), 1j * top, prefer=1 + 0j, clear=1.2)
     canvas.label(scene.words.symbol(letter), complex(right + PAST, 0.0), prefer=-1j, clear=1.2)
+
+
+def _limits(canvas: Canvas, scene: CamScene, roller: RollerCam, centre: complex) -> None:
+    """Draw the limits, and hatch the permitted places of the cam's centre beside the chosen one."""
+    planes = wedge(scene.solved.motion, roller.limits, scene.solved.cam.sense)
+    apex = scene.drawn(complex(roller.by_tangents.e, -roller.by_tangents.s_0), SIZES)
+    low, reach = min(centre.imag, apex.imag) - BELOW, 2.5 * BELOW
+    for plane in planes:
+        canvas.part(f"tangent_{plane.name}")
+        _limit(canvas, scene, plane, low)
+    canvas.part("permitted")
+    sides = [(plane.normal.conjugate(), scene.drawn(float(plane.least), SIZES)) for plane in planes]
+    canvas.add(hatched(sides, (centre.real - reach, low, centre.real + reach, 0.0), 2.5, "centre"))
 
 
 def _limit(canvas: Canvas, scene: CamScene, plane: HalfPlane, low: float) -> None:

@@ -218,17 +218,8 @@ def convergence(
     divided: dict[str, Callable[[int], Division]] = {NODES: solved.motion.division}
     if inner_jumps(solved.motion):
         divided[BETWEEN] = partial(between, solved.motion)
-
-    def drawings(divide: Callable[[int], Division], counts: Iterable[int]) -> list[Sectioned]:
-        """Draw with each number of sections once."""
-        found = []
-        for division in {division.top: division for division in map(divide, counts)}.values():
-            paper = drawn_on(solved, division, (*exact, *nodes(solved, division)))
-            found.append(Sectioned(division, paper, run(paper.program, paper.givens).values))
-        return found
-
     wanted = tuple(sections)
-    found = {where: drawings(divide, wanted) for where, divide in divided.items()}
+    found = {where: _drawings(solved, map(divide, wanted), exact) for where, divide in divided.items()}
     errors = {
         (where, name): np.array([_error(solved, drawing, name, exact) for drawing in every])
         for where, every in found.items()
@@ -236,13 +227,22 @@ def convergence(
     }
     if all(np.abs(error).max() < ROUNDING for error in errors.values()):
         raise InputError("chart-exact-chords")
-    papers = drawings(solved.motion.division, drawn)
+    papers = _drawings(solved, map(solved.motion.division, drawn), exact)
     by_hand: dict[tuple[str, str], Array] = {}
     for name, hand in hands.items():
         kept_by_hand = [_by_hand(solved, drawing, hand, chosen, exact) for drawing in papers]
         by_hand |= {(name, chosen[k]): np.array(errors) for k, errors in enumerate(zip(*kept_by_hand, strict=True))}
     counts = {where: tuple(drawing.division.top for drawing in every) for where, every in found.items()}
     return Convergence(exact, chosen, counts, errors, tuple(drawing.division.top for drawing in papers), by_hand)
+
+
+def _drawings(solved: SolvedCam, divisions: Iterable[Division], names: Iterable[str]) -> list[Sectioned]:
+    """Draw the diagrams on divisions, with each number of sections once."""
+    found = []
+    for division in {division.top: division for division in divisions}.values():
+        paper = drawn_on(solved, division, (*names, *nodes(solved, division)))
+        found.append(Sectioned(division, paper, run(paper.program, paper.givens).values))
+    return found
 
 
 def compared(solved: SolvedCam) -> tuple[str, ...]:
