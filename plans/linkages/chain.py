@@ -31,6 +31,7 @@ NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, wit
 PLANS = tuple(NEEDS)
 USUAL = tuple(plan for plan in PLANS if plan not in ("compound", "cycle"))  # without a word on which are wanted
 _CONSTRUCTED = Kept[tuple[Structure, Program]](16)
+_BODIES = Kept[Bodies](16)
 Ends = tuple[str, str, str, str]  # two points that turn together, the normal to their line, their distance
 # modules with the groups of each kind, and their classes, which a mechanism without such a group does without
 CONSTRUCTIONS = {kind: ("dyads", kind) for kind in KINDS} | {TRIAD: ("triads.triad", "Triad")}
@@ -71,7 +72,7 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Struc
 def constructed(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Structure, Program]:
     """Return what `construct` finds; kept, for a class has one mechanism with many values."""
     wanted = tuple(plans)
-    return _CONSTRUCTED.get((repr(mechanism), wanted), lambda: construct(mechanism, wanted))
+    return _CONSTRUCTED.get((mechanism.written, wanted), lambda: construct(mechanism, wanted))
 
 
 def _statics(
@@ -100,7 +101,7 @@ def hinged(mechanism: Mechanism, structure: Structure) -> tuple[compound.Coupler
 
 def moving_bodies(mechanism: Mechanism, structure: Structure) -> Bodies:
     """Return how every moving link is known: a direction that turns with it, its angular velocity, by number."""
-    return named(mechanism, structure)[1]
+    return _BODIES.get(mechanism.written, lambda: named(mechanism, structure)[1])
 
 
 def named(mechanism: Mechanism, structure: Structure) -> tuple[tuple[AssurGroup, ...], Bodies]:

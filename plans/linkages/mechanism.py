@@ -265,6 +265,11 @@ class Mechanism:
     centres: tuple[tuple[str, str], ...] = field(default=())
 
     @cached_property
+    def written(self) -> str:
+        """All of it as text, under which what follows from it is kept."""
+        return repr(self)
+
+    @cached_property
     def parted(self) -> bool:
         """Whether numbers of links are parted in names: one of them has two digits."""
         return any(link.number not in ONE_DIGIT for link in self.links)
