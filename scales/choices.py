@@ -2,5 +2,5 @@
 
 from __future__ import annotations
 
-HANDS = ("cad", "careful", "normal", "lenient")  # presets of `plans.hand`
+HANDS = ("cad", "careful", "normal", "lenient")  # presets of `plans.hands`
 SIZES = ("A4", "A3", "A2", "A1")  # of `drawing.formats`, the smallest first
