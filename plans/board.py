@@ -320,7 +320,7 @@ class Program:
 
 @cache
 def recorded(*parts: Callable[[Board], None]) -> Program:
-    """Return the construction of some parts, in order: recorded once."""
+    """Return the construction of some parts, functions of modules, in order: recorded once and kept."""
     board = RecordingBoard()
     for part in parts:
         part(board)

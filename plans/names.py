@@ -161,7 +161,10 @@ Maker = TypeVar("Maker", bound=Callable[..., Name])
 
 
 def _kept(maker: Maker) -> Maker:
-    """Keep the names of a maker that looks at letters and numbers alone, not at roles: each position makes the same."""
+    """Keep the names of a maker that looks at letters and numbers alone: each position makes the same.
+
+    Of `of` and `about` only the letters hold: another mechanism may have made the name first.
+    """
     return cast(Maker, lru_cache(maxsize=16_384)(maker))
 
 
@@ -172,10 +175,15 @@ def spelled(kind: str, of: str | int, about: str = "", part: str = "", links: tu
     return Name(f"{kind}_{of}{about}{part and '_'}{part}", kind, whose, about, part, links)
 
 
-@_kept
 def vector(kind: str, of: str, about: str = "", part: str = "") -> Name:
     """Return a velocity or acceleration of a point, relative to another or absolute: `V_B`, `a_BA_n`."""
-    return spelled(kind, of, about, part)
+    return _vector(kind, of, about, part, of.links if isinstance(of, Name) else ())
+
+
+@_kept
+def _vector(kind: str, of: str, about: str, part: str, links: tuple[int, ...]) -> Name:
+    """Return a vector of a point of these links: another mechanism's point may have the same letter."""
+    return Name(f"{kind}_{of}{about}{part and '_'}{part}", kind, of, about, part)
 
 
 @_kept

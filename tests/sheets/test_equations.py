@@ -12,12 +12,13 @@ import pytest
 from kulman.drawing.formats import STYLES
 from kulman.drawing.linkages.calculations.equations import Lines, kinematics_lines
 from kulman.drawing.linkages.calculations.forces import force_lines, force_parts, lever_lines
-from kulman.drawing.linkages.calculations.tables import ROWS, formula, results_parts
+from kulman.drawing.linkages.calculations.tables import ROWS, _links_of, formula, results_parts
 from kulman.drawing.linkages.ladders import first_scales
 from kulman.drawing.linkages.reading import lettered
 from kulman.drawing.linkages.scene import Scene
 from kulman.drawing.words import Words, notations
-from kulman.plans.linkages.chain import PLANS
+from kulman.plans import names
+from kulman.plans.linkages.chain import PLANS, construct
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.scales.display import Display
@@ -284,3 +285,18 @@ def test_units_of_display_stand_in_equations() -> None:
     assert told(shown, "as2 =").endswith(" см")
     assert told(shown, "Mi2 =").endswith("Н·м")
     assert list(text_faults(shown)) == []
+
+
+def test_tables_take_a_point_to_its_own_link_whatever_other_mechanisms_called_so() -> None:
+    mechanism = load_task("scheme-09-shaper").mechanism
+    solved = solve_linkage(mechanism, load_task("scheme-09-shaper").values("0"))
+    for maker in (names._vector, names.spelled):
+        maker.cache_clear()  # type: ignore[attr-defined]
+    for kind in ("V", "a"):  # point A of link 9, of a mechanism that was looked at before
+        names.vector(kind, names.Name("A3", names.POINT, "A", links=(9,)))
+    structure, program = construct(mechanism)
+    made = {step.name: step.name for step in program}
+
+    for kind in ("V", "a"):
+        assert _links_of(replace(solved, structure=structure), made[f"{kind}_A3"]) == {3}
+        assert _links_of(replace(solved, structure=structure), made[f"{kind}_A"]) == {1}
