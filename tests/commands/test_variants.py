@@ -63,6 +63,13 @@ def test_a_variant_without_a_solution_does_not_hide_the_others() -> None:
     assert len(found.table().splitlines()) == 2
 
 
+def test_a_table_is_said_in_the_language_that_is_asked_for() -> None:
+    found = all_variants(TASK, quantities=["V_B"], lang="uk")
+
+    assert found.table("en") == all_variants(TASK, quantities=["V_B"], lang="en").table()
+    assert found.table("en") != found.table()
+
+
 @pytest.mark.parametrize(
     ("task", "count", "ranges"),
     [

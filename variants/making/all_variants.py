@@ -62,13 +62,14 @@ class AllVariants(Result):
 
     def table(self, language: str | None = None) -> str:
         """Return the values as lines of text, a column for each variant."""
+        words = self._words(language)
 
         def shown(cell: Cell) -> str:
             if cell is None:
                 return "–"
-            return cell if isinstance(cell, str) else self.words.short(float(cell), 6)
+            return cell if isinstance(cell, str) else words.short(float(cell), 6)
 
-        return aligned([tuple(map(shown, row)) for row in self._rows()], left=(0, 1))
+        return aligned([tuple(map(shown, row)) for row in self._rows(words.language)], left=(0, 1))
 
     def to_json(self) -> dict[str, Any]:
         """Return what `kulman variants --json` prints: values in SI by variant."""
@@ -88,7 +89,7 @@ class AllVariants(Result):
                 raise InputError("variants-new", file=quote(path))
             return [(path, self.new.text.encode("utf-8"))]
         if suffix in CELLS:
-            return [(path, table_bytes(path, list(self._rows()), self._language, task.id, [0], 1))]
+            return [(path, table_bytes(path, list(self._rows(self._language)), self._language, task.id, [0], 1))]
         write = xml_bytes if suffix == ".xml" else gift_bytes
         return [(path, write(task.id, list(self._questions())))]
 
@@ -96,14 +97,14 @@ class AllVariants(Result):
     def _language(self) -> str:
         return self.check.request.language
 
-    def _rows(self) -> Iterator[tuple[Cell, ...]]:
+    def _rows(self, language: str) -> Iterator[tuple[Cell, ...]]:
         """Go through the rows: a header, and a quantity each with its unit and a value for every variant."""
-        said = texts(self._language)
+        said = texts(language)
         yield (said["column.name"], said["column.unit"], *self.keys)
         for name in self.quantities:
             unit = next(key.asked.unit(name) for key in self.keys.values() if name in key.asked.quantities)
             values = (_shown(key, name) for key in self.keys.values())
-            yield (name, format_unit(unit, self._language), *values)
+            yield (name, format_unit(unit, language), *values)
 
     def _questions(self) -> Iterator[Question]:
         """Go through the questions, variant by variant; tolerances are those of the marking."""
