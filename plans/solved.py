@@ -127,12 +127,6 @@ class Check:
         return {"ok": self.ok, **compared, **sides}
 
 
-def rule_of(check: Check) -> tuple[str, str]:
-    """Return the rule that a check of a gear pair is of, and the wheel, if it is that of one."""
-    name = role(check.name)
-    return (name.kind, name.of) if name.of.isdigit() else (check.name, "")
-
-
 @dataclass(frozen=True, slots=True, eq=False)
 class Columned:
     """One column: its name, its SI unit, its values."""

@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from ...plans.gears.construction import MESHING, THETA
 from ...plans.gears.gear import SHIFTS, VALUES, WHEELS, unit_of
 from ...plans.gears.geometry import POINTS
-from ...plans.gears.solve import SAME_CENTRES
+from ...plans.gears.solve import SAME_CENTRES, rule_of
 from ...plans.names import role
-from ...plans.solved import AT_LEAST, AT_MOST, Check, rule_of
+from ...plans.solved import AT_LEAST, AT_MOST, Check
 from ...scales.scale import Scale
 from ..handouts import Shown as Begun
 from ..notes.blocks import Story

@@ -187,6 +187,12 @@ def judged(name: str, quantity: str, value: float, limit: float, relation: str, 
     )
 
 
+def rule_of(check: Check) -> tuple[str, str]:
+    """Return the rule that a check is of, and the wheel, if it is that of one."""
+    name = role(check.name)
+    return (name.kind, name.of) if name.of.isdigit() else (check.name, "")
+
+
 def checks(pair: GearPair, found: Mapping[str, float]) -> list[Check]:
     """Return the checks of a pair with its quantities by name, in the order of the note.
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, ClassVar
 
 from ...plans.gears.gear import MATERIALS, MODULES, PLANS, ROTATIONS, SHIFTS, STANDARD, VALUES, GearPair, impossible
-from ...plans.solved import Check, rule_of
+from ...plans.solved import Check
 from ...scales.display import Display
 from ...scales.errors import InputError
 from ..checks.basics import Checker
@@ -71,6 +71,8 @@ class Gears(Sized[GearPair, "SolvedGear"]):
 
     def warnings(self, solved: SolvedGear) -> tuple[InputError, ...]:
         """Tell which limits are not kept, and of teeth that are pointed."""
+        from ...plans.gears.solve import rule_of  # needs numpy
+
         found = []
         for check in solved.checks:
             rule, wheel = rule_of(check)
