@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -298,14 +298,9 @@ class _Rule:
     def _inherited(self, step: Step) -> float:
         """Return by how much a calculated value differs when what is in it does, each alone, together."""
         operands = [self.values[name] for name in step.operands]
-        exact, law, total = self.values[step.name], LAWS[step.law], 0.0
-        for i, name in enumerate(step.operands):
-            if miss := self.allowed.get(name, 0.0):
-                changed = ([*operands[:i], longer, *operands[i + 1 :]] for longer in longer(operands[i], miss))
-                with np.errstate(all="ignore"):  # a miss may lead out of where a law holds
-                    changes = [abs(law(*others) - exact) for others in changed]  # a load diagram may be steep one way
-                total += max((change for change in changes if change == change), default=0.0)
-        return total
+        with np.errstate(all="ignore"):  # a miss may lead out of where a law holds
+            missed = (self.allowed.get(name, 0.0) for name in step.operands)
+            return inherited(step.law, operands, self.values[step.name], missed)
 
 
 def _longest(paper: Paper, values: Mapping[str, Any]) -> dict[str, float]:
@@ -317,6 +312,17 @@ def _longest(paper: Paper, values: Mapping[str, Any]) -> dict[str, float]:
             if size == size:
                 found[step.plan] = max(found.get(step.plan, 0.0), size)
     return found
+
+
+def inherited(law: str, operands: list[Any], exact: Any, missed: Iterable[float]) -> float:
+    """Return by how much a law misses what is exact when each operand does, one after the other, all added up."""
+    total = 0.0
+    for i, miss in enumerate(missed):
+        if miss:
+            changed = ([*operands[:i], x, *operands[i + 1 :]] for x in longer(operands[i], miss))
+            changes = [abs(LAWS[law](*others) - exact) for others in changed]  # a load diagram may be steep one way
+            total += max((change for change in changes if change == change), default=0.0)
+    return total
 
 
 def longer(value: Any, miss: float) -> tuple[Any, ...]:

@@ -24,7 +24,7 @@ from ..laws import LAWS, cross, dot
 from ..names import role
 from ..quantities import POINTS
 from .answers import Answer, Said
-from .key import COARSER, MARKS, READ, ROUNDED, Key, longer
+from .key import COARSER, MARKS, READ, ROUNDED, Key, inherited
 
 THREE = 3  # digits that a number has at the least where nobody knows how it was written
 LAYING = 0.6  # part of the tolerance in mm by which a segment that is laid off and read again may miss
@@ -302,15 +302,8 @@ class Allowance:
         return self._calculated[name]
 
     def _through(self, step: Step) -> float:
-        values, law, total = self.drawn.values, LAWS[step.law], 0.0
-        operands = [values[operand] for operand in step.operands]
-        exact = law(*operands)
-        for i, operand in enumerate(step.operands):
-            if slack := self._slack(operand):
-                changed = ([*operands[:i], x, *operands[i + 1 :]] for x in longer(operands[i], slack))
-                changes = [abs(law(*others) - exact) for others in changed]
-                total += max((change for change in changes if change == change), default=0.0)
-        return total
+        operands = [self.drawn.values[operand] for operand in step.operands]
+        return inherited(step.law, operands, LAWS[step.law](*operands), map(self._slack, step.operands))
 
     def _slack(self, name: str) -> float:
         """Return by how much an operand may differ from that with which the student has gone on."""
