@@ -39,9 +39,7 @@ class Spread:
     mm_miss: float | None = None
     percent: float | None = None  # the deviation, of the value
     of_largest: float | None = None  # the same, of the largest vector of its plan
-    degrees: float | None = (
-        None  # what a vector turns by at most, in the part `share` of all; None for one that is zero
-    )
+    degrees: float | None = None  # by which a vector turns at most in the part `share` of all; None for one of zero
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,8 +134,7 @@ def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = 1000) -> 
 
     >>> import numpy as np
     >>> from kulman import solve
-    >>> from kulman.plans.hands.shaky import preset
-    >>> from kulman.plans.hands.shaky import paper_of
+    >>> from kulman.plans.hands.shaky import paper_of, preset
     >>> from kulman.plans.hands.spread import drawn
     >>> solution = solve("nau-slider-crank", "example")
     >>> paper = paper_of(solution.solved, {"mu_l": 0.001, "mu_V": 0.05, "mu_a": 2.0, "mu_F_23": 10.0, "mu_F_1": 10.0})

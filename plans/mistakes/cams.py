@@ -17,7 +17,7 @@ MILLIMETRE = 1e-3  # m of paper: a pole distance that is left out
 PART = re.compile(r"_part(\d+)")
 CENTIMETRES = (10.0, 0.1)
 SIZES, PLATE = "sizes", "plate_sizes"
-OTHERS = ("mu_s", "mu_ds", "mu_d2s")  # scale factors of diagrams
+DIAGRAM_SCALES = ("mu_s", "mu_ds", "mu_d2s")
 RIGHT_ANGLE = 0.5 * math.pi
 
 
@@ -109,7 +109,7 @@ def transfer_angle(scene: Scene) -> Iterator[Change]:
 @mistake("M17")
 def paper_for_size(scene: Scene) -> Iterator[Change]:
     """An ordinate in millimetres of paper is given for what it shows."""
-    steps = [s for s in scene.calculated("to_scale") if s.operands[0] in OTHERS]
+    steps = [s for s in scene.calculated("to_scale") if s.operands[0] in DIAGRAM_SCALES]
     yield from Change.each_and_all({s.name: (s.but(operands=s.operands[1:], law="given"),) for s in steps}, "paper")
 
 
@@ -261,11 +261,20 @@ def curvature_of_a_dwell(scene: Scene) -> Iterator[Change]:
         yield Change("rho_min", {"rho_min": (highest, far)}, {}, "upper")
 
 
+@mistake("M13")
+def sides_exchanged(scene: Scene) -> Iterator[Change]:
+    """An angle of a triangle is found at another corner."""
+    for step in scene.calculated("angle_of_triangle"):
+        a, b, opposite = step.operands
+        yield Change.instead(step, "first", operands=(opposite, b, a))
+        yield Change.instead(step, "second", operands=(a, opposite, b))
+
+
 @mistake("M15", by_scale=True)
 def another_scale_of_sizes(scene: Scene) -> Iterator[Change]:
     """Sizes are read with the scale factor of a diagram."""
     for plan in plans_of_sizes(scene):
-        for other in OTHERS:
+        for other in DIAGRAM_SCALES:
             if other in scene.steps:
                 factor = float(scene.values[other]) / scene.mu(plan)
                 yield sizes_scaled(scene, plan, factor, other)
@@ -277,12 +286,5 @@ mistake("M17", by_scale=True)(
 )
 # sizes are read in centimetres
 mistake("M20")(lambda scene: (sizes_scaled(scene, p, x, f"{x}") for p in plans_of_sizes(scene) for x in CENTIMETRES))
-# an angle of a triangle is found at another corner
-each(
-    "M13",
-    "angle_of_triangle",
-    lambda step: Change.instead(step, "first", operands=step.operands[::-1]),
-    lambda step: Change.instead(step, "second", operands=(step.operands[0], *step.operands[:0:-1])),
-)
 # the scale factor of the travel is millimetres by the stroke
 each("M14", "scale_factor", lambda s: Change(s.name, {s.name: then(s, "part_of", "one", aside(s.name))}, {}))

@@ -189,10 +189,10 @@ class _Search:
             found += self._turned()
         if not any(one.fits for one in found):
             tried = {one.chain[0].broken.place for one in found}
-            local = self._at_line(self.marking.lines, self.first, (), off)
+            local = self._at_line(self.marking.lines, self.first, ())
             found += [one for one in local if one.chain[0].broken.place not in tried]
             found += [] if found else self._together(off)
-            found += self._chained(found, off)
+            found += self._chained(found)
         ranked = sorted(found, key=_order)
         candidates = _simplest(_grouped(ranked, self.said))
         if not candidates or candidates[0].misses > 1.0:
@@ -203,19 +203,20 @@ class _Search:
         """Return the single mistakes that explain the first wrong line."""
         return [found for one in made if (found := self._found((one,))) is not None]
 
-    def _chained(self, found: list[_Found], off: Floats) -> list[_Found]:
+    def _chained(self, found: list[_Found]) -> list[_Found]:
         """Add mistakes to those that leave lines clearly wrong, one at the first of these lines after another."""
         made: list[_Found] = []
         ends = found
         for _ in range(DEPTH - 1):
-            first, ends = sorted((one for one in ends if one.clear), key=_rank)[:BEAM], []
-            for one in first:
-                longer = (self._at_line(one.lines, place, one.chain, off) for place in one.clear[:LINES])
+            best = sorted((one for one in ends if one.clear), key=_rank)[:BEAM]
+            ends = []
+            for one in best:
+                longer = (self._at_line(one.lines, place, one.chain) for place in one.clear[:LINES])
                 ends += next(filter(None, longer), [])
             made += ends
         return made
 
-    def _at_line(self, lines: tuple[Line, ...], place: int, chain: tuple[Signature, ...], off: Floats) -> list[_Found]:
+    def _at_line(self, lines: tuple[Line, ...], place: int, chain: tuple[Signature, ...]) -> list[_Found]:
         """Add a mistake to a chain: one that moves a line and none before it that passes.
 
         The nearest come first, by what they give or by its ratio to what the chain gives.
@@ -331,8 +332,8 @@ class _Search:
             explained = tuple(name for name in self.faulty if name not in missed)
             left = tuple(name for name in self.faulty if name in missed)
             if off[i, self.first] <= 1.0:
-                broken = (self.book.signatures[i].broken,)
-                found.append(Candidate(broken, (), explained, left, float(means[i])))
+                mistakes = (self.book.signatures[i].broken,)
+                found.append(Candidate(mistakes, (), explained, left, float(means[i])))
         return _simplest(found)[:NEAR]
 
     def _found(self, chain: tuple[Signature, ...], first: str = "") -> _Found | None:

@@ -412,18 +412,18 @@ def moment_missing(scene: Scene) -> Iterator[Change]:
         yield Change(step.name, {step.name: nothing(step)}, {}, "none")
         if step.law == "couple":
             yield Change.instead(step, "F = M", operands=step.operands[:1], law="given")
-            length = scene.values.get(step.operands[1])
+            length = scene.values.get(step.operands[1], 0.0)
             omega = next((rate("omega", link) for link in role(step.operands[0]).links), "")
-            speed = length and float(abs(scene.values.get(omega, 0.0)) * abs(length))  # of the link's ends
-            if speed and length:
+            speed = float(abs(scene.values.get(omega, 0.0)) * abs(length))  # of one end of the link about the other
+            if speed:
                 yield Change.scaled(step, (length / scene.mu(POSITION)) / (speed / scene.mu("velocity")), "M")
 
 
 @mistake("M81")
 def reactions_on_lever(scene: Scene) -> Iterator[Change]:
     """A reaction hangs on the lever."""
-    pin, reactions = f"lever.{scene.pin}", (n for n in map(role, scene.steps) if n.kind == "R" and not n.hidden)
-    reaction = next((name for name in reactions if name.links[:1] == (1,)), None)
+    pin, names = f"lever.{scene.pin}", map(role, scene.steps)
+    reaction = next((n for n in names if n.kind == "R" and not n.hidden and n.links[:1] == (1,)), None)
     last = next((s for s in scene.calculated("moment_equation") if role(s.name).kind != "R"), None)
     if last is not None and reaction is not None and pin in scene.steps:
         step = Step("moment", f"_M_{reaction}_p", (reaction, pin, "lever.p"))

@@ -142,9 +142,9 @@ class _Sheet:
         beside.
         """
         of_mm, of_mu, of_value, of_direction = ((row, at.get(kind), name) for kind in (*NUMBERS, "direction"))
-        paper, mm, decimals = self.number(of_mm), None, 0
-        if paper:
-            mm, decimals = self.read(of_mm, lambda: cells.segment(paper, units.get("mm", "")), NO_SEGMENT)
+        segment, (mm, decimals) = self.number(of_mm), NO_SEGMENT
+        if segment:
+            mm, decimals = self.read(of_mm, lambda: cells.segment(segment, units.get("mm", "")), NO_SEGMENT)
         answered = any(self.grid.text(row, at.get(kind)) not in cells.NONE for kind in NUMBERS)
         direction, sense = self.direction(of_direction, answered)
         mu = self.mu(of_mu, units.get("mu", ""))

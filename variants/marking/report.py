@@ -355,8 +355,8 @@ def _body(report: Report, said: dict[str, str]) -> Iterator[str]:
 def _table(report: Report, rows: tuple[Row, ...]) -> str:
     """Return the lines of one plan."""
     columns = OWN if report.own else range(len(COLUMNS))
-    table = "".join(f"<th>{escape(report.said[COLUMNS[i]])}</th>" for i in columns)
-    table = f"<tr>{table}</tr>"
+    heads = "".join(f"<th>{escape(report.said[COLUMNS[i]])}</th>" for i in columns)
+    table = f"<tr>{heads}</tr>"
     for row in rows:
         verdict = f"{SIGNS.get(row.verdict, '✗')} {escape(row.said)}"
         numbers = map(escape, (row.answer, row.right, row.tolerance))

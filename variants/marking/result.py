@@ -67,11 +67,11 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapp
         drawn = question.step.verb == "arm" or any(made[end].verb in FOUND for end in ends if end in made)
         if mu and drawn and abs(key[name]) / mu >= LEAST_MM:
             found[name] = line, mu
-    step, made_of = _resolution([line for line, _ in found.values()]), dict[str, Measured]()
+    step, segments = _resolution([line for line, _ in found.values()]), dict[str, Measured]()
     for name, (line, mu) in found.items():
         right, spread = follows.get(name, abs(key[name])) / mu, max(HAND, key.allowed[name] / mu / 3.0)
-        made_of[name] = Measured(line.mm or 0.0, right, step, spread)
-    return made_of
+        segments[name] = Measured(line.mm or 0.0, right, step, spread)
+    return segments
 
 
 def _resolution(lines: Sequence[Line]) -> float:
@@ -291,7 +291,7 @@ def class_rows(results: Sequence[Result], absent: Sequence[Entry], language: str
 
 
 def moodle_rows(results: Sequence[Result], language: str) -> Iterator[tuple[Cell, ...]]:
-    """Go through the rows of a file that Moodle's gradebook imports: whose it is, the grade, without right numbers."""
+    """Go through the rows of a file that Moodle's gradebook imports: whose it is, the grade, no right number."""
     said = texts(language)
     yield ("ID number", "Full name", "Email address", "Grade", "Feedback comments")
     for result in results:

@@ -76,10 +76,12 @@ class Rubric:
 
     def mark(self, lines: Iterable[Line], parts: Mapping[str, float]) -> float:
         """Return the mark, to a tenth."""
-        less = {True: SIZE_ALONE, False: 1.0}  # in parts of the line's weight
-        required = self.directions == "required"
-        worth = ((line, self.worth[line.verdict] * less[required and wants_direction(line)]) for line in lines)
-        return round(self.out_of * sum(parts[line.name] * of_line for line, of_line in worth), 1)
+
+        def earned(line: Line) -> float:
+            less = self.directions == "required" and wants_direction(line)
+            return parts[line.name] * (self.worth[line.verdict] * (SIZE_ALONE if less else 1.0))
+
+        return round(self.out_of * sum(map(earned, lines)), 1)
 
     def compared(self, answer: Answer, question: Question) -> Answer:
         """Return what counts of an answer; the sign of a number without a unit is no sense."""
