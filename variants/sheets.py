@@ -56,15 +56,25 @@ class Sheet:
     views: tuple[View, ...] = ()
 
     def save(self, *paths: str | os.PathLike[str], tile: str | None = None) -> list[Path]:
-        """Write the sheet to each of `paths`; the suffix picks the writer. Returned, and refused, is what others save.
+        """Write the sheet to each of `paths`; the suffix picks the writer.
 
-        Several pages as SVG or PNG become `x-1.svg`, `x-2.svg`, ...; a PDF is spread at full size on pages of small
-        paper where a `tile` is said, `A4` or `A3`.
+        A PDF is spread at full size on pages of small paper where a `tile` is said, `A4` or `A3`.
+
+        Returns
+        -------
+        list of Path
+            The files written; several pages as SVG or PNG become `x-1.svg`, `x-2.svg`, ...
+
+        Raises
+        ------
+        InputError
+            A kind of file that is not written, two outputs of one name, a missing extra, or a file that cannot be
+            written: then none is.
         """
         return write_pages(self.pages, *paths, tile=tile)
 
     def svg(self, page: int = 1) -> str:
-        """Return one page, counted from 1, as SVG text."""
+        """Return one page, counted from 1, as SVG text; one that the sheet has not is refused."""
         from ..drawing.svg import write_svg
 
         of_kind("page", page, (int,), "int")

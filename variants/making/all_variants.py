@@ -155,7 +155,7 @@ def all_variants(
     Parameters
     ----------
     make, ranges, seed
-        How many new variants are made, and from what, as for `make_variants`.
+        How many new variants are made, up to 1000, and from what, as for `make_variants`.
     table : str or PathLike, optional
         A spreadsheet from which new variants are read, as by `import_variants`.
     task, set, only, scales, notation, lang

@@ -1,1 +1,1 @@
-"""Files of cells, CSV and XLSX: read as a grid within bounds, their headers understood, and written."""
+"""Files of cells, CSV and XLSX: read as a grid within bounds, and their headers understood."""
