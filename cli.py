@@ -33,12 +33,12 @@ from .variants.commands.console import (
     output,
     print_json,
     refuse,
-    said,
     say_written,
     tiled,
     titled,
     usage_error,
     warn,
+    without_none,
 )
 from .variants.commands.teaching import all_variants, batch, check, handout
 from .variants.kinds import KINDS
@@ -193,7 +193,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     """Draw the sheet of TASK (an id, or a TOML file) to scale."""
     from .variants.sheets import sheet as sheet_task
 
-    drawn = sheet_task(task, set=settings, **said(options))
+    drawn = sheet_task(task, set=settings, **without_none(options))
     say_written(drawn.save(*files, tile=tile), False)
     warn(drawn.warnings)
 
@@ -213,7 +213,7 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
     """Write the explanatory note of TASK: the work step by step, with equations, figures, tables."""
     from .variants.notes import note as note_task
 
-    written = note_task(task, set=settings, lang=lang or "uk", **said(options))
+    written = note_task(task, set=settings, lang=lang or "uk", **without_none(options))
     say_written(written.save(*files), False)
     warn(written.sheet.warnings)
 

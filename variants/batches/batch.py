@@ -45,7 +45,7 @@ NOTE, HANDOUT = "note", "handout"
 KEPT = 32  # variants whose drawings a process keeps for the next students that have them
 NOTES = {NOTE: ".pdf", "docx": ".docx"}
 FORMS = ("svg", "pdf", "png", *NOTES, HANDOUT)
-_KINDS = {*WRITERS, *NOTES.values()}
+_SUFFIXES = {*WRITERS, *NOTES.values()}
 JOURNAL = ".kulman-batch.jsonl"
 _OWN = re.compile(rf"[0-9]{{3,}}-.+|(?:manifest|key)\b.*\.csv|{re.escape(JOURNAL)}")  # names of files of a batch
 
@@ -275,7 +275,7 @@ def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, a
         advance(len(done), len(students))
     outcomes = tuple(found[number] for number in range(len(students)))
     before = (item for outcome in journal.before.values() for item in outcome.files.items())
-    remove_stale(folder, before, {name for outcome in outcomes for name in outcome.files}, _KINDS)
+    remove_stale(folder, before, {name for outcome in outcomes for name in outcome.files}, _SUFFIXES)
     journal.keep(zip(digests, outcomes, strict=True))
     return outcomes
 

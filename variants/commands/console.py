@@ -286,6 +286,6 @@ def titled(*names: str) -> Callable[[Command], Command]:
     return stacked(*(click.option(f"--{name}", help=f"For the title block{none.get(name, '')}.") for name in names))
 
 
-def said(options: Mapping[str, Any]) -> dict[str, Any]:
+def without_none(options: Mapping[str, Any]) -> dict[str, Any]:
     """Return the options that were given."""
     return {name: value for name, value in options.items() if value is not None}

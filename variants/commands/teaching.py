@@ -27,11 +27,11 @@ from .console import (
     processes,
     progress,
     refuse,
-    said,
     say_written,
     tiled,
     titled,
     warn,
+    without_none,
 )
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     flat = [file for file in files if file.suffix.lower() == ".png"]
     if flat and options["hidden_key"]:  # a picture has no layers
         raise InputError("handout-apart", first="--hidden-key", second=quote(f"-o {flat[0]}", SHOWN))
-    block = said({name: options.pop(name) for name in (*BLOCK, "student")})
+    block = without_none({name: options.pop(name) for name in (*BLOCK, "student")})
     drawn = handout_task(task, set=settings, block=block, **{**options, "lang": options["lang"] or "uk"})
     say_written(drawn.save(*files, tile=tile), False)
     warn(drawn.warnings)
@@ -199,7 +199,7 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     from ..batches.batch import MANIFEST
     from ..batches.batch import batch as draw_class
 
-    block = said({name: options.pop(name) for name in BLOCK})
+    block = without_none({name: options.pop(name) for name in BLOCK})
     with progress() as advance:
         made = draw_class(tasks, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
     warn(made.warnings)

@@ -96,7 +96,8 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
         before, path = len(checker.faults), (self.table,)
         curves = _curves(checker, (*path, "curve"), raw["curve"]) if isinstance(raw, dict) and "curve" in raw else ()
         laws = (*cams.LAWS, *(curve.name for curve in curves))
-        known = dict(zip(WORDS, (laws, (cams.AS_RISE, *laws), cams.ORDERS, cams.ROTATIONS, cams.LIMITS), strict=True))
+        known = {"law": laws, "law_fall": (cams.AS_RISE, *laws)}
+        known |= {"fall": cams.ORDERS, "rotation": cams.ROTATIONS, "limits": cams.LIMITS}
         fields = {key: Field(word_or_choice(known[key], givens), required=key == "law") for key in WORDS}
         fields |= {
             "followers": Field(array_of(one_of("follower-unknown", lambda: cams.FOLLOWERS))),
