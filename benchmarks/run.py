@@ -72,7 +72,7 @@ def million() -> None:
     from kulman import load_task
     from kulman.plans.boards.batch import batch, settle_heap
     from kulman.plans.linkages.chain import construct
-    from kulman.plans.linkages.givens import board_givens
+    from kulman.plans.linkages.solved import board_givens
 
     settle_heap()
     phi = np.linspace(0.0, 2.0 * math.pi, MILLION, endpoint=False)
@@ -112,7 +112,7 @@ def main() -> None:
     from kulman.plans.boards.exact import run
     from kulman.plans.hands.shaky import Paper, draw, preset
     from kulman.plans.linkages.chain import construct
-    from kulman.plans.linkages.givens import board_givens
+    from kulman.plans.linkages.solved import board_givens
 
     versions = f"Python {sys.version.split()[0]}, numpy {np.__version__}, {os.cpu_count()} cores"
     print(f"{versions}; processor time, the shortest of {RUNS} runs\n")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import Coupler
-from ...plans.linkages.cycles.limits import slider_runs
+from ...plans.linkages.cycles.cycle import slider_runs
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group, Structure
 from ...plans.names import role, scale_factor

@@ -215,8 +215,15 @@ def in_order(diagram: Diagram, values: Mapping[str, Any]) -> None:
     places = [values.get(name, 0.0) for name in diagram.at]
     low, most = (0.0, 1.0) if diagram.over == STROKE else (places[0], TURN * (1.0 + ROUNDING))
     wrong = [a > b for a, b in pairwise(places)] + [places[0] < low, places[-1] - low > most]
-    if any(bool(one.any() if hasattr(one, "any") else one) for one in wrong):
+    if any(bool(rows.any() if hasattr(rows, "any") else rows) for rows in wrong):
         raise InputError(f"diagram-{diagram.over}", name=diagram.name)
+
+
+def with_sizes(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return `values` with the sizes of loads as the board calls them: `|F_3|`, for `F_3` is the vector there."""
+    for diagram in mechanism.diagrams:
+        in_order(diagram, values)
+    return {**values, **{magnitude(name): values[name] for name in mechanism.sizes if name in values}}
 
 
 def needs_stroke(mechanism: Mechanism) -> bool:

@@ -18,9 +18,8 @@ from kulman.plans.boards.exact import run
 from kulman.plans.boards.precision import DIGITS, fifty_digits
 from kulman.plans.condition import conditions, derivatives
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
-from kulman.plans.linkages.solved import SolvedLinkage, conditions_of, signs, solve_linkage, varied
+from kulman.plans.linkages.solved import SolvedLinkage, board_givens, conditions_of, signs, solve_linkage, varied
 from kulman.plans.quantities import plans_of, references, results
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.fifty_digits import differences

@@ -11,7 +11,7 @@ import pytest
 
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
-from kulman.plans.linkages.givens import board_givens
+from kulman.plans.linkages.solved import board_givens
 from kulman.tests.support.mechanisms import SEED, Solved, general_slider_crank, one_of, random_slider_cranks, solved
 
 

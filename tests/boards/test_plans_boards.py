@@ -13,7 +13,7 @@ from kulman.plans.board import POSITION, Program
 from kulman.plans.boards.arrays import ArrayBoard
 from kulman.plans.boards.exact import ExactBoard, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
+from kulman.plans.linkages.solved import board_givens
 
 TASK = load_task("nau-slider-crank")
 PROGRAM = construct(TASK.mechanism)[1]

@@ -68,7 +68,7 @@ def test_double_precision_is_the_exact_board() -> None:
 def test_a_batch_misses_fifty_digits_by_the_rounding_of_its_precision(task: str, precision: str) -> None:
     solved = solve(task).solved
     drive = swept(solved.mechanism, solved.givens)
-    givens = drive.givens(solved.givens, np.full(3, drive.start), solved.program)
+    givens = drive.givens(solved.givens, np.full(3, drive.start))
     wanted = [step.name for step in results(solved.program)]
 
     found, codes = batch_in(solved.program, givens, wanted, precision, chunk=2)

@@ -47,7 +47,7 @@ class Task:
 
     def givens(self, place: float) -> dict[str, float]:
         """Return what the board begins with, the driver being at a place."""
-        there = self.drive.givens(self.values, np.array([place]), self.program)
+        there = self.drive.givens(self.values, np.array([place]))
         return {name: float(np.ravel(value)[0]) for name, value in there.items()}
 
     def cycle(self, count: int) -> list[float]:

@@ -18,7 +18,7 @@ from kulman.plans.boards.exact import run
 from kulman.plans.hands.shaky import PRESETS, Hand, Paper, draw, paper_of, preset
 from kulman.plans.hands.spread import drawn, sensitivities
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
+from kulman.plans.linkages.solved import board_givens
 from kulman.plans.quantities import references, results
 from kulman.tests.support.mechanisms import (
     SEED,

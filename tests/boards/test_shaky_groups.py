@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from kulman.plans.boards.batch import batch
 from kulman.plans.hands.shaky import Hand, Paper, draw
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
+from kulman.plans.linkages.solved import board_givens
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.mechanisms import SEED
 from kulman.tests.support.triads import random_triads

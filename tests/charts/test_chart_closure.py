@@ -12,8 +12,8 @@ from kulman.plans.linkages.accuracy.comparison import Rivals, kinds_of, places_o
 from kulman.plans.linkages.accuracy.contours import Contours
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
+from kulman.plans.linkages.solved import board_givens
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.linkages import (
     four_bar,

@@ -13,9 +13,8 @@ from kulman import load_task
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import FRAME, STROKE, WORKING, Driver, Mechanism, Prismatic, Revolute
-from kulman.plans.linkages.solved import solve_linkage
+from kulman.plans.linkages.solved import board_givens, solve_linkage
 from kulman.plans.linkages.structure import Group, analyse
 from kulman.variants.shelf import bundled, bundled_text, summary
 

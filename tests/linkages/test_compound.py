@@ -12,9 +12,8 @@ from numpy.typing import NDArray
 from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct, hinged
 from kulman.plans.linkages.compound import COMPOUND, Coupler
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Driver, Link, Mechanism, Prismatic, Revolute
-from kulman.plans.linkages.solved import disagreement, solve_linkage
+from kulman.plans.linkages.solved import board_givens, disagreement, solve_linkage
 from kulman.tests.support.dyads import KINDS, LEAST_SINE, LEAST_SINE_BEFORE, Workshop, chosen, feeder
 from kulman.tests.support.mechanisms import ORIGIN, nau_slider_crank, nau_values
 

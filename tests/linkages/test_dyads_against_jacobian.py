@@ -21,9 +21,8 @@ from kulman.plans.board import Program
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism, Prismatic, Revolute
-from kulman.plans.linkages.solved import moment_points
+from kulman.plans.linkages.solved import board_givens, moment_points
 from kulman.plans.linkages.structure import analyse
 from kulman.tests.support.dyads import KINDS, random_dyads, random_trains
 from kulman.tests.support.jacobian_solver import JacobianSolver

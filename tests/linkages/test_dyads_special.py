@@ -12,9 +12,8 @@ import pytest
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
-from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, board_givens, solve_linkage
 from kulman.scales.errors import InputError
 from kulman.tests.support.mechanisms import nau_slider_crank
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Driver, Link, Mechanism, Prismatic, Revolute
+from kulman.plans.linkages.solved import board_givens
 from kulman.tests.support.mechanisms import ORIGIN, SEED
 
 Array = NDArray[Any]

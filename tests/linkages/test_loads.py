@@ -11,7 +11,6 @@ import pytest
 
 from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import (
     ANGLE,
     FORCE,
@@ -29,7 +28,7 @@ from kulman.plans.linkages.mechanism import (
     SlidingDriver,
     Stroke,
 )
-from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, board_givens, solve_linkage
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.mechanisms import ORIGIN, ZERO
 

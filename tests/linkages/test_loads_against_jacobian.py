@@ -19,7 +19,6 @@ from kulman.plans.board import Program
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import (
     ANGLE,
     FORCE,
@@ -35,6 +34,7 @@ from kulman.plans.linkages.mechanism import (
     Revolute,
     Stroke,
 )
+from kulman.plans.linkages.solved import board_givens
 from kulman.tests.support.dyads import feeder, random_dyads, sliding_feeder
 from kulman.tests.support.jacobian_solver import JacobianSolver
 from kulman.tests.support.triads import random_triads

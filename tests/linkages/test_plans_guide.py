@@ -17,7 +17,7 @@ import pytest
 
 from kulman.plans.boards.exact import ExactBoard, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
+from kulman.plans.linkages.solved import board_givens
 from kulman.plans.linkages.structure import analyse
 from kulman.tests.support.mechanisms import nau_slider_crank, nau_values
 

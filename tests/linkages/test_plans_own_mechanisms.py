@@ -9,8 +9,8 @@ import pytest
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Link, Load, Mechanism, Prismatic, Revolute
+from kulman.plans.linkages.solved import board_givens
 from kulman.scales.errors import InputError
 from kulman.tests.linkages.test_plans_second_solver import differing, quantities
 from kulman.tests.support.mechanisms import ORIGIN, nau_slider_crank, nau_values

@@ -10,8 +10,8 @@ from mpmath import mp, mpf
 from kulman.plans.board import Program
 from kulman.plans.boards.exact import ExactBoard, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism
+from kulman.plans.linkages.solved import board_givens
 from kulman.tests.support.mechanisms import (
     general_slider_crank,
     nau_cases,

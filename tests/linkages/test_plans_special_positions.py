@@ -12,7 +12,7 @@ from kulman.plans.board import Program
 from kulman.plans.boards.arrays import ArrayBoard
 from kulman.plans.boards.exact import STATUSES, ExactBoard, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
+from kulman.plans.linkages.solved import board_givens
 from kulman.tests.linkages.test_plans_second_solver import differing, quantities
 from kulman.tests.support.mechanisms import (
     NAU_VARIANTS,

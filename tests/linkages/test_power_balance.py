@@ -16,6 +16,7 @@ from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct, moving_bodies
 from kulman.plans.linkages.cycles.limits import swept
 from kulman.plans.linkages.mechanism import FORCE, Driver, Link, Mechanism
+from kulman.plans.linkages.solved import board_givens
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled, summary
 from kulman.variants.task import Task
@@ -35,7 +36,7 @@ class Powers:
         self.bodies = moving_bodies(self.mechanism, structure)
         turn = np.linspace(0.0, 2.0 * np.pi, POSITIONS, endpoint=False) + 0.01
         places = turn if drive.turns else drive.start * (1.0 + 0.001 * np.sin(turn))
-        self.givens = drive.givens(values, places, program)
+        self.givens = board_givens(drive.mechanism, drive.givens(values, places), program, follow=False)
         self.found, self.codes = self.run(program)
 
     def run(self, program: Program) -> tuple[dict[str, NDArray[Any]], NDArray[np.int8]]:

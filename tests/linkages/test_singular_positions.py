@@ -15,8 +15,7 @@ from kulman import cli
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES
 from kulman.plans.boards.precision import fifty_digits
-from kulman.plans.linkages.givens import board_givens
-from kulman.plans.linkages.solved import SolvedLinkage, conditions_of, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, board_givens, conditions_of, solve_linkage
 from kulman.plans.quantities import references
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.both_sides import Limit, limits

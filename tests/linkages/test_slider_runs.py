@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from kulman.plans.linkages.cycles.cycle import cycle
-from kulman.plans.linkages.cycles.limits import slider_runs
+from kulman.plans.linkages.cycles.cycle import cycle, slider_runs
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.tests.support.presses import RAM, RAM_VALUES
 from kulman.variants.solution import solve

@@ -6,7 +6,7 @@ import pytest
 
 from kulman.plans.boards.exact import run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
+from kulman.plans.linkages.solved import board_givens
 from kulman.tests.linkages.test_plans_second_solver import differing, quantities
 from kulman.tests.support.mechanisms import general_slider_crank, one_of, random_slider_cranks
 from kulman.tests.support.second_solver import SecondSolver

@@ -18,8 +18,8 @@ import pytest
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import Mechanism, Prismatic
+from kulman.plans.linkages.solved import board_givens
 from kulman.tests.linkages.test_dyads_against_jacobian import (
     ALL_KINDS,
     TOLERANCE,

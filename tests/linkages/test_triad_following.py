@@ -13,9 +13,8 @@ from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.cycles.limits import swept
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Mechanism, Prismatic, Revolute, SlidingDriver, Start
-from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
+from kulman.plans.linkages.solved import SolvedLinkage, board_givens, solve_linkage
 from kulman.plans.linkages.triads.following import Follower, followed, with_special_points
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.mechanisms import one_of
@@ -375,7 +374,7 @@ def test_a_sweep_has_the_names_and_values_of_the_position_of_the_task(kinds: str
         one = one_of(values, i)
         solved, drive = solve_linkage(mechanism, one), swept(mechanism, one)
         program = construct(drive.mechanism)[1]
-        there = drive.givens(one, np.array([drive.start]), program)
+        there = drive.givens(one, np.array([drive.start]))
 
         here = run(program, {name: float(np.ravel(value)[0]) for name, value in there.items()}).values
 

@@ -12,8 +12,8 @@ from typing import Any
 from kulman.plans.boards.exact import run
 from kulman.plans.hands.shaky import Paper
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Mechanism, Prismatic, Revolute
+from kulman.plans.linkages.solved import board_givens
 from kulman.plans.mistakes.book import MISTAKES
 from kulman.plans.mistakes.rules import Broken, Scene, breaks
 from kulman.tests.support.mechanisms import ORIGIN

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from kulman.plans.board import Program
 from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.givens import board_givens
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Load, Mechanism, Pair, Prismatic, Revolute
+from kulman.plans.linkages.solved import board_givens
 
 SEED = 20160101
 ORIGIN = (ZERO, ZERO)

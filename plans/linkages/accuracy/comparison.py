@@ -88,7 +88,7 @@ class Rivals:
 
     def plan(self, places: Array, names: Sequence[str], precision: str = "double") -> Values:
         """Return quantities by plans in a precision, many positions at once."""
-        givens = self.cycle.drive.givens(self.cycle.givens, places, self.cycle.program)
+        givens = self.cycle.drive.givens(self.cycle.givens, places)
         return batch_in(self.cycle.program, givens, tuple(names), precision)[0]
 
     def differences(self, step: float, places: Array, names: Sequence[str]) -> Values:
@@ -338,7 +338,7 @@ def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Kind]) 
     """
     places, kinds = _not_dead(cycle, places_of(cycle, DRAWN)), tuple(kinds)
     names = tuple(name for kind in kinds for name in kind.names)
-    program, givens = cycle.program.needed_for(names), cycle.drive.givens(cycle.givens, places, cycle.program)
+    program, givens = cycle.program.needed_for(names), cycle.drive.givens(cycle.givens, places)
     runs = [run(cycle.program, here) for here in cycle.each(places)]
     column = {name: value[:, None] if np.ndim(value) else value for name, value in givens.items()}
     on_paper = Paper(program, column, _as_long(cycle.program, runs, sheet))

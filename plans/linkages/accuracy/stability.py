@@ -129,7 +129,7 @@ class _Alike:
 def _misses(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: Hand, seed: int) -> dict[str, Array]:
     """Return what most drawings keep, SI."""
     program = cycle.program.needed_for(names)
-    givens = cycle.drive.givens(cycle.givens, cycle.angles, cycle.program)
+    givens = cycle.drive.givens(cycle.givens, cycle.angles)
     count = len(cycle.angles)
     found = {name: np.full(count, np.nan) for name in names}
     for start in range(0, count, AT_ONCE):

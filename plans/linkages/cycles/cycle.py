@@ -8,7 +8,8 @@ drawn to scale is differentiated graphically. It is divided into sections. From 
 the axes a ray is drawn parallel to the chord of each section; on the axis it cuts off the mean slope of the section,
 which belongs to its middle. Done once it turns travels into velocities, done again velocities into accelerations.
 
-Beside them the field of velocities of a link: those of all its points in one position.
+Beside them the field of velocities of a link: those of all its points in one position; and how far sliders run along
+their guides over the cycle, for guides are drawn so long.
 
 Source: Artobolevsky, Theory of mechanisms and machines (method of chords); Kinytskyi, the same.
 """
@@ -32,16 +33,20 @@ from ...laws import LAWS, TURN, dot, inclination
 from ...quantities import quantities
 from ...zeros import Extreme, extremes
 from ..chain import USUAL, constructed, moving_bodies
-from ..mechanism import Mechanism
-from ..solved import SolvedLinkage
+from ..mechanism import Driver, Mechanism, Prismatic
+from ..solved import SolvedLinkage, board_givens
 from ..structure import Structure
 from .limits import NEAR_LIMIT, Arc, Reach, Swept, reach_of, swept
 from .strokes import Output, OutputMotion, measured, output_motions, outputs, unwound, zero_position
 
 Array = NDArray[Any]
+Runs = Mapping[str, tuple[float, float]]
 VANISHES = 1e-9  # part of the largest magnitude below which the smallest is zero
 BESIDE_CHANGE = 1e-4  # radians from a change point within which velocities are lost in rounding: it goes as 1 / angle^2
 FEWEST, MOST = 3, 100_000  # positions of a cycle
+SWAY = 0.3  # part of the mechanism's size by which a sliding driver is moved to and fro, to see how far sliders run
+LEAP = 0.12  # part of that size which no slider runs between two positions, unless the guides are nearly parallel
+POSITIONS = 72
 MARGIN = 0.15  # how far a field reaches beyond the link's points, in parts of its larger side
 
 
@@ -101,7 +106,7 @@ class Cycle:
 
     def each(self, places: Array) -> list[dict[str, float]]:
         """Return the board's givens for places of the driver, one after the other."""
-        givens = self.drive.givens(self.givens, places, self.program)
+        givens = self.drive.givens(self.givens, places)
         return [
             {name: float(value[i] if np.ndim(value) else value) for name, value in givens.items()}
             for i in range(len(places))
@@ -170,16 +175,16 @@ def cycle(
     structure, program = constructed(drive.mechanism, plans)
     program = measured(program, outputs(drive.mechanism, structure))
     places = _places(drive, zero if start is None else start, between, positions)
-    wanted = _wanted(mechanism, program, motions)
+    wanted, givens = _wanted(mechanism, program, motions), board_givens(drive.mechanism, values, program, follow=False)
     if positions > FEW:
-        results, codes = batch(program, drive.givens(values, places, program), wanted)
+        results, codes = batch(program, drive.givens(givens, places), wanted)
     else:
-        results, codes = drive.along(program, values, wanted).batch(places)
+        results, codes = drive.along(program, givens, wanted).batch(places)
     _strike_out(results, codes, program, reach.undetermined(places))
     speed = abs(float(values[mechanism.driver.speed]))
     with np.errstate(divide="ignore", invalid="ignore"):
         times = np.abs(places - places[0]) / speed
-    return Cycle(drive, structure, program, dict(values), places, times, results, codes, reach, motions, zero)
+    return Cycle(drive, structure, program, givens, places, times, results, codes, reach, motions, zero)
 
 
 def _wanted(mechanism: Mechanism, program: Program, motions: Iterable[OutputMotion]) -> list[str]:
@@ -378,3 +383,34 @@ def velocity_field(solved: SolvedLinkage, link: int, columns: int = 9, rows: int
     omega = float(solved.values[body.omega]) if body.omega else 0.0
     velocity = solved.point(solved.mechanism.mark("velocity", body.pin))
     return places, velocities(places, solved.point(body.pin), velocity, omega)
+
+
+def slider_runs(solved: SolvedLinkage) -> Runs:
+    """Return for each guide how far the slider's point runs back (negative) and forth from its place now, metres."""
+    pairs = [pair for pair in solved.mechanism.pairs if isinstance(pair, Prismatic)]
+    if not pairs:
+        return {}
+    drive = swept(solved.mechanism, solved.givens)
+    _, program = constructed(drive.mechanism.without_loads, ("position",))
+    # a slider's way is measured from a point of the guide's link, from none on the frame
+    first = {link.number: next(iter(link.points)) for link in solved.mechanism.links}
+    marks = {solved.guide_name(pair): (pair.point, first.get(pair.links[1], "")) for pair in pairs}
+    wanted = sorted({mark for u, (point, at) in marks.items() for mark in (u, point, at) if mark})
+    steps = np.arange(-POSITIONS // 2, POSITIONS // 2 + 1) * (1.0 / POSITIONS)
+    size = solved.extent
+    whole = TURN if isinstance(solved.mechanism.driver, Driver) else 2.0 * SWAY * size
+    places: Array = drive.start + steps * whole
+    moved = drive.along(program, solved.givens, wanted)(places)
+    ways = {u: moved[point] - moved[at] if at else moved[point] for u, (point, at) in marks.items()}
+    return {u: _run(dot(way, moved[u]), LEAP * size) for u, way in ways.items()}
+
+
+def _run(along: Array, leap: float) -> tuple[float, float]:
+    """Return how far it goes back and forth from the middle position, without a leap and while it can be assembled."""
+    middle = len(along) // 2
+    steps = np.abs(np.diff(along))
+    stops = np.flatnonzero(~(steps < leap))
+    first = int(max((k + 1 for k in stops if k < middle), default=0))
+    last = int(min((k for k in stops if k >= middle), default=len(along) - 1))
+    way = along[first : last + 1] - along[middle]
+    return float(way.min()), float(way.max())

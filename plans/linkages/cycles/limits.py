@@ -5,8 +5,6 @@ The driver's variable has its own name, groups of class III are followed from th
 Every arc and tangent of the position plan has a margin, the square of what the compass has to spare: where it falls
 below zero the links come apart. Its zeros are the limiting positions. Where it only touches zero the links lie in line
 and may go on in either of two ways: a change point. Where two guides become parallel a joint runs off to infinity.
-
-A sweep tells how far sliders run along their guides while the driver goes through its cycle: guides are drawn so long.
 """
 
 from __future__ import annotations
@@ -24,25 +22,20 @@ from ...along import Along, remembering
 from ...board import Program
 from ...boards.arrays import ArrayBoard
 from ...boards.exact import TANGENT
-from ...laws import TURN, dot
+from ...laws import TURN
 from ...names import role
 from ...zeros import Stretch, zeros
 from ..chain import constructed
-from ..givens import board_givens
-from ..mechanism import ZERO, Driver, Mechanism, Prismatic
-from ..solved import SolvedLinkage
+from ..loads import with_sizes
+from ..mechanism import ZERO, Driver, Mechanism
 
 if TYPE_CHECKING:
     from ..triads.following import Follower
 
-Runs = Mapping[str, tuple[float, float]]
 Array = NDArray[Any]
 SAME = 1e-9  # radians, or parts of a slide's range, within which two places of the driver are one, but for rounding
 NEAR_CHANGE, NEAR_LIMIT = 1e-7, 1e-12  # the same: how well change points and limits are known
 TURN_CELLS, SLIDE_CELLS = 360, 720  # grid on which a margin is looked at first: a full turn, the range of a slide
-POSITIONS = 72
-SWAY = 0.3  # part of the mechanism's size by which a sliding driver is moved to and fro
-LEAP = 0.12  # part of that size which no slider runs between two positions, unless the guides are nearly parallel
 OWN = "_driver"  # the driver's variable where the mechanism has a literal in its place
 
 
@@ -60,25 +53,16 @@ class Swept:
     sense: float  # of the driver's motion, +1 or -1
     follower: Follower | None = field(default=None, repr=False)
 
-    def givens(
-        self, values: Mapping[str, Any], places: Any, program: Program | None = None, mechanism: Mechanism | None = None
-    ) -> dict[str, Any]:
-        """Return the board's givens for places of the driver; `mechanism` is this one in another form."""
+    def givens(self, values: Mapping[str, Any], places: Any) -> dict[str, Any]:
+        """Return the board's givens for places of the driver; `values` hold the ends of the stroke where one counts."""
         near = self.follower.near(np.atleast_1d(places)) if self.follower else {}
-        there = {**values, self.variable: places, **near}
-        return board_givens(mechanism or self.mechanism, there, program, follow=False)
+        return with_sizes(self.mechanism, {**values, self.variable: places, **near})
 
     def along(
-        self,
-        program: Program,
-        values: Mapping[str, Any],
-        wanted: Sequence[str],
-        board: type[ArrayBoard] = ArrayBoard,
-        mechanism: Mechanism | None = None,
+        self, program: Program, values: Mapping[str, Any], wanted: Sequence[str], board: type[ArrayBoard] = ArrayBoard
     ) -> Along:
-        """Return a program of `mechanism`, this one in any form, as a function of the driver's variable."""
-        there = {**values, self.variable: self.start}
-        givens = board_givens(mechanism or self.mechanism, there, program, follow=False)
+        """Return a program of this mechanism, with its loads or without, as a function of the driver's variable."""
+        givens = with_sizes(self.mechanism, {**values, self.variable: self.start})
         return Along(program, givens, self.variable, wanted, board, self.follower.near if self.follower else None)
 
 
@@ -216,9 +200,8 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     are known to the rounding of the margins, better than 1e-12 rad; limits near a change point, which are nearly double
     zeros, than 1e-9 rad.
     """
-    free = drive.mechanism.without_loads
-    _, program = constructed(free, ("position",))
-    position = drive.along(program, values, program.names, MarginBoard, free)
+    _, program = constructed(drive.mechanism.without_loads, ("position",))
+    position = drive.along(program, values, program.names, MarginBoard)
     whole = _range(drive, values, between)
     if position.status in ("no-assembly", "singular"):
         return Reach(whole, (), _gaps(whole, ()), (), ())
@@ -269,8 +252,7 @@ def _range(drive: Swept, values: Mapping[str, float], between: Arc | None) -> St
 def size_of(mechanism: Mechanism, values: Mapping[str, float]) -> float:
     """Return a length that no distance in the mechanism exceeds: all coordinates that it names, together."""
     names = [*mechanism.coordinates, *(name for pair in mechanism.pairs for name in pair.coordinates)]
-    given = board_givens(replace(mechanism.without_loads, starts=()), values)
-    return math.fsum(abs(given.get(name, 0.0)) for name in set(names)) or 1.0  # the same in any order
+    return math.fsum(abs(values.get(name, 0.0)) for name in set(names)) or 1.0  # the same in any order
 
 
 def _split(
@@ -329,35 +311,3 @@ def limiting_places(mechanism: Mechanism, values: Mapping[str, float]) -> tuple[
         return max(below, default=None), min(above, default=None)
     below, above = [(x - drive.start) % TURN - TURN for x in highs], [(x - drive.start) % TURN for x in lows]
     return drive.start + max(below), drive.start + min(above)
-
-
-def slider_runs(solved: SolvedLinkage) -> Runs:
-    """Return for each guide how far the slider's point runs back (negative) and forth from its place now, metres."""
-    pairs = [pair for pair in solved.mechanism.pairs if isinstance(pair, Prismatic)]
-    if not pairs:
-        return {}
-    drive = swept(solved.mechanism, solved.givens)
-    free = drive.mechanism.without_loads
-    _, program = constructed(free, ("position",))
-    # a slider's way is measured from a point of the guide's link, from none on the frame
-    first = {link.number: next(iter(link.points)) for link in solved.mechanism.links}
-    marks = {solved.guide_name(pair): (pair.point, first.get(pair.links[1], "")) for pair in pairs}
-    wanted = sorted({mark for u, (point, at) in marks.items() for mark in (u, point, at) if mark})
-    steps = np.arange(-POSITIONS // 2, POSITIONS // 2 + 1) * (1.0 / POSITIONS)
-    size = solved.extent
-    whole = TURN if isinstance(solved.mechanism.driver, Driver) else 2.0 * SWAY * size
-    places: Array = drive.start + steps * whole
-    moved = drive.along(program, solved.givens, wanted, mechanism=free)(places)
-    ways = {u: moved[point] - moved[at] if at else moved[point] for u, (point, at) in marks.items()}
-    return {u: _run(dot(way, moved[u]), LEAP * size) for u, way in ways.items()}
-
-
-def _run(along: Array, leap: float) -> tuple[float, float]:
-    """Return how far it goes back and forth from the middle position, without a leap and while it can be assembled."""
-    middle = len(along) // 2
-    steps = np.abs(np.diff(along))
-    stops = np.flatnonzero(~(steps < leap))
-    first = int(max((k + 1 for k in stops if k < middle), default=0))
-    last = int(min((k for k in stops if k >= middle), default=len(along) - 1))
-    way = along[first : last + 1] - along[middle]
-    return float(way.min()), float(way.max())

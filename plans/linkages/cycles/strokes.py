@@ -189,7 +189,7 @@ def output_motions(
     structure, program = constructed(mechanism, ("velocity",))
     moved = tuple(output for output in outputs(mechanism, structure) if link in (None, output.link))
     wanted = [name for output in moved for name in (output.place, output.rate) if name]
-    along = remembering(drive.along(measured(program, moved), values, wanted, mechanism=mechanism))
+    along = remembering(drive.along(measured(program, moved), values, wanted))
     size = size_of(mechanism, values)
     return tuple(_Ends(output, along, drive, size).motion(values, found) for output in moved)
 
