@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from enum import Enum
 from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, SupportsFloat
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING, SupportsFloat
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import InputError, KulmanError
+from ..scales.givens import Bound
 from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import Unit, bounded, parse
@@ -26,28 +26,6 @@ ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written
 
 Instead = tuple[tuple[frozenset[str], tuple[str, ...]], ...]  # givens, and those in whose place they stand
 WITH_FORCES = frozenset(("forces", "lever"))  # plans whose units hang together in SI alone
-
-
-class Bound(Enum):
-    """What values a given may take, in SI; the value of a member is the key of the message for the others."""
-
-    admits: Callable[[float], bool]
-
-    FREE = "", lambda value: True
-    POSITIVE = "not-positive", lambda value: value > 0.0
-    NOT_NEGATIVE = "negative", lambda value: value >= 0.0
-    NOT_ZERO = "is-zero", lambda value: value != 0.0
-    PART = "not-part", lambda value: 0.0 < value < 1.0
-    ACUTE = "not-acute", lambda value: 0.0 < value < 0.5 * math.pi
-    TURN = "not-turn", lambda value: 0.0 < value <= 2.0 * math.pi
-    UP_TO_HALF = "not-half", lambda value: 0.0 < value <= 0.5
-    RIGID = "not-positive-or-inf", lambda value: value > 0.0  # positive or infinite
-
-    def __new__(cls, key: str, admits: Callable[[float], bool]) -> Bound:
-        """Make a bound that is known by its key."""
-        bound = object.__new__(cls)
-        bound._value_, bound.admits = key, admits
-        return bound
 
 
 class LocatedError(InputError):
@@ -191,7 +169,7 @@ class Task:
             if name not in self.givens:
                 from .kinds import kind_of  # which know tasks
 
-                if name in kind_of(self.kind).names:
+                if name in kind_of(self.kind).givens:
                     known = ", ".join(self.givens)
                     raise InputError("given-absent", text=name, task=quote(self.id), known=known)
                 raise unknown("given-unknown", name, self.givens, task=self.id)

@@ -1,14 +1,15 @@
 """A disk cam as data: its followers, the laws of their motion, the senses; all numbers by name.
 
-The numbers come separately, in SI, under the names of `VALUES`, so that one cam serves a variant, a sweep and a batch.
-Everything else is a word. A field may also hold the name of a given that is a choice between words: `chosen` puts the
-word of a variant in its place, and only then is the cam one that can be solved.
+`GIVENS` says what describes one: words are fields of a cam, numbers come separately, in SI. Where a field holds the
+name of a given that is a choice, only the cam with the word of a variant in its place can be solved.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+import math
+from dataclasses import dataclass
+
+from ...scales.givens import Bound, Described, Givens, Parameter, units
 
 ROLLER, PLATE, ROCKER = FOLLOWERS = ("roller", "plate", "rocker")
 LAWS = (
@@ -31,32 +32,48 @@ ONE_SIDED, TWO_SIDED = LIMITS = ("one-sided", "two-sided")
 POINTS, PIECES = CURVES = ("points", "pieces")
 # parts of the construction that may be wanted, each of one plan or more
 DIAGRAMS_PART, SIZES_PART, PROFILE_PART, PRESSURE_PART = PLANS = ("diagrams", "sizes", "profile", "pressure")
-# names of the numbers, and what they are; those of a phase or a follower that a cam has not are not needed
-VALUES = {
-    "h": "m",  # stroke
-    "phi_rise": "rad",
-    "phi_upper": "rad",
-    "phi_fall": "rad",
-    "u": "",  # part of a phase that its first lobe takes, and that of the fall if it is another
-    "u_fall": "",
-    "omega": "rad/s",
-    "mu_phi": "rad/mm",  # scale factor of the axis of angles
-    "l_A1": "m",  # drawn length of the first amplitude, and the pole distances of both integrations
-    "H_a": "m",
-    "H_v": "m",
-    "gamma_rise": "rad",
-    "gamma_fall": "rad",
-    "R_roller": "m",
-    "rho_flat": "m",  # least radius of curvature under the plate, and by how much the plate reaches beyond the contact
-    "margin": "m",
-    "psi": "rad",  # swing of a rocker, in the place of the stroke; its length, and where it turns
-    "l_rocker": "m",
-    "l_OC": "m",
-    "r_0": "m",  # sizes that are given, not found; r_0_flat is that of the cam for a plate beside one for a roller
-    "e": "m",
-    "r_0_flat": "m",
+_STRAIGHT, _ROLLING = (ROLLER, PLATE), (ROLLER, ROCKER)
+_DEGREE = math.radians(1.0)
+_PERMITTED = Parameter("rad", Bound.ACUTE, usual=(20.0 * _DEGREE, 85.0 * _DEGREE), forms=_ROLLING)
+_PHASE = Parameter("rad", Bound.TURN, usual=(5.0 * _DEGREE, 355.0 * _DEGREE))
+_POLE = Parameter("m", default=0.03, usual=(5e-3, 0.2))
+# forms are followers. Usual lengths on paper are those that a sheet of format A1 has room for
+GIVENS: Givens = {
+    "law": Parameter(choices=LAWS),  # of the rise: one of these, or the name of one of `curves`
+    "law_fall": Parameter(choices=(AS_RISE, *LAWS), default=AS_RISE),
+    "fall": Parameter(choices=ORDERS, default=MIRROR),  # whether it runs through its law backwards in time
+    "rotation": Parameter(choices=ROTATIONS, default=CCW),  # sense in which the cam turns
+    "limits": Parameter(choices=LIMITS, default=ONE_SIDED),  # whether the pressure angle is limited to both sides
+    "h": Parameter("m", usual=(1e-4, 0.5), forms=_STRAIGHT),  # stroke
+    # swing of a rocker, in the place of the stroke
+    "psi": Parameter("rad", Bound.ACUTE, usual=(0.5 * _DEGREE, 60.0 * _DEGREE), forms=(ROCKER,)),
+    "phi_rise": _PHASE,
+    "phi_upper": Parameter("rad", Bound.NOT_NEGATIVE, default=0.0),
+    "phi_fall": _PHASE,
+    "omega": Parameter("rad/s", usual=(1e-2, 3e3)),
+    # part of a phase that its first lobe takes, and that of the fall if it is another
+    "u": Parameter("", Bound.PART, default=0.5, usual=(0.05, 0.95)),
+    "u_fall": Parameter("", Bound.PART, needed=False, usual=(0.05, 0.95)),
+    # drawn length of the first amplitude, and the pole distances of both integrations
+    "l_A1": Parameter("m", default=0.1, usual=(0.01, 0.4)),
+    "H_a": _POLE,
+    "H_v": _POLE,
+    # scale factor of the axis of angles; its default in SI, its usual values as it is drawn
+    "mu_phi": Parameter("rad/mm", default=math.radians(1e3), usual=(0.25 * _DEGREE, 10.0 * _DEGREE)),
+    "gamma_rise": _PERMITTED,
+    "gamma_fall": _PERMITTED,
+    "R_roller": Parameter("m", usual=(1e-3, 0.1), forms=_ROLLING),
+    # least radius of curvature under the plate, and by how much the plate reaches beyond the contact
+    "rho_flat": Parameter("m", Bound.NOT_NEGATIVE, default=0.01, usual=(0.0, 0.2), forms=(PLATE,)),
+    "margin": Parameter("m", Bound.NOT_NEGATIVE, default=0.005, usual=(0.0, 0.05), forms=(PLATE,)),
+    "l_rocker": Parameter("m", usual=(5e-3, 2.0), forms=(ROCKER,)),
+    # where the rocker turns; else the pivot is where the cam is smallest
+    "l_OC": Parameter("m", needed=False, usual=(5e-3, 2.0), forms=(ROCKER,)),
+    "r_0": Parameter("m", needed=False),  # sizes that are given, not found
+    "e": Parameter("m", Bound.FREE, needed=False, forms=(ROLLER,)),
+    "r_0_flat": Parameter("m", needed=False, forms=(PLATE,)),  # of the cam for a plate beside one for a roller
 }
-CHOICES = ("law", "law_fall", "fall", "rotation", "limits")  # fields that may hold the name of a choice
+VALUES = units(GIVENS)
 NEAR = 1e-12  # rad, within which two angles are one: by so much the phases may be longer than a turn
 SECTIONS = 12  # of a phase, at least: what a student can draw, and enough for a smooth curve
 
@@ -76,25 +93,19 @@ class Curve:
 
 
 @dataclass(frozen=True, slots=True)
-class Cam:
+class Cam(Described):
     """A disk cam that turns with `omega` and lifts its followers after one law of motion."""
 
+    givens = GIVENS
     # of `FOLLOWERS`: the same motion may be that of several cams, each with a follower of its own
     followers: tuple[str, ...]
-    law: str  # the law of the rise: one of `LAWS`, or the name of one of `curves`
-    law_fall: str = AS_RISE  # the law of the fall likewise, or `rise`
-    # `mirror`, `same`: whether the fall runs through its law backwards in time, or in the same order
+    law: str
+    law_fall: str = AS_RISE
     fall: str = MIRROR
-    rotation: str = CCW  # `ccw`, `cw`: sense in which the cam turns
-    # `one-sided`, `two-sided`: whether the pressure angle is limited only where the cam pushes, or to both sides
+    rotation: str = CCW
     limits: str = ONE_SIDED
     sections: int = SECTIONS  # into how many sections a phase is divided at least
     curves: tuple[Curve, ...] = ()  # laws of one's own
-
-    def chosen(self, words: Mapping[str, str]) -> Cam:
-        """Return the cam with the words of a variant in the place of the names of the choices."""
-        chosen = {key: words.get(word := getattr(self, key), word) for key in CHOICES}
-        return replace(self, **chosen)
 
     @property
     def sense(self) -> int:

@@ -12,13 +12,14 @@ of `mu_s`, `r_0_tangents` that of `r_0`, and all that hangs on these hangs on th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ..board import Program, Step
 from ..boards.exact import run
 from ..solved import AT_LEAST, AT_MOST, Check
-from .cam import VALUES
+from .cam import GIVENS, VALUES
 from .construction import SHARPEST
 from .profile import OF_R_0, OF_RHO_MIN
 from .solve import EXACT_OF, SolvedCam, unit_of
@@ -61,23 +62,6 @@ def rules_of(solved: SolvedCam) -> tuple[Rule, ...]:
     return tuple(rules)
 
 
-DEGREE = math.radians(1.0)
-# SI; the least and the greatest usual value. Lengths on paper are those that a sheet of format A1 has room for.
-USUAL_GIVEN = {
-    "h": (1e-4, 0.5),
-    "psi": (0.5 * DEGREE, 60.0 * DEGREE),
-    **dict.fromkeys(("l_rocker", "l_OC"), (5e-3, 2.0)),
-    **dict.fromkeys(("phi_rise", "phi_fall"), (5.0 * DEGREE, 355.0 * DEGREE)),
-    "omega": (1e-2, 3e3),
-    **dict.fromkeys(("u", "u_fall"), (0.05, 0.95)),
-    "l_A1": (0.01, 0.4),
-    **dict.fromkeys(("H_a", "H_v"), (5e-3, 0.2)),
-    "mu_phi": (0.25 * DEGREE, 10.0 * DEGREE),
-    **dict.fromkeys(("gamma_rise", "gamma_fall"), (20.0 * DEGREE, 85.0 * DEGREE)),
-    "R_roller": (1e-3, 0.1),
-    "rho_flat": (0.0, 0.2),
-    "margin": (0.0, 0.05),
-}
 # what follows is looked at where all that is given is usual
 USUAL_FOUND = {"r_0": (2e-3, 1.0), "r_0_flat": (2e-3, 1.0), "a_max": (0.0, 1e5)}
 
@@ -95,13 +79,13 @@ class Unusual:
 
 def unusual(solved: SolvedCam) -> Iterator[Unusual]:
     """Go through the numbers that hardly any cam has: the given ones, else those that follow from them."""
-    given = [*_beyond(solved, USUAL_GIVEN)]
-    yield from given or _beyond(solved, USUAL_FOUND)
+    given = {name: of.usual for name, of in GIVENS.items() if of.usual is not None}
+    yield from [*_beyond(solved.givens, given)] or _beyond(solved.values, USUAL_FOUND)
 
 
-def _beyond(solved: SolvedCam, usual: dict[str, tuple[float, float]]) -> Iterator[Unusual]:
+def _beyond(values: Mapping[str, Any], usual: Mapping[str, tuple[float, float]]) -> Iterator[Unusual]:
     for name, (least, most) in usual.items():
-        value = solved.givens.get(name) if usual is USUAL_GIVEN else solved.values.get(name)
+        value = values.get(name)
         if value is not None and not least * (1.0 - ROUNDING) <= value <= most * (1.0 + ROUNDING):
             yield Unusual(name, VALUES.get(name, unit_of(name)), float(value), least, most)
 

@@ -1,16 +1,16 @@
 """An external spur gear pair as data, all numbers by name, and what cannot be, seen at these alone.
 
-The numbers come separately, in SI, under the names of `VALUES`, so that one pair serves a variant, a sweep and a batch.
-A field may also hold the name of a given that is a choice between words: `chosen` puts the word of a variant there.
+`GIVENS` says what describes one: words are fields of a pair, numbers come separately, in SI.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from ...scales.errors import InputError
+from ...scales.givens import Bound, Described, Givens, Parameter, defaults, units
 from ..names import Name, role
 
 CCW, CW = ROTATIONS = ("ccw", "cw")
@@ -19,29 +19,31 @@ WHEELS = (1, 2)  # the pinion, which drives, and the wheel
 SHIFTS = ("x_1", "x_2", "x_sum", "a_w")  # of which some are given
 # parts of the construction that may be wanted
 GEOMETRY_PART, MESHING_PART, SLIDING_PART = PLANS = ("geometry", "meshing", "sliding")
-# names of the numbers, and what they are
-VALUES = {
-    "m": "m",  # module
-    "z_1": "",
-    "z_2": "",
-    "x_1": "",  # shifts of the rack in modules; of x_1, x_2 and one of a_w, x_sum two are given, or one of the latter
-    "x_2": "",
-    "x_sum": "",
-    "a_w": "m",
-    "alpha": "rad",  # of the rack: profile angle, addendum, depth of its straight edge, clearance in modules
-    "h_a": "",
-    "h_l": "",
-    "c": "",
-    "PW": "m",  # drawn length of the velocity along the profiles at the pole
-    "mu_theta": "1/mm",  # scale factor of the diagrams of specific sliding
-}
 # modules of GOST 9563-60, both rows, m
 MODULES = (
     *(1e-3, 1.125e-3, 1.25e-3, 1.375e-3, 1.5e-3, 1.75e-3, 2e-3, 2.25e-3, 2.5e-3, 2.75e-3, 3e-3, 3.5e-3, 4e-3, 4.5e-3),
     *(5e-3, 5.5e-3, 6e-3, 7e-3, 8e-3, 9e-3, 10e-3, 11e-3, 12e-3, 14e-3, 16e-3, 18e-3, 20e-3, 22e-3, 25e-3),
 )
-# what is not given: the basic rack of GOST 13755-81, a drawn length, a scale factor
-STANDARD = {"alpha": math.radians(20.0), "h_a": 1.0, "h_l": 2.0, "c": 0.25, "PW": 40e-3, "mu_theta": 50.0}
+# of x_1, x_2 and one of a_w, x_sum two are given, or one of the latter; what has a default is that of GOST 13755-81
+GIVENS: Givens = {
+    "rotation": Parameter(choices=ROTATIONS, default=CCW),  # sense in which the pinion turns
+    # whether the teeth are of one structure, or hard outside: these must be thicker at the tip
+    "material": Parameter(choices=MATERIALS, default=HOMOGENEOUS),
+    "m": Parameter("m", row=MODULES),  # module
+    "z_1": Parameter(),
+    "z_2": Parameter(),
+    "x_1": Parameter(bound=Bound.FREE, needed=False),  # shifts of the rack in modules
+    "x_2": Parameter(bound=Bound.FREE, needed=False),
+    "x_sum": Parameter(bound=Bound.FREE, needed=False),
+    "a_w": Parameter("m", needed=False),
+    "alpha": Parameter("rad", default=math.radians(20.0)),  # of the rack: profile angle
+    "h_a": Parameter(default=1.0),  # addendum, depth of its straight edge, clearance in modules
+    "h_l": Parameter(default=2.0),
+    "c": Parameter(bound=Bound.NOT_NEGATIVE, default=0.25),
+    "PW": Parameter("m", default=40e-3),  # drawn length of the velocity along the profiles at the pole
+    "mu_theta": Parameter("1/mm", default=50.0),  # scale factor of the diagrams of specific sliding
+}
+VALUES, STANDARD = units(GIVENS), defaults(GIVENS)
 # calculated quantities that are no lengths: angles and plain numbers by their kinds, others by their names
 ANGLES = ("alpha", "tau", "nu", "phi")
 PLAIN = ("x", "inv", "epsilon", "theta")
@@ -49,18 +51,12 @@ NUMBERS = ("u", "y", "delta_y", *(f"z_W{i}" for i in WHEELS))
 
 
 @dataclass(frozen=True, slots=True)
-class GearPair:
+class GearPair(Described):
     """A pinion that drives a wheel, both cut by one rack."""
 
-    rotation: str = CCW  # `ccw`, `cw`: sense in which the pinion turns
-    # `homogeneous`, `hardened`: whether the teeth are of one structure, or hard outside: these must be thicker at the
-    # tip
+    givens = GIVENS
+    rotation: str = CCW
     material: str = HOMOGENEOUS
-
-    def chosen(self, words: Mapping[str, str]) -> GearPair:
-        """Return the pair with the words of a variant in the place of the names of the choices."""
-        rotation, material = (words.get(word, word) for word in (self.rotation, self.material))
-        return replace(self, rotation=rotation, material=material)
 
     @property
     def sense(self) -> int:

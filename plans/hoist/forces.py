@@ -102,7 +102,7 @@ class Forces:
 
 
 def forces(values: Mapping[str, Any]) -> Forces:
-    """Return the forces of one hoist, whose givens are in SI; what `USUAL` has may be left out.
+    """Return the forces of one hoist, whose givens are in SI; what has a default may be left out.
 
     Raises InputError of givens that no hoist can have, named.
     """

@@ -1,7 +1,6 @@
 """A hoist that takes a load off a beam, as data; all numbers by name.
 
-The numbers come separately, in SI, under the names of `VALUES`, so that one hoist serves a variant, a sweep, a batch. A
-field may also hold the name of a given that is a choice between words: `chosen` puts the word of a variant there.
+`GIVENS` says what describes one: words are fields of a hoist, numbers come separately, in SI.
 
 Source: Karpenko, Muzyka, Gudym, Evaluation of the forces in the lifting rope taking into account the resilience of its
 links.
@@ -11,10 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from ...scales.errors import InputError
+from ...scales.givens import Bound, Described, Givens, Parameter, units
 from ...scales.numbers import quote
 from ..laws import TURN
 
@@ -22,83 +22,71 @@ LEFT, RIGHT = SIDES = ("left", "right")
 # parts of the construction that may be wanted, each of one plan or more
 DRAWN = "drawn"  # part: a quantity as a drawing gives it
 SCHEME_PART, FORCES_PART, ROOTS_PART, CIRCLE_PART, BEAMS_PART = PLANS = ("scheme", "forces", "roots", "circle", "beams")
-# names of the numbers, and what they are
-VALUES = {
-    "G_1": "N",  # weight of the load, and of the rope that hangs
-    "G_2": "N",
-    "L": "m",  # of the rope: hanging length, area of metal, modulus, permissible stress, safety factor that is required
-    "S": "m^2",
-    "E_k": "Pa",
-    "sigma": "Pa",
-    "K": "",
-    "l_0": "m",  # of the support beam: span, second moment of area, modulus, place of the load in parts of the span
-    "I_0": "m^4",
-    "E_0": "Pa",
-    "beta_0": "",
-    "l_2": "m",  # of the bridge beam likewise
-    "I_2": "m^4",
-    "E_2": "Pa",
-    "beta_2": "",
-    "V_0": "m/s",  # of the rope's upper end: speed at the beginning, acceleration; slack that is taken up first
-    "a": "m/s^2",
-    "slack": "m",
-    "g": "m/s^2",
+GIVENS: Givens = {
+    "near_0": Parameter(choices=SIDES, default=LEFT),  # the end of the support beam that is the nearer one
+    "near_2": Parameter(choices=SIDES, default=LEFT),  # of the bridge beam likewise
+    "G_1": Parameter("N"),  # weight of the load, and of the rope that hangs
+    "G_2": Parameter("N", Bound.NOT_NEGATIVE),
+    "L": Parameter("m"),  # of the rope: hanging length, area of metal, modulus, permissible stress, required safety
+    "S": Parameter("m^2"),
+    "E_k": Parameter("Pa"),
+    "sigma": Parameter("Pa"),
+    "K": Parameter(),
+    "l_0": Parameter("m"),  # of the support beam: span, second moment of area, modulus, place in parts of the span
+    "I_0": Parameter("m^4", Bound.RIGID),
+    "E_0": Parameter("Pa"),
+    "beta_0": Parameter("", Bound.UP_TO_HALF),  # counted from the nearer end
+    "l_2": Parameter("m"),  # of the bridge beam likewise
+    "I_2": Parameter("m^4", Bound.RIGID),
+    "E_2": Parameter("Pa"),
+    "beta_2": Parameter("", Bound.UP_TO_HALF),
+    "V_0": Parameter("m/s", Bound.NOT_NEGATIVE),  # of the rope's upper end: speed at the beginning, acceleration
+    "a": Parameter("m/s^2", Bound.NOT_NEGATIVE),
+    "slack": Parameter("m", Bound.NOT_NEGATIVE, default=0.0),  # is taken up first
+    "g": Parameter("m/s^2", default=9.81),
 }
-MAY_BE_RIGID = ("I_0", "I_2")  # numbers that may be infinite
-NOT_NEGATIVE = ("G_2", "V_0", "a", "slack")  # numbers that may be zero
-PARTS = ("beta_0", "beta_2")  # counted from the nearer end: up to one half
-USUAL = {"slack": 0.0, "g": 9.81}  # what is not given
+VALUES = units(GIVENS)
+REFUSED = {Bound.NOT_NEGATIVE: "hoist-not-negative", Bound.UP_TO_HALF: "hoist-beta"}  # by bound; others positive
 
 
 @dataclass(frozen=True, slots=True)
-class Hoist:
+class Hoist(Described):
     """A load on a support beam, and the drum on a bridge beam above it that takes it up."""
 
-    # `left`, `right`: the end of the support beam and of the bridge beam that is the nearer one
+    givens = GIVENS
     near_0: str = LEFT
     near_2: str = LEFT
 
-    def chosen(self, words: Mapping[str, str]) -> Hoist:
-        """Return the hoist with the words of a variant in the place of the names of the choices."""
-        near_0, near_2 = (words.get(word, word) for word in (self.near_0, self.near_2))
-        return replace(self, near_0=near_0, near_2=near_2)
-
 
 MOST_SWINGS = 1e9  # before the lift-off: half of the digits tell in which of them this is
-NEAREST = 0.5  # part of a span at most, from the nearer end
 
 
 def complete(values: Mapping[str, Any]) -> dict[str, float]:
     """Return the givens of one hoist as numbers, with what is usual where nothing else is given.
 
-    The `values` have the names of `VALUES`, in SI; `I_0` and `I_2` may be infinite: a rigid beam.
+    The `values` have the names of `GIVENS`, in SI; `I_0` and `I_2` may be infinite: a rigid beam.
     Raises InputError: `hoist-missing`, `hoist-number`, `hoist-positive`, `hoist-not-negative`, `hoist-beta` of a single
     number, `hoist-still` of a rope that is not wound up at all.
     """
     found = {name: _number(name, values) for name in VALUES}
     for name, value in found.items():
-        if name in NOT_NEGATIVE:
-            key, permitted = "hoist-not-negative", value >= 0.0
-        elif name in PARTS:
-            key, permitted = "hoist-beta", 0.0 < value <= NEAREST
-        else:
-            key, permitted = "hoist-positive", value > 0.0
-        if not permitted:
-            raise InputError(key, name=name, text=f"{value:.7g}")
+        bound = GIVENS[name].bound
+        if not bound.admits(value):
+            raise InputError(REFUSED.get(bound, "hoist-positive"), name=name, text=f"{value:.7g}")
     if found["V_0"] == 0.0 == found["a"]:
         raise InputError("hoist-still")
     return found
 
 
 def _number(name: str, values: Mapping[str, Any]) -> float:
-    if name not in values and name not in USUAL:
+    given = values.get(name, GIVENS[name].default)
+    if name not in values and given is None:
         raise InputError("hoist-missing", name=name)
-    given = values.get(name, USUAL.get(name))
     try:
         value = float(given)
     except (TypeError, ValueError):
         raise InputError("hoist-number", name=name, text=quote(str(given))) from None
-    if math.isnan(value) or (math.isinf(value) and name not in MAY_BE_RIGID):
+    if math.isnan(value) or (math.isinf(value) and GIVENS[name].bound is not Bound.RIGID):
         raise InputError("hoist-number", name=name, text=f"{value:g}")
     return value
 

@@ -8,14 +8,14 @@ from functools import partial
 import pytest
 
 from kulman import solve
-from kulman.plans.cams.cam import VALUES, Cam, Curve
+from kulman.plans.cams.cam import GIVENS, Cam, Curve
 from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import Motion
 from kulman.scales.errors import InputError
 from kulman.scales.units import unit
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.kinds import MODULES, kind_of, table_in
-from kulman.variants.kinds.cam import KIND, NUMBERS
+from kulman.variants.kinds.cam import KIND
 from kulman.variants.reader import check_text, load_task, read_text
 from kulman.variants.shelf import bundled, bundled_text
 
@@ -208,8 +208,7 @@ def test_a_law_that_moves_no_follower_is_refused(old: str, new: str, message: st
 
 
 def test_every_number_of_a_cam_has_a_unit_and_a_bound() -> None:
-    assert NUMBERS.keys() == VALUES.keys()
-    for name, number in NUMBERS.items():
-        if number.default is not None:
-            assert number.bound.admits(number.default), name
-        assert unit(VALUES[name] or "1")
+    for name, given in GIVENS.items():
+        if isinstance(given.default, float):
+            assert given.bound.admits(given.default), name
+        assert given.choices or unit(given.unit or "1")

@@ -17,14 +17,14 @@ from kulman.plans.cams.cam import PLANS as CAM_PLANS
 from kulman.plans.gears.gear import MATERIALS
 from kulman.plans.gears.gear import PLANS as GEAR_PLANS
 from kulman.plans.hoist.hoist import PLANS as HOIST_PLANS
-from kulman.plans.hoist.hoist import SIDES, VALUES
+from kulman.plans.hoist.hoist import SIDES
 from kulman.plans.linkages.chain import PLANS
 from kulman.scales.packaged import packaged
 from kulman.variants import reader
 from kulman.variants.checks import basics as checks
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.checks import names as checks_names
-from kulman.variants.kinds import cam, gear, kind
+from kulman.variants.kinds import cam, gear, hoist, kind
 from kulman.variants.shelf import bundled_text, template
 from kulman.variants.solution import solve
 
@@ -93,7 +93,7 @@ def test_the_words_that_a_task_file_may_use_are_named() -> None:
     assert all(f"`{name}`" in NOTATIONS for name in notations())
     plans = (*PLANS, *CAM_PLANS, *GEAR_PLANS, *HOIST_PLANS)
     assert all(f'"{word}"' in TASK_FILE for word in (*plans, *FOLLOWERS, *LAWS, *MATERIALS, *SIDES))
-    assert all(f"`{name}`" in TASK_FILE for name in (*cam.NUMBERS, *gear.NUMBERS, *VALUES))
+    assert all(f"`{name}`" in TASK_FILE for of in (cam, gear, hoist) for name in of.KIND.givens)
 
 
 def test_every_key_of_a_notation_is_explained() -> None:

@@ -9,10 +9,9 @@ from functools import partial
 import pytest
 
 from kulman import solve
-from kulman.plans.gears.gear import STANDARD, VALUES, GearPair
+from kulman.plans.gears.gear import STANDARD, GearPair
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.task_files import task_of, with_changes
-from kulman.variants.kinds.gear import NUMBERS
 from kulman.variants.making.new_variants import ranges_of
 from kulman.variants.reader import check_text, load_task, read_text
 from kulman.variants.shelf import bundled_text
@@ -52,7 +51,6 @@ def test_numbers_of_the_standard_rack_need_not_be_given_and_may_be_set() -> None
 
     assert {name: task.values("17")[name] for name in STANDARD} == pytest.approx(STANDARD)
     assert solve(task)["a_w"].value == pytest.approx(solve(TASK)["a_w"].value, rel=1e-15)
-    assert set(NUMBERS) == set(VALUES)
 
 
 def _without(*names: str) -> list[tuple[str, str]]:

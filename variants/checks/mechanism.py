@@ -11,10 +11,10 @@ from ...plans.linkages import mechanism as model
 from ...plans.linkages.loads import output_pair
 from ...plans.linkages.structure import TRIAD, Structure, analyse
 from ...scales.errors import InputError
+from ...scales.givens import Bound
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import ONE, unit
-from ..task import Bound
 from .basics import Checker, Field, Path, array_of, as_is, link_number, name, on_link, one_of, record, record_of, rows
 from .names import Names
 

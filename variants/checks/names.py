@@ -8,10 +8,11 @@ from typing import Any
 
 from ...plans.linkages.mechanism import MINUS, ZERO
 from ...scales.errors import InputError
+from ...scales.givens import Bound, Givens
 from ...scales.names import cyrillic, latin, unknown
 from ...scales.numbers import quote, split_number
 from ...scales.units import ONE, Dimension, Unit, customary, parse, unit
-from ..task import Bound, Given, Variant
+from ..task import Given, Variant
 from .basics import NAME, Checker, Field, Path, Read, array_of, as_is, label, name, one_of, record, rows, text, word
 
 NEVER_NEGATIVE = {unit("kg").dimension, unit("kg*m^2").dimension, unit("rad/s").dimension}
@@ -315,41 +316,33 @@ class Names:
         return named
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
-    """A number of a subject: which values it may have, whether it is needed, what it is where nobody says.
-
-    The default is in SI. A number that is `unused` by this very subject is refused with that error.
-    """
-
-    bound: Bound = Bound.POSITIVE
-    needed: bool = True
-    default: float | None = None
-    unused: InputError | None = None
-
-
 def check_numbers(
-    checker: Checker, names: Names, numbers: Mapping[str, Number], units: Mapping[str, str], stranger: str
+    checker: Checker,
+    names: Names,
+    givens: Givens,
+    stranger: str,
+    unused: Mapping[str, InputError] | None = None,
 ) -> None:
     """Check that the numbers are there that are needed, and no others; bound them, and fill in the usual ones.
 
-    They and their SI units, empty for a plain number, are by name; of another name a message with the key `stranger`
-    tells.
+    Of another name a message with the key `stranger` tells, of one that is `unused` by this very subject its error.
     """
+    numbers, unused = {name: given for name, given in givens.items() if not given.choices}, unused or {}
     for key, dimension in names.dimensions.items():
         place, number = names.stated.get(key, ("givens",)), numbers.get(key)
         if number is None:
             checker.fault(place, unknown(stranger, key, numbers))
-        elif number.unused is not None:
-            checker.fault(place, number.unused)
-        elif dimension not in (None, (wanted := unit(units[key] or "1")).dimension):
+        elif key in unused:
+            checker.fault(place, unused[key])
+        elif dimension not in (None, (wanted := unit(number.unit or "1")).dimension):
             checker.fault(place, InputError("value-wrong", text=key, expected=customary(wanted)))
         else:
             names.bounds[key] = number.bound
     for key, number in numbers.items():
-        if not number.needed or number.default is not None:
+        needed = number.needed and key not in unused
+        if not needed or number.default is not None:
             names.optional.add(key)
-        if number.needed and number.default is not None:
+        if needed and isinstance(number.default, float):
             names.named[key] = number.default  # a variant may say another
-        elif number.needed and key not in names.dimensions:
+        elif needed and key not in names.dimensions:
             checker.fault(("givens",), InputError("key-missing", name=key))

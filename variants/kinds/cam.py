@@ -15,8 +15,8 @@ from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import unit
 from ..checks.basics import Checker, Field, Path, array_of, one_of, record, rows, word
-from ..checks.names import Names, Number, check_numbers, literal, word_or_choice
-from ..task import Bound, Given
+from ..checks.names import Names, check_numbers, literal, word_or_choice
+from ..task import Given
 from .kind import Choices, Numbers, Plans, Scales, Sized
 
 if TYPE_CHECKING:
@@ -43,62 +43,27 @@ UNUSUAL = {
 LARGE = {"length": "length-most"}  # of a number that may also be nothing
 REDUCED_TO = 6  # decimals of the part of their lengths at which diagrams are drawn
 RULES = ("roller_of_radius", "roller_of_curvature", "gamma_rise", "gamma_fall")  # checks that are told when they fail
-WORDS = ("law", "law_fall", "fall", "rotation", "limits")  # keys whose value may be the name of a choice
 SHORTEST = math.radians(0.01)  # of a phase in which a follower moves
 MOST_SECTIONS = 90  # of a phase: finer than a degree nobody divides one
-NUMBERS = {
-    "h": Number(),
-    "psi": Number(Bound.ACUTE),
-    "phi_rise": Number(Bound.TURN),
-    "phi_upper": Number(Bound.NOT_NEGATIVE, default=0.0),
-    "phi_fall": Number(Bound.TURN),
-    "omega": Number(),
-    "u": Number(Bound.PART, default=0.5),
-    "u_fall": Number(Bound.PART, needed=False),
-    "l_A1": Number(default=0.1),
-    "H_a": Number(default=0.03),
-    "H_v": Number(default=0.03),
-    "mu_phi": Number(default=math.radians(1e3)),
-    "gamma_rise": Number(Bound.ACUTE),
-    "gamma_fall": Number(Bound.ACUTE),
-    "R_roller": Number(),
-    "rho_flat": Number(Bound.NOT_NEGATIVE, default=0.01),
-    "margin": Number(Bound.NOT_NEGATIVE, default=0.005),
-    "l_rocker": Number(),
-    "l_OC": Number(needed=False),  # else the pivot is where the cam is smallest
-    "r_0": Number(needed=False),
-    "e": Number(Bound.FREE, needed=False),
-    "r_0_flat": Number(needed=False),
-}
-_STRAIGHT, _ROLLING = (cams.ROLLER, cams.PLATE), (cams.ROLLER, cams.ROCKER)
-HAD_BY = {  # numbers that not every follower has
-    "h": _STRAIGHT,
-    "psi": (cams.ROCKER,),
-    **dict.fromkeys(("gamma_rise", "gamma_fall", "R_roller"), _ROLLING),
-    **dict.fromkeys(("rho_flat", "margin", "r_0_flat"), (cams.PLATE,)),
-    **dict.fromkeys(("l_rocker", "l_OC"), (cams.ROCKER,)),
-    "e": (cams.ROLLER,),
-}
 
 
 class Cams(Sized[cams.Cam, "SolvedCam"]):
     """Disk cams with translating roller and flat-faced followers, or with a rocker."""
 
-    table, plans, choosing = "cam", cams.PLANS, WORDS
-    room, symbols = "cams", SYMBOLS
+    table, plans = "cam", cams.PLANS
+    room, symbols, made, givens = "cams", SYMBOLS, cams.Cam, cams.GIVENS
     unasked = ("s_max", "s_close", "v_close")  # the stroke, which is given, and what should be nothing
     display = Display(size="mm", angle="deg")
-    names = frozenset((*NUMBERS, *WORDS))
     segments, limits_add_up = False, True
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> cams.Cam | None:
         """Read `[cam]`, and hold the numbers of the task against those that such a cam needs."""
         before, path = len(checker.faults), (self.table,)
         curves = _curves(checker, (*path, "curve"), raw["curve"]) if isinstance(raw, dict) and "curve" in raw else ()
-        laws = (*cams.LAWS, *(curve.name for curve in curves))
-        known = {"law": laws, "law_fall": (cams.AS_RISE, *laws)}
-        known |= {"fall": cams.ORDERS, "rotation": cams.ROTATIONS, "limits": cams.LIMITS}
-        fields = {key: Field(word_or_choice(known[key], givens), required=key == "law") for key in WORDS}
+        own = tuple(curve.name for curve in curves)
+        words = {key: given.choices for key, given in cams.GIVENS.items() if given.choices}
+        words |= {key: (*words[key], *own) for key in ("law", "law_fall")}
+        fields = {key: Field(word_or_choice(known, givens), required=key == "law") for key, known in words.items()}
         fields |= {
             "followers": Field(array_of(one_of("follower-unknown", lambda: cams.FOLLOWERS))),
             "sections": Field(_sections, required=False),
@@ -108,12 +73,13 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
         followers = tuple(dict.fromkeys(read.get("followers", ())))
         if cams.ROCKER in followers and len(followers) > 1:
             checker.fault((*path, "followers"), InputError("follower-rocker"))
-        numbers = dict(NUMBERS)  # those that none of the followers has are of no use, where there are followers
-        for name, number in NUMBERS.items():
-            if {*HAD_BY.get(name, cams.FOLLOWERS)}.isdisjoint(followers):
-                error = InputError("cam-number-unused", text=name, followers=", ".join(followers))
-                numbers[name] = replace(number, needed=False, unused=error if followers else None)
-        check_numbers(checker, names, numbers, cams.VALUES, "cam-number-unknown")
+        all_givens, unused = dict(cams.GIVENS), dict[str, InputError]()
+        for name, given in cams.GIVENS.items():
+            if not followers:  # nothing is known of what is needed
+                all_givens[name] = replace(given, needed=False)
+            elif given.forms and {*given.forms}.isdisjoint(followers):
+                unused[name] = InputError("cam-number-unused", text=name, followers=", ".join(followers))
+        check_numbers(checker, names, all_givens, "cam-number-unknown", unused)
         if len(checker.faults) > before:
             return None
         return cams.Cam(**{**read, "followers": followers, "curves": curves})
@@ -131,10 +97,10 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
 
     def impossible(self, values: Numbers) -> Iterator[tuple[str, InputError]]:
         """Go through what no cam can have among the numbers of a variant: those that a choice sets are bounded, too."""
-        for name, number in NUMBERS.items():
-            if name in values and not number.bound.admits(values[name]):
-                shown = unit(cams.VALUES[name] or "1").from_si(values[name])
-                yield "", InputError(number.bound.value, text=f"{name} = {shown:.7g}")
+        for name, given in cams.GIVENS.items():
+            if name in values and not given.bound.admits(values[name]):
+                shown = unit(given.unit or "1").from_si(values[name])
+                yield "", InputError(given.bound.value, text=f"{name} = {shown:.7g}")
         for name in ("phi_rise", "phi_fall"):
             if 0.0 < values[name] < SHORTEST:
                 angles = {"angle": f"{math.degrees(values[name]):.4g}", "least": f"{math.degrees(SHORTEST):g}"}

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
-from ...plans.gears.gear import MATERIALS, MODULES, PLANS, ROTATIONS, SHIFTS, STANDARD, VALUES, GearPair, impossible
+from ...plans.gears.gear import GIVENS, PLANS, SHIFTS, GearPair, impossible
 from ...plans.solved import Check
 from ...scales.display import Display
 from ...scales.errors import InputError
 from ..checks.basics import Checker
-from ..checks.names import Names, Number
-from ..task import Bound, Given
+from ..checks.names import Names
+from ..task import Given
 from .kind import Sized
 
 if TYPE_CHECKING:
@@ -28,28 +28,16 @@ RULES = {  # checks that are told when they fail
 }
 BROKEN = {"contact_ratio": "gear-rule-broken", "contact_flanks": "gear-rule-flanks-broken"}  # of less than one pair
 IN_LENGTHS = ("interference", "tip")
-NUMBERS = {
-    "m": Number(),
-    "z_1": Number(),
-    "z_2": Number(),
-    **dict.fromkeys(SHIFTS, Number(Bound.FREE, needed=False)),
-    "a_w": Number(needed=False),
-    **{name: Number(default=usual) for name, usual in STANDARD.items()},
-    "c": Number(Bound.NOT_NEGATIVE, default=STANDARD["c"]),
-}
 
 
 class Gears(Sized[GearPair, "SolvedGear"]):
     """External pairs of involute spur gears cut by a standard rack."""
 
     table, plans = "gear", PLANS
-    room, made, numbers, units = "gears", GearPair, NUMBERS, VALUES
-    known: ClassVar[Mapping[str, tuple[str, ...]]] = {"rotation": ROTATIONS, "material": MATERIALS}
-    choosing = tuple(known)
+    room, made, givens = "gears", GearPair, GIVENS
     symbols = ("mu_l",)  # the scale factors of the diagrams are found, or given
     judged = "heading.gear_checks"
     pages = 2  # the meshing at 5:1 fills one
-    rows: ClassVar[Mapping[str, tuple[float, ...]]] = {"m": MODULES}
     display = Display(size="mm", angle="deg")
     instead = (
         (frozenset(("x_1", "x_2")), ("x_sum", "a_w")),

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 from ...plans.hoist import hoist as hoists
 from ...plans.names import role
 from ...plans.solved import Check
 from ...scales.errors import InputError
-from ..checks.names import Number
-from ..task import Bound
 from .kind import Sized
 
 if TYPE_CHECKING:
@@ -25,22 +23,13 @@ RULES = {  # what is told of a check that fails
     "support": "hoist-rule-support",
     "strength": "hoist-rule-strength",
 }
-BOUNDS = {
-    **dict.fromkeys(hoists.VALUES, Bound.POSITIVE),
-    **dict.fromkeys(hoists.NOT_NEGATIVE, Bound.NOT_NEGATIVE),
-    **dict.fromkeys(hoists.PARTS, Bound.UP_TO_HALF),
-    **dict.fromkeys(hoists.MAY_BE_RIGID, Bound.RIGID),
-}
-NUMBERS = {name: Number(BOUNDS[name], default=hoists.USUAL.get(name)) for name in hoists.VALUES}
 
 
 class Hoists(Sized[hoists.Hoist, "SolvedHoist"]):
     """Loads that a rope takes off a beam, wound up on another beam."""
 
     table, plans = "hoist", hoists.PLANS
-    room, made, numbers, units = "hoist", hoists.Hoist, NUMBERS, hoists.VALUES
-    known: ClassVar[Mapping[str, tuple[str, ...]]] = {"near_0": hoists.SIDES, "near_2": hoists.SIDES}
-    choosing = tuple(known)
+    room, made, givens = "hoist", hoists.Hoist, hoists.GIVENS
     symbols = ("mu_l", "mu_F_circle")  # those of the diagrams are found
     unasked = ("s_min", "t_P12_max")
 

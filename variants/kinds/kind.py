@@ -12,11 +12,12 @@ from ...plans.solved import Check, Solved
 from ...scales.choose import Choosers
 from ...scales.display import AS_INSIDE, Display
 from ...scales.errors import InputError
+from ...scales.givens import Described, Givens
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.scale import Scale
 from ..checks.basics import Checker, Field, record
-from ..checks.names import Names, Number, check_numbers, word_or_choice
+from ..checks.names import Names, check_numbers, word_or_choice
 from ..task import Given, Instead, Task
 from . import MODULES
 
@@ -49,14 +50,12 @@ class Kind(ABC, Generic[Subject, Answer]):
     """A kind of tasks; `table` is where their files describe the subject, `plans` what can be drawn of it."""
 
     table: ClassVar[str]
-    choosing: ClassVar[tuple[str, ...]] = ()  # keys of the table whose value may be the name of a choice
+    givens: ClassVar[Givens] = {}  # what describes a subject; nothing where every task has names of its own
     display: ClassVar[Display] = AS_INSIDE  # the units of results where a file says no others
     plans: ClassVar[tuple[str, ...]]
     judged: ClassVar[str] = ""  # key of the heading of its checks, where a list of quantities ends in these
     pages: ClassVar[int] = 1  # how many a sheet has at most that holds everything well
-    names: ClassVar[frozenset[str]] = frozenset()  # of what such a task may state; none where every task has its own
     segments: ClassVar[bool] = True  # whether a segment may choose a scale factor
-    rows: ClassVar[Mapping[str, tuple[float, ...]]] = {}  # values in SI that a standard has, of givens of new variants
     instead: ClassVar[Instead] = ()  # which givens of a user stand in the place of others
 
     # Reading a task file. Faults go to the checker.
@@ -65,7 +64,8 @@ class Kind(ABC, Generic[Subject, Answer]):
         """Return what the table `raw` says in words that may be names of choices: these need not set numbers."""
         if not isinstance(raw, dict):
             return frozenset()
-        return frozenset(name for key in self.choosing if isinstance(name := raw.get(key), str))
+        keys = (key for key, given in self.givens.items() if given.choices)
+        return frozenset(name for key in keys if isinstance(name := raw.get(key), str))
 
     @abstractmethod
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Subject | None:
@@ -244,10 +244,7 @@ class Sized(Kind[Subject, Answer]):
 
     room: ClassVar[str]
     symbols: ClassVar[tuple[str, ...]]  # of the scale factors that may be chosen
-    made: ClassVar[type]
-    known: ClassVar[Mapping[str, tuple[str, ...]]]  # what the keys of the table may say, or what choices between may
-    numbers: ClassVar[Mapping[str, Number]]
-    units: ClassVar[Mapping[str, str]]  # of the numbers, SI
+    made: ClassVar[type[Described]]
     unasked: ClassVar[tuple[str, ...]] = ()  # quantities that no form asks for
 
     def _in(self, layer: str, module: str, name: str) -> Any:
@@ -257,10 +254,11 @@ class Sized(Kind[Subject, Answer]):
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Subject | None:
         """Read the table, and hold the numbers of the task against those that such a subject has."""
         before = len(checker.faults)
-        fields = {key: Field(word_or_choice(known, givens), required=False) for key, known in self.known.items()}
+        words = {key: given.choices for key, given in self.givens.items() if given.choices}
+        fields = {key: Field(word_or_choice(known, givens), required=False) for key, known in words.items()}
         read = record(checker, (self.table,), raw, fields)
-        check_numbers(checker, names, self.numbers, self.units, f"{self.table}-number-unknown")
-        return self.made(**read) if len(checker.faults) == before else None
+        check_numbers(checker, names, self.givens, f"{self.table}-number-unknown")
+        return cast(Any, self.made)(**read) if len(checker.faults) == before else None
 
     def fits(self, checker: Checker, subject: Subject, head: Mapping[str, Any]) -> None:
         """Check that the scale factors are those that may be chosen."""

@@ -152,10 +152,10 @@ class Range:
 def ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, Range]:
     """Return the range of every given: as `asked`, such as `25..60/5 mm`, else what the task's variants span."""
     found = {name: _spanned(task, name, given) for name, given in task.givens.items() if given.unit is not None}
-    for name, row in kind_of(task.kind).rows.items():
+    for name, parameter in kind_of(task.kind).givens.items():
         one, given = found.get(name), task.givens.get(name)
         if one is not None and given is not None and given.unit is not None:
-            found[name] = replace(one, row=tuple(_decimal(given.unit.from_si(value)) for value in row))
+            found[name] = replace(one, row=tuple(_decimal(given.unit.from_si(value)) for value in parameter.row))
     for name, text in asked.items():
         given = task.givens.get(name)
         if given is None or given.unit is None:
