@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from ...plans.cams.rivals import BOARD, BOARDS, CLOSED, MIDPOINT, MISSED, SIMPSON, TRAVELS, VELOCITIES
-from ...plans.contest import Contest, Entry
-from ...plans.hoist.integrators import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET
-from ...plans.hoist.rivals import COURSE, DRAWN, FORMULAS, LIFT_OFF, PEAK
-from ...plans.hoist.rivals import MISSED as MISSED_LIFT_OFF
-from ...plans.hoist.roots import BISECTION, BRENT, ILLINOIS, SECANT
-from ...plans.hoist.roots import NEWTON as NEWTON_ROOT
-from ...plans.linkages.accuracy.comparison import CHORDS, DIFFERENCES, EXTENDED, HAND, NEWTON, PLAN, SINGLE
+from ...plans.lab.cams import BOARD, BOARDS, CLOSED, MIDPOINT, MISSED, SIMPSON, TRAVELS, VELOCITIES
+from ...plans.lab.finders import BISECTION, BRENT, ILLINOIS, SECANT
+from ...plans.lab.finders import NEWTON as NEWTON_ROOT
+from ...plans.lab.hoists import COURSE, DRAWN, FORMULAS, LIFT_OFF, PEAK
+from ...plans.lab.hoists import MISSED as MISSED_LIFT_OFF
+from ...plans.lab.integrators import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET
+from ...plans.lab.linkages import CHORDS, DIFFERENCES, EXTENDED, HAND, NEWTON, PLAN, SINGLE
+from ...plans.lab.race import Contest, Entry
 from ..words import Words
 from .paper import BLACK, GREY, SMALL, TEXT, Label, box, page, put
 

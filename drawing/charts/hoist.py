@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...plans.hoist.depth import MANY, Changes, HoistDepth
 from ...plans.hoist.forces import Choice, Trial
-from ...plans.hoist.integrators import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET, growth
-from ...plans.hoist.rivals import RootRace, StepLimits, Ways
-from ...plans.hoist.roots import BISECTION, BRENT, ILLINOIS, NEWTON, SECANT
+from ...plans.lab.finders import BISECTION, BRENT, ILLINOIS, NEWTON, SECANT
+from ...plans.lab.hoists import RootRace, StepLimits, Ways
+from ...plans.lab.integrators import EXPLICIT, RK4, SYMPLECTIC, TRAPEZOID, VERLET, growth
+from ...plans.lab.ropes import MANY, Changes, HoistDepth
 from ...scales.units import format_unit
 from ..words import Words
 from .paper import BLACK, GREY, HEIGHT, LIGHT, LIMIT, LOOK, SMALL, TEXT, WIDTH, Label, box, decimals, page, put

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...plans.boards.exact import SMALL as SMALL_SINE
+from ...plans.lab.stability import CHANGE, DEAD, DIGITS, LIMIT, POLE, Cost, Depth, Spot, Stability
 from ...plans.laws import TURN
-from ...plans.linkages.accuracy.stability import CHANGE, DEAD, DIGITS, LIMIT, POLE, Cost, Depth, Spot, Stability
 from ...plans.linkages.cycles.limits import Arc
 from ...plans.quantities import unit_of
 from ..words import Words

@@ -12,11 +12,11 @@ from pathlib import Path
 import pytest
 
 from kulman import cli
-from kulman.plans import contest as contests
-from kulman.plans.cams import rivals as races
 from kulman.plans.cams.chords import BETWEEN, NODES, S_MAX, convergence, robustness
-from kulman.plans.contest import Effort
 from kulman.plans.hands.shaky import PRESETS
+from kulman.plans.lab import cams as races
+from kulman.plans.lab import race as contests
+from kulman.plans.lab.race import Effort
 from kulman.variants.charts import cam as charts
 from kulman.variants.charts.charts import Charts, chart
 

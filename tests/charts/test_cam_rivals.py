@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 import kulman
-from kulman.plans import contest as contests
-from kulman.plans.cams import rivals as races
 from kulman.plans.cams.chords import V_MAX, drawn_on, exact_values
 from kulman.plans.cams.motion import Motion
-from kulman.plans.cams.rivals import errors, in_extended, midpoint, rivals, simpson
 from kulman.plans.cams.solve import SolvedCam
-from kulman.plans.contest import Contest, Effort
 from kulman.plans.hands.shaky import preset
+from kulman.plans.lab import cams as races
+from kulman.plans.lab import race as contests
+from kulman.plans.lab.cams import errors, in_extended, midpoint, rivals, simpson
+from kulman.plans.lab.race import Contest, Effort
 
 TASK = "madi-cam"
 

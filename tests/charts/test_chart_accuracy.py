@@ -12,10 +12,10 @@ import pytest
 
 from kulman.drawing.charts.accuracy import accuracy_page
 from kulman.drawing.words import Words
-from kulman.plans import contest as contests
-from kulman.plans.contest import Contest, Effort, Entry
 from kulman.plans.hands.shaky import preset
-from kulman.plans.linkages.accuracy.comparison import DrawnSheet, Rivals, by_hand, contest, kinds_of, places_of, truth
+from kulman.plans.lab import race as contests
+from kulman.plans.lab.linkages import DrawnSheet, Rivals, by_hand, contest, kinds_of, places_of, truth
+from kulman.plans.lab.race import Contest, Effort, Entry
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.plans.quantities import references

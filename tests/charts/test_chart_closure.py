@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from kulman.plans.boards.exact import run
-from kulman.plans.linkages.accuracy.comparison import Rivals, kinds_of, places_of
-from kulman.plans.linkages.accuracy.contours import Contours
+from kulman.plans.lab.contours import Contours
+from kulman.plans.lab.linkages import Rivals, kinds_of, places_of
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.mechanism import Mechanism

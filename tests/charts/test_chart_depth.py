@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kulman.plans.linkages.accuracy.stability import (
+from kulman.plans.lab.stability import (
     ALL,
     FORCES,
     INERTIA,

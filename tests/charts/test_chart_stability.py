@@ -7,7 +7,7 @@ import pytest
 
 from kulman import solve
 from kulman.plans.hands.shaky import preset
-from kulman.plans.linkages.accuracy.stability import CHANGE, DEAD, LIMIT, Stability, spots, stability
+from kulman.plans.lab.stability import CHANGE, DEAD, LIMIT, Stability, spots, stability
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage

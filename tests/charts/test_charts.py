@@ -20,8 +20,8 @@ from kulman import KulmanError, cli
 from kulman.docs import refresh
 from kulman.drawing.charts.linkage import _log, _lost, _widen, equal
 from kulman.drawing.words import Words
-from kulman.plans import contest as contests
-from kulman.plans.contest import Effort
+from kulman.plans.lab import race as contests
+from kulman.plans.lab.race import Effort
 from kulman.scales.errors import LANGUAGES, PositionError
 from kulman.tests.support.documents import run_here
 from kulman.variants.charts import linkage as charts

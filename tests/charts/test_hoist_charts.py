@@ -12,13 +12,13 @@ import pytest
 from matplotlib.text import Text
 
 from kulman import cli
-from kulman.plans import contest as contests
-from kulman.plans.contest import Effort
-from kulman.plans.hoist import rivals as races
-from kulman.plans.hoist.depth import depth
 from kulman.plans.hoist.forces import choose
-from kulman.plans.hoist.integrators import ORDERS
-from kulman.plans.hoist.rivals import step_limits
+from kulman.plans.lab import hoists as races
+from kulman.plans.lab import race as contests
+from kulman.plans.lab.hoists import step_limits
+from kulman.plans.lab.integrators import STEPPERS
+from kulman.plans.lab.race import Effort
+from kulman.plans.lab.ropes import depth
 from kulman.scales.errors import InputError
 from kulman.variants.charts import hoist as charts
 from kulman.variants.charts.charts import Charts, chart
@@ -97,7 +97,7 @@ def test_json_holds_everything(made: Charts) -> None:
     data = json.loads(json.dumps(made.to_json(), allow_nan=False))
 
     methods = data["stability"]["methods"]
-    assert {name: round(methods[name]["order"]) for name in ORDERS} == {
+    assert {name: round(methods[name]["order"]) for name in STEPPERS} == {
         "rk4": 4,
         "verlet": 2,
         "trapezoid": 2,

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.hoist import roots
-from kulman.plans.hoist.roots import (
+from kulman.plans.lab.finders import (
     BISECTION,
     BRENT,
     FINDERS,

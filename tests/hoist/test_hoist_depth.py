@@ -8,9 +8,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kulman.plans.hoist.depth import PRINTED, SIMPLER, Heavy, HoistDepth, depth, rope_of, rope_row
 from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.model import model
+from kulman.plans.lab.ropes import PRINTED, SIMPLER, Heavy, HoistDepth, depth, rope_of, rope_row
 
 # 3 t on a long rope: V09 of hoist-variants.json
 LONG = {

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from kulman import solve
-from kulman.plans.hoist.depth import TremblingError, rope_of
 from kulman.plans.hoist.forces import choose, forces
 from kulman.plans.hoist.hoist import VALUES, Hoist
 from kulman.plans.hoist.model import model
 from kulman.plans.hoist.onesided import MOST, Curve
 from kulman.plans.hoist.solve import solve_hoist
+from kulman.plans.lab.ropes import TremblingError, rope_of
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.hoists import SEED, VARIANTS, random_hoists
 

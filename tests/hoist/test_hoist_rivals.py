@@ -10,14 +10,14 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from kulman.plans import contest as contests
-from kulman.plans.contest import Contest, Effort
 from kulman.plans.hands.shaky import preset
-from kulman.plans.hoist import rivals as races
 from kulman.plans.hoist.forces import BEAM, BOTH, COLUMN_UNITS, NEITHER, ROPE, course, forces
 from kulman.plans.hoist.hoist import Hoist
-from kulman.plans.hoist.integrators import EXPLICIT, ORDERS, RK4, SYMPLECTIC, TRAPEZOID, VERLET
-from kulman.plans.hoist.rivals import (
+from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
+from kulman.plans.lab import hoists as races
+from kulman.plans.lab import race as contests
+from kulman.plans.lab.finders import FINDERS, NEWTON
+from kulman.plans.lab.hoists import (
     COURSE,
     FORMULAS,
     LIFT_OFF,
@@ -29,8 +29,8 @@ from kulman.plans.hoist.rivals import (
     rivals,
     step_limits,
 )
-from kulman.plans.hoist.roots import FINDERS, NEWTON
-from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
+from kulman.plans.lab.integrators import EXPLICIT, RK4, STEPPERS, SYMPLECTIC, TRAPEZOID, VERLET
+from kulman.plans.lab.race import Contest, Effort
 
 # 2.5 t on a soft support, no acceleration: V10 of hoist-variants.json
 STEADY = {
@@ -130,7 +130,7 @@ def test_runs_of_too_many_steps_give_nothing(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_steps_are_refused_beyond_their_limits() -> None:
-    refused = {method: limits().refused_from(method) for method in ORDERS}
+    refused = {method: limits().refused_from(method) for method in STEPPERS}
 
     assert refused == {RK4: 4.0, VERLET: 2.4, SYMPLECTIC: 2.4, TRAPEZOID: None, EXPLICIT: 0.08}
     assert np.nanmax(limits().errors[RK4]) < 0.5

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kulman.plans.hoist.integrators import (
+from kulman.plans.lab.integrators import (
     EXPLICIT,
     GROWN,
     RK4,
@@ -151,7 +151,7 @@ def test_no_run_that_is_returned_has_grown() -> None:
 
 def test_what_is_refused_would_have_passed_for_results(monkeypatch: pytest.MonkeyPatch) -> None:
     refused = run(EXPLICIT, 0.1)
-    monkeypatch.setattr("kulman.plans.hoist.integrators.GROWN", np.inf)
+    monkeypatch.setattr("kulman.plans.lab.integrators.GROWN", np.inf)
 
     wrong = integrate(SEVERAL, EXPLICIT, 0.1).F_max / right().P_12_max
 

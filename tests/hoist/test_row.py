@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from kulman.plans.hoist.depth import Row
+from kulman.plans.lab.ropes import Row
 from kulman.tests.support.hoist_rows import hoist_row
 
 Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kulman.plans.hoist.depth import Row, RowMotion
+from kulman.plans.lab.ropes import Row, RowMotion
 
 Array = NDArray[np.float64]
 # plausible cranes and others, among them many swings before lift-off, one, none; speeds and accelerations of zero

@@ -34,7 +34,7 @@ from pathlib import Path
 from types import FrameType
 
 from kulman import cli
-from kulman.plans.contest import FULL
+from kulman.plans.lab.race import FULL
 from kulman.tests.support import mutated_classes
 from kulman.tests.support.mutated import Case, lay_out, made
 from kulman.variants.making import new_variants

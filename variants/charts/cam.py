@@ -9,9 +9,9 @@ from typing import Any
 from ...drawing.charts.hands import closing_page, sections_page
 from ...drawing.words import Words
 from ...plans.cams.chords import DRAWINGS, ROUNDING, WAYS, Convergence, Robustness, compared, convergence, robustness
-from ...plans.cams.rivals import rivals
 from ...plans.cams.solve import SolvedCam, unit_of
-from ...plans.contest import FULL, Effort
+from ...plans.lab.cams import rivals
+from ...plans.lab.race import FULL, Effort
 from ..case import all_known
 from ..tables import Cell, aligned
 from . import charts

@@ -20,8 +20,8 @@ from ...drawing.charts.paper import SUFFIXES as PICTURES
 from ...drawing.charts.paper import saved
 from ...drawing.words import Words
 from ...drawing.writers import Files
-from ...plans.contest import Contest, Entry
 from ...plans.hands.shaky import PRESETS, Hand, preset
+from ...plans.lab.race import Contest, Entry
 from ...plans.laws import TURN
 from ...plans.linkages.cycles.cycle import Cycle
 from ...scales.arguments import of_kind

@@ -12,14 +12,14 @@ import numpy as np
 
 from ...drawing.charts.hoist import choice_page, choice_said, depth_page, depth_verdict, roots_page, steps_page
 from ...drawing.words import Words
-from ...plans.contest import FULL, Effort
-from ...plans.hoist.depth import COMPARED, MANY, HoistDepth, depth
 from ...plans.hoist.forces import Choice, choose
 from ...plans.hoist.hoist import complete
-from ...plans.hoist.integrators import GROWN, ORDERS
-from ...plans.hoist.rivals import RootRace, StepLimits, Ways, by_board, by_hand, rivals, root_race, step_limits
-from ...plans.hoist.roots import FINDERS
 from ...plans.hoist.solve import SolvedHoist
+from ...plans.lab.finders import FINDERS
+from ...plans.lab.hoists import RootRace, StepLimits, Ways, by_board, by_hand, rivals, root_race, step_limits
+from ...plans.lab.integrators import GROWN, STEPPERS
+from ...plans.lab.race import FULL, Effort
+from ...plans.lab.ropes import COMPARED, MANY, HoistDepth, depth
 from ...scales.errors import InputError
 from ...scales.units import format_unit, unit
 from ..tables import Cell, aligned
@@ -76,16 +76,16 @@ class HoistStepsChart(Chart[StepLimits]):
         found = self.found
         heads = ("chart.method", "chart.order", "chart.hoist.limit_head", "chart.hoist.refused_from")
         rows = [[words[key] for key in heads]]
-        for method in ORDERS:
+        for method in STEPPERS:
             order, refused, limit = found.order(method), found.refused_from(method), found.limit(method)
             said = "–" if order is None else words.number(order, 2)
             stable = "∞" if math.isinf(limit) else words.short(limit, 5) if limit else words["chart.hoist.always"]
             since = words["chart.hoist.never"] if refused is None else words.short(refused, 3)
             rows.append([words[f"chart.{method}"], said, stable, since])
-        errors = [[words["chart.hoist.step"], *(words[f"chart.{method}"] for method in ORDERS)]]
+        errors = [[words["chart.hoist.step"], *(words[f"chart.{method}"] for method in STEPPERS)]]
         known = {(method, z): error for method, z, error, *_ in self._items()}
         for z in sorted({z for _, z in known}, reverse=True):
-            cells = [short(words, known[m, z]) if (m, z) in known else "" for m in ORDERS]
+            cells = [short(words, known[m, z]) if (m, z) in known else "" for m in STEPPERS]
             errors.append([words.short(z, 3), *cells])
         return "\n\n".join((aligned(rows), aligned(errors, ()), wrapped(self.note(words))))
 
@@ -97,7 +97,7 @@ class HoistStepsChart(Chart[StepLimits]):
     def _items(self) -> Iterator[tuple[str, float, float, float, bool]]:
         """Go through all runs: method, step, error, growth, whether it is refused: then it has no error."""
         found = self.found
-        for method in ORDERS:
+        for method in STEPPERS:
             columns = (found.steps[method], found.errors[method], found.grown[method])
             for z, error, grown in zip(*(column.tolist() for column in columns), strict=True):
                 yield method, z, error, grown, not math.isfinite(error)
@@ -117,7 +117,7 @@ class HoistStepsChart(Chart[StepLimits]):
                     "stable": math.isinf(found.limit(method)),
                     "refused_from": found.refused_from(method),
                 }
-                for method in ORDERS
+                for method in STEPPERS
             },
             "runs": [
                 {"method": method, "step": z, "error": error, "grown": grown, "refused": refused}

@@ -16,9 +16,9 @@ from ...drawing.linkages.ladders import first_scales
 from ...drawing.words import GREEK, Words
 from ...plans.board import with_needs
 from ...plans.boards.exact import SMALL, STATUSES
-from ...plans.contest import FULL, Contest, Effort, Entry
-from ...plans.linkages.accuracy.comparison import DrawnSheet, by_hand, contest
-from ...plans.linkages.accuracy.stability import DEAD, Cost, Depth, Stability, depth, stability
+from ...plans.lab.linkages import DrawnSheet, by_hand, contest
+from ...plans.lab.race import FULL, Contest, Effort, Entry
+from ...plans.lab.stability import DEAD, Cost, Depth, Stability, depth, stability
 from ...plans.linkages.chain import NEEDS
 from ...plans.linkages.cycles.cycle import Cycle, cycle
 from ...plans.linkages.solved import SolvedLinkage, solve_linkage

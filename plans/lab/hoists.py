@@ -24,20 +24,20 @@ from numpy.typing import NDArray
 
 from ..board import Program
 from ..boards.exact import ExactBoard, run
-from ..contest import FULL, Clock, Contest, Effort, Entry, Kind, ran, timed
 from ..hands.shaky import Hand, Paper, draw
 from ..hands.spread import kept
+from ..hoist.construction import FORCES, Roots, construct, drawn_name
+from ..hoist.forces import rope_forces
+from ..hoist.hoist import CIRCLE_PART, FORCES_PART, ROOTS_PART
+from ..hoist.model import model, model_program
+from ..hoist.roots import sine_rest
+from ..hoist.solve import SolvedHoist, board_givens
 from ..laws import LAWS, TURN
-from .construction import FORCES, Roots, construct, drawn_name
-from .forces import rope_forces
-from .hoist import CIRCLE_PART, FORCES_PART, ROOTS_PART
-from .integrators import EXPLICIT, ORDERS, RK4, STEPPERS, Run, integrate, stability_limit
-from .model import model, model_program
-from .roots import FINDERS, Equation, Found, approximations, find, lift_off_equation, sine_rest
-from .solve import SolvedHoist, board_givens
+from .finders import FINDERS, Equation, Found, approximations, find, lift_off_equation
+from .integrators import EXPLICIT, RK4, STEPPERS, Run, integrate, stability_limit
+from .race import FULL, SEED, Clock, Contest, Effort, Entry, Kind, Way, timed
 
 Array = NDArray[np.float64]
-Pair = tuple[Any, Any]  # a method and its setting, or the ends of what is compared
 LIFT_OFF, COURSE, PEAK = "lift_off", "course", "peak"
 KINDS = (Kind(LIFT_OFF, ("t_1",)), Kind(COURSE, ("F_12", "P_12")), Kind(PEAK, ("F_max",)))
 FORMULAS, MISSED, DRAWN, HAND = "hoist-closed", "rk4-missed", "hoist-drawn", "hand"
@@ -79,83 +79,72 @@ def exact(values: Mapping[str, float]) -> dict[str, Any]:
     return follow(long, t_1)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Race:
-    """The rivals for one hoist."""
+Result = tuple[Way, float, Mapping[str, Any], tuple[Array, Array]]
+# a way, seconds of the lift-off alone, `t_1` and `F_max`, the force of the rope over time; no number where it fails
+NOTHING: tuple[float, Mapping[str, Any], tuple[Array, Array]] = (
+    0.0, {"t_1": np.nan, "F_max": np.nan}, (np.zeros(1), np.full(1, np.nan))
+)  # fmt: skip
 
-    values: Mapping[str, float]
-    right: Mapping[str, Any]
-    clock: Clock
-    effort: Effort
-    places: Array  # times that are compared, from the beginning to one period after the lift-off
 
-    def closed(self) -> Iterator[Entry]:
-        """Go through closed forms of so many hoists at once."""
-        for size in (size for size in self.effort.batches if size <= MOST_AT_ONCE):
-            many = {name: np.full(size, value) if size > 1 else value for name, value in self.values.items()}
-            t_1 = timed(partial(model, many, ("t_1",)), self.clock) / size
-            whole = timed(partial(model, many, AFTER), self.clock) / size
-            alone = model(self.values, ("t_1",))["t_1"]
-            yield from self._entries((FORMULAS, size), follow(self.values, alone), (t_1, whole), size)
+def _closed(values: Mapping[str, float], clock: Clock, effort: Effort, places: Array) -> Iterator[Result]:
+    """Go through closed forms of so many hoists at once."""
+    for size in (size for size in effort.batches if size <= MOST_AT_ONCE):
+        many = {name: np.full(size, value) if size > 1 else value for name, value in values.items()}
+        alone, whole = (timed(partial(model, many, names), clock)[1] / size for names in (("t_1",), AFTER))
+        found = follow(values, model(values, ("t_1",))["t_1"])
+        yield Way(FORMULAS, size, whole, size), alone, found, (places, rope_forces(found, places)[1])
 
-    def finders(self) -> Iterator[Entry]:
-        """Go through closed forms with each way to the root, and tolerances."""
-        found = model(self.values, COMPARED)
-        equation = lift_off_equation(found["V_t"], self.values["a"], found["k"], found["P_st"] / found["C"])
-        for finder in FINDERS:
-            for tolerance in TOLERANCES:
-                x = find(finder, equation, tolerance).root
-                alone = timed(partial(find, finder, equation, tolerance), self.clock)
-                if not np.isfinite(x):
-                    yield from self._nothing((finder, tolerance))
-                    continue
-                t_1 = x / found["k"]
-                after = timed(partial(follow, self.values, t_1), self.clock)
-                yield from self._entries((finder, tolerance), follow(self.values, t_1), (alone, alone + after), 1)
 
-    def steps(self) -> Iterator[Entry]:
-        """Go through integrators and steps; runs that are refused, or too long, give nothing."""
-        found = model(self.values, COMPARED) | {"a": self.values["a"]}
-        angle = float(self.right["k"] * (self.right["t_1"] + TURN / self.right["k_1"]))  # k t of a whole run
-        ways = [(method, method, True) for method in STEPPERS] + [(MISSED, RK4, False)]
-        for name, method, located in ways:
-            for step in (*STEPS, *(TINY if method == EXPLICIT else ())):
-                too_long = angle > step * MOST_STEPS * (10 if method == EXPLICIT else 1)
-                work = partial(integrate, found, method, step, located)
-                run, spent = (None, 0.0) if too_long else ran(work, self.clock)
-                if run is None or run.refused[0]:
-                    yield from self._nothing((name, step))
-                    continue
-                known = ~np.isnan(run.F_12[:, 0])
-                t, force = run.t[known, 0], run.F_12[known, 0]
-                course = t, self._course(t, force)
-                yield from self._three((name, step), (run.t_1[0], run.F_max[0]), course, (spent, spent), 1)
+def _found(values: Mapping[str, float], clock: Clock, places: Array) -> Iterator[Result]:
+    """Go through closed forms with each way to the root, and tolerances."""
+    reduced = model(values, COMPARED)
+    equation = lift_off_equation(reduced["V_t"], values["a"], reduced["k"], reduced["P_st"] / reduced["C"])
+    for finder in FINDERS:
+        for tolerance in TOLERANCES:
+            root, alone = timed(partial(find, finder, equation, tolerance), clock)
+            if not np.isfinite(root.root):
+                yield Way(finder, tolerance), *NOTHING
+                continue
+            found, after = timed(partial(follow, values, root.root / reduced["k"]), clock)
+            way = Way(finder, tolerance, alone + after)
+            yield way, alone, found, (places, rope_forces(found, places)[1])
 
-    def _nothing(self, way: Pair) -> Iterator[Entry]:
-        """Go through what a method gives that has failed, or is refused."""
-        return (Entry(*way, kind.name, None, None, "", float(self.right["t_1"]), None, 1, 1.0) for kind in KINDS)
 
-    def _course(self, t: Array, force: Array) -> Array:
-        """Return errors of a force over time, in parts of the greatest."""
-        right = rope_forces(self.right, t.astype(np.longdouble))[1]
-        errors: Array = np.abs((force - right) * (1.0 / self.right["F_max"])).astype(float)
-        return errors
+def _stepped(values: Mapping[str, float], right: Mapping[str, Any], clock: Clock) -> Iterator[Result]:
+    """Go through integrators and steps; runs that are refused, or too long, give nothing."""
+    reduced = model(values, COMPARED) | {"a": values["a"]}
+    angle = float(right["k"] * (right["t_1"] + TURN / right["k_1"]))  # k t of a whole run
+    ways = [(method, method, True) for method in STEPPERS] + [(MISSED, RK4, False)]
+    for name, method, located in ways:
+        for step in (*STEPS, *(TINY if method == EXPLICIT else ())):
+            run, spent = None, 0.0
+            if angle <= step * MOST_STEPS * (10 if method == EXPLICIT else 1):
+                run, spent = timed(partial(integrate, reduced, method, step, located), clock)
+            if run is None or run.refused[0]:
+                yield Way(name, step), *NOTHING
+                continue
+            known = ~np.isnan(run.F_12[:, 0])
+            found = {"t_1": run.t_1[0], "F_max": run.F_max[0]}
+            yield Way(name, step, spent), spent, found, (run.t[known, 0], run.F_12[known, 0])
 
-    def _entries(self, way: Pair, found: Mapping[str, Any], seconds: Pair, at_once: int) -> Iterator[Entry]:
-        course = self.places, self._course(self.places, rope_forces(found, self.places)[1])
-        return self._three(way, (found["t_1"], found["F_max"]), course, seconds, at_once)
 
-    def _three(self, way: Pair, ends: Pair, course: Pair, seconds: Pair, at_once: int) -> Iterator[Entry]:
-        """Go through the errors of the three kinds: `seconds` of the lift-off alone, and of everything."""
-        pairs = zip(ends, ("t_1", "F_max"), strict=True)
-        t_1, peak = (float(abs(np.longdouble(found) / self.right[name] - 1.0)) for found, name in pairs)
-        t, errors = course
-        worst, end = int(np.argmax(errors)), float(self.right["t_1"])
-        name = "F_12" if t[worst] < self.right["t_1"] else "P_12"
-        yield Entry(*way, LIFT_OFF, t_1, t_1, "t_1", end, seconds[0], at_once, 0.0)
-        most, middle = float(errors[worst]), float(np.median(errors))
-        yield Entry(*way, COURSE, most, middle, name, float(t[worst]), seconds[1], at_once, 0.0)
-        yield Entry(*way, PEAK, peak, peak, "F_max", end, seconds[1], at_once, 0.0)
+def _entries(right: Mapping[str, Any], result: Result) -> Iterator[Entry]:
+    """Go through the errors of the three kinds: `seconds` of the lift-off alone, and of everything."""
+    way, alone, found, (t, force) = result
+    end = np.array([float(right["t_1"])])
+    if np.isnan(force[0]):
+        yield from (way.entry(kind.name, end, {"": force}) for kind in KINDS)
+        return
+    t_1, peak = (
+        {name: np.array([float(abs(np.longdouble(found[name]) / right[name] - 1.0))])} for name in ("t_1", "F_max")
+    )
+    away = force - rope_forces(right, t.astype(np.longdouble))[1]
+    errors = np.abs(away * (1.0 / right["F_max"])).astype(float)
+    resting = t < right["t_1"]
+    course = {"F_12": np.where(resting, errors, np.nan), "P_12": np.where(resting, np.nan, errors)}
+    yield replace(way, seconds=alone).entry(LIFT_OFF, end, t_1)
+    yield way.entry(COURSE, t, course)
+    yield way.entry(PEAK, end, peak)
 
 
 def rivals(values: Mapping[str, float], clock: Clock, effort: Effort = FULL) -> Contest:
@@ -165,9 +154,13 @@ def rivals(values: Mapping[str, float], clock: Clock, effort: Effort = FULL) -> 
     """
     right = exact(values)
     places = float(right["t_1"] + TURN / right["k_1"]) * ((np.arange(PLACES) + 0.5) / PLACES)
-    race = _Race(values, right, clock, effort, places)
-    entries = (*race.closed(), *race.finders(), *race.steps())
-    return Contest(KINDS, race.places, entries, effort)
+    computed = (
+        *_closed(values, clock, effort, places),
+        *_found(values, clock, places),
+        *_stepped(values, right, clock),
+    )
+    entries = (entry for result in computed for entry in _entries(right, result))
+    return Contest(KINDS, places, tuple(entries), effort)
 
 
 EVALUATIONS = 60
@@ -263,7 +256,7 @@ def step_limits(
     """
     right = exact(values)
     hoist = {name: float(right[name]) for name in COMPARED} | {"a": values["a"]}
-    taken = {method: np.array((*steps, *(tiny if method == EXPLICIT else ()))) for method in ORDERS}
+    taken = {method: np.array((*steps, *(tiny if method == EXPLICIT else ()))) for method in STEPPERS}
     runs = {method: integrate(hoist, method, z) for method, z in taken.items()}
     errors = {method: _worst(run, right) for method, run in runs.items()}
     return StepLimits(taken, hoist["k_1"] / hoist["k"], errors, {method: run.grown for method, run in runs.items()})
@@ -278,8 +271,8 @@ def _worst(run: Run, right: Mapping[str, Any]) -> Array:
 
 
 SECTIONS = (10, 20, 40, 80, 160)  # before the lift-off
-DRAWINGS, SEED = 400, 1
-T_1, TOP = drawn_name("t_1"), "F_max"
+DRAWINGS = 400
+T_1: str = drawn_name("t_1")
 ENDS = {"R": "F_12", "P": "P_12"}  # forces by the letters of the marks at their ends
 
 
@@ -298,10 +291,9 @@ def by_board(solved: SolvedHoist, clock: Clock) -> Iterator[Entry]:
     t_1 = solved.forces.found["t_1"]
     for before in SECTIONS:
         program, givens = sectioned(solved, before)
-        part = program.needed_for((T_1,))
-        error = abs(float(run(part, givens).values[T_1]) / t_1 - 1.0)
-        spent = timed(partial(run, part, givens), clock)
-        yield Entry(DRAWN, before, LIFT_OFF, error, error, T_1, t_1, spent, 1, 0.0)
+        board, spent = timed(partial(run, program.needed_for((T_1,)), givens), clock)
+        errors = {T_1: np.array([abs(float(board.values[T_1]) / t_1 - 1.0)])}
+        yield Way(DRAWN, before, spent).entry(LIFT_OFF, np.array([t_1]), errors)
 
 
 def by_hand(solved: SolvedHoist, mus: Mapping[str, float], hand: Hand) -> Iterator[Entry]:
@@ -314,16 +306,15 @@ def by_hand(solved: SolvedHoist, mus: Mapping[str, float], hand: Hand) -> Iterat
     program, givens = sectioned(solved, before)
     paper = Paper(program, givens, solved.worth(mus), solved.edges, solved.on_paper)
     values = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS).values
-    exact = run(program, givens).values
-    setting, t_1 = f"n = {before}", found["t_1"]
-    for kind, name, right in ((LIFT_OFF, T_1, t_1), (PEAK, TOP, found["F_max"])):
+    exact, way = run(program, givens).values, Way(HAND, f"n = {before}")
+    for kind, name, right in ((LIFT_OFF, T_1, found["t_1"]), (PEAK, "F_max", found["F_max"])):
         errors = np.broadcast_to(np.abs(values[name] - right), DRAWINGS) * (1.0 / right)
-        most, middle = float(kept(errors, 0.0)), float(np.median(errors))
-        yield Entry(HAND, setting, kind, most, middle, name, t_1, None, 1, 0.0)
+        entry = way.entry(kind, np.array([found["t_1"]]), {name: kept(errors[None], 0.0)})
+        yield replace(entry, typical=float(np.median(errors)))
     ends = {f"{FORCES}.{letter}{i}": force for letter, force in ENDS.items() for i in range(len(exact))}
     marks = [mark for mark in exact if mark in ends]
     worth = givens["mu_F"] * (1.0 / found["F_max"])
     lines = np.array([float(kept(worth * np.abs(values[m].imag - exact[m].imag), 0.0)) for m in marks])
-    at = marks[int(lines.argmax())]
-    time = float(exact[at].real) * givens["mu_t"]
-    yield Entry(HAND, setting, COURSE, float(lines.max()), float(np.median(lines)), ends[at], time, None, 1, 0.0)
+    course = {of: np.where([ends[mark] == of for mark in marks], lines, np.nan) for of in ENDS.values()}
+    times = np.array([float(exact[mark].real) for mark in marks]) * givens["mu_t"]
+    yield way.entry(COURSE, times, course)

@@ -12,32 +12,32 @@ What a hand misses stands beside the methods of a computer.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...board import POSITION, Program
-from ...boards.batch import batch
-from ...boards.exact import STATUSES, ExactBoard, run
-from ...boards.precision import batch_in, run_in
-from ...contest import FULL, Clock, Contest, Effort, Entry, Kind, timed
-from ...hands.shaky import Hand, Paper, draw
-from ...hands.spread import kept
-from ...laws import TURN, inclination
-from ...names import LEVER, role
-from ...quantities import BALANCES, plans_of, references
-from ..chain import construct, moving_bodies
-from ..cycles.cycle import Cycle, chords
-from ..mechanism import ZERO, Driver
-from ..solved import SolvedLinkage
+from ..board import POSITION, Program
+from ..boards.batch import batch
+from ..boards.exact import STATUSES, ExactBoard, run
+from ..boards.precision import batch_in, run_in
+from ..hands.shaky import Hand, Paper, draw
+from ..hands.spread import kept
+from ..laws import TURN, inclination
+from ..linkages.chain import construct, moving_bodies
+from ..linkages.cycles.cycle import Cycle, chords
+from ..linkages.mechanism import ZERO, Driver
+from ..linkages.solved import SolvedLinkage
+from ..names import LEVER, role
+from ..quantities import BALANCES, plans_of, references
 from .contours import Contours
+from .race import FULL, SEED, Clock, Contest, Effort, Entry, Kind, Way, timed
 
 Array = NDArray[Any]
 Values = dict[str, Array]
-Way = Callable[[Array, Sequence[str]], Values]
+Method = Callable[[Array, Sequence[str]], Values]
 SINGLE, EXTENDED = "plan-single", "plan-extended"
 PLAN, NEWTON, DIFFERENCES, CHORDS, HAND = "plan", "newton", "differences", "chords", "hand"
 TOLERANCES = (1e-1, 1e-2, 1e-4, 1e-8)
@@ -45,7 +45,6 @@ STEPS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 SECTIONS = (12, 24, 48, 96, 192, 384)
 LONG = 1.0  # seconds that are too many
 FEW = 100  # positions on which it is tried how long a method takes
-SEED = 1  # the same hand on every paper
 NEAR_DEAD = 0.01  # part of the cycle
 DRAWN, DRAWINGS = 12, 400  # positions that are drawn, how many times
 GRID = 72  # places round the cycle at which Newton's method knows where the links lie
@@ -198,11 +197,11 @@ class Truth:
 
     def errors(self, found: Values) -> dict[str, Array]:
         """Return the errors of values in parts of their sizes, shape (N,)."""
-        return {
-            name: np.abs((np.asarray(value, np.clongdouble) - self.high[name]) - self.low[name]).astype(float)
-            * (1.0 / self.sizes[name])
+        off = {
+            name: (np.asarray(value, np.clongdouble) - self.high[name]) - self.low[name]
             for name, value in found.items()
         }
+        return {name: np.abs(off[name]).astype(float) * (1.0 / size) for name, size in self.sizes.items()}
 
 
 def places_of(cycle: Cycle, count: int) -> Array:
@@ -243,13 +242,12 @@ def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (
     `clock` returns seconds, best those of the processor, and `effort` says on what times are measured.
     """
     rivals, places, kinds = Rivals(cycle), places_of(cycle, positions), kinds_of(cycle, names)
-    found: list[Entry] = []
+    entries: list[Entry] = []
     for kind in kinds:
-        race = _Race(rivals, kind, places, truth(cycle, places, kind.names), effort, clock)
-        found += race.plans()
-        if kind.name != "forces":
-            found += race.others()
-    return Contest(kinds, places, tuple(found), effort)
+        exact, race = truth(cycle, places, kind.names), _Race(rivals, kind, places, effort, clock)
+        for way, values in (*race.plans(), *(race.others() if kind.name != "forces" else ())):
+            entries.append(way.entry(kind.name, places, exact.errors(values)))
+    return Contest(kinds, places, tuple(entries), effort)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -259,67 +257,46 @@ class _Race:
     rivals: Rivals
     kind: Kind
     places: Array
-    truth: Truth
     effort: Effort
     clock: Clock
 
-    def plans(self) -> Iterator[Entry]:
+    def plans(self) -> Iterator[tuple[Way, Values]]:
         """Go through plans: in batches of all sizes, then in other precisions."""
         names, rivals, cycle = self.kind.names, self.rivals, self.rivals.cycle
-        found, program = rivals.plan(self.places, names), cycle.program.needed_for(names)
+        values, program = rivals.plan(self.places, names), cycle.program.needed_for(names)
         spent, each = 0.0, cycle.each(self.places)
         for size in self.effort.batches:
             if spent * size > LONG * 10.0:  # groups of class III are followed at length
                 break
             if size == 1:  # on Python numbers
-                spent = timed(lambda: [run(program, here) for here in each], self.clock) / len(each)
+                spent = timed(lambda: [run(program, here) for here in each], self.clock)[1] / len(each)
             else:
                 spent = self._time(rivals.plan, size)
-            yield self.entry(PLAN, size, found, spent, size)
+            yield Way(PLAN, size, spent, size), values
         # a coarse clock may not notice what takes so little
         size = min(self.effort.at_once, max(int(LONG / spent), 100)) if spent else self.effort.at_once
         precisions = {SINGLE: "single"}
         if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # not so on every machine
             precisions[EXTENDED] = "extended"
         for method, precision in precisions.items():
-            way = partial(rivals.plan, precision=precision)
-            yield self.entry(method, size, way(self.places, names), self._time(way, size), size)
+            plan = partial(rivals.plan, precision=precision)
+            yield Way(method, size, self._time(plan, size), size), plan(self.places, names)
 
-    def others(self) -> Iterator[Entry]:
+    def others(self) -> Iterator[tuple[Way, Values]]:
         """Go through the methods that are no plans."""
         names, rivals = self.kind.names, self.rivals
-        ways = (NEWTON, rivals.newton, TOLERANCES), (DIFFERENCES, rivals.differences, STEPS)
-        for method, way, settings in ways:
-            spent = self._time(partial(way, settings[0]), FEW)  # it may not be bearable at more positions at once
+        for name, method, settings in ((NEWTON, rivals.newton, TOLERANCES), (DIFFERENCES, rivals.differences, STEPS)):
+            spent = self._time(partial(method, settings[0]), FEW)  # it may not be bearable at more positions at once
             size = self.effort.at_once if spent * self.effort.at_once < LONG * 10.0 else FEW
             for setting in settings:
-                spent = self._time(partial(way, setting), size)
-                yield self.entry(method, setting, way(setting, self.places, names), spent, size)
+                spent = self._time(partial(method, setting), size)
+                yield Way(name, setting, spent, size), method(setting, self.places, names)
         for sections in SECTIONS:
-            found = rivals.chords(sections, self.places, names)
-            spent = timed(partial(rivals.chords_of_cycle, sections, names), self.clock) / sections
-            yield self.entry(CHORDS, sections, found, spent, sections)
+            _, spent = timed(partial(rivals.chords_of_cycle, sections, names), self.clock)
+            yield Way(CHORDS, sections, spent / sections, sections), rivals.chords(sections, self.places, names)
 
-    def _time(self, way: Way, size: int) -> float:
-        places = places_of(self.rivals.cycle, size)
-        return timed(lambda: way(places, self.kind.names), self.clock) / size
-
-    def entry(self, method: str, setting: float, found: Values, seconds: float, at_once: int) -> Entry:
-        """Sum up the errors of what a method has found."""
-        entry = summed(method, setting, self.kind, self.places, self.truth.errors(found))
-        return replace(entry, seconds=seconds, at_once=at_once)
-
-
-def summed(method: str, setting: float | str, kind: Kind, places: Array, errors: Mapping[str, Array]) -> Entry:
-    """Return the worst and the typical error of a method, whose time is not known."""
-    table = np.stack([errors[name] for name in kind.names])
-    filled = np.where(np.isnan(table), -1.0, table)
-    worst = filled.max(axis=0)
-    row, column = np.unravel_index(np.argmax(filled), filled.shape)
-    there = worst >= 0.0
-    error, typical = (float(of(worst[there])) if there.any() else None for of in (np.max, np.median))
-    failed, place = float(1.0 - there.mean()), float(places[column])
-    return Entry(method, setting, kind.name, error, typical, kind.names[row], place, None, 1, failed)
+    def _time(self, method: Method, size: int) -> float:
+        return timed(partial(method, places_of(self.rivals.cycle, size), self.kind.names), self.clock)[1] / size
 
 
 @dataclass(frozen=True, slots=True)
@@ -343,15 +320,13 @@ def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Kind]) 
     column = {name: value[:, None] if np.ndim(value) else value for name, value in givens.items()}
     on_paper = Paper(program, column, _as_long(cycle.program, runs, sheet))
     board = draw(on_paper, hand, np.random.default_rng(SEED), (len(places), DRAWINGS))
-    sizes = [references(cycle.program, one.values) for one in runs]
-    errors = {}
+    largest, errors = [references(cycle.program, there.values) for there in runs], {}
     for name in names:
-        exact = np.array([one.values[name] for one in runs])[:, None]
+        exact = np.array([there.values[name] for there in runs])[:, None]
         drawings = np.broadcast_to(board.values[name], (len(places), DRAWINGS))
-        size = beside(cycle, name, np.array([size[name] for size in sizes]))
-        errors[name] = kept(drawings, exact) * (1.0 / size)
+        errors[name] = kept(drawings, exact) * (1.0 / beside(cycle, name, np.array([of[name] for of in largest])))
     for kind in kinds:
-        yield summed(HAND, sheet.paper, kind, places, errors)
+        yield Way(HAND, sheet.paper).entry(kind.name, places, {name: errors[name] for name in kind.names})
 
 
 def _as_long(program: Program, runs: Iterable[ExactBoard], sheet: DrawnSheet) -> dict[str, float | Array]:

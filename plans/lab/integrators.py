@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -21,11 +21,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .roots import time_to_wind
+from ..hoist.roots import time_to_wind
 
 Array = NDArray[np.float64]
 State = tuple[Any, Any]  # u, m, displacement from the static place, and v, m/s
-Trace = tuple[Array, State]  # times, s, and states; of many steps a row a step, a column a hoist
+Trace = Sequence[Array]  # times, s, places and velocities; of many steps a row a step, a column a hoist
 EXPLICIT, SYMPLECTIC, VERLET, TRAPEZOID, RK4 = "euler", "symplectic", "verlet", "trapezoid", "rk4"
 LEAST = 1e-4  # w h at which a method that grows has no stability limit at all
 STABLE = 1e-12  # growth in a step that is rounding
@@ -101,7 +101,6 @@ STEPPERS: Mapping[str, Stepper] = {
     SYMPLECTIC: symplectic_euler,
     EXPLICIT: explicit_euler,
 }
-ORDERS: Mapping[str, int] = {RK4: 4, VERLET: 2, TRAPEZOID: 2, SYMPLECTIC: 1, EXPLICIT: 1}
 
 
 def one_step(method: str, z: Any) -> tuple[Any, Any, Any, Any]:
@@ -209,17 +208,17 @@ class Hoists:
 
         return Motion(pull, lambda t: pull * self.travel(t) - self.g, acceleration)
 
-    def force(self, t: Any, state: State) -> Any:
+    def force(self, t: Any, u: Any, _v: Any) -> Any:
         """Return the rope's force, N."""
-        return self.C_12 * (self.travel(t) - state[0])
+        return self.C_12 * (self.travel(t) - u)
 
-    def rate(self, t: Any, state: State) -> Any:
+    def rate(self, t: Any, _u: Any, v: Any) -> Any:
         """Return the speed at which the rope is stretched, m/s."""
-        return self.V_t + self.a * t - state[1]
+        return self.V_t + self.a * t - v
 
-    def lift(self, t: Any, state: State) -> Any:
+    def lift(self, t: Any, u: Any, _v: Any) -> Any:
         """Return F_01: the load leaves its support where it becomes positive, N."""
-        pulled = np.where(self.rigid, self.C_12 * self.travel(t), self.support * state[0])
+        pulled = np.where(self.rigid, self.C_12 * self.travel(t), self.support * u)
         return pulled - self.m * self.g
 
     def latest(self) -> Array:
@@ -245,10 +244,10 @@ def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool =
 
 def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
     take = STEPPERS[method]
-    first, (t_1, state) = _until_lift_off(hoists, take, h)
+    first, off = _until_lift_off(hoists, take, h)
     last = np.ceil(2.0 * math.pi / (hoists.k_1 * h)).astype(np.int64) + 1
-    second = _trace(itertools.islice(_rows(take, hoists.lifted(), (t_1, state), h), int(last.max()) + 1))
-    F_12_t1 = hoists.force(t_1, state)
+    second = _columns(itertools.islice(_rows(take, hoists.lifted(), off, h), int(last.max()) + 1))
+    t_1, F_12_t1 = off[0], hoists.force(*off)
     F_12_max = np.maximum(F_12_t1, _peak(hoists, take, Hoists.on_support, first, t_1))
     end = t_1 + 2.0 * math.pi / hoists.k_1
     P_12_max = np.maximum(F_12_t1, _peak(hoists, take, Hoists.lifted, second, end + h))
@@ -261,7 +260,7 @@ def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
 def _missed(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
     until = hoists.latest() + 2.0 * math.pi / hoists.k_1
     rows = _rows(STEPPERS[method], hoists.one_sided(), _rest(h), h)
-    trace = _trace(itertools.islice(rows, int(np.ceil(until / h).max()) + 2))
+    trace = _columns(itertools.islice(rows, int(np.ceil(until / h).max()) + 2))
     t, force = trace[0], hoists.force(*trace)
     off = (hoists.lift(*trace) >= 0.0).argmax(axis=0)
     own = np.arange(len(off))
@@ -293,17 +292,20 @@ def _judged(
 
 
 def _rest(h: Array) -> Trace:
-    """Return time and states of the beginning, of as many hoists as have steps."""
-    return np.zeros_like(h), (np.zeros_like(h), np.zeros_like(h))
+    """Return time, place and velocity of the beginning, of as many hoists as have steps."""
+    return [np.zeros_like(h)] * 3
 
 
 def _rows(take: Stepper, motion: Motion, begin: Trace, h: Array) -> Iterator[Trace]:
     """Go through times and states, from the beginning on without an end."""
-    t, state = begin
-    yield t, state
+    t, *state = begin
     for i in itertools.count():
-        state = take(motion, t + i * h, state, h)
-        yield t + (i + 1) * h, state
+        yield t + i * h, *state
+        state = [*take(motion, t + i * h, (state[0], state[1]), h)]
+
+
+def _columns(rows: Iterable[Trace]) -> Trace:
+    return [np.stack(column) for column in zip(*rows, strict=True)]
 
 
 def _until_lift_off(hoists: Hoists, take: Stepper, h: Array) -> tuple[Trace, Trace]:
@@ -314,47 +316,34 @@ def _until_lift_off(hoists: Hoists, take: Stepper, h: Array) -> tuple[Trace, Tra
     borne, going = np.zeros(h.shape, int), np.ones(h.shape, bool)
     while going.any() and len(rows) <= most:
         block = list(itertools.islice(source, min(BLOCK, most + 1 - len(rows))))
-        bears = np.logical_and.accumulate(hoists.lift(*_trace(block)) < 0.0) & going
+        bears = np.logical_and.accumulate(hoists.lift(*_columns(block)) < 0.0) & going
         borne, going = borne + bears.sum(axis=0), bears[-1]
         rows += block
-    rows = rows[: borne.max() + 2]
-    found = _trace(rows)
-    last, own = np.minimum(np.arange(len(rows))[:, None], borne), np.arange(len(h))
-    held = _at(found, last, own)  # where the load has left, its last state on the support
-    t, (u, v) = _within(hoists.lift, take, motion, _at(found, borne, own), h)
-    off = np.where(going, np.nan, t), (np.where(going, np.nan, u), np.where(going, np.nan, v))
-    joined = [np.concatenate((one, end[None])) for one, end in zip((held[0], *held[1]), (off[0], *off[1]), strict=True)]
-    return (joined[0], (joined[1], joined[2])), off
-
-
-def _trace(rows: Iterable[Trace]) -> Trace:
-    t, u, v = (np.stack(column) for column in zip(*((t, *state) for t, state in rows), strict=True))
-    return t, (u, v)
+    trace, own = _columns(rows[: borne.max() + 2]), np.arange(len(h))
+    last = np.minimum(np.arange(len(trace[0]))[:, None], borne)  # where the load has left, its last on the support
+    left = _within(hoists.lift, take, motion, [column[borne, own] for column in trace], h)
+    off = [np.where(going, np.nan, value) for value in left]
+    return [np.concatenate((column[last, own], [end])) for column, end in zip(trace, off, strict=True)], off
 
 
 def _peak(hoists: Hoists, take: Stepper, phase: Callable[[Hoists], Motion], trace: Trace, end: Array) -> Array:
     """Return the highest maximum of the rope's force up to `end`, found within steps; minus infinity for none."""
     rate, times = hoists.rate(*trace), trace[0]
     row, own = np.nonzero((rate[:-1] > 0.0) & (rate[1:] <= 0.0) & (times[1:] <= end))
-    found = np.full(end.shape, -np.inf)
+    highest = np.full(end.shape, -np.inf)
     if row.size:
-        some = hoists.chosen(own)
-        h = times[row + 1, own] - times[row, own]
-        np.maximum.at(found, own, some.force(*_within(some.rate, take, phase(some), _at(trace, row, own), h)))
-    return found
+        some, begin = hoists.chosen(own), [column[row, own] for column in trace]
+        top = _within(some.rate, take, phase(some), begin, times[row + 1, own] - begin[0])
+        np.maximum.at(highest, own, some.force(*top))
+    return highest
 
 
-def _at(trace: Trace, row: Any, own: Any) -> Trace:
-    t, (u, v) = trace
-    return t[row, own], (u[row, own], v[row, own])
-
-
-def _within(of: Callable[[Any, State], Any], take: Stepper, motion: Motion, begin: Trace, h: Array) -> Trace:
+def _within(of: Callable[..., Any], take: Stepper, motion: Motion, begin: Trace, h: Array) -> Trace:
     """Return time and state where `of` changes its sign in a step: by chords, as Illinois does."""
-    t, state = begin
+    t, u, v = begin
 
     def after(part: Array) -> Trace:
-        return t + part * h, take(motion, t, state, part * h)
+        return t + part * h, *take(motion, t, (u, v), part * h)
 
     low, high = np.zeros_like(h), np.ones_like(h)
     f_low, f_high = of(*after(low)), of(*after(high))

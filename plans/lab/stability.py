@@ -14,18 +14,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....scales.errors import InputError
-from ...board import Program
-from ...boards.exact import SMALL, STATUSES, run
-from ...condition import conditions
-from ...hands.shaky import Hand, Paper, Shape, draw
-from ...hands.spread import kept
-from ...laws import TURN, dot
-from ...names import role
-from ...quantities import BALANCES, plans_of, worst_behind
-from ..cycles.cycle import Cycle
-from ..mechanism import ZERO
-from ..solved import signs
+from ...scales.errors import InputError
+from ..board import Program
+from ..boards.exact import SMALL, STATUSES, run
+from ..condition import conditions
+from ..hands.shaky import Hand, Paper, Shape, draw
+from ..hands.spread import kept
+from ..laws import TURN, dot
+from ..linkages.cycles.cycle import Cycle
+from ..linkages.mechanism import ZERO
+from ..linkages.solved import signs
+from ..names import role
+from ..quantities import BALANCES, plans_of, worst_behind
 
 Array = NDArray[Any]
 DIGITS = 16.0  # of double precision

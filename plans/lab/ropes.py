@@ -30,8 +30,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .forces import forces, valid
-from .model import model
+from ..hoist.forces import forces, valid
+from ..hoist.model import model
 
 Array = NDArray[np.float64]
 SAMPLES = 10  # of the shortest period

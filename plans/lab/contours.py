@@ -8,6 +8,9 @@ positions at once, velocities and accelerations from linear systems with the sam
 A pose is a float64 array of shape (unknowns, N): first the angles, rad, that of the frame among them, then the ways, m.
 Rates of these, and rates of rates, have the same shape.
 
+A vector is a form, complex128 of shape (angles, 1 + ways): what turns with each angle, as it is for an angle of zero, a
+constant part in column 0 and the direction of each slider's guide in the column of its way. Forms add up as arrays do.
+
 Source: Zinoviev, method of closed vector contours; Artobolevsky, Theory of mechanisms and machines.
 """
 
@@ -15,37 +18,16 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ...boards.exact import NAN
-from ..mechanism import FRAME, ZERO, Driver, Mechanism, Pair, Prismatic, Revolute
+from ..boards.exact import NAN
+from ..linkages.mechanism import FRAME, ZERO, Driver, Mechanism, Pair, Prismatic, Revolute
 
 Array = NDArray[Any]
 ROUNDS = 20  # corrections after which Newton's method is given up
-
-
-@dataclass(frozen=True, slots=True)
-class Form:
-    """A vector as a sum: `parts` by the row of the angle with which they turn, `ways` by that of a slider's way.
-
-    All are complex numbers for an angle of zero; that of a way is the direction of its guide.
-    """
-
-    parts: dict[int, complex]
-    ways: dict[int, complex] = field(default_factory=dict)
-
-    def __add__(self, other: Form) -> Form:
-        """Add a vector."""
-        sums = ((self.parts, other.parts), (self.ways, other.ways))
-        return Form(*({row: one.get(row, 0j) + more.get(row, 0j) for row in one | more} for one, more in sums))
-
-    def __sub__(self, other: Form) -> Form:
-        """Subtract a vector."""
-        return self + Form(*({row: -x for row, x in part.items()} for part in (other.parts, other.ways)))
 
 
 class Contours:
@@ -60,10 +42,10 @@ class Contours:
         self.angle_of, self._ahead = self._alike(guides)
         self.count = len(set(self.angle_of.values()))  # of the angles
         self._guides = dict(enumerate(guides, start=self.count))
-        self._turner = {row: self.angle_of[pair.links[1]] for row, pair in self._guides.items()}
-        self._origins: dict[int, Form] = {FRAME: Form({})}
+        self._none = np.zeros((self.count, 1 + len(guides)), complex)
+        self._origins = {FRAME: self._none}
         self.closed = tuple(self._walk())
-        self.size = max((abs(x) for form in self.closed for x in form.parts.values()), default=1.0) or 1.0
+        self.size = max((float(np.abs(form[:, 0]).max()) for form in self.closed), default=1.0) or 1.0
         driver, self._zero = mechanism.driver, 0.0  # the driver's variable where its row is zero
         if isinstance(driver, Driver):
             points = mechanism.link(driver.link).points
@@ -89,7 +71,7 @@ class Contours:
         rows = {of: row for row, of in enumerate(dict.fromkeys(root.values()))}
         return {link: rows[of] for link, of in root.items()}, ahead
 
-    def _walk(self) -> Iterator[Form]:
+    def _walk(self) -> Iterator[Array]:
         """Walk over all pairs from the frame; go through the contours that they close."""
         left = list(self._m.pairs)
         known = self._origins
@@ -104,7 +86,7 @@ class Contours:
             else:
                 known[first] = known[second] - self._between(pair)
 
-    def _between(self, pair: Pair) -> Form:
+    def _between(self, pair: Pair) -> Array:
         """Return the way from the origin of the first link of a pair to that of the second."""
         first, second = pair.links
         if isinstance(pair, Revolute):
@@ -113,21 +95,23 @@ class Contours:
             return self._arm(first, ends[0]) - self._arm(second, ends[1])
         on_slider, through = self._arm(first, self._m.link(first).points[pair.point]), self._arm(second, pair.through)
         along = cmath.rect(1.0, self._ahead[second] + self._v[pair.direction])
-        aside = Form({self.angle_of[second]: along * 1j * self._v[pair.offset]})
-        row = next(row for row, guide in self._guides.items() if guide is pair)
-        return on_slider - through - aside - Form({}, {row: along})
+        slid, row = self._none.copy(), next(row for row, guide in self._guides.items() if guide is pair)
+        slid[self.angle_of[second], [0, 1 + row - self.count]] = along * 1j * self._v[pair.offset], along
+        return on_slider - through - slid
 
     def _at(self, place: tuple[str, str]) -> complex:
         return complex(self._v[place[0]], self._v[place[1]])
 
-    def _arm(self, link: int, place: tuple[str, str]) -> Form:
+    def _arm(self, link: int, place: tuple[str, str]) -> Array:
         """Return the vector from a link's origin to a place on it."""
-        return Form({self.angle_of[link]: cmath.rect(1.0, self._ahead[link]) * self._at(place)})
+        arm = self._none.copy()
+        arm[self.angle_of[link], 0] = cmath.rect(1.0, self._ahead[link]) * self._at(place)
+        return arm
 
-    def point(self, letter: str) -> Form:
+    def point(self, letter: str) -> Array:
         """Return the place of a lettered point."""
         if letter in self._m.frame_points:
-            return Form({0: self._at(self._m.frame_points[letter])})
+            return self._arm(FRAME, self._m.frame_points[letter])
         link = next(link for link in self._m.links if letter in link.points)
         return self._origins[link.number] + self._arm(link.number, link.points[letter])
 
@@ -150,40 +134,29 @@ class Contours:
             pose[row] = np.real((places[pair.point] - through) * np.conj(along))
         return pose
 
-    def value(self, form: Form, pose: Array) -> Array:
+    def _turned(self, form: Array, pose: Array) -> Array:
+        """Return what turns with each angle, shape (angles, N)."""
+        ways = np.concatenate((np.ones((1, pose.shape[1])), pose[self.count :]))
+        return np.asarray(np.exp(1j * pose[: self.count]) * (form @ ways))
+
+    def value(self, form: Array, pose: Array) -> Array:
         """Return a vector in every position, shape (N,)."""
-        return self._turned(form, pose, self._turns(pose))
+        return np.asarray(self._turned(form, pose).sum(axis=0))
 
-    def rate(self, form: Form, pose: Array, rates: Array) -> Array:
+    def _slopes(self, form: Array, pose: Array) -> Array:
+        """Return the derivatives of a vector by all unknowns, shape (unknowns, N)."""
+        along = form[:, 1:].T @ np.exp(1j * pose[: self.count])
+        return np.concatenate((1j * self._turned(form, pose), along))
+
+    def rate(self, form: Array, pose: Array, rates: Array) -> Array:
         """Return its first derivative by time."""
-        turns = self._turns(pose)
-        found = self._turned(form, pose, turns * (1j * rates[: self.count]))
-        for row, way in form.ways.items():
-            found = found + turns[self._turner[row]] * way * rates[row]
-        return found
+        return np.asarray((self._slopes(form, pose) * rates).sum(axis=0))
 
-    def change(self, form: Form, pose: Array, rates: Array, changes: Array) -> Array:
+    def change(self, form: Array, pose: Array, rates: Array, changes: Array) -> Array:
         """Return its second derivative by time."""
-        turns = self._turns(pose)
-        found = self._turned(form, pose, turns * (1j * changes[: self.count] - rates[: self.count] ** 2))
-        for row, way in form.ways.items():
-            k = self._turner[row]
-            found = found + turns[k] * way * (changes[row] + 2j * rates[k] * rates[row])
-        return found
-
-    def _turns(self, pose: Array) -> Array:
-        return np.asarray(np.exp(1j * pose[: self.count]))
-
-    def _turned(self, form: Form, pose: Array, turns: Array) -> Array:
-        found = np.zeros(pose.shape[1], complex)
-        for k in dict.fromkeys((*form.parts, *(self._turner[row] for row in form.ways))):
-            found = found + turns[k] * self._arm_of(form, k, pose)
-        return found
-
-    def _arm_of(self, form: Form, k: int, pose: Array) -> Array | complex:
-        """Return what turns with angle `k`, for an angle of zero."""
-        ways = (way * pose[row] for row, way in form.ways.items() if self._turner[row] == k)
-        return sum(ways, start=form.parts.get(k, 0j))
+        omega, slid = rates[: self.count], np.exp(1j * pose[: self.count]) * (form[:, 1:] @ rates[self.count :])
+        bent = omega * (2j * slid - omega * self._turned(form, pose))
+        return np.asarray(self.rate(form, pose, changes) + bent.sum(axis=0))
 
     def solve(self, near: Array, places: Array, tolerance: float) -> Array:
         """Find poses by Newton's method, from a pose `near` each place of the driver, float64 of shape (N,).
@@ -210,26 +183,17 @@ class Contours:
         """Return accelerations, by a linear system; `acceleration` is the driver's."""
         return self._driven_by(pose, acceleration, lambda form, own: self.change(form, pose, rates, own))
 
-    def _driven_by(self, pose: Array, driver: float, gap: Callable[[Form, Array], Array]) -> Array:
+    def _driven_by(self, pose: Array, driver: float, gap: Callable[[Array, Array], Array]) -> Array:
         own = np.zeros_like(pose)
         own[self._driven] = driver
         return self._solved(pose, [gap(form, own) for form in self.closed]) + own
 
     def _solved(self, pose: Array, gaps: list[Array]) -> Array:
-        """Return the unknowns that close gaps, to first order."""
-        turns, rows = self._turns(pose), []
-        for form in self.closed:  # derivatives of both components of a contour by all unknowns
-            columns = [
-                turns[row] * 1j * self._arm_of(form, row, pose)
-                if row < self.count
-                else turns[self._turner[row]] * form.ways.get(row, 0j)
-                for row in self._free
-            ]
-            block = np.stack([np.broadcast_to(column, pose.shape[1]) for column in columns], axis=1)
-            rows += [block.real, block.imag]
+        """Return the unknowns that close gaps, to first order: both components of every contour."""
+        slopes = np.concatenate([(of.real, of.imag) for of in (self._slopes(form, pose) for form in self.closed)])
         right = np.stack([part for gap in gaps for part in (-gap.real, -gap.imag)], axis=1)[:, :, None]
         step = np.zeros_like(pose)
-        step[self._free] = _linear(np.stack(rows, axis=1), right)[:, :, 0].T
+        step[self._free] = _linear(slopes[:, self._free].transpose(2, 0, 1), right)[:, :, 0].T
         return step
 
 
