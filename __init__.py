@@ -2,6 +2,8 @@
 
 from typing import TYPE_CHECKING, Any
 
+from .scales.version import __version__ as __version__
+
 if TYPE_CHECKING:
     from .scales import KulmanError as KulmanError
     from .variants.batches.batch import batch as batch
@@ -15,7 +17,6 @@ if TYPE_CHECKING:
     from .variants.solution import solve as solve
     from .variants.sweeps.sweeps import sweep as sweep
 
-__version__ = "0.1.0"
 _HOMES = {
     "KulmanError": "scales",
     "all_variants": "variants.making.all_variants",

@@ -10,11 +10,11 @@ from typing import Any
 
 import click
 
-from . import __version__
 from .scales.choices import HANDS, SIZES
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import VARIABLE, of_environment, speaking, system_language
 from .scales.numbers import SHOWN, quote
+from .scales.version import __version__
 from .variants.commands.console import (
     BLOCK,
     LONGEST,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from ..scales.errors import PositionError
 from .board import Board, Program, RecordingBoard, recorded
@@ -146,6 +147,48 @@ class Ends:
     most_at: float
     least: float
     least_at: float
+
+
+Rows = tuple[list[str], Sequence[Columned]]  # what stands before the rows of a table, and its columns
+
+
+class Course(ABC):
+    """What is solved over its motion, column by column at places: what a sweep shows; `usual` are the places in files.
+
+    A subject has one in its module `course`, called after its table: `CamCourse`.
+    """
+
+    usual: ClassVar[int]
+    called: ClassVar[str] = "positions"  # what the places are
+
+    @abstractmethod
+    def places(self, count: int) -> Any:
+        """Return so many places, evenly: an array of what drives."""
+
+    @abstractmethod
+    def columns(self, places: Any) -> Sequence[Columned]:
+        """Return the columns at places."""
+
+    def rows(self, count: int | None) -> Rows:
+        """Return the rows of a table: so many places, without a number what is marked."""
+        many = self.usual if count is None else count
+        return list(map(str, range(many))), self.columns(self.places(many))
+
+    def extremes(self) -> Sequence[Ends]:
+        """Return the extremes of columns, where they are told."""
+        return ()
+
+    def states(self, places: Any) -> Mapping[str, Sequence[str]]:
+        """Return what is said of each place in files, by heading."""
+        return {}
+
+    def remarks(self) -> Iterable[tuple[str, Mapping[str, Any]]]:
+        """Go through what is said below a table: keys of texts behind `sweep.`, what fills them, values with units."""
+        return ()
+
+    def data(self, places: Any) -> Mapping[str, Any]:
+        """Return what JSON has beside columns and extremes, SI."""
+        return {}
 
 
 def calculated(programs: Mapping[str, Iterable[Callable[[Board], None]]]) -> dict[str, str]:

@@ -1,29 +1,52 @@
-"""What is asked of a task, and a case: one variant of it solved for the plans wanted."""
+"""What is asked of a task, a case of it, and what can be asked of one whatever it is about.
+
+A case is one variant of a task, solved for the plans wanted. Reader, solution, sheet and marking speak to its kind
+without knowing which it is.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
-from typing import TYPE_CHECKING, Any
+from functools import cache
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 from ..drawing.words import Given, Words
 from ..plans.names import role
-from ..plans.solved import Solved
-from ..scales.arguments import of_kind
-from ..scales.choose import Chooser, Segment, chooser, segment_symbol
-from ..scales.display import Display
+from ..plans.solved import Check, Course, Solved
+from ..scales.arguments import all_known, by_name, names_of, of_kind
+from ..scales.choose import Chooser, Choosers, Segment, chooser, segment_symbol
+from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import InputError
+from ..scales.givens import Givens
 from ..scales.names import unknown
 from ..scales.numbers import quote
-from .kinds import kind_of
-from .kinds.kind import Kind
-from .task import WITH_FORCES, LocatedError, Task
+from ..scales.scale import Scale
+from .checks.basics import Checker
+from .checks.names import Names
+from .kinds import MODULES
+from .task import WITH_FORCES, Instead, LocatedError, Task
+from .task import Given as Stated
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
+    from ..drawing.compose import Drawn
     from ..drawing.formats import Format
+    from ..drawing.handouts import Shown
+    from ..drawing.notes.blocks import Story
     from ..drawing.pens import Norm
+    from ..plans.condition import Condition
+    from ..plans.hands.shaky import Paper, Tolerance
+    from ..plans.marking.key import Question
 
 Settings = Mapping[str, str | float]
+Numbers = Mapping[str, float]  # of a variant, SI
+Choices = Mapping[str, str]  # of a variant: its word of each choice
+Plans = tuple[str, ...]
+Scales = Mapping[str, Scale]  # by plan
+Subject = TypeVar("Subject")  # what is described: a mechanism, a cam, a gear pair, a hoist
+Answer = TypeVar("Answer", bound=Solved)
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,6 +120,156 @@ class Case(Request):
         return kind_of(self.task.kind)
 
 
+class Kind(ABC, Generic[Subject, Answer]):
+    """A kind of tasks; `table` is where their files describe the subject, `plans` what can be drawn of it."""
+
+    table: ClassVar[str]
+    givens: ClassVar[Givens] = {}  # what describes a subject; nothing where every task has names of its own
+    display: ClassVar[Display] = AS_INSIDE  # the units of results where a file says no others
+    plans: ClassVar[tuple[str, ...]]
+    judged: ClassVar[str] = ""  # key of the heading of its checks, where a list of quantities ends in these
+    pages: ClassVar[int] = 1  # how many a sheet has at most that holds everything well
+    segments: ClassVar[bool] = True  # whether a segment may choose a scale factor
+    limits_add_up: ClassVar[bool] = False  # whether limits are those of errors of drawing, else of what is read off
+    instead: ClassVar[Instead] = ()  # which givens of a user stand in the place of others
+
+    @abstractmethod
+    def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Stated]) -> Subject | None:
+        """Read the table of this kind; None when a part of it is at fault."""
+
+    @abstractmethod
+    def fits(self, checker: Checker, subject: Subject, head: Mapping[str, Any]) -> None:
+        """Check that the subject has the plans and the scale factors that the `head` of the file wants."""
+
+    def varies(self, checker: Checker, task: Task) -> None:
+        """Check what can be wrong in single variants only, without solving them."""
+
+    def remarks(self, task: Task, variant: str, solved: Answer) -> Iterator[InputError]:
+        """Go through what a teacher should know of a variant that is no fault of it."""
+        yield from self.warnings(solved)
+
+    @abstractmethod
+    def solve(self, subject: Subject, values: Numbers, words: Choices, plans: Plans) -> Answer:
+        """Solve a variant with its `values` in SI and the `words` of its choices; impossible values are refused."""
+
+    @abstractmethod
+    def scale_symbols(self, solved: Answer) -> tuple[str, ...]:
+        """Return the symbols of all scale factors that a task or a user may choose."""
+
+    @abstractmethod
+    def first_scales(self, solved: Answer, choosers: Choosers, plans: Plans) -> tuple[Format, Scales]:
+        """Return format and scale factors by plan as they follow from the extents of plans, of which none is drawn."""
+
+    @abstractmethod
+    def conditions(self, solved: Answer) -> dict[str, Condition]:
+        """Return the condition of every quantity."""
+
+    def warnings(self, solved: Answer) -> tuple[InputError, ...]:
+        """Return what a user should know of what has been solved."""
+        return ()
+
+    def unfit(self, case: Case) -> Iterator[InputError]:
+        """Go through what makes a variant a poor exercise: what users are warned of, rules that it breaks."""
+        yield from case.warnings
+        solved: Any = case.solved
+        for check in self.checks(solved):
+            if not check.ok:
+                yield InputError("variant-check", check=check.name)
+
+    def checks(self, solved: Answer) -> tuple[Check, ...]:
+        """Return what a second route, or a rule of good design, says of a solution."""
+        return ()
+
+    def course(self, solved: Answer) -> Course | None:
+        """Return the subject over its motion; None where a cycle of positions takes the place of columns."""
+        return None
+
+    def listed(self, solved: Answer, plans: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the names of the quantities and scale factors that a list for some plans shows, in its order."""
+        return tuple(solved.quantities)
+
+    def headings(self, solved: Answer, words: Words) -> dict[str, str]:
+        """Return the headings in a list of quantities, each by the first quantity under it; a short list has none."""
+        return {}
+
+    @abstractmethod
+    def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
+        """Draw the sheet of a case; on the smallest format that holds everything where `paper` is not said."""
+
+    def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:
+        """Return what has been solved as large as a sheet draws it, and what a user should know of that."""
+        return solved, ()
+
+    def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
+        """Return what the explanatory note says beside the views of the sheet, drawn with `scales` by plan."""
+        from ..drawing.notes.blocks import Story
+
+        return Story()
+
+    def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
+        """Return what is drawn, after the first steps, of views that are not drawn in stages; nothing of others."""
+        return {}
+
+    def lettered(self, words: Words, solved: Answer) -> Words:
+        """Return the words with the letters that depend on the subject."""
+        return words
+
+    def asks(self, solved: Answer, question: Question) -> bool:
+        """Whether a form asks for a quantity."""
+        return True
+
+    def as_drawn(self, solved: Answer) -> Answer:
+        """Return what has been solved as a student draws it, with what hangs on the drawing: it is marked."""
+        return solved
+
+    def stands_for(self, solved: Answer) -> dict[str, str]:
+        """Return what quantities of `solved` are called in `as_drawn`, those that are called otherwise there."""
+        return {}
+
+    def limits(self, drawn: Answer, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
+        """Return by how much single quantities may miss, SI, where the usual rule does not hold.
+
+        What is `drawn` is as `as_drawn` returns it, `paper` the same on paper, with its scale factors.
+        """
+        return {}
+
+    def form_notes(self, solved: Answer) -> tuple[str, ...]:
+        """Return the keys, after `form.`, of what a form of this kind says beside what every form does."""
+        return ()
+
+    def section(self, solved: Answer, question: Question, current: str) -> str:
+        """Return the section of the form in which a question stands; `current` is that of the one before it."""
+        return question.plan
+
+    def section_heading(self, solved: Answer, section: str, words: Words) -> str:
+        """Return the heading of a section of the form."""
+        return self.plan_heading(solved, section, words)
+
+    def plan_heading(self, solved: Answer, plan: str, words: Words) -> str:
+        """Return the heading of a plan, as the sheet has it."""
+        return words[f"heading.{plan}"]
+
+    def vector_letters(self, solved: Answer, words: Words) -> dict[str, str]:
+        """Return the letters of the vectors that show quantities on their plans."""
+        return {}
+
+
+@cache
+def kind_of(table: str) -> Kind[Any, Any]:
+    """Return the kind of the tasks that have this table."""
+    name = MODULES[table]
+    kind: Kind[Any, Any] = import_module(name if "." in name else f".kinds.{name}", __package__).KIND
+    return kind
+
+
+def beside(task: Task, folder: str) -> Any:
+    """Return the module about the kind of a task in a folder of what is done with tasks; else refuse it."""
+    name = MODULES.get(task.kind, ".")
+    if "." in name:
+        raise InputError("kind-without", task=quote(task.id), text=folder[:-1])
+    return import_module(f".{folder}.{name}", __package__)
+
+
 def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser]:
     """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
     choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
@@ -129,36 +302,6 @@ def _choosable(task: Task, name: str, text: str | float, solved: Solved) -> None
     segment = name if role(name).kind != "mu" else str(text) if "=" in str(text) else ""
     if segment and not kind.segments:
         raise InputError("scale-no-segments", text=quote(segment), known=", ".join(known))
-
-
-def by_name(name: str, value: Mapping[str, Any] | None) -> dict[str, Any]:
-    """Return the argument `name`, a mapping from names, as a dict; nothing for None."""
-    if value is None:
-        return {}
-    of_kind(name, value, (Mapping,), "dict[str, ...]")
-    for key in value:
-        of_kind(name, key, (str,), "dict[str, ...]")
-    return dict(value)
-
-
-def names_of(
-    argument: str, value: str | Iterable[str | int] | None, kinds: tuple[type, ...] = (str,)
-) -> tuple[str, ...]:
-    """Return names that are given each alone or several with commas between, each of these `kinds`; none for None."""
-    if value is None:
-        return ()
-    of_kind(argument, value, (str, Iterable), "list[str]")
-    items = (value,) if isinstance(value, str) else tuple(value)
-    for item in items:
-        of_kind(argument, item, kinds, "list[str]")
-    return tuple(dict.fromkeys(one.strip() for item in items for one in str(item).split(",") if one.strip()))
-
-
-def all_known(key: str, names: Iterable[str], known: Collection[str]) -> None:
-    """Refuse, with the message `key`, the first of the names that is not known."""
-    for name in names:
-        if name not in known:
-            raise unknown(key, name, known)
 
 
 def positions_of(argument: str, value: int) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import stat
+import time
 import tomllib
 from contextlib import suppress
 from dataclasses import replace
@@ -19,13 +20,15 @@ from ..scales.display import ANGLES, LENGTHS, METRE, PAPER
 from ..scales.errors import LANGUAGES, InputError, messages
 from ..scales.names import cyrillic, latin, unknown
 from ..scales.numbers import quote
+from .case import Kind, kind_of
 from .checks.basics import Checker, EnoughError, Field, Path, Places, array_of, as_is, label, one_of, record, text
 from .checks.names import Names, Settings, read_choices, read_givens, read_variants
-from .kinds import kind_of, table_in
+from .kinds import table_in
 from .shelf import bundled, bundled_text
 from .task import WITH_FORCES, Given, LocatedError, Task
 
 LARGEST_FILE = 1_000_000
+TRIED_FOR = 1.3  # seconds of processor time in which a file is read and its variants are tried
 # tomllib takes time as the square of the parts of a dotted key
 _LONG_KEY = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){64}""")
 
@@ -240,7 +243,7 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
     own = {"plans": Field(array_of(one_of("plan-unknown", lambda: kind.plans))), table: Field(as_is)}
     head = record(checker, (), raw, _FIELDS | own)
     givens = read_givens(checker, raw["givens"]) if "givens" in raw else {}
-    choices = read_choices(checker, raw.get("choices", {}), givens, kind.words(raw.get(table)))
+    choices = read_choices(checker, raw.get("choices", {}), givens, _words(kind, raw.get(table)))
     names = _names(checker, givens, choices)
     subject = kind.read(checker, raw[table], names, givens) if table in raw else None
     givens = {key: _bounded(checker, given, names) for key, given in givens.items()}
@@ -274,8 +277,42 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
     )
     kind.varies(checker, task)
     if thorough:
-        kind.tries(checker, task)
+        _try(checker, kind, task)
     return None if checker.faults else task
+
+
+def _words(kind: Kind[Any, Any], raw: object) -> frozenset[str]:
+    """Return what the table `raw` says in words that may be names of choices: these need not set numbers."""
+    told = raw if isinstance(raw, dict) else {}
+    return frozenset(word for key in kind.givens if isinstance(word := told.get(key), str))
+
+
+def _try(checker: Checker, kind: Kind[Any, Any], task: Task) -> None:
+    """Solve every variant: one that has no solution is a fault, and what else a teacher should know a remark.
+
+    `TRIED_FOR` seconds after the file was begun it is said how many variants were not tried.
+    """
+    if any(path[:1] != ("variant",) for path in checker.faulty):
+        return
+    wrong = {path[1] for path in checker.faulty if len(path) > 1}
+    for row, variant in enumerate(task.variants):
+        path = ("variant", row)
+        if time.process_time() - checker.begun > TRIED_FOR:
+            counts = {"n": len(task.variants) - row, "all": len(task.variants), "file": checker.file}
+            checker.remark_of(path, variant, InputError("check-untried", **counts))
+            return
+        if row in wrong:
+            continue
+        try:
+            solved = kind.solve(task.subject, task.values(variant), task.words(variant), task.plans)
+            error = solved.error()
+        except InputError as refused:
+            checker.fault_of(path, variant, refused)
+            continue
+        if error is not None:
+            checker.fault_of(path, variant, error)
+        for remark in kind.remarks(task, variant, solved):
+            checker.remark_of(path, variant, remark)
 
 
 def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Names:

@@ -13,7 +13,8 @@ from ..scales.arguments import of_kind
 from ..scales.errors import InputError
 from ..scales.names import latin, unknown
 from ..scales.numbers import SHOWN, quote
-from .spreadsheets.grid import LOOKED_AT, Grid, about_kind, quantity_part, read_grid, split_unit, symbol
+from .spreadsheets.files import read_grid
+from .spreadsheets.grid import LOOKED_AT, Grid, about_kind, quantity_part, split_unit, symbol
 from .task import LocatedError, Task
 
 WHO = ("student", "group", "book", "number", "email")

@@ -16,9 +16,7 @@ from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.scale import Scale
 from ..scales.units import format_unit
-from .case import Case, Request, Settings
-from .kinds import kind_of
-from .kinds.kind import Kind
+from .case import Case, Kind, Request, Settings, kind_of
 from .reader import load_task
 from .tables import aligned
 from .task import Task
@@ -65,7 +63,7 @@ class Solution:
     @property
     def checks(self) -> dict[str, dict[str, Any]]:
         """What a second route, or a rule of good design, says, by name: as JSON has it."""
-        return {check.name: check.to_json() for check in self.kind.checks(self.solved, self.quantities)}
+        return {check.name: check.to_json() for check in self.kind.checks(self.solved)}
 
     @property
     def kind(self) -> Kind[Any, Any]:
@@ -179,7 +177,7 @@ class Solution:
         if self.scales:
             lines += [*([] if headings else [""]), self.scaled(words)]
         if self.kind.judged:
-            judged = _judged(self.kind.checks(self.solved, self.quantities), words)
+            judged = _judged(self.kind.checks(self.solved), words)
             lines += ["", words[self.kind.judged], aligned(judged, (0, 1, 3))]
         return "\n".join(lines)
 
@@ -298,7 +296,7 @@ def solution_of(asked: Request, condition: bool = False, hand: str | Hand | None
     solved, paper, by_plan, warnings = _on_paper(case)
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
-    found = case.kind.conditions(case) if condition else {}
+    found = case.kind.conditions(case.solved) if condition else {}
     drawn = None if hand is None else _drawing(case.kind, solved, by_plan, hand)
     said = solved.error(), warnings, words
     return Solution(case.task, case.variant, solved, items, used, *said, found, drawn, case.plans, paper)

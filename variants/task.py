@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, SupportsFloat
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import InputError, KulmanError
-from ..scales.givens import Bound
+from ..scales.givens import Bound, Described
 from ..scales.names import unknown
 from ..scales.numbers import quote
 from ..scales.units import Unit, bounded, parse
+from .shelf import bundled_text
 
 if TYPE_CHECKING:
     from ..plans.cams.cam import Cam
@@ -141,8 +142,6 @@ class Task:
     @property
     def text(self) -> str:
         """The text of the file that says all this, as it is now."""
-        from .shelf import bundled_text
-
         return Path(self.file).read_text(encoding="utf-8") if self.file else bundled_text(self.id)
 
     def variant(self, variant_id: str | None = None) -> Variant:
@@ -167,9 +166,7 @@ class Task:
                 resolved |= dict.fromkeys((name for name in others if name in resolved), None)
         for name, value in (settings or {}).items():
             if name not in self.givens:
-                from .kinds import kind_of  # which know tasks
-
-                if name in kind_of(self.kind).givens:
+                if isinstance(self.subject, Described) and name in self.subject.givens:
                     known = ", ".join(self.givens)
                     raise InputError("given-absent", text=name, task=quote(self.id), known=known)
                 raise unknown("given-unknown", name, self.givens, task=self.id)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..solved import Columned, Ends
+from ..solved import Columned, Course, Ends, Rows
 from .cam import PLATE, ROCKER, ROLLER
 from .construction import ROCKER_SIZES
 from .followers import RockerCam, tightest
@@ -99,6 +99,67 @@ def lines(solved: SolvedCam) -> list[tuple[int, float, int]]:
         jumps = number > 0 and any(abs(jump.phi - phi) < NEAR for jump in solved.motion.jumps)
         found += [(number, phi, side) for side in ((-1, 1) if jumps else (1,))]
     return found
+
+
+TABLED = ("phi", "s", "ds", "d2s", "v", "a", "psi", "theta", "gamma", "theta_rocker", "gamma_rocker")
+
+
+class CamCourse(Course):
+    """A cam over its turn, which places divide evenly."""
+
+    usual = 360  # one place a degree
+
+    def __init__(self, solved: SolvedCam) -> None:
+        self.solved = solved
+
+    def places(self, count: int) -> Array:
+        """Return so many angles of the cam."""
+        return np.asarray(TURN * (np.arange(count) / count))
+
+    def columns(self, places: Any) -> list[Columned]:
+        """Return the columns at angles of the cam."""
+        return columns(self.solved, places)
+
+    def rows(self, count: int | None) -> Rows:
+        """Return the motion at so many places, without a number on the section lines, with both limits at jumps."""
+        if count is not None:
+            heads, found = super().rows(count)
+        else:
+            numbers, angles, sides = zip(*lines(self.solved), strict=True)
+            heads, phi, after = list(map(str, numbers)), np.array(angles), np.array(sides) > 0
+            before_and_after = zip(*(columns(self.solved, phi, side) for side in (-1, 1)), strict=True)
+            found = [Columned(b.name, b.unit, np.where(after, b.values, a.values)) for a, b in before_and_after]
+        return heads, [column for column in found if column.name in TABLED]
+
+    def extremes(self) -> list[Ends]:
+        """Return the extremes of motion and pressure angles."""
+        return extremes(self.solved)
+
+    def remarks(self) -> Iterator[tuple[str, Mapping[str, Any]]]:
+        """Say where profiles are curved most."""
+        for curve, _, profile in profiles(self.solved):
+            sharpest = profile.sharpest
+            yield f"sharpest.{curve}", {"rho": (sharpest.value, "m"), "at": (sharpest.phi, "rad")}
+
+    def states(self, places: Any) -> dict[str, list[str]]:
+        """Return at which places a profile is undercut."""
+        return {"status": [f"undercut: {cut}" if cut else "ok" for cut in cut_at(self.solved, places)]}
+
+    def data(self, places: Any) -> dict[str, Any]:
+        """Return the least radii of curvature, jumps and what an undercut profile loses."""
+        every = profiles(self.solved)
+        return {
+            "rho_min": {curve: {"value": p.sharpest.value, "at": p.sharpest.phi} for curve, _, p in every},
+            "jumps": [
+                {"at": jump.phi, "of": "ds" if jump.order == 1 else "d2s", "before": jump.before, "after": jump.after}
+                for jump in self.solved.motion.jumps
+            ],
+            "undercut": [
+                {"follower": follower, "from": cut.start, "to": cut.end, "lost": cut.lost, "at": cut.phi_lost}
+                for _, follower, profile in every
+                for cut in profile.undercuts
+            ],
+        }
 
 
 def pieces(solved: SolvedCam, phase: Phase) -> list[tuple[Array, Array, Array, Array]]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..laws import LAWS
-from ..solved import Columned, Ends
+from ..solved import Columned, Course, Ends, Rows
 from .solve import SolvedGear
 from .teeth import Array
 
@@ -111,6 +112,43 @@ def extremes(solved: SolvedGear) -> list[Ends]:
         most, most_at, least, least_at = (float(of[at]) for at in places for of in (values, phi))
         found.append(Ends(name, by_name[name].unit, most, most_at, least, least_at))
     return found
+
+
+class GearCourse(Course):
+    """A pair over the contact of one pair of teeth: places divide the active line evenly, its ends among them."""
+
+    usual = 101  # every hundredth of the active line
+
+    def __init__(self, solved: SolvedGear) -> None:
+        self.solved = solved
+
+    def places(self, count: int) -> Array:
+        """Return so many places on the line of action."""
+        return np.linspace(*self.solved.meshing.touching, count)
+
+    def columns(self, places: Any) -> list[Columned]:
+        """Return the columns at places of the line of action."""
+        return columns(self.solved, places)
+
+    def rows(self, count: int | None) -> Rows:
+        """Return so many places, without a number the marks of the meshing."""
+        known = marks(self.solved)
+        return super().rows(count) if count is not None else (list(known), self.columns(list(known.values())))
+
+    def extremes(self) -> list[Ends]:
+        """Return the extremes of sliding."""
+        return extremes(self.solved)
+
+    def remarks(self) -> Iterator[tuple[str, Mapping[str, Any]]]:
+        """Say on which zones how many pairs of teeth touch."""
+        for zone in zones(self.solved):
+            ends = {name: (getattr(zone, name), "m") for name in ("first", "last", "length")}
+            yield "zone", {**ends, "pairs": zone.pairs}
+
+    def data(self, places: Any) -> dict[str, Any]:
+        """Return marks of the contact, and where how many pairs touch."""
+        found = [{"from": zone.first, "to": zone.last, "pairs": zone.pairs} for zone in zones(self.solved)]
+        return {"marks": marks(self.solved), "zones": found}
 
 
 Curve = list[tuple[float, float]]

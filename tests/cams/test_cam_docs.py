@@ -8,7 +8,7 @@ from typing import Any
 
 import kulman
 from kulman.plans.cams.cam import LAWS
-from kulman.variants.sweeps.cam import CamSweep
+from kulman.variants.sweeps.swept import CourseSweep
 
 DOCS = Path(kulman.__file__).parent / "docs"
 TEXT = (DOCS / "cams.md").read_text(encoding="utf-8")
@@ -16,7 +16,7 @@ TEXT = (DOCS / "cams.md").read_text(encoding="utf-8")
 
 def test_every_law_and_every_column_is_named() -> None:
     swept = kulman.sweep("madi-cam", positions=8)
-    assert isinstance(swept, CamSweep)
+    assert isinstance(swept, CourseSweep)
     head = swept.csv("en").splitlines()[0].split(",")
 
     names = [column.partition(" ")[0] for column in head[1:]]

@@ -14,7 +14,8 @@ from kulman.plans.cams.motion import Motion
 from kulman.scales.errors import InputError
 from kulman.scales.units import unit
 from kulman.tests.support.task_files import task_of, with_changes
-from kulman.variants.kinds import MODULES, kind_of, table_in
+from kulman.variants.case import kind_of
+from kulman.variants.kinds import MODULES, table_in
 from kulman.variants.kinds.cam import KIND
 from kulman.variants.reader import check_text, load_task, read_text
 from kulman.variants.shelf import bundled, bundled_text

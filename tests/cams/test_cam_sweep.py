@@ -14,15 +14,16 @@ import pytest
 import kulman
 from kulman import cli
 from kulman.plans.cams.course import columns, extremes
+from kulman.plans.cams.solve import SolvedCam
 from kulman.scales.errors import LANGUAGES, InputError
-from kulman.variants.sweeps.cam import CamSweep
+from kulman.variants.sweeps.swept import CourseSweep
 
 TASK = "madi-cam"
 
 
-def swept(**asked: object) -> CamSweep:
+def swept(**asked: object) -> CourseSweep:
     found = kulman.sweep(TASK, lang="en", **asked)  # type: ignore[arg-type]
-    assert isinstance(found, CamSweep)
+    assert isinstance(found, CourseSweep)
     return found
 
 
@@ -39,7 +40,8 @@ def test_points_of_the_csv_are_those_of_the_profiles() -> None:
         return np.array([float(row[head.index(name)]) for row in rows]) * 1e-3
 
     phi = np.radians(np.arange(24) * 15.0)
-    roller, plate = found.solved.roller, found.solved.plate
+    solved = SolvedCam.of(found.case.solved)
+    roller, plate = solved.roller, solved.plate
     assert roller is not None
     assert plate is not None
     for name, points in (
@@ -66,7 +68,7 @@ def test_without_positions_files_have_every_degree_and_the_table_the_section_lin
 
 
 def test_velocity_and_acceleration_are_derivatives_of_the_travel() -> None:
-    solved = swept().solved
+    solved = SolvedCam.of(swept().case.solved)
     phi, step = np.radians(np.arange(5.0, 230.0, 7.0)), 1e-4
     at, ahead, behind = (
         {column.name: column.values for column in columns(solved, phi + shift)} for shift in (0.0, step, -step)
@@ -78,7 +80,7 @@ def test_velocity_and_acceleration_are_derivatives_of_the_travel() -> None:
 
 
 def test_extremes_are_those_of_a_close_look_at_both_sides_of_jumps() -> None:
-    solved = swept().solved
+    solved = SolvedCam.of(swept().case.solved)
     phi = solved.motion.samples(1e-3)
     sides = [{column.name: column.values for column in columns(solved, phi, side)} for side in (-1, 1)]
 
@@ -169,10 +171,10 @@ def test_nothing_is_written_when_one_file_is_a_drawing(tmp_path: Path) -> None:
 def test_a_rocker_has_its_angle_and_columns_of_its_own() -> None:
     path = Path(kulman.__file__).parent / "docs" / "examples" / "rocker-cam.toml"
     found = kulman.sweep(path, lang="en", positions=12)
-    assert isinstance(found, CamSweep)
+    assert isinstance(found, CourseSweep)
     head, rows = rows_of(found.csv())
 
-    rocker = found.solved.rocker
+    rocker = SolvedCam.of(found.case.solved).rocker
     assert rocker is not None
     psi = np.array([float(row[head.index("psi [°]")]) for row in rows])
     s = np.array([float(row[head.index("s [mm]")]) for row in rows])

@@ -14,7 +14,7 @@ import pytest
 
 from kulman import all_variants, batch, check, cli, load_task
 from kulman.variants.making.all_variants import Question, gift_bytes, xml_bytes
-from kulman.variants.spreadsheets.grid import read_grid
+from kulman.variants.spreadsheets.files import read_grid
 from kulman.variants.tables import csv_text, harmless, xlsx_bytes
 
 TASK = "nau-slider-crank"

@@ -24,7 +24,7 @@ from kulman.variants import reader
 from kulman.variants.checks import basics as checks
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.checks import names as checks_names
-from kulman.variants.kinds import cam, gear, hoist, kind
+from kulman.variants.kinds import cam, gear, hoist, sized
 from kulman.variants.shelf import bundled_text, template
 from kulman.variants.solution import solve
 
@@ -53,7 +53,7 @@ def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
         keys.update(fields)
         return record(checker, path, raw, fields)
 
-    modules: tuple[ModuleType, ...] = (reader, checks, checks_names, checks_mechanism, cam, kind)
+    modules: tuple[ModuleType, ...] = (reader, checks, checks_names, checks_mechanism, cam, sized)
     for module in modules:
         monkeypatch.setattr(module, "record", noting)
     task, faults = reader.read_text(text, "t.toml")

@@ -11,7 +11,7 @@ import pytest
 
 from kulman import cli, load_task
 from kulman.scales.errors import LANGUAGES
-from kulman.variants.kinds import kind_of
+from kulman.variants.case import kind_of
 from kulman.variants.shelf import bundled
 from kulman.variants.solution import Solution, solve
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -10,9 +11,8 @@ import pytest
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.commands.test_layers import loaded
 from kulman.tests.support.cases import solve_case
-from kulman.variants.case import Case
-from kulman.variants.kinds import KINDS, MODULES, kind_of
-from kulman.variants.kinds.kind import Kind
+from kulman.variants.case import Case, Kind, beside, kind_of
+from kulman.variants.kinds import KINDS, MODULES
 
 
 class Bare(Kind[Any, Any]):
@@ -25,6 +25,7 @@ class Bare(Kind[Any, Any]):
     def solve(self, *args: Any) -> Any: ...
     def scale_symbols(self, *args: Any) -> Any: ...
     def first_scales(self, *args: Any) -> Any: ...
+    def conditions(self, *args: Any) -> Any: ...
     def draw(self, *args: Any, **kwargs: Any) -> Any: ...
 
 
@@ -36,9 +37,8 @@ def case() -> Case:
 @pytest.mark.parametrize(
     ("asked", "named"),
     [
-        pytest.param(lambda case: Bare().conditions(case), "condition", id="condition"),
-        pytest.param(lambda case: Bare().gallery(case.task), "chart", id="chart"),
-        pytest.param(lambda case: Bare().sweep(case, case.words(), None), "sweep", id="sweep"),
+        pytest.param(lambda case: beside(replace(case.task, kind="bare"), "charts"), "chart", id="chart"),
+        pytest.param(lambda case: replace(case.task, subject=None).mechanism, "mechanism", id="sweep of a cycle"),
     ],
 )
 def test_what_a_kind_has_not_is_refused_in_one_line(asked: Callable[[Case], Any], named: str, case: Case) -> None:
@@ -56,16 +56,16 @@ def test_what_a_kind_has_not_is_refused_in_one_line(asked: Callable[[Case], Any]
 def test_a_bare_kind_warns_of_nothing_checks_nothing_and_asks_everything(case: Case) -> None:
     bare = Bare()
 
-    assert (bare.warnings(case.solved), bare.checks(case.solved, {}), bare.words({})) == ((), (), frozenset())
+    assert (bare.warnings(case.solved), bare.checks(case.solved), bare.course(case.solved)) == ((), (), None)
     assert bare.asks(case.solved, None) is True  # type: ignore[arg-type]
     assert bare.plan_heading(case.solved, "velocity", case.words("en")) == case.words("en")["heading.velocity"]
 
 
-def test_a_kind_without_its_six_methods_cannot_be_made() -> None:
+def test_a_kind_without_its_seven_methods_cannot_be_made() -> None:
     class Unfinished(Kind[Any, Any]):
         table, plans = "unfinished", ()
 
-    with pytest.raises(TypeError, match=r"draw.*first_scales.*fits.*read.*scale_symbols.*solve"):
+    with pytest.raises(TypeError, match=r"conditions.*draw.*first_scales.*fits.*read.*scale_symbols.*solve"):
         Unfinished()  # type: ignore[abstract]
 
 

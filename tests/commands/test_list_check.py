@@ -48,7 +48,7 @@ driver = { link = 1, pivot = "O", point = "A", angle = "phi", speed = "10 rad/s"
 @pytest.fixture(autouse=True)
 def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let all variants be tried, however slow or busy the machine is."""
-    monkeypatch.setattr("kulman.variants.kinds.kind.TRIED_FOR", math.inf)
+    monkeypatch.setattr("kulman.variants.reader.TRIED_FOR", math.inf)
 
 
 def crank_rocker(*variants: tuple[float, ...]) -> str:
@@ -126,7 +126,7 @@ def test_variants_of_every_kind_are_tried(task: str, old: str, new: str, fault: 
 
 
 def test_what_there_was_no_time_to_try_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kulman.variants.kinds.kind.TRIED_FOR", -1.0)
+    monkeypatch.setattr("kulman.variants.reader.TRIED_FOR", -1.0)
 
     faults, remarks = check_text(crank_rocker(*[(45.0, 30.0, 21.0, 80.0, 100.0)] * 3), "own.toml")
 

@@ -13,15 +13,15 @@ import pytest
 import kulman
 from kulman import cli
 from kulman.scales.errors import LANGUAGES, InputError
-from kulman.variants.sweeps.hoist import HoistSweep
+from kulman.variants.sweeps.swept import CourseSweep
 
 TASK = "karpenko-hoist"
 PUSHING = {"I_0": 1e-6, "V_0": 0.5}  # so soft a support that the rope of V10 goes slack
 
 
-def swept(variant: str | None = None, **asked: object) -> HoistSweep:
+def swept(variant: str | None = None, **asked: object) -> CourseSweep:
     found = kulman.sweep(TASK, variant, lang="en", **asked)  # type: ignore[arg-type]
-    assert isinstance(found, HoistSweep)
+    assert isinstance(found, CourseSweep)
     return found
 
 

@@ -17,7 +17,8 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.scales.packaged import packaged
 from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, read
 from kulman.variants.marking.reading import read_answers
-from kulman.variants.spreadsheets.grid import letters, read_grid
+from kulman.variants.spreadsheets.files import read_grid
+from kulman.variants.spreadsheets.grid import letters
 from kulman.variants.tables import csv_table, harmless, xlsx_bytes
 
 PACKAGE = "kulman.variants.marking"

@@ -18,7 +18,7 @@ from kulman.scales.errors import InputError
 from kulman.tests.support.answer_files import ASKED, HEAD, messages, read
 from kulman.tests.support.hostile_workbooks import HOSTILE, SMALL, good, hostile, zipped
 from kulman.variants.marking.reading import read_answers
-from kulman.variants.spreadsheets.grid import read_grid
+from kulman.variants.spreadsheets.files import read_grid
 
 
 def workbook(tmp_path: Path, cells: dict[str, object], formats: dict[str, str] | None = None) -> Path:
@@ -164,7 +164,7 @@ READ = """
 import sys, time
 from pathlib import Path
 from kulman.scales.errors import InputError
-from kulman.variants.spreadsheets.grid import read_grid
+from kulman.variants.spreadsheets.files import read_grid
 line = ""
 try:
     read_grid(sys.argv[1])

@@ -13,7 +13,7 @@ import pytest
 from kulman import check, cli
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.marking.cells import split_sense
-from kulman.variants.spreadsheets.grid import read_grid
+from kulman.variants.spreadsheets.files import read_grid
 
 TASK = "nau-slider-crank"  # variant 1: omega_2 = -28.9 rad/s, M_bal = 89.27 N*m, both seen from the reader
 RIGHT_WAY = (

@@ -13,7 +13,6 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from ... import __version__
 from ...drawing.compose import Drawn
 from ...drawing.formats import format_named
 from ...drawing.notes.blocks import Block, Document
@@ -23,11 +22,13 @@ from ...drawing.pens import Norm
 from ...drawing.words import Words
 from ...drawing.writers import WRITERS, folder_for, page_files, save_all, slug, sweep_parts, write_whole
 from ...plans.quantities import measured
+from ...scales.arguments import all_known, by_name
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit
-from ..case import Case, Request, Settings, all_known, by_name, plans_wanted
+from ...scales.version import __version__
+from ..case import Case, Request, Settings, plans_wanted
 from ..crew import Advance, Done, Journal, digest_of, on_cluster, remove_stale, shared_out
 from ..marking.wording import texts
 from ..notes import body_of, title_page

@@ -12,7 +12,7 @@ from ...plans.cams.chords import DRAWINGS, ROUNDING, WAYS, Convergence, Robustne
 from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.lab.cams import rivals
 from ...plans.lab.race import FULL, Effort
-from ..case import all_known
+from ...scales.arguments import all_known
 from ..tables import Cell, aligned
 from . import charts
 

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
-from ... import __version__
 from ...drawing.charts.accuracy import accuracy_page
 from ...drawing.charts.paper import SUFFIXES as PICTURES
 from ...drawing.charts.paper import saved
@@ -24,11 +23,12 @@ from ...plans.hands.shaky import PRESETS, Hand, preset
 from ...plans.lab.race import Contest, Entry
 from ...plans.laws import TURN
 from ...plans.linkages.cycles.cycle import Cycle
-from ...scales.arguments import of_kind
+from ...scales.arguments import all_known, names_of, of_kind
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ...scales.units import parse, unit
-from ..case import Case, Request, Settings, all_known, names_of, positions_of
+from ...scales.version import __version__
+from ..case import Case, Request, Settings, beside, positions_of
 from ..hands import is_own
 from ..reader import load_task
 from ..tables import Cell, Result, aligned, csv_bytes, csv_text, plain
@@ -360,7 +360,7 @@ def chart(
     """
     language = "en" if lang is None else lang
     case = Request(load_task(task), variant, set, only, scales, notation, language).case()
-    gallery = case.kind.gallery(case.task)
+    gallery: Gallery = beside(case.task, "charts").CHARTS
     names, wanted = names_of("chart", chart), names_of("quantities", quantities)
     all_known("chart-unknown", names, gallery.charts)
     if positions is not None:

@@ -24,10 +24,11 @@ from ...plans.linkages.cycles.cycle import Cycle, cycle
 from ...plans.linkages.solved import SolvedLinkage, solve_linkage
 from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
+from ...scales.arguments import all_known
 from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit
-from ..case import Case, all_known
+from ..case import Case
 from ..sweeps.linkage import driver_name
 from ..tables import Cell, aligned
 from . import charts

@@ -14,10 +14,11 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import unit
+from ..case import Case, Choices, Numbers, Plans, Scales
 from ..checks.basics import Checker, Field, Path, array_of, one_of, record, rows, word
 from ..checks.names import Names, check_numbers, literal, word_or_choice
 from ..task import Given
-from .kind import Choices, Numbers, Plans, Scales, Sized
+from .sized import Sized
 
 if TYPE_CHECKING:
     from ...drawing.cams.scene import CamScene
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
     from ...plans.cams.profile import PlateProfile, RollerProfile
     from ...plans.cams.solve import SolvedCam
     from ...plans.marking.key import Question
-    from ...plans.quantities import Quantity
-    from ..case import Case
 
 SYMBOLS = ("mu_l", "mu_s_ds", "mu_s_d2s")  # the others follow from the drawn amplitude and the pole distances
 PER_MM, MILLI = 1e-3, 1e3
@@ -131,7 +130,7 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
         if cams.PLATE in solved.cam.followers and solved.motion.velocity_jumps:
             found.append(InputError("cam-no-plate"))
         found += _unusual(solved)
-        for check in self.checks(solved, {}):
+        for check in self.checks(solved):
             if check.name in RULES and not check.ok:
                 said = _degrees if check.unit == "rad" else _millimetres
                 found.append(InputError(f"cam-rule-{check.name}", value=said(check.value), limit=said(check.limit)))
@@ -143,7 +142,7 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
                 found.append(InputError(f"cam-undercut-{follower}", lost=f"{lost:.3g}", **said_ends))
         return tuple(found)
 
-    def checks(self, solved: SolvedCam, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
+    def checks(self, solved: SolvedCam) -> tuple[Check, ...]:
         """Return what the rules of good design say, each with the value that it compares with its limit, SI.
 
         `roller_of_radius` and `roller_of_curvature` hold the roller against 0.4 r_0 and 0.7 rho_min, `gamma_rise` and

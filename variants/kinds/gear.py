@@ -12,12 +12,11 @@ from ...scales.errors import InputError
 from ..checks.basics import Checker
 from ..checks.names import Names
 from ..task import Given
-from .kind import Sized
+from .sized import Sized
 
 if TYPE_CHECKING:
     from ...plans.gears.solve import SolvedGear
     from ...plans.marking.key import Question
-    from ...plans.quantities import Quantity
 
 RULES = {  # checks that are told when they fail
     "undercut": "gear-rule-undercut",
@@ -74,7 +73,7 @@ class Gears(Sized[GearPair, "SolvedGear"]):
             found.append(InputError(BROKEN[rule] if rule in BROKEN and check.value < 1.0 else RULES[rule], **said))
         return tuple(found)
 
-    def checks(self, solved: SolvedGear, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
+    def checks(self, solved: SolvedGear) -> tuple[Check, ...]:
         """Return what the pair is judged by: the compared value, its limit, how they have to stand, SI."""
         return solved.checks
 

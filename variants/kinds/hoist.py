@@ -9,13 +9,12 @@ from ...plans.hoist import hoist as hoists
 from ...plans.names import role
 from ...plans.solved import Check
 from ...scales.errors import InputError
-from .kind import Sized
+from .sized import Sized
 
 if TYPE_CHECKING:
     from ...drawing.words import Words
     from ...plans.hoist.solve import SolvedHoist
     from ...plans.marking.key import Question
-    from ...plans.quantities import Quantity
 
 RULES = {  # what is told of a check that fails
     "rope_phase_1": "hoist-rule-rope-phase-1",
@@ -49,7 +48,7 @@ class Hoists(Sized[hoists.Hoist, "SolvedHoist"]):
                 found.append(InputError(RULES[check.name], **said))
         return tuple(found)
 
-    def checks(self, solved: SolvedHoist, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
+    def checks(self, solved: SolvedHoist) -> tuple[Check, ...]:
         """Return what formulas and rope are judged by: the compared value and its limit, SI.
 
         `rope_phase_1` and `rope_phase_2` are the least force of the rope, `support` is the least height of the lifted

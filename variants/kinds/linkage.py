@@ -22,10 +22,10 @@ from ...scales.choose import Choosers, Segment, chooser
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
+from ..case import Case, Choices, Kind, Numbers, Plans, Request, Scales
 from ..checks.mechanism import branched, needless_branches, place_of, read_mechanism, started
 from ..marking.wording import letter, texts
 from ..task import Given, Task
-from .kind import Choices, Kind, Numbers, Plans, Scales
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
@@ -37,8 +37,6 @@ if TYPE_CHECKING:
     from ...drawing.words import Words
     from ...plans.condition import Condition
     from ...plans.marking.key import Question
-    from ...plans.quantities import Quantity
-    from ..case import Case
     from ..checks.basics import Checker
     from ..checks.names import Names
 
@@ -115,8 +113,6 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         yield from super().unfit(case)
         yield from _hindered(case.task.mechanism, case.task.values(case.variant, case.settings))
         if short := _short_vectors(case):
-            from ..case import Request
-
             # those that are so in every variant of a task, as on guides that do not turn, do not count
             always = (_short_vectors(Request(case.task, one).case()) for one in case.task.variants)
             for name in sorted(short - short.intersection(*always)):
@@ -127,11 +123,11 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         yield from super().remarks(task, variant, solved)
         yield from _hindered(task.mechanism, task.values(variant), lined=True)
 
-    def conditions(self, case: Case) -> dict[str, Condition]:
+    def conditions(self, solved: SolvedLinkage) -> dict[str, Condition]:
         """Return the condition of every quantity."""
         from ...plans.linkages.solved import conditions_of  # needs numpy, which plain solutions do without
 
-        return conditions_of(SolvedLinkage.of(case.solved))
+        return conditions_of(solved)
 
     def warnings(self, solved: SolvedLinkage) -> tuple[InputError, ...]:
         """Tell of lines that meet at a small angle."""
@@ -153,13 +149,13 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             return (InputError("ill-conditioned", **said),)
         return (InputError("ill-conditioned-pins", first=pins[0], second=pins[1], **said),)
 
-    def checks(self, solved: SolvedLinkage, quantities: Mapping[str, Quantity]) -> tuple[Check, ...]:
+    def checks(self, solved: SolvedLinkage) -> tuple[Check, ...]:
         """Return what a second route says.
 
         `lever` compares what balances the driver with Zhukovsky's lever, per cent; `compound` the plans of velocities
         and accelerations with the sums of compound motion, in parts of their longest vectors.
         """
-        delta = quantities.get("delta_M_bal") or quantities.get("delta_F_bal")
+        delta = solved.quantities.get("delta_M_bal") or solved.quantities.get("delta_F_bal")
         routes = (
             ("lever", delta.value if delta else None, LEVER_AGREES, "%", delta.name if delta else ""),
             ("compound", disagreement(solved), COMPOUND_AGREES, "", ""),

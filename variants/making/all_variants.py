@@ -13,11 +13,12 @@ from xml.sax.saxutils import escape
 from ...drawing.words import Words
 from ...drawing.writers import Files
 from ...plans.quantities import unit_of
+from ...scales.arguments import all_known, names_of
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit
-from ..case import Settings, all_known, names_of
+from ..case import Settings
 from ..crew import Advance
 from ..marking.checks import Check, check
 from ..marking.keyed import Keyed, keyed

@@ -14,16 +14,16 @@ from functools import cache
 from itertools import starmap
 
 from ...drawing.writers import slug
-from ...scales.arguments import of_kind
+from ...scales.arguments import by_name, of_kind
 from ...scales.errors import InputError, KulmanError
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import parse
-from ..case import Request, Settings, by_name
+from ..case import Request, Settings, kind_of
 from ..crew import Advance
-from ..kinds import kind_of
 from ..reader import TaskFileError, load_task, task_of
 from ..sheets import draw_case
-from ..spreadsheets.grid import UNDERSTOOD, Grid, about_kind, column_kind, read_grid, symbol, variant_said
+from ..spreadsheets.files import read_grid
+from ..spreadsheets.grid import UNDERSTOOD, Grid, about_kind, column_kind, symbol, variant_said
 from ..task import Given, LocatedError, Task
 
 MOST = 1000  # variants that are made at once

@@ -13,11 +13,12 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ... import __version__
 from ...drawing.formats import format_named
 from ...drawing.writers import Files, folder_for, save_all, slug, write_whole
+from ...scales.arguments import by_name
 from ...scales.errors import InputError, KulmanError
-from ..case import Request, Settings, by_name, plans_wanted
+from ...scales.version import __version__
+from ..case import Request, Settings, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
 from ..roster import Digits, Roster, read_roster

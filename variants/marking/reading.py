@@ -14,17 +14,8 @@ from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
 from ..roster import Who
-from ..spreadsheets.grid import (
-    LOOKED_AT,
-    SUFFIXES,
-    Grid,
-    about_kind,
-    column_kind,
-    quantity_part,
-    read_grid,
-    split_unit,
-    tidy,
-)
+from ..spreadsheets.files import read_grid
+from ..spreadsheets.grid import LOOKED_AT, SUFFIXES, Grid, about_kind, column_kind, quantity_part, split_unit, tidy
 from ..task import LocatedError
 from . import cells
 from .answers import Answers, Asked, Line, Mu, put_back

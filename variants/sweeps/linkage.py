@@ -21,15 +21,15 @@ from ...plans.linkages.mechanism import Driver, Mechanism
 from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
 from ...plans.solved import Columned
-from ...scales.arguments import of_kind
+from ...scales.arguments import all_known, names_of, of_kind
 from ...scales.errors import InputError, PositionError
 from ...scales.units import format_unit, parse, unit
-from ..case import Case, all_known, names_of, positions_of
+from ..case import Case, positions_of
 from ..kinds.linkage import placed
 from ..sheets import Sheet, sheet_of
 from ..tables import aligned, csv_text
 from ..task import LocatedError, Task, plain_number
-from .sweeps import CSV, DIGITS, SweepRequest, Swept, ends_data
+from .swept import CSV, DIGITS, SweepRequest, Swept, ends_data
 
 Array = NDArray[Any]
 SECTIONS = POSITIONS = 12
@@ -171,9 +171,6 @@ class Sweep(Swept):
     def __repr__(self) -> str:
         """Return task, variant and the number of positions."""
         return f"<Sweep {self.task.id} {self.variant}: {self.status}, {len(self.cycle.angles)} positions>"
-
-
-SWEEP = Sweep
 
 
 def _place(task: Task, name: str, value: str | float | None) -> float | None:

@@ -1,0 +1,47 @@
+"""A hoist over time, until one period after the lift-off: forces, stress, how the load rises and the beams bend."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..solved import Columned, Course, Rows
+from .forces import course
+from .solve import SolvedHoist
+
+TABLED = 25  # times in the table, beside the marks
+
+
+class HoistCourse(Course):
+    """A hoist at times, evenly."""
+
+    usual, called = 361, "times"
+
+    def __init__(self, solved: SolvedHoist) -> None:
+        self.forces = solved.forces
+
+    def places(self, count: int) -> Any:
+        """Return so many times, s."""
+        return np.linspace(0.0, self.forces.end, count)
+
+    def columns(self, places: Any) -> Sequence[Columned]:
+        """Return the columns at times."""
+        return course(self.forces, places).columned
+
+    def rows(self, count: int | None) -> Rows:
+        """Return even times with the marks among them."""
+        heads: dict[float, list[str]] = {float(t): [] for t in self.places(count or TABLED)}
+        for name, at in self.forces.marks.items():
+            heads.setdefault(at, []).append(name)
+        times = sorted(heads)
+        return [", ".join(heads[t]) for t in times], self.columns(np.array(times))
+
+    def states(self, places: Any) -> dict[str, tuple[str, ...]]:
+        """Return what bears the load at each time."""
+        return {"bears": course(self.forces, places).states}
+
+    def data(self, places: Any) -> dict[str, Any]:
+        """Return what bears the load when, the marks, and whether the formulas are valid."""
+        return {"valid": self.forces.motion is None, **self.states(places), "marks": self.forces.marks}

@@ -1,0 +1,216 @@
+"""What every sweep answers, whatever moves; the columns of what has a course: cams, gears, hoists."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...drawing.words import Words
+from ...drawing.writers import WRITERS, Files
+from ...plans.solved import Columned, Course, Ends
+from ...scales.errors import InputError, PositionError
+from ...scales.numbers import quote
+from ...scales.units import format_unit, unit
+from ..case import Case
+from ..tables import Result, aligned, csv_bytes, csv_text, plain
+from ..task import Task
+
+CSV = ".csv"
+SUFFIXES = (CSV, *WRITERS)
+SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
+DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of what drives
+DRIVES = "phi"
+NOTHING = 1e-9  # part of the largest value of a column below which one is rounding
+
+
+@dataclass(frozen=True, slots=True)
+class SweepRequest:
+    """Positions, points, where a driver begins and ends, what is compared with chords; None for what is not said."""
+
+    positions: int | None
+    points: str | Iterable[str] | None
+    start: str | float | None
+    end: str | float | None
+    chords: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Swept(Result):
+    """A variant of a task over its whole cycle; `words` are those of the table and the CSV."""
+
+    suffixes = SUFFIXES
+    case: Case
+    words: Words
+
+    @property
+    def task(self) -> Task:
+        """The task."""
+        return self.case.task
+
+    @property
+    def variant(self) -> str:
+        """The variant."""
+        return self.case.variant
+
+    @property
+    def status(self) -> str:
+        """The status of the whole cycle: `ok` where something moves."""
+        return "ok"
+
+    @property
+    def reason(self) -> PositionError | None:
+        """Why no position at all can be assembled, or None."""
+        return None
+
+    @abstractmethod
+    def csv(self, language: str | None = None) -> str:
+        """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
+
+    @abstractmethod
+    def _data(self) -> dict[str, Any]:
+        """Return what has been found, for JSON: everything in SI."""
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what `kulman sweep --json` prints: everything in SI."""
+        data = {"task": self.task.id, "variant": self.variant, "status": self.status} | self._data()
+        return {name: plain(value) for name, value in data.items()}
+
+    def _csv_file(self) -> bytes:
+        return csv_bytes(self.csv(), self.words.language)
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class CourseSweep(Swept):
+    """What is solved over its motion, at `positions` places; None for the marked ones in the table, many in files."""
+
+    course: Course
+    positions: int | None
+
+    @classmethod
+    def of(cls, case: Case, words: Words, asked: SweepRequest, course: Course) -> CourseSweep:
+        """Look at what has been solved over its motion; refuse what only the cycle of a linkage has."""
+        unused = {"--points": asked.points, "--from": asked.start, "--to": asked.end, "--chords": asked.chords}
+        for option, value in unused.items():
+            if value is not None:
+                raise InputError("kind-without", task=quote(case.task.id), text=option)
+        return cls(case, words, course, asked.positions)
+
+    @property
+    def count(self) -> int:
+        """The number of places in files."""
+        return self.positions or self.course.usual
+
+    def table(self, language: str | None = None) -> str:
+        """Return the columns at what is marked, or at the positions asked for, then extremes and remarks."""
+        words = self._words(language)
+        heads, columns = self.course.rows(self.positions)
+        shown = [in_degrees_and_millimetres(column) for column in columns]
+        rows = [["", *(_titled(column.name, column.unit, words) for column in shown)]]
+        for k, head in enumerate(heads):  # one that comes again stands but once
+            first = k == 0 or heads[k - 1] != head
+            rows.append([head if first else "", *(_cell(column, k, words) for column in shown)])
+        remarks = [
+            words[f"sweep.{key}"].format(**{name: _filled(value, words) for name, value in values.items()})
+            for key, values in self.course.remarks()
+        ]
+        warnings = [warning.text(words.language) for warning in self.case.warnings]
+        parts = aligned(rows, ()), _extremes_table(self.course.extremes(), words), "\n".join((*remarks, *warnings))
+        return "\n\n".join(part for part in parts if part)
+
+    def csv(self, language: str | None = None) -> str:
+        """Return all columns as CSV, the number of the row before them, after them what is said of each row."""
+        places, words = self.course.places(self.count), self._words(language)
+        shown = [in_degrees_and_millimetres(column) for column in self.course.columns(places)]
+        states = self.course.states(places)
+        units = (format_unit(column.unit, words.language) for column in shown)
+        heads = (f"{column.name} [{of}]" if of else column.name for column, of in zip(shown, units, strict=True))
+        rows = zip(*(map(float, column.values) for column in shown), *states.values(), strict=True)
+        return csv_text([["k", *heads, *states], *([k, *row] for k, row in enumerate(rows))], words.language)
+
+    def _data(self) -> dict[str, Any]:
+        """Return columns, extremes where they are told, and what else the course has."""
+        places = self.course.places(self.count)
+        columns = {column.name: {"unit": column.unit, "value": column.values} for column in self.course.columns(places)}
+        extremes = {
+            ends.name: ends_data(ends.unit, (ends.most, ends.most_at), (ends.least, ends.least_at))
+            for ends in self.course.extremes()
+        }
+        return {"columns": columns, **({"extremes": extremes} if extremes else {}), **self.course.data(places)}
+
+    def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
+        """Return the file of the columns, .csv alone: diagrams are on the sheet."""
+        if path.suffix.lower() != CSV:
+            key = f"{self.task.kind}-sweep-drawing"
+            raise InputError(key, task=quote(self.task.id), file=quote(path.name))
+        return [(path, self._csv_file())]
+
+    def __repr__(self) -> str:
+        """Return task, variant and the number of places."""
+        kind = type(self.course).__name__.replace("Course", "Sweep")
+        return f"<{kind} {self.task.id} {self.variant}: {self.count} {self.course.called}>"
+
+
+def ends_data(of: str, most: tuple[float, float], least: tuple[float, float]) -> dict[str, Any]:
+    """Return the largest and the smallest value, each with its place, as data."""
+    return {"unit": of} | {key: {"value": x, "at": at} for key, (x, at) in (("max", most), ("min", least))}
+
+
+def in_degrees_and_millimetres(column: Columned) -> Columned:
+    """Return a column as it is shown."""
+    shown = SHOWN.get(column.unit)
+    if shown is None:
+        return column
+    values: Any = column.values
+    values = unit(shown).from_si(values)
+    return Columned(column.name, shown, np.round(values, PLACES) if column.name == DRIVES else values)
+
+
+def _titled(name: str, of: str, words: Words) -> str:
+    spelled = format_unit(of, words.language)
+    return f"{name}, {spelled}" if spelled else name
+
+
+def _cell(column: Columned, k: int, words: Words) -> str:
+    size = float(np.max(np.abs(column.values), initial=0.0, where=np.isfinite(column.values)))
+    value = float(column.values[k])
+    if np.isinf(value):
+        return "−∞" if value < 0.0 else "∞"
+    return words.short(0.0 if abs(value) <= NOTHING * size else value, DIGITS)
+
+
+def _extremes_table(found: Collection[Ends], words: Words) -> str:
+    """Return the extremes of columns, and at which angles of what drives they are."""
+    rows = [["", words["sweep.most"], "", words["sweep.least"], ""]]
+    for one in found:
+        shown = SHOWN.get(one.unit, one.unit)
+        of = unit(shown)
+        cells = [_titled(one.name, shown, words)]
+        small = NOTHING * max(abs(one.most), abs(one.least))
+        for value, at in ((one.most, one.most_at), (one.least, one.least_at)):
+            tidy = 0.0 if abs(value) <= small else value
+            cells += [words.short(of.from_si(tidy) + 0.0, DIGITS), f"{DRIVES} = {degrees(at, words)}"]
+        rows.append(cells)
+    return aligned(rows, (0, 2, 4)) if found else ""
+
+
+def degrees(at: float, words: Words) -> str:
+    """Return an angle in degrees."""
+    return f"{words.short(round(unit('deg').from_si(at), 4), DIGITS)}°"
+
+
+def _filled(value: Any, words: Words) -> Any:
+    """Return what fills in a remark: a value with its SI unit in degrees or millimetres, else as it is."""
+    if not isinstance(value, tuple):
+        return value
+    number, of = value
+    return degrees(number, words) if of == "rad" else millimetres(number, words)
+
+
+def millimetres(length: float, words: Words) -> str:
+    """Return a length in millimetres."""
+    return f"{words.short(unit('mm').from_si(length), DIGITS)} {format_unit('mm', words.language)}"
