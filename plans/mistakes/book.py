@@ -20,13 +20,10 @@ from ..boards.batch import batch
 from ..boards.exact import SMALL, ExactBoard
 from ..hands.shaky import Paper
 from ..marking.key import Key, tolerances
-from . import cams, data, forces, gears, motion
-from .rules import Broken, Change, Chapter, Scene, breaks
+from . import cams, forces, gears  # noqa: F401  they enter their rules
+from .data import angle_of_driver
+from .rules import BY_SCALE, Broken, Change, Scene, broken
 
-CHAPTERS = (data, motion, forces, cams, gears)
-MISTAKES = Chapter()
-for _mistake in (mistake for chapter in CHAPTERS for mistake in chapter.MISTAKES.values()):
-    MISTAKES.add(_mistake)
 NOTHING = 1e-9  # part of a tolerance that is rounding
 FLATTER = 0.7  # of the flattest angle of the right construction: lines meet more flatly than they should
 UNDRAWN = 1e-9  # scale factor of what is only calculated, SI per mm
@@ -105,10 +102,11 @@ class Book:
         """
         if key is self.key:
             return self
-        ids = [id for id, mistake in MISTAKES.items() if mistake.by_scale]
-        kept = [s for s in self.signatures if s.broken.mistake not in ids]
+        kept = [s for s in self.signatures if s.broken.mistake not in BY_SCALE]
         paper = replace(key.paper, mus={**key.paper.mus, **mus})
-        all_of_them = sorted([*kept, *_moving(key, broken(paper, key.values, ids))], key=lambda s: s.broken.mistake)
+        all_of_them = sorted(
+            [*kept, *_moving(key, broken(paper, key.values, BY_SCALE))], key=lambda s: s.broken.mistake
+        )
         return Book(key, tuple(all_of_them), self.turned)
 
 
@@ -121,7 +119,7 @@ class Turned:
     @cached_property
     def name(self) -> str:
         """The given that is the crank's angle; empty where there is none."""
-        return data.angle_of_driver(Scene(self.key.paper, self.key.values))
+        return angle_of_driver(Scene(self.key.paper, self.key.values))
 
     @cached_property
     def angles(self) -> Floats:
@@ -146,14 +144,7 @@ class Turned:
     def broken(self, row: int) -> Broken:
         """Return the construction at one of the angles, as a mistake."""
         angle = float(self.angles[row])
-        return Broken("M10", self.key.paper, Change(self.name, {}, {self.name: angle}, f"={angle!r}"))
-
-
-def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> Iterator[Broken]:
-    """Go through every way in which a construction can go wrong; `ids` are the only mistakes, all when left out."""
-    scene = Scene(paper, values)
-    for id in sorted(ids or MISTAKES):
-        yield from breaks(scene, MISTAKES[id])
+        return Broken("M10", self.key.paper, Change(self.name, {}, f"={angle!r}", {self.name: angle}))
 
 
 def book(key: Key) -> Book:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import partial
 from itertools import combinations
 from operator import add, neg
@@ -13,10 +12,23 @@ from ..board import POSITION, Step
 from ..boards.exact import run
 from ..names import FORCES, ORIGIN, POLE, role
 from .motion import rate_from, rates
-from .rules import Broken, Change, Chapter, Scene, constant
+from .rules import (
+    Broken,
+    Change,
+    Changes,
+    Scene,
+    Steps,
+    aside,
+    constant,
+    instead,
+    mirrored,
+    mistake,
+    otherwise,
+    scaled,
+    then,
+    with_other,
+)
 
-MISTAKES = Chapter()
-mistake = MISTAKES.enter
 TWELFTH = math.pi / 6.0  # between positions
 ROUNDED = (1.03, 0.97)
 PRINTED = 0.955  # of a sheet that the printer has fitted to its page
@@ -33,10 +45,10 @@ IN_LAWS = {
 
 
 def _given_times(scene: Scene, name: str, factor: float, how: str = "") -> Change:
-    return Change(name, {}, {name: scene.paper.givens[name] * factor}, how)
+    return Change(name, {}, how, {name: scene.paper.givens[name] * factor})
 
 
-def _speed_times(factor: float, scene: Scene) -> Iterator[Change]:
+def _speed_times(factor: float, scene: Scene) -> Changes:
     """Change the number of revolutions of the crank, where it is that which is given."""
     step = next((s for s in scene.calculated("signed") if role(s.name).kind == "omega"), None)
     if step and step.operands[0].startswith("n") and scene.is_given(step.operands[0]):
@@ -54,7 +66,7 @@ for _id, _factor in (
     mistake(_id)(partial(_speed_times, _factor))
 
 
-def lengths(scene: Scene) -> list[str]:
+def _lengths(scene: Scene) -> list[str]:
     """Return the data that are lengths, in order of use."""
     found: dict[str, None] = {}
     for step in scene.program:
@@ -72,14 +84,14 @@ def lengths(scene: Scene) -> list[str]:
 
 
 @mistake("M05")
-def rates_in_degrees(scene: Scene) -> Iterator[Change]:
+def _rates_in_degrees(scene: Scene) -> Changes:
     """Angular velocities and accelerations of links are given in degrees."""
     if steps := scene.calculated("turning"):
-        yield Change.all_scaled("", steps, 180.0 / math.pi, "degrees")
+        yield scaled(180.0 / math.pi, *steps, how="degrees", at="")
 
 
 @mistake("M07")
-def diameter_for_radius(scene: Scene) -> Iterator[Change]:
+def _diameter_for_radius(scene: Scene) -> Changes:
     """The stroke, or the diameter of the crank circle, is taken for the crank, or half the crank."""
     for step in scene.calculated("circular_speed"):
         if scene.is_given(step.operands[1]):
@@ -98,9 +110,9 @@ def angle_of_driver(scene: Scene) -> str:
 def _turned(id: str, how: str, turn: Callable[[float], float]) -> None:
     """Enter a mistake that lays off the crank's angle otherwise."""
 
-    def rule(scene: Scene) -> Iterator[Change]:
+    def rule(scene: Scene) -> Changes:
         if name := angle_of_driver(scene):
-            yield Change(name, {}, {name: turn(float(scene.paper.givens[name]))}, how)
+            yield Change(name, {}, how, {name: turn(float(scene.paper.givens[name]))})
 
     mistake(id)(rule)
 
@@ -116,22 +128,20 @@ _turned("M10", "180-", lambda angle: math.pi - angle)  # the angle is laid off f
 
 
 @mistake("M09")
-def turning_the_other_way(scene: Scene) -> Iterator[Change]:
+def _turning_the_other_way(scene: Scene) -> Changes:
     """The crank turns the other way."""
     for step in scene.calculated("signed"):
         if role(step.name).kind == "omega":
-            sense, against = constant(-1.0), f"_against_{step.name}"
-            again = Step("calc", step.name, (against, sense), "signed")
-            yield Change(step.name, {step.name: (step.but(name=against), again)}, {sense: -1.0}, "sense")
+            yield instead(step, *then(step, "signed", aside(step.name), constant(-1.0)), how="sense")
 
 
 @mistake("M12")
-def offset_lost(scene: Scene) -> Iterator[Change]:
+def _offset_lost(scene: Scene) -> Changes:
     """The offset of a guide is forgotten, or laid off on the wrong side."""
     for step in scene.made_by("lay", "back", plan=POSITION):
         if step.plan == POSITION and role(step.operands[1]).across_guide and scene.values[step.operands[2]]:
-            yield Change.with_other(step, 2, "zero", "none")
-            yield Change.instead(step, "side", verb="back" if step.verb == "lay" else "lay")
+            yield with_other(step, 2, "zero", "none")
+            yield otherwise(step, "side", verb="back" if step.verb == "lay" else "lay")
     for step in scene.made_by("tangent"):
         if scene.values[step.operands[2]]:
             yield from _offset_at(step, 2)
@@ -141,109 +151,109 @@ def offset_lost(scene: Scene) -> Iterator[Change]:
 
 
 def _offset_at(step: Step, place: int) -> tuple[Change, Change]:
-    return Change.with_other(step, place, "zero", f"none {place}"), Change.mirrored(step, place, f"side {place}")
+    return with_other(step, place, "zero", f"none {place}"), mirrored(step, place, f"side {place}")
 
 
 @mistake("M13")
-def lengths_exchanged(scene: Scene) -> Iterator[Change]:
+def _lengths_exchanged(scene: Scene) -> Changes:
     """The lengths of two links are exchanged."""
     given = scene.paper.givens
     whole = {s.operands[i] for s in scene.made_by("arc", "arcs") for i in LENGTHS[s.verb]}
     whole |= {s.operands[1] for s in scene.calculated("circular_speed")}
     whole |= {s.operands[2] for s in scene.made_by("divide")}
-    for first, second in combinations((name for name in lengths(scene) if name in whole), 2):
-        yield Change(first, {}, {first: given[second], second: given[first]}, second)
+    for first, second in combinations((name for name in _lengths(scene) if name in whole), 2):
+        yield Change(first, {}, second, {first: given[second], second: given[first]})
 
 
 @mistake("M117")
-def with_another_length(scene: Scene) -> Iterator[Change]:
+def _with_another_length(scene: Scene) -> Changes:
     """Calculate an angular velocity or acceleration with the length of another link, or of a part of one."""
-    spans = [name for name in lengths(scene) if role(name).kind == "l"]
+    spans = [name for name in _lengths(scene) if role(name).kind == "l"]
     spans += [s.name for s in scene.made_by("measure") if role(s.name).kind == "l" and not role(s.name).hidden]
     for rate in scene.calculated("turning"):
-        yield from (Change.with_other(rate, 2, name, name) for name in spans if name != rate.operands[2])
+        yield from (with_other(rate, 2, name, name) for name in spans if name != rate.operands[2])
 
 
 # lengths stay in millimetres
-mistake("M06")(lambda scene: [Change("l", {}, {name: scene.paper.givens[name] * 1000.0 for name in lengths(scene)})])
+mistake("M06")(lambda scene: [Change("l", {}, data={n: scene.paper.givens[n] * 1000.0 for n in _lengths(scene)})])
 # one arm is left in millimetres
-mistake("M06")(lambda scene: (Change.scaled(step, 1000.0, "arm") for step in scene.made_by("arm")))
+mistake("M06")(lambda scene: (scaled(1000.0, step, how="arm") for step in scene.made_by("arm")))
 # a dyad is put together on the other side
-mistake("M11")(lambda scene: (Change.mirrored(s, len(s.operands) - 1) for s in scene.made_by("arc", "arcs", "tangent")))
+mistake("M11")(lambda scene: (mirrored(s, len(s.operands) - 1) for s in scene.made_by("arc", "arcs", "tangent")))
 
 
 # Scales and reading.
 
 
-def readings(scene: Scene) -> list[Step]:
+def _readings(scene: Scene) -> list[Step]:
     """Return the readings of all plans that need its scale."""
     steps = scene.made_by("read")
     return [s for s in steps if not role(s.name).hidden and s.plan != POSITION and s.name not in scene.laid_off]
 
 
-def drawn_plans(scene: Scene) -> list[tuple[list[str], list[Step]]]:
+def _drawn_plans(scene: Scene) -> list[tuple[list[str], list[Step]]]:
     """Return the plans that are read, those of one scale together, with their readings."""
     by_scale: dict[float, list[str]] = {}
-    for plan in dict.fromkeys(step.plan for step in readings(scene)):
+    for plan in dict.fromkeys(step.plan for step in _readings(scene)):
         by_scale.setdefault(scene.mu(plan), []).append(plan)
-    return [(plans, [step for step in readings(scene) if step.plan in plans]) for plans in by_scale.values()]
+    return [(plans, [step for step in _readings(scene) if step.plan in plans]) for plans in by_scale.values()]
 
 
 @mistake("M15", by_scale=True)
-def another_scale(scene: Scene) -> Iterator[Change]:
+def _another_scale(scene: Scene) -> Changes:
     """The scale factor of velocities is taken for accelerations, or the other way round, or that of lengths."""
-    for plans, steps in drawn_plans(scene):
+    for plans, steps in _drawn_plans(scene):
         if role(plans[0]).kind != FORCES:
             for other in ("velocity", "acceleration", POSITION):
                 if other in scene.paper.mus and other not in plans:
-                    yield Change.all_scaled(plans[0], steps, scene.mu(other) / scene.mu(plans[0]), other)
+                    yield scaled(scene.mu(other) / scene.mu(plans[0]), *steps, how=other, at=plans[0])
 
 
 @mistake("M74", by_scale=True)
-def scale_of_another_group(scene: Scene) -> Iterator[Change]:
+def _scale_of_another_group(scene: Scene) -> Changes:
     """The force plan of one group, or one segment of it, is read with the scale factor of another."""
-    groups = [(plans[0], steps) for plans, steps in drawn_plans(scene) if role(plans[0]).kind == FORCES]
+    groups = [(plans[0], steps) for plans, steps in _drawn_plans(scene) if role(plans[0]).kind == FORCES]
     for plan, steps in groups:
         for other, _ in groups:
             if other != plan:
                 factor = scene.mu(other) / scene.mu(plan)
-                yield Change.all_scaled(plan, steps, factor, other)
-                yield from (Change.scaled(step, factor, f"{other} alone") for step in steps)
+                yield scaled(factor, *steps, how=other, at=plan)
+                yield from (scaled(factor, step, how=f"{other} alone") for step in steps)
 
 
 @mistake("M16", by_scale=True)
-def segments_without_scale(scene: Scene) -> Iterator[Change]:
+def _segments_without_scale(scene: Scene) -> Changes:
     """The segment of a normal part is ab^2 / AB in millimetres, which needs the crank's scale."""
     if "acceleration" in scene.paper.mus and "velocity" in scene.paper.mus:
         factor = scene.mu("acceleration") * scene.mu(POSITION) / scene.mu("velocity") ** 2
-        yield Change.all_scaled("acceleration", scene.calculated("normal_part"), factor)
+        yield scaled(factor, *scene.calculated("normal_part"), at="acceleration")
 
 
 @mistake("M17", by_scale=True)
-def millimetres_for_length(scene: Scene) -> Iterator[Change]:
+def _millimetres_for_length(scene: Scene) -> Changes:
     """The drawn millimetres of a link stand in omega = v / l in the place of its length."""
     for rate in ("omega", "epsilon"):
         steps = [s for s in scene.calculated("turning") if role(s.name).kind == rate]
         if steps:
-            yield Change.all_scaled(steps[0].name, steps, scene.mu(POSITION), "all")
-            yield Change.all_scaled(steps[0].name, steps, 1e-3, "mm")
+            yield scaled(scene.mu(POSITION), *steps, how="all")
+            yield scaled(1e-3, *steps, how="mm")
         if len(steps) > 1:
-            yield from (Change.scaled(step, scene.mu(POSITION), "alone") for step in steps)
+            yield from (scaled(scene.mu(POSITION), step, how="alone") for step in steps)
 
 
 @mistake("M20")
-def centimetres(scene: Scene) -> Iterator[Change]:
+def _centimetres(scene: Scene) -> Changes:
     """Centimetres for millimetres, on a plan or in one reading."""
     for factor in (10.0, 0.1):
-        yield from (Change.all_scaled(plans[0], steps, factor, f"{factor}") for plans, steps in drawn_plans(scene))
-        yield from (Change.scaled(step, factor, f"{factor} alone") for step in readings(scene))
+        yield from (scaled(factor, *steps, how=f"{factor}", at=plans[0]) for plans, steps in _drawn_plans(scene))
+        yield from (scaled(factor, step, how=f"{factor} alone") for step in _readings(scene))
 
 
 @mistake("M21")
-def relative_for_absolute(scene: Scene) -> Iterator[Change]:
+def _relative_for_absolute(scene: Scene) -> Changes:
     """The segment ab is read for v_B, and pb for v_BA."""
     by_tip: dict[str, list[Step]] = {}
-    for step in readings(scene):
+    for step in _readings(scene):
         if step.plan in ("velocity", "acceleration"):
             by_tip.setdefault(step.operands[1], []).append(step)
     for steps in by_tip.values():
@@ -253,42 +263,37 @@ def relative_for_absolute(scene: Scene) -> Iterator[Change]:
 
 def _exchanged(scene: Scene, absolute: Step, relative: Step) -> Change:
     """Exchange two readings, and let the rates that follow have their sizes; the senses show in the drawing."""
-    pair, steps, givens = (absolute, relative), dict[str, tuple[Step, ...]](), dict[str, float]()
-    for one, other in (pair, pair[::-1]):
-        steps[one.name] = (one.but(operands=other.operands),)
+    pair = absolute, relative
+    steps: Steps = {one.name: (one.but(operands=other.operands),) for one, other in (pair, pair[::-1])}
     for rate, reading in rates(scene, absolute.plan):
         if reading in pair:
-            change = rate_from(scene, rate, reading.name)
-            steps |= change.steps
-            givens |= change.givens
-    return Change(relative.name, steps, givens, absolute.name)
+            steps = {**steps, **rate_from(scene, rate, reading.name).steps}
+    return Change(relative.name, steps, absolute.name)
 
 
 @mistake("M22")
-def another_position(scene: Scene) -> Iterator[Change]:
+def _another_position(scene: Scene) -> Changes:
     """One segment is copied from the plan of a neighbouring position."""
     if not (name := angle_of_driver(scene)):
         return
     for how, shift in (("+30", TWELFTH), ("-30", -TWELFTH)):
         angle = float(scene.paper.givens[name]) + shift
         there = run(scene.program, {**scene.paper.givens, name: math.fmod(angle, 2.0 * math.pi)}).values
-        for step in readings(scene):
+        for step in _readings(scene):
             if step.plan in ("velocity", "acceleration") and there[step.name] == there[step.name]:
-                given = f"{constant(shift)}_{step.name}"
-                copied = Step("calc", step.name, (given,), "given")
-                yield Change(step.name, {step.name: (copied,)}, {given: there[step.name]}, how)
+                yield instead(step, Step("calc", step.name, (constant(there[step.name]),), "given"), how=how)
 
 
 # divided by the scale factor instead of multiplied
 mistake("M14", by_scale=True)(
-    lambda scene: (Change.all_scaled(p[0], steps, scene.mu(p[0]) ** -2) for p, steps in drawn_plans(scene))
+    lambda scene: (scaled(scene.mu(p[0]) ** -2, *steps, at=p[0]) for p, steps in _drawn_plans(scene))
 )
 # the scale factor is rounded after the plan is drawn
 mistake("M18")(
-    lambda scene: (Change.all_scaled(p[0], steps, x, f"{x}") for p, steps in drawn_plans(scene) for x in ROUNDED)
+    lambda scene: (scaled(x, *steps, how=f"{x}", at=p[0]) for p, steps in _drawn_plans(scene) for x in ROUNDED)
 )
 # the sheet was not printed at 100 per cent
-mistake("M19")(lambda scene: [Change.all_scaled("", readings(scene), PRINTED)])
+mistake("M19")(lambda scene: [scaled(PRINTED, *_readings(scene), at="")])
 # two digits of a number are transposed: that hangs on the number, and is found from the answers
 mistake("M123", by_scale=True)(lambda scene: ())
 
@@ -296,8 +301,7 @@ mistake("M123", by_scale=True)(lambda scene: ())
 def transposed(scene: Scene, name: str, written: float, meant: float) -> Broken:
     """Return the construction in which a number was written for another one of the same digits, and gone on with."""
     step = scene.steps.get(f"_{name}", scene.steps[name])  # what is laid off and read again is calculated before
-    change = Change.scaled(step, abs(written / meant), f"{meant:.4g}")
-    return Broken("M123", scene.paper, replace(change, at=name))
+    return Broken("M123", scene.paper, scaled(abs(written / meant), step, how=f"{meant:.4g}", at=name))
 
 
 def other_orders(number: float) -> Iterator[float]:

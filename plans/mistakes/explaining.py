@@ -20,9 +20,9 @@ from ..marking.again import Judged
 from ..marking.answers import FREE, Answer, Line, Said, Verdict, known, nearest
 from ..marking.key import behind
 from ..marking.verdicts import Marking
-from .book import MISTAKES, Book, Complex, Floats, Signature, broken, key_of, signatures
+from .book import Book, Complex, Floats, Signature, key_of, signatures
 from .data import other_orders, transposed
-from .rules import Broken, Scene
+from .rules import BY_SCALE, Broken, Scene, broken
 
 MOST = 4.0  # tolerances beyond which a miss counts no more
 ALIKE = 0.5  # tolerances by which values differ that answers cannot tell apart
@@ -338,7 +338,7 @@ class _Search:
 
     def _found(self, chain: tuple[Signature, ...], first: str = "") -> _Found | None:
         """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
-        by_scale = any(MISTAKES[one.broken.mistake].by_scale for one in chain)
+        by_scale = any(one.broken.mistake in BY_SCALE for one in chain)
         judged = self.by_value if by_scale else self.as_said
         key = key_of(self.book.key, chain[-1])
         again = judged.under(key, first or str(self.marking.first_wrong), self.faulty)

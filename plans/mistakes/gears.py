@@ -3,83 +3,91 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import partial
 
 from ..board import Step
 from ..names import role
-from .rules import Change, Chapter, Scene, Steps, after, aside, constant, operand, reversed_, then, with_operand
+from .rules import (
+    Change,
+    Changes,
+    Scene,
+    after,
+    aside,
+    constant,
+    each,
+    each_and_all,
+    instead,
+    mirrored,
+    mistake,
+    operand,
+    otherwise,
+    reversed_,
+    scaled,
+    then,
+    with_operand,
+)
 
-MISTAKES = Chapter()
-mistake, each = MISTAKES.enter, MISTAKES.each
 SHIFTED = {"tip_diameter": 2, "root_diameter": 3}  # laws with a shift, and the place of its operand
 WITH_SHIFT = {"tooth_thickness": 1, "tip_thickness": 2, "constant_chord": 1, **SHIFTED, "boundary_curvature": 4}
 IN_DEGREES = math.degrees(1.0) - 1.0
 
 
-def in_law(scene: Scene, law: str, place: int, name: str) -> Steps:
-    """Put another operand into the steps of a law."""
-    return with_operand(scene.calculated(law), place, name)
-
-
-def halved_sum(step: Step, other: str) -> tuple[Step, ...]:
-    """Return the steps that make half the sum of what one step makes and something else."""
-    both = f"_both_{step.name}"
-    total = Step("calc", both, (other, aside(step.name)), "sum")
-    return after(step, total, Step("calc", step.name, (both,), "half_of"))
+def _halved_sum(step: Step) -> tuple[Step, ...]:
+    """Return the steps that make half the sum of what one step makes and its first operand."""
+    total = Step("calc", f"_both_{step.name}", (step.operands[0], aside(step.name)), "sum")
+    return after(step, total, Step("calc", step.name, (total.name,), "half_of"))
 
 
 @mistake("M100")
-def involute_in_degrees(scene: Scene) -> Iterator[Change]:
+def _involute_in_degrees(scene: Scene) -> Changes:
     """In tan(alpha) - alpha the angle is subtracted in degrees."""
     for step in scene.calculated("involute"):
         if not role(step.name).hidden:
-            right, more, factor = aside(step.name), f"_more_{step.name}", constant(IN_DEGREES)
-            degrees = Step("calc", more, (factor, *step.operands), "along")
-            steps = after(step, degrees, Step("calc", step.name, (right, more), "excess"))
-            yield Change(step.name, {step.name: steps}, {factor: IN_DEGREES})
+            degrees = Step("calc", f"_more_{step.name}", (constant(IN_DEGREES), *step.operands), "along")
+            yield instead(step, degrees, *then(step, "excess", aside(step.name), degrees.name))
 
 
 # the profile angle is taken for the angle of action; the shifts count once in its involute
-each("M101", "angle_of_involute", lambda step: Change.instead(step, "profile", operands=("alpha",), law="given"))
-each("M101", "working_involute", lambda s: Change(s.name, {s.name: halved_sum(s, s.operands[0])}, {}, "once"))
+each("M101", "angle_of_involute", lambda step: otherwise(step, "profile", operands=("alpha",), law="given"))
+each("M101", "working_involute", lambda step: instead(step, *_halved_sum(step), how="once"))
 
 
 @mistake("M102")
-def shifts_exchanged(scene: Scene) -> Iterator[Change]:
+def _shifts_exchanged(scene: Scene) -> Changes:
     """The shifts of both wheels are exchanged, everywhere or in one formula."""
     givens = scene.paper.givens
     if not {"x_1", "x_2"} <= givens.keys() or givens["x_1"] == givens["x_2"]:
         return
     if scene.calculated("tip_diameter"):
-        yield Change("d_a1", {}, {"x_1": givens["x_2"], "x_2": givens["x_1"]}, "everywhere")
+        yield Change("d_a1", {}, "everywhere", {"x_1": givens["x_2"], "x_2": givens["x_1"]})
     other = {"x_1": "x_2", "x_2": "x_1"}
     for law, place in WITH_SHIFT.items():
         if steps := scene.calculated(law):
             changed = {s.name: (operand(s, place, other[s.operands[place]]),) for s in steps}
-            yield Change(steps[0].name, changed, {}, law)
+            yield Change(steps[0].name, changed, law)
 
 
 @mistake("M103")
-def shift_left_out(scene: Scene) -> Iterator[Change]:
+def _shift_left_out(scene: Scene) -> Changes:
     """A shift is left out, or laid off to the wrong side."""
     for law, place in WITH_SHIFT.items():
-        yield from Change.each_and_all(in_law(scene, law, place, "zero"), f"none {law}")
+        yield from each_and_all(with_operand(scene.calculated(law), place, "zero"), f"none {law}")
         for step in scene.calculated(law):
             if scene.is_given(step.operands[place]):
-                yield Change.mirrored(step, place, f"side {law}")
+                yield mirrored(step, place, f"side {law}")
 
 
 @mistake("M106")
-def height_counted_once(scene: Scene) -> Iterator[Change]:
+def _height_counted_once(scene: Scene) -> Changes:
     """The height above or below the reference circle is added to the diameter once, as to a radius."""
     for law in SHIFTED:
-        yield from Change.each_and_all({s.name: halved_sum(s, s.operands[0]) for s in scene.calculated(law)}, law)
+        yield from each_and_all({step.name: _halved_sum(step) for step in scene.calculated(law)}, law)
 
 
-def _with_operands(scene: Scene, name: str, places: Iterable[tuple[str, int, str]]) -> Iterator[Change]:
+def _with_operands(scene: Scene, name: str, places: Iterable[tuple[str, int, str]]) -> Changes:
     for law, place, how in places:
-        yield from Change.each_and_all(in_law(scene, law, place, name), how)
+        yield from each_and_all(with_operand(scene.calculated(law), place, name), how)
 
 
 for _id, _name, *_places in (
@@ -93,7 +101,7 @@ for _id, _name, *_places in (
 
 
 @mistake("M108")
-def chord_of_the_whole_angle(scene: Scene) -> Iterator[Change]:
+def _chord_of_the_whole_angle(scene: Scene) -> Changes:
     """The chord of the pitch is half the sine of the whole angle, or its arc."""
     halved = {}
     for step in scene.calculated("pitch_chord"):
@@ -104,11 +112,11 @@ def chord_of_the_whole_angle(scene: Scene) -> Iterator[Change]:
             Step("calc", chord, (d, whole), "pitch_chord"),
             Step("calc", step.name, (chord,), "half_of"),
         )
-    yield from Change.each_and_all(halved, "sine")
+    yield from each_and_all(halved, "sine")
 
 
 @mistake("M109")
-def sine_of_half_the_angle(scene: Scene) -> Iterator[Change]:
+def _sine_of_half_the_angle(scene: Scene) -> Changes:
     """In the curvature at the boundary point d sin(alpha / 2) stands for d sin(alpha) / 2."""
     changed = {}
     for step in scene.calculated("boundary_curvature"):
@@ -124,41 +132,41 @@ def sine_of_half_the_angle(scene: Scene) -> Iterator[Change]:
             Step("calc", more, (right, short), "sum"),
             Step("calc", name, (more, f"{long}_half"), "excess"),
         )
-    yield from Change.each_and_all(changed)
+    yield from each_and_all(changed)
 
 
 @mistake("M110")
-def curvature_of_the_mate(scene: Scene) -> Iterator[Change]:
+def _curvature_of_the_mate(scene: Scene) -> Changes:
     """The curvature at the lower point is found with the wheel's own tip, not with that of its mate."""
     own = {"1": "2", "2": "1"}
     changed = {
         s.name: (s.but(operands=(*s.operands[:2], *(f"{o[:-1]}{own[o[-1]]}" for o in s.operands[2:]))),)
         for s in scene.calculated("lower_curvature")
     }
-    yield from Change.each_and_all(changed)
+    yield from each_and_all(changed)
 
 
 # the sum is divided by pi, or not divided, or multiplied by pi; or the angle of action is added
 each(
     "M111",
     "contact_ratio",
-    lambda step: Change.scaled(step, 2.0, "pi"),
-    lambda step: Change.scaled(step, 2.0 * math.pi, "none"),
-    lambda step: Change.scaled(step, math.pi**2, "times"),
-    lambda step: Change.mirrored(step, 4, "sign"),
+    partial(scaled, 2.0, how="pi"),
+    partial(scaled, 2.0 * math.pi, how="none"),
+    partial(scaled, math.pi**2, how="times"),
+    lambda step: mirrored(step, 4, "sign"),
 )
 
 
 @mistake("M112")
-def normal_over_one_more(scene: Scene) -> Iterator[Change]:
+def _normal_over_one_more(scene: Scene) -> Changes:
     """The common normal has one base pitch too many, or too few."""
     for how, law in (("more", "sum"), ("less", "excess")):
         steps = scene.calculated("common_normal")
-        yield from Change.each_and_all({s.name: then(s, law, aside(s.name), s.operands[1]) for s in steps}, how)
+        yield from each_and_all({s.name: then(s, law, aside(s.name), s.operands[1]) for s in steps}, how)
 
 
 @mistake("M113")
-def rows_exchanged(scene: Scene) -> Iterator[Change]:
+def _rows_exchanged(scene: Scene) -> Changes:
     """The rows of the ordinates are exchanged, all of them or beyond the pole."""
     steps = scene.steps
     points = [here.about for here in map(role, steps) if (here.kind, here.of) == ("y", "1") and here.about]
@@ -171,17 +179,17 @@ def rows_exchanged(scene: Scene) -> Iterator[Change]:
             changed[first.name] = ()
             changed[second.name] = second.but(name=first.name), first.but(name=second.name)
         if changed:
-            yield Change(pairs[0][0].name, changed, {}, how)
+            yield Change(pairs[0][0].name, changed, how)
 
 
 @mistake("M114")
-def sliding_by_the_other_ordinate(scene: Scene) -> Iterator[Change]:
+def _sliding_by_the_other_ordinate(scene: Scene) -> Changes:
     """The difference of the ordinates is divided by that of the mate, or has the other sign, or both are exchanged."""
     by_ordinates = scene.calculated("sliding_by_ordinates")
     steps = (*by_ordinates, *scene.calculated("sliding_of_pinion"), *scene.calculated("sliding_of_wheel"))
     exchanged = {s.name: s.but(operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in by_ordinates}
     if steps:
-        yield Change(steps[0].name, {s.name: reversed_(s) for s in steps}, {}, "sign")
+        yield Change(steps[0].name, {s.name: reversed_(s) for s in steps}, "sign")
     for first in by_ordinates[:1]:
-        yield Change(first.name, {name: reversed_(s) for name, s in exchanged.items()}, {}, "mate")
-        yield Change(first.name, {name: (s,) for name, s in exchanged.items()}, {}, "exchanged")
+        yield Change(first.name, {name: reversed_(s) for name, s in exchanged.items()}, "mate")
+        yield Change(first.name, {name: (s,) for name, s in exchanged.items()}, "exchanged")

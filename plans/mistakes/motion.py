@@ -5,58 +5,75 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 from ..board import Step
 from ..laws import define, dot
 from ..linkages.mechanism import positive
 from ..linkages.parts import normal_of
 from ..names import CORIOLIS, POINT, POLE, mark, pole, role, spelled
-from .rules import Change, Chapter, Scene, aside, constant, length_of, operand, then, times, with_sign
+from .rules import (
+    Change,
+    Changes,
+    Scene,
+    aside,
+    constant,
+    each,
+    instead,
+    length_of,
+    mirrored,
+    mistake,
+    operand,
+    opposed,
+    otherwise,
+    scaled,
+    then,
+    with_other,
+    with_sign,
+)
 
-MISTAKES = Chapter()
-mistake, each = MISTAKES.enter, MISTAKES.each
 # of a segment that may run any way: its whole size over the length, with the sense in which it turns
 define(turning_whole=lambda v, normal, length: abs(v) * ((dot(v, normal) >= 0.0) * 2.0 - 1.0) / length)
 VELOCITY, ACCELERATION = "velocity", "acceleration"
-SENSES = {constant(sense): sense for sense in (1.0, -1.0)}
+
 START = pole(ACCELERATION)
 
 
-def drive(scene: Scene, plan: str) -> tuple[Step, ...]:
+def _drive(scene: Scene, plan: str) -> tuple[Step, ...]:
     """Return the step that lays off the vector of the driver's point, if any."""
     return scene.made_by("lay", "back", plan=plan)[:1]
 
 
 @mistake("M24")
-def along_crank(scene: Scene) -> Iterator[Change]:
+def _along_crank(scene: Scene) -> Changes:
     """The vector pa is drawn along the crank: away from its pivot, or towards it."""
-    for step in drive(scene, VELOCITY):
+    for step in _drive(scene, VELOCITY):
         if link := scene.along(step.operands[1]):
             along = operand(step, 1, link)
-            yield Change.instead(along)
-            yield Change.instead(along, "other way", verb="back")
+            yield otherwise(along)
+            yield otherwise(along, "other way", verb="back")
 
 
 # Lines that meet.
 
 
-def lines(scene: Scene, plan: str) -> Iterator[tuple[Step, int, str]]:
+def _lines(scene: Scene, plan: str) -> Iterator[tuple[Step, int, str]]:
     """Go through the lines that meet on the plans of a kind: the step, the place and the name of the direction."""
     return ((step, place, step.operands[place]) for step in scene.made_by("meet", plan=plan) for place in (1, 3))
 
 
-def along_links(scene: Scene, plan: str) -> Iterator[Change]:
+def _along_links(scene: Scene, plan: str) -> Changes:
     """Draw the line of a relative vector along the link instead of normal to it.
 
     Then the vector has no sense about the link: whoever goes on takes either.
     """
-    for step, place, direction in lines(scene, plan):
+    for step, place, direction in _lines(scene, plan):
         along = scene.along(direction)
         if along and not role(direction).across_guide:
-            yield from of_either_sense(scene, Change.with_other(step, place, along, direction), direction)
+            yield from _of_either_sense(scene, with_other(step, place, along, direction), direction)
 
 
-def slotted(scene: Scene, plan: str = VELOCITY, wanted: bool = True) -> list[Step]:
+def _slotted(scene: Scene, plan: str = VELOCITY, wanted: bool = True) -> list[Step]:
     """Return the meetings of lines of slotted pairs, or all others.
 
     There one line goes through the mark of the pair's pin, the other is normal to the link.
@@ -71,13 +88,13 @@ def _is_slotted(step: Step) -> bool:
     return bool(normals) and normals[0].about in pins
 
 
-def exchanged(scene: Scene, step: Step) -> Change:
+def _exchanged(scene: Scene, step: Step) -> Change:
     """Draw each of two lines through the mark of the other."""
     p, u, q, w = step.operands
-    return by_size(scene, Change.instead(step, operands=(p, w, q, u)))
+    return _by_size(scene, otherwise(step, operands=(p, w, q, u)))
 
 
-def by_size(scene: Scene, change: Change, against: str = "") -> Change:
+def _by_size(scene: Scene, change: Change, against: str = "") -> Change:
     """Let the rates that follow from a mark be calculated from whole segments, whichever way these run now.
 
     Those of links whose normal is `against` get the other sense.
@@ -91,92 +108,86 @@ def by_size(scene: Scene, change: Change, against: str = "") -> Change:
     return replace(change, steps=steps)
 
 
-def of_either_sense(scene: Scene, change: Change, normal: str) -> tuple[Change, Change]:
+def _of_either_sense(scene: Scene, change: Change, normal: str) -> tuple[Change, Change]:
     """Return both senses of the rate of the link with a normal, which does not show in the drawing."""
-    other = replace(by_size(scene, change, normal), how=f"against {normal}")
-    return replace(by_size(scene, change), how=f"with {normal}"), other
+    other = replace(_by_size(scene, change, normal), how=f"against {normal}")
+    return replace(_by_size(scene, change), how=f"with {normal}"), other
 
 
 @mistake("M27")
-def across_guide(scene: Scene) -> Iterator[Change]:
+def _across_guide(scene: Scene) -> Changes:
     """The line of the guide is drawn normal to it."""
-    for step, place, direction in lines(scene, VELOCITY):
+    for step, place, direction in _lines(scene, VELOCITY):
         normal = normal_of(direction)
         if role(direction).kind == "u" and normal in scene.steps:
-            yield Change.with_other(step, place, normal, direction)
+            yield with_other(step, place, normal, direction)
 
 
 @mistake("M33")
-def slide_and_rotation_exchanged(scene: Scene) -> Iterator[Change]:
+def _slide_and_rotation_exchanged(scene: Scene) -> Changes:
     """In a slotted pair the directions of sliding and of rotation are exchanged."""
-    for step in slotted(scene):
+    for step in _slotted(scene):
         normal = next(u for u in step.operands[1::2] if role(u).kind == "n")
-        yield from of_either_sense(scene, exchanged(scene, step), normal)
+        yield from _of_either_sense(scene, _exchanged(scene, step), normal)
 
 
 @mistake("M34")
-def over_cosine(scene: Scene) -> Iterator[Change]:
+def _over_cosine(scene: Scene) -> Changes:
     """The velocity is divided by the cosine instead of multiplied: the right angle stands at the wrong vertex."""
-    for step in slotted(scene):
+    for step in _slotted(scene):
         place = 1 if role(step.operands[1]).kind == "u" else 3
         start, pole = step.operands[place - 1], f"{step.plan}.p"
         size, along, across = (f"_{kind}_at_{step.name}" for kind in ("size", "along", "across"))
-        new = (
-            Step("measure", size, (pole, start)),
-            Step("direction", along, (pole, start, size)),
-            Step("normal", across, (along,)),
-            operand(step, place, across),
-        )
-        yield Change(step.name, {step.name: new}, {})
+        direction = Step("direction", along, (pole, start, size))
+        normal = Step("normal", across, (along,))
+        yield instead(step, Step("measure", size, (pole, start)), direction, normal, operand(step, place, across))
 
 
 @mistake("M35")
-def points_not_distinguished(scene: Scene) -> Iterator[Change]:
+def _points_not_distinguished(scene: Scene) -> Changes:
     """The point of the slotted link is taken for that of the slider."""
-    for step in slotted(scene):
+    for step in _slotted(scene):
         start = step.operands[0 if role(step.operands[1]).kind == "u" else 2]
-        yield by_size(scene, Change(step.name, {step.name: (Step("same", step.name, (start,)),)}, {}))
+        yield _by_size(scene, instead(step, Step("same", step.name, (start,))))
 
 
 # Points of links.
 
 
-def other_end(scene: Scene, plan: str) -> Iterator[Change]:
+def _other_end(scene: Scene, plan: str) -> Changes:
     """Count a point of a link from the other end of its segment."""
     points = scene.made_by("divide", "similar", plan=plan)
-    return (Change.instead(s, operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in points)
+    return (otherwise(s, operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in points)
 
 
-def middle(scene: Scene, plan: str) -> Iterator[Change]:
+def _middle(scene: Scene, plan: str) -> Changes:
     """Put a point that divides a segment in its middle."""
-    half = constant(0.5)
     for step in scene.made_by("divide", "similar", plan=plan):
         if step.verb == "divide" or not scene.values[step.operands[3]]:
-            middle = Step("divide", step.name, (*step.operands[:2], half, "one"))
-            yield Change(step.name, {step.name: (middle,)}, {half: 0.5})
+            yield instead(step, Step("divide", step.name, (*step.operands[:2], constant(0.5), "one")))
 
 
-def other_side(scene: Scene, plan: str) -> Iterator[Change]:
+def _other_side(scene: Scene, plan: str) -> Changes:
     """Draw a similar figure on the other side: against the order of the letters."""
-    return (Change.mirrored(step, 3) for step in scene.made_by("similar", plan=plan))
+    return (mirrored(step, 3) for step in scene.made_by("similar", plan=plan))
 
 
 @mistake("M36")
-def same_side(scene: Scene) -> Iterator[Change]:
+def _same_side(scene: Scene) -> Changes:
     """A point on the other side of the shaft is put on the side of the pin."""
     for step in scene.made_by("divide", plan=VELOCITY):
         part = positive(step.operands[2])
         if part != step.operands[2]:
-            yield Change.with_other(step, 2, part)
+            yield with_other(step, 2, part)
     for step in scene.made_by("similar", plan=VELOCITY):
         if role(step.operands[0]).kind == POLE and scene.values[step.operands[2]] < 0.0:
-            yield Change.mirrored(step, 2)
+            yield mirrored(step, 2)
 
 
 @mistake("M55")
-def point_wrong(scene: Scene) -> Iterator[Change]:
+def _point_wrong(scene: Scene) -> Changes:
     """A point of a link counted from the other end, put in the middle, or on the other side, on the plan."""
-    for how, found in (("end", other_end), ("middle", middle), ("mirrored", other_side)):
+    for how, found in (("end", _other_end), ("middle", _middle), ("mirrored", _other_side)):
         yield from (replace(change, how=how) for change in found(scene, ACCELERATION))
 
 
@@ -191,7 +202,7 @@ def rates(scene: Scene, plan: str = "", law: str = "turning") -> Iterator[tuple[
             yield step, reading
 
 
-def absolute_reading(scene: Scene, relative: Step) -> Step | None:
+def _absolute_reading(scene: Scene, relative: Step) -> Step | None:
     """Return the reading of the absolute vector that ends where a relative one does."""
     start = f"{relative.plan}.p"
     wanted = (start, relative.operands[1])
@@ -207,10 +218,10 @@ def rate_from(scene: Scene, rate: Step, vector: str, how: str = "") -> Change:
 
 
 @mistake("M28")
-def rate_from_absolute(scene: Scene) -> Iterator[Change]:
+def _rate_from_absolute(scene: Scene) -> Changes:
     """The angular velocity is calculated from the absolute velocity."""
     for step, reading in rates(scene, VELOCITY):
-        absolute = absolute_reading(scene, reading)
+        absolute = _absolute_reading(scene, reading)
         if absolute is not None:
             yield rate_from(scene, step, absolute.name)
         elif f"V_{scene.pin}" in scene.steps:
@@ -218,7 +229,7 @@ def rate_from_absolute(scene: Scene) -> Iterator[Change]:
 
 
 @mistake("M43")
-def rate_from_full(scene: Scene) -> Iterator[Change]:
+def _rate_from_full(scene: Scene) -> Changes:
     """The angular acceleration is calculated from the full relative acceleration."""
     for step, reading in rates(scene, ACCELERATION):
         full = role(reading.name).whole
@@ -227,35 +238,35 @@ def rate_from_full(scene: Scene) -> Iterator[Change]:
 
 
 @mistake("M44")
-def rate_from_absolute_acceleration(scene: Scene) -> Iterator[Change]:
+def _rate_from_absolute_acceleration(scene: Scene) -> Changes:
     """The angular acceleration is calculated from the absolute acceleration."""
     for step, reading in rates(scene, ACCELERATION):
-        absolute = absolute_reading(scene, reading)
+        absolute = _absolute_reading(scene, reading)
         if absolute is not None and absolute.name != role(reading.name).whole:
             yield rate_from(scene, step, absolute.name)
 
 
 # pa is drawn against the rotation
-mistake("M23")(lambda scene: (Change.instead(step, verb="back") for step in drive(scene, VELOCITY)))
+mistake("M23")(lambda scene: (otherwise(step, verb="back") for step in _drive(scene, VELOCITY)))
 # the relative vector is drawn along the link
-mistake("M25")(lambda scene: along_links(scene, VELOCITY))
-mistake("M42")(lambda scene: along_links(scene, ACCELERATION))
+mistake("M25")(lambda scene: _along_links(scene, VELOCITY))
+mistake("M42")(lambda scene: _along_links(scene, ACCELERATION))
 # each of two lines is drawn through the mark of the other
-mistake("M26")(lambda scene: (exchanged(scene, step) for step in slotted(scene, VELOCITY, False)))
-mistake("M121")(lambda scene: (exchanged(scene, step) for step in slotted(scene, ACCELERATION, False)))
+mistake("M26")(lambda scene: (_exchanged(scene, step) for step in _slotted(scene, VELOCITY, False)))
+mistake("M121")(lambda scene: (_exchanged(scene, step) for step in _slotted(scene, ACCELERATION, False)))
 # the sense of a rate is wrong: the vector stands at the wrong end of the link
-mistake("M29")(lambda scene: (Change.opposed(step) for step, _ in rates(scene, VELOCITY)))
-mistake("M45")(lambda scene: (Change.opposed(step) for step, _ in rates(scene, ACCELERATION)))
+mistake("M29")(lambda scene: (opposed(step) for step, _ in rates(scene, VELOCITY)))
+mistake("M45")(lambda scene: (opposed(step) for step, _ in rates(scene, ACCELERATION)))
 # a point of a link is counted from the other end of ab, always put in the middle, its triangle is mirrored
-mistake("M30")(lambda scene: other_end(scene, VELOCITY))
-mistake("M31")(lambda scene: middle(scene, VELOCITY))
-mistake("M32")(lambda scene: other_side(scene, VELOCITY))
+mistake("M30")(lambda scene: _other_end(scene, VELOCITY))
+mistake("M31")(lambda scene: _middle(scene, VELOCITY))
+mistake("M32")(lambda scene: _other_side(scene, VELOCITY))
 
 
 # Normal parts of accelerations.
 
 
-def normals(scene: Scene, *kinds: str) -> Iterator[Step]:
+def _normals(scene: Scene, *kinds: str) -> Iterator[Step]:
     """Go through the steps that lay off normal parts of links of groups of some kinds.
 
     That is `slotted` for the link of a slotted pair, `rocker` for one on a fixed pivot after another of its group,
@@ -263,7 +274,7 @@ def normals(scene: Scene, *kinds: str) -> Iterator[Step]:
     """
     partner = False
     for step in scene.made_by("back", plan=ACCELERATION):
-        if step not in drive(scene, ACCELERATION):
+        if step not in _drive(scene, ACCELERATION):
             rocker = "rocker" if partner and step.operands[0] == START else "link"
             if ("slotted" if role(role(step.name).of).links else rocker) in kinds:
                 yield step
@@ -271,40 +282,40 @@ def normals(scene: Scene, *kinds: str) -> Iterator[Step]:
 
 
 def _forgotten(step: Step) -> Change:
-    return Change.with_other(step, 2, "zero", "none")
+    return with_other(step, 2, "zero", "none")
 
 
 @mistake("M54")
-def normal_of_slotted_link(scene: Scene) -> Iterator[Change]:
+def _normal_of_slotted_link(scene: Scene) -> Changes:
     """The normal part of the slotted link is forgotten, or drawn away from its pivot."""
-    for step in normals(scene, "slotted"):
+    for step in _normals(scene, "slotted"):
         yield _forgotten(step)
-        yield Change.instead(step, "away", verb="lay")
+        yield otherwise(step, "away", verb="lay")
 
 
 @mistake("M40")
-def normal_from_another(scene: Scene) -> Iterator[Change]:
+def _normal_from_another(scene: Scene) -> Changes:
     """The normal part is calculated from the absolute velocity, or from the angular velocity of the crank."""
     for step, reading in rates(scene, law="normal_part"):
         for other in scene.made_by("read", plan=reading.plan):
             start, end = other.operands
             if end == reading.operands[1] and start != reading.operands[0]:
-                yield Change.with_other(step, 0, other.name, "v" if role(start).kind == POLE else other.name)
+                yield with_other(step, 0, other.name, "v" if role(start).kind == POLE else other.name)
         if "omega_1" in scene.steps:
-            yield Change.instead(operand(step, 0, "omega_1"), "omega_1", law="centripetal")
+            yield otherwise(operand(step, 0, "omega_1"), "omega_1", law="centripetal")
 
 
 @mistake("M41")
-def square_lost(scene: Scene) -> Iterator[Change]:
+def _square_lost(scene: Scene) -> Changes:
     """The normal part is v / l, or omega l^2: a square is lost, or is in the wrong place."""
     for step, reading in rates(scene, law="normal_part"):
         size = length_of(reading.name)
         for how, law in (("v/l", "rate_over"), ("omega l^2", "circular_speed")):
             last = step.but(operands=(size[-1].name, step.operands[1]), law=law)
-            yield Change(step.name, {step.name: (*size, last)}, {}, how)
+            yield instead(step, *size, last, how=how)
 
 
-def normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...]]]:
+def _normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...]]]:
     """Go through normal parts: the step, steps that find the size of omega, the last one makes it.
 
     Parts of links of groups are calculated from the relative velocity, omega being its size over the length.
@@ -317,40 +328,39 @@ def normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...]]]:
         yield step, (Step("calc", f"_omega_of_{step.name}", (sense, step.operands[0]), "along"),)
 
 
-def _normal_by(scene: Scene, law: str, length: str = "") -> Iterator[Change]:
+def _normal_by(scene: Scene, law: str, length: str = "") -> Changes:
     """Calculate normal parts from omega and the length, or another number, by another law."""
-    for step, omega in normal_sizes(scene):
-        product = Step("calc", step.name, (omega[-1].name, length or step.operands[1]), law)
-        yield Change(step.name, {step.name: (*omega, product)}, SENSES)
+    for step, omega in _normal_sizes(scene):
+        yield instead(step, *omega, Step("calc", step.name, (omega[-1].name, length or step.operands[1]), law))
 
 
 @mistake("M125")
-def parts_exchanged(scene: Scene) -> Iterator[Change]:
+def _parts_exchanged(scene: Scene) -> Changes:
     """The normal part is written for the tangential one, and the other way round; the rate follows."""
-    laid = [scene.steps.get(role(step.operands[2]).shown) for step in normals(scene, "link", "rocker", "slotted")]
+    laid = [scene.steps.get(role(step.operands[2]).shown) for step in _normals(scene, "link", "rocker", "slotted")]
     by_end = {normal.operands[1]: normal for normal in laid if normal is not None and normal.verb == "read"}
     for rate, tangential in rates(scene, ACCELERATION):
         normal = by_end.get(tangential.operands[0])
         if normal is not None:
             found = rate_from(scene, rate, tangential.name)
             both = tangential.but(operands=normal.operands), normal.but(operands=tangential.operands)
-            yield Change(tangential.name, {normal.name: (), tangential.name: both, **found.steps}, found.givens)
+            yield Change(tangential.name, {normal.name: (), tangential.name: both, **found.steps})
 
 
 @mistake("M46")
-def crank_tangential_lost(scene: Scene) -> Iterator[Change]:
+def _crank_tangential_lost(scene: Scene) -> Changes:
     """The tangential part of the crank pin is lost though the crank speeds up."""
     for step in scene.calculated("circular_acceleration"):
         laid = (s for s in scene.made_by("lay", plan=ACCELERATION) if step.name in s.operands)
-        yield from (Change.with_other(s, 2, "zero") for s in list(laid)[:1])
+        yield from (with_other(s, 2, "zero") for s in list(laid)[:1])
 
 
 # the acceleration of the crank pin is drawn away from the pivot
-mistake("M37")(lambda scene: (Change.instead(s, verb="lay") for s in drive(scene, ACCELERATION) if s.verb == "back"))
+mistake("M37")(lambda scene: (otherwise(s, verb="lay") for s in _drive(scene, ACCELERATION) if s.verb == "back"))
 # the normal part is drawn from A to B; it is forgotten, that of the rocker too
-mistake("M38")(lambda scene: (Change.instead(step, verb="lay") for step in normals(scene, "link", "rocker")))
-mistake("M39")(lambda scene: map(_forgotten, normals(scene, "link")))
-mistake("M47")(lambda scene: map(_forgotten, normals(scene, "rocker")))
+mistake("M38")(lambda scene: (otherwise(step, verb="lay") for step in _normals(scene, "link", "rocker")))
+mistake("M39")(lambda scene: map(_forgotten, _normals(scene, "link")))
+mistake("M47")(lambda scene: map(_forgotten, _normals(scene, "rocker")))
 # the normal part is omega l; it is omega^2
 mistake("M115")(lambda scene: _normal_by(scene, "circular_speed"))
 mistake("M116")(lambda scene: _normal_by(scene, "centripetal", constant(1.0)))
@@ -360,66 +370,58 @@ mistake("M116")(lambda scene: _normal_by(scene, "centripetal", constant(1.0)))
 
 
 @mistake("M51")
-def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
+def _coriolis_of_crank(scene: Scene) -> Changes:
     """The acceleration of Coriolis with the angular velocity of the crank, or with the velocity of its pin."""
     for step in scene.calculated("coriolis"):
         if "omega_1" in scene.steps and step.operands[0] != "omega_1":
-            yield Change.with_other(step, 0, "omega_1", "omega_1")
+            yield with_other(step, 0, "omega_1", "omega_1")
             driver, own = scene.values["omega_1"], scene.values[step.operands[0]]
             if driver * own < 0.0:
-                yield Change.scaled(step, -driver / own, "omega_1, own sense")
+                yield scaled(-driver / own, step, how="omega_1, own sense")
         pin, slide = abs(scene.values.get(f"V_{scene.pin}", 0.0)), abs(scene.values[step.operands[1]])
         if pin and slide:
-            yield Change.scaled(step, pin / slide, "v")
+            yield scaled(pin / slide, step, how="v")
 
 
 @mistake("M52")
-def coriolis_along_guide(scene: Scene) -> Iterator[Change]:
+def _coriolis_along_guide(scene: Scene) -> Changes:
     """The acceleration of Coriolis is drawn along the guide."""
     for step in scene.calculated("coriolis"):
         twice = f"_twice_{step.name}"
         for how, factor in (("with", 2.0), ("against", -2.0)):
             double = Step("calc", twice, (constant(factor), step.operands[0]), "along")
             along = Step("calc", step.name, (twice, step.operands[1]), "along")
-            yield Change(step.name, {step.name: (double, along)}, {constant(factor): factor}, how)
+            yield instead(step, double, along, how=how)
 
 
 @mistake("M53")
-def coriolis_without_rotation(scene: Scene) -> Iterator[Change]:
+def _coriolis_without_rotation(scene: Scene) -> Changes:
     """An acceleration of Coriolis is added where the guide does not turn."""
-    for step, place, direction in lines(scene, ACCELERATION):
+    for step, place, direction in _lines(scene, ACCELERATION):
         speed = f"V_{role(step.name).of}"
         own = next((u for u in step.operands[1::2] if role(u).kind == "n" and not role(u).across_guide), None)
         rate = next((s.name for s, _ in rates(scene, VELOCITY) if s.operands[1] == own), None)
         still = role(direction).kind == "u" and step.operands[place - 1] == START
         if still and rate is not None and speed in scene.steps:
             for omega in dict.fromkeys((rate, "omega_1" if "omega_1" in scene.steps else rate)):
-                yield _with_coriolis(step, place, omega, speed)
-
-
-def _with_coriolis(step: Step, place: int, omega: str, speed: str) -> Change:
-    vector, end = f"_k_at_{step.name}", mark(ACCELERATION, role(step.name).of, CORIOLIS)
-    new = (
-        Step("calc", vector, (omega, speed), "coriolis"),
-        Step("chain", end, (step.operands[place - 1], vector)),
-        operand(step, place - 1, end),
-    )
-    return Change(step.name, {step.name: new}, {}, omega)
+                vector, end = f"_k_at_{step.name}", mark(ACCELERATION, role(step.name).of, CORIOLIS)
+                chain = Step("chain", end, (step.operands[place - 1], vector))
+                added = Step("calc", vector, (omega, speed), "coriolis")
+                yield instead(step, added, chain, operand(step, place - 1, end), how=omega)
 
 
 @mistake("M56", by_scale=True)
-def read_from_velocity_plan(scene: Scene) -> Iterator[Change]:
+def _read_from_velocity_plan(scene: Scene) -> Changes:
     """An acceleration is read from the letter of the velocity plan."""
     for step in scene.made_by("read", plan=ACCELERATION):
         read = role(step.name)
         speed = spelled("V", read.of, read.about, read.part)
         if step.plan == ACCELERATION and speed in scene.steps and step.name not in scene.laid_off:
-            factor = scene.mu(ACCELERATION) / scene.mu(VELOCITY)
-            made = times(Step("calc", step.name, (speed,), "given"), factor)
-            yield Change(step.name, {step.name: made}, {constant(factor): factor})
+            other = Step("calc", step.name, (speed,), "given")
+            yield scaled(scene.mu(ACCELERATION) / scene.mu(VELOCITY), other)
 
 
 # the acceleration of Coriolis is forgotten, turned against the rotation, has no factor two
-each("M48", "coriolis", lambda step: Change.instead(step, operands=("zero", step.operands[1]), law="along"))
-each("M49", "coriolis", Change.opposed)
-each("M50", "coriolis", lambda step: Change.scaled(step, 0.5))
+each("M48", "coriolis", lambda step: otherwise(step, operands=("zero", step.operands[1]), law="along"))
+each("M49", "coriolis", opposed)
+each("M50", "coriolis", partial(scaled, 0.5))

@@ -1,18 +1,18 @@
 """Rules that can be broken: each a rewrite of the same construction, found to apply from its steps alone.
 
-The mistakes have numbers, M01 to M125; the other modules here, a chapter each, hold their rules, `book` all of them.
+The mistakes have numbers, M01 to M125. The other modules here, a chapter each, enter their rules into `MISTAKES`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 from ..board import POSITION, Program, Step
 from ..hands.shaky import Paper
-from ..names import role
+from ..names import Name, role
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,9 @@ class Scene:
         """Return the steps of some verbs, on the plans of a kind."""
         return self.program.which(verbs, plan=plan)
 
-    def calculated(self, law: str) -> tuple[Step, ...]:
-        """Return the steps that calculate by a law."""
-        return self.program.which(("calc",), law)
+    def calculated(self, *laws: str) -> tuple[Step, ...]:
+        """Return the steps that calculate by some laws, in their order."""
+        return tuple(step for step in self.made_by("calc") if step.law in laws)
 
     def mu(self, plan: str) -> float:
         """Return the scale factor of a plan, SI per mm."""
@@ -46,7 +46,7 @@ class Scene:
 
     def is_given(self, name: str) -> bool:
         """Whether a name stands for data, other than nothing."""
-        return name in self.paper.givens and bool(self.paper.givens[name])
+        return bool(self.paper.givens.get(name))
 
     def along(self, direction: str) -> str:
         """Return the direction of a link, or of a guide, to which one is the normal; nothing for other directions."""
@@ -61,8 +61,22 @@ class Scene:
     @cached_property
     def laid_off(self) -> frozenset[str]:
         """Vectors that are calculated and laid off; to read them back needs no scale."""
-        steps = self.made_by("lay", "back")
-        return frozenset(role(s.operands[2]).shown for s in steps if role(s.operands[2]).hidden)
+        sizes = (role(step.operands[2]) for step in self.made_by("lay", "back"))
+        return frozenset(size.shown for size in sizes if size.hidden)
+
+
+class Number(Name):
+    """The name of a number that a mistake brings in, with its value."""
+
+    __slots__ = ("value",)
+    value: Any
+
+
+def constant(value: Any) -> Number:
+    """Return a number as an operand."""
+    number = Number(f"_times_{value!r}", "times")
+    number.value = value
+    return number
 
 
 Steps = Mapping[str, tuple[Step, ...]]  # in the place of those of the same names
@@ -77,67 +91,20 @@ class Change:
 
     at: str
     steps: Steps
-    givens: Mapping[str, Any]
     how: str = ""
+    data: Mapping[str, Any] = field(default_factory=dict)
 
-    @staticmethod
-    def instead(step: Step, how: str = "", **changed: Any) -> Change:
-        """Do one step otherwise: another verb, other operands, another law."""
-        return Change(step.name, {step.name: (step.but(**changed),)}, {}, how)
-
-    @staticmethod
-    def with_other(step: Step, place: int, name: str, how: str = "") -> Change:
-        """Do one step with another operand."""
-        return Change(step.name, {step.name: (operand(step, place, name),)}, {}, how)
-
-    @staticmethod
-    def mirrored(step: Step, place: int, how: str = "") -> Change:
-        """Do one step with the opposite of an operand."""
-        right = step.operands[place]
-        opposite = Step("calc", f"_other_{right}", (right,), "opposite")
-        return Change(step.name, {step.name: (opposite, operand(step, place, opposite.name))}, {}, how)
-
-    @staticmethod
-    def opposed(step: Step, how: str = "") -> Change:
-        """Make the opposite of what one step makes."""
-        return Change(step.name, {step.name: reversed_(step)}, {}, how)
-
-    @staticmethod
-    def scaled(step: Step, factor: float, how: str = "") -> Change:
-        """Make so many times what one step makes."""
-        return Change(step.name, {step.name: times(step, factor)}, {constant(factor): factor}, how)
-
-    @staticmethod
-    def all_scaled(at: str, steps: Iterable[Step], factor: float, how: str = "") -> Change:
-        """Make so many times what each of some steps makes."""
-        return Change(at, {step.name: times(step, factor) for step in steps}, {constant(factor): factor}, how)
-
-    @staticmethod
-    def one_and_all_scaled(at: str, steps: Sequence[Step], factor: float) -> Iterator[Change]:
-        """Make so many times what one of some steps makes, and what all of them make."""
-        yield from (Change.scaled(step, factor) for step in steps)
-        if len(steps) > 1:
-            yield Change.all_scaled(at, steps, factor, "all")
-
-    @staticmethod
-    def each_and_all(changed: Steps, how: str = "", givens: Mapping[str, float] | None = None) -> Iterator[Change]:
-        """Change each of some steps, and all of them."""
-        for name, steps in changed.items():
-            yield Change(name, {name: steps}, givens or {}, how)
-        if len(changed) > 1:
-            yield Change(next(iter(changed)), changed, givens or {}, f"{how}, all".lstrip(", "))
+    @property
+    def givens(self) -> dict[str, Any]:
+        """The data that are other ones, and the numbers in the steps."""
+        operands = (name for steps in self.steps.values() for step in steps for name in step.operands)
+        return {**{name: name.value for name in operands if isinstance(name, Number)}, **self.data}
 
 
-Rule = Callable[[Scene], Iterable[Change]]
-
-
-@dataclass(frozen=True, slots=True)
-class Mistake:
-    """A mistake, and the rules that it breaks; where `by_scale` it hangs on the scale factors of the student."""
-
-    id: str
-    rules: tuple[Rule, ...] = ()
-    by_scale: bool = False
+Changes = Iterable[Change]
+Rule = Callable[[Scene], Changes]
+MISTAKES: dict[str, list[Rule]] = {}  # by number: a drawing of another kind has rules of its own under the same one
+BY_SCALE: set[str] = set()  # those that hang on the scale factors of the student
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,14 +121,9 @@ class Broken:
         return self.change.at
 
     @property
-    def how(self) -> str:
-        """In which of several ways."""
-        return self.change.how
-
-    @property
     def place(self) -> tuple[str, str, str]:
         """What tells it apart from others of the same construction."""
-        return self.mistake, self.at, self.how
+        return self.mistake, self.change.at, self.change.how
 
     @cached_property
     def program(self) -> Program:
@@ -175,35 +137,30 @@ class Broken:
         return {**self.paper.givens, **self.change.givens}
 
 
-class Chapter(dict[str, Mistake]):
-    """The mistakes of one module by their numbers."""
+def mistake(id: str, by_scale: bool = False) -> Callable[[Rule], Rule]:
+    """Enter the function that follows; several may break the rule of one mistake."""
 
-    def enter(self, id: str, by_scale: bool = False) -> Callable[[Rule], Rule]:
-        """Enter the function that follows; several may break the rule of one mistake."""
+    def entered(rule: Rule) -> Rule:
+        MISTAKES.setdefault(id, []).append(rule)
+        BY_SCALE.update([id] * by_scale)
+        return rule
 
-        def entered(rule: Rule) -> Rule:
-            self.add(Mistake(id, (rule,), by_scale))
-            return rule
-
-        return entered
-
-    def add(self, mistake: Mistake) -> None:
-        """Add a mistake, to another of its number if there is one: a drawing of another kind has rules of its own."""
-        before = self.get(mistake.id, Mistake(mistake.id))
-        by_scale = before.by_scale or mistake.by_scale
-        self[mistake.id] = Mistake(mistake.id, before.rules + mistake.rules, by_scale)
-
-    def each(self, id: str, law: str, *changes: Callable[[Step], Change]) -> None:
-        """Enter a rule that is broken at each step of a law, in one way after the other."""
-        self.enter(id)(lambda scene: (change(step) for step in scene.calculated(law) for change in changes))
+    return entered
 
 
-def breaks(scene: Scene, mistake: Mistake) -> Iterator[Broken]:
-    """Go through all ways in which the rules of one mistake can be broken here."""
-    return (Broken(mistake.id, scene.paper, change) for rule in mistake.rules for change in rule(scene))
+def each(id: str, law: str, *changes: Callable[[Step], Change]) -> None:
+    """Enter a rule that is broken at each step of a law, in one way after the other."""
+    mistake(id)(lambda scene: (change(step) for step in scene.calculated(law) for change in changes))
 
 
-# Rewrites that many rules share.
+def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> Iterator[Broken]:
+    """Go through every way in which a construction can go wrong; `ids` are the only mistakes, all when left out."""
+    scene = Scene(paper, values)
+    for id in sorted(ids or MISTAKES):
+        yield from (Broken(id, paper, change) for rule in MISTAKES[id] for change in rule(scene))
+
+
+# Rewrites that many rules share: steps that make something else of what one step makes.
 
 
 def aside(name: str) -> str:
@@ -211,19 +168,9 @@ def aside(name: str) -> str:
     return f"_right_{name}"
 
 
-def constant(value: float) -> str:
-    """Return the name of a number that a mistake brings in."""
-    return f"_times_{value!r}"
-
-
 def operand(step: Step, place: int, name: str) -> Step:
     """Return a step with another operand at a place."""
     return step.but(operands=(*step.operands[:place], name, *step.operands[place + 1 :]))
-
-
-def with_operand(steps: Iterable[Step], place: int, name: str) -> dict[str, tuple[Step, ...]]:
-    """Put another operand into each of some steps."""
-    return {step.name: (operand(step, place, name),) for step in steps}
 
 
 def after(step: Step, *more: Step) -> tuple[Step, ...]:
@@ -241,21 +188,14 @@ def reversed_(step: Step) -> tuple[Step, ...]:
     return then(step, "opposite", aside(step.name))
 
 
+def times(step: Step, factor: float | str) -> tuple[Step, ...]:
+    """Return the steps that make so many times what one step makes."""
+    return then(step, "along", factor if isinstance(factor, str) else constant(factor), aside(step.name))
+
+
 def nothing(step: Step) -> tuple[Step, ...]:
     """Return the steps that make nothing of what one step makes."""
-    return then(step, "along", "zero", aside(step.name))
-
-
-def times(step: Step, factor: float) -> tuple[Step, ...]:
-    """Return the steps that make so many times what one step makes."""
-    return then(step, "along", constant(factor), aside(step.name))
-
-
-def with_sign(step: Step, size: tuple[Step, ...], value: Any, how: str = "") -> Change:
-    """Make the scalar of a step anew, its size by other steps (the last one makes it), with the sign of `value`."""
-    sense = -1.0 if value < 0.0 else 1.0
-    signed = Step("calc", step.name, (size[-1].name, constant(sense)), "signed")
-    return Change(step.name, {step.name: (*size, signed)}, {constant(sense): sense}, how)
+    return times(step, "zero")
 
 
 def length_of(vector: str) -> tuple[Step, ...]:
@@ -263,3 +203,61 @@ def length_of(vector: str) -> tuple[Step, ...]:
     pole, tip = f"_aside_{vector}.0", f"_aside_{vector}.1"
     chain = Step("chain", tip, (pole, vector))
     return Step("pole", pole, ()), chain, Step("distance", f"_size_{vector}", (pole, tip))
+
+
+# Changes made of them.
+
+
+def instead(step: Step, *new: Step, how: str = "") -> Change:
+    """Do other steps in the place of one step."""
+    return Change(step.name, {step.name: new}, how)
+
+
+def otherwise(step: Step, how: str = "", **changed: Any) -> Change:
+    """Do one step otherwise: another verb, other operands, another law."""
+    return instead(step, step.but(**changed), how=how)
+
+
+def with_other(step: Step, place: int, name: str, how: str = "") -> Change:
+    """Do one step with another operand."""
+    return instead(step, operand(step, place, name), how=how)
+
+
+def mirrored(step: Step, place: int, how: str = "") -> Change:
+    """Do one step with the opposite of an operand."""
+    right = step.operands[place]
+    opposite = Step("calc", f"_other_{right}", (right,), "opposite")
+    return instead(step, opposite, operand(step, place, opposite.name), how=how)
+
+
+def opposed(step: Step, how: str = "") -> Change:
+    """Make the opposite of what one step makes."""
+    return instead(step, *reversed_(step), how=how)
+
+
+def scaled(factor: float, *steps: Step, how: str = "", at: str | None = None) -> Change:
+    """Make so many times what each of some steps makes."""
+    return Change(steps[0].name if at is None else at, {step.name: times(step, factor) for step in steps}, how)
+
+
+def each_and_all(changed: Steps, how: str = "", at: str = "") -> Iterator[Change]:
+    """Change each of some steps, and all of them."""
+    yield from (Change(name, {name: steps}, how) for name, steps in changed.items())
+    if len(changed) > 1:
+        yield Change(at or next(iter(changed)), changed, f"{how}, all".lstrip(", "))
+
+
+def each_and_all_scaled(factor: float, steps: Iterable[Step], at: str) -> Iterator[Change]:
+    """Make so many times what each of some steps makes, and all of them."""
+    return each_and_all({step.name: times(step, factor) for step in steps}, at=at)
+
+
+def with_sign(step: Step, size: tuple[Step, ...], value: Any, how: str = "") -> Change:
+    """Make the scalar of a step anew, its size by other steps (the last one makes it), with the sign of `value`."""
+    sense = constant(-1.0 if value < 0.0 else 1.0)
+    return instead(step, *size, Step("calc", step.name, (size[-1].name, sense), "signed"), how=how)
+
+
+def with_operand(steps: Iterable[Step], place: int, name: str) -> dict[str, tuple[Step, ...]]:
+    """Put another operand into each of some steps."""
+    return {step.name: (operand(step, place, name),) for step in steps}

@@ -38,7 +38,7 @@ OMEGA, PER_MM = 200.0, math.radians(1.0)
 def after(id: str, how: str, at: str = "", of: Key | None = None) -> Mapping[str, Any]:
     """Return what a cam gives with one rule broken."""
     key = keyed_cam().key if of is None else of
-    found = [b for b in broken(key.paper, key.values, (id,)) if b.how == how and at in ("", b.at)]
+    found = [b for b in broken(key.paper, key.values, (id,)) if b.change.how == how and at in ("", b.at)]
     assert len(found) == 1, [b.place for b in broken(key.paper, key.values, (id,))]
     return run(found[0].program, found[0].givens).values
 

@@ -40,7 +40,7 @@ def mistakes(*settings: tuple[str, str]) -> Book:
 
 
 def wrong(id: str, how: str, at: str = "") -> Broken:
-    found = [b for b in broken(key().paper, key().values, (id,)) if b.how == how and at in ("", b.at)]
+    found = [b for b in broken(key().paper, key().values, (id,)) if b.change.how == how and at in ("", b.at)]
     assert len(found) == 1, [b.place for b in broken(key().paper, key().values, (id,))]
     return found[0]
 

@@ -139,7 +139,7 @@ def test_the_sense_tells_them_apart() -> None:
     first = of([*senses, *sizes[2:]]).candidates[0]
 
     assert "M12" in first.ids
-    assert "M09" not in {one.mistake for one in first.mistakes if one.how == "angle"}
+    assert "M09" not in {one.mistake for one in first.mistakes if one.change.how == "angle"}
 
 
 EXAMPLE = "nau-slider-crank"

@@ -39,7 +39,8 @@ def test_every_language_has_the_same_texts_with_the_same_placeholders(kind: str)
 
 
 def test_every_mistake_has_words() -> None:
-    from kulman.plans.mistakes.book import MISTAKES
+    import kulman.plans.mistakes.book  # noqa: F401  all rules are entered
+    from kulman.plans.mistakes.rules import MISTAKES
 
     texts = packaged(PACKAGE, "texts", "mistakes.en")
 

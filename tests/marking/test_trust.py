@@ -111,7 +111,7 @@ def test_a_couple_hangs_wrong_on_the_lever_in_all_ways_whatever_it_is_called(cal
 
     planted = [s.broken for s in mistakes(str(tmp_path / "x.toml")).signatures if s.broken.mistake == "M79"]
 
-    ways = {(str(one.at), one.how) for one in planted}
+    ways = {(str(one.at), one.change.how) for one in planted}
     assert {how for at, how in ways if "sum" in at} == {how for at, how in ways if "i2" in at}
     assert len({how for _, how in ways}) == 3
 

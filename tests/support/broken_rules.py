@@ -14,8 +14,8 @@ from kulman.plans.hands.shaky import Paper
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.mechanism import ZERO, Driver, Link, Mechanism, Prismatic, Revolute
 from kulman.plans.linkages.solved import board_givens
-from kulman.plans.mistakes.book import MISTAKES
-from kulman.plans.mistakes.rules import Broken, Scene, breaks
+from kulman.plans.mistakes.book import broken
+from kulman.plans.mistakes.rules import Broken, Scene
 from kulman.tests.support.mechanisms import ORIGIN
 
 CRANK, PHI, OMEGA = 0.08, math.radians(60.0), 20.0
@@ -126,7 +126,7 @@ def scene(mechanism: Mechanism, values: Mapping[str, float]) -> Scene:
 
 def ways(where: Scene, id: str, at: str = "", how: str = "") -> list[Broken]:
     """Return the ways to break the rule of a mistake, at a place, in a way."""
-    return [b for b in breaks(where, MISTAKES[id]) if at in ("", b.at) and b.how.startswith(how)]
+    return [b for b in broken(where.paper, where.values, (id,)) if at in ("", b.at) and b.change.how.startswith(how)]
 
 
 def after(where: Scene, id: str, at: str = "", how: str = "") -> Mapping[str, Any]:
