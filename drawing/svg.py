@@ -1,26 +1,25 @@
-"""The SVG writer: one user unit is 1 mm, and y is turned down here and nowhere else.
-
-Elements are written as strings: `docs/design/writers.md` has the measurement that decided it.
-"""
+"""The SVG writer: svgwrite's elements in millimetres; y is turned down here and nowhere else."""
 
 from __future__ import annotations
 
+import re
 from base64 import b64encode
 from cmath import rect
 from functools import lru_cache
 from math import cos, degrees, isfinite, pi, sin
-from typing import BinaryIO, assert_never
+from typing import Any, BinaryIO, assert_never
+from xml.etree import ElementTree
 
 from .font import FAMILY, web_subset
 from .page import Page, parts_of
-from .pens import Pens, arrow_parts, head_outline, length_of
-from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
+from .pens import arrow_parts, head_outline, length_of
+from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from .text import lay_out, placer
 
 BLACK = "#000"
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"  # which shows groups of its mode as layers
-_CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF), "")  # XML forbids them
-_ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"}) | _CONTROLS
+LETTERS = "text{font-kerning:none;font-variant-ligatures:none;white-space:pre}"  # each where it has been measured
+_FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # by XML, in every spelling
 
 
 def write_svg(page: Page, stream: BinaryIO) -> None:
@@ -30,35 +29,36 @@ def write_svg(page: Page, stream: BinaryIO) -> None:
 
 def svg_text(page: Page, with_font: bool = True) -> str:
     """Return one page as the text of an SVG file; without its font it is for a reader that has it."""
-    writer = _Writer(page.height, page.pens)
-    for layer, shapes in parts_of(page):
-        if layer is not None:
-            identity = f'id="layer-{layer.value}" class="layer" inkscape:groupmode="layer"'
-            shown = ' display="none"' if layer.hidden else ""
-            writer.parts.append(f'<g {identity} inkscape:label="{_quoted(layer.title(page.language))}"{shown}>')
-        for shape in shapes:
-            writer.draw(shape)
-        if layer is not None:
-            writer.parts.append("</g>")
+    from svgwrite import Drawing
+
     width, height = _number(page.width), _number(page.height)
-    of_layers = f' xmlns:inkscape="{INKSCAPE}"' if page.layers else ""
-    head = (
-        '<?xml version="1.0" encoding="UTF-8"?>\n'
-        f'<svg xmlns="http://www.w3.org/2000/svg"{of_layers} version="1.1" width="{width}mm" height="{height}mm" '
-        f'viewBox="0 0 {width} {height}" xml:lang="{_quoted(page.language)}" font-family="{FAMILY}, sans-serif">\n'
-        f"<title>{_quoted(page.title)}</title>\n"
+    of_layers = {"xmlns:inkscape": INKSCAPE} if page.layers else {}
+    drawing = Drawing(
+        size=(f"{width}mm", f"{height}mm"),
+        viewBox=f"0 0 {width} {height}",
+        font_family=f"{FAMILY}, sans-serif",
+        debug=False,  # else it refuses names of data
+        **{"xml:lang": page.language, **of_layers},
     )
-    characters = "".join(sorted(writer.characters)) if with_font else ""
-    return head + _style(characters) + "\n".join([*writer.parts, "</svg>\n"])
-
-
-def _style(characters: str) -> str:
-    """Return the style sheet with the glyphs of `characters`, so that every reader sees the same letters."""
+    drawing.set_desc(title=page.title)
+    writer = _Writer(page, drawing)
+    for layer, shapes in parts_of(page):
+        group = drawing
+        if layer is not None:
+            shown = {"inkscape:groupmode": "layer", "inkscape:label": layer.title(page.language)}
+            hidden = "none" if layer.hidden else None
+            group = drawing.add(drawing.g(id=f"layer-{layer.value}", class_="layer", display=hidden, **shown))
+        for shape in shapes:
+            writer.draw(shape, group)
     face = ""
-    if characters:
-        source = f"data:font/woff;base64,{b64encode(web_subset(characters)).decode()}"
-        face = f"@font-face{{font-family:'{FAMILY}';src:url({source})}}\n"
-    return f"<style>\n{face}text{{font-kerning:none;font-variant-ligatures:none;white-space:pre}}\n</style>\n"
+    if with_font and writer.characters:  # so that every reader sees the same letters
+        font = b64encode(web_subset("".join(sorted(writer.characters)))).decode()
+        face = f"@font-face{{font-family:'{FAMILY}';src:url(data:font/woff;base64,{font})}}\n"
+    drawing.embed_stylesheet(f"\n{face}{LETTERS}\n")
+    tree = drawing.get_xml()
+    ElementTree.indent(tree, "")  # a line for each element: drawings are compared as texts
+    text = ElementTree.tostring(tree, "unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{_FORBIDDEN.sub("", text)}\n'
 
 
 @lru_cache(maxsize=8192)
@@ -80,157 +80,118 @@ def _exact(value: float) -> str:
     return repr(float(value))
 
 
-@lru_cache(maxsize=1024)
-def _quoted(text: str) -> str:
-    """Return `text` as XML allows it, in an attribute or in an element."""
-    return text.translate(_ENTITIES)
-
-
-@lru_cache(maxsize=1024)
-def _identity(role: str, name: str) -> str:
-    """Return the attributes by which a shape is read back."""
-    return f' class="{_quoted(role)}"' + (f' data-name="{_quoted(name)}"' if name else "")
-
-
 class _Writer:
-    """Collects the elements of one page and the characters that they use."""
+    """Adds shapes to a drawing as elements, all numbers already written; notes the characters that they use."""
 
-    def __init__(self, height: float, pens: Pens) -> None:
-        self.height = height
-        self.pens = pens
-        self.parts: list[str] = []
+    def __init__(self, page: Page, drawing: Any) -> None:
+        self.height, self.pens = page.height, page.pens
+        self.new = drawing
         self.characters: set[str] = set()
 
-    def point(self, point: complex) -> tuple[str, str]:
-        return _number(point.real), _number(self.height - point.imag)
+    def places(self, *points: complex) -> list[tuple[str, str]]:
+        """Return the coordinates of points as they are written."""
+        height = self.height
+        return [(_number(point.real), _number(height - point.imag)) for point in points]
 
-    def places(self, points: tuple[complex, ...]) -> str:
-        return " ".join(f"{_number(p.real)},{_number(self.height - p.imag)}" for p in points)
-
-    def draw(self, shape: Shape) -> None:
-        """Add the elements of one shape."""
+    def draw(self, shape: Shape, group: Any) -> None:
+        """Add the elements of one shape to a group."""
         match shape:
             case Line(a=a, b=b):
-                self.parts.append(f"<line{self.role(shape)}{self.ends(a, b)}{self.stroke(shape)}/>")
-            case Polyline(points=points, closed=closed, fill=fill):
-                kind, places = "polygon" if closed else "polyline", self.places(points)
-                filled = _fill(fill, shape.colour)
-                self.parts.append(f'<{kind}{self.role(shape)} points="{places}"{self.stroke(shape)}{filled}/>')
-            case Circle(centre=centre, radius=radius, fill=fill):
-                x, y = self.point(centre)
-                place, style = f' cx="{x}" cy="{y}" r="{_number(radius)}"', self.stroke(shape)
-                self.parts.append(f"<circle{self.role(shape)}{place}{style}{_fill(fill, shape.colour)}/>")
+                group.add(self.new.line(*self.places(a, b), **self.looks(shape)))
+            case Polyline(points=points, closed=closed):
+                make = self.new.polygon if closed else self.new.polyline
+                group.add(make(self.places(*points), **self.looks(shape), fill=_fill(shape)))
+            case Circle(centre=centre, radius=radius):
+                looks = self.looks(shape)
+                group.add(self.new.circle(*self.places(centre), _number(radius), **looks, fill=_fill(shape)))
             case Arc():
-                self.arc(shape)
+                group.add(self.new.path(self.arc(shape), **self.looks(shape), fill="none"))
             case Head():
-                places = self.places(head_outline(shape, self.pens))
-                self.parts.append(f'<polygon class="head" points="{places}" fill="{_colour(shape.colour)}"/>')
+                corners = self.places(*head_outline(shape, self.pens))
+                group.add(self.new.polygon(corners, class_="head", fill=shape.colour or BLACK))
             case Text():
-                self.text(shape)
-            case Vector() | Arrow():
-                self.arrow(shape)
+                self.text(shape, group)
+            case Vector():
+                facts = {"data_quantity": shape.quantity, "data_unit": shape.unit}
+                values = {"data_value": _exact(shape.value), "data_mu": _exact(shape.mu)}
+                self.arrow(shape, group, class_="vector", **facts, **values)
+            case Arrow(name=name):
+                self.arrow(shape, group, class_="arrow", data_name=name)
             case Group(shapes=shapes, role=role, name=name, title=title):
-                self.parts.append(f"<g{_identity(role, name)}>{_title(title)}")
+                inner = self.group(group, title, class_=role, data_name=name)
                 for part in shapes:
-                    self.draw(part)
-                self.parts.append("</g>")
+                    self.draw(part, inner)
             case _:
                 assert_never(shape)
 
-    def role(self, shape: Line | Polyline | Circle | Arc) -> str:
-        return _identity(shape.role or shape.pen.value, shape.name)
+    def group(self, group: Any, title: str = "", **identity: str) -> Any:
+        """Add a group to a group and return it."""
+        inner = group.add(self.new.g(**identity))
+        if title:
+            inner.set_desc(title=title)
+        return inner
 
-    def ends(self, a: complex, b: complex) -> str:
-        y1, y2 = _number(self.height - a.imag), _number(self.height - b.imag)
-        return f' x1="{_number(a.real)}" y1="{y1}" x2="{_number(b.real)}" y2="{y2}"'
+    def looks(self, shape: Line | Polyline | Circle | Arc) -> dict[str, str | None]:
+        """Return the attributes by which a line is read back, and those of its stroke."""
+        dashes = self.pens.dashes(shape.pen, length_of(shape)) if shape.pen not in (Pen.MAIN, Pen.THIN) else ()
+        return {
+            "class_": shape.role or shape.pen.value,
+            "data_name": shape.name,
+            "stroke": shape.colour or BLACK,
+            "stroke_width": _number(self.pens.width(shape.pen)),
+            "stroke_dasharray": " ".join(map(_number, dashes)),
+        }
 
-    def stroke(self, shape: Line | Polyline | Circle | Arc) -> str:
-        style = _stroke(shape.colour, self.pens.width(shape.pen))
-        if shape.pen in (Pen.DASHED, Pen.AXIS, Pen.EXTREME):
-            dashes = self.pens.dashes(shape.pen, length_of(shape))
-            if dashes:
-                style += f' stroke-dasharray="{" ".join(map(_number, dashes))}"'
-        return style
-
-    def arc(self, arc: Arc) -> None:
-        """Add an arc, in two halves if it is more than half a circle, since one command would be ambiguous."""
+    def arc(self, arc: Arc) -> str:
+        """Return the path of an arc, in two halves if it is more than half a circle: one command would be ambiguous."""
         halves = 2 if abs(arc.sweep) > pi / 2 else 1
         r, turn = _number(arc.radius), 0 if arc.sweep > 0 else 1
-        x, y = self.point(arc.centre + rect(arc.radius, arc.start))
-        path = f"M{x} {y}"
-        for step in range(halves):
-            x, y = self.point(arc.centre + rect(arc.radius, arc.start + arc.sweep * (step + 1) / halves))
-            path += f"A{r} {r} 0 0 {turn} {x} {y}"
-        self.parts.append(f'<path{self.role(arc)} d="{path}"{self.stroke(arc)} fill="none"/>')
+        ends = (arc.centre + rect(arc.radius, arc.start + arc.sweep * step / halves) for step in range(halves + 1))
+        first, *others = (f"{x} {y}" for x, y in self.places(*ends))
+        return f"M{first}" + "".join(f"A{r} {r} 0 0 {turn} {end}" for end in others)
 
-    def arrow(self, arrow: Vector | Arrow) -> None:
+    def arrow(self, arrow: Vector | Arrow, group: Any, **identity: str) -> None:
         """Add a group whose first line runs from tail to tip without ink; what is seen follows it."""
-        if isinstance(arrow, Vector):
-            value, mu = _exact(arrow.value), _exact(arrow.mu)
-            facts = f' data-quantity="{_quoted(arrow.quantity)}" data-value="{value}"'
-            identity = f' class="vector"{facts} data-unit="{_quoted(arrow.unit)}" data-mu="{mu}"'
-        else:
-            identity = _identity("arrow", arrow.name)
-        span = f'<line class="span"{self.ends(arrow.tail, arrow.tip)} stroke="none"/>'
-        self.parts.append(f"<g{identity}>{_title(arrow.title)}{span}")
+        inner = self.group(group, arrow.title, **identity)
+        inner.add(self.new.line(*self.places(arrow.tail, arrow.tip), class_="span", stroke="none"))
         for part in arrow_parts(arrow, self.pens):
-            self.draw(part)
-        self.parts.append("</g>")
+            self.draw(part, inner)
 
-    def text(self, text: Text) -> None:
+    def text(self, text: Text, group: Any) -> None:
         """Add one `text` element, or a group of them when there are scripts or rules."""
-        lines = lay_out(text.markup, text.height)
-        identity = _identity(text.role, text.name)
-        ink = "" if text.colour is None else f' fill="{_colour(text.colour)}"'
-        grouped = len(lines.runs) != 1 or bool(lines.rules)
-        if grouped:
-            self.parts.append(f"<g{identity}>")
-            identity = ""
-        place_of = placer(text)
+        lines, place_of = lay_out(text.markup, text.height), placer(text)
+        identity = {"class_": text.role, "data_name": text.name}
+        if len(lines.runs) != 1 or lines.rules:
+            group, identity = self.group(group, **identity), {}
         for run in lines.runs:
             self.characters.update(run.string)
-            x, y = self.point(at := place_of(run.x, run.y))
-            place = f' x="{x}" y="{y}" font-size="{_number(run.size)}"{self.turn(text, at)}'
-            self.parts.append(f"<text{identity}{place}{ink}>{_quoted(run.string)}</text>")
+            at = place_of(run.x, run.y)
+            looks = {"font_size": _number(run.size), "fill": text.colour, "transform": self.turn(text, at)}
+            group.add(self.new.text(run.string, *self.places(at), **identity, **looks))
         for x0, y0, x1, y1 in lines.rules:
-            self.draw(Line(place_of(x0, y0), place_of(x1, y1), Pen.THIN, "rule", "", text.colour))
-        if grouped:
-            self.parts.append("</g>")
+            self.draw(Line(place_of(x0, y0), place_of(x1, y1), Pen.THIN, "rule", "", text.colour), group)
 
-    def turn(self, text: Text, at: complex) -> str:
+    def turn(self, text: Text, at: complex) -> str | None:
         """Return the transform of a turned or squeezed text, which keeps the point `at` in its place."""
         if text.squeeze == 1.0 and text.angle == 0.0:
-            return ""
+            return None
         x, y = at.real, self.height - at.imag
         if text.squeeze == 1.0:
-            return f' transform="rotate({_number(-degrees(text.angle))} {_number(x)} {_number(y)})"'
+            return f"rotate({_number(-degrees(text.angle))} {_number(x)} {_number(y)})"
         c, s, k = cos(text.angle), -sin(text.angle), text.squeeze
         matrix = (k * c, k * s, -s, c, x - k * c * x + s * y, y - k * s * x - c * y)
-        return f' transform="matrix({" ".join(map(_number, matrix))})"'
+        return f"matrix({' '.join(map(_number, matrix))})"
 
 
-@lru_cache(maxsize=256)
-def _stroke(colour: str | None, width: float) -> str:
-    return f' stroke="{_colour(colour)}" stroke-width="{_number(width)}"'
-
-
-def _colour(colour: str | None) -> str:
-    return BLACK if colour is None else _quoted(colour)
-
-
-def _fill(fill: Fill, colour: str | None) -> str:
-    match fill:
+def _fill(shape: Polyline | Circle) -> str:
+    match shape.fill:
         case "white":
-            return ' fill="#fff"'
+            return "#fff"
         case "black":
-            return f' fill="{BLACK}"'
+            return BLACK
         case True:
-            return f' fill="{_colour(colour)}"'
+            return shape.colour or BLACK
         case False:
-            return ' fill="none"'
+            return "none"
         case _:
-            assert_never(fill)
-
-
-def _title(title: str) -> str:
-    return f"<title>{_quoted(title)}</title>" if title else ""
+            assert_never(shape.fill)

@@ -220,8 +220,8 @@ def outlined(svg: bytes) -> bytes:
                 path.set(name, text.get(name))
         path.tail = text.tail
         text.getparent().replace(text, path)
-    for style in root.findall(f"{_SHAPES}style"):
-        root.remove(style)
+    for styles in root.findall(f"{_SHAPES}defs"):
+        root.remove(styles)
     return bytes(etree.tostring(root, xml_declaration=True, encoding="UTF-8"))
 
 

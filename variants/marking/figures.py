@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from html import escape
 from typing import NamedTuple
 
 from ...drawing.linkages.reading import read
@@ -147,32 +145,29 @@ def _svg(vectors: list[Vector], caption: str) -> str:
     def at(place: complex) -> complex:
         return complex((place.real - left) * scale + MARGIN, (top - place.imag) * scale + MARGIN)
 
-    drawn, shapes = [(vector, at(vector.tail), at(vector.tip)) for vector in vectors], ""
+    from svgwrite.container import SVG
+    from svgwrite.path import Path
+    from svgwrite.text import Text, TSpan
+
+    figure = SVG(viewBox=f"0 0 {width:.2f} {height:.2f}", role="img", debug=False)
+    figure.set_desc(title=caption)
+    drawn = [(vector, at(vector.tail), at(vector.tip)) for vector in vectors]
     for vector, tail, tip in drawn:
         line = f"M{tail.real:.2f} {tail.imag:.2f}L{tip.real:.2f} {tip.imag:.2f}"
-        arrow = _arrow(tail, tip, span * scale * LEAST)
-        shapes += f'<path class="{vector.kind}" d="{line}"/><path class="{vector.kind} tip" d="{arrow}"/>'
+        figure.add(Path(line, class_=vector.kind, factory=figure))
+        figure.add(Path(_arrow(tail, tip, span * scale * LEAST), class_=f"{vector.kind} tip", factory=figure))
     own = [(vector, tail, tip) for vector, tail, tip in drawn if vector.line is not None]
     rooms = boxes([(tail, tip, len(vector.text)) for vector, tail, tip in own], complex(width, height))
     for (vector, _, _), room in zip(own, rooms, strict=True):
-        place = f'x="{room.start.real:.2f}" y="{room.start.imag:.2f}"'
-        shapes += f'<text class="{vector.kind}" {place}>{_lettered(vector.text)}</text>'
-    title = f"<title>{escape(caption)}</title>"
-    return f'<svg viewBox="0 0 {width:.2f} {height:.2f}" role="img">{title}{shapes}</svg>'
-
-
-@lru_cache(maxsize=1024)  # the symbols of a class are the same
-def _lettered(text: str) -> str:
-    """Return the pieces of a text with scripts, each moved from where the one before it stands.
-
-    Old browsers know no `baseline-shift`; `dy` moves all that follows, until it is moved back.
-    """
-    at, pieces = 0.0, []
-    for run, level in script_runs(text):
-        size = f' font-size="{SMALL}"' if level else ""
-        pieces.append(f'<tspan dy="{RISE[level] - at:.1f}"{size}>{escape(run)}</tspan>')
-        at = RISE[level]
-    return "".join(pieces)
+        place = f"{room.start.real:.2f}", f"{room.start.imag:.2f}"
+        text = figure.add(Text("", place, class_=vector.kind, factory=figure))
+        level = 0.0
+        for run, script in script_runs(vector.text):
+            # old browsers know no `baseline-shift`; `dy` moves all that follows, until it is moved back
+            size = SMALL if script else None
+            text.add(TSpan(run, dy=[f"{RISE[script] - level:.1f}"], font_size=size, factory=figure))
+            level = RISE[script]
+    return str(figure.tostring())
 
 
 def _arrow(tail: complex, tip: complex, least: float) -> str:
