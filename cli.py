@@ -297,7 +297,7 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 @of_language
 def new(file: str, kind: str, lang: str | None) -> None:
     """Write FILE, a task file with comments, ready to solve: a four-bar linkage, a cam, a gear pair or a hoist."""
-    from .variants.shelf import start
+    from .variants.making.starter import start
 
     click.echo(str(start(file, lang or system_language(), kind)))
 

@@ -29,6 +29,7 @@ from .board import Program
 from .boards.exact import PlainBoard
 from .laws import cross, dot
 from .quantities import plans_of, references, results, unit_of, worst_behind
+from .solved import Solved
 
 Slopes = NDArray[Any]
 # functions of numpy, and their derivatives: of one number by its value and their own, of two by both values
@@ -274,6 +275,21 @@ def by_solving_again(
         for quantity in totals:
             totals[quantity] += abs(more[quantity] - less[quantity]) / apart if apart else math.inf
     return totals
+
+
+def conditions_again(
+    solved: Solved, solve: Callable[[Mapping[str, float]], Solved], numbers: Mapping[str, float]
+) -> dict[str, Condition]:
+    """Return the condition of every quantity of what is solved again from changed `numbers`."""
+
+    def solve_with(others: Mapping[str, float]) -> dict[str, float]:
+        there = solve(others).quantities
+        values = ((name, there[name].value if name in there else None) for name in solved.quantities)
+        return {name: math.nan if value is None else value for name, value in values}
+
+    totals, own = by_solving_again(solve_with, numbers), solve_with(numbers)
+    worst = worst_behind(solved.program, solved.sines)
+    return {name: Condition(ratio(total, abs(own[name])), worst.get(name, 1.0)) for name, total in totals.items()}
 
 
 def conditions(

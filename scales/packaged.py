@@ -18,7 +18,19 @@ def home(package: str) -> Path:
 
 @cache
 def packaged(package: str, folder: str, name: str) -> dict[str, Any]:
-    """Return the table `folder/name.toml` of `package`; nobody may change it."""
+    """Return the table `folder/name.toml` of `package`, with what subjects have of it; nobody may change it."""
     import tomllib
 
-    return tomllib.loads((home(package) / folder / f"{name}.toml").read_text(encoding="utf-8"))
+    files = (home(place) / folder / f"{name}.toml" for place in (package, *_ADDED))
+    texts = (file.read_text(encoding="utf-8") for n, file in enumerate(files) if n == 0 or file.exists())
+    return {key: value for text in texts for key, value in tomllib.loads(text).items()}
+
+
+_ADDED: list[str] = []
+
+
+def add_texts(package: str) -> None:
+    """Add the `texts` and `messages` that stand in the folder of a subject, a language a file, to all there are."""
+    if package not in _ADDED:
+        _ADDED.append(package)
+        packaged.cache_clear()

@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 from ...scales.scale import steps
 from ..board import Board
 from ..boards.exact import run
-from ..condition import Condition, by_solving_again, ratio
+from ..condition import Condition, conditions_again
 from ..hands.shaky import Paper, Tolerance
 from ..laws import TURN
 from ..marking.key import rounded
 from ..names import role
-from ..quantities import Quantity, quantities, shown_on, worst_behind
+from ..quantities import Quantity, quantities, shown_on
 from ..solved import PAPER_MM, Solved, in_sections
 from .construction import (
     BENT,
@@ -232,15 +232,7 @@ def _scales(given: Mapping[str, Any], drawn: set[str]) -> dict[str, Quantity]:
 def conditions_of(solved: SolvedHoist) -> dict[str, Condition]:
     """Return the condition of every quantity."""
     numbers = {name: float(solved.givens[name]) for name in VALUES}
-
-    def solve_with(others: Mapping[str, float]) -> dict[str, float]:
-        there = solve_hoist(solved.hoist, others, solved.plans).quantities
-        values = ((name, there[name].value if name in there else None) for name in solved.quantities)
-        return {name: math.nan if value is None else value for name, value in values}
-
-    totals, own = by_solving_again(solve_with, numbers), solve_with(numbers)
-    worst = worst_behind(solved.program, solved.sines)
-    return {name: Condition(ratio(total, abs(own[name])), worst.get(name, 1.0)) for name, total in totals.items()}
+    return conditions_again(solved, lambda others: solve_hoist(solved.hoist, others, solved.plans), numbers)
 
 
 def tolerances_of(solved: SolvedHoist, paper: Paper, tolerance: Tolerance) -> dict[str, float]:

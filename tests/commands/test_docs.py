@@ -25,7 +25,8 @@ from kulman.variants.checks import basics as checks
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.checks import names as checks_names
 from kulman.variants.kinds import cam, gear, hoist, sized
-from kulman.variants.shelf import bundled_text, template
+from kulman.variants.making.starter import template
+from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"

@@ -25,11 +25,12 @@ from kulman.tests.support.answer_files import ASKED
 from kulman.variants.checks.basics import Places
 from kulman.variants.hands import hand_of
 from kulman.variants.making.new_variants import ranges_of, with_variants
+from kulman.variants.making.starter import _label
 from kulman.variants.marking import cells
 from kulman.variants.marking.wording import plain
 from kulman.variants.roster import _folded, variant_of_book
 from kulman.variants.sheets import variant_of_id
-from kulman.variants.shelf import _label, bundled_text
+from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
 from kulman.variants.spreadsheets import grid as headers
 from kulman.variants.tables import harmless

@@ -9,8 +9,9 @@ import pytest
 
 from kulman.docs import refresh
 from kulman.tests.support.documents import run_here
+from kulman.variants.making.starter import template
 from kulman.variants.reader import read_text
-from kulman.variants.shelf import bundled_text, template
+from kulman.variants.shelf import bundled_text
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = (ROOT / "docs" / "own-mechanism.md").read_text(encoding="utf-8")

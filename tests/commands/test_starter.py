@@ -10,8 +10,8 @@ import pytest
 from kulman import cli, load_task, solve
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.kinds import KINDS, MODULES
+from kulman.variants.making.starter import start, template
 from kulman.variants.reader import read_text
-from kulman.variants.shelf import start, template
 
 
 @pytest.fixture(autouse=True)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from kulman.variants.shelf import bundled_text, template
+from kulman.variants.making.starter import template
+from kulman.variants.shelf import bundled_text
 
 GOOD = template("en")
 AT_C = 'point = "C"\nlinks = [3, 0]\nat = ["280 mm", "0 mm"]\n'

@@ -19,7 +19,8 @@ from typing import Any
 
 from kulman.scales.choices import HANDS, SIZES
 from kulman.variants.kinds import KINDS
-from kulman.variants.shelf import bundled, bundled_text, template
+from kulman.variants.making.starter import template
+from kulman.variants.shelf import bundled, bundled_text
 
 # What stands in the place of a good value: extreme numbers and no numbers, right and wrong units, hostile texts, kinds.
 NUMBERS = (

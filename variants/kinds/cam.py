@@ -116,8 +116,6 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
 
     def solve(self, subject: cams.Cam, values: Numbers, words: Choices, plans: Plans) -> SolvedCam:
         """Solve a cam; numbers that belong to none are refused."""
-        for _, error in self.impossible(values):
-            raise error
         solved = super().solve(subject, {**values, "mu_phi": values["mu_phi"] * PER_MM}, words, plans)
         if "R_roller" in values and "r_0" in solved.values:
             for _, error in self.impossible({**values, "r_0": solved.values["r_0"]}):

@@ -36,14 +36,17 @@ class Sized(Kind[Subject, Answer]):
     `solve_cam`, `CamScene`, `CamFitting` of `[cam]`.
     """
 
+    home: ClassVar[str] = (__package__ or "").partition(".variants")[0]  # the package whose layers have the room
     room: ClassVar[str]
     symbols: ClassVar[tuple[str, ...]]  # of the scale factors that may be chosen
     made: ClassVar[type[Described]]
+    moves: ClassVar[bool] = True  # whether its plans have a course
+    stranger: ClassVar[str] = ""  # key of the message for a number of no such subject, where it has none of its own
     unasked: ClassVar[tuple[str, ...]] = ()  # quantities that no form asks for
 
     def _in(self, layer: str, module: str, name: str) -> Any:
         """Return what a module of this kind's plans or drawings calls `name`; most need numpy."""
-        return getattr(import_module(f"...{layer}.{self.room}.{module}", __package__), name)
+        return getattr(import_module(f"{self.home}.{layer}.{self.room}.{module}"), name)
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Subject | None:
         """Read the table, and hold the numbers of the task against those that such a subject has."""
@@ -51,7 +54,7 @@ class Sized(Kind[Subject, Answer]):
         words = {key: given.choices for key, given in self.givens.items() if given.choices}
         fields = {key: Field(word_or_choice(known, givens), required=False) for key, known in words.items()}
         read = record(checker, (self.table,), raw, fields)
-        check_numbers(checker, names, self.givens, f"{self.table}-number-unknown")
+        check_numbers(checker, names, self.givens, self.stranger or f"{self.table}-number-unknown")
         return cast(Any, self.made)(**read) if len(checker.faults) == before else None
 
     def fits(self, checker: Checker, subject: Subject, head: Mapping[str, Any]) -> None:
@@ -80,6 +83,8 @@ class Sized(Kind[Subject, Answer]):
 
     def solve(self, subject: Any, values: Numbers, words: Choices, plans: Plans) -> Answer:
         """Solve a variant; numbers that belong to none are refused."""
+        for _, error in self.impossible(values):
+            raise error
         solved: Answer = self._in("plans", "solve", f"solve_{self.table}")(subject.chosen(words), values, plans)
         return solved
 
@@ -99,6 +104,8 @@ class Sized(Kind[Subject, Answer]):
 
     def course(self, solved: Answer) -> Course | None:
         """Return the subject over its motion."""
+        if not self.moves:
+            return None
         course: Course = self._in("plans", "course", f"{self.table.title()}Course")(solved)
         return course
 

@@ -1,0 +1,14 @@
+"""A lever on a pivot, a subject that the package does not know, in the layers of a shipped one: a line registers it."""
+
+from __future__ import annotations
+
+from kulman.scales.packaged import add_texts
+from kulman.variants.kinds import MODULES
+
+TABLE, NAME = "lever", "levers"
+
+
+def register() -> None:
+    """Make the lever a kind of tasks."""
+    MODULES[TABLE] = f"{__name__}.{NAME}"
+    add_texts(__name__)

@@ -1,0 +1,29 @@
+"""Tasks about levers: a table `[lever]` with the side on which the load is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from kulman.scales.errors import InputError
+from kulman.tests.support.toy.plans.lever.lever import GIVENS, PLANS, Lever
+from kulman.variants.case import Numbers
+from kulman.variants.kinds.sized import Sized
+
+LONGEST = 100.0  # times the arm of the load
+
+
+class Levers(Sized[Lever, Any]):
+    """Levers of two arms."""
+
+    home, room, table, plans = "kulman.tests.support.toy", "lever", "lever", PLANS
+    made, givens, symbols, stranger = Lever, GIVENS, ("mu_l", "mu_F"), "value-unknown"
+    moves = False
+
+    def impossible(self, values: Numbers) -> Iterator[tuple[str, InputError]]:
+        """Refuse an arm that no sheet shows beside the other."""
+        if values["l_2"] > LONGEST * values["l_1"]:
+            yield "l_2", InputError("lever-long", most=f"{LONGEST:g}")
+
+
+KIND = Levers()

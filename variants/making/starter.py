@@ -1,0 +1,85 @@
+"""Task files to begin with: of a kind with comments, or made of its table of givens."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+from pathlib import Path
+
+from ...scales.errors import LANGUAGES, InputError
+from ...scales.numbers import SHOWN, quote
+from ...scales.packaged import home
+from ..case import kind_of
+from ..kinds import KINDS, MODULES
+
+VARIANTS = (__package__ or "").rpartition(".")[0]
+SUFFIX = ".toml"
+_OWN = re.compile(r'^id = "([^"]+)"', re.MULTILINE)  # what a template calls itself
+
+
+def template(language: str, kind: str = KINDS[0]) -> str:
+    """Return the task file of a kind that `start` writes, with its comments in `language`.
+
+    For a kind that has none it is made of the table of givens, in the middle of their usual ranges.
+    """
+    file = home(VARIANTS) / "templates" / f"{kind}.{language}.toml"
+    return file.read_text(encoding="utf-8") if file.exists() else _drafted(kind)
+
+
+def _drafted(name: str) -> str:
+    """Return a task file for what a table of givens describes."""
+    table = next(table for table, module in MODULES.items() if module.rpartition(".")[2] == name)
+    kind = kind_of(table)
+    words = {key: given.default or given.choices[0] for key, given in kind.givens.items() if given.choices}
+    numbers = {key: given for key, given in kind.givens.items() if not given.choices}
+    head = {"id": f"my-{name}", "source": "-", "notation": "nau", "plans": list(kind.plans)}
+    givens = []
+    for key, given in numbers.items():
+        usual = f", default = {given.default:.12g}" if isinstance(given.default, float) else ""
+        givens.append(f'{key} = {{ unit = "{given.unit or 1}"{usual} }}')
+    ranged = {key: given.usual for key, given in numbers.items() if given.default is None and given.usual is not None}
+    rows = (f"{key} = {math.sqrt(least * most):.3g}" for key, (least, most) in ranged.items())
+    return "\n".join((
+        *(f"{key} = {json.dumps(value)}" for key, value in head.items()),
+        *("", "[title]", *(f'{language} = "{name}"' for language in LANGUAGES)),
+        *("", "[givens]", *givens),
+        *("", f"[{table}]", *(f'{key} = "{word}"' for key, word in words.items())),
+        *("", "[[variant]]", 'id = "1"', *rows, ""),
+    ))  # fmt: skip
+
+
+def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0]) -> Path:
+    """Write a task file of a kind to begin with, its comments in a language, and return its path.
+
+    A name without a suffix gets one; a file that is there already stays, and is an error.
+    """
+    path = Path(file)
+    shown = quote(path, SHOWN)
+    if "\0" in str(path) or not path.name:
+        raise InputError("output-name", file=shown)
+    if not path.suffix:
+        path = path.with_suffix(SUFFIX)
+        shown = quote(path, SHOWN)
+    if path.suffix != SUFFIX:
+        raise InputError("output-suffix", file=shown, known=SUFFIX)
+    if not path.parent.is_dir():
+        raise InputError("output-folder-missing", file=shown, folder=quote(path.parent, SHOWN))
+    called = f'"{path}"' if " " in str(path) else str(path)
+    text = template(language, kind)
+    own = _OWN.findall(text)[0]
+    text = text.replace(f'"{own}"', f'"{_label(path.stem) or own}"').replace(f"{own}{SUFFIX}", called)
+    try:
+        with path.open("x", encoding="utf-8", newline="\n") as stream:
+            stream.write(text)
+    except FileExistsError as error:
+        raise InputError("output-exists", file=shown) from error
+    except OSError as error:
+        raise InputError("output-refused", file=shown, reason=error.strerror or "") from error
+    return path
+
+
+def _label(stem: str) -> str:
+    """Return the id of a task out of the name of its file, nothing where there is none in it."""
+    return re.sub(r"^[.-]+|[^\w.-]+", "-", stem).strip("-")
