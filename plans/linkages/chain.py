@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import partial
 from importlib import import_module
 
@@ -11,11 +11,11 @@ from ...scales.kept import Kept
 from ..board import Board, Program, RecordingBoard, Step, with_needs
 from ..names import Name, by_lever, couple, lever_arm, moment, role, spelled, vector
 from . import compound
-from .driver import driver_of
+from .driver import Crank, SlidingBlock, driver_of
 from .legs import AssurGroup
 from .loads import Moving, hung, lay_loads, needs_stroke
 from .mechanism import FRAME, ZERO, Mechanism
-from .parts import Bodies, Forces, Span
+from .parts import SYMBOLS, Bodies, Body, Forces, Plan, Span
 from .structure import KINDS, TRIAD, Structure, analyse
 
 NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, with those they are built on
@@ -45,24 +45,25 @@ def construct(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Struc
     InputError
         When the mechanism has no structure of known groups, or a name stands for two things.
     """
-    structure = analyse(mechanism)
-    board = RecordingBoard()
+    structure, board, plans = analyse(mechanism), RecordingBoard(), with_needs(plans, NEEDS)
     for opposite, length in mechanism.opposites.items():
         board.calc(opposite, "opposite", length)
-    plans = with_needs(plans, NEEDS)
-    groups, bodies = named(mechanism, structure)
-    driver = driver_of(mechanism)
-    for plan in ("position", "velocity", "acceleration"):
-        if plan in plans:
-            getattr(driver, plan)(board)
-            if plan == "position":
-                for point, place in mechanism.frame_points.items():
-                    board.place(point, *place)
-            for group in groups:
-                getattr(group, plan)(board)
+    driver, groups, bodies = named(mechanism, structure)
+    if "position" in plans:
+        driver.position(board)
+        for point, place in mechanism.frame_points.items():
+            board.place(point, *place)
+        for group in groups:
+            group.position(board)
+    for name in (name for name in SYMBOLS if name in plans):
+        plan = Plan(board, mechanism, name)
+        driver.move(plan)
+        for group in groups:
+            group.move(plan)
     if "compound" in plans:
         compound.compound(board, compound.couplers(mechanism, groups, bodies))
-    _statics(board, mechanism, set(plans), groups, bodies)
+    if "forces" in plans or "lever" in plans:
+        _statics(board, plans, driver, groups, bodies)
     program = Program(board.steps)
     for name in sorted(mechanism.givens.intersection(program.names)):
         raise InputError("name-twice", name=name)
@@ -76,36 +77,40 @@ def constructed(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Str
 
 
 def _statics(
-    board: RecordingBoard, mechanism: Mechanism, plans: set[str], groups: Sequence[AssurGroup], bodies: Bodies
+    board: RecordingBoard,
+    plans: Collection[str],
+    driver: Crank | SlidingBlock,
+    groups: Sequence[AssurGroup],
+    bodies: Bodies,
 ) -> None:
     """Lay down the loads; plans of forces, the lever, and their difference, as far as they are wanted."""
-    if not plans & {"forces", "lever"}:
-        return
-    driver = driver_of(mechanism)
+    mechanism = driver.mechanism
     spans = {span.number: span for part in (driver, *groups) for span in part.spans}
     resisting = any(couple.sense is None for couple in mechanism.couples) or needs_stroke(mechanism)
     turning = driver.turning_rate(board) if resisting else ZERO
     lay_loads(board, Moving(mechanism, bodies, spans, vector("V", mechanism.driver.point).size, turning))
     if "forces" in plans:
-        _forces(board, mechanism, groups, bodies)
+        _forces(board, driver, groups, bodies)
     if "lever" in plans:
-        _lever(board, mechanism, spans, bodies)
-    if {"forces", "lever"} <= plans:
+        driver.on_lever(board, _lever(board, mechanism, spans, bodies))
+    if "forces" in plans and "lever" in plans:
         board.calc(spelled("delta", driver.balance), "difference", by_lever(driver.balance), driver.balance)
 
 
 def hinged(mechanism: Mechanism, structure: Structure) -> tuple[compound.Coupler, ...]:
     """Return the couplers whose motion the plan `compound` splits."""
-    return compound.couplers(mechanism, *named(mechanism, structure))
+    return compound.couplers(mechanism, *named(mechanism, structure)[1:])
 
 
 def moving_bodies(mechanism: Mechanism, structure: Structure) -> Bodies:
     """Return how every moving link is known: a direction that turns with it, its angular velocity, by number."""
-    return _BODIES.get(mechanism.written, lambda: named(mechanism, structure)[1])
+    return _BODIES.get(mechanism.written, lambda: named(mechanism, structure)[2])
 
 
-def named(mechanism: Mechanism, structure: Structure) -> tuple[tuple[AssurGroup, ...], Bodies]:
-    """Name the parts of all groups, each for those attached to it."""
+def named(
+    mechanism: Mechanism, structure: Structure
+) -> tuple[Crank | SlidingBlock, tuple[AssurGroup, ...], dict[int, Body]]:
+    """Name the parts of the driver and of all groups, each for those attached to it."""
     for group in structure.groups:
         if group.kind not in CONSTRUCTIONS:
             raise InputError("no-construction", kind=group.kind, links=", ".join(map(str, group.links)))
@@ -119,28 +124,31 @@ def named(mechanism: Mechanism, structure: Structure) -> tuple[tuple[AssurGroup,
     for span in (span for part in (driver, *groups) for span in part.spans):
         if span.link.points[span.start] == span.link.points[span.end]:  # by the form of the mechanism
             raise InputError("joints-coincide", link=span.number, first=span.start, second=span.end)
-    return tuple(groups), bodies
+    return driver, tuple(groups), bodies
 
 
-def _forces(board: RecordingBoard, mechanism: Mechanism, groups: Sequence[AssurGroup], bodies: Bodies) -> None:
+def _forces(board: RecordingBoard, driver: Crank | SlidingBlock, groups: Sequence[AssurGroup], bodies: Bodies) -> None:
     """Solve the groups from the last to the first, pass each reaction on to the link it acts on, balance the driver."""
-    forces, couples = hung(mechanism, bodies)
-    reactions: Forces = {link: [] for link in forces}
+    forces, couples = hung(driver.mechanism, bodies)
+    reactions: Forces = {link: {} for link in forces}
     for group in reversed(groups):
-        for link in (body.link.number for body in group.bodies):
-            forces[link] += reactions[link]
+        for body in group.bodies:
+            forces[body.link.number] |= reactions[body.link.number]
         group.forces(board, forces, couples)
-        for passed in group.passed:
-            if passed.link != FRAME:
-                reactions[passed.link].append((passed.force, passed.point))
-                couples[passed.link] += [passed.couple] if passed.couple else []
-    first = mechanism.driver.link
-    forces[first] = reactions[first] + forces[first]
-    driver_of(mechanism).forces(board, forces, couples)
+        for force, link, point, moment_beside in group.passed:
+            if link != FRAME:
+                reactions[link][force] = point
+                couples[link] += [moment_beside] if moment_beside else []
+    first = driver.body.link.number
+    forces[first] = reactions[first] | forces[first]
+    driver.forces(board, forces, couples)
 
 
-def _lever(board: RecordingBoard, mechanism: Mechanism, spans: Mapping[int, Span], bodies: Bodies) -> None:
-    """Hang all forces on the lever, and the couples: as pairs of forces where two points are known, else as powers."""
+def _lever(board: RecordingBoard, mechanism: Mechanism, spans: Mapping[int, Span], bodies: Bodies) -> list[Name]:
+    """Hang all forces on the lever, and the couples: as pairs of forces where two points are known, else as powers.
+
+    Returns their moments.
+    """
     forces, couples = hung(mechanism, bodies)
     ends: dict[int, Ends] = {number: (span.start, span.end, span.n, span.length) for number, span in spans.items()}
     by_rate = {omega: both for number, both in ends.items() if (omega := bodies[number].omega)}
@@ -150,12 +158,12 @@ def _lever(board: RecordingBoard, mechanism: Mechanism, spans: Mapping[int, Span
         points = _points_of(omega, board.steps, by_rate) if omega else None
         pairs += [(couple, points) for couple in couples[number] if points]
         turning += [(couple, omega) for couple in couples[number] if omega and not points]
-    moving = [force for link in forces.values() for force in link if force[1] not in mechanism.frame_points]
+    moving = [(force, at) for link in forces.values() for force, at in link.items() if at not in mechanism.frame_points]
     moments = _on_lever(board, mechanism, moving, pairs)
     for turns, omega in turning:
         moments.append(Name(f"_{turns}_p", "M", role(turns).of, "p"))
         board.calc(moments[-1], "couple_on_lever", turns, omega)
-    driver_of(mechanism).on_lever(board, moments)
+    return moments
 
 
 def _on_lever(

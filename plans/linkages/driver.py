@@ -10,11 +10,11 @@ from typing import ClassVar
 
 from ...scales.errors import InputError
 from ..board import Board
-from ..names import NORMAL, Name, by_lever, mark, spelled, vector
+from ..names import NORMAL, Name, by_lever, mark, vector
 from ..quantities import F_BAL, M_BAL
 from .legs import Slide
 from .mechanism import FRAME, MOMENT, ZERO, Driver, Mechanism, Prismatic, SlidingDriver
-from .parts import SYMBOLS, Couples, Forces, Span, hang, moments_about
+from .parts import Couples, Forces, Plan, Polygon, Span, moments_about
 
 
 def driver_of(mechanism: Mechanism) -> Crank | SlidingBlock:
@@ -57,49 +57,46 @@ class Crank:
         board.lay(driver.point, driver.pivot, crank.e, crank.length)
         crank.place(board, turned=True)
 
-    def velocity(self, board: Board) -> None:
-        """v_A = omega_1 * l_OA is normal to the crank in the sense of omega_1."""
-        crank, v = self.span, vector("V", self.driver.point)
-        board.calc(crank.omega, "signed", self.driver.speed, self.driver.sense)
-        board.calc(v.size, "circular_speed", crank.omega, crank.length)
-        board.pole("velocity.p")
-        board.lay(mark("velocity", crank.end), "velocity.p", crank.n, v.size)
-        board.read(v, "velocity.p", mark("velocity", crank.end))
-        crank.mark_others(board, self.mechanism, "velocity")
+    def move(self, plan: Plan) -> None:
+        """v_A = omega_1 * l_OA is normal to the crank in the sense of omega_1.
 
-    def acceleration(self, board: Board) -> None:
-        """a_A = omega_1^2 * l_OA points from A to O, and epsilon_1 * l_OA across unless the crank turns steadily."""
-        driver, crank, a = self.driver, self.span, vector("a", self.driver.point)
-        tip = mark("acceleration", crank.end)
-        normal = mark("acceleration", crank.end, NORMAL) if driver.acceleration else tip
-        board.calc(a.size, "centripetal", crank.omega, crank.length)
-        board.pole("acceleration.p")
-        board.back(normal, "acceleration.p", crank.e, a.size)
-        if driver.acceleration:
-            across = vector("a", driver.point, part="t")
-            board.calc(crank.epsilon, "signed", driver.acceleration, driver.sense)
-            board.calc(across.size, "circular_acceleration", crank.epsilon, crank.length)
-            board.lay(tip, normal, crank.n, across.size)
-            board.read(vector("a", driver.point, part="n"), "acceleration.p", normal)
-            board.read(across, normal, tip)
-        board.read(a, "acceleration.p", tip)
-        crank.mark_others(board, self.mechanism, "acceleration")
+        a_A = omega_1^2 * l_OA points from A to O, and epsilon_1 * l_OA across unless the crank turns steadily.
+        """
+        board, driver, crank = plan.board, self.driver, self.span
+        moves, pole, tip = vector(plan.symbol, crank.end), f"{plan.name}.p", mark(plan.name, crank.end)
+        if plan.symbol == "V":
+            board.calc(crank.omega, "signed", driver.speed, driver.sense)
+            board.calc(moves.size, "circular_speed", crank.omega, crank.length)
+            board.pole(pole)
+            board.lay(tip, pole, crank.n, moves.size)
+        else:
+            normal = mark(plan.name, crank.end, NORMAL) if driver.acceleration else tip
+            board.calc(moves.size, "centripetal", crank.omega, crank.length)
+            board.pole(pole)
+            board.back(normal, pole, crank.e, moves.size)
+            if driver.acceleration:
+                across = vector("a", crank.end, part="t")
+                board.calc(crank.epsilon, "signed", driver.acceleration, driver.sense)
+                board.calc(across.size, "circular_acceleration", crank.epsilon, crank.length)
+                board.lay(tip, normal, crank.n, across.size)
+                board.read(vector("a", crank.end, part="n"), pole, normal)
+                board.read(across, normal, tip)
+        plan.read(crank.end)
+        crank.mark_others(plan)
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Balance the crank by the moments about its pivot; R_01 closes the plan of its loads.
 
-        `loads` are (force, point) by link, on the crank: reactions of the groups attached to it, inertia force and
-        loads. M_bal is a moment beside them; F_bal, at the crank pin along the normal to the crank, stands in the plan.
+        M_bal is a moment beside the loads; F_bal, at the crank pin along the normal to the crank, stands in the plan.
         """
-        link, crank = self.driver.link, self.span
-        plan, hung = spelled("forces", link), [force for force, _ in loads[link]]
+        link, crank, hung = self.driver.link, self.span, [*loads[self.driver.link]]
         if self.balance == F_BAL:
             moments = moments_about(board, loads[link], crank.start, always=True)
             board.calc(F_BAL, "closing_force", crank.length, *moments, *couples[link])
             board.calc(F_BAL.size, "along", F_BAL, crank.n)
             hung.append(F_BAL.size)
-        board.pole(f"{plan}.0")
-        board.read(self.mechanism.pair("R", FRAME, link), hang(board, plan, hung), f"{plan}.0")
+        plan = Polygon(board, link)
+        plan.read(self.mechanism.pair("R", FRAME, link), plan.hang(*hung), 0)
         if self.balance == M_BAL:
             moments = moments_about(board, loads[link], crank.start, always=True)
             board.calc(M_BAL, "closing_moment", *moments, *couples[link])
@@ -139,39 +136,29 @@ class SlidingBlock:
         board.lay(self.driver.point, start, u, self.driver.travel)
         self.slide.place(board)
 
-    def velocity(self, board: Board) -> None:
-        """v_P is given along the guide; the slider does not turn, and all its points move alike."""
-        self._move(board, "velocity", self.driver.speed)
-
-    def acceleration(self, board: Board) -> None:
-        """a_P is given along the guide, zero unless the slider speeds up."""
-        self._move(board, "acceleration", self.driver.acceleration or ZERO)
-
-    def _move(self, board: Board, plan: str, given: str) -> None:
-        moves = vector(SYMBOLS[plan], self.driver.point)
-        board.calc(moves.size, "given", given)
-        board.pole(f"{plan}.p")
-        board.lay(mark(plan, self.driver.point), f"{plan}.p", self.slide.u, moves.size)
-        board.read(moves, f"{plan}.p", mark(plan, self.driver.point))
-        self.slide.body.move_points(board, self.mechanism, plan)
+    def move(self, plan: Plan) -> None:
+        """v_P and a_P are given along the guide; the slider does not turn, and all its points move alike."""
+        driver, board, moves = self.driver, plan.board, vector(plan.symbol, self.driver.point)
+        board.calc(moves.size, "given", driver.speed if plan.symbol == "V" else driver.acceleration or ZERO)
+        board.pole(f"{plan.name}.p")
+        board.lay(mark(plan.name, driver.point), f"{plan.name}.p", self.slide.u, moves.size)
+        plan.read(driver.point)
+        self.body.move_points(plan)
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Balance the slider: through the ends of its loads the guide and the normal to it, F_bal along u, R_01 across.
 
         Moments about P give the arm of the guide's reaction.
         """
-        link, u = self.driver.link, self.slide.u
-        plan, hung = spelled("forces", link), [force for force, _ in loads[link]]
-        reaction, couple, arm = (self.mechanism.pair(kind, FRAME, link) for kind in ("R", "M", "h"))
-        board.pole(f"{plan}.0")
-        last, closing = hang(board, plan, hung), f"{plan}.{len(hung) + 1}"
-        board.meet(closing, last, u, f"{plan}.0", self.slide.e)
-        board.read(F_BAL.size, last, closing)
-        board.read(reaction, closing, f"{plan}.0")
+        link, u, reaction, couple = self.driver.link, self.slide.u, self.slide.outer("R"), self.slide.outer("M")
+        plan = Polygon(board, link)
+        last, closing = plan.hang(*loads[link]), plan.close(u, self.slide.e)
+        plan.read(F_BAL.size, last, closing)
+        plan.read(reaction, closing, 0)
         board.calc(F_BAL, "component", u, F_BAL.size)
         moments = moments_about(board, loads[link], self.driver.point)
         board.calc(couple, "closing_moment", ZERO, *moments, *couples[link])
-        board.step("arm", arm, couple, reaction)
+        board.step("arm", self.slide.outer("h"), couple, reaction)
 
     def on_lever(self, board: Board, moments: list[Name]) -> None:
         """Solve the moments of the lever for a force at P along the guide: on the turned plan its moment is -F * pp."""

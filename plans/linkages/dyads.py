@@ -23,7 +23,7 @@ from ..board import Board
 from ..names import Name, between, mark, rate, spelled, vector
 from .legs import AssurGroup, Hinged, Leg, Slide, coriolis, legs_of, normal_part, pin_offset, slider_body
 from .mechanism import ZERO, Mechanism, Prismatic
-from .parts import SYMBOLS, Bodies, Couples, Forces, Passed, answer, hang, moments_about, normal_of
+from .parts import Bodies, Couples, Forces, Passed, Plan, Polygon, answer, moments_about, normal_of
 from .structure import Group
 
 
@@ -41,22 +41,22 @@ class Pinned(AssurGroup):
         self.B = first.end
         self.branch = (group.inner[0] if group.kind == "RRR" else group.outer[1]).branch or "one"
 
-    def _move(self, board: Board, plan: str) -> None:
+    def move(self, plan: Plan) -> None:
         """Through a and c the normals to AB and CB: b. A slider has b4 and the parallel to its guide instead.
 
         Of accelerations from a' and c' the normal parts, the lines through their ends. The parallel to a guide runs
         through the pole when the guide stands, otherwise through the end of the acceleration of Coriolis.
         """
-        b, (first, second) = f"{plan}.{self.B}", self.legs
-        ends = [leg.begin(board, plan) for leg in self.legs]
-        board.meet(b, ends[0], first.n, ends[1], second.n)
+        first, second = self.legs
+        ends = [leg.begin(plan) for leg in self.legs]
+        plan.board.meet(f"{plan.name}.{self.B}", ends[0], first.n, ends[1], second.n)
         for leg, end in zip(self.legs, ends, strict=True):
-            leg.read(board, plan, end)
-        board.read(vector(SYMBOLS[plan], self.B), f"{plan}.p", b)
+            leg.read(plan, end)
+        plan.read(self.B)
         for leg in self.legs:
-            leg.move(board, plan)
+            leg.move(plan)
         for leg in self.legs:
-            leg.turn(board, plan)
+            leg.turn(plan)
 
 
 class RRR(Pinned):
@@ -77,26 +77,21 @@ class RRR(Pinned):
         The tangential parts follow from the moments of each link about B; the inner reaction is a chord of the plan.
         Where AB and CB are nearly parallel, moments of the whole group give a line that meets one of them better.
         """
-        plan, pair, (AB, CB) = spelled("forces", self.name), self.mechanism.pair, self.legs
-        (i, j), (m, k) = ((leg.before, leg.number) for leg in self.legs)
+        (AB, CB), (j, k) = self.legs, (leg.number for leg in self.legs)
         for leg in self.legs:
-            _tangential(board, leg, self.B, loads, couples)
+            _tangential(board, leg, loads, couples)
         part = self._across(board, loads, couples)
-        board.pole(f"{plan}.0")
-        board.lay(f"{plan}.1", f"{plan}.0", AB.n, pair("R", i, j, "t").size)
-        board.read(pair("R", i, j, "t"), f"{plan}.0", f"{plan}.1")
-        parted = hang(board, plan, [force for force, _ in loads[j]], 1)
-        chained = hang(board, plan, [force for force, _ in loads[k]], 1 + len(loads[j]))
-        last, closing, beside = (f"{plan}.{len(loads[j]) + len(loads[k]) + more}" for more in (2, 3, 4))
-        board.lay(last, chained, CB.n, pair("R", m, k, "t").size)
-        board.read(pair("R", m, k, "t"), chained, last)
-        self._close(board, (chained, last, closing, beside), part)
-        board.read(pair("R", i, j, "n"), closing, f"{plan}.0")
-        board.read(pair("R", i, j), closing, f"{plan}.1")
-        board.read(pair("R", m, k, "n"), last, closing)
-        board.read(pair("R", m, k), chained, closing)
-        board.read(pair("R", k, j), parted, closing)
-        answer(board, self.mechanism, "R", (i, j), (k, j), (m, k))
+        plan = Polygon(board, self.name)
+        plan.lay(AB.outer("R", "t"), AB.n)
+        parted, chained = plan.hang(*loads[j]), plan.hang(*loads[k])
+        last = plan.lay(CB.outer("R", "t"), CB.n)
+        closing = self._close(plan, chained, part)
+        plan.read(AB.outer("R", "n"), closing, 0)
+        plan.read(AB.outer("R"), closing, 1)
+        plan.read(CB.outer("R", "n"), last, closing)
+        plan.read(CB.outer("R"), chained, closing)
+        plan.read(self.mechanism.pair("R", k, j), parted, closing)
+        answer(board, self.mechanism, "R", (AB.before, j), (k, j), (CB.before, k))
 
     def _across(self, board: Board, loads: Forces, couples: Couples) -> Name | None:
         """Find, where it is wanted, the part of a reaction normal to CA from moments of the group about A or C."""
@@ -110,37 +105,39 @@ class RRR(Pinned):
         board.normal(n, e)
         numbers = [leg.number for leg in self.legs]
         moments = [m for n in numbers for m in moments_about(board, loads[n], centre, centre)]
-        part = self.mechanism.pair("R", leg.before, leg.number, "m")
+        part = leg.outer("R", "m")
         board.calc(part.size, "moment_equation", length, *moments, *(c for n in numbers for c in couples[n]))
         return part
 
-    def _close(self, board: Board, marks: tuple[str, str, str, str], part: Name | None) -> None:
+    def _close(self, plan: Polygon, chained: int, part: Name | None) -> int:
         """Mark where two lines close the chain: the parallels to AB and CB, or one of them and that to CA.
 
-        `marks` are the ends of the chained loads, of the whole chain, the closing point, and one beside it.
+        `chained` is the mark at the end of the loads. The part turns about the centre in the sense in which it points
+        along the normal; it is laid off at the loads.
         """
-        (AB, CB), (chained, last, closing, beside), plan = self.legs, marks, spelled("forces", self.name)
-        e, n = spelled("e", self.name), spelled("n", self.name)
+        (AB, CB), board, closing = self.legs, plan.board, plan.last + 1
         if part is None:
-            board.meet(closing, last, CB.e, f"{plan}.0", AB.e)
-        # the part turns about the centre in the sense in which it points along the normal; it is laid off at the loads
-        elif dict(self.mechanism.centres)[self.name] == CB.start:
-            board.lay(beside, f"{plan}.1", n, part.size)
-            board.read(part, beside, f"{plan}.1")
-            board.meet(closing, beside, e, f"{plan}.0", AB.e)
+            return plan.close(CB.e, AB.e)
+        e, n = spelled("e", self.name), spelled("n", self.name)
+        start, last, end, beside = (f"{plan.plan}.{mark}" for mark in (0, plan.last, closing, closing + 1))
+        if dict(self.mechanism.centres)[self.name] == CB.start:
+            board.lay(beside, f"{plan.plan}.1", n, part.size)
+            plan.read(part, closing + 1, 1)
+            board.meet(end, beside, e, start, AB.e)
         else:
-            board.back(beside, chained, n, part.size)
-            board.read(part, chained, beside)
-            board.meet(closing, last, CB.e, beside, e)
+            board.back(beside, f"{plan.plan}.{chained}", n, part.size)
+            plan.read(part, chained, closing + 1)
+            board.meet(end, last, CB.e, beside, e)
+        return closing
 
 
-def _tangential(board: Board, leg: Hinged, B: str, loads: Forces, couples: Couples) -> None:
+def _tangential(board: Board, leg: Hinged, loads: Forces, couples: Couples) -> None:
     """Find the tangential part of an outer reaction from the moments of its link about B.
 
     It stands on the arm of the link and turns about B against the sense in which it points along the normal.
     """
-    moments, part = moments_about(board, loads[leg.number], B), leg.mechanism.pair("R", leg.before, leg.number, "t")
-    board.calc(part.size, "moment_equation", leg.length, *moments, *couples[leg.number])
+    moments = moments_about(board, loads[leg.number], leg.end)
+    board.calc(leg.outer("R", "t").size, "moment_equation", leg.length, *moments, *couples[leg.number])
 
 
 class RRP(Pinned):
@@ -165,30 +162,24 @@ class RRP(Pinned):
         """
         (rod, slide), pair = self.legs, self.mechanism.pair
         (i, j), (m, k) = ((leg.before, leg.number) for leg in self.legs)
-        _tangential(board, rod, self.B, loads, couples)
+        _tangential(board, rod, loads, couples)
 
-        plan = spelled("forces", self.name)
-        hung = [force for force, _ in (*loads[k], *loads[j])]
-        board.pole(f"{plan}.0")
-        board.lay(f"{plan}.1", f"{plan}.0", rod.n, pair("R", i, j, "t").size)
-        board.read(pair("R", i, j, "t"), f"{plan}.0", f"{plan}.1")
-        last, closing = hang(board, plan, hung, 1), f"{plan}.{len(hung) + 2}"
-        board.meet(closing, last, slide.e, f"{plan}.0", rod.e)
-        board.read(pair("R", m, k), last, closing)
-        board.read(pair("R", i, j, "n"), closing, f"{plan}.0")
-        board.read(pair("R", i, j), closing, f"{plan}.1")
+        plan = Polygon(board, self.name)
+        plan.lay(rod.outer("R", "t"), rod.n)
+        last, closing = plan.hang(*loads[k], *loads[j]), plan.close(slide.e, rod.e)
+        plan.read(slide.outer("R"), last, closing)
+        plan.read(rod.outer("R", "n"), closing, 0)
+        plan.read(rod.outer("R"), closing, 1)
 
-        own = spelled("forces", j)
-        board.pole(f"{own}.0")
-        board.chain(f"{own}.1", f"{own}.0", pair("R", i, j))
-        board.read(pair("R", k, j), hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.0")
+        own = Polygon(board, j)
+        own.read(pair("R", k, j), own.hang(rod.outer("R"), *loads[j]), 0)
         answer(board, self.mechanism, "R", (i, j), (k, j), (m, k))
 
         # the guide's reaction stands where it balances the moments of the slider's loads about B
         own_moment = spelled("M", k, links=(k,)).size
         board.calc(own_moment, "sum", ZERO, *moments_about(board, loads[k], self.B), *couples[k])
-        board.calc(pair("M", m, k), "opposite", own_moment)
-        board.step("arm", pair("h", m, k), pair("M", m, k), pair("R", m, k))
+        board.calc(slide.outer("M"), "opposite", own_moment)
+        board.step("arm", slide.outer("h"), slide.outer("M"), slide.outer("R"))
         answer(board, self.mechanism, "M", (m, k))
 
 
@@ -209,22 +200,19 @@ class PRP(Pinned):
 
         The inner reaction is a chord of the plan; the moments of each link about B give the arms of the outer ones.
         """
-        (first, second), plan, pair = self.legs, spelled("forces", self.name), self.mechanism.pair
-        (i, j), (m, k) = ((leg.before, leg.number) for leg in self.legs)
-        board.pole(f"{plan}.0")
-        parted = hang(board, plan, [force for force, _ in loads[j]])
-        last = hang(board, plan, [force for force, _ in loads[k]], len(loads[j]))
-        closing = f"{plan}.{len(loads[j]) + len(loads[k]) + 1}"
-        board.meet(closing, last, second.e, f"{plan}.0", first.e)
-        board.read(pair("R", i, j), closing, f"{plan}.0")
-        board.read(pair("R", m, k), last, closing)
-        board.read(pair("R", k, j), parted, closing)
-        answer(board, self.mechanism, "R", (i, j), (k, j), (m, k))
-        for other, own in ((i, j), (m, k)):
-            moments = moments_about(board, loads[own], self.B)
-            board.calc(pair("M", other, own), "closing_moment", ZERO, *moments, *couples[own])
-            answer(board, self.mechanism, "M", (other, own))
-            board.step("arm", pair("h", other, own), pair("M", other, own), pair("R", other, own))
+        (first, second), (j, k) = self.legs, (leg.number for leg in self.legs)
+        plan = Polygon(board, self.name)
+        parted, last = plan.hang(*loads[j]), plan.hang(*loads[k])
+        closing = plan.close(second.e, first.e)
+        plan.read(first.outer("R"), closing, 0)
+        plan.read(second.outer("R"), last, closing)
+        plan.read(self.mechanism.pair("R", k, j), parted, closing)
+        answer(board, self.mechanism, "R", (first.before, j), (k, j), (second.before, k))
+        for leg in self.legs:
+            moments = moments_about(board, loads[leg.number], self.B)
+            board.calc(leg.outer("M"), "closing_moment", ZERO, *moments, *couples[leg.number])
+            answer(board, self.mechanism, "M", (leg.before, leg.number))
+            board.step("arm", leg.outer("h"), leg.outer("M"), leg.outer("R"))
 
 
 class RPR(AssurGroup):
@@ -264,26 +252,26 @@ class RPR(AssurGroup):
         guide.place_points(board)
         slider.place_points(board)
 
-    def _move(self, board: Board, plan: str) -> None:
+    def move(self, plan: Plan) -> None:
         """Through c the normal to CA (not to u), through a the parallel to u: a3. Other points turn about the pins.
 
         Of accelerations from c' the normal part, from a' that of Coriolis, the lines through their ends.
         """
-        c, a = (self.mechanism.mark(plan, pin) for pin in (self.C, self.A))
-        a3, (length, e, n), (slider, guide), number = mark(plan, self.under), self.CA, self.bodies, self.guide.number
-        symbol, across, along, turning = "V", "", "", rate("omega", number)
-        if plan == "acceleration":
-            symbol, across, along, turning = "a", "t", "r", rate("epsilon", number)
-            c = normal_part(board, (self.under, self.C), self.C, c, (e, length))
-            a = coriolis(board, rate("omega", number), self.under, self.own, a)
+        board, symbol, under, (length, e, n) = plan.board, plan.symbol, self.under, self.CA
+        c, a, a3, (slider, guide) = plan.mark(self.C), plan.mark(self.A), mark(plan.name, under), self.bodies
+        across, along, turning = "", "", rate("omega", self.guide.number)
+        if symbol == "a":
+            c = normal_part(board, (under, self.C), self.C, c, (e, length))
+            a = coriolis(board, turning, under, self.own, a)
+            across, along, turning = "t", "r", rate("epsilon", self.guide.number)
         board.meet(a3, c, n, a, self.u)
-        board.read(vector(symbol, self.under, self.C, across), c, a3)
-        board.read(vector(symbol, self.under, self.own, along), a, a3)
-        board.read(vector(symbol, self.under), f"{plan}.p", a3)
-        board.calc(turning, "turning", vector(symbol, self.under, self.C, across), n, length)
-        slider.turn_with(board, guide, plan)
-        guide.move_points(board, self.mechanism, plan)
-        slider.move_points(board, self.mechanism, plan)
+        board.read(vector(symbol, under, self.C, across), c, a3)
+        board.read(vector(symbol, under, self.own, along), a, a3)
+        plan.read(under)
+        board.calc(turning, "turning", vector(symbol, under, self.C, across), n, length)
+        slider.turn_with(plan, guide)
+        guide.move_points(plan)
+        slider.move_points(plan)
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Force plans of the slider and of the group.
@@ -297,19 +285,15 @@ class RPR(AssurGroup):
         # R^t stands at A and turns about C in the sense in which it points along the normal: it is laid off backwards
         board.calc(pair("R", i, j, "t").size, "moment_equation", length, *moments, *couples[j], *couples[k])
 
-        own, plan = spelled("forces", j), spelled("forces", self.name)
-        board.pole(f"{own}.0")
-        board.back(f"{own}.1", f"{own}.0", n, pair("R", i, j, "t").size)
-        board.read(pair("R", i, j, "t"), f"{own}.0", f"{own}.1")
-        last, closing = hang(board, own, [force for force, _ in loads[j]], 1), f"{own}.{len(loads[j]) + 2}"
-        board.meet(closing, last, normal_of(self.u), f"{own}.0", e)
-        board.read(pair("R", k, j), last, closing)
-        board.read(pair("R", i, j, "n"), closing, f"{own}.0")
-        board.read(pair("R", i, j), closing, f"{own}.1")
+        own = Polygon(board, j)
+        own.lay(pair("R", i, j, "t"), n, -1)
+        last, closing = own.hang(*loads[j]), own.close(normal_of(self.u), e)
+        own.read(pair("R", k, j), last, closing)
+        own.read(pair("R", i, j, "n"), closing, 0)
+        own.read(pair("R", i, j), closing, 1)
 
-        board.pole(f"{plan}.0")
-        hung = [pair("R", i, j), *(force for link in (j, k) for force, _ in loads[link])]
-        board.read(pair("R", m, k), hang(board, plan, hung), f"{plan}.0")
+        plan = Polygon(board, self.name)
+        plan.read(pair("R", m, k), plan.hang(pair("R", i, j), *loads[j], *loads[k]), 0)
         answer(board, self.mechanism, "R", (i, j), (k, j), (m, k))
 
         # the guide's reaction stands where it balances the moments of the slider's loads about A
@@ -364,29 +348,28 @@ class RPP(AssurGroup):
         self.outer.place(board)
         self.inner.place(board)
 
-    def _move(self, board: Board, plan: str) -> None:
+    def move(self, plan: Plan) -> None:
         """Through a2 the parallel to u23, through a4 (p when the guide stands) the parallel to u34: a3.
 
         Of accelerations from a2' and a4' those of Coriolis, the parallels through their ends.
         """
-        start, omega = self.mechanism.mark(plan, self.A), self.outer.body.omega
-        if plan == "acceleration" and omega:
-            start = coriolis(board, omega, self.under, self.inner.own, start)
-        a3, symbol, part = mark(plan, self.under), SYMBOLS[plan], "" if plan == "velocity" else "r"
-        beneath, (first, second) = self.beneath, self.bodies
-        end = beneath.begin(board, plan)
+        board, symbol, under, part = plan.board, plan.symbol, self.under, "" if plan.symbol == "V" else "r"
+        start, omega, beneath, (first, second) = plan.mark(self.A), self.outer.body.omega, self.beneath, self.bodies
+        if symbol == "a" and omega:
+            start = coriolis(board, omega, under, self.inner.own, start)
+        a3, end = mark(plan.name, under), beneath.begin(plan)
         board.meet(a3, start, self.inner.u, end, self.outer.u)
-        board.read(vector(symbol, self.under, self.inner.own, part), start, a3)
+        board.read(vector(symbol, under, self.inner.own, part), start, a3)
         if beneath.known is not None:
-            board.read(vector(symbol, self.under, beneath.under, part), end, a3)
-        board.read(vector(symbol, self.under), f"{plan}.p", a3)
+            board.read(vector(symbol, under, beneath.under, part), end, a3)
+        plan.read(under)
         # both links turn like the last one; points of link 3 turn about A3, then about Q, those of link 2 about A
         if self.outer.known is not None:
-            second.turn_with(board, self.outer.known, plan)
-            first.turn_with(board, second, plan)
-        replace(second, pin=self.under).carry(board, self.mechanism, plan, self.Q, self.Q, self.A)
-        second.move_points(board, self.mechanism, plan)
-        first.move_points(board, self.mechanism, plan)
+            second.turn_with(plan, self.outer.known)
+            first.turn_with(plan, second)
+        replace(second, pin=under).carry(plan, self.Q, self.Q, self.A)
+        second.move_points(plan)
+        first.move_points(plan)
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
         """Force plans of link 3 and of link 2.
@@ -395,16 +378,14 @@ class RPP(AssurGroup):
         Moments about A give the arms of the reactions of the guides, of link 2 first.
         """
         i, j, k, m = self.before, self.inner.number, self.outer.number, self.outer.before
-        plan, own, pair = spelled("forces", k), spelled("forces", j), self.mechanism.pair
-        board.pole(f"{plan}.0")
-        last, closing = hang(board, plan, [force for force, _ in loads[k]]), f"{plan}.{len(loads[k]) + 1}"
-        board.meet(closing, last, self.outer.e, f"{plan}.0", self.inner.e)
-        board.read(pair("R", j, k), closing, f"{plan}.0")
-        board.read(pair("R", m, k), last, closing)
+        pair, plan = self.mechanism.pair, Polygon(board, k)
+        last, closing = plan.hang(*loads[k]), plan.close(self.outer.e, self.inner.e)
+        plan.read(pair("R", j, k), closing, 0)
+        plan.read(pair("R", m, k), last, closing)
         answer(board, self.mechanism, "R", (j, k))
 
-        board.pole(f"{own}.0")
-        board.read(pair("R", i, j), hang(board, own, [pair("R", k, j), *(force for force, _ in loads[j])]), f"{own}.0")
+        own = Polygon(board, j)
+        own.read(pair("R", i, j), own.hang(pair("R", k, j), *loads[j]), 0)
         answer(board, self.mechanism, "R", (i, j), (m, k))
 
         board.calc(pair("M", k, j), "closing_moment", ZERO, *moments_about(board, loads[j], self.A), *couples[j])
@@ -412,5 +393,5 @@ class RPP(AssurGroup):
         moments = moments_about(board, loads[k], self.A)
         board.calc(pair("M", m, k), "closing_moment", pair("M", j, k), *moments, *couples[k])
         answer(board, self.mechanism, "M", (m, k))
-        board.step("arm", pair("h", k, j), pair("M", k, j), pair("R", k, j))
-        board.step("arm", pair("h", m, k), pair("M", m, k), pair("R", m, k))
+        for other, link in ((k, j), (m, k)):
+            board.step("arm", pair("h", other, link), pair("M", other, link), pair("R", other, link))

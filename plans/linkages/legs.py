@@ -11,13 +11,13 @@ the guide.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 from ...scales.errors import InputError
 from ..board import Board, Program
 from ..names import CORIOLIS, NORMAL, ORIGIN, Name, mark, rate, role, vector
 from .mechanism import FRAME, ZERO, Link, Mechanism, Prismatic
-from .parts import SYMBOLS, Bodies, Body, Couples, Forces, Passed, Span, lay_off, local_mark, normal_of
+from .parts import Bodies, Body, Couples, Forces, Passed, Plan, Span, lay_off, local_mark, normal_of
 from .structure import TRIAD, Group
 
 AXES = "xyzuvw"
@@ -39,7 +39,19 @@ def guide_letters(program: Program) -> Mapping[str, str]:
     return letters
 
 
-class Hinged(Span):
+class _Held:
+    """A link that the link `before` holds by a pair."""
+
+    mechanism: Mechanism
+    number: int
+    before: int
+
+    def outer(self, kind: str, part: str = "") -> Name:
+        """Return the outer reaction, of the link before on it, its moment or its arm."""
+        return self.mechanism.pair(kind, self.before, self.number, part)
+
+
+class Hinged(_Held, Span):
     """A leg with two revolute pairs: `start` is its joint with the link `before`, `end` the joint that it holds."""
 
     def __init__(self, mechanism: Mechanism, link: Link, joints: tuple[str, str], before: int) -> None:
@@ -58,34 +70,29 @@ class Hinged(Span):
         """Letters of a point's motion about the start: B and A, or B alone about a pivot of the frame."""
         return point, "" if self.absolute else self.start
 
-    def begin(self, board: Board, plan: str) -> str:
+    def begin(self, plan: Plan) -> str:
         """Lay off what is known of the joint's motion: for the acceleration the normal part; return the end."""
-        start = self.mechanism.mark(plan, self.start)
-        if plan == "velocity":
+        start = plan.mark(self.start)
+        if plan.symbol == "V":
             return start
-        return normal_part(board, self.about(self.end), self.start, start, (self.e, self.length))
+        return normal_part(plan.board, self.about(self.end), self.start, start, (self.e, self.length))
 
-    def read(self, board: Board, plan: str, end: str) -> None:
+    def read(self, plan: Plan, end: str) -> None:
         """Read the motion of the joint relative to the start, when the joint is found."""
-        about, joint = self.about(self.end), f"{plan}.{self.end}"
-        if plan == "acceleration":
-            board.read(vector("a", *about, "t"), end, joint)
-        board.read(vector(SYMBOLS[plan], *about), self.mechanism.mark(plan, self.start), joint)
+        about, joint = self.about(self.end), f"{plan.name}.{self.end}"
+        if plan.symbol == "a":
+            plan.board.read(vector("a", *about, "t"), end, joint)
+        plan.board.read(vector(plan.symbol, *about), plan.mark(self.start), joint)
 
-    def move(self, board: Board, plan: str) -> None:
-        """Mark its other points by similarity."""
-        self.mark_others(board, self.mechanism, plan)
+    move = Span.mark_others  # by similarity
 
-    def turn(self, board: Board, plan: str) -> None:
+    def turn(self, plan: Plan) -> None:
         """Calculate omega or epsilon from the motion of the joint about the start."""
-        about = self.about(self.end)
-        if plan == "velocity":
-            board.calc(self.omega, "turning", vector("V", *about), self.n, self.length)
-        else:
-            board.calc(self.epsilon, "turning", vector("a", *about, "t"), self.n, self.length)
+        rate, part = (self.omega, "") if plan.symbol == "V" else (self.epsilon, "t")
+        plan.board.calc(rate, "turning", vector(plan.symbol, *self.about(self.end), part), self.n, self.length)
 
 
-class Slide:
+class Slide(_Held):
     """Link `link` slides on `known` (None: the frame) along the direction `u`; `pin` is the point that runs.
 
     The reaction of the guide is moved to the pin, with a couple.
@@ -113,16 +120,12 @@ class Slide:
         reaction, couple = (mechanism.pair(kind, number, self.before) for kind in ("R", "M"))
         self.passed = Passed(reaction, self.before, pin, couple)
 
-    @property
+    @cached_property
     def body(self) -> Body:
-        """Return the sliding link for those attached to it: it turns like the known one."""
+        """The sliding link for those attached to it: it turns like the known one."""
         omega = rate("omega", self.number) if self.known and self.known.omega else None
         epsilon = rate("epsilon", self.number) if self.known and self.known.epsilon else None
         return slider_body(self.link, self.pin, self.u, self.slope, (omega, epsilon))
-
-    def mark(self, plan: str) -> str:
-        """Return the mark of the known link's point under the pin."""
-        return f"{plan}.p" if self.known is None else mark(plan, self.under)
 
     def lay_guide(self, board: Board) -> None:
         """Lay down the guide's direction: given on the frame, on a moving link at an angle to the link's own."""
@@ -172,27 +175,29 @@ class Slide:
         """Letters of a point's motion about the guide: B and B4, or B alone when the guide stands."""
         return point, "" if self.known is None else self.under
 
-    def begin(self, board: Board, plan: str) -> str:
+    def begin(self, plan: Plan) -> str:
         """Mark the known link's point under the pin, and hang on it the acceleration of Coriolis; return the end."""
-        if self.known is not None:
-            self.known.carry(board, self.mechanism, plan, self.under, self.pin)
-            if plan == "acceleration" and self.known.omega is not None:
-                return coriolis(board, self.known.omega, self.own, self.under, self.mark(plan))
-        return self.mark(plan)
+        if self.known is None:
+            return f"{plan.name}.p"
+        self.known.carry(plan, self.under, self.pin)
+        start = mark(plan.name, self.under)
+        if plan.symbol == "a" and self.known.omega is not None:
+            return coriolis(plan.board, self.known.omega, self.own, self.under, start)
+        return start
 
-    def read(self, board: Board, plan: str, end: str) -> None:
+    def read(self, plan: Plan, end: str) -> None:
         """Read the sliding, when the pin is found."""
         if self.known is not None:
-            part = "" if plan == "velocity" else "r"
-            board.read(vector(SYMBOLS[plan], self.own, self.under, part), end, f"{plan}.{self.pin}")
+            part = "" if plan.symbol == "V" else "r"
+            plan.board.read(vector(plan.symbol, self.own, self.under, part), end, f"{plan.name}.{self.pin}")
 
-    def move(self, board: Board, plan: str) -> None:
+    def move(self, plan: Plan) -> None:
         """Mark the other points of the slider, which turns like the guide."""
         if self.known is not None:
-            self.body.turn_with(board, self.known, plan)
-        self.body.move_points(board, self.mechanism, plan)
+            self.body.turn_with(plan, self.known)
+        self.body.move_points(plan)
 
-    def turn(self, board: Board, plan: str) -> None:
+    def turn(self, plan: Plan) -> None:
         """Do nothing: it turns like the guide."""
 
 
@@ -213,11 +218,7 @@ def legs_of(mechanism: Mechanism, group: Group, bodies: Bodies) -> list[Leg]:
 
 
 class AssurGroup:
-    """A group with the names that its constructions use.
-
-    A kind of group has `position`, `velocity` and `acceleration`, which take a board and mark its points there, and
-    `forces`.
-    """
+    """A group with the names that its constructions use, and the constructions: each kind has its own."""
 
     bodies: tuple[Body, ...]  # its links for those attached to them
     passed: tuple[Passed, ...]  # reactions on the links before
@@ -227,19 +228,16 @@ class AssurGroup:
         self.spans: tuple[Span, ...] = tuple(leg for leg in legs if isinstance(leg, Span))  # links with two joints
         self.bodies, self.passed = tuple(leg.body for leg in legs), tuple(leg.passed for leg in legs)
 
-    def velocity(self, board: Board) -> None:
-        """Draw its plan of velocities."""
-        self._move(board, "velocity")
+    def position(self, board: Board) -> None:
+        """Mark its points in the plan of the mechanism."""
+        raise NotImplementedError
 
-    def acceleration(self, board: Board) -> None:
-        """Draw its plan of accelerations."""
-        self._move(board, "acceleration")
-
-    def _move(self, board: Board, plan: str) -> None:
+    def move(self, plan: Plan) -> None:
+        """Draw its plan of velocities or accelerations."""
         raise NotImplementedError
 
     def forces(self, board: Board, loads: Forces, couples: Couples) -> None:
-        """Draw its plans of forces; `loads` are (force, point) and `couples` moments, by link."""
+        """Draw its plans of forces, with the loads and the couples of its links."""
         raise NotImplementedError
 
 

@@ -90,11 +90,11 @@ def lay_loads(board: Board, moving: Moving) -> None:
 
 
 def hung(mechanism: Mechanism, bodies: Bodies) -> tuple[Forces, Couples]:
-    """Return forces (name, point) and couples by link: inertia first, weight, then outer loads; couples as one sum."""
+    """Return forces and couples by link: inertia first, weight, then outer loads; couples as one sum."""
     forces: Forces = {}
     for link in mechanism.links:
-        forces[link.number] = [(name, str(link.centre)) for name, _, _ in _of_mass(mechanism, link)]
-        forces[link.number] += [(load.name, load.point) for load in mechanism.loads_on(link.number)]
+        forces[link.number] = {name: str(link.centre) for name, _, _ in _of_mass(mechanism, link)}
+        forces[link.number] |= {load.name: load.point for load in mechanism.loads if load.link == link.number}
     couples = _couples(mechanism, bodies)
     for name, parts in _sums(couples).items():
         couples[next(number for number in couples if couples[number] == parts)] = [name]

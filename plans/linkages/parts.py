@@ -6,16 +6,32 @@ joint. A straight link whose points stand on one axis from the first joint needs
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ..board import Board
 from ..names import NORMAL, Name, arm, between, mark, moment, rate, role, spelled, vector
 from .mechanism import FRAME, ZERO, Link, Mechanism, positive
 
 SYMBOLS = {"velocity": "V", "acceleration": "a"}
-Forces = dict[int, list[tuple[str, str]]]
+Forces = dict[int, dict[str, str]]  # by link its forces, each with the point at which it acts
 Couples = dict[int, list[str]]
+
+
+class Plan:
+    """A plan of velocities or accelerations that is being drawn: its board, its name, the symbol of its vectors."""
+
+    def __init__(self, board: Board, mechanism: Mechanism, name: str) -> None:
+        self.board, self.mechanism, self.name, self.symbol = board, mechanism, name, SYMBOLS[name]
+
+    def mark(self, point: str) -> str:
+        """Return the mark of a point; points of the frame are at the pole."""
+        return self.mechanism.mark(self.name, point)
+
+    def read(self, point: str) -> None:
+        """Read the absolute motion of a point that is marked."""
+        self.board.read(vector(self.symbol, point), f"{self.name}.p", f"{self.name}.{point}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,11 +50,11 @@ class Body:
     omega: str | None
     epsilon: str | None
 
-    def turn_with(self, board: Board, other: Body, plan: str) -> None:
+    def turn_with(self, plan: Plan, other: Body) -> None:
         """Note that the link turns like the one on which it slides."""
-        rates = (self.omega, other.omega) if plan == "velocity" else (self.epsilon, other.epsilon)
-        if rates[0] and rates[1]:
-            board.calc(rates[0], "same_turning", rates[1])
+        own, known = (self.omega, other.omega) if plan.symbol == "V" else (self.epsilon, other.epsilon)
+        if own and known:
+            plan.board.calc(own, "same_turning", known)
 
     def settle(self, board: Board, direction: str = ZERO) -> None:
         """Lay down the link's own direction on a drawing of the link: at the angle `direction` to its x axis."""
@@ -63,29 +79,27 @@ class Body:
             if point != self.pin:
                 lay_off(board, point, self.pin, self.direction, *self.coordinates(board, point, *place))
 
-    def move_points(self, board: Board, mechanism: Mechanism, plan: str) -> None:
+    def move_points(self, plan: Plan) -> None:
         """Mark the other points of a link with one joint on a plan."""
         for point in self.link.points:
             if point != self.pin:
-                self.carry(board, mechanism, plan, point, point)
+                self.carry(plan, point, point)
 
-    def carry(
-        self, board: Board, mechanism: Mechanism, plan: str, letter: str, at: str, pin_at: str | None = None
-    ) -> None:
+    def carry(self, plan: Plan, letter: str, at: str, pin_at: str | None = None) -> None:
         """Mark on a plan the point `letter` of a link that now stands at the mark `at`: it turns about the link's pin.
 
         `pin_at` is the mark at which the pin stands if it has another letter.
         """
-        tip, start = mark(plan, letter), mechanism.mark(plan, self.pin)
+        board, tip, start = plan.board, mark(plan.name, letter), plan.mark(self.pin)
         if self.omega is None:
             board.same(tip, start)
         else:
             radius = f"_r_{letter}_{self.pin}"
-            if plan == "velocity":
+            if plan.symbol == "V":
                 board.read(radius, pin_at or self.pin, at)
-            parts = [("transport_speed", self.omega, vector("V", letter, self.pin), tip)]
-            if plan == "acceleration":
-                normal = tip if self.epsilon is None else mark(plan, letter, NORMAL, self.pin)
+                parts = [("transport_speed", self.omega, vector("V", letter, self.pin), tip)]
+            else:
+                normal = tip if self.epsilon is None else mark(plan.name, letter, NORMAL, self.pin)
                 parts = [("transport_normal", self.omega, vector("a", letter, self.pin, "n"), normal)]
                 if self.epsilon is not None:
                     parts.append(("transport_tangential", self.epsilon, vector("a", letter, self.pin, "t"), tip))
@@ -93,14 +107,13 @@ class Body:
                 board.calc(part, law, turning, radius)
                 board.chain(end, start, part)
                 start = end
-        board.read(vector(SYMBOLS[plan], letter), f"{plan}.p", tip)
+        plan.read(letter)
 
 
 Bodies = Mapping[int, Body]
 
 
-@dataclass(frozen=True, slots=True)
-class Passed:
+class Passed(NamedTuple):
     """A reaction handed on to the link before: force, link, point where it acts, and a couple beside it."""
 
     force: str
@@ -156,12 +169,12 @@ class Span:
         for point in self.others:
             self._third(board, point, point, self.start, self.end)
 
-    def mark_others(self, board: Board, mechanism: Mechanism, plan: str) -> None:
+    def mark_others(self, plan: Plan) -> None:
         """Mark the other points of a link on a plan: its figure there is similar to the link."""
-        start, end = (mechanism.mark(plan, point) for point in (self.start, self.end))
+        start, end = plan.mark(self.start), plan.mark(self.end)
         for point in self.others:
-            self._third(board, point, f"{plan}.{point}", start, end)
-            board.read(vector(SYMBOLS[plan], point), f"{plan}.p", f"{plan}.{point}")
+            self._third(plan.board, point, f"{plan.name}.{point}", start, end)
+            plan.read(point)
 
     def _third(self, board: Board, point: str, mark: str, start: str, end: str) -> None:
         if self.straight:
@@ -197,14 +210,14 @@ def lay_off(board: Board, name: str, start: str, direction: str, along: str, acr
 
 
 def moments_about(
-    board: Board, loads: Iterable[tuple[str, str]], about: str, beside: str = "", always: bool = False
+    board: Board, loads: Mapping[str, str], about: str, beside: str = "", always: bool = False
 ) -> list[Name]:
     """Take the moments of the loads on a link about a point; those that stand there have none, `always` names them too.
 
     The arms are called by their forces, and by the point `beside` where that is said.
     """
     moments = []
-    for force, at in loads:
+    for force, at in loads.items():
         if at != about or always:
             moments.append(moment(force, about))
             board.moment(moments[-1], arm(force, beside), force, at, about)
@@ -218,9 +231,34 @@ def answer(board: Board, mechanism: Mechanism, symbol: str, *on_by: tuple[int, i
             board.calc(mechanism.pair(symbol, by, on), "opposite", mechanism.pair(symbol, on, by))
 
 
-def hang(board: Board, plan: str, forces: Iterable[str], first: int = 0) -> str:
-    """Hang forces on one another from mark number `first` of a force plan; return the last mark."""
-    for number, force in enumerate(forces, start=first):
-        board.chain(f"{plan}.{number + 1}", f"{plan}.{number}", force)
-        first = number + 1
-    return f"{plan}.{first}"
+class Polygon:
+    """A plan of forces, which hang on one another from mark 0 on; its marks go by their numbers."""
+
+    def __init__(self, board: Board, of: str | int) -> None:
+        self.board, self.plan, self.last = board, spelled("forces", of), 0
+        board.pole(f"{self.plan}.0")
+
+    def hang(self, *forces: str) -> int:
+        """Hang forces on the last mark, tip to tail; return the mark at the end."""
+        for force in forces:
+            self.board.chain(f"{self.plan}.{self.last + 1}", f"{self.plan}.{self.last}", force)
+            self.last += 1
+        return self.last
+
+    def lay(self, part: Name, along: str, sense: int = 1) -> int:
+        """Lay off a part of a reaction, of known size, along a direction or (-1) against it; return the mark made."""
+        lay, start = self.board.lay if sense > 0 else self.board.back, self.last
+        self.last += 1
+        lay(f"{self.plan}.{self.last}", f"{self.plan}.{start}", along, part.size)
+        self.read(part, start, self.last)
+        return self.last
+
+    def close(self, along: str, other: str) -> int:
+        """Mark where the line through the last mark meets the other one, through mark 0."""
+        self.board.meet(f"{self.plan}.{self.last + 1}", f"{self.plan}.{self.last}", along, f"{self.plan}.0", other)
+        self.last += 1
+        return self.last
+
+    def read(self, force: str, tail: int, tip: int) -> None:
+        """Read a force from one mark to another."""
+        self.board.read(force, f"{self.plan}.{tail}", f"{self.plan}.{tip}")

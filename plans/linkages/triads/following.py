@@ -397,7 +397,7 @@ def _sines(
     """
     unnamed = {start.link for start in mechanism.starts if start.legs is None}
     free, board = mechanism.without_loads, RecordingBoard()
-    groups = named(free, analyse(free))[0] if unnamed else ()
+    groups = named(free, analyse(free))[1] if unnamed else ()
     triads = [group for group in groups if isinstance(group, Triad) and group.central.number in unnamed]
     by_triad = {triad.central.number: dict(_pairs(board, triad)) for triad in triads}
     if not by_triad:

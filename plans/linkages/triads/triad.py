@@ -16,12 +16,14 @@ Source: Artobolevsky, Theory of mechanisms and machines (groups of class III, sp
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from ....scales.errors import InputError
 from ...board import Board
-from ...names import NORMAL, POINT, Name, arm, between, mark, moment, spelled, vector
+from ...names import NORMAL, POINT, Name, arm, between, mark, moment, vector
 from ..legs import AssurGroup, Hinged, Leg, Slide, legs_of, normal_part
 from ..mechanism import ZERO, Mechanism, Revolute, start_names
-from ..parts import SYMBOLS, Bodies, Couples, Forces, Span, answer, hang, local_mark, moments_about
+from ..parts import Bodies, Couples, Forces, Plan, Polygon, Span, answer, local_mark, moments_about
 from ..structure import Group, listed
 
 
@@ -77,22 +79,45 @@ class Triad(AssurGroup):
         for leg in self.by_number:
             leg.place(board)
 
-    def velocity(self, board: Board) -> None:
-        """Through a and e the normals to AB and EC: x. Through x the normal to XD, through f that to FD: d."""
-        first, second, third = self.legs
-        starts = [leg.begin(board, "velocity") for leg in self.legs]
-        self._place_special_point(board)
-        X, D, (length, _, n) = self.X, third.end, self.XD
-        x, d = mark("velocity", X), mark("velocity", D)
+    def move(self, plan: Plan) -> None:
+        """Through a and e the normals to AB and EC: x. Through x the normal to XD, through f that to FD: d.
+
+        Of accelerations from a' the normal parts of B about A and of X about B, from e' likewise; the normals to AB and
+        EC give x'. From x' the normal part of D about X, from f' that of D about F; the normals to XD and FD give d'.
+        """
+        board, symbol, legs, X, (length, e, n) = plan.board, plan.symbol, self.legs, self.X, self.XD
+        (first, second, third), D, part = legs, legs[2].end, "" if symbol == "V" else "t"
+        ends = [leg.begin(plan) for leg in legs]
+        if symbol == "V":
+            self._place_special_point(board)
+        starts = (
+            ends
+            if symbol == "V"
+            else [self._towards_joint(board, leg, end) for leg, end in zip(legs[:2], ends, strict=False)]
+        )
+        x, d = mark(plan.name, X), mark(plan.name, D)
         board.meet(x, starts[0], first.n, starts[1], second.n)
-        for leg, start in zip((first, second), starts, strict=False):
-            board.read(vector("V", *leg.about(X)), start, x)
-        board.read(vector("V", X), "velocity.p", x)
-        board.meet(d, x, n, starts[2], third.n)
-        board.read(vector("V", D, X), x, d)
-        board.read(vector("V", D), "velocity.p", d)
-        board.calc(self.central.omega, "turning", vector("V", D, X), n, length)
-        self._finish(board, "velocity", starts)
+        if symbol == "V":
+            for leg, start in zip(legs[:2], starts, strict=False):
+                board.read(vector("V", *leg.about(X)), start, x)
+        plan.read(X)
+        tip = x if symbol == "V" else normal_part(board, (D, X), X, x, (e, length))
+        board.meet(d, tip, n, ends[2], third.n)
+        if symbol == "a":
+            board.read(vector("a", D, X, "t"), tip, d)
+        board.read(vector(symbol, D, X), x, d)
+        plan.read(D)
+        turning = self.central.omega if symbol == "V" else self.central.epsilon
+        board.calc(turning, "turning", vector(symbol, D, X, part), n, length)
+        # the other points of the central link by similarity, then the motion of the legs
+        for joint, along, across in self.figure:
+            board.similar(f"{plan.name}.{joint}", x, d, along, across)
+            plan.read(joint)
+        self.central.mark_others(plan)
+        for leg, end in zip(legs, ends, strict=True):
+            leg.read(plan, end)
+            leg.move(plan)
+            leg.turn(plan)
 
     def _place_special_point(self, board: Board) -> None:
         """Mark where the lines of two legs meet, and how the joints of the central link lie to it and to D."""
@@ -104,37 +129,6 @@ class Triad(AssurGroup):
         for joint, along, across in self.figure:
             board.calc(along, "part_along", self.X, third.end, joint)
             board.calc(across, "part_across", self.X, third.end, joint)
-
-    def _finish(self, board: Board, plan: str, ends: list[str]) -> None:
-        """Mark the other points of the central link by similarity, then read the motion of the legs."""
-        for joint, along, across in self.figure:
-            board.similar(f"{plan}.{joint}", f"{plan}.{self.X}", f"{plan}.{self.legs[2].end}", along, across)
-            board.read(vector(SYMBOLS[plan], joint), f"{plan}.p", f"{plan}.{joint}")
-        self.central.mark_others(board, self.mechanism, plan)
-        for leg, end in zip(self.legs, ends, strict=True):
-            leg.read(board, plan, end)
-            leg.move(board, plan)
-            leg.turn(board, plan)
-
-    def acceleration(self, board: Board) -> None:
-        """From a' the normal parts of B about A and of X about B, from e' likewise; the normals to AB and EC give x'.
-
-        From x' the normal part of D about X, from f' that of D about F; the normals to XD and FD give d'.
-        """
-        (first, second, third), X, (length, e, n) = self.legs, self.X, self.XD
-        D = third.end
-        ends = [leg.begin(board, "acceleration") for leg in self.legs]
-        hung = [self._towards_joint(board, leg, end) for leg, end in zip((first, second), ends, strict=False)]
-        x, d = mark("acceleration", X), mark("acceleration", D)
-        board.meet(x, hung[0], first.n, hung[1], second.n)
-        board.read(vector("a", X), "acceleration.p", x)
-        tip = normal_part(board, (D, X), X, x, (e, length))
-        board.meet(d, tip, n, ends[2], third.n)
-        board.read(vector("a", D, X, "t"), tip, d)
-        board.read(vector("a", D, X), x, d)
-        board.read(vector("a", D), "acceleration.p", d)
-        board.calc(self.central.epsilon, "turning", vector("a", D, X, "t"), n, length)
-        self._finish(board, "acceleration", ends)
 
     def _towards_joint(self, board: Board, leg: Leg, end: str) -> str:
         """Hang on `end` the normal part of X about the joint of a leg: along the leg's line, as that of the joint.
@@ -160,7 +154,7 @@ class Triad(AssurGroup):
         number = self.central.number
         moments += moments_about(board, loads[number], self.X)
         third = self.legs[2]  # whose normal part has a moment about X that balances that of all the rest
-        part, aside = _normal(third), Name(f"_arm_{_pair(third, 'R').of}")
+        part, aside = _normal(third), Name(f"_arm_{third.outer('R').of}")
         # a force along the line has the moment minus its size times the distance of the line to the left of X
         board.calc(aside, "across_axis", third.e, self.X, third.start)
         board.calc(part.size, "moment_equation", aside, *moments, *couples[number])
@@ -169,10 +163,10 @@ class Triad(AssurGroup):
         self._draw(board, loads)
         for leg in self.legs:
             if isinstance(leg, Slide):
-                board.step("arm", _pair(leg, "h"), _pair(leg, "M"), _pair(leg, "R"))
+                board.step("arm", leg.outer("h"), leg.outer("M"), leg.outer("R"))
             answer(board, self.mechanism, "R", (leg.before, leg.number), (number, leg.number))
 
-    def _alone(self, board: Board, leg: Leg, loads: list[tuple[str, str]], couples: list[str]) -> list[str]:
+    def _alone(self, board: Board, leg: Leg, loads: Mapping[str, str], couples: list[str]) -> list[str]:
         """Find the tangential part of an outer reaction, or the couple of a guide, from moments about the inner joint.
 
         Returns the moments of all that is known on the leg about X.
@@ -180,10 +174,10 @@ class Triad(AssurGroup):
         own = moments_about(board, loads, leg.end)
         about = moments_about(board, loads, self.X, self.X)
         if isinstance(leg, Slide):
-            board.calc(_pair(leg, "M"), "closing_moment", ZERO, *own, *couples)
+            board.calc(leg.outer("M"), "closing_moment", ZERO, *own, *couples)
             answer(board, self.mechanism, "M", (leg.before, leg.number))
-            return [*about, *couples, _pair(leg, "M")]
-        part = _pair(leg, "R", "t")
+            return [*about, *couples, leg.outer("M")]
+        part = leg.outer("R", "t")
         # R^t stands on the arm of the leg and turns about the joint against the sense in which it points
         board.calc(part.size, "moment_equation", leg.length, *own, *couples)
         board.calc(part, "along", part.size, leg.n)
@@ -192,37 +186,25 @@ class Triad(AssurGroup):
 
     def _draw(self, board: Board, loads: Forces) -> None:
         """Hang all that is known in a chain, close it, read the reactions."""
-        first, second, third = self.legs
-        plan, number = spelled("forces", self.name), self.central.number
-        own = [[force for force, _ in loads[link]] for link in (first.number, number, third.number, second.number)]
-        parts: list[list[str]] = [[*_tangential(first), *own[0]], own[1], own[2]]
-        parts += [[*_tangential(third), _normal(third)], own[3], [*_tangential(second)]]
-        board.pole(f"{plan}.0")
-        ends, count = [], 0
-        for hung in parts:
-            ends.append(hang(board, plan, hung, count))
-            count += len(hung)
-        parted, left, loaded, right, chained, last = ends
-        closing = f"{plan}.{count + 1}"
-        board.meet(closing, last, second.e, f"{plan}.0", first.e)
-        board.read(_normal(first), closing, f"{plan}.0")
-        board.read(_normal(second), last, closing)
-        for leg, tail, tip in ((first, closing, f"{plan}.1"), (second, chained, closing), (third, loaded, right)):
+        (first, second, third), number, plan = self.legs, self.central.number, Polygon(board, self.name)
+        parted = plan.hang(*_tangential(first), *loads[first.number])
+        left, loaded = plan.hang(*loads[number]), plan.hang(*loads[third.number])
+        right = plan.hang(*_tangential(third), _normal(third))
+        chained, last = plan.hang(*loads[second.number]), plan.hang(*_tangential(second))
+        closing = plan.close(second.e, first.e)
+        plan.read(_normal(first), closing, 0)
+        plan.read(_normal(second), last, closing)
+        for leg, tail, tip in ((first, closing, 1), (second, chained, closing), (third, loaded, right)):
             if isinstance(leg, Hinged):
-                board.read(_pair(leg, "R"), tail, tip)
+                plan.read(leg.outer("R"), tail, tip)
         for leg, tail, tip in ((first, parted, closing), (second, closing, right), (third, right, left)):
-            board.read(self.mechanism.pair("R", number, leg.number), tail, tip)
-
-
-def _pair(leg: Leg, kind: str, part: str = "") -> Name:
-    """Return the reaction on a leg of the link before, its moment or arm."""
-    return leg.mechanism.pair(kind, leg.before, leg.number, part)
+            plan.read(self.mechanism.pair("R", number, leg.number), tail, tip)
 
 
 def _normal(leg: Leg) -> Name:
     """Name of the part of an outer reaction along the leg's line: all of it on a slider."""
-    return _pair(leg, "R", "" if isinstance(leg, Slide) else "n")
+    return leg.outer("R", "" if isinstance(leg, Slide) else "n")
 
 
 def _tangential(leg: Leg) -> list[Name]:
-    return [_pair(leg, "R", "t")] if isinstance(leg, Hinged) else []
+    return [leg.outer("R", "t")] if isinstance(leg, Hinged) else []
