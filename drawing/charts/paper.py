@@ -1,4 +1,4 @@
-"""The paper of charts: A4 pages of matplotlib in black on white, and labels beside points that touch nothing.
+"""The paper of charts: A4 pages of matplotlib in black on white, their fields and curves, labels that touch nothing.
 
 The same input gives the same bytes.
 """
@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -60,14 +61,19 @@ METADATA: Mapping[str, dict[str, Any]] = {
 }
 DPI = 150
 SUFFIXES = tuple(METADATA)
-HOLLOW: Mapping[str, Any] = {"mfc": "white", "mew": 0.8}  # markers
-LOOK: Mapping[str, Any] = {"color": BLACK, "lw": 0.9, **HOLLOW}  # of a curve with such markers
-LIMIT: Mapping[str, Any] = {"color": BLACK, "lw": 0.9, "ls": (0, (6, 2))}  # of the line at a tolerance
+LINES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (6, 1.5, 1, 1.5)), (0, (1, 1.2)), (0, (10, 3)), (0, (3, 1, 1, 1, 1, 1)))
+SOLID, DASHED, CHAINED, DOTTED, LONG, MIXED = LINES
+MARKERS = "os^Dvx"
+CURVE: dict[str, Any] = {"color": BLACK, "lw": 0.9, "mfc": "white", "mew": 0.8}
+BESIDE: dict[str, Any] = {"textcoords": "offset points", "fontsize": SMALL}
+LEGEND: dict[str, Any] = {"fontsize": SMALL + 0.5, "frameon": False}
+LIMIT: Mapping[str, Any] = {"color": BLACK, "lw": 0.9, "ls": DASHED}  # of the line at a tolerance
+WHITE = {"facecolor": "white", "edgecolor": "none", "pad": 0.6}  # under a number
 
 Box = tuple[float, float, float, float]
 POINT = 4.0  # pixels around a point that stay free
 REACHES = (7.0, 11.0, 16.0, 23.0, 31.0)  # pixels from a point to its label
-LONG = 16.0  # from here on a thin line leads to the label
+FAR = 16.0  # from here on a thin line leads to the label
 DIRECTIONS = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
 
 
@@ -98,9 +104,28 @@ def page(title: str, note: str, height: float = HEIGHT) -> Iterator[Figure]:
         yield figure
 
 
-def box(figure: Figure, left: float, bottom: float, width: float, height: float, tall: float = HEIGHT) -> Axes:
-    """Return axes in a box of a page `tall` mm tall, mm."""
-    return figure.add_axes((left / WIDTH, bottom / tall, width / WIDTH, height / tall))
+def box(figure: Figure, place: Box, tall: float = HEIGHT, **settings: Any) -> Axes:
+    """Return axes in a box of a page `tall` mm tall: left, bottom, width, height, mm; settings are those of axes."""
+    left, bottom, width, height = place
+    axes = figure.add_axes((left / WIDTH, bottom / tall, width / WIDTH, height / tall))
+    axes.set(**settings)
+    return axes
+
+
+def curve(axes: Axes, k: int, x: Any, y: Any, **look: Any) -> None:
+    """Draw a curve with the line and the marker of the k-th of its field."""
+    own = {"ls": LINES[k % len(LINES)], "marker": MARKERS[k % len(MARKERS)], "ms": 4.0}
+    axes.plot(x, y, **(CURVE | own | look))
+
+
+def beside(axes: Axes, text: str, at: tuple[float, float], by: tuple[float, float], **look: Any) -> None:
+    """Write a small text beside a place, away from it by so many points."""
+    axes.annotate(text, at, by, **(BESIDE | look))
+
+
+def legend(axes: Axes, corner: Any, **look: Any) -> None:
+    """Write what the curves of a field are, in one of its corners."""
+    axes.legend(loc=corner, **(LEGEND | look))
 
 
 def saved(figures: Sequence[Figure], suffix: str) -> list[bytes]:
@@ -165,47 +190,31 @@ def put(axes: Axes, labels: Iterable[Label], points: Sequence[tuple[float, float
         text = axes.text(0.0, 0.0, label.text, fontsize=label.size, transform=None, ha="center", va="center", zorder=5)
         extent = text.get_window_extent(renderer)
         text.remove()
-        found = _free(x, y, extent.width, extent.height, label.prefer, busy, (frame.x0, frame.y0, frame.x1, frame.y1))
-        if found is None and not label.must:
+        box_of_frame = frame.x0, frame.y0, frame.x1, frame.y1
+        free = _free((x, y), (extent.width, extent.height), label.prefer, busy, box_of_frame)
+        if free is None and not label.must:
             continue
-        at_x, at_y, reach = found or (x, y + 2.0 * POINT, 0.0)
-        _write(axes, label, (x, y), (at_x, at_y), reach)
+        at_x, at_y, reach = free or (x, y + 2.0 * POINT, 0.0)
+        per_pixel = 72.0 / axes.figure.dpi  # a label stands in points from its own point, so on every output
+        away = (at_x - x) * per_pixel, (at_y - y) * per_pixel
+        arrow = {"arrowstyle": "-", "linewidth": 0.3, "color": "0.4", "shrinkA": 0.0, "shrinkB": 2.0}
+        look: Any = {"ha": "center", "va": "center", "zorder": 5, "arrowprops": arrow if reach >= FAR else None}
+        beside(axes, label.text, (label.x, label.y), away, fontsize=label.size, **look)
         half_w, half_h = extent.width / 2.0, extent.height / 2.0
         busy.append((at_x - half_w, at_y - half_h, at_x + half_w, at_y + half_h))
 
 
 def _free(
-    x: float, y: float, width: float, height: float, prefer: tuple[float, float], busy: list[Box], frame: Box
+    at: tuple[float, float], size: tuple[float, float], prefer: tuple[float, float], busy: list[Box], frame: Box
 ) -> tuple[float, float, float] | None:
     """Return the middle of the nearest free box for a text, and how far it is from its point; None without any."""
-    size = math.hypot(*prefer) or 1.0
-    ranked = sorted(DIRECTIONS, key=lambda d: -(d[0] * prefer[0] + d[1] * prefer[1]) / (math.hypot(*d) * size))
-    for reach in REACHES:
-        for dx, dy in ranked:
-            at_x, at_y = x + dx * (reach + width / 2.0), y + dy * (reach + height / 2.0)
-            if dx and dy:
-                at_x, at_y = x + dx * (0.7 * reach + width / 2.0), y + dy * (0.7 * reach + height / 2.0)
-            own = at_x - width / 2.0, at_y - height / 2.0, at_x + width / 2.0, at_y + height / 2.0
-            inside = own[0] > frame[0] and own[1] > frame[1] and own[2] < frame[2] and own[3] < frame[3]
-            touching = (b[0] < own[2] and own[0] < b[2] and b[1] < own[3] and own[1] < b[3] for b in busy)
-            if inside and not any(touching):
-                return at_x, at_y, reach
+    half_w, half_h = size[0] / 2.0, size[1] / 2.0
+    ranked = sorted(DIRECTIONS, key=lambda d: -(d[0] * prefer[0] + d[1] * prefer[1]) / math.hypot(*d))
+    for reach, (dx, dy) in product(REACHES, ranked):
+        away = 0.7 * reach if dx and dy else reach
+        x, y = at[0] + dx * (away + half_w), at[1] + dy * (away + half_h)
+        own = x - half_w, y - half_h, x + half_w, y + half_h
+        inside = own[0] > frame[0] and own[1] > frame[1] and own[2] < frame[2] and own[3] < frame[3]
+        if inside and not any(b[0] < own[2] and own[0] < b[2] and b[1] < own[3] and own[1] < b[3] for b in busy):
+            return x, y, reach
     return None
-
-
-def _write(axes: Axes, label: Label, at: tuple[float, float], middle: tuple[float, float], reach: float) -> None:
-    """Write a label, in points from its own point so that it stays there on every output."""
-    per_pixel = 72.0 / axes.figure.dpi
-    away = (middle[0] - at[0]) * per_pixel, (middle[1] - at[1]) * per_pixel
-    arrow = {"arrowstyle": "-", "linewidth": 0.3, "color": "0.4", "shrinkA": 0.0, "shrinkB": 2.0}
-    axes.annotate(
-        label.text,
-        (label.x, label.y),
-        away,
-        textcoords="offset points",
-        fontsize=label.size,
-        ha="center",
-        va="center",
-        zorder=5,
-        arrowprops=arrow if reach >= LONG else None,
-    )

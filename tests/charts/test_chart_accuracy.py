@@ -10,7 +10,7 @@ from functools import cache, partial
 import numpy as np
 import pytest
 
-from kulman.drawing.charts.accuracy import accuracy_page
+from kulman.drawing.charts.race import accuracy_page
 from kulman.drawing.words import Words
 from kulman.plans.hands.shaky import preset
 from kulman.plans.lab import race as contests

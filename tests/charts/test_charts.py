@@ -18,7 +18,8 @@ from matplotlib.figure import Figure
 
 from kulman import KulmanError, cli
 from kulman.docs import refresh
-from kulman.drawing.charts.linkage import _log, _lost, _widen, equal
+from kulman.drawing.charts.cycle import _log, _lost, _widen
+from kulman.drawing.charts.depth import equal
 from kulman.drawing.words import Words
 from kulman.plans.lab import race as contests
 from kulman.plans.lab.race import Effort

@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ...drawing.charts.hands import closing_page, sections_page
+from ...drawing.charts.curves import closing_page, sections_page
 from ...drawing.words import Words
 from ...plans.cams.chords import DRAWINGS, ROUNDING, WAYS, Convergence, Robustness, compared, convergence, robustness
 from ...plans.cams.solve import SolvedCam, unit_of

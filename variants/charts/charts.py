@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
 import numpy as np
 
-from ...drawing.charts.accuracy import accuracy_page
 from ...drawing.charts.paper import SUFFIXES as PICTURES
 from ...drawing.charts.paper import saved
+from ...drawing.charts.race import accuracy_page
 from ...drawing.words import Words
 from ...drawing.writers import Files
 from ...plans.hands.shaky import PRESETS, Hand, preset

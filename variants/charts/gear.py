@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from ...drawing.charts.hands import scales_page
+from ...drawing.charts.curves import scales_page
 from ...drawing.words import Words
 from ...plans.gears.gear import unit_of
 from ...plans.gears.solve import DRAWINGS, MILLI, ScaleErrors, SolvedGear, compared, scale_errors
@@ -50,9 +50,6 @@ class ScaleChart(Chart[ScaleErrors]):
     def note(self, words: Words) -> str:
         """Return how often hands have drawn."""
         return words["chart.scale_note"].format(n=DRAWINGS)
-
-    def _shown(self, words: Words) -> tuple[Any, ...]:
-        return (PARTS,)
 
     def _items(self) -> Iterator[tuple[str, float, str, float]]:
         for hand in PARTS:

@@ -10,7 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ...drawing.charts.hoist import choice_page, choice_said, depth_page, depth_verdict, roots_page, steps_page
+from ...drawing.charts.curves import roots_page, steps_page
+from ...drawing.charts.depth import hoist_page, hoist_verdict
+from ...drawing.charts.maps import choice_page, choice_verdict
 from ...drawing.words import Words
 from ...plans.hoist.forces import Choice, choose
 from ...plans.hoist.hoist import complete
@@ -179,7 +181,7 @@ class HoistRootsChart(Chart[RootRace]):
 class HoistDepthChart(Chart[HoistDepth]):
     """What simplifications change, and one mass beside ropes of many."""
 
-    heading, noted, page = "chart.hoist_depth", "chart.hoist.depth_note", staticmethod(depth_page)
+    heading, noted, page = "chart.hoist_depth", "chart.hoist.depth_note", staticmethod(hoist_page)
 
     def table(self, words: Words) -> str:
         """Return what every simplification changes, ropes of more and more masses, one mass over the rope's weight."""
@@ -187,7 +189,7 @@ class HoistDepthChart(Chart[HoistDepth]):
         for key, changes in self.found.simpler.items():
             cells = [short(words, per_cent(changes[name])) for name in COMPARED]
             rows.append([words[f"chart.hoist.without.{key}"], *cells])
-        parts = [aligned(rows), self._ropes(words), self._one_mass(words), "\n".join(depth_verdict(self.found, words))]
+        parts = [aligned(rows), self._ropes(words), self._one_mass(words), "\n".join(hoist_verdict(self.found, words))]
         return "\n\n".join(part for part in (*parts, wrapped(self.note(words))) if part)
 
     def _ropes(self, words: Words) -> str:
@@ -251,7 +253,7 @@ class HoistChoiceChart(Chart[Choice]):
     def table(self, words: Words) -> str:
         """Return forces and stresses over both places, a star where they are permitted, and what the loop finds."""
         grids = [self._grid(name, of, words) for name, of in TABLED]
-        return "\n\n".join((*grids, "\n".join(choice_said(self.found, words))))
+        return "\n\n".join((*grids, "\n".join(choice_verdict(self.found, words))))
 
     def _grid(self, name: str, of: str, words: Words) -> str:
         grid = self.found.spectrum

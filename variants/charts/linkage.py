@@ -10,7 +10,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ...drawing.charts.linkage import SPOTS, Abscissa, depth_page, depth_verdict, stability_page
+from ...drawing.charts.cycle import SPOTS, Abscissa, stability_page
+from ...drawing.charts.depth import depth_page, depth_verdict
 from ...drawing.formats import format_named
 from ...drawing.linkages.ladders import first_scales
 from ...drawing.words import GREEK, Words
