@@ -9,19 +9,18 @@ import multiprocessing
 import os
 import signal
 import sys
+import time
 from collections import deque
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import CancelledError
-from contextlib import contextmanager, nullcontext, suppress
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, ProcessPoolExecutor, wait
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 from pickle import PickleError
-from queue import SimpleQueue
-from threading import Event, Thread
-from typing import Any, Generic, Protocol, TypeVar
+from threading import Thread
+from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
 from ..drawing.writers import refused, write_whole
 from ..scales.errors import InputError
@@ -31,17 +30,20 @@ Item = TypeVar("Item")
 ItemIn = TypeVar("ItemIn", contravariant=True)
 Made = TypeVar("Made")
 MadeOut = TypeVar("MadeOut", covariant=True)
-TOGETHER = 8  # items that a process is given at once
+TOGETHER, MOST = 8, 16  # items in a piece: at least, and at most where the next ones are alike
 ALONE = 16  # items for which no process is started
 WAITING = 2  # pieces that each process has, one in work
-PATIENCE = 10.0  # seconds for which a process that is stopped may go on
+PATIENCE, BEAT = 10.0, 0.2  # seconds for which a process that is stopped may go on; after which it looks whether it is
 Advance = Callable[[int, int], None]  # told how many more are done, and of how many
 Piece = list[tuple[int, Item]]
 ANSWERS = "10s"  # how long the scheduler is waited for
-ROUND, ROUNDS = "10s", 6  # after so many rounds in which nobody does anything it is said, or begun again
-FETCHED = "30s"  # how long what is made may be on its way
-DEATHS = 1  # times that a worker may die of a piece before it is taken apart, or of an item before it is left
-_READY: dict[Any, Callable[[Any], Any]] = {}  # of a worker, by work
+ROUND, ROUNDS = 10.0, 6  # after so many seconds in which nobody does anything, so often, it is said, or begun again
+DEATHS = 1  # times that a worker of a cluster may die of a piece
+Task: TypeAlias = "Future[list[Any]]"
+Tasks: TypeAlias = dict[Task, Piece[Any]]
+Submit: TypeAlias = Callable[[list[Any]], Task]
+Hire: TypeAlias = Callable[[int], AbstractContextManager[Submit]]  # for so many pieces at a time
+_HERE: dict[str, Any] = {}  # what a process works at
 
 
 class Work(Protocol[ItemIn, MadeOut]):
@@ -53,129 +55,102 @@ class Work(Protocol[ItemIn, MadeOut]):
 
 @dataclass(frozen=True, slots=True)
 class Done(Generic[Made]):
-    """What has been made of the item at `place`; nothing where its process died of it, alone and a second time."""
+    """What has been made of the item at `place`; nothing where its process died of it, when it was alone with it."""
 
     place: int
     made: Made | None
 
 
 def shared_out(
-    work: Work[Item, Made], items: Sequence[Item], jobs: int, alone: int | None = None, afresh: bool = False
+    work: Work[Item, Made],
+    items: Sequence[Item],
+    jobs: int,
+    alike: Callable[[Item], Any],
+    alone: int | None = None,
+    afresh: bool = False,
 ) -> Iterator[list[Done[Made]]]:
     """Go through what is made, in the order in which it is done, by so many processes.
 
+    Items that are `alike`, by something that can be sorted, go to one process, one after the other: they share much.
     With one job all is done in this process; for `alone` items, too, none is started, where that is said it may be the
     only one. Processes that are `afresh` are no copies of this one, which has threads without which a copy would stand
     still.
     """
-    pieces = _pieces(items)
+    pieces = _pieces(items, alike)
     if len(items) > ((ALONE if jobs > 1 else len(items)) if alone is None else alone):
-        yield from _in_processes(partial(_Hand, work, afresh), pieces, max(1, min(jobs, len(pieces))))
+        most = max(1, min(jobs, len(pieces)))
+        # an executor is broken as a whole: who was at work then is tried item by item, at last one alone
+        yield from _tried(partial(_processes, work, most, afresh), pieces, (WAITING * most, most, 1), BrokenExecutor)
         return
     make = work.begin()
     for piece in pieces:
-        yield [Done(place, make(item)) for place, item in piece]
+        for place, item in piece:
+            yield [Done(place, make(item))]
 
 
-def _pieces(items: Sequence[Item]) -> list[Piece[Item]]:
-    placed = list(enumerate(items))
-    return [placed[at : at + TOGETHER] for at in range(0, len(placed), TOGETHER)]
+def _pieces(items: Sequence[Item], alike: Callable[[Item], Any]) -> list[Piece[Item]]:
+    """Return items with their places in pieces, which part those that are alike only where there are many of them."""
+    pieces: list[Piece[Item]] = []
+    for place, item in sorted(enumerate(items), key=lambda placed: alike(placed[1])):
+        if not pieces or len(pieces[-1]) >= (MOST if alike(pieces[-1][-1][1]) == alike(item) else TOGETHER):
+            pieces.append([])
+        pieces[-1].append((place, item))
+    return pieces
 
 
-def _in_processes(
-    new_hand: Callable[[], _Hand[Item, Made]], left: Sequence[Piece[Item]], jobs: int, waiting: int = WAITING
-) -> Iterator[list[Done[Made]]]:
-    """Share pieces out; what a process has when it dies is done again, item by item, one at a time, after the others.
+def _tried(
+    hire: Hire,
+    pieces: Sequence[Piece[Any]],
+    rounds: Sequence[int],
+    deaths: type[Exception],
+    first: Callable[[Tasks], Iterable[Task]] = lambda tasks: wait(tasks, return_when=FIRST_COMPLETED).done,
+) -> Iterator[list[Done[Any]]]:
+    """Go through what is made in rounds, of so many pieces at a time: each does what workers have died of once more.
 
-    Each process has a part of its own, as neighbours are often alike; one that has done it takes from another's end.
+    From the second round on a piece is one item. Where `first`, which waits for tasks, has none, they are begun again.
     """
-    parts = [deque(left[len(left) * at // jobs : len(left) * (at + 1) // jobs]) for at in range(jobs)]
-    hands = [new_hand() for _ in parts]
-    suspects: list[Piece[Item]] = []
-    try:
-        while _given_out(parts, hands, waiting):
-            for at in _ready(hands):
-                hand = hands[at]
-                if not hand.has_died():
-                    yield hand.take()
-                    continue
-                lost = [item for piece in hand.pieces for item in piece]
-                hand.stop()
-                hands[at] = new_hand()
-                if waiting == 1:
-                    yield [Done(lost[0][0], None)]
-                else:
-                    suspects += ([item] for item in lost)
-    finally:
-        for hand in hands:
-            hand.stop()
-    if suspects:
-        yield from _in_processes(new_hand, suspects, 1, 1)
+    for at_once in rounds:
+        left, lost = deque(pieces), list[Piece[Any]]()
+        while left:
+            tasks: Tasks = {}
+            with hire(at_once) as submit, suppress(BrokenExecutor):  # one of which somebody has died takes no more
+                while left or tasks:
+                    while left and len(tasks) < at_once:
+                        tasks[submit([item for _, item in left[0]])] = left[0]
+                        left.popleft()
+                    done = first(tasks)
+                    for task in done:
+                        piece = tasks.pop(task)
+                        try:
+                            made = task.result()
+                        except deaths:
+                            lost.append(piece)
+                            continue
+                        yield [Done(place, one) for (place, _), one in zip(piece, made, strict=True)]
+                    if not done:
+                        left.extend(tasks.values())
+                        tasks.clear()
+            lost += tasks.values()
+        pieces = [[item] for piece in lost for item in piece]
+    yield [Done(place, None) for ((place, _),) in pieces]
 
 
-def _given_out(parts: Sequence[deque[Piece[Item]]], hands: Sequence[_Hand[Item, Made]], waiting: int) -> bool:
-    """Give every process so many pieces that it need not wait; tell whether any has something to do."""
-    for own, hand in zip(parts, hands, strict=True):
-        while len(hand.pieces) < waiting and any(parts):
-            hand.give(own.popleft() if own else max(parts, key=len).pop())
-    return any(hand.pieces for hand in hands)
+@contextmanager
+def _processes(work: Work[Any, Any], most: int, afresh: bool, at_once: int) -> Iterator[Submit]:
+    """Start processes; in the end each is stopped when it has done the item that it is at."""
+    means: Any = multiprocessing.get_context("spawn" if afresh else None)
+    over = means.RawValue("b", 0)
+    executor = ProcessPoolExecutor(min(most, at_once), means, _begin, (work, over))
 
-
-def _ready(hands: Sequence[_Hand[Item, Made]]) -> list[int]:
-    """Wait until processes have made something, or have died; return which."""
-    signs: dict[Any, int] = {}
-    for at, hand in enumerate(hands):
-        if hand.pieces:
-            signs |= {hand.made: at, hand.process.sentinel: at}
-    return list(dict.fromkeys(signs[sign] for sign in wait(list(signs))))
-
-
-class _Hand(Generic[Item, Made]):
-    """A process that makes pieces in their order; `pieces` are those that it has not handed back."""
-
-    def __init__(self, work: Work[Item, Made], afresh: bool) -> None:
-        means: Any = multiprocessing.get_context("spawn" if afresh else None)
-        items, self._items = means.Pipe(duplex=False)
-        self.made, made = means.Pipe(duplex=False)
-        self.pieces: deque[Piece[Item]] = deque()
-        self.process = means.Process(target=_serve, args=(items, made, work), daemon=True)
+    def submit(items: list[Any]) -> Task:
         with _without_script() if afresh else nullcontext():
-            self.process.start()
-        items.close()
-        made.close()
-        self._taken: tuple[bool, Any] | None = None
+            return executor.submit(_make_here, items)
 
-    def give(self, piece: Piece[Item]) -> None:
-        """Hand over a piece; a process that has died loses it."""
-        self.pieces.append(piece)
-        with suppress(OSError):
-            self._items.send([item for _, item in piece])
-
-    def has_died(self) -> bool:
-        """Whether the process has died, where it has made nothing before it did."""
-        try:
-            self._taken = self.made.recv()
-        except (EOFError, OSError):
-            return True
-        return False
-
-    def take(self) -> list[Done[Made]]:
-        """Return what has been made of the first piece; an error of the work is raised."""
-        assert self._taken is not None
-        (right, made), self._taken = self._taken, None
-        if not right:
-            raise made
-        return [Done(place, one) for (place, _), one in zip(self.pieces.popleft(), made, strict=True)]
-
-    def stop(self) -> None:
-        """End the process when it has done the item that it is at."""
-        with suppress(OSError):
-            self._items.send(None)
-        self.process.join(PATIENCE)
-        self.process.kill()
-        self.process.join()
-        self._items.close()
-        self.made.close()
+    try:
+        yield submit
+    finally:
+        over.value = 1
+        executor.shutdown(cancel_futures=True)
 
 
 @contextmanager
@@ -190,62 +165,36 @@ def _without_script() -> Iterator[None]:
         script.update(kept)
 
 
-def _serve(items: Connection, made: Connection, work: Work[Any, Any]) -> None:
-    """Make pieces as they come in a process, which ends with the one that has started it, even if that is killed.
-
-    Two threads take and hand back, so that it never waits for the other end.
-    """
+def _begin(work: Work[Any, Any], over: Any) -> None:
+    """Begin a process, which ends with the one that has started it, even if that is killed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the other end is told, and stops this one
-    come, gone = SimpleQueue[Any](), SimpleQueue[Any]()
-    over = Event()
-    parent = multiprocessing.parent_process()
-    for task, *given in ((_end_with, parent), (_take_in, items, come, over), (_hand_back, made, gone)):
-        Thread(target=task, args=given, daemon=True).start()
-    make: Callable[[Any], Any] | None = None
-    while (piece := come.get()) is not None:
-        try:
-            make = make or work.begin()
-            results = []
-            for item in piece:
-                if over.is_set():
-                    return
-                results.append(make(item))
-            gone.put((True, results))
-        except Exception as error:
-            gone.put((False, error))
+    _HERE.update(work=work, over=over)
+    Thread(target=_end_with, args=(multiprocessing.parent_process(), over), daemon=True).start()
 
 
-def _end_with(parent: BaseProcess) -> None:
-    parent.join()
+def _end_with(parent: BaseProcess, over: Any) -> None:
+    while not over.value and parent.is_alive():
+        parent.join(BEAT)
+    time.sleep(PATIENCE * over.value)
     os._exit(1)
 
 
-def _take_in(items: Connection, come: SimpleQueue[Any], over: Event) -> None:
-    with suppress(EOFError, OSError):
-        while (piece := items.recv()) is not None:
-            come.put(piece)
-    over.set()
-    come.put(None)
+def _make_here(items: list[Any]) -> list[Any]:
+    """Do a piece in a process; one that is stopped leaves the rest."""
+    if "make" not in _HERE:
+        _HERE["make"] = _HERE["work"].begin()
+    return [_HERE["make"](item) for item in items if not _HERE["over"].value]
 
 
-def _hand_back(made: Connection, gone: SimpleQueue[Any]) -> None:
-    while True:
-        results = gone.get()
-        try:
-            made.send(results)
-        except OSError:
-            return
-        except Exception as error:  # it cannot be sent
-            made.send((False, TypeError(str(error))))
-
-
-def on_cluster(work: Work[Item, Made], items: Sequence[Item], address: str) -> Iterator[list[Done[Made]]]:
+def on_cluster(
+    work: Work[Item, Made], items: Sequence[Item], alike: Callable[[Item], Any], address: str
+) -> Iterator[list[Done[Made]]]:
     """Go through what is made on a cluster, in the order in which it is done; what fails there is an `InputError`.
 
     The address is the scheduler's, `tcp://10.0.0.7:8786`; certificates for `tls://` are those of Dask's configuration.
     """
     try:
-        from distributed import Client
+        from distributed import Client, KilledWorker
     except ImportError:
         raise InputError("cluster-extra") from None
     try:
@@ -254,11 +203,14 @@ def on_cluster(work: Work[Item, Made], items: Sequence[Item], address: str) -> I
         raise InputError("cluster-silent", address=quote(address)) from problem
     except TypeError as problem:  # what Dask says of an address with TLS and no certificate
         raise InputError("cluster-tls", address=quote(address)) from problem
-    before = logging.root.manager.disable
+    before, pieces = logging.root.manager.disable, _pieces(items, alike)
     try:
         with client:
+            submit = partial(client.get_executor(pure=False, retries=DEATHS).submit, make_piece, work)
+            rounds = len(pieces), 1  # what else a dying worker has made would be lost with it
             try:
-                yield from _shared(client, work, _pieces(items))
+                first = partial(_some_done, client)
+                yield from _tried(lambda at_once: nullcontext(submit), pieces, rounds, KilledWorker, first)
             except (CancelledError, OSError) as problem:
                 logging.disable()  # what Dask says of it besides, while it closes
                 raise InputError("cluster-lost", address=quote(address)) from problem
@@ -269,55 +221,14 @@ def on_cluster(work: Work[Item, Made], items: Sequence[Item], address: str) -> I
         logging.disable(before)
 
 
-def _shared(client: Any, work: Work[Item, Made], pieces: list[Piece[Item]]) -> Iterator[list[Done[Made]]]:
-    """Share pieces out; those of which a worker dies are done again item by item, one at a time."""
-    from distributed import KilledWorker
+def _some_done(client: Any, tasks: Tasks) -> Iterable[Task]:
+    """Wait until something is done; nothing where no worker has had anything to do for some time.
 
-    suspects: Piece[Item] = []
-    for piece, made in _done(client, work, deque(pieces)):
-        if isinstance(made, KilledWorker):
-            suspects += piece
-        else:
-            yield [Done(place, one) for (place, _), one in zip(piece, made, strict=True)]
-    for suspect in suspects:  # what else a dying worker has made would be lost with it
-        [(_, made)] = _done(client, work, deque([[suspect]]))
-        yield [Done(suspect[0], None if isinstance(made, KilledWorker) else made[0])]
-
-
-def _done(client: Any, work: Work[Item, Made], pieces: deque[Piece[Item]]) -> Iterator[tuple[Piece[Item], Any]]:
-    """Go through what is made of pieces, or the error of one of which workers die, as it is done."""
-    from distributed import KilledWorker
-
-    futures: dict[Any, Piece[Item]] = {}
-    while pieces or futures:
-        while pieces:
-            piece = pieces.popleft()
-            items = [item for _, item in piece]
-            futures[client.submit(make_piece, work, items, pure=False, retries=DEATHS)] = piece
-        done = _some_done(client, list(futures))
-        if not done:  # the scheduler has forgotten them, as workers have died
-            pieces.extend(futures.values())
-            client.cancel(list(futures))
-            futures.clear()
-        for future in done:
-            piece = futures.pop(future)
-            try:
-                yield piece, future.result(timeout=FETCHED)
-            except KilledWorker as error:
-                yield piece, error
-            except TimeoutError:  # a worker has died with it, and the scheduler has not noticed
-                pieces.append(piece)
-
-
-def _some_done(client: Any, futures: list[Any]) -> Iterable[Any]:
-    """Wait until something is done; nothing where no worker has had anything to do for some time."""
-    from distributed import wait
-
-    first: Any = wait
+    So it is where the scheduler has forgotten tasks, as workers have died.
+    """
     idle = 0
     while idle < ROUNDS:
-        with suppress(TimeoutError):
-            done: Iterable[Any] = first(futures, timeout=ROUND, return_when="FIRST_COMPLETED").done
+        if done := wait(tasks, ROUND, FIRST_COMPLETED).done:
             return done
         idle = 0 if any(client.processing().values()) else idle + 1
     if not client.nthreads():
@@ -327,11 +238,9 @@ def _some_done(client: Any, futures: list[Any]) -> Iterable[Any]:
 
 def make_piece(work: Work[Any, Any], items: list[Any]) -> list[Any]:
     """Do a piece on a worker, which sets itself up once for each work."""
-    key = repr(work)
-    if key not in _READY:
-        _READY.clear()
-        _READY[key] = work.begin()
-    return [_READY[key](item) for item in items]
+    if _HERE.get("key") != (key := repr(work)):
+        _HERE.update(key=key, make=work.begin())
+    return [_HERE["make"](item) for item in items]
 
 
 class Journal(Generic[Made]):

@@ -64,7 +64,7 @@ class Squares:
 
 
 def test_an_item_that_kills_workers_is_found_out(address: str) -> None:
-    done = [one for piece in on_cluster(Squares(), list(range(24)), address) for one in piece]
+    done = [one for piece in on_cluster(Squares(), list(range(24)), str, address) for one in piece]
 
     assert {one.place: one.made for one in done} == {n: n * n if n != 13 else None for n in range(24)}
 
@@ -83,7 +83,7 @@ def missing() -> None:
 
 def test_a_worker_that_cannot_do_the_work_is_told_in_a_line(address: str) -> None:
     with pytest.raises(InputError, match="cannot do the work: No module named 'kulman'"):
-        list(on_cluster(Strange(), [1], address))
+        list(on_cluster(Strange(), [1], str, address))
 
 
 def kill_when_reached(scheduler: subprocess.Popen[bytes]) -> None:
@@ -114,7 +114,7 @@ def test_a_scheduler_that_goes_is_told_in_a_line(idle: tuple[str, subprocess.Pop
     Thread(target=kill_when_reached, args=(going,)).start()
 
     with pytest.raises(InputError, match=f"{there} no longer answers"):
-        list(on_cluster(Squares(), [1, 2, 3], there))
+        list(on_cluster(Squares(), [1, 2, 3], str, there))
 
     assert logging.root.manager.disable == logging.NOTSET
 
@@ -122,17 +122,17 @@ def test_a_scheduler_that_goes_is_told_in_a_line(idle: tuple[str, subprocess.Pop
 def test_a_scheduler_without_workers_is_told_in_a_line(
     idle: tuple[str, subprocess.Popen[bytes]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("kulman.variants.crew.ROUND", "0.2s")
+    monkeypatch.setattr("kulman.variants.crew.ROUND", 0.2)
 
     with pytest.raises(InputError, match=f"{idle[0]} has no workers"):
-        list(on_cluster(Squares(), [1, 2, 3], idle[0]))
+        list(on_cluster(Squares(), [1, 2, 3], str, idle[0]))
 
 
 def test_a_scheduler_that_is_not_there_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kulman.variants.crew.ANSWERS", "1s")
 
     with pytest.raises(InputError, match=r"tcp://127\.0\.0\.1:9"):
-        next(on_cluster(Squares(), [1], "tcp://127.0.0.1:9"))
+        next(on_cluster(Squares(), [1], str, "tcp://127.0.0.1:9"))
 
 
 def test_a_cluster_with_tls_lets_in_who_has_a_certificate(tmp_path: Path) -> None:
@@ -148,8 +148,8 @@ def test_a_cluster_with_tls_lets_in_who_has_a_certificate(tmp_path: Path) -> Non
         address = str(cluster.scheduler_address)
 
         with dask.config.set(config):
-            done = [made for piece in on_cluster(Squares(), [2, 3], address) for made in piece]
+            done = [made for piece in on_cluster(Squares(), [2, 3], str, address) for made in piece]
         with pytest.raises(InputError, match="no certificates for TLS"):
-            list(on_cluster(Squares(), [2, 3], address))
+            list(on_cluster(Squares(), [2, 3], str, address))
 
     assert [one.made for one in done] == [4, 9]

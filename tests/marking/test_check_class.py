@@ -21,7 +21,6 @@ import pytest
 from kulman import check, cli
 from kulman.plans.hands.shaky import draw, preset
 from kulman.tests.support.marking_cases import answer, key, students
-from kulman.variants import crew
 from kulman.variants.marking import checks
 from kulman.variants.marking.answers import Answers, Line
 from kulman.variants.marking.checks import Job, mark_class, slug
@@ -198,7 +197,7 @@ def test_a_stopped_run_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.
     results = mark_class(job(folder), answers, lambda done, whole: None, jobs=1)
 
     assert before == 10
-    assert again == [8, 9, 10, 11]  # the eight of the piece that was whole are not marked again
+    assert again == [10, 11]  # nobody who was marked is marked again
     assert not journal.exists()
     alone = mark_class(job(), answers, lambda done, whole: None, jobs=1)
     assert [replace(result, reports=()) for result in results] == alone
@@ -233,7 +232,6 @@ def test_changed_answers_are_marked_again(tmp_path: Path, monkeypatch: pytest.Mo
         marked.append(one.who.student)
         return first(job, desk, number, one)
 
-    monkeypatch.setattr(crew, "TOGETHER", 1)
     monkeypatch.setattr(checks, "mark_one", counting)
     with pytest.raises(KeyboardInterrupt):
         mark_class(job(folder), answers, lambda done, whole: None, jobs=1)

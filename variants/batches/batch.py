@@ -10,6 +10,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Seq
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, replace
 from functools import cached_property, partial
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -266,8 +267,7 @@ def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, a
         if (outcome := journal.found(digest)) is not None and outcome.there(folder)
     }
     advance(len(found), len(students))
-    # students with the same data one after another, as these share what is drawn
-    todo = sorted((n for n in range(len(students)) if n not in found), key=lambda n: students[n].data)
+    todo = [number for number in range(len(students)) if number not in found]
     for done in crew(making, [students[number] for number in todo]):
         for one in done:
             number = todo[one.place]
@@ -365,11 +365,12 @@ def batch(
     listed = read_roster(os.fspath(roster), schemes, each=True)
     students = tuple(Student(number, entry) for number, entry in enumerate(listed.entries, 1))
     place = folder_for(folder)
+    alike = attrgetter("data")  # students with the same data share what is drawn
     if dask is not None:
-        crew: Crew = partial(on_cluster, address=dask)
+        crew: Crew = partial(on_cluster, alike=alike, address=dask)
     else:  # an item may kill its process, which is not this one unless that is asked for
         alone = 0 if jobs != 1 else None
-        crew = partial(shared_out, jobs=jobs or os.cpu_count() or 1, alone=alone, afresh=making.afresh)
+        crew = partial(shared_out, jobs=jobs or os.cpu_count() or 1, alike=alike, alone=alone, afresh=making.afresh)
     outcomes = run(making, students, place, crew, advance or (lambda done, whole: None))
     unread = Written(", ".join(quote(head, SHOWN) for head in listed.unread))
     # what was meant by columns that say nothing here has been left out

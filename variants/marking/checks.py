@@ -238,9 +238,9 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
         if folder and before is not None and all((folder / report).is_file() for report in before.reports):
             found[number] = before
     advance(len(found), len(students))
-    todo = sorted((item for item in students if item[0] not in found), key=lambda item: _variant(job.check, item[1]))
+    todo = [item for item in students if item[0] not in found]
     with _seldom_collected():
-        for done in shared_out(job, todo, jobs or os.cpu_count() or 1):
+        for done in shared_out(job, todo, jobs or os.cpu_count() or 1, lambda item: _variant(job.check, item[1])):
             for number, student, result in ((*todo[one.place], one.made) for one in done):
                 if result is None:  # the student's answers have killed the process that marked them
                     result = failed(student, InputError("process-died"), job.check.request.language)
