@@ -35,6 +35,16 @@ def test_a_tolerance_fails_few_hands_of_its_own(name: str, phi: int) -> None:
     assert np.median(list(shares.values())) < 0.01
 
 
+def test_links_short_on_paper_tilt_what_is_drawn_across_them() -> None:
+    solution = solve("nau-slider-crank", "example", scales={"mu_l": 0.01, "pa": 80.0})  # a rod of 18 mm
+    drawing, found = paper(solution), preset("normal")
+
+    allowed = tolerances(drawing, solution.solved.values, solution.solved.sines, found.tolerance)
+    shares = drawn(drawing, found.hand, np.random.default_rng(SEED)).failing(allowed)
+
+    assert max(shares[name] for name in ("V_B", "V_BA", "omega_2", "a_B")) < 0.05  # else up to a fifth
+
+
 def test_tolerance_of_a_segment_is_millimetres_or_a_part_over_the_sine() -> None:
     most = Tolerance(2.0, 0.05, 1.0)
 

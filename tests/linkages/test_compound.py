@@ -126,6 +126,16 @@ def test_parts_are_those_of_the_theorems(train: str) -> None:
             same(got[f"l_{c.pivot}{point}"], abs(from_pivot), abs(from_pivot))
 
 
+@pytest.mark.parametrize("train", TRAINS)
+def test_line_of_the_end_closes_a_figure_where_the_other_link_of_the_dyad_hangs_on_the_frame(train: str) -> None:
+    mechanism, _ = random_train(TRAINS[train], 2)
+    on_frame = {n for pair in mechanism.pairs if 0 in pair.links for n in pair.links}
+
+    for c in hinged(mechanism, construct(mechanism, ())[0]):
+        other = c.number ^ 1  # dyads are links 2 and 3, 4 and 5 ...
+        assert (c.closing is not None) == (other in on_frame), c.number
+
+
 @pytest.mark.parametrize("train", ["three rockers", "slider on a link", "slotted lever"])
 def test_instant_centre_stands_still_on_the_line_of_the_pivots(train: str) -> None:
     mechanism, values = random_train(TRAINS[train], 300)

@@ -213,6 +213,12 @@ def test_inertia_broken_gives_what_the_list_says() -> None:
     assert abs(after(where, "M63", at="F_i2")["F_i2"]) == pytest.approx(9.81 * abs(right["F_i2"]), rel=1e-12)
     lighter = Scene(replace(where.paper, givens={**where.paper.givens, "g": 1.62}), where.values)
     assert abs(after(lighter, "M63", at="G_2")["G_2"]) == pytest.approx(2.0, rel=1e-12)  # whatever the task's g
+    heavy = after(where, "M63", how="all", at="inertia_force")  # every inertia force, no weight
+    assert all(complex(heavy[name]) == pytest.approx(9.81 * right[name], rel=1e-12) for name in ("F_i2", "F_i3"))
+    assert heavy["G_2"] == right["G_2"]
+    light = after(where, "M63", how="all", at="weight")
+    assert all(complex(light[name]) == pytest.approx(right[name] / 9.81, rel=1e-12) for name in ("G_2", "G_3"))
+    assert light["F_i2"] == right["F_i2"]
     for at, point in (("A", right["A"]), ("middle", (right["A"] + right["B"]) / 2)):
         moved = after(where, "M62", how=at)
         arm = cross(complex(point) - complex(right["S2"]), complex(right["F_i2"]))
