@@ -161,17 +161,19 @@ def _check(file: str, as_json: bool) -> int:
     "mm and per cent, what a teacher should let pass, and the step that errs most.",
 )
 @click.option("--format", type=Word(*SIZES), help="Take the scale factors of the sheet of this format.")
+@output(".solution", "Where to: all quantities to .csv, .xlsx, .json, .html.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-def solve(task: str, settings: dict[str, str], as_json: bool, lang: str | None, **options: Any) -> int:
+def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) and show all quantities."""
     from .variants.solution import solve as solve_task
 
-    solution = solve_task(task, set=settings, lang=lang, **options)
+    solution, language = solve_task(task, set=settings, **options), options["lang"] or system_language()
+    say_written(solution.save(*files), as_json)
     if as_json:
         print_json(solution.to_json())
     elif solution.reason is None:
-        language = lang or system_language()
-        click.echo(solution.table(language) if solution.drawing is None else solution.drawn(language))
+        if not files:
+            click.echo(solution.table(language) if solution.drawing is None else solution.drawn(language))
         note_of(solution.task)
         warn(solution.warnings)
     return refuse(solution.reason) if solution.reason is not None else 0
@@ -242,7 +244,7 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
 @click.option(
     "--chords", metavar="POINT", help="Velocities and accelerations of a point or link by plans and by chords."
 )
-@output(".sweeps.sweeps", "Where to: all columns, points of profiles too, to a .csv; the drawing to .svg, .pdf, .png.")
+@output(".sweeps.sweeps", "Where to: all columns to .csv, .xlsx, .json, .html; the drawing to .svg, .pdf, .png.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) over its whole cycle: positions, dead positions, strokes, extremes."""
@@ -275,7 +277,7 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 @click.option("--positions", metavar="N", callback=count, help="Positions of the cycle: 36 for accuracy, else 360.")
 @click.option("--tolerance", metavar="%", default="1", show_default=True, help="By how much a simpler model may miss.")
 @click.option("--hand", default="normal", show_default=True, help=f"Who draws: {', '.join(HANDS)}.")
-@output(".charts.charts", "Where to: pictures to .svg, .pdf, .png, rows to .csv; of several charts x-accuracy.svg, ...")
+@output(".charts.charts", "Where to: pictures to .svg, .pdf, .png, rows to .csv, .xlsx; of several x-accuracy.svg, ...")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
     """Measure TASK: speed against accuracy, stability, which parts of the model it needs, or how many sections."""

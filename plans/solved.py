@@ -183,7 +183,7 @@ class Course(ABC):
         return {}
 
     def remarks(self) -> Iterable[tuple[str, Mapping[str, Any]]]:
-        """Go through what is said below a table: keys of texts behind `sweep.`, what fills them, values with units."""
+        """Go through what is said below a table: keys of texts, what fills them, values with units."""
         return ()
 
     def data(self, places: Any) -> Mapping[str, Any]:

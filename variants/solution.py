@@ -18,7 +18,7 @@ from ..scales.scale import Scale
 from ..scales.units import format_unit
 from .case import Case, Kind, Request, Settings, kind_of
 from .reader import load_task
-from .tables import aligned
+from .tables import FILES, Result, Table, aligned
 from .task import Task
 
 if TYPE_CHECKING:
@@ -26,11 +26,12 @@ if TYPE_CHECKING:
     from ..plans.hands.shaky import Hand
     from .hands import Drawing
 
+SUFFIXES = FILES
 ROUNDING = 1e-14  # part of the largest quantity of a unit
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Solution:
+class Solution(Result):
     """The answer to one variant of a task.
 
     `solution["V_B"]` is a `Quantity`; `reason` says why a position has no plan; `conditions`, and the `drawing` of a
@@ -138,6 +139,14 @@ class Solution:
         conditions = {name: _condition(words, found) for name, found in self.conditions.items()}
         return table(self.drawing, self._tidy(), words, conditions)
 
+    def data(self, language: str | None = None) -> Table:
+        """Return a row for each quantity: what `to_json` says of it, in the units of the task."""
+        words = self._words(language)
+        items = {quantity.name: self._item(quantity.shown(words.display)) for quantity in self._tidy()}
+        columns = tuple(dict.fromkeys(key for item in items.values() for key in item))
+        rows = tuple((name, *(item.get(key) for key in columns)) for name, item in items.items())
+        return Table(("name", *columns), rows, words.language, self.task.id)
+
     def _tidy(self) -> list[Quantity]:
         """Return the quantities without what is nothing but rounding."""
         largest: dict[str, float] = {}
@@ -148,9 +157,6 @@ class Solution:
         known |= self.quantities
         listed = (known[name] for name in self.kind.listed(self.solved, self.plans) if name in known)
         return [_without_rounding(quantity, largest.get(quantity.unit, 0.0)) for quantity in listed]
-
-    def _words(self, language: str | None) -> Words:
-        return self.words if language is None else self.words.speaking(language)
 
     def table(self, language: str | None = None) -> str:
         """Return the quantities as a readable table: name, value, unit, components, segment in mm.

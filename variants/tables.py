@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import math
 import os
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from datetime import datetime
 from functools import cache
 from html import escape
@@ -62,10 +64,56 @@ class Saved(ABC):
         """Return the files that a path stands for."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Table:
+    """Rows of cells under their columns, as files of every kind have them.
+
+    Where it is `exact` numbers of CSV are in full precision, else as people want to see them.
+    """
+
+    columns: tuple[str, ...]
+    rows: Sequence[Sequence[Cell]]
+    language: str
+    title: str = ""
+    exact: bool = True
+
+    def csv(self) -> str:
+        """Return it as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
+        return csv_text((self.columns, *self.rows), self.language, number=exact if self.exact else rounded)
+
+    def html(self) -> str:
+        """Return it as a page for a browser."""
+        cells = (
+            (escape(_text(cell, self.language != "en", rounded)) for cell in row) for row in (self.columns, *self.rows)
+        )
+        rows = "\n".join(f"<tr>{''.join(f'<td>{text}</td>' for text in row)}</tr>" for row in cells)
+        head = f'<html lang="{self.language}"><meta charset="utf-8"><title>{escape(self.title)}</title>'
+        return f"<!DOCTYPE html>\n{head}\n<table>\n{rows}\n</table></html>\n"
+
+    def file(self, suffix: str) -> bytes:
+        """Return what a file holds, of one of `FILES` but JSON."""
+        match suffix.lower():
+            case ".xlsx":
+                return xlsx_bytes((self.columns, *self.rows), self.title, (0,), 1)
+            case ".html":
+                return self.html().encode("utf-8", "replace")
+        # spreadsheets know UTF-8 by the mark at its beginning, English ones need none for numbers
+        return self.csv().encode("utf-8" if self.exact and self.language == "en" else "utf-8-sig", "replace")
+
+
+FILES: tuple[str, ...] = (".csv", ".xlsx", ".json", ".html")  # of every result
+
+
+def json_text(data: Mapping[str, Any]) -> str:
+    """Return one JSON object in ASCII, which every console and pipe lets through."""
+    return json.dumps(data, ensure_ascii=True, allow_nan=False, indent=2)
+
+
 class Result(Saved):
     """What a command has found; `words` are those of its tables and files."""
 
     __slots__ = ()
+    suffixes = FILES
     words: Words
 
     @abstractmethod
@@ -73,8 +121,35 @@ class Result(Saved):
         """Return it as lines of text."""
 
     @abstractmethod
+    def data(self, language: str | None = None) -> Table:
+        """Return all of it as rows under columns."""
+
+    @abstractmethod
     def to_json(self) -> dict[str, Any]:
         """Return what is printed with `--json`: everything in SI."""
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The heads of the columns."""
+        return self.data().columns
+
+    @property
+    def rows(self) -> Sequence[Sequence[Cell]]:
+        """The rows under them."""
+        return self.data().rows
+
+    def csv(self, language: str | None = None) -> str:
+        """Return all rows as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
+        return self.data(language).csv()
+
+    def html(self, language: str | None = None) -> str:
+        """Return all rows as a page for a browser."""
+        return self.data(language).html()
+
+    def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
+        if path.suffix.lower() == ".json":
+            return [(path, (json_text(self.to_json()) + "\n").encode("ascii"))]
+        return [(path, self.data().file(path.suffix))]
 
     def _repr_html_(self) -> str:
         """Show the table in a notebook."""
@@ -177,11 +252,6 @@ def exact(value: float) -> str:
 def rounded(value: float) -> str:
     """Return a number as people want to see it in a table."""
     return f"{value:.10g}"
-
-
-def csv_bytes(text: str, language: str) -> bytes:
-    """Return CSV of numbers as bytes; spreadsheets know UTF-8 by the mark at its beginning, English ones need none."""
-    return text.encode("utf-8" if language == "en" else "utf-8-sig")
 
 
 def xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:

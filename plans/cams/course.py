@@ -139,7 +139,7 @@ class CamCourse(Course):
         """Say where profiles are curved most."""
         for curve, _, profile in profiles(self.solved):
             sharpest = profile.sharpest
-            yield f"sharpest.{curve}", {"rho": (sharpest.value, "m"), "at": (sharpest.phi, "rad")}
+            yield f"sweep.sharpest.{curve}", {"rho": (sharpest.value, "m"), "at": (sharpest.phi, "rad")}
 
     def states(self, places: Any) -> dict[str, list[str]]:
         """Return at which places a profile is undercut."""

@@ -143,7 +143,7 @@ class GearCourse(Course):
         """Say on which zones how many pairs of teeth touch."""
         for zone in zones(self.solved):
             ends = {name: (getattr(zone, name), "m") for name in ("first", "last", "length")}
-            yield "zone", {**ends, "pairs": zone.pairs}
+            yield "sweep.zone", {**ends, "pairs": zone.pairs}
 
     def data(self, places: Any) -> dict[str, Any]:
         """Return marks of the contact, and where how many pairs touch."""

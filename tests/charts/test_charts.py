@@ -244,8 +244,8 @@ def test_json_holds_the_charts_in_si(capsys: pytest.CaptureFixture[str]) -> None
 
 
 def test_places_have_units_in_csv_and_lie_within_a_turn_in_json(all_three: Charts) -> None:
-    files = [one.csv(all_three.words) for one in all_three.charts.values()]
-    heads = [file.decode("utf-8").split("\r\n")[0].split(",") for file in files]
+    files = [one.data(all_three.words).csv() for one in all_three.charts.values()]
+    heads = [file.split("\r\n")[0].split(",") for file in files]
     data = all_three.to_json()
 
     places = data["accuracy"]["places"] + data["stability"]["places"]

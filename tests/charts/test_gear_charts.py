@@ -62,7 +62,7 @@ def test_smallest_scale_that_is_enough_is_the_first_with_so_small_an_error(found
 def test_table_csv_json_and_pictures_tell_the_same(tmp_path: Path) -> None:
     charts = chart(TASK, lang="en", quantities="r_p1")
 
-    rows = list(csv.reader(io.StringIO(charts["scale"].csv(charts.words).decode())))
+    rows = list(csv.reader(io.StringIO(charts["scale"].data(charts.words).csv())))
     data = json.loads(json.dumps(charts.to_json()))["scale"]
 
     assert len(rows) == 1 + len(PRESETS) * len(RATIOS) == 1 + len(data["errors"])

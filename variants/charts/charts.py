@@ -31,13 +31,13 @@ from ...scales.version import __version__
 from ..case import Case, Request, Settings, beside, positions_of
 from ..hands import is_own
 from ..reader import load_task
-from ..tables import Cell, Result, aligned, csv_bytes, csv_text, plain
+from ..tables import FILES, Cell, Result, Table, aligned, plain
 from ..task import LocatedError, Task
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-SUFFIXES = (*PICTURES, ".csv")
+SUFFIXES = (*PICTURES, *FILES)
 PAGED = ".pdf"  # one file holds all pictures
 TOLERANCE = 1.0  # per cent
 HAND = "normal"
@@ -94,11 +94,12 @@ class Chart(ABC, Generic[Found]):
 
     @abstractmethod
     def _rows(self) -> Iterable[Sequence[Cell]]:
-        """Go through the rows of the CSV, the head first."""
+        """Go through the rows of files, the head first."""
 
-    def csv(self, words: Words) -> bytes:
+    def data(self, words: Words) -> Table:
         """Return all its rows."""
-        return csv_bytes(csv_text(self._rows(), words.language), words.language)
+        columns, *rows = map(tuple, self._rows())
+        return Table(tuple(map(str, columns)), tuple(rows), words.language, self.scene.title(self.heading))
 
     @abstractmethod
     def _data(self) -> dict[str, Any]:
@@ -299,10 +300,21 @@ class Charts(Result):
         """Return the files that a path stands for."""
         suffix = path.suffix.lower()
         names = list(self.charts)
+        if suffix == ".json":
+            return Result._files(self, path, drawn)
         several = len(names) > 1 and suffix != PAGED
         targets = [path.with_name(f"{path.stem}-{name}{path.suffix}") for name in names] if several else [path]
-        csv = [chart.csv(self.words) for chart in self.charts.values()] if suffix == ".csv" else None
-        return list(zip(targets, saved(drawn(), suffix) if csv is None else csv, strict=True))
+        if suffix not in FILES:
+            return list(zip(targets, saved(drawn(), suffix), strict=True))
+        charts = zip(targets, self.charts.values(), strict=True)
+        return [(target, chart.data(self.words).file(suffix)) for target, chart in charts]
+
+    def data(self, language: str | None = None) -> Table:
+        """Return the rows of the only chart; of several each has its own."""
+        if len(self.charts) > 1:
+            raise InputError("chart-several", known=", ".join(self.charts))
+        [only] = self.charts.values()
+        return only.data(self._words(language))
 
     def __repr__(self) -> str:
         """Return task, variant and the names of the charts."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import json
 import os
 import re
 import sys
@@ -86,8 +85,10 @@ def note_of(task: Task) -> None:
 
 
 def print_json(data: Mapping[str, Any]) -> None:
-    """Print one JSON object in ASCII, which every console and pipe lets through."""
-    click.echo(json.dumps(data, ensure_ascii=True, allow_nan=False, indent=2))
+    """Print one JSON object."""
+    from ..tables import json_text
+
+    click.echo(json_text(data))
 
 
 def say_written(paths: Iterable[object], as_json: bool) -> None:

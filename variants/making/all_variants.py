@@ -24,13 +24,12 @@ from ..marking.checks import Check, check
 from ..marking.keyed import Keyed, keyed
 from ..marking.rubric import SIGNED
 from ..marking.wording import texts
-from ..spreadsheets.grid import SUFFIXES as CELLS
-from ..tables import Cell, Result, aligned, table_bytes
+from ..tables import FILES, Cell, Result, Table, aligned
 from ..task import Task
 from .new_variants import NewVariants, import_variants, make_variants
 
 TASK_FILE = ".toml"
-SUFFIXES = (*CELLS, ".xml", ".gift", TASK_FILE)
+SUFFIXES = (*FILES, ".xml", ".gift", TASK_FILE)
 HALF = 2.0  # how many tolerances off an answer still gets half
 
 
@@ -72,6 +71,12 @@ class AllVariants(Result):
 
         return aligned([tuple(map(shown, row)) for row in self._rows(words.language)], left=(0, 1))
 
+    def data(self, language: str | None = None) -> Table:
+        """Return the values, a column for each variant."""
+        own = self._language if language is None else language
+        columns, *rows = self._rows(own)
+        return Table(tuple(map(str, columns)), tuple(rows), own, self.check.request.task.id, exact=False)
+
     def to_json(self) -> dict[str, Any]:
         """Return what `kulman variants --json` prints: values in SI by variant."""
         found = {
@@ -82,15 +87,15 @@ class AllVariants(Result):
         return {"task": self.check.request.task.id, "variants": found, "problems": problems}
 
     def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
-        """Return a table for .csv, .xlsx, questions for Moodle for .xml, .gift, new variants for .toml, a task file."""
+        """Return a table, questions for Moodle for .xml, .gift, new variants for .toml, a task file."""
         task = self.check.request.task
         suffix = path.suffix.lower()
         if suffix == TASK_FILE:
             if self.new is None:
                 raise InputError("variants-new", file=quote(path))
             return [(path, self.new.text.encode("utf-8"))]
-        if suffix in CELLS:
-            return [(path, table_bytes(path, list(self._rows(self._language)), self._language, task.id, [0], 1))]
+        if suffix in FILES:
+            return Result._files(self, path, drawn)
         write = xml_bytes if suffix == ".xml" else gift_bytes
         return [(path, write(task.id, list(self._questions())))]
 

@@ -27,9 +27,9 @@ from ...scales.units import format_unit, parse, unit
 from ..case import Case, positions_of
 from ..kinds.linkage import placed
 from ..sheets import Sheet, sheet_of
-from ..tables import aligned, csv_text
+from ..tables import FILES, Result, Rows, Table, aligned
 from ..task import LocatedError, Task, plain_number
-from .swept import CSV, DIGITS, SweepRequest, Swept, ends_data
+from .swept import DIGITS, SweepRequest, Swept, ends_data
 
 Array = NDArray[Any]
 SECTIONS = POSITIONS = 12
@@ -111,13 +111,15 @@ class Sweep(Swept):
         parts = (velocity, f"{drawn.unit}/s", drawn.velocity), (acceleration, f"{drawn.unit}/s^2", drawn.acceleration)
         return "\n\n".join(_chords(f"{symbol}_{of}", unit_name, curve, words) for symbol, unit_name, curve in parts)
 
-    def csv(self, language: str | None = None) -> str:
-        """Return the columns of what is chosen, or all, as CSV, numbers in full precision."""
+    def data(self, language: str | None = None) -> Table:
+        """Return the columns of what is chosen, or all."""
         cycle, words = self.cycle, self._words(language)
         shown = _shown(cycle, columns_of(cycle, self.chosen, whole=True), words)
-        head = ["k", *(f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown), "status"]
-        rows = ([k, *(column.values[k] for column in shown), status] for k, status in enumerate(cycle.statuses))
-        return csv_text([head, *rows], words.language)
+        heads = (f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown)
+        rows: Rows = [
+            [k, *(float(column.values[k]) for column in shown), status] for k, status in enumerate(cycle.statuses)
+        ]
+        return Table(("k", *heads, "status"), rows, words.language, self.task.id)
 
     def _data(self) -> dict[str, Any]:
         """Return the cycle, of chosen points and links only, or of all."""
@@ -152,8 +154,8 @@ class Sweep(Swept):
         }
 
     def _files(self, path: Path, drawn: Callable[[], Sheet]) -> Files:
-        """Return all columns for .csv, the drawing for other kinds of files."""
-        return [(path, self._csv_file())] if path.suffix.lower() == CSV else page_files(drawn().pages, path)
+        """Return all columns for tables, the drawing for other kinds of files."""
+        return Result._files(self, path, drawn) if path.suffix.lower() in FILES else page_files(drawn().pages, path)
 
     def drawn(self) -> Sheet:
         """Return the sheet with the plan of positions and the diagrams by plans and by chords.

@@ -17,11 +17,10 @@ from ...scales.errors import InputError, PositionError
 from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
 from ..case import Case
-from ..tables import Result, aligned, csv_bytes, csv_text, plain
+from ..tables import FILES, Result, Table, aligned, plain
 from ..task import Task
 
-CSV = ".csv"
-SUFFIXES = (CSV, *WRITERS)
+SUFFIXES = (*FILES, *WRITERS)
 SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
 DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of what drives
 DRIVES = "phi"
@@ -68,10 +67,6 @@ class Swept(Result):
         return None
 
     @abstractmethod
-    def csv(self, language: str | None = None) -> str:
-        """Return all columns as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
-
-    @abstractmethod
     def _data(self) -> dict[str, Any]:
         """Return what has been found, for JSON: everything in SI."""
 
@@ -79,9 +74,6 @@ class Swept(Result):
         """Return what `kulman sweep --json` prints: everything in SI."""
         data = {"task": self.task.id, "variant": self.variant, "status": self.status} | self._data()
         return {name: plain(value) for name, value in data.items()}
-
-    def _csv_file(self) -> bytes:
-        return csv_bytes(self.csv(), self.words.language)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -115,22 +107,23 @@ class CourseSweep(Swept):
             first = k == 0 or heads[k - 1] != head
             rows.append([head if first else "", *(_cell(column, k, words) for column in shown)])
         remarks = [
-            words[f"sweep.{key}"].format(**{name: _filled(value, words) for name, value in values.items()})
+            words[key].format(**{name: _filled(value, words) for name, value in values.items()})
             for key, values in self.course.remarks()
         ]
         warnings = [warning.text(words.language) for warning in self.case.warnings]
         parts = aligned(rows, ()), _extremes_table(self.course.extremes(), words), "\n".join((*remarks, *warnings))
         return "\n\n".join(part for part in parts if part)
 
-    def csv(self, language: str | None = None) -> str:
-        """Return all columns as CSV, the number of the row before them, after them what is said of each row."""
+    def data(self, language: str | None = None) -> Table:
+        """Return all columns, the number of the row before them, after them what is said of each row."""
         places, words = self.course.places(self.count), self._words(language)
         shown = [in_degrees_and_millimetres(column) for column in self.course.columns(places)]
         states = self.course.states(places)
         units = (format_unit(column.unit, words.language) for column in shown)
         heads = (f"{column.name} [{of}]" if of else column.name for column, of in zip(shown, units, strict=True))
         rows = zip(*(map(float, column.values) for column in shown), *states.values(), strict=True)
-        return csv_text([["k", *heads, *states], *([k, *row] for k, row in enumerate(rows))], words.language)
+        numbered = tuple((k, *row) for k, row in enumerate(rows))
+        return Table(("k", *heads, *states), numbered, words.language, self.task.id)
 
     def _data(self) -> dict[str, Any]:
         """Return columns, extremes where they are told, and what else the course has."""
@@ -143,11 +136,11 @@ class CourseSweep(Swept):
         return {"columns": columns, **({"extremes": extremes} if extremes else {}), **self.course.data(places)}
 
     def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
-        """Return the file of the columns, .csv alone: diagrams are on the sheet."""
-        if path.suffix.lower() != CSV:
+        """Return the file of the columns: diagrams are on the sheet."""
+        if path.suffix.lower() not in FILES:
             key = f"{self.task.kind}-sweep-drawing"
             raise InputError(key, task=quote(self.task.id), file=quote(path.name))
-        return [(path, self._csv_file())]
+        return Result._files(self, path, drawn)
 
     def __repr__(self) -> str:
         """Return task, variant and the number of places."""
