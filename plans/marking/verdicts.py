@@ -44,16 +44,21 @@ SLACK = 0.5  # part of a tolerance by which mm times mu may differ from the valu
 
 @dataclass(frozen=True, slots=True)
 class Marking:
-    """All lines in order of construction, the first one with an error of its own, and the step that it shows.
+    """All lines in order of construction, the first one with an error of its own, and what has judged them."""
 
-    `marker` is the `Marker` that has judged them.
-    """
-
-    key: Key
     lines: tuple[Line, ...]
     first_wrong: str | None
-    step: Step | None
-    marker: Any = field(default=None, repr=False, compare=False)
+    marker: Marker = field(repr=False, compare=False)
+
+    @property
+    def key(self) -> Key:
+        """The answer key, drawn to the student's scales."""
+        return self.marker.key
+
+    @property
+    def step(self) -> Step | None:
+        """The step that the first wrong line shows."""
+        return None if self.first_wrong is None else behind(self.key, self.first_wrong)
 
     def __getitem__(self, name: str) -> Line:
         """Return the line of a quantity."""
@@ -75,8 +80,7 @@ def mark(key: Key, answers: Iterable[Answer]) -> Marking:
     """
     marker = Marker.begun(key, answers)
     lines = tuple(marker.lines())
-    first = first_wrong(lines)
-    return Marking(marker.key, lines, first, None if first is None else behind(key, first), marker)
+    return Marking(lines, first_wrong(lines), marker)
 
 
 def judge(key: Key, answers: Iterable[Answer], first: str = "") -> tuple[Line, ...] | None:

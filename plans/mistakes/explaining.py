@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,6 @@ from ..board import Step
 from ..hands.shaky import Paper
 from ..marking.again import Judged
 from ..marking.answers import FREE, Answer, Line, Said, Verdict, known, nearest
-from ..marking.key import behind
 from ..marking.verdicts import Marking
 from .book import Book, Complex, Floats, Signature, key_of, signatures
 from .data import other_orders, transposed
@@ -58,8 +57,7 @@ class Candidate:
         return frozenset(one.mistake for found in (self.mistakes, *self.same) for one in found)
 
 
-@dataclass(frozen=True, slots=True)
-class Explanation:
+class Explanation(NamedTuple):
     """The candidates, the simplest first, and the marking in which the first one is an earlier error."""
 
     candidates: tuple[Candidate, ...]
@@ -385,7 +383,7 @@ class _Search:
             replace(line, verdict=Verdict.CARRIED, about="") if line.name in others and line.name not in own else line
             for line in self.marking.lines
         )
-        return replace(self.marking, lines=lines, first_wrong=first, step=behind(self.marking.key, first))
+        return replace(self.marking, lines=lines, first_wrong=first)
 
     def _first_of(self, mistake: Broken, candidate: Candidate) -> str:
         """Return the first line that a mistake of several would move by itself, of those that they explain."""

@@ -22,8 +22,8 @@ from kulman import check, cli
 from kulman.plans.hands.shaky import draw, preset
 from kulman.tests.support.marking_cases import answer, key, students
 from kulman.variants.marking import checks
-from kulman.variants.marking.answers import Answers, Line
 from kulman.variants.marking.checks import Job, mark_class, slug
+from kulman.variants.marking.reading import Answers, Reply
 from kulman.variants.marking.result import Measured, Result, measured, shared, too_exact
 from kulman.variants.roster import Entry, Roster, Who
 
@@ -273,7 +273,7 @@ def drawn_segments(task: str, hand: str, count: int, step: float = 0.5) -> list[
     mus = {q.name: of.paper.mus.get(q.plan) for q in of.questions.values() if q.step.verb in ("read", "arm")}
     sizes = {name: np.broadcast_to(abs(board.values[name]), (count,)) / mu for name, mu in mus.items() if mu}
     read = [{name: round(float(mm[i] / step)) * step for name, mm in sizes.items()} for i in range(count)]
-    lines = [{name: Line(name, "", mm, 1) for name, mm in one.items()} for one in read]
+    lines = [{name: Reply(name, mm, decimals=1) for name, mm in one.items()} for one in read]
     return [measured(Answers("", Who(), {}, one, {}), of, of.paper.mus, {}) for one in lines]
 
 

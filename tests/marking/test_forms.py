@@ -193,7 +193,7 @@ def test_a_scale_factor_is_meant_either_way(tmp_path: Path, cell: str, mu: float
     found = one(tmp_path, f"{HEAD}V_B;55;{cell};2,76;;\n")
 
     assert found.problems == ()
-    line = found.lines["V_B"].mu
+    line = found.lines["V_B"].factor
     assert line is not None
     assert (line.value, line.sure) == (pytest.approx(mu), sure)
 
@@ -271,7 +271,7 @@ def test_a_class_is_a_row_for_each_student(tmp_path: Path) -> None:
     assert found[0].lines["omega_2"].value == pytest.approx(-16.3)
     assert found[0].scales["mu_V"].value == pytest.approx(0.05)
     assert "'V_C'" in messages(found[0])[0]
-    assert found[1].empty
+    assert not found[1].lines
     assert found[2].lines["V_B"].value == pytest.approx(2.8)
     assert "D4, V_B" in messages(found[2])[0]
     assert found[0].columns == ("V_B", "omega_2", "a_B")

@@ -13,7 +13,7 @@ from kulman import check, load_task, solve
 from kulman.tests.support.marking_cases import key, right_answers
 from kulman.variants import sheets
 from kulman.variants.case import Case
-from kulman.variants.marking.answers import Answers
+from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import report_html
 from kulman.variants.marking.result import result_of
 from kulman.variants.sheets import drawing_of, sheet_id

@@ -17,9 +17,9 @@ from kulman.plans.marking.verdicts import Marking, mark
 from kulman.tests.support.marking_cases import answer, key, mistakes, right_answers
 from kulman.tests.support.students import SEED, SLIPS
 from kulman.tests.support.students_marked import marked, population
-from kulman.variants.marking.answers import Answers, Line
 from kulman.variants.marking.cells import rounded
 from kulman.variants.marking.marked import Desk, Marked
+from kulman.variants.marking.reading import Answers, Reply
 from kulman.variants.marking.report import Report
 from kulman.variants.marking.result import class_rows, result_of
 from kulman.variants.roster import Who
@@ -50,7 +50,7 @@ def drawn_by_hand(**factors: float) -> list[Answer]:
 
 def handed_in(sizes: dict[str, float], task: str = TASK, variant: str = "3") -> Marked:
     """Mark values of one student at the desk."""
-    lines = {name: Line(name, "form", value=value) for name, value in sizes.items()}
+    lines = {name: Reply(name, value=value, place="form") for name, value in sizes.items()}
     return Desk(check(task, variant, lang="en")).mark(Answers("form", Who(), {}, lines, {}))
 
 
@@ -162,7 +162,7 @@ def test_the_sheet_of_another_variant_is_told_and_earns_little(task: str) -> Non
 def test_sizes_of_another_variant_earn_little_on_a_format_that_is_asked_for(task: str, own: str, other: str) -> None:
     desk = Desk(check(task, format="A3", lang="en"))
     theirs = desk.keyed(other, {}).key
-    lines = {name: Line(name, "form", value=abs(theirs[name])) for name in theirs.questions}
+    lines = {name: Reply(name, value=abs(theirs[name]), place="form") for name in theirs.questions}
 
     result = desk.mark(Answers("form", Who(), {"variant": own}, lines, {}, ()))
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from kulman.variants.marking.answers import Answers, Asked
+from kulman.variants.marking.cells import Asked
 from kulman.variants.marking.keyed import asked_of
-from kulman.variants.marking.reading import read_answers
+from kulman.variants.marking.reading import Answers, read_answers
 from kulman.variants.solution import solve
 
 ASKED = asked_of(solve("nau-slider-crank", "example"))

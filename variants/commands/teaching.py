@@ -35,8 +35,8 @@ from .console import (
 )
 
 if TYPE_CHECKING:
-    from ..marking.answers import Answers
     from ..marking.checks import Check
+    from ..marking.reading import Answers
 
 
 @click.command(
@@ -299,7 +299,6 @@ def _mark(
         with progress() as advance:
             results = asked.mark_all(found, folder, advance, how["jobs"] or None)
         write_tables(asked, results, found, files, moodle)
-        absent = asked.roster.missing(one.who for one in found) if asked.roster else []
-        for line in class_lines(results, absent, asked.request.language):
+        for line in class_lines(results, asked.absent(found), asked.request.language):
             click.echo(line)
     say_written((*files, *filter(None, (folder, moodle))), how["as_json"])

@@ -7,16 +7,18 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import NamedTuple
 
+from ...plans.marking.answers import nearest
+from ...plans.quantities import Quantity
+from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.numbers import quote, split_number
 from ...scales.units import Unit, bounded, converted, unit
 from ..spreadsheets.grid import UNDERSTOOD, Grid, tidy
-from .answers import Asked, Mu
 
 NONE = frozenset(UNDERSTOOD["none"])
 CALCULATIONS = frozenset(UNDERSTOOD["calculation"])
@@ -58,6 +60,48 @@ _FUNCTIONS: dict[str, Callable[[float], float]] = {
     **dict.fromkeys(("tg", "tan"), math.tan),
     **dict.fromkeys(("ctg", "cot"), lambda angle: 1.0 / math.tan(angle)),
 }
+
+
+@dataclass(frozen=True, slots=True)
+class Mu:
+    """A scale factor in SI per millimetre; `sure` when its unit says which way it is meant.
+
+    Without a unit 0.05 may be metres per second to a millimetre, or millimetres to a metre per second.
+    """
+
+    value: float
+    sure: bool = False
+
+    @property
+    def ways(self) -> tuple[float, ...]:
+        """The factor as value per mm, in each way in which it may be meant."""
+        return (self.value,) if self.sure else (self.value, 1.0 / self.value)
+
+    def nearest(self, ours: float) -> float:
+        """Return the factor in the way that is nearer to ours in ratio."""
+        return nearest(self.ways, ours)
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What can be answered in a task: its quantities, its scale factors, and the units in which it shows results.
+
+    `others` are names of plans that are not marked now; answers to them are passed over.
+    """
+
+    quantities: Mapping[str, Quantity]
+    scales: Mapping[str, str]  # SI unit of what a scale factor draws, by symbol
+    display: Display = field(default_factory=Display)
+    others: frozenset[str] = frozenset()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All names that an answer may have."""
+        return (*(name for name, q in self.quantities.items() if q.kind != "point"), *self.scales)
+
+    def unit(self, name: str) -> str:
+        """Return the unit in which a quantity is asked for."""
+        return self.display.unit(self.quantities[name].unit)
 
 
 def known(written: str) -> Unit:

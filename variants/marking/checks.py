@@ -21,17 +21,16 @@ from ...scales.version import __version__
 from ..case import Request, Settings, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
-from ..roster import Digits, Roster, read_roster
+from ..roster import Digits, Entry, read_roster
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, table_bytes
 from ..task import Task
-from .answers import Answers, Asked
 from .keyed import asked_of, class_header, form_rows, solved
-from .marked import Desk, variant_of
-from .reading import read_all
+from .marked import Desk, Terms, variant_of
+from .reading import Answers, read_all
 from .report import REPORTS, Report, report_bytes
 from .result import Result, class_rows, failed, moodle_rows, result_of
-from .rubric import Rubric, read_rubric
+from .rubric import read_rubric
 from .wording import texts
 
 PathLike = str | os.PathLike[str]
@@ -42,15 +41,8 @@ Item = tuple[int, Answers]
 
 
 @dataclass(frozen=True, slots=True)
-class Check:
-    """How the answers to a task are marked; `own` makes reports for students, without right numbers."""
-
-    request: Request
-    rubric: Rubric
-    asked: Asked
-    roster: Roster | None = None
-    digits: int | str = 1
-    own: bool = False
+class Check(Terms):
+    """How answers to a task are marked, and what is done so."""
 
     def write_form(self, file: PathLike) -> Path:
         """Write the empty form, .csv or .xlsx: of one student, or with a roster of the whole class.
@@ -60,19 +52,20 @@ class Check:
         InputError
             A kind of file that is no form, or a place where none can be written.
         """
-        task, language = self.request.task, self.request.language
-        key = Desk(self).keyed(self.request.variant or next(iter(task.variants)), {})
+        task, variant, language = self.request.task, self.request.variant, self.request.language
+        key = Desk(self).keyed(variant or next(iter(task.variants)), {})
         if self.roster is not None:
             rows = [class_header(key.parts, language, self.rubric.directions != "ignored")]
             for entry in self.roster.entries:  # the sheet id is for them to copy
-                who, variant = entry.who, entry.variant_of(task, self.digits)
-                rows.append((who.student, who.group, who.book, who.number, variant, ""))
+                who = entry.who
+                rows.append((who.student, who.group, who.book, who.number, entry.variant_of(task, self.digits), ""))
             bold, frozen = [0], 1
         else:
-            rows = list(form_rows(key, {"task": task.id, "variant": self.request.variant or ""}))
+            rows = list(form_rows(key, {"task": task.id, "variant": variant or ""}))
             columns = texts(language)["column.name"]
-            frozen = next(number for number, row in enumerate(rows) if row[0] == columns) + 1
-            bold = [n for n, row in enumerate(rows) if n >= frozen - 1 and (len(row) == 1 or row[0] == columns)]
+            head = next(number for number, row in enumerate(rows) if row[0] == columns)
+            bold = [n for n, row in enumerate(rows) if n >= head and (len(row) == 1 or row[0] == columns)]
+            frozen = head + 1
         looks = rows, language, task.id, bold, frozen
         return save_all((file,), TABLES, lambda path: [(path, table_bytes(path, *looks))])[0]
 
@@ -90,7 +83,11 @@ class Check:
         InputError
             Nothing can be read.
         """
-        return read_all(names, self.request.task.id, self.asked, _refuse if warn is None else warn)
+        return read_all(names, self.request.task.id, self.asked, warn)
+
+    def absent(self, answers: Iterable[Answers]) -> list[Entry]:
+        """Return the students of the roster who have handed in nothing."""
+        return self.roster.missing(one.who for one in answers) if self.roster else []
 
     def mark(self, answers: Answers) -> Report:
         """Mark one student.
@@ -100,8 +97,7 @@ class Check:
         InputError, PositionError
             The variant or its data have no answer key.
         """
-        marked, language = Desk(self).mark(answers), self.request.language
-        return Report(marked, self.rubric, language, self.own, result_of(marked, language).flags(language))
+        return _marked(Desk(self), answers)[0]
 
     def mark_all(
         self,
@@ -130,8 +126,12 @@ class Check:
         return mark_class(Job(self, place), answers, advance or (lambda done, whole: None), jobs)
 
 
-def _refuse(error: KulmanError) -> None:
-    raise error
+def _marked(desk: Desk, answers: Answers) -> tuple[Report, Result]:
+    """Mark one student, and return what is said of it and what is kept."""
+    terms, marked = desk.terms, desk.mark(answers)
+    language = terms.request.language
+    result = result_of(marked, language)
+    return Report(marked, terms.rubric, language, terms.own, result.flags(language)), result
 
 
 def check(
@@ -185,22 +185,21 @@ def check(
     >>> [asked.mark(answers).marked.mark for answers in asked.read("printed")]
     [80.9]
     """
-    found = load_task(task)
+    of = load_task(task)
     if variant is not None:
-        found.variant(variant)
-    Digits.of(digits)
-    plans, language = None if only is None else plans_wanted(only, found), "en" if lang is None else lang
-    said = by_name("set", set), plans, by_name("scales", scales), notation, language, format
-    request = Request(found, variant, *said)
+        of.variant(variant)
     if format is not None:
         format_named(format)
+    Digits.of(digits)
+    plans, language = None if only is None else plans_wanted(only, of), "en" if lang is None else lang
+    request = Request(of, variant, by_name("set", set), plans, by_name("scales", scales), notation, language, format)
     unformatted = replace(request, format=None)  # the same is asked on every format
     asked = asked_of(solved(unformatted))
     if plans is not None:
         whole = asked_of(solved(replace(unformatted, only=None)))
         asked = replace(asked, others=frozenset(whole.names).difference(asked.names))
     marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked, directions)
-    students = None if roster is None else read_roster(os.fspath(roster), found)
+    students = None if roster is None else read_roster(os.fspath(roster), of)
     return Check(request, marking, asked, students, digits, own)
 
 
@@ -208,57 +207,57 @@ def check(
 class Job:
     """What is done for every student of a class: how answers are marked, and where reports go, if anywhere."""
 
-    check: Check
+    terms: Terms
     folder: str | None = None
 
     def begin(self) -> Callable[[Item], Result]:
         """Set up, and return what marks a student, who comes with a number."""
-        desk = Desk(self.check)
+        desk = Desk(self.terms)
         return lambda item: mark_one(self, desk, *item)
 
-    def names(self, answers: Sequence[Answers]) -> list[str]:
+    def names(self, answers: Iterable[Answers]) -> list[str]:
         """Return for each student what tells this job from any that would mark or say something else."""
-        check, request = self.check, self.check.request
+        terms, request = self.terms, self.terms.request
         asked = (request.variant, request.settings, request.only, request.scales, request.notation)
         parts = (__version__, request.task.text, *asked)
-        own = (request.language, request.format, check.rubric, check.digits, check.own, tuple(REPORTS))
-        whole, roster = digest_of(repr((parts, own))), check.roster
+        own = (request.language, request.format, terms.rubric, terms.digits, terms.own, tuple(REPORTS))
+        whole, roster = digest_of(repr((parts, own))), terms.roster
         told = ((one, roster.find(one.who) if roster else None) for one in answers)
         return [digest_of(f"{whole} {number} {one!r} {entry!r}") for number, (one, entry) in enumerate(told)]
 
 
 def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int | None = None) -> list[Result]:
     """Mark all students of a class, in their order, as `Check.mark_all` says."""
-    students, folder = list(enumerate(answers)), None if job.folder is None else Path(job.folder)
-    journal = Journal(folder / JOURNAL, Result.from_json, Result.to_json) if folder else None
-    names = job.names(answers) if journal else []
-    found: dict[int, Result] = {}
-    for number, name in enumerate(names):  # what an earlier run found of the same answers, if its reports are there
-        before = journal.found(name) if journal else None
-        if folder and before is not None and all((folder / report).is_file() for report in before.reports):
-            found[number] = before
-    advance(len(found), len(students))
-    todo = [item for item in students if item[0] not in found]
+    folder, names = None if job.folder is None else Path(job.folder), list[str]()
+    journal, found = None, dict[int, Result]()
+    if folder is not None:
+        journal, names = Journal(folder / JOURNAL, Result.from_json, Result.to_json), job.names(answers)
+        for number, name in enumerate(names):  # what an earlier run found of the same answers, if its reports are there
+            before = journal.found(name)
+            if before is not None and all((folder / report).is_file() for report in before.reports):
+                found[number] = before
+    advance(len(found), len(answers))
+    todo = [item for item in enumerate(answers) if item[0] not in found]
     with _seldom_collected():
-        for done in shared_out(job, todo, jobs or os.cpu_count() or 1, lambda item: _variant(job.check, item[1])):
+        for done in shared_out(job, todo, jobs or os.cpu_count() or 1, lambda item: _variant(job.terms, item[1])):
             for number, student, result in ((*todo[one.place], one.made) for one in done):
                 if result is None:  # the student's answers have killed the process that marked them
-                    result = failed(student, InputError("process-died"), job.check.request.language)
+                    result = failed(student, InputError("process-died"), job.terms.request.language)
                 elif journal:
                     journal.note(names[number], result)
                 found[number] = result
-            advance(len(done), len(students))
-    results = [found[number] for number, _ in students]
+            advance(len(done), len(answers))
+    results = [found[number] for number in range(len(answers))]
     if journal and folder:
         journal.finish()
-        tidy(folder, results)
+        _tidy(folder, {name for result in results for name in result.reports})
     return results
 
 
-def _variant(check: Check, answers: Answers) -> str:
+def _variant(terms: Terms, answers: Answers) -> str:
     """Return the variant of a student: those of one go to one process, one after the other, and share its key."""
     try:
-        return variant_of(check, answers, check.roster.find(answers.who) if check.roster else None)[0]
+        return variant_of(terms, answers, terms.roster.find(answers.who) if terms.roster else None)[0]
     except KulmanError:
         return ""
 
@@ -276,32 +275,26 @@ def _seldom_collected() -> Iterator[None]:
 
 def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     """Mark a student and write the reports; answers that cannot be marked are a result, too."""
-    language = job.check.request.language
     try:
-        marked = desk.mark(answers)
+        report, result = _marked(desk, answers)
     except KulmanError as error:
-        return failed(answers, error, language)
-    result = result_of(marked, language)
+        return failed(answers, error, job.terms.request.language)
     if job.folder is None:
         return result
-    said = Report(marked, job.check.rubric, language, job.check.own, result.flags(language))
     stem = f"{number + 1:03d}-{slug(result.who.student or Path(answers.source).stem)}"
-    names = tuple(f"{stem}{kind}" for kind in REPORTS)
-    for kind, name in zip(REPORTS, names, strict=True):
-        write_whole(Path(job.folder) / name, report_bytes(said, kind))
-    return replace(result, reports=names)
+    for kind in REPORTS:
+        write_whole(Path(job.folder) / f"{stem}{kind}", report_bytes(report, kind))
+    return replace(result, reports=tuple(f"{stem}{kind}" for kind in REPORTS))
 
 
-def tidy(folder: Path, results: Sequence[Result]) -> None:
+def _tidy(folder: Path, names: set[str]) -> None:
     """Remove the reports that the run before has written there and this one has not; note those of this one.
 
     Only what the note names, and only if nobody has changed it since, is removed: it is the program's own.
     """
-    noted = folder / REPORTS_NOTED
-    before: dict[str, str] = {}
+    noted, before = folder / REPORTS_NOTED, dict[str, str]()
     with suppress(OSError, ValueError, TypeError):
         before = dict(json.loads(noted.read_text(encoding="utf-8")))
-    names = {name for result in results for name in result.reports}
     remove_stale(folder, before.items(), names, REPORTS)
     with suppress(OSError):  # a folder that takes no note keeps its reports
         now = {name: digest_of((folder / name).read_bytes()) for name in sorted(names)}
@@ -312,13 +305,12 @@ def write_tables(
     check: Check, results: Sequence[Result], answers: Sequence[Answers], files: Sequence[Path], moodle: Path | None
 ) -> None:
     """Write the tables of a class."""
-    language = check.request.language
-    absent = check.roster.missing(one.who for one in answers) if check.roster else []
-    rows = list(class_rows(results, absent, language))
+    language, task = check.request.language, check.request.task.id
+    rows = list(class_rows(results, check.absent(answers), language))
 
     def table(path: Path) -> Files:
         if path == moodle:
             return [(path, csv_table(list(moodle_rows(results, language)), language, ","))]
-        return [(path, table_bytes(path, rows, language, check.request.task.id, [0], 1))]
+        return [(path, table_bytes(path, rows, language, task, [0], 1))]
 
     save_all((*files, *filter(None, (moodle,))), TABLES, table)

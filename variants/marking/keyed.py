@@ -17,7 +17,7 @@ from ...scales.units import format_unit
 from ..case import Request, Settings
 from ..sheets import sheet_id
 from ..solution import Solution, solution_of
-from .answers import Asked
+from .cells import Asked
 from .rubric import Rubric, has_sense
 from .wording import plain, texts
 

@@ -3,29 +3,58 @@
 from __future__ import annotations
 
 import glob
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from pathlib import Path
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
-from ...plans.marking.answers import FREE
+from ...plans.marking.answers import FREE, Answer
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
+from ...scales.units import unit
 from ..roster import Who
 from ..spreadsheets.files import read_grid
 from ..spreadsheets.grid import LOOKED_AT, SUFFIXES, Grid, about_kind, column_kind, quantity_part, split_unit, tidy
 from ..task import LocatedError
 from . import cells
-from .answers import Answers, Asked, Line, Mu, put_back
+from .cells import Asked, Mu
 
 NUMBERS = ("mm", "mu", "value")
-NO_SEGMENT: tuple[float | None, int] = (None, 0)
-Cell = tuple[int, int | None, str]  # row, column, and the quantity to which it is an answer
-NO_DIRECTION: tuple[float | None, int | None] = (None, None)
+PARTS = (*NUMBERS, "direction")
 PRINTED = "printed"
+Columns = Mapping[str, tuple[int | None, str]]  # by what they hold: which they are, and the unit over them
 T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Reply(Answer):
+    """One answered quantity as it stands in a file: at which place, and the scale factor beside it."""
+
+    place: str = ""
+    decimals: int = 0  # with which the segment was written
+    factor: Mu | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Answers:
+    """All answers of one student; `about` is what the file says of task, variant and sheet id, as written.
+
+    `problems` are cells that could not be read; what stands beside them is marked all the same. `columns` are the
+    quantities that a class was asked, nothing for a form of one's own. `unread` is why a file could not be read, which
+    is a student without a mark, not one who has handed in nothing.
+    """
+
+    source: str
+    who: Who
+    about: Mapping[str, str]
+    lines: Mapping[str, Reply]
+    scales: Mapping[str, Mu]
+    problems: tuple[LocatedError, ...] = ()
+    columns: tuple[str, ...] = ()
+    unread: KulmanError | None = None
 
 
 def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answers]:
@@ -37,18 +66,18 @@ def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answe
         The file cannot be read, or no row of it says what its columns hold.
     """
     grid = read_grid(file)
-    grid = replace(grid, file=called) if called else grid
-    for row in range(min(len(grid.rows), LOOKED_AT)):
-        kinds = _first(column_kind(text) for text in grid.rows[row])
-        if "name" in kinds and kinds.keys() & {*NUMBERS, "direction"}:
+    grid = replace(grid, file=called or grid.file)
+    for row, texts in enumerate(grid.rows[:LOOKED_AT]):
+        kinds = _first(map(column_kind, texts))
+        if "name" in kinds and not kinds.keys().isdisjoint(PARTS):
             return [_form(grid, row, kinds, asked)]
-        columns = _of_class(grid.rows[row], asked)
-        if len(columns) > 1 or (columns and any(map(about_kind, grid.rows[row]))):
-            return list(_class(grid, row, asked))
+        columns, about = _of_class(texts, asked), _first(map(about_kind, texts))
+        if len(columns) > 1 or (columns and about):
+            return list(_class(grid, row, columns, about, asked))
     raise InputError("answers-header", file=quote(grid.file, SHOWN))
 
 
-def _first(kinds: Iterator[str | None]) -> dict[str, int]:
+def _first(kinds: Iterable[str | None]) -> dict[str, int]:
     """Return the first column of each kind."""
     found: dict[str, int] = {}
     for column, kind in enumerate(kinds):
@@ -57,136 +86,141 @@ def _first(kinds: Iterator[str | None]) -> dict[str, int]:
     return found
 
 
+class _Cell(NamedTuple):
+    """Where an answer stands, to which quantity it is one, and the unit that is written beside or over it."""
+
+    row: int
+    column: int | None
+    name: str
+    unit: str = ""
+
+
 @dataclass(slots=True)
 class _Sheet:
     """One student's answers while they are read."""
 
     grid: Grid
     asked: Asked
-    lines: dict[str, Line] = field(default_factory=dict)
-    scales: dict[str, Mu] = field(default_factory=dict)
     problems: list[LocatedError] = field(default_factory=list)
+    lines: dict[str, Reply] = field(default_factory=dict)
+    scales: dict[str, Mu] = field(default_factory=dict)
 
-    def refuse(self, cell: Cell, error: InputError) -> None:
+    def refuse(self, cell: _Cell, key: str | InputError, text: object = "") -> None:
         """Note what cannot be read, with file, cell and quantity."""
-        self.problems.append(LocatedError(f"{self.grid.place(*cell[:2])}, {quote(cell[2])}", error))
+        error = InputError(key, text=quote(text)) if isinstance(key, str) else key
+        self.problems.append(LocatedError(f"{self.grid.place(cell.row, cell.column)}, {quote(cell.name)}", error))
 
-    def read(self, cell: Cell, reading: Callable[[], T], otherwise: T) -> T:
-        """Return what stands in a cell; note why it cannot be read."""
+    def read(self, cell: _Cell, reading: Callable[[], T]) -> T | None:
+        """Return what stands in a cell; note why it cannot be read, and return None."""
         try:
             return reading()
         except InputError as error:
             self.refuse(cell, error)
-            return otherwise
+            return None
 
-    def number(self, cell: Cell) -> str:
+    def filled(self, row: int, column: int | None) -> bool:
+        """Whether a cell holds an answer."""
+        return self.grid.text(row, column) not in cells.NONE
+
+    def number(self, cell: _Cell) -> str:
         """Return the text of a cell that should hold a number, of a calculation its result; note what is wrong."""
-        text = self.read(cell, lambda: cells.checked(self.grid, *cell[:2]), "")
+        text = self.read(cell, lambda: cells.checked(self.grid, cell.row, cell.column)) or ""
         slip = cells.slip_in(text)
         if slip is not None:
             makes = Written(f"{slip.makes:.7g}".replace(".", "," if "," in text else "."))
             self.refuse(cell, InputError("answer-calculation", text=slip.text, makes=makes, written=slip.written))
         return cells.signed(text.rpartition("=")[2].strip())
 
-    def mu(self, cell: Cell, written: str = "") -> Mu | None:
+    def mu(self, cell: _Cell) -> Mu | None:
         """Read a scale factor: that of a quantity's plan, or one in a place of its own."""
-        text, name = self.number(cell), cell[2]
+        text = self.number(cell)
         if not text:
             return None
-        drawn = self.asked.scales.get(name) or self.asked.quantities[name].unit
+        drawn = self.asked.scales.get(cell.name) or self.asked.quantities[cell.name].unit
         shown, paper = self.asked.display.of_scales.unit(drawn), self.asked.display.paper
         units = f"({drawn})/mm", f"({shown})/{paper}"
-        return self.read(cell, lambda: cells.scale_factor(text, written, *units), None)
+        return self.read(cell, lambda: cells.scale_factor(text, cell.unit, *units))
 
-    def scale(self, cell: Cell, written: str) -> None:
+    def scale(self, cell: _Cell) -> None:
         """Keep a scale factor that stands in a place of its own, the first of each name."""
-        mu = self.mu(cell, written)
+        mu = self.mu(cell)
         if mu is not None:
-            self.scales.setdefault(cell[2], mu)
+            self.scales.setdefault(cell.name, mu)
 
-    def value(self, cell: Cell, text: str, written: str) -> float | None:
+    def value(self, cell: _Cell, text: str) -> float | None:
         """Read a value; one with a wrong unit is noted, and taken in the unit of the form."""
         try:
-            return cells.value(text, written, cell[2], self.asked) if text else None
+            return cells.value(text, cell.unit, cell.name, self.asked) if text else None
         except InputError as error:
             self.refuse(cell, error)
-            return cells.bare(text, cell[2], self.asked) if error.key.startswith("unit-") else None
+            return cells.bare(text, cell.name, self.asked) if error.key.startswith("unit-") else None
 
-    def direction(self, cell: Cell, answered: bool) -> tuple[float | None, int | None]:
+    def direction(self, cell: _Cell, answered: bool) -> tuple[float | None, int | None]:
         """Read an angle or a sense; an angle is none that a scalar could have, and a sense none of a vector.
 
         A dash says that there is no answer where nothing else is `answered` to a vector.
         """
-        text, kind = self.grid.text(*cell[:2]), self.asked.quantities[cell[2]].kind
-        if text in cells.NONE and (text not in ("-", "–") or (kind == "vector" and not answered)):
-            return NO_DIRECTION
-        angle, sense = self.read(cell, lambda: cells.direction(text, kind == "vector"), NO_DIRECTION)
-        if angle is not None and kind == "scalar":
-            self.refuse(cell, InputError("answer-sense", text=quote(text)))
-            return NO_DIRECTION
+        text, vector = self.grid.text(cell.row, cell.column), self.asked.quantities[cell.name].kind == "vector"
+        if text in cells.NONE and (text not in ("-", "–") or (vector and not answered)):
+            return None, None
+        angle, sense = self.read(cell, lambda: cells.direction(text, vector)) or (None, None)
+        if angle is not None and self.asked.quantities[cell.name].kind == "scalar":
+            self.refuse(cell, "answer-sense", text)
+            return None, None
         return angle, sense
 
-    def line(self, row: int, name: str, at: Mapping[str, int], units: Mapping[str, str], place: str) -> Line:
-        """Read all that is answered to one question.
+    def reply(self, row: int, name: str, columns: Columns, place: str, own: int | None = None) -> None:
+        """Read all that is answered to one question, and keep what says anything, the first of each name.
 
-        `at` and `units` have by "mm", "mu", "value" and "direction" the columns there are, and the units over them or
-        beside.
+        The name of the quantity stands in a column of its `own`, if it does.
         """
-        of_mm, of_mu, of_value, of_direction = ((row, at.get(kind), name) for kind in (*NUMBERS, "direction"))
-        segment, (mm, decimals) = self.number(of_mm), NO_SEGMENT
-        if segment:
-            mm, decimals = self.read(of_mm, lambda: cells.segment(segment, units.get("mm", "")), NO_SEGMENT)
-        answered = any(self.grid.text(row, at.get(kind)) not in cells.NONE for kind in NUMBERS)
-        direction, sense = self.direction(of_direction, answered)
-        mu = self.mu(of_mu, units.get("mu", ""))
-        text, written = self.number(of_value), units.get("value", "")
-        if self.asked.quantities[name].kind == "scalar":
-            text, written, sense = self.sense(of_value, text, written, sense)
-        else:
-            text, written, direction = self.side(of_value, text, written, direction)
-        value = self.value(of_value, text, written)
+        found = (columns.get(part, (None, "")) for part in PARTS)
+        of_mm, of_mu, of_value, of_direction = (_Cell(row, column, name, written) for column, written in found)
+        segment = self.number(of_mm)
+        drawn = self.read(of_mm, lambda: cells.segment(segment, of_mm.unit)) if segment else None
+        answered = any(self.filled(row, cell.column) for cell in (of_mm, of_mu, of_value))
+        angle, sense = self.direction(of_direction, answered)
+        mu, text = self.mu(of_mu), self.number(of_value)
+        text, written, angle, sense = self.turned(of_value, text, angle, sense)
+        value = self.value(of_value._replace(unit=written), text)
         plus = value is not None and text.startswith("+")
         last = None if value is None else cells.rounded(text, value)
-        return Line(name, place, mm, decimals, mu, value, direction, sense, plus, last)
+        mm, decimals = drawn or (None, 0)
+        reply = Reply(name, mm, None, value, angle, sense, plus, last, place, decimals, mu)
+        if not reply.empty and name in self.lines:
+            again = InputError("answer-again", place=Written(self.lines[name].place))
+            self.refuse(_Cell(row, own, name), again)
+        elif not reply.empty:
+            self.lines[name] = reply
 
-    def sense(self, cell: Cell, text: str, written: str, said: int | None) -> tuple[str, str, int | None]:
-        """Take the sense out of a value and its unit; that of a column of its own counts where they contradict it."""
-        (text, of_value), (written, of_unit) = map(cells.split_sense, (text, written))
-        senses = of_value | of_unit | ({said} if said is not None else set())
-        if len(senses) > 1:
-            self.refuse(cell, InputError("answer-senses", text=quote(self.grid.text(*cell[:2]))))
-            return text, written, said
-        return text, written, next(iter(senses), None)
+    def turned(
+        self, cell: _Cell, text: str, angle: float | None, sense: int | None
+    ) -> tuple[str, str, float | None, int | None]:
+        """Take a sense, of a vector a side, out of a value and its unit; what its own column says counts first.
 
-    def side(self, cell: Cell, text: str, written: str, said: float | None) -> tuple[str, str, float | None]:
-        """Take a side out of a vector's value and its unit, and note a sense; the column of directions counts first."""
-        bare = [cells.split_sense(one)[0] for one in (text, written)]
-        for one, rest in zip((text, written), bare, strict=True):
-            if rest != one:
-                words = quote(one.replace(rest, "", 1).strip(" ,;"))
-                self.refuse(cell, InputError("answer-vector-direction", text=words))
-        sign = bare[0][:1]
-        if sign in cells.SIGNS and bare[0][1:] and not FREE.match(cell[2]):
-            self.refuse(cell, InputError("answer-vector-direction", text=quote(sign)))
-        (text, of_value), (written, of_unit) = map(cells.split_side, bare)
-        return text, written, next((angle for angle in (said, of_value, of_unit) if angle is not None), None)
-
-    def add(self, line: Line, row: int, column: int | None) -> None:
-        """Keep a line that says anything, the first of each name."""
-        if (line.mm, line.value, line.direction, line.sense) == (None,) * 4:
-            return
-        if line.name in self.lines:
-            place = Written(self.lines[line.name].place)
-            self.refuse((row, column, line.name), InputError("answer-again", place=place))
-            return
-        self.lines[line.name] = line
+        A sense of a vector is noted and passed over, as are senses that contradict one another.
+        """
+        (bare, of_value), (written, of_unit) = map(cells.split_sense, (text, cell.unit))
+        if self.asked.quantities[cell.name].kind == "scalar":
+            senses = (of_value | of_unit | {sense}) - {None}
+            if len(senses) > 1:
+                self.refuse(cell, "answer-senses", self.grid.text(cell.row, cell.column))
+                return bare, written, angle, sense
+            return bare, written, angle, next(iter(senses), None)
+        for whole, rest in ((text, bare), (cell.unit, written)):
+            if rest != whole:
+                self.refuse(cell, "answer-vector-direction", whole.replace(rest, "", 1).strip(" ,;"))
+        if bare[:1] in cells.SIGNS and bare[1:] and not FREE.match(cell.name):
+            self.refuse(cell, "answer-vector-direction", bare[:1])
+        (bare, side), (written, other) = map(cells.split_side, (bare, written))
+        return bare, written, next((x for x in (angle, side, other) if x is not None), None), sense
 
     def answers(self, source: str, about: Mapping[str, str], columns: tuple[str, ...] = ()) -> Answers:
         """Return what has been read."""
         return Answers(source, Who.of(about), about, self.lines, self.scales, tuple(self.problems), columns)
 
 
-def _form(grid: Grid, header: int, columns: Mapping[str, int], asked: Asked) -> Answers:
+def _form(grid: Grid, header: int, kinds: Mapping[str, int], asked: Asked) -> Answers:
     """Read a form: what it says of the student, then a row per quantity."""
     about: dict[str, str] = {}
     for row in range(header):
@@ -194,71 +228,80 @@ def _form(grid: Grid, header: int, columns: Mapping[str, int], asked: Asked) -> 
         if kind is not None and grid.text(row, 1):
             about.setdefault(kind, grid.text(row, 1))
     sheet = _Sheet(grid, asked)
-    over = {kind: split_unit(grid.text(header, column))[1] for kind, column in columns.items()}
-    alone = grid.text(header, columns.get("mm"))  # a header that is itself a unit: "мм"
-    over["mm"] = over.get("mm") or (alone if cells.of_paper(alone) else "")
+    columns = {kind: (column, split_unit(grid.text(header, column))[1]) for kind, column in kinds.items()}
+    alone = grid.text(header, kinds.get("mm"))  # a header that is itself a unit: "мм"
+    if "mm" in kinds and not columns["mm"][1] and cells.of_paper(alone):
+        columns["mm"] = kinds["mm"], alone
     for row in range(header + 1, len(grid.rows)):
-        _form_row(sheet, row, columns, over)
+        _form_row(sheet, row, kinds, columns)
     if not sheet.lines and not sheet.problems:
         raise InputError("answers-none", file=quote(grid.file, SHOWN))
-    exchanged = put_back(sheet.lines, sheet.scales, asked)
+    exchanged = _put_back(sheet.lines, sheet.scales, asked)
     if exchanged is not None:
         sheet.lines = exchanged
         sheet.problems.append(LocatedError(grid.place(header), InputError("answers-swapped")))
     return sheet.answers(grid.file, about)
 
 
-def _form_row(sheet: _Sheet, row: int, columns: Mapping[str, int], over: Mapping[str, str]) -> None:
+def _form_row(sheet: _Sheet, row: int, kinds: Mapping[str, int], columns: Columns) -> None:
     """Read a row of a form; rows with nothing but a name are headings, or have no answer."""
-    grid = sheet.grid
-    if tidy(grid.text(row, columns["name"])) in cells.CALCULATIONS:
-        sheet.number((row, columns.get("value"), grid.text(row, columns["name"])))
+    grid, asked, own = sheet.grid, sheet.asked, kinds["name"]
+    text, written, of_value = grid.text(row, own), grid.text(row, kinds.get("unit")), kinds.get("value")
+    if tidy(text) in cells.CALCULATIONS:
+        sheet.number(_Cell(row, of_value, text))
         return
-    name = latin(grid.text(row, columns["name"]))
-    filled = [kind for kind in (*NUMBERS, "direction") if grid.text(row, columns.get(kind)) not in cells.NONE - {"-"}]
-    if not name or not filled or column_kind(name) == "name" or name in sheet.asked.others:
+    name = latin(text)
+    filled = any(grid.text(row, kinds.get(part)) not in cells.NONE - {"-"} for part in PARTS)
+    if not name or not filled or column_kind(name) == "name" or name in asked.others:
         return
-    if name not in sheet.asked.names:
-        sheet.refuse((row, columns["name"], name), unknown("quantity-unknown", name, sheet.asked.names))
+    if name not in asked.names:
+        sheet.refuse(_Cell(row, own, name), unknown("quantity-unknown", name, asked.names))
         return
-    written = grid.text(row, columns.get("unit"))
-    scale_at = columns.get("mu") if grid.text(row, columns.get("mu")) not in cells.NONE else None
-    if name in sheet.asked.scales:
-        sheet.scale((row, columns.get("value") if scale_at is None else scale_at, name), written)
+    in_mu = sheet.filled(row, kinds.get("mu"))
+    if name in asked.scales:
+        sheet.scale(_Cell(row, kinds["mu"] if in_mu else of_value, name, written))
         return
-    units = {**over, "value": written or over.get("value", "")}
-    if scale_at is not None and sheet.asked.quantities[name].unit.endswith("/mm"):
+    here = {**columns}
+    if of_value is not None:
+        here["value"] = of_value, written or columns["value"][1]
+    if in_mu and asked.quantities[name].unit.endswith("/mm"):
         # what is asked is a scale factor itself: that it stands in the column of scales makes it no scale of its own
-        columns = {kind: at for kind, at in columns.items() if kind != "mu"}
-        columns |= {} if grid.text(row, columns.get("value")) not in cells.NONE else {"value": scale_at}
-    sheet.add(sheet.line(row, name, columns, units, grid.place(row)), row, columns["name"])
+        factor = here.pop("mu")[0]
+        if not sheet.filled(row, of_value):
+            here["value"] = factor, written or columns.get("value", (0, ""))[1]
+    sheet.reply(row, name, here, grid.place(row), own)
 
 
-def _of_class(header: tuple[str, ...], asked: Asked) -> dict[int, tuple[str, str, str]]:
+def _of_class(header: Iterable[str], asked: Asked) -> dict[int, tuple[str, str, str]]:
     """Return the columns of a class that hold answers: name, part and unit by column."""
-    found = {}
-    for column, text in enumerate(header):
-        part = quantity_part(text)
-        if part is not None and part[0] in asked.names:
-            found[column] = part
-    return found
+    parts = ((column, quantity_part(text)) for column, text in enumerate(header))
+    return {column: part for column, part in parts if part is not None and part[0] in asked.names}
 
 
-def _class(grid: Grid, header: int, asked: Asked) -> Iterator[Answers]:
+def _class(
+    grid: Grid, header: int, columns: Mapping[int, tuple[str, str, str]], about: Mapping[str, int], asked: Asked
+) -> Iterator[Answers]:
     """Go through the students of a class."""
-    columns, about = _of_class(grid.rows[header], asked), _first(about_kind(text) for text in grid.rows[header])
-    parts: dict[str, dict[str, tuple[int, str]]] = {}
+    by_name: dict[str, dict[str, tuple[int, str]]] = {}
     for column, (name, part, written) in columns.items():
-        parts.setdefault(name, {}).setdefault(_part(asked, name, part, written), (column, written))
-    asked_here = tuple(dict.fromkeys(name for name, _, _ in columns.values() if name in asked.quantities))
+        if name not in asked.scales:
+            # millimetres over a quantity that is no length are those of paper
+            paper = cells.of_paper(written) and asked.quantities[name].unit != "m"
+            part = "direction" if part in ("dir", "sense") else part or ("mm" if paper else "value")
+        by_name.setdefault(name, {}).setdefault(part, (column, written))
+    asked_here = tuple(name for name in by_name if name in asked.quantities)
     strangers = _strangers(grid, header, asked, {*columns, *about.values()})
     for row in range(header + 1, len(grid.rows)):
-        if not any(text not in cells.NONE for text in grid.rows[row]):
+        if cells.NONE.issuperset(grid.rows[row]):
             continue
         said = {kind: grid.text(row, column) for kind, column in about.items() if grid.text(row, column)}
-        sheet = _Sheet(grid, asked, problems=list(strangers))
-        strangers = []  # told once, not for each student
-        _class_row(sheet, row, parts)
+        sheet, strangers = _Sheet(grid, asked, strangers), []  # told once, not for each student
+        for name, parts in by_name.items():
+            first, written = next(iter(parts.values()))
+            if name in asked.scales:
+                sheet.scale(_Cell(row, first, name, written))
+            else:
+                sheet.reply(row, name, parts, grid.place(row, min(column for column, _ in parts.values())))
         yield sheet.answers(grid.place(row), said, asked_here)
 
 
@@ -267,88 +310,127 @@ def _strangers(grid: Grid, header: int, asked: Asked, read: set[int]) -> list[Lo
     found = []
     for column, text in enumerate(grid.rows[header]):
         part = quantity_part(text)
-        own = part is not None and part[0] in asked.others
-        if column not in read and not own and part is not None and ("_" in text or part[1]):
+        if part is not None and column not in read and part[0] not in asked.others and ("_" in text or part[1]):
             error = unknown("quantity-unknown", part[0], asked.names)
             found.append(LocatedError(f"{grid.place(header, column)}, {quote(text)}", error))
     return found
 
 
-def _class_row(sheet: _Sheet, row: int, parts: Mapping[str, Mapping[str, tuple[int, str]]]) -> None:
-    """Read the answers of one student, all parts of each quantity together."""
-    for name, at in parts.items():
-        if name in sheet.asked.scales:
-            column, written = next(iter(at.values()))
-            sheet.scale((row, column, name), written)
-            continue
-        columns = {part: column for part, (column, _) in at.items()}
-        units = {part: written for part, (_, written) in at.items()}
-        sheet.add(sheet.line(row, name, columns, units, sheet.grid.place(row, min(columns.values()))), row, None)
+# Forms in which segments and values stand in each other's column.
+
+NEAR = 0.05  # part by which a product may differ from what it should be
+FEWEST = 3  # lines that must tell
+CLEAR = math.log(3.0)  # by how much nearer to the task's size a value must be
 
 
-def _part(asked: Asked, name: str, part: str, written: str) -> str:
-    """Return what a column of a class holds: millimetres over a quantity that is no length are those of paper."""
-    if part or name in asked.scales:
-        return "direction" if part in ("dir", "sense") else part
-    return "mm" if cells.of_paper(written) and asked.quantities[name].unit != "m" else "value"
+def _put_back(lines: Mapping[str, Reply], scales: Mapping[str, Mu], asked: Asked) -> dict[str, Reply] | None:
+    """Return the lines with segments and values exchanged where nearly all of them only then agree; else None.
+
+    `scales` are the factors that stand in rows of their own, by symbol.
+    """
+    told = [only for line in lines.values() if (only := _only_exchanged(line, scales, asked)) is not None]
+    if len(told) < FEWEST or sum(told) < 0.8 * len(told):
+        return None
+    return {name: _in_place(line, asked) for name, line in lines.items()}
 
 
-def found_files(names: Sequence[str], task: str = "") -> list[str]:
-    """Return the files that are meant: files as they are, all answers in a folder, all that a pattern fits.
+def _in_place(line: Reply, asked: Asked) -> Reply:
+    """Return a line exchanged; of a lone number the size tells what it is, for what is calculated has no segment."""
+    if line.mm is None or line.value is None:
+        own, quantity = unit(asked.unit(line.name)), asked.quantities[line.name]
+        lone = line.value if line.mm is None else own.to_si(line.mm)
+        if not lone:
+            return line
+        segment = quantity.mm and own.to_si(quantity.mm)
+        if (line.mm is None) is (not segment or apart(lone, quantity.value) <= apart(lone, segment)):
+            return line
+    return _exchanged(line, asked)
 
-    The word `printed` means the answers that the source of a bundled task prints.
+
+def apart(number: float, other: float | None) -> float:
+    """Return the logarithm of the ratio of two magnitudes."""
+    return abs(math.log(abs(number / other))) if other else math.inf
+
+
+def _only_exchanged(line: Reply, scales: Mapping[str, Mu], asked: Asked) -> bool | None:
+    """Whether a line with segment, scale and value is right only when exchanged; None where it tells nothing.
+
+    A scale factor without a unit agrees either way, as value per millimetre and as millimetres per unit: then that
+    value is meant which is of the size of the task's.
+    """
+    quantity = asked.quantities[line.name]
+    mu, size = line.factor or scales.get(quantity.scale or ""), abs(quantity.value or 0.0)
+    if mu is None or not line.mm or not line.value or not size:
+        return None
+    ways = line, _exchanged(line, asked)
+    products = ([(x.mm or 0.0) * way for way in mu.ways] for x in ways)
+    agrees, instead = (
+        any(abs(product - abs(x.value or 0.0)) <= NEAR * abs(x.value or 0.0) for product in found)
+        for x, found in zip(ways, products, strict=True)
+    )
+    off, then = (apart(x.value or size, size) for x in ways)
+    if agrees is instead and not (agrees and abs(off - then) > CLEAR):
+        return None
+    return then < off if agrees is instead else instead
+
+
+def _exchanged(line: Reply, asked: Asked) -> Reply:
+    """Return a line with the two numbers exchanged, each read in the unit of its new column."""
+    own = unit(asked.unit(line.name))
+    value = None if line.mm is None else own.to_si(line.mm)
+    mm = None if line.value is None else abs(own.from_si(line.value))
+    return replace(line, mm=mm, value=value, rounded=None)
+
+
+def read_all(
+    names: Sequence[str], task: str, asked: Asked, warn: Callable[[KulmanError], None] | None
+) -> list[Answers]:
+    """Read all answers; a file that cannot be read is told of and has its place, and those beside it are marked.
 
     Raises
     ------
     InputError
-        A folder or a pattern without answers, or a task whose source prints none.
+        The only file there is cannot be read, or any where nobody is told; there is none; the source prints no answers.
+    """
+    inside, found = _found_files(names, task), list[Answers]()
+    for file in inside:
+        try:
+            of_source = file == _printed(task)
+            answers = read_answers(file, asked, PRINTED if of_source else "")
+        except InputError as error:
+            if warn is None or len(inside) == 1:
+                raise
+            warn(error)
+            answers = [Answers(file, Who(), {}, {}, {}, unread=error)]
+        # what a source does not print is not missing
+        found += [replace(one, source=PRINTED, columns=tuple(one.lines)) if of_source else one for one in answers]
+    return found
+
+
+def _found_files(names: Iterable[str], task: str) -> list[str]:
+    """Return the files that are meant: files as they are, all answers in a folder, all that a pattern fits.
+
+    The word `printed` means the answers that the source of a bundled task prints.
     """
     found: list[str] = []
     for name in names:
-        path = Path(name)
+        path, inside = Path(name), [name]
         if name == PRINTED and not path.exists():
-            inside = [str(_printed(task))]
-            if not _printed(task).is_file():
+            inside = [_printed(task)]
+            if not Path(inside[0]).is_file():
                 raise InputError("answers-none-printed", task=quote(task))
-        elif path.is_dir():
-            inside = sorted(str(file) for file in path.iterdir() if _is_answers(file))
-        elif not path.exists() and glob.has_magic(name):
-            inside = sorted(file for file in glob.glob(name) if _is_answers(Path(file)))
-        else:
-            inside = [name]
+        elif path.is_dir() or (not path.exists() and glob.has_magic(name)):
+            within = map(str, path.iterdir()) if path.is_dir() else glob.glob(name)
+            inside = sorted(file for file in within if _is_answers(Path(file)))
         if not inside:
             raise InputError("answers-nowhere", file=quote(name, SHOWN), known=", ".join(SUFFIXES))
         found += inside
     return list(dict.fromkeys(found))
 
 
-def _printed(task: str) -> Path:
-    return Path(str(files(__package__) / "printed" / f"{task}.csv"))
+def _printed(task: str) -> str:
+    return str(files(__package__) / "printed" / f"{task}.csv")
 
 
 def _is_answers(path: Path) -> bool:
     return path.suffix.lower() in SUFFIXES and path.is_file() and not path.name.startswith((".", "~$"))
-
-
-def read_all(names: Sequence[str], task: str, asked: Asked, warn: Callable[[KulmanError], None]) -> list[Answers]:
-    """Read all answers; a file that cannot be read is told of and has its place, and those beside it are marked.
-
-    Raises
-    ------
-    InputError
-        The only file there is cannot be read.
-    """
-    inside, found = found_files(names, task), list[Answers]()
-    for file in inside:
-        try:
-            of_source = file == str(_printed(task))
-            read = read_answers(file, asked, PRINTED if of_source else "")
-        except InputError as error:
-            if len(inside) == 1:
-                raise
-            warn(error)
-            found.append(Answers(file, Who(), {}, {}, {}, unread=error))
-            continue
-        # what a source does not print is not missing
-        found += [replace(one, source=PRINTED, columns=tuple(one.lines)) if of_source else one for one in read]
-    return found

@@ -17,8 +17,8 @@ from ...plans.marking.key import Key
 from ...scales.errors import KulmanError
 from ..roster import WHO, Entry, Who
 from ..tables import Cell
-from .answers import Answers, Line
 from .marked import Marked
+from .reading import Answers, Reply
 from .wording import mistake_texts, texts
 
 FOUND = ("meet", "arc", "arcs", "tangent", "similar", "divide", "template")  # verbs that find a mark by drawing
@@ -57,7 +57,7 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapp
     `follows` has what follows for each quantity from the student's earlier errors, SI, if that is not the right size.
     """
     made = {one.name: one for one in key.paper.program}
-    found: dict[str, tuple[Line, float]] = {}
+    found: dict[str, tuple[Reply, float]] = {}
     for name, line in answers.lines.items():
         question = key.questions.get(name)
         if question is None or line.mm is None or question.step.verb not in ("read", "arm"):
@@ -74,7 +74,7 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapp
     return segments
 
 
-def _resolution(lines: Sequence[Line]) -> float:
+def _resolution(lines: Sequence[Reply]) -> float:
     """Return to what a student reads segments: halves of a millimetre are written with one decimal, too.
 
     What is laid off is none of them: it may be written to more digits.
@@ -217,7 +217,7 @@ def students_scales(marked: Marked) -> dict[str, float]:
     key, answers = marked.marking.key, marked.answers
     found = dict(key.paper.mus)
     for name, line in answers.lines.items():
-        question, mu = key.questions.get(name), line.mu or answers.scales.get(marked.keyed.scale_of(name))
+        question, mu = key.questions.get(name), line.factor or answers.scales.get(marked.keyed.scale_of(name))
         if question is not None and mu is not None and question.plan in found:
             found[question.plan] = mu.nearest(key.paper.mus[question.plan])
     return found

@@ -17,7 +17,7 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
 from ..task import LocatedError
-from .answers import Asked
+from .cells import Asked, value
 
 WORTH = {
     Verdict.RIGHT: 1.0,
@@ -200,8 +200,6 @@ class _Reader:
 
     def _limits(self) -> dict[str, float]:
         """Return tolerances with their units."""
-        from .cells import value
-
         found = {}
         for name, text in self._under("limits", self.asked.quantities).items():
             try:
