@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
-from functools import partial
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from ...plans.linkages import mechanism as model
@@ -22,39 +21,77 @@ _RAD, _RAD_S, _RAD_S2 = unit("rad"), unit("rad/s"), unit("rad/s^2")
 _M, _M_S, _M_S2 = unit("m"), unit("m/s"), unit("m/s^2")
 _KG, _KG_M2, _KG_M = unit("kg"), unit("kg*m^2"), unit("kg/m")
 _N, _N_M = unit("N"), unit("N*m")
-_STROKE = Field(one_of("stroke-unknown", lambda: (model.BOTH, model.WORKING, model.IDLE)), required=False)
+_STROKE = one_of("stroke-unknown", lambda: (model.BOTH, model.WORKING, model.IDLE))
 _OVER = one_of("diagram-over", lambda: (model.STROKE, model.ANGLE))
 _BALANCE = one_of("balance-unknown", lambda: (model.MOMENT, model.FORCE))
 SEVERAL = ("link", "pair", "load", "couple", "diagram", "start")
+CUSTOMARY = {"mass": "m_", "inertia": "J_S", "per_length": "k_", "inertia_factor": "j_"}  # before the number of a link
+Links = dict[int, Mapping[str, object]]  # the points of each link by its number
+Fields = dict[str, Field]
+
+
+def _may(**readers: Any) -> Fields:
+    """Return fields that may be left out."""
+    return {key: Field(read, required=False) for key, read in readers.items()}
+
+
+def _must(**readers: Any) -> Fields:
+    """Return fields that must be there."""
+    return {key: Field(read) for key, read in readers.items()}
 
 
 def read_mechanism(checker: Checker, raw: object, names: Names) -> model.Mechanism | None:
     """Read `[mechanism]`; `None` when a part of it is at fault."""
-    before = len(checker.faults)
+    before, value = len(checker.faults), names.value
+    driver = raw.get("driver") if isinstance(raw, dict) else None
+    slides = isinstance(driver, dict) and "travel" in driver
+    legs = array_of(link_number, 2)
+    loaded = _must(name=name, link=link_number)
 
-    def each(read: Callable[..., Any], required: bool = False) -> Field:
-        """Read an array of tables, one at a time."""
-        return Field(lambda c, p, r: [read(c, path, row, names) for path, row in rows(c, p, r)], required)
+    def named(make: Callable[..., Any]) -> Callable[..., Any]:
+        """Make a load; a literal magnitude is called like it."""
+        return lambda **read: make(**{**read, "magnitude": names.called(read["name"], read["magnitude"])})
 
-    slides = isinstance(raw, dict) and isinstance(raw.get("driver"), dict) and "travel" in raw["driver"]
-    kinds = {
-        "gravity": Field(names.value(_M_S2), required=False),
-        "link": each(_link, required=True),
-        "pair": each(_pair, required=True),
-        "driver": Field(lambda c, p, r: _driver(c, p, r, names)),
-        "stroke": Field(lambda c, p, r: _stroke(c, p, r, names), required=False),
-        # before the loads that name them
-        "diagram": Field(lambda c, p, r: _diagrams(c, rows(c, p, r), names), required=False),
-        "load": each(_load),
-        "couple": each(_couple),
-        "start": each(partial(_start, slides=slides)),
+    made: dict[str, tuple[Callable[..., Any], Fields]] = {
+        "stroke": (model.Stroke, _must(link=link_number) | _may(sense=names.sign)),
+        # without a direction or a sense it resists the motion of its point, the turning of its link
+        "load": (
+            named(model.Load),
+            loaded | _must(point=name, magnitude=value(_N)) | _may(direction=value(_RAD), stroke=_STROKE),
+        ),
+        "couple": (
+            named(lambda sense=None, **read: model.Couple(sense=sense, **read)),
+            loaded | _must(magnitude=value(_N_M)) | _may(sense=names.sign, stroke=_STROKE),
+        ),
+        # the driver stands at an angle, or at its travel where it slides
+        "start": (
+            model.Start,
+            _must(link=link_number, x=value(_M), y=value(_M), angle=value(_RAD), driver=value(_M if slides else _RAD))
+            | _may(legs=legs),
+        ),
     }
-    read = record(checker, ("mechanism",), raw, kinds)
+
+    def single(key: str) -> Callable[..., Any]:
+        make, fields = made[key]
+        return lambda c, p, r, names=names: record_of(c, p, r, fields, make)
+
+    def each(read: Callable[..., Any]) -> Callable[..., Any]:
+        """Read an array of tables, one at a time."""
+        return lambda c, p, r: [read(c, path, row, names) for path, row in rows(c, p, r)]
+
+    fields = {
+        **_may(gravity=value(_M_S2)),
+        **_must(link=each(_link), pair=each(_pair), driver=lambda c, p, r: _driver(c, p, r, names)),
+        **_may(stroke=single("stroke")),
+        **_may(diagram=lambda c, p, r: _diagrams(c, rows(c, p, r), names)),  # before the loads that name them
+        **_may(**{key: each(single(key)) for key in ("load", "couple", "start")}),
+    }
+    read = record(checker, ("mechanism",), raw, fields)
     if len(checker.faults) > before:
         return None
-    found = {f"{key}s": tuple(read.get(key, ())) for key in SEVERAL} | {"driver": read["driver"]}
-    found |= {"stroke": read.get("stroke"), "gravity": names.called("g", read.get("gravity"))}
-    mechanism = model.Mechanism(**found)
+    found = {f"{key}s": tuple(read.get(key, ())) for key in SEVERAL}
+    gravity = names.called("g", read.get("gravity"))
+    mechanism = model.Mechanism(**found, driver=read["driver"], stroke=read.get("stroke"), gravity=gravity)
     _joined(checker, mechanism, names)
     return mechanism if len(checker.faults) == before else None
 
@@ -66,6 +103,7 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> model.Link
         if not isinstance(raw, dict) or not raw:
             checker.wrong_type(path, "type-table")
             return None
+        place = array_of(names.place, 2)
         letters = [name(checker, (*path, key), key) for key in raw]
         lettered = {key: place(checker, (*path, key), at) for key, at in raw.items()}
         for at in lettered.values():
@@ -73,51 +111,42 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> model.Link
                 names.bounds.update((model.positive(length), Bound.POSITIVE) for length in at)
         return None if None in letters or None in lettered.values() else names.on_axis(lettered)
 
-    place = array_of(names.place, 2)
-    fields = {"number": Field(link_number), "points": Field(points), "centre": Field(name, required=False)}
-    fields |= {key: Field(names.value(of), required=False) for key, of in (("mass", _KG), ("inertia", _KG_M2))}
-    factors = ("per_length", _KG_M), ("inertia_factor", ONE)
-    fields |= {key: Field(names.above_zero(of), required=False) for key, of in factors}
+    fields = _must(number=link_number, points=points) | _may(
+        centre=name, mass=names.value(_KG), inertia=names.value(_KG_M2),
+        per_length=names.above_zero(_KG_M), inertia_factor=names.above_zero(ONE),
+    )  # fmt: skip
     read = record(checker, path, raw, fields)
     if not {"number", "points"} <= read.keys():
         return None
     if read.get("centre", next(iter(read["points"]))) not in read["points"]:
         checker.fault((*path, "centre"), unknown("point-unknown", read["centre"], read["points"], link=read["number"]))
-    if "centre" not in read and read.keys() & {"mass", "inertia", "per_length", "inertia_factor"}:
+    heavy = read.keys() & CUSTOMARY.keys()
+    if heavy and "centre" not in read:
         checker.fault(path, InputError("key-missing", name="centre"))
-    return model.Link(**_with_mass(checker, path, read, names))
-
-
-def _with_mass(checker: Checker, path: Path, read: dict[str, Any], names: Names) -> dict[str, Any]:
-    """Name the mass and the moment of inertia, whether they are literals or follow from the length."""
-    customary = {"mass": "m_", "inertia": "J_S", "per_length": "k_", "inertia_factor": "j_"}
-    for key in read.keys() & customary.keys():
-        read = {**read, key: names.called(f"{customary[key]}{read['number']}", read[key])}
+    # masses and moments of inertia have names, whether they are literals or follow from the length
+    read |= {key: names.called(f"{CUSTOMARY[key]}{read['number']}", read[key]) for key in heavy}
     if "inertia_factor" in read and not read.keys() & {"mass", "per_length"}:
         checker.fault(path, InputError("key-missing", name="mass"))
     for factor, result in (("per_length", "mass"), ("inertia_factor", "inertia")):
         if factor in read and result in read:
             checker.fault((*path, result), InputError("follows-from", name=result, other=factor))
         if factor in read:
-            read = {**read, result: f"{customary[result]}{read['number']}"}
-    return read
+            read[result] = f"{CUSTOMARY[result]}{read['number']}"
+    return model.Link(**read)
 
 
 def _pair(checker: Checker, path: Path, raw: object, names: Names) -> model.Pair | None:
     """Read one pair of the kind that it names."""
     place = array_of(names.place, 2)
-    guide = {"through": Field(place), "direction": Field(names.value(_RAD))}
-    kinds: dict[str, tuple[type[model.Pair], dict[str, Field]]] = {
-        "revolute": (model.Revolute, {"at": Field(place, required=False)}),
-        "prismatic": (model.Prismatic, {**guide, "offset": Field(names.place, required=False)}),
-    }
+    guide = _must(through=place, direction=names.value(_RAD)) | _may(offset=names.place)
+    kinds: dict[str, tuple[type[model.Pair], Fields]]
+    kinds = {"revolute": (model.Revolute, _may(at=place)), "prismatic": (model.Prismatic, guide)}
     kind = raw.get("kind") if isinstance(raw, dict) else None
     if not isinstance(kind, str) or kind not in kinds:
         checker.fault((*path, "kind"), InputError("pair-kind", text=quote(kind), known=", ".join(kinds)))
         return None
     pair, own = kinds[kind]
-    fields = {"kind": Field(as_is), "point": Field(name), "links": Field(array_of(link_number, 2)), **own}
-    fields["branch"] = Field(names.sign, required=False)
+    fields = _must(kind=as_is, point=name, links=array_of(link_number, 2)) | own | _may(branch=names.sign)
     return record_of(checker, path, raw, fields, lambda kind, **read: pair(**read))
 
 
@@ -126,16 +155,14 @@ def _driver(checker: Checker, path: Path, raw: object, names: Names) -> model.Dr
     if isinstance(raw, list):
         checker.fault(path, InputError("driver-twice"))
         return None
-    before = len(checker.faults)
+    before, value = len(checker.faults), names.value
+    fields = _must(link=link_number, point=name)
     slides = isinstance(raw, dict) and "travel" in raw
-    fields = {"link": Field(link_number), "point": Field(name)}
     if slides:
-        fields |= {"travel": Field(names.value(_M)), "speed": Field(names.value(_M_S))}
+        fields |= _must(travel=value(_M), speed=value(_M_S)) | _may(acceleration=value(_M_S2))
     else:
-        fields |= {"pivot": Field(name), "angle": Field(names.value(_RAD)), "speed": Field(names.value(_RAD_S))}
-        fields |= {"sense": Field(names.sign)}
-    fields["acceleration"] = Field(names.value(_M_S2 if slides else _RAD_S2), required=False)
-    fields |= {} if slides else {"balance": Field(_BALANCE, required=False)}
+        fields |= _must(pivot=name, angle=value(_RAD), speed=value(_RAD_S), sense=names.sign)
+        fields |= _may(acceleration=value(_RAD_S2), balance=_BALANCE)
     read = record(checker, path, raw, fields)
     if read.get("speed") == model.ZERO:
         checker.fault((*path, "speed"), InputError("is-zero" if slides else "not-positive", text="0"))
@@ -145,102 +172,71 @@ def _driver(checker: Checker, path: Path, raw: object, names: Names) -> model.Dr
     return model.SlidingDriver(**read) if slides else model.Driver(**read)
 
 
-def _start(checker: Checker, path: Path, raw: object, names: Names, slides: bool) -> model.Start | None:
-    """Read where a link starts; the driver stands at an angle, or at its travel where it `slides`."""
-    place = {"x": Field(names.value(_M)), "y": Field(names.value(_M)), "angle": Field(names.value(_RAD))}
-    legs = {"legs": Field(array_of(link_number, 2), required=False)}
-    fields = {"link": Field(link_number), **place, "driver": Field(names.value(_M if slides else _RAD)), **legs}
-    return record_of(checker, path, raw, fields, model.Start)
-
-
-def _stroke(checker: Checker, path: Path, raw: object, names: Names) -> model.Stroke | None:
-    """Read which link is the output, and which way it works."""
-    fields = {"link": Field(link_number), "sense": Field(names.sign, required=False)}
-    return record_of(checker, path, raw, fields, model.Stroke)
-
-
-def _load(checker: Checker, path: Path, raw: object, names: Names) -> model.Load | None:
-    """Read a force; without a direction it resists the motion of its point."""
-    places = {"name": Field(name), "link": Field(link_number), "point": Field(name)}
-    size = {"magnitude": Field(names.value(_N)), "direction": Field(names.value(_RAD), required=False)}
-    return record_of(checker, path, raw, {**places, **size, "stroke": _STROKE}, partial(_named, model.Load, names))
-
-
-def _couple(checker: Checker, path: Path, raw: object, names: Names) -> model.Couple | None:
-    """Read a moment; without a sense it resists the turning of its link."""
-    places = {"name": Field(name), "link": Field(link_number)}
-    size = {"magnitude": Field(names.value(_N_M)), "sense": Field(names.sign, required=False)}
-    make = partial(_named, model.Couple, names, sense=None)
-    return record_of(checker, path, raw, {**places, **size, "stroke": _STROKE}, make)
-
-
-def _named(make: Callable[..., Any], names: Names, **read: Any) -> Any:
-    """Make a load; a literal magnitude is called like it."""
-    return make(**{**read, "magnitude": names.called(read["name"], read["magnitude"])})
-
-
 def _diagrams(checker: Checker, rows: list[tuple[Path, object]], names: Names) -> list[model.Diagram]:
     """Read the load diagrams; from then on their names are those of forces or moments."""
-    found = [(path, _diagram(checker, path, row, names)) for path, row in rows]
-    for (path, row), (_, made) in zip(rows, found, strict=True):
-        if made is None and isinstance(row, dict) and isinstance(row.get("name"), str):
-            names.dimensions.setdefault(row["name"], None)
-            names.stated.setdefault(row["name"], (*path, "name"))
-    diagrams = [(path, *made) for path, made in found if made is not None]
-    for path, diagram, wanted in diagrams:
+    read = [(path, row, _diagram(checker, path, row, names)) for path, row in rows]
+    diagrams = []
+    for path, row, (diagram, wanted) in sorted(read, key=lambda item: item[2][0] is not None):  # those at fault first
+        if diagram is None:
+            if isinstance(row, dict) and isinstance(row.get("name"), str):
+                names.dimensions.setdefault(row["name"], None)
+                names.stated.setdefault(row["name"], (*path, "name"))
+            continue
         if diagram.name in names.dimensions:
             checker.twice((*path, "name"), diagram.name, names.stated[diagram.name])
         names.dimensions[diagram.name] = wanted
         names.stated.setdefault(diagram.name, (*path, "name"))
-    return [diagram for _, diagram, _ in diagrams]
+        diagrams.append(diagram)
+    return diagrams
 
 
-def _diagram(checker: Checker, path: Path, raw: object, names: Names) -> tuple[model.Diagram, Any] | None:
-    over = raw.get("over") if isinstance(raw, dict) else None
-    first = raw.get("values") if isinstance(raw, dict) else None
+def _diagram(checker: Checker, path: Path, raw: object, names: Names) -> tuple[model.Diagram | None, Any]:
+    """Read a diagram, None where it is at fault, and the dimension of its sizes."""
+    own, before = raw if isinstance(raw, dict) else {}, len(checker.faults)
+    first, over = own.get("values"), own.get("over")
     moment = isinstance(first, list) and any(names.dimension_of(value) == _N_M.dimension for value in first)
     wanted = _N_M if moment else _N
-    sizes = array_of(names.value(wanted))
-    fields = {
-        "name": Field(name),
-        "over": Field(_OVER),
-        "at": Field(array_of(names.value(_RAD if over == model.ANGLE else ONE))),
-        "values": Field(sizes),
-        "back": Field(sizes, required=False),
-    }
+    sizes, places = array_of(names.value(wanted)), array_of(names.value(_RAD if over == model.ANGLE else ONE))
+    fields = _must(name=name, over=_OVER, at=places, values=sizes) | _may(back=sizes)
     diagram = record_of(checker, path, raw, fields, model.Diagram)
-    if diagram is None:
-        return None
-    before = len(checker.faults)
-    for key in ("values", "back"):
-        sizes = getattr(diagram, key)
-        if sizes is not None and len(sizes) != len(diagram.at):
-            checker.fault((*path, key), InputError("diagram-uneven", n=len(diagram.at), m=len(sizes)))
-    if diagram.back and over == model.ANGLE:
-        checker.fault((*path, "back"), InputError("diagram-back"))
-    return (diagram, wanted.dimension) if len(checker.faults) == before else None
+    if diagram is not None:
+        for key, listed in (("values", diagram.values), ("back", diagram.back)):
+            if listed is not None and len(listed) != len(diagram.at):
+                checker.fault((*path, key), InputError("diagram-uneven", n=len(diagram.at), m=len(listed)))
+        if diagram.back and over == model.ANGLE:
+            checker.fault((*path, "back"), InputError("diagram-back"))
+    return (diagram if len(checker.faults) == before else None), wanted.dimension
 
 
 def _joined(checker: Checker, mechanism: model.Mechanism, names: Names) -> None:
     """Check that links, pairs, driver and loads speak of the same numbers and letters."""
-    links: dict[int, Mapping[str, object]] = {}
+    links: Links = {}
     before = len(checker.faults)
     for i, link in enumerate(mechanism.links):
         if link.number == model.FRAME or link.number in links:
             checker.fault(("mechanism", "link", i, "number"), InputError("link-number", number=link.number))
         links[link.number] = link.points
-    for i, pair in enumerate(mechanism.pairs):
-        _pair_joined(checker, ("mechanism", "pair", i), pair, links)
     places: dict[str, tuple[str, str]] = {}  # a pivot of the frame stands at one
     for i, pair in enumerate(mechanism.pairs):
+        _pair_joined(checker, ("mechanism", "pair", i), pair, links)
         at = pair.at if isinstance(pair, model.Revolute) else None
         if at is not None and places.setdefault(pair.point, at) != at:
             checker.fault(("mechanism", "pair", i, "at"), InputError("pivot-twice", point=pair.point))
     _driver_joined(checker, mechanism, links)
     _loads_joined(checker, mechanism, names, links)
-    _starts_joined(checker, mechanism, links)
+    seen: dict[int, Path] = {}
+    for i, start in enumerate(mechanism.starts):
+        path: Path = ("mechanism", "start", i, "link")
+        if _known(checker, path, start.link, links) and start.link in seen:
+            checker.twice(path, start.link, seen[start.link])
+        seen.setdefault(start.link, path)
     whole = len(checker.faults) == before
-    _output_joined(checker, mechanism)
+    if mechanism.stroke is not None:
+        with checker.at(("mechanism", "stroke", "link")):
+            output_pair(mechanism)
+    for i, diagram in enumerate(mechanism.diagrams):
+        if diagram.over == model.ANGLE and isinstance(mechanism.driver, model.SlidingDriver):
+            checker.fault(("mechanism", "diagram", i, "over"), InputError("diagram-crank"))
     if whole and len(checker.faults) > before:  # else the reader, which constructs it, finds what is wrong
         try:
             analyse(mechanism)
@@ -248,12 +244,18 @@ def _joined(checker: Checker, mechanism: model.Mechanism, names: Names) -> None:
             checker.fault(place_of(mechanism, error), error)
 
 
-def _pair_joined(checker: Checker, path: Path, pair: model.Pair, links: Mapping[int, Mapping[str, object]]) -> None:
+def _known(checker: Checker, path: Path, number: int, links: Links) -> bool:
+    """Tell whether there is a link of a number; else it is a fault."""
+    if number not in links:
+        checker.fault(path, unknown("link-unknown", str(number), map(str, links)))
+    return number in links
+
+
+def _pair_joined(checker: Checker, path: Path, pair: model.Pair, links: Links) -> None:
     """Check one pair: two different links, its point on both of them, a place where one of them is the frame."""
     if pair.links[0] == pair.links[1]:
         checker.fault((*path, "links"), InputError("pair-same", number=pair.links[0]))
-        return
-    if isinstance(pair, model.Revolute):
+    elif isinstance(pair, model.Revolute):
         for number in pair.links:
             if number != model.FRAME:
                 on_link(checker, path, "point", pair.point, number, links)
@@ -265,11 +267,11 @@ def _pair_joined(checker: Checker, path: Path, pair: model.Pair, links: Mapping[
         checker.fault((*path, "links"), InputError("moving-guide", links=", ".join(map(str, pair.links))))
     else:
         on_link(checker, path, "point", pair.point, pair.links[0], links)
-        if pair.links[1] != model.FRAME and pair.links[1] not in links:
-            checker.fault((*path, "links"), unknown("link-unknown", str(pair.links[1]), map(str, links)))
+        if pair.links[1] != model.FRAME:
+            _known(checker, (*path, "links"), pair.links[1], links)
 
 
-def _driver_joined(checker: Checker, mechanism: model.Mechanism, links: Mapping[int, Mapping[str, object]]) -> None:
+def _driver_joined(checker: Checker, mechanism: model.Mechanism, links: Links) -> None:
     """Check that the driver carries its point, and that a crank turns on the frame about another one, its pivot."""
     driver = mechanism.driver
     before, path = len(checker.faults), ("mechanism", "driver")
@@ -286,36 +288,27 @@ def _driver_joined(checker: Checker, mechanism: model.Mechanism, links: Mapping[
         checker.fault((*path, "point"), InputError("driver-point", text=driver.point))
 
 
-def _starts_joined(checker: Checker, mechanism: model.Mechanism, links: Mapping[int, object]) -> None:
-    """Check that the starts are those of different links."""
-    seen: dict[int, Path] = {}
-    for i, start in enumerate(mechanism.starts):
-        path: Path = ("mechanism", "start", i, "link")
-        if start.link not in links:
-            checker.fault(path, unknown("link-unknown", str(start.link), map(str, links)))
-        elif start.link in seen:
-            checker.twice(path, start.link, seen[start.link])
-        seen.setdefault(start.link, path)
+def _placed(mechanism: model.Mechanism) -> Iterator[tuple[Path, Any]]:
+    """Go through loads, couples and diagrams, each with its place."""
+    for key in ("load", "couple", "diagram"):
+        for i, acting in enumerate(getattr(mechanism, f"{key}s")):
+            yield ("mechanism", key, i), acting
 
 
-def _loads_joined(
-    checker: Checker, mechanism: model.Mechanism, names: Names, links: Mapping[int, Mapping[str, object]]
-) -> None:
+def _loads_joined(checker: Checker, mechanism: model.Mechanism, names: Names, links: Links) -> None:
     """Check that loads and couples act on links, forces at their points, each under a name of its own."""
     seen: dict[str, Path] = {}
     sizes = {name for diagram in mechanism.diagrams for name in (diagram.name, *diagram.sizes)}
     sizes |= {load.magnitude for load in mechanism.acting}
-    placed: list[tuple[Path, model.Load | model.Couple]] = [
-        *((("mechanism", "load", i), load) for i, load in enumerate(mechanism.loads)),
-        *((("mechanism", "couple", i), couple) for i, couple in enumerate(mechanism.couples)),
-    ]
-    for path, load in placed:
+    for path, load in _placed(mechanism):
+        if isinstance(load, model.Diagram):
+            continue
         if load.link == model.FRAME:
             checker.fault((*path, "link"), InputError("load-frame", known=", ".join(map(str, links))))
         elif isinstance(load, model.Load):
             on_link(checker, path, "point", load.point, load.link, links)
-        elif load.link not in links:
-            checker.fault((*path, "link"), unknown("link-unknown", str(load.link), map(str, links)))
+        else:
+            _known(checker, (*path, "link"), load.link, links)
         if load.name in seen:
             checker.twice((*path, "name"), load.name, (*seen[load.name], "name"))
         elif load.name in names.dimensions and load.name not in sizes:
@@ -324,14 +317,19 @@ def _loads_joined(
         seen.setdefault(load.name, path)
 
 
-def _output_joined(checker: Checker, mechanism: model.Mechanism) -> None:
-    """Check that the output link moves on the frame, and that a diagram over an angle has a crank."""
-    if mechanism.stroke is not None:
-        with checker.at(("mechanism", "stroke", "link")):
-            output_pair(mechanism)
-    for i, diagram in enumerate(mechanism.diagrams):
-        if diagram.over == model.ANGLE and isinstance(mechanism.driver, model.SlidingDriver):
-            checker.fault(("mechanism", "diagram", i, "over"), InputError("diagram-crank"))
+def place_of(mechanism: model.Mechanism, error: InputError) -> Path:
+    """Return where an error of the structure shows: the load or the first link that it names, or the point."""
+    for path, acting in _placed(mechanism):
+        timed = getattr(acting, "stroke", model.WORKING) != model.BOTH  # all diagrams over a stroke are
+        if acting.name == error.data.get("name") or (timed and error.key == "stroke-missing"):
+            return path
+    named = re.search("[0-9]+", str(error.data.get("link", error.data.get("links", ""))).replace("0, ", "", 1))
+    for i, link in enumerate(mechanism.links):
+        if named and link.number == int(named[0]):
+            return "mechanism", "link", i
+    point = error.data.get("name", error.data.get("point"))
+    holders = [i for i, link in enumerate(mechanism.links) if point in link.points]
+    return ("mechanism", "link", holders[-1], "points", str(point)) if holders else ("mechanism",)
 
 
 def started(checker: Checker, mechanism: model.Mechanism, structure: Structure) -> None:
@@ -344,47 +342,25 @@ def started(checker: Checker, mechanism: model.Mechanism, structure: Structure) 
             checker.fault(("mechanism", "start", i, "link"), error)
 
 
-def place_of(mechanism: model.Mechanism, error: InputError) -> Path:
-    """Return where an error of the structure shows: the load or the first link that it names, or the point."""
-    loads: dict[str, Sequence[model.Load | model.Couple | model.Diagram]] = {
-        "load": mechanism.loads,
-        "couple": mechanism.couples,
-        "diagram": mechanism.diagrams,
-    }
-    for kind, acting in loads.items():
-        for i, row in enumerate(acting):
-            timed = getattr(row, "stroke", model.WORKING) != model.BOTH  # all diagrams over a stroke are
-            if row.name == error.data.get("name") or (timed and error.key == "stroke-missing"):
-                return "mechanism", kind, i
-    named = re.search("[0-9]+", str(error.data.get("link", error.data.get("links", ""))).replace("0, ", "", 1))
-    for i, link in enumerate(mechanism.links):
-        if named and link.number == int(named[0]):
-            return "mechanism", "link", i
-    point = error.data.get("name", error.data.get("point"))
-    holders = [i for i, link in enumerate(mechanism.links) if point in link.points]
-    return ("mechanism", "link", holders[-1], "points", str(point)) if holders else ("mechanism",)
-
-
 def branched(checker: Checker, mechanism: model.Mechanism, structure: Structure) -> None:
-    """Check that every dyad of three revolute pairs says on which side its inner pair lies."""
-    for group in structure.groups:
-        if group.kind == "RRR" and group.inner[0].branch is None:
-            point = group.inner[0].point
-            pins = [pair.point if isinstance(pair, model.Revolute) else None for pair in mechanism.pairs]
-            ends = sorted(zip(group.links, group.outer, strict=True))
-            data = {"links": ", ".join(map(str, sorted(group.links))), "point": point}
-            error = InputError("branch-missing", start=ends[0][1].point, end=ends[1][1].point, **data)
-            checker.fault(("mechanism", "pair", pins.index(point)), error)
+    """Check that pairs at which there are two ways to go on say which is meant, dyads of three pins always; no others.
 
-
-def needless_branches(checker: Checker, mechanism: model.Mechanism, structure: Structure) -> None:
-    """Check that only pairs at which there are two ways to go on say which is meant."""
-    pins = {group.inner[0].point for group in structure.groups if group.kind == "RRR"}
-    two_ways = [group for group in structure.groups if group.kind in ("RRP", "RPR")]
-    triads = {pair.point for group in structure.groups if group.kind == TRIAD for pair in (*group.inner, *group.outer)}
-    guides = [pair for group in two_ways for pair in (*group.inner, *group.outer) if isinstance(pair, model.Prismatic)]
+    The branch of a dyad of three pins says on which side its inner pin lies.
+    """
+    pins: dict[str, Any] = {group.inner[0].point: group for group in structure.groups if group.kind == "RRR"}
+    firsts = [pair.point if isinstance(pair, model.Revolute) else None for pair in mechanism.pairs]
+    for point, group in pins.items():
+        if group.inner[0].branch is None:
+            start, end = (pair.point for _, pair in sorted(zip(group.links, group.outer, strict=True)))
+            links = ", ".join(map(str, sorted(group.links)))
+            error = InputError("branch-missing", start=start, end=end, links=links, point=point)
+            checker.fault(("mechanism", "pair", firsts.index(point)), error)
+    joints = {kind: [pair for group in structure.groups if group.kind == kind for pair in (*group.inner, *group.outer)]
+              for kind in ("RRP", "RPR", TRIAD)}  # fmt: skip
+    guides = [pair for pair in joints["RRP"] + joints["RPR"] if isinstance(pair, model.Prismatic)]
     for i, pair in enumerate(mechanism.pairs):
         meant = pair.point in pins if isinstance(pair, model.Revolute) else pair in guides
         if pair.branch is not None and not meant:
-            error = InputError("branch-triad" if pair.point in triads else "branch-needless", point=pair.point)
+            triad = any(pair.point == other.point for other in joints[TRIAD])
+            error = InputError("branch-triad" if triad else "branch-needless", point=pair.point)
             checker.fault(("mechanism", "pair", i, "branch"), error)

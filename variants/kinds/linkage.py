@@ -23,7 +23,7 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ..case import Case, Choices, Kind, Numbers, Plans, Request, Scales
-from ..checks.mechanism import branched, needless_branches, place_of, read_mechanism, started
+from ..checks.mechanism import branched, place_of, read_mechanism, started
 from ..marking.wording import letter, texts
 from ..task import Given, Task
 
@@ -72,7 +72,6 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
                 checker.fault(place_of(subject, error), error)
             return
         branched(checker, subject, structure)
-        needless_branches(checker, subject, structure)
         started(checker, subject, structure)
         symbols = scale_symbols(structure, program)
         lengths = {x for link in subject.links for x, _ in link.points.values()}
