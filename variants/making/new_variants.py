@@ -331,45 +331,39 @@ class Read:
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """A grid seen so that variants are rows; `names` are the givens by column, `turned`: it lay on its side."""
+    """The cells of a grid seen so that variants are rows; `turned`: it lay on its side.
+
+    The header stands in the row `head`, where most givens are named; `names` are these by column, with the units that
+    stand beside them.
+    """
 
     grid: Grid
+    cells: Sequence[Sequence[str]]
     turned: bool
     head: int
     names: Mapping[int, tuple[str, str]]
-
-    @property
-    def _size(self) -> tuple[int, int]:
-        rows, columns = len(self.grid.rows), max(map(len, self.grid.rows), default=0)
-        return (columns, rows) if self.turned else (rows, columns)
-
-    def text(self, row: int, column: int) -> str:
-        """Return what a cell shows, in merged ones that of all."""
-        row, column = (column, row) if self.turned else (row, column)
-        return self.grid.shared(row, column).strip()
 
     def place(self, row: int, column: int) -> str:
         """Return the address of a cell."""
         return self.grid.place(*((column, row) if self.turned else (row, column)))
 
     @property
-    def id_column(self) -> int:
-        """Where the ids of the variants stand: under such a word, else before the first given where all differ."""
-        columns = range(self._size[1])
-        said = (column for column in columns if about_kind(self.text(self.head, column)) == "variant")
-        before = range(min(self.names) - 1, -1, -1)
-        return next(said, next(filter(self._tells, before), max(min(self.names) - 1, 0)))
-
-    def _tells(self, column: int) -> bool:
-        """Whether a column tells the rows that have numbers apart."""
-        rows = (row for row in self.rows if any(_NUMBER.fullmatch(self.text(row, at)) for at in self.names))
-        found = [self.text(row, column) for row in rows]
-        return "" not in found and len(set(found)) == len(found) > 0
+    def rows(self) -> range:
+        """The rows under the header."""
+        return range(self.head + 1, len(self.cells))
 
     @property
-    def rows(self) -> Iterator[int]:
-        """Go through the rows under the header."""
-        return iter(range(self.head + 1, self._size[0]))
+    def id_column(self) -> int:
+        """Where the ids of the variants stand: under such a word, else before the first given where all differ."""
+        said = (column for column, text in enumerate(self.cells[self.head]) if about_kind(text) == "variant")
+        rows = [self.cells[row] for row in self.rows]
+        numbered = [row for row in rows if any(_NUMBER.fullmatch(row[at]) for at in self.names)]
+        before = range(min(self.names) - 1, -1, -1)  # the nearest one that tells the rows with numbers apart
+        ids = ({row[column] for row in numbered} for column in before)
+        apart = (
+            at for at, found in zip(before, ids, strict=True) if "" not in found and len(found) == len(numbered) > 0
+        )
+        return next(said, next(apart, max(min(self.names) - 1, 0)))
 
 
 def read_variants(file: str, task: Task) -> list[Read]:
@@ -384,22 +378,18 @@ def read_variants(file: str, task: Task) -> list[Read]:
     column, units = table.id_column, dict[int, str]()
     found: list[Read] = []
     for row in table.rows:
-        if not any(table.text(row, at) for at in table.names):
+        cells = table.cells[row]
+        if not any(cells[at] for at in table.names):
             continue
-        if _is_units(table, row, column, task):
-            units = {at: table.text(row, at) for at in table.names if table.text(row, at) not in NOTHING}
+        # the units of the givens: the row says so, or units of theirs stand there, and no number
+        said = [(cells[at], task.givens[name]) for at, (name, _) in table.names.items()]
+        of_units = any(_is_unit(*one) for one in said) and not any(re.match(r"[-−+]?[0-9]", text) for text, _ in said)
+        if of_units or column_kind(cells[column]) == "unit":
+            units = {at: cells[at] for at in table.names if cells[at] not in NOTHING}
             continue
-        name = slug(variant_said(table.text(row, column))) if column not in table.names else ""
+        name = slug(variant_said(cells[column])) if column not in table.names else ""
         found.append(_read_row(table, row, name if name not in ("", "x") else str(len(found) + 1), units, task))
     return found
-
-
-def _is_units(table: _Table, row: int, column: int, task: Task) -> bool:
-    """Whether a row holds the units of the givens: it says so, or units of theirs stand there, and no number."""
-    if column_kind(table.text(row, column)) == "unit":
-        return True
-    said = [(table.text(row, at), task.givens[name]) for at, (name, _) in table.names.items()]
-    return any(_is_unit(*one) for one in said) and not any(re.match(r"[-−+]?[0-9]", text) for text, _ in said)
 
 
 def _is_unit(text: str, given: Given) -> bool:
@@ -414,21 +404,22 @@ def _is_unit(text: str, given: Given) -> bool:
 
 
 def _seen(grid: Grid, task: Task, turned: bool) -> _Table:
-    """Look at a grid with variants in rows, or in columns: its header is where most givens are named."""
-    rows = list(map(list, grid.rows))
+    """Look at a grid with variants in rows, or in columns; merged cells all show what the first one does."""
+    width = max(map(len, grid.rows), default=0)
+    cells = [[grid.shared(row, column).strip() for column in range(width)] for row in range(len(grid.rows))]
+    written = [[*row, *[""] * (width - len(row))] for row in grid.rows]
     if turned:
-        width = max(map(len, rows), default=0)
-        rows = [[row[at] if at < len(row) else "" for row in rows] for at in range(width)]
+        cells, written = ([list(column) for column in zip(*rows, strict=True)] for rows in (cells, written))
     symbols = {symbol(name): name for name in task.givens}
     small = [letters.lower() for letters in symbols]
     # in small letters, too, where these tell them apart
     known = {letters.lower(): name for letters, name in symbols.items() if small.count(letters.lower()) == 1} | symbols
-    heads = [_names(row, task, known) for row in rows]
+    heads = [_names(row, task, known) for row in written]
     best = max(range(len(heads)), key=lambda at: (len(heads[at]), -at), default=0)
-    return _Table(grid, turned, best, heads[best] if heads else {})
+    return _Table(grid, cells, turned, best, heads[best] if heads else {})
 
 
-def _names(cells: list[str], task: Task, known: Mapping[str, str]) -> dict[int, tuple[str, str]]:
+def _names(cells: Sequence[str], task: Task, known: Mapping[str, str]) -> dict[int, tuple[str, str]]:
     """Return the givens that cells name, with the units that stand beside them."""
     found: dict[int, tuple[str, str]] = {}
     for column, text in enumerate(cells):
@@ -436,7 +427,10 @@ def _names(cells: list[str], task: Task, known: Mapping[str, str]) -> dict[int, 
         named = ((at, name) for at, part in enumerate(parts) if (name := _named(part, at == 0, known)))
         at, name = next(named, (0, ""))
         if name and name not in (given for given, _ in found.values()):
-            found[column] = (name, _unit_beside(parts, at, task.givens[name]))
+            # a part of the header that is a unit, else what stands behind the name, to be refused with a value
+            behind = parts[-1] if at < len(parts) - 1 else ""
+            others = (part for part in (*parts[at + 1 :], *parts[:at]) if _is_unit(part, task.givens[name]))
+            found[column] = name, next(others, behind)
     return found
 
 
@@ -451,31 +445,18 @@ def _named(part: str, first: bool, known: Mapping[str, str]) -> str:
     return words.pop() if len(words) == 1 else ""
 
 
-def _unit_beside(parts: list[str], at: int, given: Given) -> str:
-    """Return the unit in a header: a part that is one, else what stands behind the name, to be refused with a value."""
-    others = [*parts[at + 1 :], *parts[:at]]
-    behind = parts[-1] if at < len(parts) - 1 else ""
-    return next((part for part in others if _is_unit(part, given)), behind)
-
-
 def _read_row(table: _Table, row: int, number: str, units: Mapping[int, str], task: Task) -> Read:
-    said: dict[str, str] = {}
+    """Read one variant; values as a task file has them: a decimal point, the given's own unit."""
+    stated: dict[str, str] = {}
     problems: list[InputError] = []
     for column, (name, unit) in table.names.items():
-        text, unit = table.text(row, column), unit or units.get(column, "")
+        text, unit, given = table.cells[row][column], unit or units.get(column, ""), task.givens[name]
         if text:
-            said[name] = f"{text} {unit}" if unit not in ("", PLAIN) and _NUMBER.fullmatch(text) else text
+            stated[name] = f"{text} {unit}" if unit not in ("", PLAIN) and _NUMBER.fullmatch(text) else text
             try:
-                said[name] = _plain(task, name, said[name])
+                value = given.read(stated[name])
+                if given.unit is not None and not isinstance(value, str):
+                    stated[name] = f"{given.unit.from_si(value):.12g} {given.unit.behind}".strip()
             except InputError as error:
                 problems.append(LocatedError(f"{table.place(row, column)}, {name}", error))
-    return Read(number, f"{table.place(row, table.id_column)}, {number}", said, tuple(problems))
-
-
-def _plain(task: Task, name: str, text: str) -> str:
-    """Return a value as a task file has it: a decimal point, the given's own unit."""
-    given = task.givens[name]
-    value = given.read(text)
-    if given.unit is None or isinstance(value, str):
-        return str(value)
-    return f"{given.unit.from_si(value):.12g} {given.unit.behind}".strip()
+    return Read(number, f"{table.place(row, table.id_column)}, {number}", stated, tuple(problems))
