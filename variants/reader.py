@@ -194,17 +194,14 @@ def _not_toml(written: str, column: int) -> InputError:
 
 def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     """Read `[scales]`: choosers such as `"pa=80 mm"` or `"15 N/mm"`."""
-    if not isinstance(raw, dict):
-        checker.wrong_type(path, "type-table")
-        return {}
     good = {}
-    for name, value in raw.items():
-        said = text(checker, (*path, name), value)
-        if said is None:
+    for name, value in checker.table(path, raw).items():
+        written = text(checker, (*path, name), value)
+        if written is None:
             continue
         with checker.at((*path, name)):
-            chooser(name, said)
-            good[name] = said
+            chooser(name, written)
+            good[name] = written
     return good
 
 
@@ -299,7 +296,7 @@ def _try(checker: Checker, kind: Kind[Any, Any], task: Task) -> None:
         path = ("variant", row)
         if time.process_time() - checker.begun > TRIED_FOR:
             counts = {"n": len(task.variants) - row, "all": len(task.variants), "file": checker.file}
-            checker.remark_of(path, variant, InputError("check-untried", **counts))
+            checker.remark(path, InputError("check-untried", **counts), variant)
             return
         if row in wrong:
             continue
@@ -307,12 +304,12 @@ def _try(checker: Checker, kind: Kind[Any, Any], task: Task) -> None:
             solved = kind.solve(task.subject, task.values(variant), task.words(variant), task.plans)
             error = solved.error()
         except InputError as refused:
-            checker.fault_of(path, variant, refused)
+            checker.fault(path, refused, variant)
             continue
         if error is not None:
-            checker.fault_of(path, variant, error)
+            checker.fault(path, error, variant)
         for remark in kind.remarks(task, variant, solved):
-            checker.remark_of(path, variant, remark)
+            checker.remark(path, remark, variant)
 
 
 def _names(checker: Checker, givens: dict[str, Given], choices: Settings) -> Names:

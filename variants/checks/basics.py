@@ -150,10 +150,10 @@ class Checker:
     begun: float = field(default_factory=time.process_time)  # seconds of processor time when the reading began
     unread: set[str] = field(default_factory=set)  # givens and diagrams at fault: that others name them is no fault
 
-    def fault(self, path: Path, error: InputError) -> None:
-        """Note `error` at `path`; the keys of the path go before its message."""
+    def fault(self, path: Path, error: KulmanError, *variant: str) -> None:
+        """Note `error` at `path`; the keys of the path go before its message, and the `variant` that has shown it."""
         self.faulty.add(path)
-        self.faults.append(self._located(path, error))
+        self.faults.append(self._located(path, error, *variant))
         if len(self.faults) >= MOST_FAULTS:
             raise EnoughError
 
@@ -165,14 +165,16 @@ class Checker:
         except InputError as error:
             self.fault(path, error)
 
-    def fault_of(self, path: Path, variant: str, error: KulmanError) -> None:
-        """Note what solving a variant, whose table is at `path`, has shown to be at fault."""
-        self.faulty.add(path)
-        self.faults.append(self._located(path, error, variant))
-
-    def remark_of(self, path: Path, variant: str, error: InputError) -> None:
+    def remark(self, path: Path, error: InputError, variant: str) -> None:
         """Note what solving a variant, whose table is at `path`, has shown, and what is no fault."""
         self.remarks.append(self._located(path, error, variant))
+
+    def table(self, path: Path, raw: object) -> dict[str, Any]:
+        """Return a table; what is none is a fault, and an empty one."""
+        if isinstance(raw, dict):
+            return raw
+        self.wrong_type(path, "type-table")
+        return {}
 
     def _located(self, path: Path, error: KulmanError, *more: str) -> tuple[int, int, InputError]:
         """Return line and column of a path, and an error with its place before it."""
@@ -204,8 +206,8 @@ class Field:
 
 def record(checker: Checker, path: Path, raw: object, fields: Mapping[str, Field]) -> dict[str, Any]:
     """Read a table with fixed keys; a key that is missing, unknown or unreadable is a fault and left out."""
-    if not isinstance(raw, dict):
-        checker.wrong_type(path, "type-table")
+    before, raw = len(checker.faults), checker.table(path, raw)
+    if len(checker.faults) > before:
         return {}
     missing = [name for name, wanted in fields.items() if wanted.required and name not in raw]
     for name in raw:
@@ -227,6 +229,17 @@ def record_of(
     before = len(checker.faults)
     read = record(checker, path, raw, fields)
     return make(**read) if len(checker.faults) == before else None
+
+
+def trying(read: Callable[[Any], Any]) -> Read:
+    """Return a reader that notes why what it reads is refused."""
+
+    def read_value(checker: Checker, path: Path, raw: object) -> Any:
+        with checker.at(path):
+            return read(raw)
+        return None
+
+    return read_value
 
 
 def as_is(checker: Checker, path: Path, raw: object) -> Any:

@@ -13,7 +13,23 @@ from ...scales.names import cyrillic, latin, unknown
 from ...scales.numbers import quote, split_number
 from ...scales.units import ONE, Dimension, Unit, customary, parse, unit
 from ..task import Given, Variant
-from .basics import NAME, Checker, Field, Path, Read, array_of, as_is, label, name, one_of, record, rows, text, word
+from .basics import (
+    NAME,
+    Checker,
+    Field,
+    Path,
+    Read,
+    array_of,
+    as_is,
+    label,
+    name,
+    one_of,
+    record,
+    rows,
+    text,
+    trying,
+    word,
+)
 
 NEVER_NEGATIVE = {unit("kg").dimension, unit("kg*m^2").dimension, unit("rad/s").dimension}
 _M = unit("m")
@@ -31,17 +47,15 @@ Settings = Mapping[str, Mapping[str, Mapping[str, Setting]]]
 Named = Callable[[Checker, Path, Any], str | None]  # a reader of what has a name, or gets one
 
 
-def _unit(checker: Checker, path: Path, raw: object) -> Unit | None:
+def _unit(raw: object) -> Unit:
     """Read a unit."""
-    with checker.at(path):
-        if isinstance(raw, str):
-            return unit(raw)
-        raise InputError("type-text")
-    return None
+    if isinstance(raw, str):
+        return unit(raw)
+    raise InputError("type-text")
 
 
 _GIVEN = {
-    "unit": Field(_unit, required=False),
+    "unit": Field(trying(_unit), required=False),
     "choices": Field(array_of(word), required=False),
     "default": Field(as_is, required=False),
 }
@@ -68,8 +82,7 @@ def read_givens(checker: Checker, raw: object) -> dict[str, Given]:
         if given.unit is not None and given.unit.dimension in NEVER_NEGATIVE:
             given = replace(given, bound=Bound.NOT_NEGATIVE)
         if "default" in read:
-            with checker.at((*path, "default")):
-                given = replace(given, default=given.read(read["default"]))
+            given = replace(given, default=trying(given.read)(checker, (*path, "default"), read["default"]))
         givens[key] = given
     return givens
 
@@ -79,8 +92,8 @@ def read_choices(checker: Checker, raw: object, givens: Mapping[str, Given], wor
 
     Choices whose `words` are taken as they are need not set any.
     """
-    if not isinstance(raw, dict):
-        checker.wrong_type(("choices",), "type-table")
+    raw = checker.table(("choices",), raw)
+    if ("choices",) in checker.faulty:
         return {}
     wanted = [given for given in givens.values() if given.choices]
     for key in raw:
@@ -106,26 +119,26 @@ def read_choices(checker: Checker, raw: object, givens: Mapping[str, Given], wor
 
 def _settings(checker: Checker, path: Path, raw: object) -> dict[str, Setting] | None:
     """Read what one word of a choice sets."""
-    if not isinstance(raw, dict):
-        checker.wrong_type(path, "type-table")
-        return None
-    named = [key for key in raw if name(checker, (*path, key), key) is not None]
-    settings = {key: literal(checker, (*path, key), raw[key]) for key in named}
-    return {key: setting for key, setting in settings.items() if setting is not None}
+    own = checker.table(path, raw)
+    named = [key for key in own if name(checker, (*path, key), key) is not None]
+    settings = {key: literal(checker, (*path, key), own[key]) for key in named}
+    known = {key: setting for key, setting in settings.items() if setting is not None}
+    return known if own or isinstance(raw, dict) else None
 
 
-def literal(checker: Checker, path: Path, raw: object) -> Setting | None:
+def _literal(raw: object) -> Setting:
     """Read a number, plain or with a unit, of whatever dimension."""
-    with checker.at(path):
-        if isinstance(raw, str):
-            _, rest = split_number(raw)
-            written = unit(rest) if rest else ONE
-            return Setting(parse(raw, written), written.dimension)
-        if isinstance(raw, int | float) and not isinstance(raw, bool):
-            Given("", ONE).read(raw)
-            return Setting(float(raw), ONE.dimension)
-        raise InputError("type-number", text=quote(type(raw).__name__))
-    return None
+    if isinstance(raw, str):
+        _, rest = split_number(raw)
+        written = unit(rest) if rest else ONE
+        return Setting(parse(raw, written), written.dimension)
+    if isinstance(raw, int | float) and not isinstance(raw, bool):
+        Given("", ONE).read(raw)
+        return Setting(float(raw), ONE.dimension)
+    raise InputError("type-number", text=quote(type(raw).__name__))
+
+
+literal = trying(_literal)
 
 
 def read_variants(
@@ -142,7 +155,8 @@ def read_variants(
             checker.wrong_type(path, "type-table")
             continue
         fields = {
-            key: Field(_given(given), given.default is None and key not in optional) for key, given in givens.items()
+            key: Field(trying(given.read), given.default is None and key not in optional)
+            for key, given in givens.items()
         }
         fields |= {key: Field(as_is, required=False) for key in checker.unread}
         fields |= {"id": Field(label), "reconstructed": Field(array_of(text), required=False)}
@@ -158,17 +172,6 @@ def read_variants(
             variants[number] = Variant(number, values, read.get("reconstructed", ()))
             stated[number] = path
     return variants
-
-
-def _given(given: Given) -> Read:
-    """Return the reader of one column."""
-
-    def read(checker: Checker, path: Path, raw: object) -> float | str | None:
-        with checker.at(path):
-            return given.read(raw)
-        return None
-
-    return read
 
 
 def word_or_choice(known: tuple[str, ...], givens: Mapping[str, Given]) -> Any:
@@ -267,7 +270,7 @@ class Names:
     @staticmethod
     def literal(checker: Checker, path: Path, raw: object, wanted: Unit) -> Setting | None:
         """Read a literal with its unit; a mass is not negative."""
-        setting = literal(checker, path, raw)
+        setting: Setting | None = literal(checker, path, raw)
         if setting is not None and setting.dimension == ONE.dimension != wanted.dimension:
             checker.fault(path, InputError("unit-missing", text=quote(raw), expected=customary(wanted)))
         elif setting is not None and setting.value < 0.0 and setting.dimension in NEVER_NEGATIVE:

@@ -16,7 +16,7 @@ from ...scales.numbers import quote
 from ...scales.units import unit
 from ..case import Case, Choices, Numbers, Plans, Scales
 from ..checks.basics import Checker, Field, Path, array_of, one_of, record, rows, word
-from ..checks.names import Names, check_numbers, literal, word_or_choice
+from ..checks.names import Names, Setting, check_numbers, literal, word_or_choice
 from ..task import Given
 from .sized import Sized
 
@@ -300,5 +300,5 @@ def _curves(checker: Checker, path: Path, raw: object) -> tuple[cams.Curve, ...]
 
 def _plain(checker: Checker, path: Path, raw: object) -> float | None:
     """Read a plain number."""
-    setting = literal(checker, path, raw)
+    setting: Setting | None = literal(checker, path, raw)
     return None if setting is None else setting.value
