@@ -111,7 +111,7 @@ class Board:
     def template(self, name: str, point: str, *where: str) -> None:
         """Lay a template of a link on the paths of its three joints and mark `point` through it.
 
-        `where` are the operands of `template.TemplateBoard`: where it lies already, about, and the paths.
+        `where` are the operands of `template.lay`: where it lies already, about, and the paths.
         """
         self.step("template", name, point, *where)
 
@@ -197,13 +197,14 @@ class RecordingBoard(Board):
             raise InputError("name-twice", name=own.shown)
 
 
-# a step with what takes its operands, when they are more than one, out of the values by name
-Prepared = tuple[Step, Callable[[Mapping[str, Any]], Any] | None]
+# a step for a board that does many: name, operands, what is done, and what takes several operands out of the values
+Prepared = tuple[str, tuple[str, ...], tuple[str, str], Callable[[Mapping[str, Any]], Any] | None]
 
 
 def prepared(step: Step) -> Prepared:
     """Return a step prepared for a board."""
-    return step, itemgetter(*step.operands) if len(step.operands) > 1 else None
+    verb, name, operands, law = step
+    return name, operands, (verb, law), itemgetter(*operands) if len(operands) > 1 else None
 
 
 @dataclass(frozen=True)

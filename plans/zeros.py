@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[Any]
 Function = Callable[[Array], Array]
+Rated = Callable[[NDArray[np.intp], Array], Array]  # heights of the peaks of some rows at places of each
 SECTIONS, ROUNDS, MOST_ROUNDS, DIP_ROUNDS = 24, 4, 9, 8
 LEAST_CELLS = 48
 DIP = 4.0  # a grid value so many second differences away from zero does not come there between the points
@@ -210,25 +212,6 @@ class Extreme:
     at: float
 
 
-@dataclass(slots=True)
-class _Search:
-    """Peaks of the rows of `functions` (row -1 - k: of row k turned over) on one stretch, each in its bracket."""
-
-    functions: Function
-    stretch: Stretch
-    rows: NDArray[np.intp]
-    low: Array
-    high: Array
-
-    def rated(self, theta: Array) -> Array:
-        """Return the values of each peak's own row at `theta`, shape (points, peaks), minus infinity for none."""
-        values = self.functions(self.stretch.place(theta.ravel())).reshape(-1, *theta.shape)
-        turned = self.rows < 0
-        row = np.where(turned, -1 - self.rows, self.rows)
-        own = values[row, :, np.arange(len(row))].T * np.where(turned, -1.0, 1.0)
-        return np.where(np.isnan(own), -np.inf, own)
-
-
 def extremes(functions: Function, stretches: Sequence[Stretch]) -> list[tuple[Extreme, Extreme] | None]:
     """Return (largest, smallest) of every row, the first of equal ones; None for a row that has no value anywhere.
 
@@ -237,7 +220,11 @@ def extremes(functions: Function, stretches: Sequence[Stretch]) -> list[tuple[Ex
     """
     best: dict[int, Extreme] = {}
     for stretch in stretches:
-        for row, value, theta in _peaks(functions, stretch):
+        theta = stretch.grid()
+        rows, at = _candidates(functions(stretch.place(theta)))
+        low, high = theta[np.maximum(at - 1, 0)], theta[np.minimum(at + 1, len(theta) - 1)]
+        values, places = _climb(partial(_rated, functions, stretch), rows, low, high, stretch.closed)
+        for row, value, theta in zip(rows.tolist(), values.tolist(), places.tolist(), strict=True):
             if row not in best or value > best[row].value + TIE * abs(best[row].value):
                 within = theta % (2.0 * math.pi) if stretch.closed else theta
                 best[row] = Extreme(value, float(stretch.place(np.array([within]))[0]))
@@ -247,17 +234,15 @@ def extremes(functions: Function, stretches: Sequence[Stretch]) -> list[tuple[Ex
     ]
 
 
-def _peaks(functions: Function, stretch: Stretch) -> list[tuple[int, float, float]]:
-    """Return row, value and place of every peak on a stretch that may be the highest of its row."""
-    theta = stretch.grid()
-    found = functions(stretch.place(theta))
-    rows, at = _candidates(found)
-    low, high = theta[np.maximum(at - 1, 0)], theta[np.minimum(at + 1, len(theta) - 1)]
-    search = _Search(functions, stretch, rows, low, high)
-    value, place = _climb(search)
-    if not stretch.closed:
-        value = np.where(_endless(search, place, value), np.inf, value)
-    return list(zip(rows.tolist(), value.tolist(), place.tolist(), strict=True))
+def _rated(functions: Function, stretch: Stretch, rows: NDArray[np.intp], theta: Array) -> Array:
+    """Return the values of each peak's own row at `theta`, shape (points, peaks), minus infinity for none.
+
+    Row -1 - k is row k of the functions turned over.
+    """
+    values = functions(stretch.place(theta.ravel())).reshape(-1, *theta.shape)
+    turned = rows < 0
+    own = values[np.where(turned, -1 - rows, rows), :, np.arange(len(rows))].T * np.where(turned, -1.0, 1.0)
+    return np.where(np.isnan(own), -np.inf, own)
 
 
 def _candidates(found: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -280,18 +265,15 @@ def _candidates(found: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     return np.where(rows < len(found), rows, rows - 2 * len(found)), at
 
 
-def _climb(search: _Search) -> tuple[Array, Array]:
-    """Close in on every peak; return its height and place."""
+def _climb(rated: Rated, rows: NDArray[np.intp], low: Array, high: Array, closed: bool) -> tuple[Array, Array]:
+    """Close in on every peak in its bracket; return its height and place."""
     parts = np.linspace(0.0, 1.0, PEAK_SECTIONS + 1)[:, None]
-    columns = np.arange(len(search.rows))
-    going = columns
-    value, place = np.full(len(columns), -np.inf), search.low.copy()
-    low, high = search.low.copy(), search.high.copy()
-    grown = np.ones(len(columns))
+    going = np.arange(len(rows))
+    value, place = np.full(len(rows), -np.inf), low.copy()
+    low, high, grown = low.copy(), high.copy(), np.ones(len(rows))
     for done in range(PEAK_ROUNDS + MORE_ROUNDS):
-        part = _Search(search.functions, search.stretch, search.rows[going], low[going], high[going])
-        points = part.low + (part.high - part.low) * parts
-        heights = part.rated(points)
+        points = low[going] + (high[going] - low[going]) * parts
+        heights = rated(rows[going], points)
         highest, own = heights.argmax(axis=0), np.arange(len(going))
         low[going] = points[np.maximum(highest - 1, 0), own]
         high[going] = points[np.minimum(highest + 1, PEAK_SECTIONS), own]
@@ -302,31 +284,21 @@ def _climb(search: _Search) -> tuple[Array, Array]:
             going = going[(grown[going] > GROWS) & (value[going] > 0.0)]
             if not len(going):
                 break
-    value, place = _topped(search, value, place, 0.5 * (high - low))
-    return np.where((grown > UNBOUNDED) & (value > 0.0), np.inf, value), place
-
-
-def _topped(search: _Search, value: Array, place: Array, half: Array) -> tuple[Array, Array]:
-    """Put parabolas on the peaks, narrower and narrower ones; keep what is higher."""
-    for width in (half, half / 32.0, half / 1024.0):
+    half = 0.5 * (high - low)
+    for width in (half, half / 32.0, half / 1024.0):  # parabolas on the peaks, narrower and narrower ones
         points = place + width * np.array([-1.0, 0.0, 1.0])[:, None]
-        if not search.stretch.closed:
-            points = np.clip(points, END, math.pi - END)
-        before, here, after = search.rated(points)
+        before, here, after = rated(rows, points if closed else np.clip(points, END, math.pi - END))
         with np.errstate(invalid="ignore", divide="ignore"):
             shift = 0.5 * (before - after) / (before - 2.0 * here + after)
         top = place + np.where(np.abs(shift) <= 1.0, shift, 0.0) * width
-        height = search.rated(top[None, :])[0]
+        height = rated(rows, top[None, :])[0]
         place, value = np.where(height >= value, top, place), np.maximum(height, value)
-    return value, place
-
-
-def _endless(search: _Search, place: Array, value: Array) -> NDArray[np.bool_]:
-    """Tell for which peaks at an end of the stretch the function still grows as the end comes nearer."""
-    before = np.array([10.0 * END, math.pi - 10.0 * END])[:, None] + np.zeros(len(place))
-    heights = search.rated(before)
-    earlier = np.where(place < 0.5 * math.pi, heights[0], heights[1])
+    value = np.where((grown > UNBOUNDED) & (value > 0.0), np.inf, value)
+    if closed:
+        return value, place
+    # at an end of the stretch a function may still grow as the end comes nearer
+    heights = rated(rows, np.array([10.0 * END, math.pi - 10.0 * END])[:, None] + np.zeros(len(place)))
     with np.errstate(invalid="ignore", divide="ignore"):
-        grows = value > 3.0 * earlier
-    endless: NDArray[np.bool_] = grows & (value > 0.0) & ((place <= 2.0 * END) | (place >= math.pi - 2.0 * END))
-    return endless
+        grows = value > 3.0 * np.where(place < 0.5 * math.pi, heights[0], heights[1])
+    endless = grows & (value > 0.0) & ((place <= 2.0 * END) | (place >= math.pi - 2.0 * END))
+    return np.where(endless, np.inf, value), place

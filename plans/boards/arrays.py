@@ -162,8 +162,8 @@ class ArrayBoard(ManyChecks, PlainBoard):
 
     def restart(self, givens: Mapping[str, Any], codes: NDArray[np.int8]) -> None:
         """Begin with other positions; the status of each goes into `codes`."""
-        self.values, self.codes, self._sine_of = dict(givens), codes, {}
-        self.lift_templates()
+        self.values, self.codes = dict(givens), codes
+        self._begin()
 
     @staticmethod
     def _sqrt(square: Any) -> Any:

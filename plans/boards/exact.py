@@ -16,9 +16,9 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Literal
 
-from ..board import Prepared, Program
+from ..board import Board, Prepared, Program
 from ..laws import LAWS, cross, dot
-from .template import CLOSED, FOLDED, TemplateBoard
+from .template import ASTRAY, CLOSED, CORRECTIONS, FOLDED, Laid, lay, turned
 
 MARKS = 1024
 TURN = 2.0 * math.pi
@@ -65,23 +65,33 @@ POLE = 0j
 RIGHT = 2.0**-50  # component of a unit direction that is rounding: the direction is at a multiple of 90 degrees
 
 
-class ExactBoard(TemplateBoard):
+def _seen(field: str) -> Callable[..., Any]:
+    """Return the verb that tells how a template lies that is laid down: a field of `Laid`."""
+    return lambda board, *where: getattr(board._lay_template(board._operands, where), field)
+
+
+class ExactBoard(Board):
     """One position on Python numbers: `values` by name, and `trouble`, the first step that cannot be done.
 
     What hangs on a failed step becomes NaN; what does not is computed all the same. The thresholds go with the
     precision of the numbers.
     """
 
-    parallel, touching, closed, folded = SINGULAR, TANGENT, CLOSED, FOLDED
+    parallel, touching, closed, folded, corrections = SINGULAR, TANGENT, CLOSED, FOLDED, CORRECTIONS
 
     def __init__(self, givens: Mapping[str, Any]) -> None:
-        super().__init__()
         self.values: dict[str, Any] = {"zero": 0.0, "one": 1.0, **givens}
         self.sines: dict[str, float] = {}
         self.trouble: Trouble | None = None
         self._name = ""
         self._operands: tuple[str, ...] = ()
+        self._begin()
+
+    def _begin(self) -> None:
+        """Forget what was found for other positions: sines by two directions, templates that are laid down."""
         self._sine_of: dict[tuple[str, str], Any] = {}
+        self._templates: dict[tuple[str, ...], Laid] = {}
+        self._finished: dict[tuple[str, ...], tuple[Any, Any]] = {}
 
     def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
         """Do the step with numbers."""
@@ -111,18 +121,17 @@ class ExactBoard(TemplateBoard):
         """Do steps: what `step` does with each, without looking operations up again and again."""
         values = self.values
         operations: dict[tuple[str, str], Callable[..., Any]] = {}
-        for step, taken in steps:
-            key = step.verb, step.law
-            operate = operations.get(key)
+        for name, operands, operation, taken in steps:
+            operate = operations.get(operation)
             if operate is None:
-                operate = operations[key] = self.operation(*key)
-            self._name, self._operands = step.name, step.operands
-            value = operate(*(taken(values) if taken else [values[operand] for operand in step.operands]))
+                operate = operations[operation] = self.operation(*operation)
+            self._name, self._operands = name, operands
+            value = operate(*taken(values)) if taken else operate(*[values[operand] for operand in operands])
             if type(value) is not complex:
                 value = value + 0.0
             elif value is not POLE:
                 value += POLE
-            values[step.name] = value
+            values[name] = value
 
     # What differs between one position and many.
 
@@ -345,6 +354,25 @@ class ExactBoard(TemplateBoard):
 
     def _arm(self, moment: Any, force: Any) -> Any:
         return abs(moment) / self._bears(self._sqrt(dot(force, force)), moment)
+
+    def _template(self, point: Any, *where: Any) -> Any:
+        """Mark a point through a template that is laid down; `point` is on a drawing of the link alone."""
+        names = self._operands[1:]
+        if names not in self._finished:
+            laid = self._lay_template(names, where)
+            held = self._holds(laid.determinant, laid.apart, where[ASTRAY], laid.missing)
+            self._finished[names] = laid.finished(held)
+        place, turn = self._finished[names]
+        return place + turned(turn, point - where[ASTRAY + 1])
+
+    _template_place, _template_turn, _template_determinant = map(_seen, ("place", "turn", "determinant"))
+    _template_apart, _template_doubt, _template_missing = map(_seen, ("apart", "doubt", "missing"))
+
+    def _lay_template(self, names: tuple[str, ...], where: tuple[Any, ...]) -> Laid:
+        """Lay a template down once for all its points."""
+        if names not in self._templates:
+            self._templates[names] = lay(where, names, self._sqrt, self._complex, self.corrections)
+        return self._templates[names]
 
     @property
     def status(self) -> Status:

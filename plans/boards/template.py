@@ -13,7 +13,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..board import Board
 from ..laws import cross, dot
 
 CORRECTIONS = 5
@@ -77,35 +76,34 @@ class Laid:
         return self.place + move * inverse, rotated(self.turn, twist * inverse)
 
 
-def paths_of(marks: Sequence[Any], names: Sequence[str]) -> tuple[Path, Path, Path]:
-    """Return the paths from a board's operands, four for each leg: joint, start, radius, direction.
-
-    The radius of a line and the direction of an arc are called `zero`.
-    """
-    first, second, third = (
-        Path(marks[i] - marks[0], marks[i + 1], marks[i + 2], marks[i + 3], names[i + 2] == "zero") for i in (0, 4, 8)
-    )
-    return first, second, third
-
-
 def lay(
-    place: Any, turn: Any, paths: tuple[Path, Path, Path], root: Callable[[Any], Any], corrections: int = CORRECTIONS
+    where: Sequence[Any],
+    names: Sequence[str],
+    root: Callable[[Any], Any],
+    point: Callable[[Any, Any], Any],
+    corrections: int,
 ) -> Laid:
-    """Lay a template on three paths by Newton's method.
+    """Lay a template on the paths of its three joints by Newton's method.
 
     Parameters
     ----------
-    place : complex or complex128 array of shape (N,)
-        Where its first joint lies about, m.
-    turn : complex or complex128 array of shape (N,)
-        Unit direction of its x axis, about.
-    paths : three paths
-        Of its joints.
-    root : callable
-        The square root of the board's numbers.
+    where : sequence of numbers, or of arrays of shape (N,)
+        Where it lies already, about: x, y of its first joint, m, cosine and sine of its x axis; how far it went astray
+        on the way there, zero when it did not; then joint, start, radius and direction of each leg.
+    names : sequence of str
+        Their names: the radius of a line and the direction of an arc are called `zero`.
+    root, point : callables
+        The square root of the board's numbers, and a point by its coordinates.
     corrections : int
         How many, the last one included: each doubles the digits.
     """
+    place, turn = point(where[0], where[1]), point(where[2], where[3])
+    joint = where[ASTRAY + 1]
+    first, second, third = (
+        Path(where[i] - joint, where[i + 1], where[i + 2], where[i + 3], names[i + 2] == "zero")
+        for i in range(ASTRAY + 1, len(names), 4)
+    )
+    paths = first, second, third
     size = _size(paths, root)
     steps: list[Any] = []
     missing: Any = 0.0
@@ -175,64 +173,3 @@ def rotated(turn: Any, angle: Any) -> Any:
     half = angle * 0.5
     inverse = 1.0 / (half * half + 1.0)
     return turn * ((1.0 - half * half) * inverse) + (turn * 1j) * (angle * inverse)
-
-
-def _read(field: str) -> Callable[..., Any]:
-    """Return the verb that reads how a template lies that is laid down: a field of `Laid`."""
-    return lambda board, *marks: getattr(board._lay_template(board._operands, marks), field)
-
-
-class TemplateBoard(Board):
-    """The verbs of templates on boards that compute.
-
-    Operands are where the template lies already, about: x, y of its first joint, cosine and sine of its x axis; how far
-    it went astray on the way there, zero when it did not; then joint, start, radius and direction of each leg.
-    """
-
-    corrections = CORRECTIONS
-
-    def __init__(self) -> None:
-        self._templates: dict[tuple[str, ...], Laid] = {}
-        self._finished: dict[tuple[str, ...], tuple[Any, Any]] = {}
-
-    def lift_templates(self) -> None:
-        """Begin with other positions."""
-        self._templates, self._finished = {}, {}
-
-    def _template(self, point: Any, *marks: Any) -> Any:
-        """Mark a point through a template that is laid down; `point` is on a drawing of the link alone."""
-        names = self._operands[1:]
-        if names not in self._finished:
-            laid = self._lay_template(names, marks)
-            held = self._holds(laid.determinant, laid.apart, marks[ASTRAY], laid.missing)
-            self._finished[names] = laid.finished(held)
-        place, turn = self._finished[names]
-        return place + turned(turn, point - marks[ASTRAY + 1])
-
-    _template_place, _template_turn, _template_determinant = map(_read, ("place", "turn", "determinant"))
-    _template_apart, _template_doubt, _template_missing = map(_read, ("apart", "doubt", "missing"))
-
-    def _lay_template(self, names: tuple[str, ...], marks: tuple[Any, ...]) -> Laid:
-        """Lay a template down once for all its points."""
-        laid = self._templates.get(names)
-        if laid is None:
-            x, y, cosine, sine, _, *legs = marks
-            place, turn = self._complex(x, y), self._complex(cosine, sine)
-            paths = paths_of(legs, names[ASTRAY + 1 :])
-            laid = self._templates[names] = lay(place, turn, paths, self._sqrt, self.corrections)
-        return laid
-
-    # What a board says of itself.
-
-    _operands: tuple[str, ...]
-
-    @staticmethod
-    def _sqrt(square: Any) -> Any:
-        raise NotImplementedError
-
-    @staticmethod
-    def _complex(real: Any, imag: Any) -> Any:
-        raise NotImplementedError
-
-    def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
-        raise NotImplementedError

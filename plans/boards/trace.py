@@ -139,6 +139,10 @@ class Trace:
         return Real(self, self._places[key])
 
 
+def _applied(operation: str) -> Callable[[Real, Real | float], Real]:
+    return lambda number, other: number.trace.apply(operation, number, other)
+
+
 class Real:
     """A real number of a trace: what stands at `place`, or its negative. What is true is one, what is not is zero."""
 
@@ -171,30 +175,11 @@ class Real:
     def __eq__(self, other: Real | float) -> Real:  # type: ignore[override]
         return self.trace.apply("equal", self, other)
 
-    def __gt__(self, other: Real | float) -> Real:
-        return self.trace.apply("greater", self, other)
-
-    def __lt__(self, other: Real | float) -> Real:
-        return self.trace.apply("less", self, other)
-
-    def __ge__(self, other: Real | float) -> Real:
-        return self.trace.apply("greater_equal", self, other)
-
-    def __le__(self, other: Real | float) -> Real:
-        return self.trace.apply("less_equal", self, other)
-
-    def __and__(self, other: Real | float) -> Real:
-        return self.trace.apply("logical_and", self, other)
-
-    __rand__ = __and__
-
-    def __or__(self, other: Real | float) -> Real:
-        return self.trace.apply("logical_or", self, other)
-
-    __ror__ = __or__
-
-    def __floordiv__(self, other: Real | float) -> Real:
-        return self.trace.apply("floor_divide", self, other)
+    __gt__, __ge__ = _applied("greater"), _applied("greater_equal")
+    __lt__, __le__ = _applied("less"), _applied("less_equal")
+    __and__ = __rand__ = _applied("logical_and")
+    __or__ = __ror__ = _applied("logical_or")
+    __floordiv__ = _applied("floor_divide")
 
     def __rpow__(self, other: float) -> Real:
         return self.trace.apply("power", other, self)
@@ -329,8 +314,7 @@ class TracingBoard(ManyChecks, ExactBoard):
             if self._checks is None or not any(isinstance(value, Real | Vector) for value in values):
                 raise
             self.trace.tear_off(length)
-            self._sine_of = {}
-            self.lift_templates()
+            self._begin()
             self.values[name] = self._whole(self._checks.operation(verb, law), name, operands)
 
     def _whole(self, operate: Callable[..., Any], name: str, operands: tuple[str, ...]) -> Any:

@@ -231,7 +231,7 @@ def _at_once(found: Broken) -> Iterable[Prepared]:
     if not bits & ((replaced & -replaced) - 1) and len(change.steps) == 1:  # what hangs on one step comes after it
         return (*map(prepared, *change.steps.values()), *before.at(bits & ~replaced))
     new = {name: tuple(map(prepared, steps)) for name, steps in change.steps.items()}
-    return [step for one in before.at(bits | replaced) for step in new.get(one[0].name, (one,))]
+    return [step for one in before.at(bits | replaced) for step in new.get(one[0], (one,))]
 
 
 def _ratio(key: Key, name: str) -> float:
