@@ -42,8 +42,8 @@ from .triad import Triad
 Array = NDArray[np.float64]
 Places = NDArray[np.intp]
 Poses = dict[str, Array]  # near_x, near_y, near_c, near_s of every central link, by name
-# arrays of one length by name: the poses, the signs of the links' determinants, and where the driver is, AT
-State = dict[str, Array]
+# float64 of shape (rows, N): where the driver is, then of every central link its pose and the sign of its determinant
+State = Array
 Legs = tuple[int, int]
 
 CRANK_GRID = math.radians(5.0)
@@ -90,7 +90,7 @@ class Follower:
     @property
     def places(self) -> Array:
         """Places of the driver that stand for all: around a crank's circle, a slide's start."""
-        start = self._courses[-1].start[AT][:1]
+        start = self._courses[-1].start[0, :1]
         return start + np.arange(-36, 37) * (TURN / 72) if self._turns else start
 
     def limits(self, range_of: float = TURN) -> tuple[float, float] | None:
@@ -100,10 +100,10 @@ class Follower:
         be laid down.
         """
         course = self._courses[-1]
-        start = float(course.start[AT][0])
+        start = float(course.start[0, 0])
         if not math.isfinite(start):
             return None
-        low, high = course.go(np.array([start - range_of, start + range_of]), np.arange(2))[AT]
+        low, high = course.go(np.array([start - range_of, start + range_of]), np.arange(2))[0]
         return float(low), float(high)
 
 
@@ -198,25 +198,19 @@ class _Course:
         """Return what there is one of for each mechanism, for some of them."""
         return each[which] if self.count > 1 else np.broadcast_to(each, len(which))
 
-    def _look(self, at: Array, poses: Mapping[str, Array], which: Places) -> dict[str, Array]:
-        """Lay all templates down with the driver at `at`, from where they lie; return what the plan says of them."""
+    def _look(self, state: State, at: Array, which: Places) -> tuple[dict[str, Array], State]:
+        """Lay all templates down with the driver at `at`, from where they lie; return what the plan says, and how."""
         near = {AT: at}
-        for names in self._names.values():
-            near |= {name: poses[name] for name in names[:4]}
-            near[names[4]] = np.zeros(len(at))
+        for row, names in zip(range(1, len(state), 5), self._names.values(), strict=True):
+            near |= dict(zip(names, (*state[row : row + 4], np.zeros(len(at))), strict=True))
         look = self._run(self._program, self._wanted, near, which)
         if len(at) > 1:
             look = {name: np.broadcast_to(value, len(at)) for name, value in look.items()}
-        for number, (x, y, c, s, _) in self._names.items():
+        rows = [at]
+        for number in self._names:
             place, turn = look[f"_place_{number}"], look[f"_turn_{number}"]
-            look |= {x: place.real, y: place.imag, c: turn.real, s: turn.imag}
-            look[f"_sign_{number}"] = np.sign(look[f"_determinant_{number}"])
-        return look
-
-    def _state(self, look: Mapping[str, Array], at: Array) -> State:
-        """Return the links as they were seen, with the driver at `at`."""
-        names = [name for of in self._names.values() for name in of[:4]] + [f"_sign_{n}" for n in self._names]
-        return {AT: np.array(at), **{name: np.array(look[name]) for name in names}}
+            rows += [place.real, place.imag, turn.real, turn.imag, np.sign(look[f"_determinant_{number}"])]
+        return look, np.array(rows)
 
     def _all(self, look: Mapping[str, Array], part: str, most: float) -> NDArray[np.bool_]:
         return np.asarray(np.logical_and.reduce([look[f"_{part}_{n}"] <= most for n in self._names]))
@@ -229,51 +223,53 @@ class _Course:
         which = np.arange(len(at))
         found = self._run(self._rough, ("_start_joint", "_start_turn"), {}, which)
         place, turn = (np.broadcast_to(found[name], len(at)) for name in ("_start_joint", "_start_turn"))
-        x, y, c, s, _ = self._names[self._last]
-        rough = {**poses, x: place.real, y: place.imag, c: turn.real, s: turn.imag}
-        look = self._look(at, rough, which)
+        nothing, (*before, _) = np.zeros(len(at)), self._names.values()
+        rows = [row for names in before for row in (*(poses[name] for name in names[:4]), nothing)]
+        rough = np.array([at, *rows, place.real, place.imag, turn.real, turn.imag, nothing])
+        look, state = self._look(rough, at, which)
         for _ in range(SETTLING - 1):
-            look = self._look(at, look, which)
+            look, state = self._look(state, at, which)
         moved = np.abs(look[f"_place_{self._last}"] - place) / self._of(self._size, which)
         turned = look[f"_turn_{self._last}"] * turn.conj()
         held = self._all(look, "apart", CLOSED) & (moved <= FAR) & (np.abs(turned.imag) <= FAR) & (turned.real > 0.0)
-        self.start = self._state(look, np.where(held, at, np.nan))
-        _put(self.start, np.flatnonzero(~held), _part({**self.start, **rough}, ~held))
+        is_pose = np.arange(len(state))[:, None] % 5 > 0
+        self.start = np.where(is_pose & ~held, rough, state)
+        self.start[0, ~held] = np.nan
 
     def near(self, goal: Array) -> Poses:
         """Return the givens of the last group of the course, at any positions of the driver."""
-        goal = np.broadcast_to(goal, max(len(goal), len(self.start[AT])))
+        goal = np.broadcast_to(goal, max(len(goal), self.start.shape[1]))
         within = self._within(goal)
         state = self.go(within, np.arange(len(goal)))
-        lost = np.flatnonzero(state[AT] != within)
+        lost = np.flatnonzero(state[0] != within)
         if self._turns and len(lost):
             self._other_way(state, within, lost)
-            lost = lost[state[AT][lost] != within[lost]]
+            lost = lost[state[0, lost] != within[lost]]
         astray = np.zeros(len(goal))
         if len(lost):
             astray[lost] = self._astray(state, goal, lost)
         *pose, way = self._names[self._last]
-        return {**{name: state[name] for name in pose}, way: astray}
+        return {**dict(zip(pose, state[-5:-1], strict=True)), way: astray}
 
     def _within(self, goal: Array) -> Array:
         """Return positions of a crank less whole turns, where the group comes back after one or cannot make it."""
         if not self._turns:
             return goal
-        whole = np.trunc((goal - self.start[AT]) / TURN)
+        whole = np.trunc((goal - self.start[0]) / TURN)
         far = np.flatnonzero(np.abs(whole) >= 1.0)
         if not len(far):
             return goal
         goal, start = goal.copy(), self._start(far)
-        once = start[AT] + np.copysign(TURN, whole[far])
+        once = start[0] + np.copysign(TURN, whole[far])
         after = self.go(once, far)
         size = self._of(self._size, far)  # the last link may lie as before, or nearly
-        x, y, c, s = (np.abs(after[name] - start[name]) for name in self._names[self._last][:4])
+        x, y, c, s = np.abs(after[-5:-1] - start[-5:-1])
         same = np.max([x / size, y / size, c, s], axis=0) <= SAME
-        goal[far] -= np.where((after[AT] != once) | same, whole[far] * TURN, 0.0)
+        goal[far] -= np.where((after[0] != once) | same, whole[far] * TURN, 0.0)
         return goal
 
     def _start(self, which: Places) -> State:
-        return _part(self.start, np.zeros(len(which), int) if len(self.start[AT]) == 1 else which)
+        return self.start[:, np.zeros(len(which), int) if self.start.shape[1] == 1 else which]
 
     def _other_way(self, state: State, within: Array, lost: Places) -> None:
         """Try to come round the other way, where that way does not lead past the place at which this one ends.
@@ -281,24 +277,26 @@ class _Course:
         If it does, the crank has two positions for that angle, and a sweep would jump from one to the other.
         """
         within = within[lost]
-        back = np.copysign(TURN, within - self._start(lost)[AT])
-        found, end = self.go(within - back, lost), self.go(state[AT][lost] - back, lost)
-        there = (found[AT] == within - back) & (end[AT] != state[AT][lost] - back)
-        _put(state, lost[there], _part({**found, AT: within}, there))
+        back = np.copysign(TURN, within - self._start(lost)[0])
+        found, end = self.go(within - back, lost), self.go(state[0, lost] - back, lost)
+        there = (found[0] == within - back) & (end[0] != state[0, lost] - back)
+        found[0] = within
+        state[:, lost[there]] = found[:, there]
 
     def go(self, goal: Array, which: Places) -> State:
         """Follow from the start as far towards `goal` as it goes; `which` are the mechanisms."""
-        start, grid = self._start(which), self._of(self._steps, which)
-        ahead = np.trunc((goal - start[AT]) / grid)
+        state, grid = self._start(which), self._of(self._steps, which)
+        start = state[0].copy()
+        ahead = np.trunc((goal - start) / grid)
         ahead = np.where(np.isfinite(ahead), ahead, 0.0).astype(int)
-        if len(self.start[AT]) == 1 and self.count == 1:
+        if self.start.shape[1] == 1 and self.count == 1:
             state = self._from_nodes(ahead)
         else:
-            state, passed = _part(start, np.arange(len(goal))), np.zeros(len(goal), int)
+            passed = np.zeros(len(goal), int)
             for node in range(1, int(np.max(np.abs(ahead), initial=0)) + 1):
                 before, passed = passed, np.sign(ahead) * np.minimum(node, np.abs(ahead))
-                self._advance(state, start[AT] + before * grid, start[AT] + passed * grid, which)
-        self._advance(state, start[AT] + ahead * grid, goal, which)
+                self._advance(state, start + before * grid, start + passed * grid, which)
+        self._advance(state, start + ahead * grid, goal, which)
         return state
 
     def _from_nodes(self, ahead: NDArray[np.int_]) -> State:
@@ -309,12 +307,10 @@ class _Course:
             sense = 1 if last > 0 else -1
             for node in range(sense, last + sense, sense):
                 if node not in self._nodes:
-                    state = _part(self._nodes[node - sense], one)
-                    before, there = (self.start[AT] + number * self._steps for number in (node - sense, node))
+                    state = self._nodes[node] = self._nodes[node - sense].copy()
+                    before, there = (self.start[0] + number * self._steps for number in (node - sense, node))
                     self._advance(state, before, there, one)
-                    self._nodes[node] = state
-        states = [self._nodes[node] for node in ahead.tolist()]
-        return {name: np.concatenate([state[name] for state in states]) for name in self.start}
+        return np.concatenate([self._nodes[node] for node in ahead.tolist()], axis=1)
 
     def _advance(self, state: State, before: Array, goal: Array, which: Places) -> None:
         """Move states on to `goal`, in steps that keep the branch, as far as they go.
@@ -322,18 +318,17 @@ class _Course:
         A state that has not come as far as `before` stands in a dead position, and stays there.
         """
         least = LEAST * self._of(self._steps, which)
-        active = np.flatnonzero((state[AT] != goal) & (state[AT] == before))
-        step = (goal - state[AT])[active]
+        active = np.flatnonzero((state[0] != goal) & (state[0] == before))
+        step = (goal - state[0])[active]
         while len(active):
-            here, rest = _part(state, active), goal[active] - state[AT][active]
-            ahead = np.where(np.abs(step) >= np.abs(rest), goal[active], here[AT] + step)
-            look = self._look(ahead, here, which[active])
+            here = state[:, active]
+            ahead = np.where(np.abs(step) >= np.abs(goal[active] - here[0]), goal[active], here[0] + step)
+            look, there = self._look(here, ahead, which[active])
             sure = self._all(look, "apart", CLOSED) & self._all(look, "doubt", SURE)
-            for number in self._names:
-                sure = sure & (look[f"_sign_{number}"] == here[f"_sign_{number}"])
-            _put(state, active[sure], _part(self._state(look, ahead), sure))
-            step = np.where(sure, step * 2.0, (ahead - here[AT]) * 0.5)
-            going = (state[AT][active] != goal[active]) & (np.abs(step) > least[active])
+            sure &= (there[5::5] == here[5::5]).all(axis=0)  # the signs of the determinants
+            state[:, active[sure]] = there[:, sure]
+            step = np.where(sure, step * 2.0, (ahead - here[0]) * 0.5)
+            going = (state[0, active] != goal[active]) & (np.abs(step) > least[active])
             active, step = active[going], step[going]
 
     def _astray(self, state: State, goal: Array, lost: Places) -> Array:
@@ -341,26 +336,15 @@ class _Course:
 
         Just at a dead position it is zero, and the pose is refined: it is singular, not out of reach.
         """
-        here, there = _part(state, lost), goal[lost]
-        look = self._look(there, here, lost)
+        here, there = state[:, lost], goal[lost]
+        look, seen = self._look(here, there, lost)
         missing = look[f"_missing_{self._last}"]
         for _ in range(SETTLING):
-            look = self._look(there, look, lost)
-        near = np.abs(there - here[AT]) <= 8.0 * LEAST * self._of(self._steps, lost)
+            look, seen = self._look(seen, there, lost)
+        near = np.abs(there - here[0]) <= 8.0 * LEAST * self._of(self._steps, lost)
         dead = near & (np.abs(look[f"_determinant_{self._last}"]) < FOLDED)  # the legs of the last one concur
-        _put(state, lost[dead], _part(self._state(look, there), dead))
+        state[:, lost[dead]] = seen[:, dead]
         return np.where(dead, 0.0, np.where(missing > 0.0, missing, np.nan))
-
-
-def _part(state: State, which: Any) -> State:
-    """Return part of the positions, by a mask or by places."""
-    return {name: array[which] for name, array in state.items()}
-
-
-def _put(state: State, places: Places, other: State) -> None:
-    """Write the positions of another state into some places."""
-    for name, array in state.items():
-        array[places] = other[name]
 
 
 def with_special_points(
