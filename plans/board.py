@@ -12,15 +12,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cache, cached_property, wraps
 from operator import itemgetter
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar, cast
 
 from ..scales.errors import InputError
 from .names import POSITION, Name, role
 
 __all__ = ["POSITION", "Board", "Program", "RecordingBoard", "Step", "recorded", "with_needs"]
 Made = TypeVar("Made")
+Verb = TypeVar("Verb", bound=Callable[..., None])
 
 
 class _Fields(NamedTuple):
@@ -49,6 +50,16 @@ class Step(_Fields):
         return role(self.operands[0] if self.verb == "read" else self.name).plan
 
 
+def _verb(signature: Verb) -> Verb:
+    """Return a verb: one step of its name, with the operands that its signature has."""
+    verb = signature.__name__
+
+    def step(board: Board, name: str, *operands: str) -> None:
+        board.step(verb, name, *operands)
+
+    return cast(Verb, wraps(signature)(step))
+
+
 class Board:
     """Verbs for constructions; a kind of board says what a step does."""
 
@@ -56,100 +67,100 @@ class Board:
         """Do one step: make `name` from `operands`."""
         raise NotImplementedError
 
+    @_verb
     def place(self, name: str, x: str, y: str) -> None:
         """Mark the point with the coordinates `x`, `y`."""
-        self.step("place", name, x, y)
 
+    @_verb
     def pole(self, name: str) -> None:
         """Choose the pole of a plan: its origin."""
-        self.step("pole", name)
 
+    @_verb
     def turn(self, name: str, angle: str) -> None:
         """Lay off `angle` with the protractor: the unit direction at that angle."""
-        self.step("turn", name, angle)
 
+    @_verb
     def direction(self, name: str, start: str, end: str, length: str) -> None:
         """Take the unit direction from `start` to `end`, which are `length` apart."""
-        self.step("direction", name, start, end, length)
 
+    @_verb
     def normal(self, name: str, vector: str) -> None:
         """Turn a direction or a vector by +90 degrees with the set square."""
-        self.step("normal", name, vector)
 
+    @_verb
     def lay(self, name: str, start: str, direction: str, length: str) -> None:
         """Lay off `length` (signed) from `start` along the unit `direction`."""
-        self.step("lay", name, start, direction, length)
 
+    @_verb
     def back(self, name: str, start: str, direction: str, length: str) -> None:
         """Lay off `length` (signed) from `start` against the unit `direction`."""
-        self.step("back", name, start, direction, length)
 
+    @_verb
     def chain(self, name: str, start: str, vector: str) -> None:
         """Hang `vector` on `start`: tip to tail."""
-        self.step("chain", name, start, vector)
 
+    @_verb
     def meet(self, name: str, p: str, u: str, q: str, w: str) -> None:
         """Mark where the line through `p` along `u` meets the line through `q` along `w` (unit directions)."""
-        self.step("meet", name, p, u, q, w)
 
+    @_verb
     def arc(self, name: str, centre: str, radius: str, q: str, w: str, side: str) -> None:
         """Mark where the arc about `centre` crosses the line through `q` along `w`, on the side +1 or -1 of the two."""
-        self.step("arc", name, centre, radius, q, w, side)
 
+    @_verb
     def arcs(self, name: str, first: str, radius: str, second: str, other: str, side: str) -> None:
         """Mark where arcs about `first` and `second` cross, to the left (+1) or right (-1) of the way between them."""
-        self.step("arcs", name, first, radius, second, other, side)
 
+    @_verb
     def tangent(self, name: str, centre: str, point: str, offset: str, side: str, size: str) -> None:
         """Take the unit direction of a line through `point` at `offset` to the left of `centre`.
 
         There are two; `side` says whether the line runs from the foot of the normal towards `point` (+1) or back (-1).
         `size` is that of the whole drawing: two marks that are close together beside it settle no direction.
         """
-        self.step("tangent", name, centre, point, offset, side, size)
 
+    @_verb
     def template(self, name: str, point: str, *where: str) -> None:
         """Lay a template of a link on the paths of its three joints and mark `point` through it.
 
         `where` are the operands of `template.lay`: where it lies already, about, and the paths.
         """
-        self.step("template", name, point, *where)
 
+    @_verb
     def incline(self, name: str, direction: str, slope: str) -> None:
         """Lay off with the protractor, from `direction`, the angle of the unit direction `slope` of another drawing."""
-        self.step("incline", name, direction, slope)
 
+    @_verb
     def decline(self, name: str, direction: str, slope: str) -> None:
         """Lay off the angle of `slope` the other way: the result makes that angle with `direction`."""
-        self.step("decline", name, direction, slope)
 
+    @_verb
     def measure(self, name: str, start: str, end: str) -> None:
         """Measure the distance of two marks."""
-        self.step("measure", name, start, end)
 
+    @_verb
     def distance(self, name: str, start: str, end: str) -> None:
         """Measure a distance as a result: marks may coincide."""
-        self.step("distance", name, start, end)
 
+    @_verb
     def angle(self, name: str, first: str, second: str) -> None:
         """Read with the protractor the angle from one unit direction to another, -180 to 180 degrees."""
-        self.step("angle", name, first, second)
 
+    @_verb
     def similar(self, name: str, start: str, end: str, along: str, across: str) -> None:
         """Mark the third point of a figure on start-end similar to the link: parts of it along and to the left."""
-        self.step("similar", name, start, end, along, across)
 
+    @_verb
     def divide(self, name: str, start: str, end: str, part: str, whole: str) -> None:
         """Divide start-end in the ratio part : whole, counted from `start` (theorem of similarity on a line)."""
-        self.step("divide", name, start, end, part, whole)
 
+    @_verb
     def same(self, name: str, mark: str) -> None:
         """Give a mark another letter: a point of a link that does not turn moves like this one."""
-        self.step("same", name, mark)
 
+    @_verb
     def read(self, name: str, tail: str, tip: str) -> None:
         """Read a vector off the plan: the quantity `name` from `tail` to `tip`."""
-        self.step("read", name, tail, tip)
 
     def moment(self, name: str, arm: str, force: str, at: str, about: str) -> None:
         """Take the moment of `force`, applied at `at`, about `about`; the arm is measured on the drawing."""

@@ -54,7 +54,11 @@ OPERATORS = {
 }
 
 
-class Dual:
+def _compared(compare: Callable[[Any, Any], bool]) -> Callable[[_Dual, Any], bool]:
+    return lambda number, other: bool(compare(number.value, _value_of(other)))
+
+
+class _Dual:
     """A real number or a vector (complex), and its derivatives as an array of shape (givens,).
 
     Comparisons look at the value alone.
@@ -66,22 +70,22 @@ class Dual:
         self.value, self.slopes = value, slopes
 
     @property
-    def real(self) -> Dual:
+    def real(self) -> _Dual:
         """The x component."""
-        return Dual(self.value.real, self.slopes.real)
+        return _Dual(self.value.real, self.slopes.real)
 
     @property
-    def imag(self) -> Dual:
+    def imag(self) -> _Dual:
         """The y component."""
-        return Dual(self.value.imag, self.slopes.imag)
+        return _Dual(self.value.imag, self.slopes.imag)
 
-    def through(self, function: Callable[[Any], Any], slope: Callable[[Any], Any]) -> Dual:
+    def through(self, function: Callable[[Any], Any], slope: Callable[[Any], Any]) -> _Dual:
         """Return a function of the number whose derivative is known."""
-        return Dual(function(self.value), self.slopes * slope(self.value))
+        return _Dual(function(self.value), self.slopes * slope(self.value))
 
     def __array_ufunc__(self, ufunc: Any, method: str, *operands: Any, **options: Any) -> Any:
         """Do for numbers of numpy and functions of numpy what the operators do."""
-        name, values = ufunc.__name__, [value_of(operand) for operand in operands]
+        name, values = ufunc.__name__, [_value_of(operand) for operand in operands]
         if method != "__call__" or options or any(map(np.ndim, values)):
             return NotImplemented
         if name in OPERATORS:
@@ -90,62 +94,62 @@ class Dual:
             return NotImplemented
         found = ufunc(*values)
         slopes = SLOPES_OF_TWO[name](*values) if len(values) > 1 else (SLOPES[name](values[0], found),)
-        return Dual(found, sum(slope * slopes_of(x) for slope, x in zip(slopes, operands, strict=True)))
+        return _Dual(found, sum(slope * _slopes_of(x) for slope, x in zip(slopes, operands, strict=True)))
 
     def __array_function__(self, function: Any, types: Any, operands: Any, options: Any) -> Any:
         """Choose between numbers as numpy does; one has no axes."""
         if function is np.where:
             condition, first, second = operands
-            return first if value_of(condition) else second
+            return first if _value_of(condition) else second
         return 0 if function is np.ndim else NotImplemented
 
-    def __pow__(self, power: float) -> Dual:
-        return Dual(self.value**power, self.slopes * (power * self.value ** (power - 1.0)))
+    def __pow__(self, power: float) -> _Dual:
+        return _Dual(self.value**power, self.slopes * (power * self.value ** (power - 1.0)))
 
-    def __add__(self, other: Any) -> Dual:
-        if isinstance(other, Dual):
-            return Dual(self.value + other.value, self.slopes + other.slopes)
-        return Dual(self.value + other, self.slopes)
+    def __add__(self, other: Any) -> _Dual:
+        if isinstance(other, _Dual):
+            return _Dual(self.value + other.value, self.slopes + other.slopes)
+        return _Dual(self.value + other, self.slopes)
 
     __radd__ = __add__
 
-    def __neg__(self) -> Dual:
-        return Dual(-self.value, -self.slopes)
+    def __neg__(self) -> _Dual:
+        return _Dual(-self.value, -self.slopes)
 
-    def __sub__(self, other: Any) -> Dual:
-        if isinstance(other, Dual):
-            return Dual(self.value - other.value, self.slopes - other.slopes)
-        return Dual(self.value - other, self.slopes)
+    def __sub__(self, other: Any) -> _Dual:
+        if isinstance(other, _Dual):
+            return _Dual(self.value - other.value, self.slopes - other.slopes)
+        return _Dual(self.value - other, self.slopes)
 
-    def __rsub__(self, other: Any) -> Dual:
-        return Dual(other - self.value, -self.slopes)
+    def __rsub__(self, other: Any) -> _Dual:
+        return _Dual(other - self.value, -self.slopes)
 
-    def __mul__(self, other: Any) -> Dual:
-        if isinstance(other, Dual):
-            return Dual(self.value * other.value, self.slopes * other.value + other.slopes * self.value)
-        return Dual(self.value * other, self.slopes * other)
+    def __mul__(self, other: Any) -> _Dual:
+        if isinstance(other, _Dual):
+            return _Dual(self.value * other.value, self.slopes * other.value + other.slopes * self.value)
+        return _Dual(self.value * other, self.slopes * other)
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Dual:
-        if isinstance(other, Dual):
+    def __truediv__(self, other: Any) -> _Dual:
+        if isinstance(other, _Dual):
             quotient = divided(self.value, other.value)
-            return Dual(quotient, (self.slopes - other.slopes * quotient) * divided(1.0, other.value))
-        return Dual(divided(self.value, other), self.slopes * divided(1.0, other))
+            return _Dual(quotient, (self.slopes - other.slopes * quotient) * divided(1.0, other.value))
+        return _Dual(divided(self.value, other), self.slopes * divided(1.0, other))
 
-    def __rtruediv__(self, other: Any) -> Dual:
+    def __rtruediv__(self, other: Any) -> _Dual:
         quotient = divided(other, self.value)
-        return Dual(quotient, self.slopes * -divided(quotient, self.value))
+        return _Dual(quotient, self.slopes * -divided(quotient, self.value))
 
     def __rfloordiv__(self, other: Any) -> Any:
         return other // self.value
 
     def __floordiv__(self, other: Any) -> Any:
-        return self.value // value_of(other)
+        return self.value // _value_of(other)
 
-    def __abs__(self) -> Dual:
+    def __abs__(self) -> _Dual:
         if self.value == 0.0:  # to either side the size grows
-            return Dual(0.0, np.abs(self.slopes))
+            return _Dual(0.0, np.abs(self.slopes))
         return -self if self.value < 0.0 else self
 
     def __float__(self) -> float:
@@ -155,31 +159,22 @@ class Dual:
         return bool(self.value)
 
     def __eq__(self, other: object) -> bool:
-        return bool(self.value == value_of(other))
+        return bool(self.value == _value_of(other))
 
     __hash__ = None  # type: ignore[assignment]
 
-    def __lt__(self, other: Any) -> bool:
-        return bool(self.value < value_of(other))
-
-    def __le__(self, other: Any) -> bool:
-        return bool(self.value <= value_of(other))
-
-    def __gt__(self, other: Any) -> bool:
-        return bool(self.value > value_of(other))
-
-    def __ge__(self, other: Any) -> bool:
-        return bool(self.value >= value_of(other))
+    __lt__, __le__ = _compared(operator.lt), _compared(operator.le)
+    __gt__, __ge__ = _compared(operator.gt), _compared(operator.ge)
 
 
-def value_of(number: Any) -> Any:
+def _value_of(number: Any) -> Any:
     """Return the value of a number of either kind."""
-    return number.value if isinstance(number, Dual) else number
+    return number.value if isinstance(number, _Dual) else number
 
 
-def slopes_of(number: Any) -> Any:
+def _slopes_of(number: Any) -> Any:
     """Return the derivatives of a number of either kind."""
-    return number.slopes if isinstance(number, Dual) else 0.0
+    return number.slopes if isinstance(number, _Dual) else 0.0
 
 
 def divided(number: Any, divisor: Any) -> Any:
@@ -187,12 +182,12 @@ def divided(number: Any, divisor: Any) -> Any:
     return number / divisor if divisor else math.nan
 
 
-def root(square: Dual) -> Dual:
+def root(square: _Dual) -> _Dual:
     """Return the square root; at zero its derivatives are infinite, or none where the square does not change."""
     size = math.sqrt(square.value) if square.value >= 0.0 else math.nan
     if size == 0.0:
-        return Dual(0.0, np.where(square.slopes == 0.0, 0.0, math.inf))
-    return Dual(size, square.slopes * (0.5 / size))
+        return _Dual(0.0, np.where(square.slopes == 0.0, 0.0, math.inf))
+    return _Dual(size, square.slopes * (0.5 / size))
 
 
 STEP = 1e-5  # part of a given, of central differences where duals do not reach; what these leave out is its square
@@ -207,35 +202,35 @@ class Condition:
     sine: float
 
 
-class DualBoard(PlainBoard):
+class _DualBoard(PlainBoard):
     """One position with its derivatives by the givens that are dual numbers."""
 
     @staticmethod
     def _sqrt(square: Any) -> Any:
-        return root(square) if isinstance(square, Dual) else PlainBoard._sqrt(square)
+        return root(square) if isinstance(square, _Dual) else PlainBoard._sqrt(square)
 
     @staticmethod
     def _complex(real: Any, imag: Any) -> Any:
-        value = complex(value_of(real), value_of(imag))
-        if isinstance(real, Dual) or isinstance(imag, Dual):
-            return Dual(value, slopes_of(real) + slopes_of(imag) * 1j)
+        value = complex(_value_of(real), _value_of(imag))
+        if isinstance(real, _Dual) or isinstance(imag, _Dual):
+            return _Dual(value, _slopes_of(real) + _slopes_of(imag) * 1j)
         return value
 
     def _turn(self, angle: Any) -> Any:
         """Turn a direction by 90 degrees for its derivative by the angle: the protractor's table has none."""
-        if not isinstance(angle, Dual):
+        if not isinstance(angle, _Dual):
             return super()._turn(angle)
         direction = super()._turn(angle.value)
-        return Dual(direction, angle.slopes * (direction * 1j))
+        return _Dual(direction, angle.slopes * (direction * 1j))
 
     def _angle(self, first: Any, second: Any) -> Any:
-        angle = super()._angle(value_of(first), value_of(second))
-        return Dual(angle, _turning(second) - _turning(first))
+        angle = super()._angle(_value_of(first), _value_of(second))
+        return _Dual(angle, _turning(second) - _turning(first))
 
 
 def _turning(direction: Any) -> Any:
     """Return the derivatives of the angle of a direction."""
-    value, slopes = value_of(direction), slopes_of(direction)
+    value, slopes = _value_of(direction), _slopes_of(direction)
     return cross(value, slopes) / dot(value, value)
 
 
@@ -245,11 +240,11 @@ def derivatives(program: Program, givens: Mapping[str, Any], varied: Collection[
     The derivatives, in units of the quantity, have the shape (givens,), and are complex for vectors.
     """
     one = np.eye(len(varied))
-    own = {name: Dual(float(givens[name]), one[i] * givens[name]) for i, name in enumerate(varied)}
-    board = DualBoard({**givens, **own})
+    own = {name: _Dual(float(givens[name]), one[i] * givens[name]) for i, name in enumerate(varied)}
+    board = _DualBoard({**givens, **own})
     with np.errstate(invalid="ignore", divide="ignore"):
         program.run(board)
-    return {name: np.broadcast_to(slopes_of(board.values[name]), len(varied)) for name in program.names}
+    return {name: np.broadcast_to(_slopes_of(board.values[name]), len(varied)) for name in program.names}
 
 
 def by_solving_again(

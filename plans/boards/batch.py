@@ -84,12 +84,15 @@ def traced(
         settle_heap()
     scalars = {name: float(value) for name, value in givens.items() if name not in arrays}
     work = _written(program, scalars, arrays, tuple(wanted), boards)
-    results = {name: _room(value, size, number) for name, value in work.results.items()}
+    rooms = {name: _room(value, size, number) for name, value in work.results.items()}
+    results, outputs = (
+        {name: room for name, (room, _) in rooms.items()},
+        [into for _, own in rooms.values() for into in own],
+    )
     with np.errstate(invalid="ignore", divide="ignore"):
         code, shared = work.once(scalars)
         codes = np.full(size, max(code, work.code), np.int8)
         kept = dict(zip(work.chunked.shared, shared, strict=True))
-        outputs = [out for name, value in work.results.items() for out in _outputs(value, results[name])]
         for (place, negative), out in zip(work.chunked.outputs, outputs, strict=True):
             if place in kept:
                 out[:] = 0.0 - kept[place] if negative else kept[place] + 0.0
@@ -156,31 +159,24 @@ def _written(
     boards: tuple[type[TracingBoard], ArrayBoard],
 ) -> _Work:
     """Write a program down, once for all data of which the same names are arrays."""
-    plain = {name: value for name, value in scalars.items() if value in PLAIN}
-    key = program, tuple(plain.items()), frozenset(scalars), frozenset(arrays), wanted, boards[0]
-    return _KEPT.get(key, lambda: _write(program, plain, {**scalars, **arrays}, wanted, boards))
+    plain, (tracing, checks) = {name: value for name, value in scalars.items() if value in PLAIN}, boards
+    givens: dict[str, Any] = {**scalars, **arrays}
 
+    def write() -> _Work:
+        needed = program.needed_for(wanted)
+        first = cache(lambda: run(needed, {name: float(np.ravel(value)[0]) for name, value in givens.items()}).values)
+        board = tracing(plain, givens.keys() - plain.keys(), checks, first)
+        needed.run(board)
+        results = {name: board.values[name] for name in wanted}
+        outputs = [part for value in results.values() for part in _parts(value)]
+        chunked = Chunked(board.trace, [*arrays], outputs)
+        whole = {i: entry.data for i, entry in enumerate(board.trace.entries) if entry.operation == "whole"}
+        once = compiled(chunked.once(), "once", plain_names())
+        chunk = compiled(chunked.chunk(), "chunk", {**ARRAYS, "whole": whole})
+        return _Work(results, chunked, CODES[board.status], chunked.names, once, chunk)
 
-def _write(
-    program: Program,
-    plain: Mapping[str, float],
-    givens: Mapping[str, Any],
-    wanted: tuple[str, ...],
-    boards: tuple[type[TracingBoard], ArrayBoard],
-) -> _Work:
-    tracing, checks = boards
-    needed = program.needed_for(wanted)
-    first = cache(lambda: run(needed, {name: float(np.ravel(value)[0]) for name, value in givens.items()}).values)
-    board = tracing(plain, givens.keys() - plain.keys(), checks, first)
-    needed.run(board)
-    results = {name: board.values[name] for name in wanted}
-    outputs = [part for value in results.values() for part in _parts(value)]
-    arrays = [name for name, value in givens.items() if np.ndim(value)]
-    chunked = Chunked(board.trace, arrays, outputs)
-    whole = {i: entry.data for i, entry in enumerate(board.trace.entries) if entry.operation == "whole"}
-    once = compiled(chunked.once(), "once", plain_names())
-    chunk = compiled(chunked.chunk(), "chunk", {**ARRAYS, "whole": whole})
-    return _Work(results, chunked, CODES[board.status], chunked.names, once, chunk)
+    key = program, tuple(plain.items()), frozenset(scalars), frozenset(arrays), wanted, tracing
+    return _KEPT.get(key, write)
 
 
 def _parts(value: Any) -> list[Output]:
@@ -189,25 +185,20 @@ def _parts(value: Any) -> list[Output]:
     return [(number.place, number.negative) for number in numbers if isinstance(number, Real)]
 
 
-def _outputs(value: Any, room: NDArray[Any]) -> list[NDArray[Any]]:
-    """Return where those numbers go."""
-    if not isinstance(value, Vector):
-        return [room] if isinstance(value, Real) else []
-    parts = (value.real, room.real), (value.imag, room.imag)
-    return [into for number, into in parts if isinstance(number, Real)]
-
-
-def _room(value: Any, size: int, kind: DTypeLike) -> NDArray[Any]:
-    """Return an array for a value at all positions, filled where it is the same in any case."""
+def _room(value: Any, size: int, kind: DTypeLike) -> tuple[NDArray[Any], list[NDArray[Any]]]:
+    """Return an array for a value at all positions, filled where that is the same, and what is to be filled."""
     vectors = np.result_type(kind, np.complex64)
-    if not isinstance(value, Real | Vector):
-        return np.full(size, value + type(value)(), vectors if isinstance(value, complex) else kind)
-    room = np.empty(size, kind if isinstance(value, Real) else vectors)
-    if isinstance(value, Vector):
-        for number, into in ((value.real, room.real), (value.imag, room.imag)):
-            if not isinstance(number, Real):
-                into[:] = number + 0.0
-    return room
+    if isinstance(value, Real):
+        room = np.empty(size, kind)
+        return room, [room]
+    if not isinstance(value, Vector):
+        return np.full(size, value + type(value)(), vectors if isinstance(value, complex) else kind), []
+    room = np.empty(size, vectors)
+    parts = (value.real, room.real), (value.imag, room.imag)
+    for part, into in parts:
+        if not isinstance(part, Real):
+            into[:] = part + 0.0
+    return room, [into for part, into in parts if isinstance(part, Real)]
 
 
 @cache
@@ -241,7 +232,7 @@ _ALONE = Kept[Callable[..., Any]](64)
 
 
 @dataclass(frozen=True)
-class Script(Plain):
+class _Script(Plain):
     """The program of a trace for one position, as source of JavaScript.
 
     The function it defines takes the givens as an object by name and returns an array, the code of the status first.
@@ -263,7 +254,7 @@ class Script(Plain):
 
 @cache
 def script_names() -> str:
-    """Return the source of what the source of `Script` calls, the protractor's table as it is in Python."""
+    """Return the source of what the source of JavaScript calls, the protractor's table as it is in Python."""
     cosines, sines = graduation()
     eighth = MARKS // 8 + 1
     return f"""\
@@ -322,7 +313,7 @@ def script_of(program: Program, givens: Mapping[str, float], wanted: Sequence[st
     TypeError
         The program has steps that are more than arithmetic.
     """
-    script, results, code = _printed(Script, program, givens, wanted, "[{}, {}]")
+    script, results, code = _printed(_Script, program, givens, wanted, "[{}, {}]")
     return script.source("solve", ", ".join(results), code)
 
 

@@ -250,7 +250,8 @@ class ExactBoard(Board):
     # The verbs, the same for one and for many.
 
     def _place(self, x: Any, y: Any) -> Any:
-        return POLE if _is_zero(x) and _is_zero(y) else self._complex(x, y)
+        in_origin = isinstance(x, float) and isinstance(y, float) and x == y == 0.0
+        return POLE if in_origin else self._complex(x, y)
 
     def _pole(self) -> Any:
         return POLE
@@ -301,7 +302,7 @@ class ExactBoard(Board):
     def _arcs(self, first: Any, radius: Any, second: Any, other: Any, side: Any) -> Any:
         between = self._read(first, second)
         square = dot(between, between)
-        total, product = heron(radius, other, base := self._sqrt(square))
+        total, product = _heron(radius, other, base := self._sqrt(square))
         places = first.real, first.imag, second.real, second.imag
         root = self._sqrt(self._assembles(product, radius, other, base, total, *places))
         half = 0.5 / self._divisor(square)  # parts of the way between the centres: along it, and across
@@ -323,8 +324,7 @@ class ExactBoard(Board):
         return direction * slope.real - (direction * 1j) * slope.imag
 
     def _measure(self, start: Any, end: Any) -> Any:
-        between = self._read(start, end)
-        return self._apart(self._sqrt(dot(between, between)))
+        return self._apart(self._distance(start, end))
 
     def _distance(self, start: Any, end: Any) -> Any:
         between = self._read(start, end)
@@ -392,14 +392,10 @@ class PlainBoard(ExactBoard):
         values[name] = operate(*[values[operand] for operand in operands])
 
 
-def heron(first: Any, second: Any, base: Any) -> tuple[Any, Any]:
+def _heron(first: Any, second: Any, base: Any) -> tuple[Any, Any]:
     """Return the sum of two sides, and 16 times the squared area of the triangle on `base`."""
     total, between = first + second, first - second
     return total, (total + base) * (total - base) * (base + between) * (base - between)
-
-
-def _is_zero(value: Any) -> bool:
-    return isinstance(value, float) and value == 0.0
 
 
 def run(program: Program, givens: Mapping[str, Any]) -> ExactBoard:

@@ -83,7 +83,7 @@ NO_WORD: dict[str, Any] = dict.fromkeys(("invalid", "divide", "over", "under"), 
 LESS = 2.0**29  # how much coarser single precision is than double
 
 
-class PrecisionBoard(ArrayBoard):
+class _PrecisionBoard(ArrayBoard):
     """N positions on arrays of the real type `number` and the complex type that goes with it."""
 
     number: type[np.floating[Any]]
@@ -120,7 +120,7 @@ class PrecisionBoard(ArrayBoard):
         return between if np.ndim(between) else self.number(between)
 
 
-class SingleBoard(PrecisionBoard):
+class _SingleBoard(_PrecisionBoard):
     """Single precision: thresholds of as many units in the last place as always."""
 
     number, vector = np.float32, np.complex64
@@ -128,7 +128,7 @@ class SingleBoard(PrecisionBoard):
     folded = LESS**0.5 * FOLDED
 
 
-class ExtendedBoard(PrecisionBoard):
+class _ExtendedBoard(_PrecisionBoard):
     """The longest floating-point numbers of the machine; the givens are no better, so the thresholds stay."""
 
     number, vector = np.longdouble, np.clongdouble
@@ -136,7 +136,7 @@ class ExtendedBoard(PrecisionBoard):
     corrections = CORRECTIONS + 1
 
 
-class SingleTracing(TracingBoard):
+class _SingleTracing(TracingBoard):
     """Writes down the arithmetic of single precision; what depends on no array is done in double, and rounded then."""
 
     def _turn(self, angle: Any) -> Any:
@@ -145,7 +145,7 @@ class SingleTracing(TracingBoard):
         return Vector(*(self._upright(self.trace.apply(function, angle)) for function in ("cos", "sin")))
 
 
-BOARDS: dict[str, type[PrecisionBoard]] = {"single": SingleBoard, "extended": ExtendedBoard}
+BOARDS: dict[str, type[_PrecisionBoard]] = {"single": _SingleBoard, "extended": _ExtendedBoard}
 
 
 def batch_in(
@@ -158,7 +158,7 @@ def batch_in(
     if precision == "double":
         return batch(program, givens, wanted, chunk)
     if precision == "single":
-        return traced(program, givens, wanted, (SingleTracing, SingleBoard({}, 0)), chunk, np.float32)
+        return traced(program, givens, wanted, (_SingleTracing, _SingleBoard({}, 0)), chunk, np.float32)
     needed, board = program.needed_for(wanted), BOARDS[precision]({}, 0)
     exact = board.taken(givens)
     size = next(len(value) for value in exact.values() if value.ndim)

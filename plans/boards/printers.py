@@ -52,15 +52,7 @@ PYTHON = {
 _TWICE = {name for name, said in PYTHON.items() if said.count("{0}") > 1}
 # what the source of `Chunked` calls
 ARRAYS: dict[str, Any] = {
-    **{
-        name: getattr(np, name)
-        for name in (
-            *("add", "subtract", "multiply", "divide", "negative", "absolute", "sqrt", "floor_divide", "power", "fmod"),
-            *("less", "less_equal", "greater", "greater_equal", "equal", "logical_and", "logical_or"),
-            *("arctan2", "cos", "sin"),
-        )
-    },
-    "where": np.where,
+    **{name: getattr(np, name) for name in PYTHON if hasattr(np, name)},
     "copyto": np.copyto,
     "int8": np.int8,
     "maximum": np.maximum,
@@ -71,6 +63,14 @@ ARRAYS: dict[str, Any] = {
     "cosine": cosine_of,
     "sine": sine_of,
 }
+
+
+def _lies(orders: Mapping[str, str], calm: Calm, ends: tuple[str, str], of: str) -> str:
+    """Return whether a number, by its least and its most, lies so that nothing is the matter, as a source says it."""
+    bound = number(calm.bound)
+    if of:
+        bound = f"({bound} * {of})" + " ** 2" * calm.squared
+    return orders[calm.order].format(least=ends[0], most=ends[1], bound=bound)
 
 
 def in_order(trace: Trace, wanted: Iterable[int]) -> list[int]:
@@ -160,11 +160,8 @@ class Plain:
         yield from self.end
 
     def _calm(self, calm: Calm) -> str:
-        bound = number(calm.bound)
-        if calm.of is not None:
-            bound = f"({bound} * {self.value(calm.of)})" + (" ** 2" if calm.squared else "")
         value = self.value(calm.place)
-        return self.orders[calm.order].format(least=value, most=value, bound=bound)
+        return _lies(self.orders, calm, (value, value), "" if calm.of is None else self.value(calm.of))
 
     @cached_property
     def _named(self) -> frozenset[int]:
@@ -210,15 +207,10 @@ def compiled(source: str, name: str, names: Mapping[str, Any]) -> Callable[..., 
 def plain_names() -> dict[str, Any]:
     """Return what the source of `Plain` calls; the protractor's table has no number behind its marks."""
     cosines, sines = graduation()
-    functions = {
-        "sqrt": math.sqrt,
-        "cos": math.cos,
-        "sin": math.sin,
-        "fmod": math.fmod,
-        "isfinite": math.isfinite,
-        "arctan2": np.arctan2,  # the C library's may differ in the last bit
-    }
-    return {**functions, "cosines": [*cosines, math.nan], "sines": [*sines, math.nan], "nan": math.nan, "inf": math.inf}
+    functions = {name: getattr(math, name) for name in ("sqrt", "cos", "sin", "fmod", "isfinite")}
+    tables = {"cosines": [*cosines, math.nan], "sines": [*sines, math.nan]}
+    # the arc tangent of the C library may differ in the last bit
+    return {**functions, **tables, "arctan2": np.arctan2, "nan": math.nan, "inf": math.inf}
 
 
 def number(value: float) -> str:
@@ -409,13 +401,7 @@ class Chunked:
         yield f"    {into} = {result}" if own else f"    copyto({into}, {result})"
 
     def _calm(self, calm: Calm) -> str:
-        bound = number(calm.bound)
-        if calm.of is not None:
-            of = self._value(calm.of)
-            bound = f"({bound} * {f'most({of})' if calm.of in self.varying else of})" + (
-                " ** 2" if calm.squared else ""
-            )
-        least = most = self._value(calm.place)
+        ends, of = (self._value(calm.place),) * 2, "" if calm.of is None else self._value(calm.of)
         if calm.place in self.varying:
-            least, most = f"least({least})", f"most({most})"
-        return ORDERS[calm.order].format(least=least, most=most, bound=bound)
+            ends = f"least({ends[0]})", f"most({ends[0]})"
+        return _lies(ORDERS, calm, ends, f"most({of})" if calm.of in self.varying else of)

@@ -73,7 +73,7 @@ class Laid:
         """Return place and direction after the last correction, with the determinant that a board has checked."""
         move, twist = self.last
         inverse = -1.0 / determinant
-        return self.place + move * inverse, rotated(self.turn, twist * inverse)
+        return self.place + move * inverse, _rotated(self.turn, twist * inverse)
 
 
 def lay(
@@ -118,7 +118,7 @@ def lay(
         if number < corrections - 1:
             inverse = -1.0 / (determinant + (determinant == 0.0))
             move, twist = move * inverse, twist * inverse
-            place, turn = place + move, rotated(turn, twist / size)
+            place, turn = place + move, _rotated(turn, twist / size)
             steps.append(root(dot(move, move) + twist * twist))
     total = size + paths[0].radius + paths[1].radius + paths[2].radius
     apart = (abs(gaps[0]) + abs(gaps[1]) + abs(gaps[2])) / total
@@ -168,7 +168,7 @@ def turned(turn: Any, vector: Any) -> Any:
     return turn * vector.real + (turn * 1j) * vector.imag
 
 
-def rotated(turn: Any, angle: Any) -> Any:
+def _rotated(turn: Any, angle: Any) -> Any:
     """Return a unit direction turned by about `angle`, exactly so as `angle` goes to zero."""
     half = angle * 0.5
     inverse = 1.0 / (half * half + 1.0)

@@ -27,7 +27,7 @@ from .parts import Bodies, Couples, Forces, Passed, Plan, Polygon, answer, momen
 from .structure import Group
 
 
-class Pinned(AssurGroup):
+class _Pinned(AssurGroup):
     """What RRR, RRP and PRP have in common: B is found where the directions of both legs meet."""
 
     legs: tuple[Leg, Leg]
@@ -59,7 +59,7 @@ class Pinned(AssurGroup):
             leg.turn(plan)
 
 
-class RRR(Pinned):
+class RRR(_Pinned):
     """A connecting rod AB and a rocker CB."""
 
     legs: tuple[Hinged, Hinged]
@@ -140,7 +140,7 @@ def _tangential(board: Board, leg: Hinged, loads: Forces, couples: Couples) -> N
     board.calc(leg.outer("R", "t").size, "moment_equation", leg.length, *moments, *couples[leg.number])
 
 
-class RRP(Pinned):
+class RRP(_Pinned):
     """A connecting rod AB and a slider, which may carry the guide itself."""
 
     legs: tuple[Hinged, Slide]
@@ -183,7 +183,7 @@ class RRP(Pinned):
         answer(board, self.mechanism, "M", (m, k))
 
 
-class PRP(Pinned):
+class PRP(_Pinned):
     """Two sliders with a common pin on guides of other links."""
 
     legs: tuple[Slide, Slide]

@@ -98,7 +98,7 @@ class Structure:
 
 
 @dataclass(frozen=True, slots=True)
-class Joint:
+class _Joint:
     """The links on one pin, and the revolute pairs that the task names of them."""
 
     point: str
@@ -137,7 +137,7 @@ class Joint:
         return sorted((self.pair(*way) for way in ways), key=lambda pair: not self.names(pair))
 
 
-def joints_of(pairs: Iterable[Pair]) -> tuple[Joint | Prismatic, ...]:
+def _joints_of(pairs: Iterable[Pair]) -> tuple[_Joint | Prismatic, ...]:
     """Collect revolute pairs with one letter that have links in common; prismatic pairs stay among them.
 
     Raises
@@ -145,31 +145,31 @@ def joints_of(pairs: Iterable[Pair]) -> tuple[Joint | Prismatic, ...]:
     InputError
         When a joint of three links or more is given a pair too many.
     """
-    joints: list[Joint | Prismatic] = []
+    joints: list[_Joint | Prismatic] = []
     for pair in pairs:
         if isinstance(pair, Prismatic):
             joints.append(pair)
             continue
-        one = Joint(pair.point, pair.links, (pair,))
-        touching = [j for j in joints if isinstance(j, Joint) and j.point == one.point and {*j.links} & {*one.links}]
+        one = _Joint(pair.point, pair.links, (pair,))
+        touching = [j for j in joints if isinstance(j, _Joint) and j.point == one.point and {*j.links} & {*one.links}]
         place = joints.index(touching[0]) if touching else len(joints)
         for joint in touching:
             joints.remove(joint)
-            one = Joint(one.point, tuple(dict.fromkeys((*joint.links, *one.links))), (*joint.named, *one.named))
+            one = _Joint(one.point, tuple(dict.fromkeys((*joint.links, *one.links))), (*joint.named, *one.named))
         joints.insert(place, one)
     for made in joints:
-        if isinstance(made, Joint) and len(made.named) >= len(made.links) > 2:
+        if isinstance(made, _Joint) and len(made.named) >= len(made.links) > 2:
             raise InputError("joint-closed", point=made.point, links=listed(made.links), n=len(made.links) - 1)
     return tuple(joints)
 
 
-def pairs_of(
-    joints: Iterable[Joint | Prismatic], links: Collection[int], known: Sequence[int]
+def _pairs_of(
+    joints: Iterable[_Joint | Prismatic], links: Collection[int], known: Sequence[int]
 ) -> tuple[tuple[Pair, ...], tuple[Pair, ...], bool]:
     """Return the pairs of `links` among themselves, those with `known` ones, and whether the task names all of them."""
     inner, outer, named = list[Pair](), list[Pair](), True
     for joint in (joint for joint in joints if {*joint.links} & {*links}):
-        if isinstance(joint, Joint):
+        if isinstance(joint, _Joint):
             tree, ties = joint.tree(links), joint.ties(links, known)
             named = named and all(map(joint.names, (*tree, *ties)))
             inner += tree
@@ -189,11 +189,11 @@ def analyse(mechanism: Mechanism) -> Structure:
     InputError
         When W is not 1, links are left that form no group, or a joint has a pair too many.
     """
-    joints = joints_of(mechanism.pairs)
+    joints = _joints_of(mechanism.pairs)
     moving, lower = len(mechanism.links), len(mechanism.pairs)
     mobility = 3 * moving - 2 * lower
     if mobility != 1 and moving > MANY:
-        raise no_structure(mechanism, mobility)
+        raise _no_structure(mechanism, mobility)
     known = [FRAME, mechanism.driver.link]
     left = [link.number for link in mechanism.links if link.number not in known]
     groups: list[Group] = []
@@ -202,11 +202,11 @@ def analyse(mechanism: Mechanism) -> Structure:
         known += group.links
         left = [number for number in left if number not in group.links]
     if mobility != 1 or left:
-        raise no_structure(mechanism, mobility, left)
+        raise _no_structure(mechanism, mobility, left)
     return Structure(moving, lower, 0, mobility, mechanism.driver.link, tuple(groups))
 
 
-def _groups(joints: tuple[Joint | Prismatic, ...], known: list[int], left: list[int]) -> Iterator[Group]:
+def _groups(joints: tuple[_Joint | Prismatic, ...], known: list[int], left: list[int]) -> Iterator[Group]:
     """Smallest sets of unknown links with 3/2 pairs a link, of equal ones first those with pairs that the task names.
 
     Of a joint that leads on to another unknown link, that link is no part of the group: it is attached later.
@@ -214,7 +214,7 @@ def _groups(joints: tuple[Joint | Prismatic, ...], known: list[int], left: list[
     for size in range(2, len(left) + 1, 2):
         found = []
         for links in combinations(left, size):
-            inner, outer, named = pairs_of(joints, links, known)
+            inner, outer, named = _pairs_of(joints, links, known)
             if 2 * (len(inner) + len(outer)) == 3 * size and len({_within(p, links) for p in outer}) == len(outer) > 1:
                 found.append((named, links, inner, outer))
         for _, links, inner, outer in sorted(found, key=lambda one: not one[0]):
@@ -248,7 +248,7 @@ def _dyad(links: tuple[int, ...], inner: tuple[Pair, ...], outer: tuple[Pair, ..
     raise InputError("no-revolute", links=listed(links))
 
 
-def no_structure(mechanism: Mechanism, mobility: int, left: Collection[int] = ()) -> InputError:
+def _no_structure(mechanism: Mechanism, mobility: int, left: Collection[int] = ()) -> InputError:
     """Return why `mechanism` of this mobility has no structure; the links `left` belong to no group."""
     numbers = [link.number for link in mechanism.links]
     data = {"w": mobility, "n": len(numbers), "p": len(mechanism.pairs)}

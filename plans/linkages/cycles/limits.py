@@ -169,7 +169,7 @@ class Reach:
         return stretch.low <= place <= stretch.high
 
 
-class MarginBoard(ArrayBoard):
+class _MarginBoard(ArrayBoard):
     """An array board that notes what every arc has to spare, and the sine of every two lines that meet."""
 
     margins: dict[str, Any]
@@ -201,7 +201,7 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     zeros, than 1e-9 rad.
     """
     _, program = constructed(drive.mechanism.without_loads, ("position",))
-    position = drive.along(program, values, program.names, MarginBoard)
+    position = drive.along(program, values, program.names, _MarginBoard)
     whole = _range(drive, values, between)
     if position.status in ("no-assembly", "singular"):
         return Reach(whole, (), _gaps(whole, ()), (), ())
@@ -210,7 +210,7 @@ def reach_of(drive: Swept, values: Mapping[str, float], between: Arc | None = No
     @remembering
     def margins(at: Array) -> Mapping[str, Array]:
         board = position.run(at)
-        assert isinstance(board, MarginBoard)
+        assert isinstance(board, _MarginBoard)
         return board.margins
 
     for step in position.steps:

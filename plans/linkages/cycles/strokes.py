@@ -161,7 +161,7 @@ def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
     raise InputError("stroke-none", link=FRAME if wanted is None else wanted)
 
 
-def working_sense(mechanism: Mechanism, values: Mapping[str, float]) -> float:
+def _working_sense(mechanism: Mechanism, values: Mapping[str, float]) -> float:
     """Return the sense in which the output moves in its working stroke: +1 along its guide or counter-clockwise."""
     sense = mechanism.stroke.sense if mechanism.stroke else ZERO
     return 1.0 if {ZERO: 1.0, "one": 1.0, **values}[sense] >= 0.0 else -1.0
@@ -175,7 +175,7 @@ def zero_position(drive: Swept, values: Mapping[str, float], motions: Sequence[O
     travel = next((motion.travel for motion in motions if motion.output.link == stroke.link), None)
     if travel is None:
         raise InputError("stroke-none", link=stroke.link)
-    return travel.angle_low if working_sense(drive.mechanism, values) > 0.0 else travel.angle_high
+    return travel.angle_low if _working_sense(drive.mechanism, values) > 0.0 else travel.angle_high
 
 
 def output_motions(
@@ -265,5 +265,5 @@ def _ratio(output: Output, dead: Sequence[Dead], drive: Swept, values: Mapping[s
     stroke = drive.mechanism.stroke
     if stroke is None or stroke.link != output.link:
         return max(rising, TURN - rising) / min(rising, TURN - rising)
-    working = rising if working_sense(drive.mechanism, values) > 0.0 else TURN - rising
+    working = rising if _working_sense(drive.mechanism, values) > 0.0 else TURN - rising
     return working / (TURN - working)
