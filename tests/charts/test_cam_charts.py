@@ -40,7 +40,7 @@ def quickened(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(contests, "ROUNDS", 1)
     patch.setattr(races, "BY_HAND", (12,))
     patch.setattr(races, "AT_ONCE", ())
-    patch.setattr(charts, "cam_accuracy_chart", partial(charts.cam_accuracy_chart, effort=Effort((1, 10), 20)))
+    patch.setattr("kulman.variants.charts.charts.EFFORT", Effort((1, 10), 20))
     patch.setattr(charts, "robustness", partial(robustness, sections=(12,)))
     patch.setattr(charts, "convergence", partial(convergence, sections=FEW, drawn=(6, 18)))
 

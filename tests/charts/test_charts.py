@@ -9,7 +9,7 @@ import re
 import subprocess
 import sys
 import time
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -25,7 +25,6 @@ from kulman.plans.lab import race as contests
 from kulman.plans.lab.race import Effort
 from kulman.scales.errors import LANGUAGES, PositionError
 from kulman.tests.support.documents import run_here
-from kulman.variants.charts import linkage as charts
 from kulman.variants.charts.charts import Charts, chart
 
 TASK = "nau-slider-crank"
@@ -39,8 +38,7 @@ def english(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def quickened(patch: pytest.MonkeyPatch) -> None:
     """Measure times on little work, draw by hand on one format only."""
-    little = partial(charts.accuracy_chart, effort=Effort((1, 10), 20))
-    patch.setattr(charts, "accuracy_chart", little)
+    patch.setattr("kulman.variants.charts.charts.EFFORT", Effort((1, 10), 20))
     patch.setattr(contests, "ROUNDS", 1)
     patch.setattr("kulman.variants.charts.linkage.SIZES", ("A4",))
 

@@ -43,7 +43,7 @@ def quickened(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(contests, "ROUNDS", 1)
     patch.setattr(races, "STEPS", (0.4, 0.2))
     patch.setattr(races, "TINY", ())
-    patch.setattr(charts, "hoist_chart", partial(charts.hoist_chart, effort=Effort((1, 10), 10)))
+    patch.setattr("kulman.variants.charts.charts.EFFORT", Effort((1, 10), 10))
     patch.setattr(charts, "step_limits", partial(step_limits, steps=(4.0, 2.4, 0.32, 0.16, 0.08), tiny=(0.01, 0.005)))
     patch.setattr(charts, "depth", partial(depth, masses=(1, 4), ratios=(1e-3, 1e-2, 1e-1)))
     patch.setattr(charts, "choose", partial(choose, places=16))

@@ -11,7 +11,6 @@ from ...drawing.words import Words
 from ...plans.cams.chords import DRAWINGS, ROUNDING, WAYS, Convergence, Robustness, compared, convergence, robustness
 from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.lab.cams import rivals
-from ...plans.lab.race import FULL, Effort
 from ...scales.arguments import all_known
 from ..tables import Cell, aligned
 from . import charts
@@ -21,34 +20,13 @@ EVERY = 5  # of the places of a line beside a jump stands in the table
 ORDINATES = ("speed_top", "speed_last", "stroke_last")
 
 
-def make(name: str, scene: charts.Scene, asked: charts.ChartRequest) -> charts.Chart[Any]:
-    """Make one of the charts of a cam."""
-    solved = SolvedCam.of(scene.case.solved)
-    if name == "accuracy":
-        return cam_accuracy_chart(scene, solved)
-    if name == "stability":
-        return CamStabilityChart(scene, robustness(solved, charts.HANDS))
-    all_known("quantity-unknown", asked.quantities, compared(solved))
-    return SectionsChart(scene, convergence(solved, charts.HANDS, asked.quantities))
-
-
-USED_BY = {"quantities": ("sections",), "hand": ("accuracy",)}
-CHARTS = charts.Gallery(("sections", "accuracy", "stability"), USED_BY, make)
-
-
-def cam_accuracy_chart(scene: charts.Scene, solved: SolvedCam, effort: Effort = FULL) -> charts.AccuracyChart:
-    """Let all ways to the motion of a cam compete."""
-    found = rivals(solved, time.process_time, charts.HANDS[scene.hand], effort)
-    return charts.AccuracyChart(scene, found, "rad", "chart.cam_compared")
-
-
 class SectionsChart(charts.Chart[Convergence]):
     """Errors of the diagrams by chords against the number of sections, with and without errors of drawing."""
 
     heading, page = "chart.sections", staticmethod(sections_page)
 
-    def table(self, words: Words) -> str:
-        """Return errors without those of drawing and their orders, then what each hand keeps, and its best number."""
+    def _parts(self, words: Words) -> Iterator[str]:
+        """Go through errors without those of drawing and orders, then what each hand keeps, and its best number."""
         found, names = self.found, self.found.quantities
         heads = [words["chart.sections_n"], *(f"{name}, %" for name in names)]
         rows, by_hand = [[words["chart.jumps"], *heads]], [[words["chart.hand"], *heads]]
@@ -61,7 +39,7 @@ class SectionsChart(charts.Chart[Convergence]):
             last = [words["chart.best"], *(str(found.best(hand, name)[0]) for name in names)]
             errors = [found.hands[hand, name] for name in names]
             by_hand += charts.error_rows(words[f"hand.{hand}"], [*map(str, found.drawn)], errors, last, words)
-        return "\n\n".join((aligned(rows), aligned(by_hand), charts.wrapped(self.note(words))))
+        yield from (aligned(rows), aligned(by_hand))
 
     def note(self, words: Words) -> str:
         """Return how often hands have drawn."""
@@ -105,15 +83,15 @@ class CamStabilityChart(charts.Chart[Robustness]):
 
     heading, page = "chart.cam_stability", staticmethod(closing_page)
 
-    def table(self, words: Words) -> str:
-        """Return errors of lines beside jumps, then for every hand what does not close, and what closing brings."""
+    def _parts(self, words: Words) -> Iterator[str]:
+        """Go through errors of lines beside jumps, then for every hand what does not close, and what closing brings."""
         rows = [[words["chart.hand"], *(words[f"chart.{name}"] for name in ORDINATES)]]
         rows[0] += [words[f"chart.closed.{way}"] for way in WAYS]
         for hand, closing in self.found.closings.items():
             cells = [charts.short(words, getattr(closing, name)) for name in ORDINATES]
             cells += [charts.short(words, charts.per_cent(closing.errors.get(way))) for way in WAYS]
             rows.append([words[f"hand.{hand}"], *cells])
-        return "\n\n".join((self._missed(words), aligned(rows), charts.wrapped(self.note(words))))
+        yield from (self._missed(words), aligned(rows))
 
     def note(self, words: Words) -> str:
         """Return what the numbers mean."""
@@ -155,3 +133,29 @@ class CamStabilityChart(charts.Chart[Robustness]):
                 for hand, closing in closings
             },
         }
+
+
+def _accuracy(scene: charts.Scene) -> charts.AccuracyChart:
+    """Let all ways to the motion of a cam compete."""
+    solved = SolvedCam.of(scene.case.solved)
+    found = rivals(solved, time.process_time, charts.HANDS[scene.hand], charts.EFFORT)
+    return charts.AccuracyChart(scene, found, "rad", "chart.cam_compared")
+
+
+def _stability(scene: charts.Scene) -> CamStabilityChart:
+    """Draw section lines beside jumps, and let hands draw what does not close."""
+    return CamStabilityChart(scene, robustness(SolvedCam.of(scene.case.solved), charts.HANDS))
+
+
+def _sections(scene: charts.Scene) -> SectionsChart:
+    """Draw the diagrams with more and more sections."""
+    solved = SolvedCam.of(scene.case.solved)
+    all_known("quantity-unknown", scene.quantities, compared(solved))
+    return SectionsChart(scene, convergence(solved, charts.HANDS, scene.quantities))
+
+
+CHARTS: charts.Gallery = {
+    "sections": (_sections, ("quantities",)),
+    "accuracy": (_accuracy, ("hand",)),
+    "stability": (_stability, ()),
+}

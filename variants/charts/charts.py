@@ -8,7 +8,7 @@ import platform
 import textwrap
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import astuple, dataclass, field, replace
+from dataclasses import astuple, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 
@@ -20,7 +20,7 @@ from ...drawing.charts.race import accuracy_page
 from ...drawing.words import Words
 from ...drawing.writers import Files
 from ...plans.hands.shaky import PRESETS, Hand, preset
-from ...plans.lab.race import Contest, Entry
+from ...plans.lab.race import FULL, Contest, Entry
 from ...plans.laws import TURN
 from ...plans.linkages.cycles.cycle import Cycle
 from ...scales.arguments import all_known, names_of, of_kind
@@ -46,6 +46,7 @@ DIGITS = 3
 LINE = 110  # characters
 PERCENT = 100.0
 PLACES = {"rad": ("place", "deg"), "m": ("place", "mm"), "s": ("t", "s")}  # in files: what they are called, their unit
+EFFORT = FULL
 HANDS: Mapping[str, Hand] = {name: found.hand for name, found in PRESETS.items()}
 HEAD = ("method", "setting", "kind", "error", "typical", "quantity")  # errors in parts of the largest: without a unit
 TIMES = ("seconds [s]", "at_once", "failed", "front")
@@ -54,11 +55,14 @@ Found = TypeVar("Found")  # what has been found, for a chart
 
 @dataclass(frozen=True, slots=True)
 class Scene:
-    """The case of a chart, its words, the name of the hand that draws; cycles by their numbers of positions."""
+    """What charts are made of: a case, its words, what is asked; cycles by their numbers of positions."""
 
     case: Case
     words: Words
-    hand: str
+    hand: str  # the name of the one that draws
+    quantities: tuple[str, ...] = ()  # none: all
+    positions: int | None = None  # of the cycle; None: the chart's own
+    tolerance: float = TOLERANCE  # per cent
     cycles: dict[int, Cycle] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -84,9 +88,13 @@ class Chart(ABC, Generic[Found]):
     scene: Scene
     found: Found
 
-    @abstractmethod
     def table(self, words: Words) -> str:
-        """Return it as text."""
+        """Return it as text: its parts, then what the numbers mean."""
+        return "\n\n".join(part for part in (*self._parts(words), textwrap.fill(self.note(words), LINE)) if part)
+
+    def _parts(self, words: Words) -> Iterable[str]:
+        """Go through the tables and sentences that it is told by."""
+        return ()
 
     def note(self, words: Words) -> str:
         """Return what the numbers mean."""
@@ -120,26 +128,9 @@ class Chart(ABC, Generic[Found]):
         return type(self).page(self.found, words, title, self.note(words), *self._shown(words))
 
 
-@dataclass(frozen=True, slots=True)
-class ChartRequest:
-    """What is asked of charts: quantities (none: all), positions of the cycle (None: the chart's own), per cent."""
-
-    quantities: tuple[str, ...]
-    positions: int | None
-    tolerance: float
-
-
-@dataclass(frozen=True, slots=True)
-class Gallery:
-    """The charts that tasks of a kind have, which of them each argument changes, and what makes one by its name.
-
-    `make` raises InputError where the case cannot have a chart, or no such quantity, PositionError where no position
-    of a cycle can be assembled.
-    """
-
-    charts: tuple[str, ...]
-    used_by: Mapping[str, tuple[str, ...]]
-    make: Callable[[str, Scene, ChartRequest], Chart[Any]]
+# the charts of a subject by name: what makes each, and which arguments change it; the maker raises InputError where the
+# case cannot have it, PositionError where no position of a cycle can be assembled
+Gallery = Mapping[str, tuple[Callable[[Scene], Chart[Any]], tuple[str, ...]]]
 
 
 def place_value(of: str, at: float) -> float:
@@ -185,11 +176,6 @@ def error_rows(
     return [*rows, ["", *last]]
 
 
-def wrapped(text: str) -> str:
-    """Return a note as lines of a table's width."""
-    return textwrap.fill(text, LINE)
-
-
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class AccuracyChart(Chart[Contest]):
     """Speed against accuracy: an entry for every method, setting and kind of quantities.
@@ -217,8 +203,9 @@ class AccuracyChart(Chart[Contest]):
             shown = words.decimal(f"{setting:g}" if isinstance(setting, float) else str(setting))
             cells = [cell for kind in kinds for cell in row.get(kind, ["", "", ""])]
             lines.append([words[f"chart.{method}"], shown, *cells])
-        said = words["chart.front_mark"].format(text=words["chart.key.front"])
-        return "\n".join((aligned(lines), "", said, *map(wrapped, self.note(words).split("\n"))))
+        marked = words["chart.front_mark"].format(text=words["chart.key.front"])
+        notes = (textwrap.fill(line, LINE) for line in self.note(words).split("\n"))
+        return "\n".join((aligned(lines), "", marked, *notes))
 
     def note(self, words: Words) -> str:
         """Return how and on what it was measured."""
@@ -374,22 +361,29 @@ def chart(
     case = Request(load_task(task), variant, set, only, scales, notation, language).case()
     gallery: Gallery = beside(case.task, "charts").CHARTS
     names, wanted = names_of("chart", chart), names_of("quantities", quantities)
-    all_known("chart-unknown", names, gallery.charts)
+    all_known("chart-unknown", names, gallery)
     if positions is not None:
         positions_of("positions", positions)
     most = _per_cent(tolerance)
     of_kind("hand", hand, (str,), "str")
-    scene = Scene(case, case.words(), hand)
-    made = names or gallery.charts
+    scene = Scene(case, case.words(), hand, wanted, positions, most)
     changed = {"quantities": bool(wanted), "hand": hand != HAND}
     changed |= {"tolerance": most != TOLERANCE, "positions": positions is not None}
-    unused = [
-        InputError("chart-unused", name=name, charts=", ".join(made))
-        for name, other in changed.items()
-        if other and frozenset(gallery.used_by.get(name, ())).isdisjoint(made)
-    ]
-    found = _made(gallery, scene, names, ChartRequest(wanted, positions, most))
-    return replace(found, warnings=(*unused, *found.warnings))
+    made, warnings = names or tuple(gallery), list[KulmanError]()
+    for name, other in changed.items():
+        if other and not any(name in gallery[each][1] for each in made):
+            warnings.append(InputError("chart-unused", name=name, charts=", ".join(made)))
+    found: dict[str, Chart[Any]] = {}
+    for name in made:
+        try:
+            found[name] = gallery[name][0](scene)
+        except InputError as error:  # of all charts one that the task cannot have is left out
+            if names or error.key in WRONG:
+                raise
+            warnings.append(error)
+    if not found:
+        raise next(error for error in warnings if error.key != "chart-unused")
+    return Charts(scene.case, scene.words, found, tuple(warnings))
 
 
 def _per_cent(tolerance: str | float) -> float:
@@ -403,19 +397,3 @@ def _per_cent(tolerance: str | float) -> float:
     if not (math.isfinite(most) and most >= 0.0):
         raise LocatedError("tolerance", InputError("negative", text=quote(tolerance)))
     return most
-
-
-def _made(gallery: Gallery, scene: Scene, names: tuple[str, ...], asked: ChartRequest) -> Charts:
-    """Make the charts; of all of them one that the task cannot have is left out."""
-    charts: dict[str, Chart[Any]] = {}
-    warnings: list[KulmanError] = []
-    for name in names or gallery.charts:
-        try:
-            charts[name] = gallery.make(name, scene, asked)
-        except InputError as error:
-            if names or error.key in WRONG:
-                raise
-            warnings.append(error)
-    if not charts:
-        raise warnings[0]
-    return Charts(scene.case, scene.words, charts, tuple(warnings))

@@ -12,19 +12,9 @@ from ...plans.gears.solve import DRAWINGS, MILLI, ScaleErrors, SolvedGear, compa
 from ...plans.hands.shaky import PRESETS
 from ...scales.arguments import all_known
 from ..tables import Cell, aligned
-from .charts import HANDS, PERCENT, Chart, ChartRequest, Gallery, Scene, error_rows, wrapped
+from .charts import HANDS, PERCENT, Chart, Gallery, Scene, error_rows
 
 PARTS = {hand: preset.tolerance.part for hand, preset in PRESETS.items()}  # that are let pass
-
-
-def make(name: str, scene: Scene, asked: ChartRequest) -> ScaleChart:
-    """Draw the meshing at one scale after the other."""
-    solved = SolvedGear.of(scene.case.solved)
-    all_known("quantity-unknown", asked.quantities, compared(solved))
-    return ScaleChart(scene, scale_errors(solved, HANDS, asked.quantities))
-
-
-CHARTS = Gallery(("scale",), {"quantities": ("scale",)}, make)
 
 
 class ScaleChart(Chart[ScaleErrors]):
@@ -32,8 +22,8 @@ class ScaleChart(Chart[ScaleErrors]):
 
     heading, page = "chart.scale", staticmethod(scales_page)
 
-    def table(self, words: Words) -> str:
-        """Return what each hand keeps at every scale, then from which scale on it keeps what is let pass of it."""
+    def _parts(self, words: Words) -> Iterator[str]:
+        """Go through what each hand keeps at every scale, then from which scale on it keeps what is let pass of it."""
         found, names = self.found, self.found.quantities
 
         def said(ratio: float | None) -> str:
@@ -45,7 +35,7 @@ class ScaleChart(Chart[ScaleErrors]):
             last = [enough, *(said(found.enough(hand, name, part)) for name in names)]
             errors = [found.errors[hand, name] for name in names]
             rows += error_rows(words[f"hand.{hand}"], [*map(said, found.ratios)], errors, last, words)
-        return "\n\n".join((aligned(rows, (0, 1)), wrapped(self.note(words))))
+        yield aligned(rows, (0, 1))
 
     def note(self, words: Words) -> str:
         """Return how often hands have drawn."""
@@ -79,3 +69,13 @@ class ScaleChart(Chart[ScaleErrors]):
                 for hand, ratio, name, error in self._items()
             ],
         }
+
+
+def _scale(scene: Scene) -> ScaleChart:
+    """Draw the meshing at one scale after the other."""
+    solved = SolvedGear.of(scene.case.solved)
+    all_known("quantity-unknown", scene.quantities, compared(solved))
+    return ScaleChart(scene, scale_errors(solved, HANDS, scene.quantities))
+
+
+CHARTS: Gallery = {"scale": (_scale, ("quantities",))}

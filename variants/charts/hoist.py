@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
@@ -20,52 +20,15 @@ from ...plans.hoist.solve import SolvedHoist
 from ...plans.lab.finders import FINDERS
 from ...plans.lab.hoists import RootRace, StepLimits, Ways, by_board, by_hand, rivals, root_race, step_limits
 from ...plans.lab.integrators import GROWN, STEPPERS
-from ...plans.lab.race import FULL, Effort
 from ...plans.lab.ropes import COMPARED, MANY, HoistDepth, depth
 from ...scales.errors import InputError
 from ...scales.units import format_unit, unit
 from ..tables import Cell, aligned
-from .charts import HANDS, PERCENT, AccuracyChart, Chart, Gallery, Scene, per_cent, short, wrapped
+from . import charts
+from .charts import HANDS, PERCENT, AccuracyChart, Chart, Scene, per_cent, short
 
-ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE = "accuracy", "stability", "roots", "depth", "choice"
 EVERY = 5  # of the places stands in the tables
 TABLED = (("F_max", "kN"), ("sigma_max", "MPa"))
-
-
-CHARTS = Gallery(
-    (ACCURACY, STABILITY, ROOTS, DEPTH, CHOICE),
-    {"tolerance": (DEPTH,), "hand": (ACCURACY,)},
-    lambda name, scene, asked: hoist_chart(name, scene, asked.tolerance),
-)
-
-
-def hoist_chart(name: str, scene: Scene, tolerance: float, effort: Effort = FULL) -> Chart[Any]:
-    """Make a chart of a hoist; the tolerance of a simpler model is in per cent."""
-    solved = SolvedHoist.of(scene.case.solved)
-    givens = complete(solved.givens)
-    if name == DEPTH:
-        return HoistDepthChart(scene, depth(givens, 0.01 * tolerance))
-    if name == CHOICE:
-        return HoistChoiceChart(scene, choose(givens), givens["S"])
-    if math.isinf(givens["I_0"]):
-        raise InputError("chart-hoist-rigid")
-    if solved.forces.motion is not None:
-        raise InputError("chart-hoist-one-sided")
-    if name == ROOTS:
-        return HoistRootsChart(scene, root_race(givens))
-    if name == STABILITY:
-        return HoistStepsChart(scene, step_limits(givens))
-    return _accuracy(scene, solved, givens, effort)
-
-
-def _accuracy(scene: Scene, solved: SolvedHoist, givens: Mapping[str, float], effort: Effort) -> AccuracyChart:
-    """Let all methods compete, a board and a hand that draw among them."""
-    found = rivals(givens, time.process_time, effort)
-    case = scene.case
-    mus = {plan: scale.mu for plan, scale in case.kind.first_scales(solved, case.choosers, case.plans)[1].items()}
-    drawn = (*by_board(solved, time.process_time), *by_hand(solved, mus, HANDS[scene.hand]))
-    whole = replace(found, entries=(*found.entries, *drawn))
-    return AccuracyChart(scene, whole, "s", "chart.hoist_compared")
 
 
 class HoistStepsChart(Chart[StepLimits]):
@@ -73,8 +36,8 @@ class HoistStepsChart(Chart[StepLimits]):
 
     heading, page = "chart.hoist_stability", staticmethod(steps_page)
 
-    def table(self, words: Words) -> str:
-        """Return order and limit of every method, then errors over the step; a dash where a run is refused."""
+    def _parts(self, words: Words) -> Iterator[str]:
+        """Go through order and limit of every method, then errors over the step; a dash where a run is refused."""
         found = self.found
         heads = ("chart.method", "chart.order", "chart.hoist.limit_head", "chart.hoist.refused_from")
         rows = [[words[key] for key in heads]]
@@ -89,7 +52,7 @@ class HoistStepsChart(Chart[StepLimits]):
         for z in sorted({z for _, z in known}, reverse=True):
             cells = [short(words, known[m, z]) if (m, z) in known else "" for m in STEPPERS]
             errors.append([words.short(z, 3), *cells])
-        return "\n\n".join((aligned(rows), aligned(errors, ()), wrapped(self.note(words))))
+        yield from (aligned(rows), aligned(errors, ()))
 
     def note(self, words: Words) -> str:
         """Return what is refused, and why."""
@@ -137,9 +100,8 @@ class HoistRootsChart(Chart[RootRace]):
     def _of_roots(self) -> dict[str, Ways]:
         return {"own": self.found.own, "triple": self.found.triple}
 
-    def table(self, words: Words) -> str:
-        """Return how many evaluations every method takes to which error."""
-        parts = []
+    def _parts(self, words: Words) -> Iterator[str]:
+        """Go through how many evaluations every method takes to which error."""
         for name, ways in self._of_roots.items():
             rows = [[words["chart.method"], words["chart.hoist.evaluations"], words["chart.hoist.reached"]]]
             for method in FINDERS:
@@ -149,8 +111,7 @@ class HoistRootsChart(Chart[RootRace]):
                 else:
                     rows.append([said, str(found.evaluations), short(words, ways.error(method))])
             head = words[f"chart.hoist.{name}_root"].format(x=words.short(ways.root, 7))
-            parts.append(f"{head}\n{aligned(rows)}")
-        return "\n\n".join((*parts, wrapped(self.note(words))))
+            yield f"{head}\n{aligned(rows)}"
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         """Go through all evaluations."""
@@ -183,14 +144,14 @@ class HoistDepthChart(Chart[HoistDepth]):
 
     heading, noted, page = "chart.hoist_depth", "chart.hoist.depth_note", staticmethod(hoist_page)
 
-    def table(self, words: Words) -> str:
-        """Return what every simplification changes, ropes of more and more masses, one mass over the rope's weight."""
+    def _parts(self, words: Words) -> Iterator[str]:
+        """Go through what simplifications change, ropes of more and more masses, one mass over the rope's weight."""
         rows = [[words["chart.hoist.simpler"], *(f"{name}, %" for name in COMPARED)]]
         for key, changes in self.found.simpler.items():
             cells = [short(words, per_cent(changes[name])) for name in COMPARED]
             rows.append([words[f"chart.hoist.without.{key}"], *cells])
-        parts = [aligned(rows), self._ropes(words), self._one_mass(words), "\n".join(hoist_verdict(self.found, words))]
-        return "\n\n".join(part for part in (*parts, wrapped(self.note(words))) if part)
+        yield from (aligned(rows), self._ropes(words), self._one_mass(words))
+        yield "\n".join(hoist_verdict(self.found, words))
 
     def _ropes(self, words: Words) -> str:
         if not self.found.ropes:
@@ -250,10 +211,10 @@ class HoistChoiceChart(Chart[Choice]):
     heading, page = "chart.choice", staticmethod(choice_page)
     S: float
 
-    def table(self, words: Words) -> str:
-        """Return forces and stresses over both places, a star where they are permitted, and what the loop finds."""
-        grids = [self._grid(name, of, words) for name, of in TABLED]
-        return "\n\n".join((*grids, "\n".join(choice_verdict(self.found, words))))
+    def _parts(self, words: Words) -> Iterator[str]:
+        """Go through forces and stresses over both places, a star where they are permitted, and what the loop finds."""
+        yield from (self._grid(name, of, words) for name, of in TABLED)
+        yield "\n".join(choice_verdict(self.found, words))
 
     def _grid(self, name: str, of: str, words: Words) -> str:
         grid = self.found.spectrum
@@ -291,3 +252,41 @@ class HoistChoiceChart(Chart[Choice]):
 
     def _shown(self, words: Words) -> tuple[Any, ...]:
         return (self.S,)
+
+
+def _swinging(scene: Scene) -> tuple[SolvedHoist, dict[str, float]]:
+    """Return a hoist on a support that yields, whose formulas are valid, and its givens."""
+    solved = SolvedHoist.of(scene.case.solved)
+    givens = complete(solved.givens)
+    if math.isinf(givens["I_0"]):
+        raise InputError("chart-hoist-rigid")
+    if solved.forces.motion is not None:
+        raise InputError("chart-hoist-one-sided")
+    return solved, givens
+
+
+def _accuracy(scene: Scene) -> AccuracyChart:
+    """Let all methods compete, a board and a hand that draw among them."""
+    (solved, givens), case = _swinging(scene), scene.case
+    found = rivals(givens, time.process_time, charts.EFFORT)
+    mus = {plan: scale.mu for plan, scale in case.kind.first_scales(solved, case.choosers, case.plans)[1].items()}
+    drawn = (*by_board(solved, time.process_time), *by_hand(solved, mus, HANDS[scene.hand]))
+    return AccuracyChart(scene, replace(found, entries=(*found.entries, *drawn)), "s", "chart.hoist_compared")
+
+
+def _choice(scene: Scene) -> HoistChoiceChart:
+    """Look for the places of load and drum."""
+    givens = complete(SolvedHoist.of(scene.case.solved).givens)
+    return HoistChoiceChart(scene, choose(givens), givens["S"])
+
+
+CHARTS: charts.Gallery = {
+    "accuracy": (_accuracy, ("hand",)),
+    "stability": (lambda scene: HoistStepsChart(scene, step_limits(_swinging(scene)[1])), ()),
+    "roots": (lambda scene: HoistRootsChart(scene, root_race(_swinging(scene)[1])), ()),
+    "depth": (
+        lambda scene: HoistDepthChart(scene, depth(complete(scene.case.solved.givens), 0.01 * scene.tolerance)),
+        ("tolerance",),
+    ),
+    "choice": (_choice, ()),
+}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -18,7 +19,7 @@ from ...drawing.words import GREEK, Words
 from ...plans.board import with_needs
 from ...plans.boards.exact import SMALL, STATUSES
 from ...plans.lab.linkages import DrawnSheet, by_hand, contest
-from ...plans.lab.race import FULL, Contest, Effort, Entry
+from ...plans.lab.race import Contest, Entry
 from ...plans.lab.stability import DEAD, Cost, Depth, Stability, depth, stability
 from ...plans.linkages.chain import NEEDS
 from ...plans.linkages.cycles.cycle import Cycle, cycle
@@ -41,41 +42,17 @@ LOOKED = 12  # positions at which scale factors are looked for
 Found = TypeVar("Found", Depth, Stability)
 
 
-def make(name: str, scene: Scene, asked: charts.ChartRequest) -> charts.Chart[Any]:
-    """Make one of the charts of a linkage; a cycle of so many positions is looked at once for all of them."""
-    count = asked.positions or POSITIONS[name]
+def _cycle_of(name: str, scene: Scene) -> Cycle:
+    """Return the cycle with the plans of the case: that of so many positions is looked at once for all charts."""
+    case, count = scene.case, scene.positions or POSITIONS[name]
     if count not in scene.cycles:
-        scene.cycles[count] = _cycle(scene.case, count)
-    whole = scene.cycles[count]
-    all_known("quantity-unknown", asked.quantities, whole.quantities)
-    if name == "accuracy":
-        return accuracy_chart(scene, whole, asked.quantities)
-    if name == "stability":
-        mus = scales_of_cycle(scene, whole)
-        found = stability(whole, asked.quantities or usual(whole), mus, charts.HANDS[scene.hand])
-        return StabilityChart(scene, found, whole, mus)
-    return DepthChart(scene, depth(whole, asked.tolerance), whole)
-
-
-CHARTS = charts.Gallery(
-    tuple(POSITIONS),
-    {
-        "quantities": ("accuracy", "stability"),
-        "hand": ("accuracy", "stability"),
-        "tolerance": ("depth",),
-        "positions": tuple(POSITIONS),
-    },
-    make,
-)
-
-
-def _cycle(case: Case, positions: int) -> Cycle:
-    """Return the cycle with the plans of the case."""
-    plans = (plan for plan in with_needs((*case.plans, "position"), NEEDS) if plan not in ("cycle", "compound"))
-    found = cycle(case.task.mechanism, case.task.values(case.variant, case.settings), tuple(plans), positions)
-    if not found.reach.stretches:
-        raise _unreachable(case)
-    return found
+        plans = (plan for plan in with_needs((*case.plans, "position"), NEEDS) if plan not in ("cycle", "compound"))
+        values = case.task.values(case.variant, case.settings)
+        scene.cycles[count] = cycle(case.task.mechanism, values, tuple(plans), count)
+        if not scene.cycles[count].reach.stretches:
+            raise _unreachable(case)
+    all_known("quantity-unknown", scene.quantities, scene.cycles[count].quantities)
+    return scene.cycles[count]
 
 
 def _unreachable(case: Case) -> PositionError:
@@ -83,13 +60,28 @@ def _unreachable(case: Case) -> PositionError:
     return case.solved.error() or PositionError("no-assembly", status_word="no-assembly", point="", gap="")
 
 
-def accuracy_chart(scene: Scene, cycle: Cycle, names: Sequence[str], effort: Effort = FULL) -> AccuracyChart:
+def _accuracy(scene: Scene) -> AccuracyChart:
     """Let all methods compete; `chart-no-rivals` where nothing that is wanted can be compared."""
-    found = contest(cycle, len(cycle.angles), time.process_time, names, effort)
+    whole = _cycle_of("accuracy", scene)
+    found = contest(whole, len(whole.angles), time.process_time, scene.quantities, charts.EFFORT)
     if not found.kinds:
         raise InputError("chart-no-rivals")
-    whole = replace(found, entries=(*found.entries, *_hands(scene, cycle, found)))
-    return AccuracyChart(scene, whole, "rad" if cycle.drive.turns else "m")
+    found = replace(found, entries=(*found.entries, *_hands(scene, whole, found)))
+    return AccuracyChart(scene, found, "rad" if whole.drive.turns else "m")
+
+
+def _stability(scene: Scene) -> StabilityChart:
+    """Look at what is lost over the cycle."""
+    whole = _cycle_of("stability", scene)
+    mus = scales_of_cycle(scene, whole)
+    found = stability(whole, scene.quantities or usual(whole), mus, charts.HANDS[scene.hand])
+    return StabilityChart(scene, found, whole, mus)
+
+
+def _depth(scene: Scene) -> DepthChart:
+    """Look at what each part of the model is worth."""
+    whole = _cycle_of("depth", scene)
+    return DepthChart(scene, depth(whole, scene.tolerance), whole)
 
 
 def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
@@ -199,7 +191,9 @@ class StabilityChart(_OfCycle[Stability]):
         step = max(len(found.places) // LINES, 1)
         rows = [head, *(self._row(i, words) for i in range(0, len(found.places), step))]
         worst = filter(None, (self._worst(name, words) for name in names))
-        return "\n".join((aligned(rows, ()), "", *worst, *self._spots(words), charts.wrapped(self.note(words))))
+        return "\n".join(
+            (aligned(rows, ()), "", *worst, *self._spots(words), textwrap.fill(self.note(words), charts.LINE))
+        )
 
     def _row(self, i: int, words: Words) -> list[str]:
         found, status = self.found, self.found.statuses[i]
@@ -316,3 +310,10 @@ def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
     if reason is not None and not mus:
         raise reason
     return mus
+
+
+CHARTS: charts.Gallery = {
+    "accuracy": (_accuracy, ("quantities", "hand", "positions")),
+    "stability": (_stability, ("quantities", "hand", "positions")),
+    "depth": (_depth, ("tolerance", "positions")),
+}
