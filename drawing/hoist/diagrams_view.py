@@ -15,7 +15,7 @@ from ..figure import Figure, Stage, stages
 from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import arc_between
 from ..view import Canvas, View, angle
-from .sheet import HoistScene
+from .scene import HoistScene
 
 MANY, BESIDE_CROSSING = 48, 4  # section lines
 BELOW = 1.08  # times the least ordinate, the foot of the diagram

@@ -15,7 +15,7 @@ from ..shapes import Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import COILS, coils, fixed_pivot, hatching, revolute, unit
 from ..text import lay_out
 from ..view import Canvas, View, linear
-from .sheet import HoistScene
+from .scene import HoistScene
 
 LOAD = 0.45  # of the rope's length, the height of the load at most
 BOX = 12.0  # mm, the load's height at most

@@ -18,7 +18,7 @@ from ..printed import Input, Symbol, calculation
 from ..table import givens_view, table, text_block
 from ..view import View
 from ..words import Given
-from .sheet import HoistScene
+from .scene import HoistScene
 
 USUAL = {"Pa": (1e-6, "MPa"), "m^2": (1e6, "mm^2")}
 ROUNDING = 12  # digits

@@ -8,7 +8,7 @@ import pytest
 
 from kulman import note
 from kulman.drawing.formats import STYLES
-from kulman.drawing.hoist.sheet import HoistScene
+from kulman.drawing.hoist.scene import HoistScene
 from kulman.drawing.hoist.text import BENT, BY_DRAWING, HANGING, REDUCED, SLACK, STARTED, formula
 from kulman.drawing.notes.blocks import Equations, Figure, Steps, Table
 from kulman.drawing.words import Words

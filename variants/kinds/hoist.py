@@ -62,7 +62,7 @@ class Hoists(Sized[hoists.Hoist, "SolvedHoist"]):
 
     def lettered(self, words: Words, solved: SolvedHoist) -> Words:
         """Return the words with the letters of a hoist's quantities."""
-        from ...drawing.hoist.sheet import lettered
+        from ...drawing.hoist.scene import lettered
 
         return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
 
