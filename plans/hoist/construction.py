@@ -36,7 +36,11 @@ from .hoist import BEAMS_PART, CIRCLE_PART, DRAWN, FORCES_PART, LEFT, PLANS, ROO
 from .model import CIRCLE, HORIZONTAL, ONE_SIDED, TWO_SIDED, moved, rope_force
 from .roots import extremes
 
-FORCES = "forces"
+FORCES, LIFT_OFF, EXTREMES = "forces", "lift_off", "extremes"
+BENT = {0: "beam_0", 2: "beam_2"}
+# scale factors of the axes of each diagram; deflections are read downwards
+AXES = {FORCES: ("mu_t", "mu_F"), LIFT_OFF: ("mu_t1", "mu_y"), EXTREMES: ("mu_t1", "mu_v")}
+AXES |= dict.fromkeys(BENT.values(), ("mu_x", "mu_w"))
 UP = "_up"
 SECTIONS = 12  # of either phase, at least
 RESTING, HANGING = "f", "g"  # section lines of the phases
@@ -48,18 +52,21 @@ def axes(board: Board) -> None:
     board.normal(UP, HORIZONTAL)
 
 
-def point(board: Board, plan: str, mark: str, abscissa: str, value: str, mu: str) -> None:
+def points(board: Board, plan: str, foot: str, at: str, **values: str) -> None:
+    """Mark where a section line stands on the axis, and on it values by their marks, to the scales of the plan."""
+    along, upwards = AXES[plan]
+    abscissa = f"_abscissa_{plan}_{foot}"
+    board.calc(abscissa, "ratio", at, along)
+    board.place(f"{plan}.{foot}", abscissa, "zero")
+    for mark, value in values.items():
+        point(board, f"{plan}.{mark}", abscissa, value, upwards)
+
+
+def point(board: Board, mark: str, abscissa: str, value: str, mu: str) -> None:
     """Mark on a section line, whose abscissa on paper is known, a value to its scale."""
-    board.calc(f"_paper_{plan}_{mark}", "ratio", value, mu)
-    board.place(f"{plan}.{mark}", abscissa, f"_paper_{plan}_{mark}")
-
-
-def line(board: Board, plan: str, mark: str, time: str, mu: str = "mu_t") -> str:
-    """Mark where a section line stands on the axis of times; return the name of its abscissa on paper."""
-    abscissa = f"_abscissa_{plan}_{mark}"
-    board.calc(abscissa, "ratio", time, mu)
-    board.place(f"{plan}.{mark}", abscissa, "zero")
-    return abscissa
+    ordinate = f"_paper_{mark}".replace(".", "_")
+    board.calc(ordinate, "ratio", value, mu)
+    board.place(mark, abscissa, ordinate)
 
 
 def part(i: int, sections: int) -> str:
@@ -78,9 +85,7 @@ def resting(board: Board, sections: int, moves: bool) -> None:
             board.calc(f"_lag_{RESTING}{i}", "lagging", "V_t", "a", "k", time)
             board.calc(support, "support_force", "C", f"_lag_{RESTING}{i}", "P_st")
             rope_force(board, rope, time)
-        abscissa = line(board, FORCES, f"{RESTING}{i}", time)
-        point(board, FORCES, f"S{i}", abscissa, support, "mu_F")
-        point(board, FORCES, f"R{i}", abscissa, rope, "mu_F")
+        points(board, FORCES, f"{RESTING}{i}", time, **{f"S{i}": support, f"R{i}": rope})
 
 
 def hanging(board: Board, sections: int, moves: bool) -> None:
@@ -93,8 +98,7 @@ def hanging(board: Board, sections: int, moves: bool) -> None:
         else:
             swing(board, i, sections)
         board.calc(f"_t_{HANGING}{i}", "later", "t_1", f"_T_{HANGING}{i}")
-        abscissa = line(board, FORCES, f"{HANGING}{i}", f"_t_{HANGING}{i}")
-        point(board, FORCES, f"P{i}", abscissa, f"_P_12_{i}", "mu_F")
+        points(board, FORCES, f"{HANGING}{i}", f"_t_{HANGING}{i}", **{f"P{i}": f"_P_12_{i}"})
 
 
 def swing(board: Board, i: int, sections: int) -> None:
@@ -111,16 +115,16 @@ def swing(board: Board, i: int, sections: int) -> None:
     board.calc(f"_P_12_{i}", "suspended_force", "P_m", f"_swing{i}")
 
 
-def extreme_points(board: Board, least: str) -> None:
+def extreme_points(board: Board) -> None:
     """Mark the greatest forces, the one before the lift-off last, and the least one after it, whose time is a given.
 
     The force of the support is the deflection of its beam, too, to a scale factor of its own.
     """
     board.calc("t_P12_max", "later", "t_1", "T_1")
-    point(board, FORCES, "T", line(board, FORCES, "fT", "t_P12_max"), "P_12_max", "mu_F")
+    points(board, FORCES, "fT", "t_P12_max", T="P_12_max")
     board.calc("_mu_w_0", "ratio", "mu_F", "C_01")
-    point(board, FORCES, "M", line(board, FORCES, "fM", "t_F12_max"), "F_12_max", "mu_F")
-    point(board, FORCES, "L", line(board, FORCES, "fL", least), "P_12_min", "mu_F")
+    points(board, FORCES, "fM", "t_F12_max", M="F_12_max")
+    points(board, FORCES, "fL", "_t_P12_min", L="P_12_min")
 
 
 def diameter(board: Board, slack: bool) -> None:
@@ -133,9 +137,6 @@ def diameter(board: Board, slack: bool) -> None:
         board.calc("_slack_low", "opposite", "_slack_high")
         for side in ("high", "low"):
             board.place(f"{CIRCLE}.{side}", "zero", f"_slack_{side}")
-
-
-LIFT_OFF, EXTREMES = "lift_off", "extremes"
 
 
 def lift_off_plan(board: Board, sections: int, crossed: int) -> None:
@@ -165,12 +166,10 @@ def lift_off_points(board: Board, i: int | str) -> None:
     """Mark parabola and sinusoid on the line `i`, or on any of its own time."""
     time = f"_t_{i}_{LIFT_OFF}"
     board.calc(time, "later", "_begin", seen(i))
-    abscissa = line(board, LIFT_OFF, f"f{i}", seen(i), "mu_t1")
     board.calc(f"_y_{i}", "wound", "V_t", "a", time)
     board.calc(f"_parabola{i}", "excess", f"_y_{i}", "_height")
     board.calc(f"_sinusoid{i}", "oscillation", "V_t", "a", "k", time)
-    point(board, LIFT_OFF, f"Y{i}", abscissa, f"_parabola{i}", "mu_y")
-    point(board, LIFT_OFF, f"O{i}", abscissa, f"_sinusoid{i}", "mu_y")
+    points(board, LIFT_OFF, f"f{i}", seen(i), **{f"Y{i}": f"_parabola{i}", f"O{i}": f"_sinusoid{i}"})
 
 
 def extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
@@ -181,7 +180,7 @@ def extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
         board.calc(f"_winding{k}", "winding_speed", "V_t", "a", f"_t_{i}_{LIFT_OFF}")
         board.calc(f"_share{k}", "product", "_ratio", f"_winding{k}")
         board.calc(f"_line{k}", "opposite", f"_share{k}")
-        point(board, EXTREMES, f"L{k}", f"_abscissa_{EXTREMES}_f{i}", f"_line{k}", "mu_v")
+        point(board, f"{EXTREMES}.L{k}", f"_abscissa_{EXTREMES}_f{i}", f"_line{k}", "mu_v")
     chord(board, EXTREMES, "L", 0)
     for n, i in enumerate(crossed, 1):
         chord(board, EXTREMES, "W", i)
@@ -192,9 +191,8 @@ def extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
 
 def extremes_point(board: Board, i: int | str) -> None:
     """Mark the sinusoid of (12) on the line `i`, or on any of its own time, when (11) is drawn there."""
-    abscissa = line(board, EXTREMES, f"f{i}", seen(i), "mu_t1")
     board.calc(f"_wave{i}", "oscillation_rate", "V_t", "a", "k", f"_t_{i}_{LIFT_OFF}")
-    point(board, EXTREMES, f"W{i}", abscissa, f"_wave{i}", "mu_v")
+    points(board, EXTREMES, f"f{i}", seen(i), **{f"W{i}": f"_wave{i}"})
 
 
 def chord(board: Board, plan: str, curve: str, i: int) -> None:
@@ -218,7 +216,6 @@ def read_time(board: Board, name: str, plan: str, mark: str) -> None:
 
 
 SCHEME = "scheme"
-BENT = {0: "beam_0", 2: "beam_2"}
 FORCE = {0: ("P_st",), 2: ("P_12_max", "P_st")}  # what bends a beam
 LETTERS = ("w", "v")
 ENDS = {0: ("O1", "O2"), 2: ("B1", "B2")}
@@ -245,7 +242,7 @@ def beam(board: Board, i: int) -> None:
         board.calc(f"_x_{k}_{i}", "product", f"l_{i}", part(k, SECTIONS))
     feet = {f"f{n}": place for n, place in places.items()} | {"fA": f"b_{i}", "fM": f"_x_M_{i}"}
     for mark, place in feet.items():
-        line(board, plan, mark, place, "mu_x")
+        points(board, plan, mark, place)
     for letter, force in zip(LETTERS, FORCE[i], strict=False):
         for n, place in places.items():
             _bent(board, i, f"{letter}{n}", (place, f"f{n}"), force)
@@ -256,7 +253,7 @@ def beam(board: Board, i: int) -> None:
 
 def bent_beam(board: Board, i: int, letter: str, force: str) -> None:
     """Draw a beam bent by a force: its point at the place `_x`."""
-    line(board, BENT[i], "f", "_x", "mu_x")
+    points(board, BENT[i], "f", "_x")
     _bent(board, i, letter, ("_x", "f"), force)
 
 
@@ -366,7 +363,7 @@ def _constructed(layout: Layout, wanted: frozenset[str]) -> Program:
     if FORCES_PART in wanted:
         resting(board, layout.resting, layout.moved)
         hanging(board, layout.hanging, layout.moved)
-        extreme_points(board, "_t_P12_min")
+        extreme_points(board)
     if ROOTS_PART in wanted and layout.roots is not None:
         lift_off_plan(board, layout.roots.sections, layout.roots.lift_off)
         if layout.roots.waves:

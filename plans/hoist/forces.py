@@ -22,7 +22,7 @@ from ..board import Board, recorded
 from ..boards.exact import ExactBoard
 from ..laws import LAWS, TURN
 from ..solved import AT_LEAST, MORE, Check, Columned
-from .hoist import VALUES, complete, in_range
+from .hoist import VALUES, Numbers, complete, in_range
 from .model import model, motion_given, rope_force
 from .onesided import OneSided, one_sided
 
@@ -31,12 +31,12 @@ Flags = NDArray[np.bool_]
 ROPE_1, ROPE_2, SUPPORT, STRENGTH = ("rope_phase_1", "rope_phase_2", "support", "strength")
 
 
-def valid(found: Mapping[str, Any]) -> Any:
+def valid(found: Numbers) -> Any:
     """Return whether the two-sided formulas are valid: the rope always pulls, the load does not come back."""
     return (found["F_12_min"] >= 0.0) & (found["P_12_min"] >= 0.0) & (found["s_min"] > 0.0)
 
 
-def validity(found: Mapping[str, float], motion: OneSided | None) -> list[Check]:
+def validity(found: Numbers, motion: OneSided | None) -> list[Check]:
     """Return the checks of the two-sided formulas: least forces of the rope in both phases, least height of the load.
 
     A value is what the formulas give as long as the checks before it hold, else that of the motion.
@@ -58,7 +58,7 @@ def validity(found: Mapping[str, float], motion: OneSided | None) -> list[Check]
     ]
 
 
-def strength(values: Mapping[str, float]) -> Check:
+def strength(values: Numbers) -> Check:
     """Return whether the rope is as safe as is required."""
     value, limit = values["safety"], values["K"]
     judged = {"name": STRENGTH, "quantity": "safety", "of": "K", "unit": "1", "relation": AT_LEAST}
@@ -74,7 +74,7 @@ MOVED = ("g", "m", "C_01", "C_12", "V_t", "a")  # what a motion follows from
 class Forces:
     """The quantities of a hoist in SI, what they are judged by, and the motion where the formulas are not valid."""
 
-    found: Mapping[str, float]
+    found: Numbers
     checks: tuple[Check, ...]
     motion: OneSided | None
 
@@ -101,7 +101,7 @@ class Forces:
         return dict(sorted(known.items(), key=lambda mark: mark[1]))
 
 
-def forces(values: Mapping[str, Any]) -> Forces:
+def forces(values: Numbers) -> Forces:
     """Return the forces of one hoist, whose givens are in SI; what has a default may be left out.
 
     Raises InputError of givens that no hoist can have, named.
@@ -136,7 +136,7 @@ def motion_givens(motion: OneSided) -> dict[str, float]:
     return {motion_given(name): value for name, value in found.items()}
 
 
-def forces_of_many(values: Mapping[str, Any], wanted: Iterable[str]) -> dict[str, Any]:
+def forces_of_many(values: Numbers, wanted: Iterable[str]) -> dict[str, Any]:
     """Return quantities of many hoists at once, each found as it is valid for it.
 
     The `values` are complete and admissible givens, of any shapes that go together. Raises InputError of motions of too
@@ -197,7 +197,7 @@ def _after(board: Board) -> None:
     board.calc("w_2", "deflection", "F_12", "C_2")
 
 
-def rope_forces(found: Mapping[str, Any], t: Any) -> tuple[Any, Any]:
+def rope_forces(found: Numbers, t: Any) -> tuple[Any, Any]:
     """Return the forces of support and rope by the formulas of the phase that each time is in, N.
 
     Needed are the quantities `V_t a k k_1 C C_01 C_12 P_st P_m D_0 D_1 t_1`, SI.
@@ -229,7 +229,7 @@ def course(forces: Forces, t: Array) -> Course:
     return Course(tuple(columned), states)
 
 
-def article_force(found: Mapping[str, Any], T: Any) -> Any:
+def article_force(found: Numbers, T: Any) -> Any:
     """Return the force of the rope at times T after the lift-off as the article has it, N.
 
     Needed are the quantities `m g a V_0 slack P_st C_12 k_1`, SI.
@@ -294,7 +294,7 @@ class Choice:
         return self.trials[-1].safety >= self.K
 
 
-def spectrum(values: Mapping[str, float], beta_0: Array, beta_2: Array) -> Spectrum:
+def spectrum(values: Numbers, beta_0: Array, beta_2: Array) -> Spectrum:
     """Return the greatest forces at all pairs of places, of complete givens, whose own places do not count."""
     formulas = _formulas(values, beta_0, beta_2)
     F_max = forces_of_many(_placed(values, beta_0, beta_2), ("F_max",))["F_max"]
@@ -305,13 +305,13 @@ def spectrum(values: Mapping[str, float], beta_0: Array, beta_2: Array) -> Spect
     return Spectrum(beta_0, beta_2, F_max, sigma_max, safety, formulas.reshape(shape), safety >= values["K"])
 
 
-def _placed(values: Mapping[str, float], beta_0: Array, beta_2: Array) -> dict[str, Any]:
+def _placed(values: Numbers, beta_0: Array, beta_2: Array) -> dict[str, Any]:
     """Return the givens of the hoists at all pairs of places."""
     first, second = (one.ravel() for one in np.meshgrid(beta_0, beta_2, indexing="ij"))
     return {**values, "beta_0": first, "beta_2": second}
 
 
-def _formulas(values: Mapping[str, float], beta_0: Array, beta_2: Array) -> Flags:
+def _formulas(values: Numbers, beta_0: Array, beta_2: Array) -> Flags:
     """Return at which pairs of places the formulas are valid."""
     found: Flags = valid(model(_placed(values, beta_0, beta_2), VALIDITY))
     return found
@@ -322,7 +322,7 @@ def _grid(places: int) -> Array:
     return found
 
 
-def choose(values: Mapping[str, float], places: int = PLACES) -> Choice:
+def choose(values: Numbers, places: int = PLACES) -> Choice:
     """Look for places that are safe, and for the best ones, of complete givens, SI.
 
     So many `places` of each beam from `LEAST` to `MOST` are tried, fewer where the formulas are not valid at many.
@@ -341,7 +341,7 @@ def choose(values: Mapping[str, float], places: int = PLACES) -> Choice:
     return Choice(found, given, _best(values, found, fine), tuple(trials), values["K"])
 
 
-def _best(values: Mapping[str, float], found: Spectrum, count: int) -> Trial:
+def _best(values: Numbers, found: Spectrum, count: int) -> Trial:
     """Return the places of the least force: those of the grid, then of finer and finer grids around them."""
     width = float(found.beta_0[1] - found.beta_0[0])
     best = found.best

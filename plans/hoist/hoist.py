@@ -18,6 +18,7 @@ from ...scales.givens import Bound, Described, Givens, Parameter, units
 from ...scales.numbers import quote
 from ..laws import TURN
 
+Numbers = Mapping[str, Any]  # quantities by name, SI: of one hoist, or arrays of many
 LEFT, RIGHT = SIDES = ("left", "right")
 # parts of the construction that may be wanted, each of one plan or more
 DRAWN = "drawn"  # part: a quantity as a drawing gives it
@@ -61,7 +62,7 @@ class Hoist(Described):
 MOST_SWINGS = 1e9  # before the lift-off: half of the digits tell in which of them this is
 
 
-def complete(values: Mapping[str, Any]) -> dict[str, float]:
+def complete(values: Numbers) -> dict[str, float]:
     """Return the givens of one hoist as numbers, with what is usual where nothing else is given.
 
     The `values` have the names of `GIVENS`, in SI; `I_0` and `I_2` may be infinite: a rigid beam.
@@ -78,7 +79,7 @@ def complete(values: Mapping[str, Any]) -> dict[str, float]:
     return found
 
 
-def _number(name: str, values: Mapping[str, Any]) -> float:
+def _number(name: str, values: Numbers) -> float:
     given = values.get(name, GIVENS[name].default)
     if name not in values and given is None:
         raise InputError("hoist-missing", name=name)
@@ -91,7 +92,7 @@ def _number(name: str, values: Mapping[str, Any]) -> float:
     return value
 
 
-def in_range(found: Mapping[str, float]) -> None:
+def in_range(found: Numbers) -> None:
     """Refuse givens so far apart that a result has no number; only what a rigid beam has may be infinite.
 
     Raises InputError: `hoist-range`, `hoist-stiff` of a load that swings so often that its phase is not known.

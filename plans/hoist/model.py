@@ -31,7 +31,8 @@ from ..laws import TURN, Sign, define
 from ..names import is_shown, role
 from ..solved import calculated
 from . import roots
-from .hoist import DRAWN, VALUES
+from .hoist import DRAWN, VALUES, Numbers
+from .onesided import zero_between
 
 NINE_ROOTS = Sign(9.0 * math.sqrt(3.0), "9·√(3)")
 
@@ -294,7 +295,7 @@ def _needed(wanted: tuple[str, ...], one_sided: bool) -> Program:
     return program.needed_for(wanted) if wanted else program
 
 
-def model(values: Mapping[str, Any], wanted: Iterable[str] = (), one_sided: bool = False) -> dict[str, Any]:
+def model(values: Numbers, wanted: Iterable[str] = (), one_sided: bool = False) -> dict[str, Any]:
     """Return the quantities of a hoist by name, in SI, after the givens; by the formulas, whether valid or not.
 
     The `values` are complete givens of any shapes that go together; with `one_sided` those of the motion, too.
@@ -313,7 +314,6 @@ def model(values: Mapping[str, Any], wanted: Iterable[str] = (), one_sided: bool
 
 
 ILL = 1e3  # how much larger than those of the givens errors of t_1 may be without more digits
-ROUNDS = 400
 CLOSE = 1e-20  # part of t_1 that is none
 BRACKET = 1e-4  # rad, first guess of how far the root is from that found with sixteen digits
 
@@ -339,7 +339,7 @@ def _programs() -> tuple[Program, Program]:
     return whole.needed_for(("_condition",)), whole.needed_for(("V_t", "k", "_height"))
 
 
-def rest_of_root(values: Mapping[str, Any]) -> Any:
+def rest_of_root(values: Numbers) -> Any:
     """Return what has to be added to t_1 as it is found with sixteen digits: zero almost everywhere.
 
     The `values` are complete givens, of any shapes that go together.
@@ -360,8 +360,8 @@ def rest_of_root(values: Mapping[str, Any]) -> Any:
     return rest if rest.ndim else float(rest)
 
 
-def _rest(program: Program, values: Mapping[str, float], t_1: float) -> float:
-    """Return the rest of one root: Newton's steps in a bracket that closes, for the function never falls."""
+def _rest(program: Program, values: Numbers, t_1: float) -> float:
+    """Return the rest of one root, between two places: the function never falls."""
     from mpmath import mp, mpf
 
     from ..boards.precision import DIGITS, fifty_digits
@@ -369,26 +369,15 @@ def _rest(program: Program, values: Mapping[str, float], t_1: float) -> float:
     with mp.workdps(DIGITS):
         found = fifty_digits(program, values)
         V, k, height, a = found["V_t"], found["k"], found["_height"], mpf(values["a"])
-        u, x = a / k, k * mpf(t_1)
+        u, x, reach = a / k, k * mpf(t_1), mpf(BRACKET)
 
         def surplus(x: Any) -> tuple[Any, Any]:  # (11) once more: fifty digits cancel without harm, `lag` has but 16
             sine, cosine = x - mp.sin(x), 1 - mp.cos(x)
             return V * sine + u * (x * x / 2 - cosine) - k * height, V * cosine + u * sine
 
-        reach = mpf(BRACKET)
         while surplus(x - reach)[0] > 0 or surplus(x + reach)[0] < 0:
             reach *= 2
-        low, high = x - reach, x + reach
-        for _ in range(ROUNDS):
-            value, slope = surplus(x)
-            low, high = (x, high) if value <= 0 else (low, x)
-            following = x - value / slope if slope else low
-            if not low < following < high:
-                following = (low + high) / 2
-            if abs(following - x) <= CLOSE * x:
-                break
-            x = following
-        return float(following / k - mpf(t_1))
+        return float(zero_between(surplus, x - reach, x + reach, CLOSE) / k - mpf(t_1))
 
 
 PARTS = {

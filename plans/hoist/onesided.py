@@ -18,6 +18,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain, pairwise
+from typing import Any
 
 from ...scales.errors import InputError
 from ..laws import TURN
@@ -25,7 +26,6 @@ from .roots import CLOSE, MOST_ROUNDS
 
 MOST = 8_000  # pieces and swings of one motion: beyond, nobody wants to know them
 LATEST = 1e12  # swings after which the next one cannot be told from it
-Real = Callable[[float], float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,36 +43,26 @@ class Curve:
         """Return the curve turned over."""
         return Curve(-self.p_0, -self.p_1, -self.p_2, -self.A, -self.B, self.w)
 
+    def jet(self, t: float) -> tuple[float, float, float]:
+        """Return the ordinate, the slope, and the slope of the slope."""
+        c, s = math.cos(self.w * t), math.sin(self.w * t)
+        swing, rate = self.A * c + self.B * s, self.B * c - self.A * s
+        slope = self.p_1 + 2.0 * self.p_2 * t + self.w * rate
+        return self.p_0 + (self.p_1 + self.p_2 * t) * t + swing, slope, 2.0 * self.p_2 - self.w * self.w * swing
+
     def at(self, t: float) -> float:
         """Return the ordinate."""
-        swing = self.A * math.cos(self.w * t) + self.B * math.sin(self.w * t)
-        return self.p_0 + (self.p_1 + self.p_2 * t) * t + swing
-
-    def slope(self, t: float) -> float:
-        """Return the slope."""
-        swing = self.B * math.cos(self.w * t) - self.A * math.sin(self.w * t)
-        return self.p_1 + 2.0 * self.p_2 * t + self.w * swing
-
-    def bend(self, t: float) -> float:
-        """Return the slope of the slope."""
-        swing = self.A * math.cos(self.w * t) + self.B * math.sin(self.w * t)
-        return 2.0 * self.p_2 - self.w * self.w * swing
+        return self.jet(t)[0]
 
     @property
     def swing(self) -> float:
         """How far it swings to either side."""
         return math.hypot(self.A, self.B)
 
-    def surely(self, side: float, room: float) -> float:
-        """Return a time from which on it is on one side of zero, +1 or -1, by more than `room`.
-
-        Its parabola runs away to that side.
-        """
-        p_0, p_1, p_2 = side * self.p_0 - self.swing - 2.0 * room, side * self.p_1, side * self.p_2
-        root = math.sqrt(max(p_1 * p_1 - 4.0 * p_0 * p_2, 0.0))
-        if p_1 < 0.0:
-            return (root - p_1) / (2.0 * p_2)
-        return max(-2.0 * p_0 / (p_1 + root), 0.0)
+    def surely(self, room: float) -> float:
+        """Return a time from which on it is above zero by more than `room`: its parabola runs away to that side."""
+        zeros = Curve(self.p_0 - self.swing - 2.0 * room, self.p_1, self.p_2)._zeros()[1]
+        return zeros[0] if self.p_1 < 0.0 else max(zeros[-1], 0.0)
 
     def turnings(self, end: float, begin: float = 0.0) -> Iterator[float]:
         """Go through the places from `begin` to `end` where it turns from rising to falling or back."""
@@ -80,11 +70,11 @@ class Curve:
             if self.p_2 != 0.0 and begin < -self.p_1 / (2.0 * self.p_2) < end:
                 yield -self.p_1 / (2.0 * self.p_2)
             return
-        slope = self.slope(begin)
+        slope = self.jet(begin)[1]
         for node in self._nodes(begin, end):
-            other = self.slope(node)
+            other = self.jet(node)[1]
             if slope < 0.0 < other or other < 0.0 < slope:
-                yield zero_between(self.slope, self.bend, begin, node)
+                yield zero_between(lambda t: self.jet(t)[1:], begin, node)
             elif other == 0.0 and slope != 0.0:
                 yield node
             begin, slope = node, other
@@ -118,7 +108,7 @@ class Curve:
             square, zeros = self._zeros()
             if self.at(end) >= -room and (self.p_2 <= 0.0 or square <= 0.0):
                 return None
-            return min((t for t in zeros if 0.0 < t <= end and self.slope(t) < 0.0), default=None)
+            return min((t for t in zeros if 0.0 < t <= end and self.jet(t)[1] < 0.0), default=None)
         straight = Curve(self.p_0 - self.swing - room, self.p_1, self.p_2)
         ends = [0.0, *sorted(t for t in straight._zeros()[1] if 0.0 < t < end), end]
         for low, high in pairwise(ends):
@@ -128,7 +118,7 @@ class Curve:
             for turning in chain(self.turnings(high, low), (high,)):
                 other = self.at(turning)
                 if other < -room:
-                    return zero_between(self.at, self.slope, begin, turning) if value > 0.0 else begin
+                    return zero_between(lambda t: self.jet(t)[:2], begin, turning) if value > 0.0 else begin
                 begin, value = turning, other
         return None
 
@@ -141,22 +131,21 @@ class Curve:
         return square, found + ([self.p_0 / larger] if larger else [])
 
 
-def zero_between(function: Real, slope: Real, low: float, high: float) -> float:
-    """Return where a function is zero that has different signs at `low` and `high`, and does not turn between.
+def zero_between(function: Callable[[Any], tuple[Any, Any]], low: Any, high: Any, close: float = CLOSE) -> Any:
+    """Return where a function, given with its slope, is zero: of two signs at the ends, it does not turn between.
 
-    Newton's steps that stay between the two, and every third time the middle.
+    Newton's steps that stay between the two, and every third time the middle, until one is a part `close` of the place.
     """
-    rises, x = function(high) > 0.0, 0.5 * (low + high)
+    rises, x = function(high)[0] > 0.0, 0.5 * (low + high)
     for done in range(MOST_ROUNDS):
-        value = function(x)
+        value, rate = function(x)
         if value == 0.0:
             return x
         low, high = (low, x) if (value > 0.0) == rises else (x, high)
-        rate = slope(x)
         following = x - value / rate if rate and done % 3 != 2 else low
         if not low < following < high:
             following = 0.5 * (low + high)
-        if not low < following < high or abs(following - x) <= CLOSE * abs(x):
+        if not low < following < high or abs(following - x) <= close * abs(x):
             return following
         x = following
     return x
@@ -206,18 +195,16 @@ class OneSided:
 
     def force(self, t: float) -> float:
         """Return the force of the rope at a time of the motion."""
-        piece = self.at(t)
-        return piece.force(self.C_12, t - piece.begin)
+        return (piece := self.at(t)).force(self.C_12, t - piece.begin)
 
     def rate(self, t: float) -> float:
         """Return how fast the force of the rope grows."""
         piece = self.at(t)
-        return self.C_12 * piece.stretch.slope(t - piece.begin) if piece.rope else 0.0
+        return self.C_12 * piece.stretch.jet(t - piece.begin)[1] if piece.rope else 0.0
 
     def height(self, t: float) -> float:
         """Return how high the load is above the unloaded support beam."""
-        piece = self.at(t)
-        return piece.height.at(t - piece.begin)
+        return (piece := self.at(t)).height.at(t - piece.begin)
 
     def at(self, t: float) -> Piece:
         """Return the piece to which a time of the motion belongs."""
@@ -250,7 +237,7 @@ class OneSided:
         for piece in self.pieces:
             if piece.begin >= self.t_1:
                 curve = piece.height
-                lowest = (curve.at(t) for t in curve.turnings(piece.time) if curve.bend(t) > 0.0)
+                lowest = (curve.at(t) for t in curve.turnings(piece.time) if curve.jet(t)[2] > 0.0)
                 heights += (height for height in lowest if abs(height) > ROUNDING * curve.swing)  # not t_1 itself
         return min(heights)
 
@@ -327,9 +314,9 @@ class Hoisting:
         stretch, height = self.curves(state)
         room = self.room
         if state.support:
-            end = (height if state.rope else stretch).surely(1.0, room)
+            end = (height if state.rope else stretch).surely(room)
         else:
-            end = TURN / height.w if state.rope else height.surely(-1.0, room)
+            end = TURN / height.w if state.rope else (-height).surely(room)
         at_rope = (stretch if state.rope else -stretch).falls_through(end, room)
         at_support = None
         if not math.isinf(self.C_01):
@@ -340,7 +327,7 @@ class Hoisting:
             state.t + time,
             0.0 if time == at_rope else stretch.at(time),
             0.0 if time == at_support else height.at(time),
-            height.slope(time),
+            height.jet(time)[1],
             rope=state.rope != (time == at_rope),
             support=state.support != (time == at_support),
         )

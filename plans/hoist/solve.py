@@ -9,7 +9,7 @@ Curves are constructions that are done for many places at once, in metres of pap
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,14 +42,13 @@ from .construction import (
     extremes_point,
     layout_of,
     lift_off_points,
-    line,
     part,
-    point,
+    points,
     seen,
 )
 from .construction import SECTIONS as BEAM_SECTIONS
 from .forces import Forces, article_force, course, forces, motion_givens
-from .hoist import PLANS, VALUES, Hoist, complete
+from .hoist import PLANS, VALUES, Hoist, Numbers, complete
 from .model import CIRCLE, HORIZONTAL, SECTIONS, motion_given, rest_of_root, section_of
 
 TIMES, ORDINATES, SPAN, BEND = 180.0, 120.0, 160.0, 40.0  # mm of paper that axes should take
@@ -94,7 +93,7 @@ def _ordinates(forces: Forces, layout: Layout) -> dict[str, float]:
     return {motion_given(name): value for name, value in given.items()}
 
 
-def scale_factors(found: Mapping[str, float], layout: Layout, end: float, part_of: float = 1.0) -> dict[str, float]:
+def scale_factors(found: Numbers, layout: Layout, end: float, part_of: float = 1.0) -> dict[str, float]:
     """Return the scale factors of the diagrams, SI per millimetre, by which they fill their axes."""
     wanted = {"mu_t": end / TIMES, "mu_F": (TALLEST * found["F_max"] + found["P_st"]) / ORDINATES}
     if layout.roots is not None:
@@ -169,14 +168,12 @@ class SolvedHoist(Solved):
         """The directions of axes, beams and rope."""
         return HORIZONTAL, UP
 
-    def worth(self, mus: Mapping[str, float]) -> dict[str, float]:
+    def worth(self, mus: Numbers) -> dict[str, float]:
         """Return what a millimetre of every plan is worth to the board: the diagrams are drawn in paper itself."""
         return {plan: PAPER_MM if plan in ON_PAPER else mu for plan, mu in mus.items()}
 
 
-def solve_hoist(
-    hoist: Hoist, values: Mapping[str, Any], plans: Iterable[str] = PLANS, part_of: float = 1.0
-) -> SolvedHoist:
+def solve_hoist(hoist: Hoist, values: Numbers, plans: Iterable[str] = PLANS, part_of: float = 1.0) -> SolvedHoist:
     """Solve a hoist, with its sides chosen.
 
     The `values` are its numbers in SI, as `hoist.complete` takes them, the `plans` wanted those of `hoist.PLANS`: the
@@ -217,7 +214,7 @@ def reduced(solved: SolvedHoist, part_of: float) -> SolvedHoist:
     return solve_hoist(solved.hoist, {name: solved.givens[name] for name in VALUES}, solved.plans, part_of)
 
 
-def _scales(given: Mapping[str, Any], drawn: set[str]) -> dict[str, Quantity]:
+def _scales(given: Numbers, drawn: set[str]) -> dict[str, Quantity]:
     """Return the scale factors of the diagrams that are drawn: they are found, and so are results."""
     of_plan = {"mu_t": FORCES, "mu_t1": LIFT_OFF, "mu_x": "", **{SCALES[plan]: plan for plan in ON_PAPER}}
     found = {}
@@ -289,6 +286,6 @@ def forces_over(solved: SolvedHoist) -> dict[str, Places]:
     curves["printed"] = swing, np.asarray(article_force(found, swing - t_1))
 
     def draw(board: Board) -> None:
-        point(board, FORCES, "x", line(board, FORCES, "fx", "_t"), "_F", "mu_F")
+        points(board, FORCES, "fx", "_t", x="_F")
 
     return {name: solved.dense(draw, f"{FORCES}.x", _t=t, _F=F) for name, (t, F) in curves.items()}

@@ -28,7 +28,7 @@ from ..hands.shaky import Hand, Paper, draw
 from ..hands.spread import kept
 from ..hoist.construction import FORCES, Roots, construct, drawn_name
 from ..hoist.forces import rope_forces
-from ..hoist.hoist import CIRCLE_PART, FORCES_PART, ROOTS_PART
+from ..hoist.hoist import CIRCLE_PART, FORCES_PART, ROOTS_PART, Numbers
 from ..hoist.model import model, model_program
 from ..hoist.roots import sine_rest
 from ..hoist.solve import SolvedHoist, board_givens
@@ -59,7 +59,7 @@ def _from_lift_off() -> Program:
     return Program(steps).needed_for(AFTER)
 
 
-def follow(values: Mapping[str, Any], t_1: Any) -> dict[str, Any]:
+def follow(values: Numbers, t_1: Any) -> dict[str, Any]:
     """Return the quantities of a hoist that lifts off at `t_1`, found in whatever way."""
     board = ExactBoard({**values, "t_1": t_1, "_rest": 0.0})
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -67,7 +67,7 @@ def follow(values: Mapping[str, Any], t_1: Any) -> dict[str, Any]:
     return {name: board.values[name] for name in ("a", "S", *AFTER)}
 
 
-def exact(values: Mapping[str, float]) -> dict[str, Any]:
+def exact(values: Numbers) -> dict[str, Any]:
     """Return the quantities with longer numbers than float64, where the machine has them: Newton's steps to t_1."""
     long = {name: np.longdouble(value) for name, value in values.items()}
     t_1 = np.longdouble(model(values, ("t_1",))["t_1"])
@@ -79,14 +79,14 @@ def exact(values: Mapping[str, float]) -> dict[str, Any]:
     return follow(long, t_1)
 
 
-Result = tuple[Way, float, Mapping[str, Any], tuple[Array, Array]]
+Result = tuple[Way, float, Numbers, tuple[Array, Array]]
 # a way, seconds of the lift-off alone, `t_1` and `F_max`, the force of the rope over time; no number where it fails
-NOTHING: tuple[float, Mapping[str, Any], tuple[Array, Array]] = (
+NOTHING: tuple[float, Numbers, tuple[Array, Array]] = (
     0.0, {"t_1": np.nan, "F_max": np.nan}, (np.zeros(1), np.full(1, np.nan))
 )  # fmt: skip
 
 
-def _closed(values: Mapping[str, float], clock: Clock, effort: Effort, places: Array) -> Iterator[Result]:
+def _closed(values: Numbers, clock: Clock, effort: Effort, places: Array) -> Iterator[Result]:
     """Go through closed forms of so many hoists at once."""
     for size in (size for size in effort.batches if size <= MOST_AT_ONCE):
         many = {name: np.full(size, value) if size > 1 else value for name, value in values.items()}
@@ -95,7 +95,7 @@ def _closed(values: Mapping[str, float], clock: Clock, effort: Effort, places: A
         yield Way(FORMULAS, size, whole, size), alone, found, (places, rope_forces(found, places)[1])
 
 
-def _found(values: Mapping[str, float], clock: Clock, places: Array) -> Iterator[Result]:
+def _found(values: Numbers, clock: Clock, places: Array) -> Iterator[Result]:
     """Go through closed forms with each way to the root, and tolerances."""
     reduced = model(values, COMPARED)
     equation = lift_off_equation(reduced["V_t"], values["a"], reduced["k"], reduced["P_st"] / reduced["C"])
@@ -110,7 +110,7 @@ def _found(values: Mapping[str, float], clock: Clock, places: Array) -> Iterator
             yield way, alone, found, (places, rope_forces(found, places)[1])
 
 
-def _stepped(values: Mapping[str, float], right: Mapping[str, Any], clock: Clock) -> Iterator[Result]:
+def _stepped(values: Numbers, right: Numbers, clock: Clock) -> Iterator[Result]:
     """Go through integrators and steps; runs that are refused, or too long, give nothing."""
     reduced = model(values, COMPARED) | {"a": values["a"]}
     angle = float(right["k"] * (right["t_1"] + TURN / right["k_1"]))  # k t of a whole run
@@ -128,7 +128,7 @@ def _stepped(values: Mapping[str, float], right: Mapping[str, Any], clock: Clock
             yield Way(name, step, spent), spent, found, (run.t[known, 0], run.F_12[known, 0])
 
 
-def _entries(right: Mapping[str, Any], result: Result) -> Iterator[Entry]:
+def _entries(right: Numbers, result: Result) -> Iterator[Entry]:
     """Go through the errors of the three kinds: `seconds` of the lift-off alone, and of everything."""
     way, alone, found, (t, force) = result
     end = np.array([float(right["t_1"])])
@@ -147,7 +147,7 @@ def _entries(right: Mapping[str, Any], result: Result) -> Iterator[Entry]:
     yield way.entry(PEAK, end, peak)
 
 
-def rivals(values: Mapping[str, float], clock: Clock, effort: Effort = FULL) -> Contest:
+def rivals(values: Numbers, clock: Clock, effort: Effort = FULL) -> Contest:
     """Let closed forms and integrators compete; the `clock`, best that of the processor, returns seconds.
 
     The `values` are complete givens, SI, of a hoist on a support that yields, whose formulas are valid.
@@ -191,7 +191,7 @@ class RootRace:
     triple: Ways
 
 
-def root_race(values: Mapping[str, float]) -> RootRace:
+def root_race(values: Numbers) -> RootRace:
     """Follow all ways to both roots, of a hoist on a support that yields with its complete givens, SI."""
     right = exact(values)
     k, height = float(right["k"]), float(right["P_st"] / right["C"])
@@ -247,9 +247,7 @@ class StepLimits:
         return stability_limit(method)
 
 
-def step_limits(
-    values: Mapping[str, float], steps: tuple[float, ...] = TRIED, tiny: tuple[float, ...] = TRIED_TINY
-) -> StepLimits:
+def step_limits(values: Numbers, steps: tuple[float, ...] = TRIED, tiny: tuple[float, ...] = TRIED_TINY) -> StepLimits:
     """Integrate a hoist with larger and larger steps, all of them at once.
 
     The `values` are complete givens, SI, of a hoist on a support that yields, whose formulas are valid.
@@ -262,7 +260,7 @@ def step_limits(
     return StepLimits(taken, hoist["k_1"] / hoist["k"], errors, {method: run.grown for method, run in runs.items()})
 
 
-def _worst(run: Run, right: Mapping[str, Any]) -> Array:
+def _worst(run: Run, right: Numbers) -> Array:
     """Return the worst error of every run, NaN of those that are refused."""
     known = ~np.isnan(run.t)
     forces = rope_forces(right, np.where(known, run.t, 0.0).astype(np.longdouble))[1]
@@ -296,7 +294,7 @@ def by_board(solved: SolvedHoist, clock: Clock) -> Iterator[Entry]:
         yield Way(DRAWN, before, spent).entry(LIFT_OFF, np.array([t_1]), errors)
 
 
-def by_hand(solved: SolvedHoist, mus: Mapping[str, float], hand: Hand) -> Iterator[Entry]:
+def by_hand(solved: SolvedHoist, mus: Numbers, hand: Hand) -> Iterator[Entry]:
     """Go through what 95 % of the drawings of a hand keep, on the sections that the sheet has.
 
     `mus` are the scale factors by plan, SI per mm.

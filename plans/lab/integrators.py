@@ -156,7 +156,7 @@ MARGIN = 1.5  # times as long as the exact lift-off can take
 class Run:
     """What an integrator finds, of N hoists; NaN where it is refused. Quantities as of the closed form, SI."""
 
-    step: Array  # k h, rad: of the swing on the support, of that on the rope where the support is rigid
+    step: Array  # k h, rad
     t_1: Array
     F_12_t1: Array
     F_12_max: Array
@@ -175,10 +175,7 @@ class Hoists:
     def __init__(self, values: Mapping[str, Any]) -> None:
         given = np.broadcast_arrays(*(np.atleast_1d(np.asarray(values[name], float)) for name in NAMES))
         self.m, self.C_01, self.C_12, self.V_t, self.a, self.g = (np.asarray(one) for one in given)
-        self.rigid = np.isinf(self.C_01)
-        self.support = np.where(self.rigid, 1.0, self.C_01)
-        self.k_1 = np.sqrt(self.C_12 / self.m)
-        self.k = np.where(self.rigid, self.k_1, np.sqrt((self.support + self.C_12) / self.m))
+        self.k_1, self.k = np.sqrt(self.C_12 / self.m), np.sqrt((self.C_01 + self.C_12) / self.m)
 
     def chosen(self, which: Any) -> Hoists:
         """Return some of the hoists."""
@@ -189,10 +186,10 @@ class Hoists:
         return (self.V_t + 0.5 * self.a * t) * t
 
     def on_support(self) -> Motion:
-        """Return the motion while the support carries; on a rigid one there is none."""
-        free = np.where(self.rigid, 0.0, 1.0 / self.m)
-        square, pull = (self.support + self.C_12) * free, self.C_12 * free
-        return Motion(square, lambda t: pull * self.travel(t))
+        """Return the motion while the support carries."""
+        free = 1.0 / self.m
+        pull = self.C_12 * free
+        return Motion((self.C_01 + self.C_12) * free, lambda t: pull * self.travel(t))
 
     def lifted(self) -> Motion:
         """Return the motion on the rope alone."""
@@ -201,7 +198,7 @@ class Hoists:
 
     def one_sided(self) -> Motion:
         """Return the motion on a support that only pushes: both phases in one, bent at lift-off."""
-        pull, push = self.C_12 / self.m, self.support / self.m
+        pull, push = self.C_12 / self.m, self.C_01 / self.m
 
         def acceleration(t: Any, u: Any) -> Any:
             return pull * (self.travel(t) - u) - np.minimum(push * u, self.g)
@@ -218,22 +215,20 @@ class Hoists:
 
     def lift(self, t: Any, u: Any, _v: Any) -> Any:
         """Return F_01: the load leaves its support where it becomes positive, N."""
-        pulled = np.where(self.rigid, self.C_12 * self.travel(t), self.support * u)
-        return pulled - self.m * self.g
+        return self.C_01 * u - self.m * self.g
 
     def latest(self) -> Array:
         """Return times before which the load lifts off, s."""
-        yielding = np.where(self.rigid, 0.0, 1.0 / self.support) + 1.0 / self.C_12
-        swing = np.where(self.rigid, 0.0, self.V_t / self.k + 2.0 * self.a / (self.k * self.k))
+        yielding, swing = 1.0 / self.C_01 + 1.0 / self.C_12, self.V_t / self.k + 2.0 * self.a / (self.k * self.k)
         return np.asarray(time_to_wind(self.V_t, self.a, self.m * self.g * yielding + swing))
 
 
 def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool = True) -> Run:
     """Integrate hoists, by one of `STEPPERS`, until one period after lift-off.
 
-    The `values` are `m C_01 C_12 V_t a g`, SI; C_01 may be infinite. The `step` is k h, rad; many steps of one hoist go
-    at once, too. Lift-off and extrema are `located` within steps; else they are taken at the steps, as programs do that
-    know no events, and the support is one-sided: a finite C_01 is needed then, and a method that is not implicit.
+    The `values` are `m C_01 C_12 V_t a g`, SI, of supports that yield. The `step` is k h, rad; many steps of one hoist
+    go at once, too. Lift-off and extrema are `located` within steps; else they are taken at the steps, as programs do
+    that know no events, and the support is one-sided: a method that is not implicit is needed then.
     """
     hoists = Hoists({**values, "m": np.broadcast_arrays(values["m"], step)[0]})
     z = np.broadcast_to(np.asarray(step, float), hoists.m.shape)
@@ -278,11 +273,9 @@ def _judged(
     """Refuse what the method has made grow."""
     z, first, last = taken
     z_1 = z * (hoists.k_1 / hoists.k)
-    slow, fast = growth(method, z_1), np.where(hoists.rigid, 1.0, growth(method, z))
-    grown = np.exp(np.log(fast) * first + np.log(slow) * last)
+    grown = np.exp(np.log(growth(method, z)) * first + np.log(growth(method, z_1)) * last)
     limit = stability_limit(method)
-    beyond = (np.where(hoists.rigid, z_1, z) > limit) & (limit > 0.0)
-    refused: Flags = beyond | (grown > GROWN) | ~np.isfinite(found[0])
+    refused: Flags = ((z > limit) & (limit > 0.0)) | (grown > GROWN) | ~np.isfinite(found[0])
     t_1, F_12_t1, F_12_max, P_12_max = (np.where(refused, np.nan, one) for one in found)
     t, force, end = trace
     over = refused | (t > end)

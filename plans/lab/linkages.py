@@ -83,7 +83,7 @@ class Rivals:
         sense = float(given[driver.sense]) if isinstance(driver, Driver) else 1.0  # of both rates, rad/s or m/s
         self.speed, self.acceleration = (float(given[x or ZERO]) * sense for x in (driver.speed, driver.acceleration))
         self.contours = Contours(cycle.mechanism, cycle.givens)
-        self._grid = self._at_grid()
+        self._grid, self._whole = self._at_grid(), abs(cycle.range.high - cycle.range.low)
 
     def plan(self, places: Array, names: Sequence[str], precision: str = "double") -> Values:
         """Return quantities by plans in a precision, many positions at once."""
@@ -92,17 +92,8 @@ class Rivals:
 
     def differences(self, step: float, places: Array, names: Sequence[str]) -> Values:
         """Return central differences of positions by plans; `step` is in radians, of a slide a part of its range."""
-        step = step if self.cycle.drive.turns else step * abs(self.cycle.range.high - self.cycle.range.low)
-        offsets = (-step, step) if all(_order(name) == 1 for name in names) else (-step, 0.0, step)
-        slopes = self._curves(places + np.array(offsets)[:, None], names)
-        for name, curve in slopes.items():
-            slopes[name] = (curve[-1] - curve[0]) * (0.5 / step)
-            if _order(name) == 1:
-                slopes[name] = slopes[name] * self.speed
-            else:
-                second = (curve[2] - curve[1] - (curve[1] - curve[0])) * (1.0 / step**2)
-                slopes[name] = second * self.speed**2 + slopes[name] * self.acceleration
-        return slopes
+        step = step if self.cycle.drive.turns else step * self._whole
+        return self._slopes((2.0 * step, step), places, names)
 
     def chords(self, sections: int, places: Array, names: Sequence[str]) -> Values:
         """Return slopes of the chords of a drawn curve over so many sections of the cycle, and chords of these.
@@ -110,9 +101,13 @@ class Rivals:
         A velocity belongs to the middle of its section, an acceleration to the end of two: both as if the sections lay
         there.
         """
-        section, slopes = abs(self.cycle.range.high - self.cycle.range.low) / sections, Values()
+        return self._slopes((self._whole / sections, self._whole / sections), places, names)
+
+    def _slopes(self, wide: tuple[float, float], places: Array, names: Sequence[str]) -> Values:
+        """Return rates by chords about places: over one section, and over two; so wide are they for either order."""
+        slopes = Values()
         for order, offsets in ((1, (-0.5, 0.5)), (2, (-1.0, 0.0, 1.0))):
-            wanted = [name for name in names if _order(name) == order]
+            section, wanted = wide[order - 1], [name for name in names if _order(name) == order]
             curves = self._curves(places + np.array(offsets)[:, None] * section, wanted) if wanted else {}
             slopes |= {name: self._sloped(name, curve, section)[0] for name, curve in curves.items()}
         return slopes
@@ -121,7 +116,7 @@ class Rivals:
         """Return the same for a whole cycle, whose sections share their ends: the work of it, to be timed."""
         low, high = self.cycle.range.low, self.cycle.range.high
         curves = self._curves(low + (high - low) * (np.arange(-1, sections + 2) / sections), names)
-        return {name: self._sloped(name, curve, abs(high - low) / sections) for name, curve in curves.items()}
+        return {name: self._sloped(name, curve, self._whole / sections) for name, curve in curves.items()}
 
     def _sloped(self, name: str, curve: Array, section: float) -> Array:
         """Return rates of a curve by chords, along its first axis."""

@@ -25,12 +25,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..hoist.forces import forces, valid
+from ..hoist.hoist import Numbers
 from ..hoist.model import model
 
 Array = NDArray[np.float64]
@@ -57,7 +57,7 @@ class Heavy:
     F_drum_max: float  # at the drum, in both phases
 
 
-def rope_row(found: Mapping[str, float], n: int, lifted: bool) -> Row:
+def rope_row(found: Numbers, n: int, lifted: bool) -> Row:
     """Return the row of the load and the rope's masses, from below upwards; `lifted` off its support."""
     G_1, G_2, g, C_01, C_k, C_2, _, a = (found[name] for name in NAMES)
     masses = np.array([G_1 / g] + [G_2 / (g * n)] * n)
@@ -66,7 +66,7 @@ def rope_row(found: Mapping[str, float], n: int, lifted: bool) -> Row:
     return Row(masses, links, -g * masses, np.array([0.0, a]))
 
 
-def rope_of(found: Mapping[str, float], n: int) -> Heavy:
+def rope_of(found: Numbers, n: int) -> Heavy:
     """Lift a load by a rope of n masses, with weight, on a support that yields.
 
     Needed are `G_1 G_2 g C_01 C_k C_2 V_t a k k_1 t_1`, SI. Raises TremblingError where that takes too long.
@@ -84,7 +84,7 @@ def rope_of(found: Mapping[str, float], n: int) -> Heavy:
     return Heavy(n, t_1, F_12, P_12, max(F_drum, P_drum))
 
 
-def _lift_off(motion: RowMotion, found: Mapping[str, float]) -> float:
+def _lift_off(motion: RowMotion, found: Numbers) -> float:
     """Return when the support is free: the first time between two samples, then by halving."""
     support = motion.of(0)
     end = found["t_1"] + 2.0 * math.pi / found["k"]
@@ -207,7 +207,7 @@ def _sinc(x: Array) -> Array:
 
 
 COMPARED = ("t_1", "F_12_max", "P_12_max", "F_max")
-SIMPLER: Mapping[str, Mapping[str, float]] = {  # simplifications, and what is given then
+SIMPLER: Mapping[str, Numbers] = {  # simplifications, and what is given then
     "G_2": {"G_2": 0.0},
     "I_2": {"I_2": math.inf},
     "I_0": {"I_0": math.inf},
@@ -244,7 +244,7 @@ class OneMass:
 class HoistDepth:
     """How deep the model must be."""
 
-    full: Mapping[str, float]  # the quantities of the full model, of `COMPARED`, SI
+    full: Numbers  # the quantities of the full model, of `COMPARED`, SI
     simpler: Mapping[str, Changes]  # in the order of `SIMPLER`, the article's formula last
     # ropes of more and more masses, as far as they can be followed; empty where the rope weighs nothing, the support is
     # rigid or formulas are not valid
@@ -276,7 +276,7 @@ class HoistDepth:
 
 
 def depth(
-    values: Mapping[str, float], tolerance: float, masses: Iterable[int] = MASSES, ratios: Iterable[float] = RATIOS
+    values: Numbers, tolerance: float, masses: Iterable[int] = MASSES, ratios: Iterable[float] = RATIOS
 ) -> HoistDepth:
     """Look at simpler models of a hoist with complete givens, SI, and at ropes of many masses.
 
@@ -287,7 +287,7 @@ def depth(
     full = {name: found[name] for name in COMPARED}
     simpler = {key: _changes(full, forces({**values, **other}).found) for key, other in SIMPLER.items()}
     printed = dict.fromkeys(COMPARED, math.nan)
-    printed |= dict.fromkeys(("P_12_max", "F_max"), found["P_12_max_printed"])
+    printed |= dict.fromkeys(("P_12_max", "F_max"), float(found["P_12_max_printed"]))
     simpler[PRINTED] = _changes(full, printed)
     swings = math.isfinite(found["C_01"]) and whole.motion is None
     followed = (_followed(found, n) for n in masses) if swings and values["G_2"] > 0.0 else ()
@@ -297,19 +297,19 @@ def depth(
     return HoistDepth(full, simpler, ropes, values["G_2"] / values["G_1"], lighter, tolerance)
 
 
-def _changes(full: Mapping[str, float], other: Mapping[str, Any]) -> Changes:
+def _changes(full: Numbers, other: Numbers) -> Changes:
     changes = {name: float(other[name]) / full[name] - 1.0 for name in COMPARED}
     return {name: change if math.isfinite(change) else None for name, change in changes.items()}
 
 
-def _at_ratio(values: Mapping[str, float], ratio: float) -> OneMass | None:
+def _at_ratio(values: Numbers, ratio: float) -> OneMass | None:
     """Compare one mass with many for the same load on a rope of other weight; None where no formula is valid."""
     found = model({**values, "G_2": ratio * values["G_1"]})
     rope = _followed(found, MANY) if valid(found) else None
     return None if rope is None else _beside(found, rope, ratio)
 
 
-def _followed(found: Mapping[str, float], n: int) -> Heavy | None:
+def _followed(found: Numbers, n: int) -> Heavy | None:
     """Return what a rope of n masses gives; None where it trembles too fast to be followed."""
     try:
         return rope_of(found, n)
@@ -317,7 +317,7 @@ def _followed(found: Mapping[str, float], n: int) -> Heavy | None:
         return None
 
 
-def _beside(found: Mapping[str, float], rope: Heavy, ratio: float) -> OneMass:
+def _beside(found: Numbers, rope: Heavy, ratio: float) -> OneMass:
     at_load = found["F_max"] / max(rope.F_12_max, rope.P_12_max) - 1.0
     return OneMass(ratio, found["t_1"] / rope.t_1 - 1.0, at_load, found["F_max"] / rope.F_drum_max - 1.0)
 

@@ -159,19 +159,6 @@ def test_what_is_refused_would_have_passed_for_results(monkeypatch: pytest.Monke
     assert 1.1 < wrong.max() < 3.0
 
 
-def test_rigid_support_needs_no_first_phase() -> None:
-    hoist = {name: value[:3] for name, value in SEVERAL.items()} | {"C_01": np.full(3, np.inf)}
-    m, C_12, V_0, a, g = (hoist[name] for name in ("m", "C_12", "V_t", "a", "g"))
-    at_off = np.sqrt(V_0**2 + 2.0 * a * m * g / C_12)  # the end's speed when the rope has mg
-    radius = np.hypot(m * a, at_off * np.sqrt(m * C_12))
-
-    found = integrate(hoist, RK4, 0.01)
-
-    assert found.t_1 == pytest.approx((at_off - V_0) / a, rel=1e-12)
-    assert found.F_12_t1 == pytest.approx(m * g, rel=1e-12)
-    assert found.P_12_max == pytest.approx(m * (g + a) + radius, rel=1e-8)
-
-
 def test_many_hoists_go_as_one() -> None:
     together = run(VERLET, 0.1)
 
