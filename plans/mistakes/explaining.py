@@ -72,31 +72,9 @@ class _Found:
     chain: tuple[Signature, ...]
     lines: tuple[Line, ...]
     clear: tuple[int, ...]  # places of lines that stay wrong by more than a slip
-    missed: float  # by how many tolerances these miss together, each by MOST at most
-    spoilt: int  # how many lines are wrong by a slip that were not without it
-    aside: float  # part by which the first number, where it is calculated, misses what the mistake makes of it
-    moved: int  # how many lines it moves, directions that nobody has said among them
-
-    @property
-    def fits(self) -> bool:
-        """Whether it explains everything within the tolerances."""
-        return self.candidate.misses <= 1.0 and not self.clear and not self.spoilt
-
-
-def _rank(one: _Found) -> float:
-    """Return the misses, worse for each line that stays clearly wrong, or is spoilt, and for a second mistake."""
-    return one.candidate.misses + LEFT * one.missed + SPOILT * one.spoilt + SECOND * (len(one.chain) - 1)
-
-
-def _order(one: _Found) -> tuple[float, int]:
-    """Return the rank among all explanations; of single mistakes as good as each other the one that moves fewer lines.
-
-    A single mistake is worse where a calculated number is not what it makes of it, however wide the tolerance of the
-    segment is.
-    """
-    if len(one.chain) > 1:
-        return _rank(one), 0
-    return round(_rank(one) + (ASIDE if one.aside > EXACT else 0.0), ALMOST), one.moved
+    fits: bool  # whether it explains everything within the tolerances
+    rank: float  # the misses, worse for each line that stays clearly wrong, or is spoilt, and for a second mistake
+    order: tuple[float, int]  # among all; of single ones as good as each other that first which moves fewer lines
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,11 +92,9 @@ class _Answers:
         What has been found on another way is held against what that gives.
         """
         off = self.missed(book.vector, table, most)
-        if np.all(book.other == 1.0):
-            return off
         with np.errstate(invalid="ignore"):  # of values beyond all floats
             turned = table * book.other
-        return np.asarray(np.fmin(off, self.missed(book.vector, turned, most)))
+        return off if np.all(book.other == 1.0) else np.fmin(off, self.missed(book.vector, turned, most))
 
     def of_line(self, place: int) -> _Answers:
         """Return the answer of one line alone."""
@@ -191,8 +167,7 @@ class _Search:
             found += [one for one in local if one.chain[0].broken.place not in tried]
             found += [] if found else self._together(off)
             found += self._chained(found)
-        ranked = sorted(found, key=_order)
-        candidates = _simplest(_grouped(ranked, self.said))
+        candidates = _simplest(_grouped(sorted(found, key=lambda one: one.order), self.said))
         if not candidates or candidates[0].misses > 1.0:
             candidates = _simplest((*self._put_right(off), *candidates))
         return Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
@@ -206,7 +181,7 @@ class _Search:
         made: list[_Found] = []
         ends = found
         for _ in range(DEPTH - 1):
-            best = sorted((one for one in ends if one.clear), key=_rank)[:BEAM]
+            best = sorted((one for one in ends if one.clear), key=lambda one: one.rank)[:BEAM]
             ends = []
             for one in best:
                 longer = (self._at_line(one.lines, place, one.chain) for place in one.clear[:LINES])
@@ -337,9 +312,8 @@ class _Search:
     def _found(self, chain: tuple[Signature, ...], first: str = "") -> _Found | None:
         """Mark the answers with a broken construction; None where it does not explain the first wrong line."""
         by_scale = any(one.broken.mistake in BY_SCALE for one in chain)
-        judged = self.by_value if by_scale else self.as_said
-        key = key_of(self.book.key, chain[-1])
-        again = judged.under(key, first or str(self.marking.first_wrong), self.faulty)
+        judged, last = self.by_value if by_scale else self.as_said, chain[-1]
+        again = judged.under(key_of(self.book.key, last), first or str(self.marking.first_wrong), self.faulty)
         if again is None:
             return None
         left = tuple(line.name for line in again if line.verdict.faulty)
@@ -349,12 +323,15 @@ class _Search:
         off = np.array([min(line.off, MOST) for line in again if line.answer is not None])
         misses = float(np.sqrt(np.mean(off * off)))
         clear = tuple(i for i, line in enumerate(again) if line.verdict.faulty and line.off > SLIP)
-        spoilt = sum(name not in self.faulty for name in left if name not in {again[i].name for i in clear})
-        candidate = Candidate(tuple(s.broken for s in chain), (), explained, left, misses)
+        spoilt = len({*left} - self.faulty.keys() - {again[i].name for i in clear})
         missed = sum(min(again[i].off, MOST) for i in clear)
-        aside = self._aside(next(line for line in again if line.name == self.marking.first_wrong))
-        moved = int(np.count_nonzero(~(np.abs(chain[-1].row - self.book.right) <= self.book.allowed)))
-        return _Found(candidate, chain, again, clear, missed, spoilt, aside, moved)
+        rank = misses + LEFT * missed + SPOILT * spoilt + SECOND * (len(chain) - 1)
+        moved, order = ~(np.abs(last.row - self.book.right) <= self.book.allowed), (rank, 0)
+        if len(chain) == 1:  # worse where a calculated number is not what the mistake makes of it
+            aside = ASIDE if self._aside(again[self.first]) > EXACT else 0.0
+            order = round(rank + aside, ALMOST), int(np.count_nonzero(moved))
+        candidate = Candidate(tuple(one.broken for one in chain), (), explained, left, misses)
+        return _Found(candidate, chain, again, clear, misses <= 1.0 and not clear and not spoilt, rank, order)
 
     def _aside(self, line: Line) -> float:
         """Return by what part a number that was calculated misses what it is held against; nothing for what was not."""
@@ -376,24 +353,18 @@ class _Search:
         """
         if candidate.misses > 1.0:
             return self.marking  # it fits in part, but not within the tolerances
-        first, *others = candidate.explained
-        several = len(candidate.mistakes) > 1
-        own = {self._first_of(mistake, candidate) for mistake in candidate.mistakes} if several else set[str]()
+        own, book = {candidate.explained[0]}, self.book
+        for mistake in candidate.mistakes if len(candidate.mistakes) > 1 else ():
+            # of the lines that each of several explains the first that it would move by itself
+            alone = next((s for s in book.signatures if s.broken.place == mistake.place), None)
+            if alone is not None:
+                moved = dict(zip(book.key.questions, np.abs(alone.row - book.right) > book.allowed, strict=True))
+                own.update([name for name in book.key.questions if moved[name] and name in candidate.explained][:1])
         lines = tuple(
-            replace(line, verdict=Verdict.CARRIED, about="") if line.name in others and line.name not in own else line
+            replace(line, verdict=Verdict.CARRIED, about="") if line.name in {*candidate.explained} - own else line
             for line in self.marking.lines
         )
-        return replace(self.marking, lines=lines, first_wrong=first)
-
-    def _first_of(self, mistake: Broken, candidate: Candidate) -> str:
-        """Return the first line that a mistake of several would move by itself, of those that they explain."""
-        book = self.book
-        alone = next((s for s in book.signatures if s.broken.place == mistake.place), None)
-        if alone is None:
-            return candidate.explained[0]
-        moved = zip(book.key.questions, np.abs(alone.row - book.right) > book.allowed, strict=True)
-        names = (name for name, by_itself in moved if by_itself and name in candidate.explained)
-        return next(names, candidate.explained[0])
+        return replace(self.marking, lines=lines, first_wrong=candidate.explained[0])
 
 
 def _columns(marking: Marking) -> _Answers:

@@ -56,10 +56,10 @@ def test_answers_to_another_variant_are_told(tmp_path: Path, rows: str, another:
     report = check(TASK, "3", lang="en").mark(answers)
     own = check(TASK, "3", lang="en", own=True).mark(answers)
 
-    assert [flag.startswith("the answers fit variant 5") for flag in report.flags] == [True] * another
-    assert own.flags == ()
-    assert [line.startswith("the variant:") for line in own.again[:1]] == [True] * another
-    assert not any("5" in line.partition(":")[0] for line in own.again)
+    assert [flag.startswith("the answers fit variant 5") for flag in report.lists["flags"]] == [True] * another
+    assert "flags" not in own.lists
+    assert [line.startswith("the variant:") for line in own.lists["again"][:1]] == [True] * another
+    assert not any("5" in line.partition(":")[0] for line in own.lists["again"])
 
 
 def test_another_variant_is_recognised_on_any_format_without_a_sheet_of_it(
@@ -126,7 +126,7 @@ def test_a_single_slip_of_the_hand_is_called_one(tmp_path: Path) -> None:
     ]
 
     assert [report.marked.slips for report in reports] == [True, False]
-    assert [report.candidates[:1] != () and "inaccurate" in report.candidates[0] for report in reports] == [True, False]
+    assert ["inaccurate" in "".join(report.lists["candidates"][:1]) for report in reports] == [True, False]
     assert result_of(reports[0].marked, "en").mistakes == ()
 
 
@@ -143,8 +143,8 @@ def test_a_student_is_told_how_to_go_on_where_something_is_wrong(tmp_path: Path)
 
     wrong, right = (own.mark(read(tmp_path, rows, "3")) for rows in ("V_B;;;9;;\n", rows_of("3")))
 
-    assert wrong.again[-1].startswith("then: begin with the first wrong step")
-    assert right.again == ()
+    assert wrong.lists["again"][-1].startswith("then: begin with the first wrong step")
+    assert right.lists["again"] == ()
 
 
 def test_a_page_sets_scripts_and_writes_numbers_and_directions_in_full(tmp_path: Path) -> None:
@@ -190,8 +190,8 @@ def test_a_scale_factor_written_wrongly_in_its_row_counts_once(tmp_path: Path, a
 
     faulty = [(line.name, str(line.verdict)) for line in report.marked.marking.lines if line.verdict.faulty]
     assert faulty == [((*asked, "a_A")[0], "scale")]
-    assert report.again == ("μ_a: too small by the factor 10; your segments and values fit 10.7 (m/s²)/mm",)
-    assert report.candidates == ()
+    assert report.lists["again"] == ("μ_a: too small by the factor 10; your segments and values fit 10.7 (m/s²)/mm",)
+    assert report.lists["candidates"] == ()
 
 
 def test_values_that_do_not_come_from_segments_blame_no_scale_factor(tmp_path: Path) -> None:
@@ -210,4 +210,4 @@ def test_a_scale_factor_beside_which_a_mistake_is_beyond_all_floats_is_marked(tm
 
     found = checked.mark(checked.read(str(file))[0])
 
-    assert "mu_a" in {row.name for _, rows in found.parts for row in rows if row.answer}
+    assert "mu_a" in {row.line.name for _, rows in found.parts for row in rows if row.answer}

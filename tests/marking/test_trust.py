@@ -81,7 +81,7 @@ def test_a_calculated_line_is_shown_the_number_that_it_was_judged_by(tmp_path: P
 
     report: Report = asked.mark(asked.read(str(file))[0])
 
-    row = next(row for _, rows in report.parts for row in rows if row.name == "F_bal")
+    row = next(row for _, rows in report.parts for row in rows if row.line.name == "F_bal")
     own = mark(OF, drawn_by_hand())["F_bal"].said
     assert row.right.endswith(f"→ {own:.4g} N")
     assert float(row.tolerance.split()[1]) < 0.01 * own

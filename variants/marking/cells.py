@@ -25,11 +25,6 @@ CALCULATIONS = frozenset(UNDERSTOOD["calculation"])
 SENSES = {word: int(sense) for sense, words in UNDERSTOOD["senses"].items() for word in words}
 SIDES = {word: float(degrees) for degrees, words in UNDERSTOOD["directions"].items() for word in words}
 TURNING: dict[str, list[str]] = UNDERSTOOD["turning"]
-PHRASES = {
-    tuple(phrase.split()): sense
-    for kind, sense in (("counter", 1), ("clockwise", -1))
-    for phrase in (*TURNING[f"{kind}_phrases"], *TURNING[kind])
-}
 SIGNS = ("+", "-", "−", "–")
 WORDIEST = 200  # characters of a cell in which a sense is looked for
 _ALONG_OR_AGAINST = frozenset((*TURNING["along"], *TURNING["against"]))
@@ -203,6 +198,22 @@ def bare(text: str, name: str, asked: Asked) -> float | None:
         return None
 
 
+def _any(*kinds: str) -> str:
+    """Return a pattern of the words of some kinds; of those that end in * the beginning is enough."""
+    words = (word for kind in kinds for word in TURNING[kind])
+    return f"(?:{'|'.join(re.escape(word[:-1]) + '[^ ]*' if word[-1] == '*' else re.escape(word) for word in words)})"
+
+
+_SURE, _CLOCKWORK = _any("clocks", "hands"), _any("clocks", "hands", "clock", "hand")
+_OF_CLOCKS = f"{_SURE}(?: {_CLOCKWORK})?|{_CLOCKWORK} {_SURE}"
+# a lone "за" or "по" is one at the end of a text only: between two words it may mean "per"
+_SENSE = re.compile(
+    f"(?<![^ ])(?:(?P<counter>{_any('counter_phrases', 'counter')})|{_any('clockwise_phrases', 'clockwise')}"
+    f"|(?P<against>{_any('against')})(?:(?: {_any('course')})* (?:{_OF_CLOCKS}|{_any('clock')}(?: {_CLOCKWORK})?)|$)"
+    f"|{_any('along')}(?:(?: {_any('course')})* (?:{_OF_CLOCKS}|{_any('clock')} {_any('hand')})|$))(?![^ ])"
+)
+
+
 def split_sense(text: str) -> tuple[str, frozenset[int]]:
     """Return a text without the words and arrows that say which way something turns, and these senses.
 
@@ -212,18 +223,15 @@ def split_sense(text: str) -> tuple[str, frozenset[int]]:
     if len(text) > WORDIEST:
         return text, frozenset()
     found = list(_WORD.finditer(text))
-    words = [match.group().lower().replace("ё", "е") for match in found]
-    senses, at, rest, after = set[int](), 0, "", 0
-    while at < len(words):
-        count, sense = _sense_at(words, at)
-        if count:
-            senses.add(sense)
-            rest += text[after : found[at].start()].rstrip(" ([,;–-")
-            after = found[at + count - 1].end()
-            while text[after : after + 1] and text[after] in " .,;:)]\ufe0f":
-                after += 1
-            rest += " "
-        at += count or 1
+    words = " ".join(match.group().lower().replace("ё", "е") for match in found)
+    senses, rest, after = set[int](), "", 0
+    for sense in _SENSE.finditer(words):
+        first, last = (found[words.count(" ", 0, end)] for end in sense.span())
+        senses.add(1 if sense["counter"] or sense["against"] else -1)
+        rest += text[after : first.start()].rstrip(" ([,;–-") + " "
+        after = last.end()
+        while text[after : after + 1] and text[after] in " .,;:)]\ufe0f":
+            after += 1
     return ((rest + text[after:]).strip(), frozenset(senses)) if senses else (text, frozenset())
 
 
@@ -236,34 +244,6 @@ def split_side(text: str) -> tuple[str, float | None]:
     before, _, last = text.rstrip(" .,;)").replace("(", " ").rpartition(" ")
     side = SIDES.get(tidy(last))
     return (text, None) if side is None else (before.rstrip(" ,;"), math.radians(side))
-
-
-def _sense_at(words: list[str], at: int) -> tuple[int, int]:
-    """Return how many words from `at` on say a sense, none where they do not, and which sense.
-
-    A lone "за" or "по" is one at the end of a text only: between two words it may mean "per".
-    """
-    for phrase, sense in PHRASES.items():
-        if tuple(words[at : at + len(phrase)]) == phrase:
-            return len(phrase), sense
-    against = words[at] in TURNING["against"]
-    if not against and words[at] not in TURNING["along"]:
-        return 0, 0
-    end = at + 1
-    while end < len(words) and _kind_of(words[end], "course"):
-        end += 1
-    last = [_kind_of(word, "clocks", "hands", "clock", "hand") for word in words[end : end + 2]]
-    clocks = last[: 2 if all(last) else 1]
-    told = not {"clocks", "hands"}.isdisjoint(clocks) or [*clocks] == ["clock", "hand"]
-    told = told or (against and clocks[:1] == ["clock"])
-    count = end + len(clocks) - at if told else 1 if at + 1 == len(words) else 0
-    return count, 1 if against else -1
-
-
-def _kind_of(word: str, *kinds: str) -> str:
-    """Return of which kind a word is, nothing where it is of none; of those that end in * the beginning is enough."""
-    same = ((kind, word.startswith(x[:-1]) if x.endswith("*") else word == x) for kind in kinds for x in TURNING[kind])
-    return next((kind for kind, is_one in same if is_one), "")
 
 
 def direction(text: str, vector: bool = False) -> tuple[float | None, int | None]:
