@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...plans.board import POSITION, Program
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
@@ -24,7 +24,6 @@ from .reading import Edge, Reading, read
 
 if TYPE_CHECKING:
     from ...plans.linkages.cycles.cycle import Runs
-    from .figures.links import Skeleton
 
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 
@@ -49,7 +48,7 @@ class Scene(SubjectScene[SolvedLinkage]):
     scales: Mapping[str, Scale]
     runs: Runs = field(default_factory=dict)
     _largest: dict[str, float] = field(default_factory=dict, compare=False)
-    skeletons: dict[int, Skeleton] = field(default_factory=dict, init=False, compare=False)  # found at its scales
+    skeletons: dict[int, Any] = field(default_factory=dict, init=False, compare=False)  # of links, found at its scales
 
     @property
     def mechanism(self) -> Mechanism:
@@ -132,9 +131,14 @@ class Scene(SubjectScene[SolvedLinkage]):
         own = plan == POSITION and DRIVER in self.scales and name in arms_of_driver(self.solved)
         return DRIVER if own else plan
 
-    def letter(self, vector: str) -> str:
-        """Return the letter of a vector, with its bar."""
-        return self.words.symbol(role(vector).shown, bar=True)
+    def letter(self, vector: str, known: int = 0) -> str:
+        """Return the letter of a vector, with its bar; underlined twice if it is known in full, once by direction."""
+        text = self.words.symbol(role(vector).shown, bar=True)
+        return f"\\{'u' * known}{{{text}}}" if known else text
+
+    def link_name(self, number: int) -> str:
+        """Return a link by its ends, or its number."""
+        return self.words.ends.get(str(number), str(number))
 
     def heading(self, key: str, *plans: str, **fill: str) -> tuple[str, ...]:
         """Return the heading lines of a view: its name and the scale factors of `plans`."""

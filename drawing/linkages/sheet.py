@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -25,13 +25,13 @@ from ..packing import Placement, pack
 from ..table import note_block, text_block
 from ..text import Box
 from ..view import View
-from .calculations.equations import PLANS, Lines, kinematics_text
+from .calculations.equations import PLANS, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
 from .calculations.tables import givens_table, results_parts, results_table, structure_lines
-from .compound import acceleration_figure, block_name, compound_heading, compound_lines, velocity_figure
+from .compound import block_name, compound_lines
 from .figures.acting import lever_view
+from .figures.compound import ACCELERATIONS, VELOCITIES, acceleration_figure, velocity_figure
 from .figures.group import driver_view, group_view, link_view
-from .figures.inset import ACCELERATIONS, VELOCITIES
 from .figures.plan import plan_view
 from .figures.scheme import scheme
 from .ladders import by_plan, chosen, extents_of, links_apart, marks_on, mus_of
@@ -97,13 +97,13 @@ def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
 
 
 def _text(
-    name: str, lines: Callable[[Scene], Lines], width: float, heading: str | Callable[[Scene], str]
+    name: str, lines: Callable[[Scene], Iterable[tuple[str, ...]]], width: float, heading: str | Callable[[Scene], str]
 ) -> LinkageFigure:
     """Return lines of text with their heading, or with that of this key."""
 
     def draw(scene: Scene) -> View:
         said = scene.words[heading] if isinstance(heading, str) else heading(scene)
-        return text_block(name, said, lines(scene), scene.style, width)
+        return text_block(name, said, [*lines(scene)], scene.style, width)
 
     return Figure(name, draw)
 
@@ -139,8 +139,11 @@ def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
     couplers = hinged(solved.mechanism, solved.structure)
 
     def text(coupler: Coupler, kind: str) -> LinkageFigure:
+        def heading(scene: Scene) -> str:
+            return scene.words[f"heading.equations_compound_{kind}"].format(link=scene.link_name(coupler.number))
+
         lines = partial(compound_lines, c=coupler, kind=kind)
-        return _text(block_name(coupler, kind), lines, width, partial(compound_heading, c=coupler, kind=kind))
+        return _text(block_name(coupler, kind), lines, width, heading)
 
     if couplers:
         yield Figure(VELOCITIES, partial(velocity_figure, couplers=couplers), ("mu_V", "mu_l"))

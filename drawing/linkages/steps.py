@@ -20,6 +20,7 @@ from .calculations.equations import kinematics_lines, rate_of, sensed, size_of, 
 from .calculations.forces import LOADS, force_lines, force_parts, lines_by_plan
 from .calculations.tables import printed_segment
 from .compound import block_name, compound_lines, compound_told
+from .figures.compound import figures_of
 from .figures.inset import ENLARGED
 from .ladders import links_apart
 from .scene import Scene, is_at_point, plan_heading
@@ -39,7 +40,7 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
     plans = [plan for plan in PLANS if plan in scene.scales]
     equations = {plan: kinematics_lines(scene, plan, lengths) for plan in plans}
     views = {"equations_kinematics", *(f"equations_{plan}" for plan in plans)}
-    for view, points in teller.figures.items():
+    for view, points in figures_of(scene).items():
         equations[view] = [line for at in points for line in compound_lines(scene, at.coupler, at.kind, at.point)]
         views |= {block_name(at.coupler, at.kind) for at in points}
     before: dict[str, tuple[Block, ...]] = {}
@@ -58,18 +59,18 @@ def drawn_views(teller: Teller) -> list[str]:
     scene = teller.scene
     plans = [plan for plan in scene.program.plans if plan in scene.scales and not is_at_point(plan)]
     forces = next((at for at, plan in enumerate(plans) if role(plan).kind == FORCES), len(plans))
-    return [*plans[:forces], *teller.figures, *plans[forces:]]
+    return [*plans[:forces], *figures_of(scene), *plans[forces:]]
 
 
 def told_of(teller: Teller, view: str) -> Iterator[Told]:
     """Return the steps of a view, each with its sentence."""
-    if view in teller.figures:
-        return compound_told(teller, view)
+    if points := figures_of(teller.scene).get(view):
+        return compound_told(teller, points)
     return lever_told(teller) if view == "lever" else _plan(teller, view)
 
 
 def _plan(teller: Teller, plan: str) -> Iterator[Told]:
-    centres = {at.coupler.centre for points in teller.figures.values() for at in points}
+    centres = {at.coupler.centre for points in figures_of(teller.scene).values() for at in points}
     for step in teller.scene.program.on(plan):
         hidden = role(step.name).hidden and step.verb not in ("place", "read")
         arm = plan == POSITION and step.verb == "read"  # that a calculation takes

@@ -17,7 +17,6 @@ from ..printed import HUNDREDTHS, POINT, Input, Symbol, calculation
 from .calculations.equations import Product, ends_of, factor, is_given, line_of, paper, size_of, triangles
 from .calculations.tables import printed_segment
 from .figures.acting import hung_on_lever, letter_of, moments_on_lever
-from .figures.inset import At, figures_of
 from .reading import Reading
 from .scene import Scene
 
@@ -44,13 +43,12 @@ class Teller:
     scene: Scene
     reading: Reading
     texts: Mapping[str, str]
-    figures: Mapping[str, tuple[At, ...]]  # of compound motion, by the name of the view
 
     @classmethod
     def of(cls, scene: Scene, texts: Mapping[str, str] | None = None) -> Teller:
         """Return who tells the steps of a linkage; the words of the scene's language where no `texts` are said."""
         said = packaged(notes.__name__, "texts", scene.words.language) if texts is None else texts
-        return cls(scene, scene.reading, said, figures_of(scene))
+        return cls(scene, scene.reading, said)
 
     def say(self, key: str, **parts: str) -> str:
         """Return a sentence."""

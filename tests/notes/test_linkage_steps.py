@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from kulman import note
+from kulman.drawing.linkages.figures.compound import figures_of
 from kulman.drawing.linkages.steps import drawn_views, told_of
 from kulman.drawing.linkages.telling import Teller
 from kulman.drawing.notes.blocks import Equations, Figure, Heading, Steps, Story
@@ -124,7 +125,7 @@ def test_coriolis_is_laid_off_across_the_sliding() -> None:
 
 
 def test_compound_motion_is_told_where_it_is_drawn() -> None:
-    views = Teller.of(scene_of(case_of("bertyaev-six-bar"))).figures
+    views = figures_of(scene_of(case_of("bertyaev-six-bar")))
     story = told("bertyaev-six-bar")
 
     assert set(views) == {"compound_velocity", *(f"compound_a_{point}" for point in "BMDK")}

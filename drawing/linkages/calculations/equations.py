@@ -30,16 +30,6 @@ STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": 
 BEFORE_MEETING = ("normal_part", "coriolis")
 
 
-def known(text: str) -> str:
-    """Underline a vector twice: known in full."""
-    return f"\\uu{{{text}}}"
-
-
-def by_direction(text: str) -> str:
-    """Underline a vector once: known by direction."""
-    return f"\\u{{{text}}}"
-
-
 @dataclass(frozen=True, slots=True)
 class Factor:
     """A factor of a product: its symbol, its size as it is printed, whether that is exact, its power 1, 2 or -1.
@@ -109,17 +99,7 @@ def by_law(words: Words, head: str, law: Callable[..., Any], operands: Sequence[
     return (*formula, *reckoned, f"{result} {words.unit(words.display.unit(unit))}".rstrip())
 
 
-def size_by_law(scene: Scene, head: str, step: Step, unit: str) -> tuple[str, ...]:
-    """Return `head = formula = numbers = result unit` of the size that the law of a step gives."""
-
-    def size(*x: Any) -> Any:
-        value = form_of(step.law)(*x)
-        return value.size if isinstance(value, Symbol) else abs(value)
-
-    return by_law(scene.words, head, size, [_operand(scene, name) for name in step.operands], unit)
-
-
-def _operand(scene: Scene, name: str) -> Product:
+def operand(scene: Scene, name: str) -> Product:
     """Return an operand of a law: a value, an arm that was read off the plan of the mechanism, or a direction."""
     made = scene.reading.made.get(name)
     if made is not None and made.verb in DIRECTIONS:
@@ -127,6 +107,18 @@ def _operand(scene: Scene, name: str) -> Product:
     if made is not None and made.verb == "read" and made.plan == POSITION:
         return distance(scene, *made.operands)
     return Product((factor(scene, name),))
+
+
+def size_by_law(
+    scene: Scene, head: str, step: Step, unit: str, operand: Callable[[Scene, str], Product] = operand
+) -> tuple[str, ...]:
+    """Return `head = formula = numbers = result unit` of the size that the law of a step of each `operand` gives."""
+
+    def size(*x: Any) -> Any:
+        value = form_of(step.law)(*x)
+        return value.size if isinstance(value, Symbol) else abs(value)
+
+    return by_law(scene.words, head, size, [operand(scene, name) for name in step.operands], unit)
 
 
 def distance(scene: Scene, start: str, end: str) -> Product:
@@ -216,7 +208,9 @@ def meeting(scene: Scene, step: Step) -> tuple[str, ...]:
     p, u, q, w = step.operands
     sides = sorted((_side(reading, step, p, u), _side(reading, step, q, w)), key=lambda side: len(side.knowns))
     whole = reading.absolute(step.name)
-    texts = [" + ".join((*in_full(scene, side.knowns), by_direction(scene.letter(side.unknown)))) for side in sides]
+    texts = [
+        " + ".join((*(scene.letter(name, 2) for name in side.knowns), scene.letter(side.unknown, 1))) for side in sides
+    ]
     if whole is not None and all(side.knowns or side.unknown != whole.name for side in sides):
         texts.insert(0, scene.letter(whole.name))
     notes = (line_note(scene, side.unknown, side.direction) for side in sides)
@@ -244,7 +238,7 @@ def _named(reading: Reading, start: str, tip: str) -> str:
 
 def summed(scene: Scene, whole: str, parts: Sequence[str]) -> tuple[str, ...]:
     """Return `whole = a + b` of parts that are known in full."""
-    first, *rest = in_full(scene, parts)
+    first, *rest = (scene.letter(part, 2) for part in parts)
     return (f"{scene.letter(whole)} = {first}", *(f"+ {text}" for text in rest))
 
 
@@ -275,11 +269,6 @@ def ends_of(reading: Reading, direction: str) -> tuple[str, str]:
     # the crank is turned to its angle: its end is laid off along this direction
     lay = next(s for s in reading.users(direction) if s.verb == "lay" and s.plan == POSITION)
     return lay.operands[0], lay.name
-
-
-def in_full(scene: Scene, names: Iterable[str]) -> list[str]:
-    """Return the letters of vectors that are known in full."""
-    return [known(scene.letter(name)) for name in names]
 
 
 def kinematics_text(scene: Scene, plans: Sequence[str], before: Sequence[str]) -> Lines:

@@ -309,7 +309,7 @@ def _chords(
 def _two_ways(scene: Scene, whole: str, normal: str, note: str, along: str) -> tuple[str, ...]:
     """Return the equation of a reaction by its parts along and across its link, and along and across another line."""
     ways = ((f"{whole}_t", normal), (f"{whole}_m", f"{whole}_p"))
-    first, second = (f"= {eq.known(scene.letter(x))} + {eq.by_direction(scene.letter(y))}" for x, y in ways)
+    first, second = (f"= {scene.letter(x, 2)} + {scene.letter(y, 1)}" for x, y in ways)
     return eq.noted((f"{scene.letter(whole)} {first}", second), note, eq.line_note(scene, f"{whole}_p", along))
 
 
@@ -325,7 +325,7 @@ def path(edges: Iterable[Edge], start: str, end: str) -> list[str]:
 
 def _zero(scene: Scene, knowns: Sequence[str], lines: Sequence[str], unknown: str) -> tuple[str, ...]:
     """Return a sum of forces that is zero: known in full, known by direction, to be found."""
-    texts = eq.in_full(scene, knowns) + [eq.by_direction(scene.letter(name)) for name in lines]
+    texts = [scene.letter(name, 2) for name in knowns] + [scene.letter(name, 1) for name in lines]
     texts += [scene.letter(unknown)] if unknown else []
     return (texts[0], *(f"+ {text}" for text in texts[1:]), "= 0")
 

@@ -24,8 +24,8 @@ from ...shapes import Circle, Group, HeadPlace, Line, Pen, Polyline, Vector
 from ...symbols import slider_up
 from ...view import Canvas, View
 from ..scene import Scene
-from .links import draw_frame, draw_links, letter_links, skeleton
-from .scheme import turning_of_driver
+from .arcs import turning_of_driver
+from .links import draw_links, letter_links, skeleton
 
 DENSE = 240  # places through which a path is drawn
 STRAIGHT = 0.05  # mm within which a path is a straight line, or a point
@@ -69,7 +69,6 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
     _number(canvas, scene, stands, _output_point(cycle))
     scene = replace(scene, runs={**scene.runs, **_ways(scene, stands.values())})
     figures = draw_links(canvas, scene, numbers, whole=True)
-    draw_frame(canvas, scene, numbers, figures)
     driver = scene.mechanism.driver
     if isinstance(driver, Driver):  # the sense in which the crank turns, outside of its circle
         radius = abs(scene.mm(driver.point) - scene.mm(driver.pivot)) + 2.0 * scene.style.label

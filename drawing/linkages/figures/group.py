@@ -19,7 +19,7 @@ from ...view import View
 from ..ladders import DRIVER
 from ..scene import Scene
 from .acting import LEAST, Arm, Arrows, Moment, couples, handed, loads, moments_of, reactions, zeros
-from .links import NEAR, Skeleton, draw_frame, draw_links, foot_of, guide_of, letter_links
+from .links import NEAR, Skeleton, draw_links, foot_of, guide_of, letter_links
 from .scheme import special_points
 
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88)  # places on a link where a couple may stand
@@ -149,8 +149,6 @@ def _sketch(scene: Scene, numbers: Sequence[int], framed: bool = False) -> Sketc
     """Draw these links apart, with the pivots on which they turn where they are `framed`."""
     canvas = scene.canvas()
     figures = draw_links(canvas, scene, numbers, framed)
-    if framed:
-        draw_frame(canvas, scene, numbers, figures)
     return Sketch(canvas, scene, [stroke for figure in figures for stroke in figure.strokes], figures=figures)
 
 

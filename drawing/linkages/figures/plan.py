@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 
 from ....plans.board import POSITION
 from ....plans.boards.exact import ILL, SMALL
-from ....plans.names import FORCES, role
+from ....plans.names import role
 from ....plans.quantities import intersections, pins_together, point_of
 from ...shapes import Line, Pen
 from ...view import Canvas, View
 from ..reading import Edge, meetings, on_link, triangles
 from ..scene import Scene, plan_heading
-from .inset import ForcePlan, construction_line, in_inset, letter_marks, with_insets
+from .inset import NUMERALS, Plan, construction_line, headed, in_inset, length_of, letter_marks, with_insets
 from .links import NEAR, Stroke
 
 SHORT = 2.0  # mm below which a vector cannot be drawn as an arrow
@@ -23,10 +22,9 @@ LARGE = 1e4  # above it a number is written with a power of ten
 
 def plan_view(scene: Scene, plan: str) -> View:
     """Draw a plan from the steps that made it: construction lines, vectors, letters; of forces also insets."""
-    canvas = scene.canvas()
-    vectors = scene.reading.on(plan)
-    forces = ForcePlan(scene, plan)
-    shown = forces.windows() if role(plan).kind == FORCES else []
+    canvas, words = scene.canvas(), scene.words
+    vectors, forces = scene.reading.on(plan), Plan(scene, plan)
+    shown = forces.windows()
     left = [edge for edge in vectors if not in_inset(scene, shown, scene.ends(edge))]
     for step, number, start, direction in meetings(scene.program.on(plan)):
         begin, _, end = construction_line(scene, step, start, direction)
@@ -34,47 +32,39 @@ def plan_view(scene: Scene, plan: str) -> View:
         canvas.add(Line(begin, end, Pen.DASHED, role="construction", name=f"{step.name}_{number}"))
     draw_sides(canvas, scene, plan, map(scene.ends, vectors))
     _vectors(canvas, scene, vectors, left)
-    ends = {mark for edge in left for mark in (edge.tail, edge.tip)}
-    marks = *forces.poles(), *(edge.tip for edge in vectors if edge.tip in ends)
-    letters = {mark: scene.words.mark(mark) for mark in marks}
-    letter_marks(canvas, scene, letters, {mark: scene.mm(mark) for mark in marks}, forces.poles())
-    heading = plan_heading(scene.words, scene.solved.structure, plan), scene.words.scale(scene.scales[plan])
-    notes = *_said(scene, plan, left), *forces.said(shown)
-    return with_insets(canvas, plan, heading, notes, [(forces, window) for window in shown])
+    ends, poles = {mark for edge in left for mark in (edge.tail, edge.tip)}, forces.poles()
+    marks = *poles, *(edge.tip for edge in vectors if edge.tip in ends)
+    letter_marks(canvas, scene, {m: words.mark(m) for m in marks}, {m: scene.mm(m) for m in marks}, poles)
+    notes = [*said_flat(scene, plan)]
+    for vector in map(scene.vector, dict.fromkeys(left)):
+        if (length := length_of(vector)) < SHORT:
+            short = words["said.zero" if length < 1e-6 else "said.short"]
+            notes.append(short.format(vector=scene.letter(vector.quantity), mm=words.number(length, 2)))
+    for numeral, window in zip(NUMERALS, shown, strict=False):
+        if symbols := dict.fromkeys(map(scene.letter, forces.read_in(window))):
+            notes.append(words["said.inset"].format(vectors=", ".join(symbols), inset=numeral))
+    heading = plan_heading(words, scene.solved.structure, plan), words.scale(scene.scales[plan])
+    return with_insets(canvas, plan, heading, tuple(notes), [(forces, window) for window in shown])
 
 
 def _vectors(canvas: Canvas, scene: Scene, vectors: Sequence[Edge], lettered: Sequence[Edge]) -> None:
-    named: dict[frozenset[complex], None] = {}
+    named = set[frozenset[complex]]()
     for edge in vectors:
         vector = scene.vector(edge)
         canvas.part(scene.reading.drawn_with(edge))
-        short = abs(vector.tip - vector.tail) < SHORT
-        # an arrowhead would be longer than the vector
-        canvas.add(replace(vector, head="none") if short else vector)
-        ends = frozenset(complex(round(at.real, 3), round(at.imag, 3)) for at in (vector.tail, vector.tip))
-        if short or edge not in lettered:
-            continue  # said in words under the heading, or lettered in an inset
-        same = (other for other in vectors if (other.tail, other.tip) == (edge.tail, edge.tip))
-        names = list(dict.fromkeys(other.name for other in same))
-        if edge.name != names[0]:
-            continue  # its letter stands beside that of the first of them
+        canvas.add(headed(vector, SHORT))  # else an arrowhead would be longer than the vector
+        names = list(dict.fromkeys(other.name for other in vectors if (other.tail, other.tip) == (edge.tail, edge.tip)))
+        # others are told in words under the heading, lettered in an inset, or beside the first of them
+        if length_of(vector) < SHORT or edge not in lettered or edge.name != names[0]:
+            continue
         across = 1j * (vector.tip - vector.tail)
+        ends = frozenset(complex(round(at.real, 3), round(at.imag, 3)) for at in (vector.tail, vector.tip))
         # the first of two vectors on one line has its letter above it or to the right
         side = (-across if (across / (0.3 + 1j)).real > 0 else across) if ends in named else 0j
-        named[ends] = None
-        text = " = ".join(scene.letter(name) for name in names)
+        named.add(ends)
+        text = " = ".join(map(scene.letter, names))
         ends_of = f"{text} = {scene.words.mark(edge.tail)}{scene.words.mark(edge.tip)}"
         canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9, strict=True, spare=ends_of)
-
-
-def _said(scene: Scene, plan: str, vectors: Iterable[Edge]) -> Iterator[str]:
-    yield from said_flat(scene, plan)
-    for edge in dict.fromkeys(vectors):
-        tail, tip = scene.ends(edge)
-        length = abs(tip - tail)
-        if length < SHORT:
-            said = scene.words["said.zero" if length < 1e-6 else "said.short"]
-            yield said.format(vector=scene.letter(edge.name), mm=scene.words.number(length, 2))
 
 
 def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke]) -> None:
@@ -84,12 +74,11 @@ def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke])
     """
     program, lines = scene.program, list(drawn)
     if plan == POSITION:
-        figures: list[tuple[str, ...]] = [on_link(program, found) for found in triangles(program, "velocity")]
+        figures: list[tuple[str, ...]] = [on_link(program, triangle) for triangle in triangles(program, "velocity")]
     else:
-        figures = [*triangles(program, plan)]
-        figures += [step.operands[:2] for step in program.on(plan) if step.verb == "divide"]
-    pairs = [(a, b) for marks in figures for i, a in enumerate(marks) for b in marks[:i]]
-    for first, second in pairs:
+        divided = (step.operands[:2] for step in program.on(plan) if step.verb == "divide")
+        figures = [*triangles(program, plan), *divided]
+    for first, second in ((a, b) for marks in figures for i, a in enumerate(marks) for b in marks[:i]):
         side = scene.mm(second), scene.mm(first)
         if abs(side[1] - side[0]) > NEAR and not any(_covers(line, side) for line in lines):
             canvas.part(scene.last((first, second)))
@@ -120,13 +109,12 @@ def said_flat(scene: Scene, plan: str) -> Iterator[str]:
 
         quantity, condition = worst_condition(solved, plan)
         symbol = words.mark if solved.quantities[quantity].kind == "point" else words.symbol
-        said = {**_meeting(scene, mark, sine), "quantity": symbol(quantity), "condition": _large(scene, condition)}
-        pins = pins_together(solved.program, solved.values, mark)
-        if pins is None:
-            yield words["said.ill_position"].format(**said)
-        else:
+        numbers = {**_meeting(scene, mark, sine), "quantity": symbol(quantity), "condition": _large(scene, condition)}
+        if pins := pins_together(solved.program, solved.values, mark):
             yield words["said.ill_pins"].format(first=words.mark(pins[0]), second=words.mark(pins[1]))
-        yield words["said.ill_growth"].format(**said)
+        else:
+            yield words["said.ill_position"].format(**numbers)
+        yield words["said.ill_growth"].format(**numbers)
 
 
 def _meeting(scene: Scene, mark: str, sine: float) -> dict[str, str]:
