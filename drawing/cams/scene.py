@@ -8,16 +8,18 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
-from ...plans.cams.construction import DIAGRAMS
-from ...plans.cams.solve import EXACT_OF, SCALES, SolvedCam
+from ...plans.cams.construction import DIAGRAMS, EXACT, EXACT_OF
+from ...plans.cams.course import pressed
+from ...plans.cams.followers import RIGHT_ANGLE, PlateCam, RollerCam
+from ...plans.cams.solve import SCALES, SolvedCam, unit_of
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale
 from ..figure import SubjectScene
+from ..view import Canvas
 from ..words import Words
 
 Size = TypeVar("Size", float, complex)
-Part = TypeVar("Part")
 SHOWN = 0.6  # part of the greatest pressure angle: a ray clear of its limit, and of the vertical
 MU_DIGITS = 5  # of a scale factor that follows from a drawing: enough for 0.01 mm
 CENTRAL = 0.05  # mm, of a circle of the offset that is not drawn
@@ -54,6 +56,11 @@ class CamScene(SubjectScene[SolvedCam]):
         """The scale factor of the axis of angles, rad/mm."""
         return Scale("mu_phi", self.mu("mu_phi"), "rad")
 
+    @property
+    def axis(self) -> str:
+        """What a millimetre of that axis is, in words."""
+        return self.words["said.cam_axis"].format(angle=self.degrees(self.across.mu))
+
     def mm(self, mark: str) -> complex:
         """Return a mark in mm from the origin of its plan."""
         plan = role(mark).plan
@@ -66,13 +73,17 @@ class CamScene(SubjectScene[SolvedCam]):
         mu = self.scale(plan).mu if plan else self.mu_l
         return size / mu if isinstance(size, float) else size * (1.0 / mu)
 
+    def sizes(self, *names: str) -> list[float]:
+        """Return lengths of the mechanism by their names as the profiles show them, mm."""
+        return [self.drawn(float(self.solved.values[name])) for name in names]
+
     def curve(self, places: Iterable[complex], plan: str = "") -> tuple[complex, ...]:
         """Return a curve as a plan shows it, or without one the profiles, mm."""
         return tuple(self.drawn(place, plan) for place in places)
 
     def paper(self, name: str) -> float:
         """Return a length on the diagrams, mm as drawn."""
-        return float(self.solved.values[name]) / PAPER_MM
+        return float(self.solved.values[EXACT.get(name, name)]) / PAPER_MM
 
     def factor(self, scale: Scale) -> str:
         """Return a scale factor with as many digits as drawings of 0.01 mm need."""
@@ -92,6 +103,12 @@ class CamScene(SubjectScene[SolvedCam]):
         """Return a length of the mechanism with its letter, as a dimension has it."""
         return f"{self.words.symbol(name)} = {self.length(length)}"
 
+    def lettered(self, *names: str) -> list[str]:
+        """Return quantities that are not infinite with their letters, as dimensions have them."""
+        sizes = {name: float(self.solved.values[name]) for name in names}
+        written = {name: self.angle if unit_of(name) == "rad" else self.dimension for name in names}
+        return [written[name](name, size) for name, size in sizes.items() if math.isfinite(size)]
+
     def angle(self, name: str, angle: float, line: int | None = None) -> str:
         """Return an angle with its letter, with the number of a section line for one of its position."""
         return f"{self.words.symbol(name)}{'' if line is None else f'_{{{line}}}'} = {self.degrees(angle)}"
@@ -107,16 +124,40 @@ class CamScene(SubjectScene[SolvedCam]):
             return f"{self.words.symbol(name)} = {self.words.short(given.value)} {self.words.unit('mm')}"
         return f"{self.dimension(name, value)} {self.words.unit('mm')}"
 
+    @property
+    def rolling(self) -> RollerCam:
+        """The cam for a follower with a roller."""
+        assert self.solved.rolling is not None
+        return self.solved.rolling
+
+    @property
+    def plate(self) -> PlateCam:
+        """The cam for a plate."""
+        assert self.solved.plate is not None
+        return self.solved.plate
+
+    @property
+    def shown(self) -> int:
+        """The section line whose position is lettered."""
+        return pressed(self.solved, SHOWN)
+
+    def pressed(self) -> list[str]:
+        """Return the pressure angle of that position, and its transmission angle, with their letters."""
+        theta = float(self.rolling.profile.pressure(self.solved.angles[self.shown]))
+        angles = {"theta": theta, "gamma": RIGHT_ANGLE - abs(theta)}
+        return [self.angle(name, angle, self.shown) for name, angle in angles.items()]
+
+
+def letter(
+    canvas: Canvas, text: str, at: complex | tuple[complex, complex], prefer: complex, clear: float = 0.8
+) -> None:
+    """Ask for a letter as small as texts beside a node or a line."""
+    canvas.label(text, at, prefer=prefer, clear=clear, height=canvas.style.text)
+
 
 def given(*names: str) -> Callable[[CamScene], str]:
     """Return what the key of a sentence about a size ends with: the `names` that are given."""
     return lambda scene: "".join(f"_{name}" for name in names if name in scene.solved.givens)
-
-
-def needed(part: Part | None) -> Part:
-    """Return a part of a solved cam without which a figure or a text of it is not made."""
-    assert part is not None
-    return part
 
 
 def is_aside(scene: CamScene) -> bool:

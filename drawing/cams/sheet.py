@@ -52,6 +52,7 @@ LARGEST = 150.0  # mm of the least radius and the stroke on a plan, where nothin
 DIGITS = 5  # of a scale factor that is chosen, not found
 AREAS = {DIAGRAMS_PART: 2.3e5, SIZES_PART: 9e4, PROFILE_PART: 9e4, PRESSURE_PART: 1.5e4}  # mm^2 of A1, with texts
 PARTS = tuple(AREAS)
+RADII = {"mu_s_ds": "r_0", "mu_s_d2s": "r_0_flat"}  # least radii that plans with equal scale factors show
 SYMBOLS = ("mu_l", *EQUAL)  # what may be chosen: the others follow from the drawn amplitude and the pole distances
 
 
@@ -77,10 +78,8 @@ def ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, .
 
 def _profile_mu(solved: SolvedCam, across: float) -> float:
     """Return the scale factor of profiles where nothing is said: M 2:1 of a small cam, else M 1:1 or less, m/mm."""
-    parts = (part for part in (solved.roller, solved.plate, solved.rocker) if part is not None)
-    small = max((part.sizes.r_0 for part in parts), default=SMALL) < SMALL
-    finest = MU_L / 2.0 if small else MU_L
-    return max(finest, steps(across / LARGEST)[0])
+    small = max((solved.values[name] for name in RADII.values() if name in solved.values), default=SMALL) < SMALL
+    return max(MU_L / 2.0 if small else MU_L, steps(across / LARGEST)[0])
 
 
 def first_scales(
@@ -101,10 +100,10 @@ def scales(solved: SolvedCam, mus: dict[str, float]) -> dict[str, Scale]:
 
 def size_of(solved: SolvedCam, symbol: str) -> float:
     """Return the largest size that plans of a scale factor show, m: to the cam's centre from the follower's top."""
-    parts = {"mu_s_ds": (solved.roller,), "mu_s_d2s": (solved.plate,)}.get(symbol, (solved.roller, solved.plate))
-    sizes = [part.sizes.r_0 + solved.motion.h for part in parts if part is not None]
-    if symbol == "mu_l" and solved.rocker is not None:
-        sizes.append(solved.rocker.sizes.l_OC)
+    names = (RADII[symbol],) if symbol in RADII else RADII.values()
+    sizes = [float(solved.values[name]) + solved.motion.h for name in names if name in solved.values]
+    if solved.layout.rocks:
+        sizes = [solved.values["l_OC"]] if symbol == "mu_l" and solved.rocker is not None else []
     return max(sizes, default=MU_L)
 
 

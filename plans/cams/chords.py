@@ -24,7 +24,7 @@ from ...scales.errors import InputError
 from ..boards.exact import run
 from ..hands.shaky import Hand, Paper, draw
 from ..hands.spread import kept
-from .cam import DIAGRAMS_PART, ROLLER, SIZES_PART
+from .cam import DIAGRAMS_PART, SIZES_PART
 from .construction import ACCELERATION, MM_PER_M, TRAVEL, VELOCITY, construct
 from .motion import Array, Division, Motion
 from .solve import EQUAL, SolvedCam, diagram_givens
@@ -91,7 +91,7 @@ def drawn_on(solved: SolvedCam, division: Division, names: tuple[str, ...] = ())
     """Return the construction of some values on a division of one's own, as it is drawn; of the nodes without names."""
     motion, given, sized = solved.motion, solved.layout.given, solved.roller is not None
     fastest = int(np.abs(division.angles - motion.ds_max.phi).argmin())
-    layout = replace(solved.layout, division=division, followers=(ROLLER,) if sized else (), fastest=fastest)
+    layout = replace(solved.layout, division=division, plate=None, fastest=fastest)
     program = construct(layout, (SIZES_PART,) if sized else (DIAGRAMS_PART,))
     givens = {**solved.givens, **diagram_givens(motion, division, given)}
     mus = {plan: EQUAL.get(mu, mu) for plan, mu in solved.scale_of_plan.items()}

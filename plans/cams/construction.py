@@ -45,7 +45,7 @@ oscillating follower, method of chords); Geronimus (tangent at 45 degrees).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -54,9 +54,9 @@ import numpy as np
 from ..board import Board, Program, RecordingBoard, with_needs
 from ..laws import Sign, as_number, bracketed, define, dot
 from ..names import Name
-from .cam import DIAGRAMS_PART, PLANS, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
+from .cam import DIAGRAMS_PART, PLANS, PRESSURE_PART, PROFILE_PART, SIZES_PART
+from .followers import PlateCam, RollerCam
 from .motion import FALL, RISE, Division
-from .sizes import PHASE_OF
 
 MM_PER_M = Sign(1e3, "")  # millimetres in a metre of paper, in which lengths on it are printed
 ARC = "arc_length"  # the law of the stroke of a rocker
@@ -202,6 +202,35 @@ def diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
     integrate(board, VELOCITY, TRAVEL, "H_v", sections)
 
 
+# scale factors and angles of transfer: the law and what it takes; the last ones where the acceleration is given
+FACTORS = {
+    "mu_s": ("scale_factor", "h", "S_max"),
+    "mu_ds": ("derived_scale", "mu_s", "mu_phi", "H_v"),
+    "mu_v": ("speed_scale", "omega", "mu_ds"),
+    "nu": ("transfer_angle", "mu_s", "mu_ds"),
+    "mu_d2s": ("derived_scale", "mu_ds", "mu_phi", "H_a"),
+    "mu_a": ("acceleration_scale", "omega", "mu_d2s"),
+    "nu_a": ("transfer_angle", "mu_ds", "mu_d2s"),
+}
+OF_ACCELERATION = ("mu_d2s", "mu_a", "nu_a")
+# what is found from curves of chords, and what it stands for
+EXACT_OF = {f"{name}_chord": name for name in (*FACTORS, "S_max", "V_max", "ds_max")}
+CHORD_OF = {exact: name for name, exact in EXACT_OF.items()}
+EXACT = {"S_max": "_S_max", "V_max": "_V_max"}  # what the greatest ordinates of the exact curves are called
+
+
+def factors(given: str) -> list[str]:
+    """Return the names of the scale factors and angles that diagrams have, by the one that is given."""
+    return [name for name in FACTORS if given == ACCELERATION or name not in OF_ACCELERATION]
+
+
+def _factors(board: Board, given: str, called: Mapping[str, str]) -> None:
+    """Calculate them from the stroke on the diagram; what is `called` otherwise has that name."""
+    for name in factors(given):
+        law, *operands = FACTORS[name]
+        board.calc(called.get(name, name), law, *(called.get(operand, operand) for operand in operands))
+
+
 def exact_factors(board: Board, given: str) -> None:
     """Calculate the scale factors of the exact curves, and with them what these show."""
     board.calc("_x_rise", "on_axis", "phi_rise", "mu_phi")
@@ -211,7 +240,7 @@ def exact_factors(board: Board, given: str) -> None:
     else:
         board.calc("_V_max", "part_of_amplitude", "l_A1", "_part_v")
         board.calc("_S_max", "first_integral", "_part_s", "l_A1", "_x_rise", "H_v")
-    _factors(board, given, "_S_max", "")
+    _factors(board, given, EXACT)
     board.calc("s_max", "to_scale", "mu_s", "_S_max")
     board.calc("ds_max", "to_scale", "mu_ds", "_V_max")
     board.calc("v_max", "to_scale", "mu_v", "_V_max")
@@ -225,25 +254,17 @@ def exact_factors(board: Board, given: str) -> None:
 
 def chord_factors(board: Board, division: Division, fastest: int, given: str) -> None:
     """Measure the curves of chords: the stroke, the greatest velocity, by how much they do not close."""
-    top, last = division.top, division.last
-    board.distance("S_max_chord", foot(TRAVEL, top), f"{TRAVEL}.{top}")
-    board.distance("s_close", foot(TRAVEL, last), f"{TRAVEL}.{last}")
-    _factors(board, given, "S_max_chord", "_chord")
+    _height(board, "S_max_chord", TRAVEL, division.top)
+    _height(board, "s_close", TRAVEL, division.last)
+    _factors(board, given, CHORD_OF)
     if given == ACCELERATION:
-        board.distance("V_max_chord", foot(VELOCITY, fastest), f"{VELOCITY}.{fastest}")
-        board.distance("v_close", foot(VELOCITY, last), f"{VELOCITY}.{last}")
+        _height(board, "V_max_chord", VELOCITY, fastest)
+        _height(board, "v_close", VELOCITY, division.last)
         board.calc("ds_max_chord", "to_scale", "mu_ds_chord", "V_max_chord")
 
 
-def _factors(board: Board, given: str, height: str, after: str) -> None:
-    board.calc(f"mu_s{after}", "scale_factor", "h", height)
-    board.calc(f"mu_ds{after}", "derived_scale", f"mu_s{after}", "mu_phi", "H_v")
-    board.calc(f"mu_v{after}", "speed_scale", "omega", f"mu_ds{after}")
-    board.calc(f"nu{after}", "transfer_angle", f"mu_s{after}", f"mu_ds{after}")
-    if given == ACCELERATION:
-        board.calc(f"mu_d2s{after}", "derived_scale", f"mu_ds{after}", "mu_phi", "H_a")
-        board.calc(f"mu_a{after}", "acceleration_scale", "omega", f"mu_d2s{after}")
-        board.calc(f"nu_a{after}", "transfer_angle", f"mu_ds{after}", f"mu_d2s{after}")
+def _height(board: Board, name: str, plan: str, line: int) -> None:
+    board.distance(name, foot(plan, line), f"{plan}.{line}")
 
 
 PROFILE, PLATE_PROFILE = "profile", "plate_profile"
@@ -260,29 +281,45 @@ def positions(board: Board, division: Division) -> None:
 
 def roller_profile(board: Board, division: Division) -> None:
     """Draw the pitch curve and the practical profile of a cam for a roller."""
-    centre = f"{PROFILE}.O"
-    board.pole(centre)
+    board.pole(f"{PROFILE}.O")
     for i in division.lines:
-        e, b, p, k = (f"{PROFILE}.{letter}{i}" for letter in "EBPK")
-        board.back(e, centre, f"_left{i}", "e")
+        e, b, p = (f"{PROFILE}.{letter}{i}" for letter in "EBP")
+        board.back(e, f"{PROFILE}.O", f"_left{i}", "e")
         board.calc(f"_reach{i}", "enlarged", "s_0", f"_s{i}")
         board.lay(b, e, f"_axis{i}", f"_reach{i}")
-        board.back(p, centre, f"_left{i}", f"_x{i}_exact")
-        board.measure(f"_normal_length{i}", p, b)
-        board.direction(f"_normal{i}", p, b, f"_normal_length{i}")
-        board.back(k, b, f"_normal{i}", "R_roller")
+        board.back(p, f"{PROFILE}.O", f"_left{i}", f"_x{i}_exact")
+        _touch(board, i, p, b)
     board.calc("rho_min", "part_of_travel", "h", "_rho_part")
+
+
+def rocker_profile(board: Board, division: Division) -> None:
+    """Draw the pitch curve and the practical profile of a cam for a rocker."""
+    board.pole(f"{PROFILE}.O")
+    for i in division.lines:
+        a, b, d = (f"{PROFILE}.{letter}{i}" for letter in "ABD")
+        board.turn(f"_pivot{i}", f"_pivot_angle{i}")
+        board.lay(a, f"{PROFILE}.O", f"_pivot{i}", "l_OC")
+        board.turn(f"_arm{i}_turned", f"_arm_angle{i}")
+        board.lay(b, a, f"_arm{i}_turned", "l_rocker")
+        board.back(d, b, f"_arm{i}_turned", f"_x{i}_arm")
+        _touch(board, i, f"{PROFILE}.O", d)
+    board.calc("rho_min", "part_of_travel", "l_rocker", "_rho_part")
+
+
+def _touch(board: Board, line: int, start: str, end: str) -> None:
+    """Draw the normal between two marks on it, and mark where the roller touches the practical profile."""
+    board.measure(f"_normal_length{line}", start, end)
+    board.direction(f"_normal{line}", start, end, f"_normal_length{line}")
+    board.back(f"{PROFILE}.K{line}", f"{PROFILE}.B{line}", f"_normal{line}", "R_roller")
 
 
 def plate_profile(board: Board, division: Division) -> None:
     """Draw the plate in all positions and where it touches the profile."""
-    centre = f"{PLATE_PROFILE}.O"
-    board.pole(centre)
+    board.pole(f"{PLATE_PROFILE}.O")
     for i in division.lines:
-        b, k = (f"{PLATE_PROFILE}.{letter}{i}" for letter in "BK")
         board.calc(f"_plate_reach{i}", "enlarged", "r_0_flat", f"_s{i}")
-        board.lay(b, centre, f"_axis{i}", f"_plate_reach{i}")
-        board.back(k, b, f"_left{i}", f"_x{i}_exact")
+        board.lay(f"{PLATE_PROFILE}.B{i}", f"{PLATE_PROFILE}.O", f"_axis{i}", f"_plate_reach{i}")
+        board.back(f"{PLATE_PROFILE}.K{i}", f"{PLATE_PROFILE}.B{i}", f"_left{i}", f"_x{i}_exact")
 
 
 SIZES, PLATE_SIZES, ROCKER_SIZES = "sizes", "plate_sizes", "rocker_sizes"
@@ -290,67 +327,64 @@ SIZES, PLATE_SIZES, ROCKER_SIZES = "sizes", "plate_sizes", "rocker_sizes"
 
 def ordinates(board: Board, division: Division, given: str) -> None:
     """Read the curves on every section line, as values: a velocity that is given, because it jumps, in both phases."""
+    curves = {TRAVEL: ("_s", "mu_s_chord")} | ({VELOCITY: ("_ds", "mu_ds_chord")} if given == ACCELERATION else {})
     for i in division.lines:
-        _ordinate(board, TRAVEL, f"_s{i}_drawn", "mu_s_chord", i)
-        if given == ACCELERATION:
-            _ordinate(board, VELOCITY, f"_ds{i}_drawn", "mu_ds_chord", i)
-    for phase, lines in ((RISE, division.rise), (FALL, division.fall)):
-        for i in lines:
-            analogue = f"_ds{i}_drawn"
-            if given == VELOCITY:
-                analogue = f"_ds{i}_{phase}_drawn"
-                board.calc(f"_height{i}_{phase}", "part_of_amplitude", "l_A1", f"_node{i}_{phase}")
-                board.calc(analogue, "to_scale", "mu_ds_chord", f"_height{i}_{phase}")
-            board.calc(f"_x{i}_{phase}_drawn", "turned_with", analogue, "_sense")
+        for plan, (letter, mu) in curves.items():
+            name = f"{letter}{i}_drawn"
+            board.read(f"{name}_segment", foot(plan, i), f"{plan}.{i}")
+            board.calc(name, "ordinate_to_scale", mu, UP, f"{name}_segment")
+    for i, phase in division.on_lines:
+        analogue = f"_ds{i}_drawn"
+        if given == VELOCITY:
+            analogue = f"_ds{i}_{phase}_drawn"
+            board.calc(f"_height{i}_{phase}", "part_of_amplitude", "l_A1", f"_node{i}_{phase}")
+            board.calc(analogue, "to_scale", "mu_ds_chord", f"_height{i}_{phase}")
+        board.calc(f"_x{i}_{phase}_drawn", "turned_with", analogue, "_sense")
 
 
-def _ordinate(board: Board, plan: str, name: str, mu: str, line: int) -> None:
-    board.read(f"{name}_segment", foot(plan, line), f"{plan}.{line}")
-    board.calc(name, "ordinate_to_scale", mu, UP, f"{name}_segment")
+def roller_sizes(board: Board, division: Division, cam: RollerCam) -> None:
+    """Draw S over ds/dphi with the limit tangents; mark where two of them meet, and the centre of the cam.
 
-
-def roller_sizes(board: Board, division: Division, limits: Iterable[str], corner: Iterable[str]) -> None:
-    """Draw S over ds/dphi, the limit tangents, and a cam's centre where the two of `corner` meet.
-
-    Limits are named as the half planes of `sizes.wedge`.
+    It is the smallest cam that the exact curves permit, or that of a given r_0, with its range.
     """
     board.pole(f"{SIZES}.0")
-    for phase, lines in ((RISE, division.rise), (FALL, division.fall)):
-        for i in lines:
-            board.place(f"{SIZES}.{i}_{phase}", f"_x{i}_{phase}_drawn", f"_s{i}_drawn")
-    for limit in limits:
-        slope, side, at = (f"_{word}_{limit}" for word in ("slope", "side", "touch"))
-        phase = PHASE_OF[limit]
-        pieces = division.pieces(phase)
+    for i, phase in division.on_lines:
+        board.place(f"{SIZES}.{i}_{phase}", f"_x{i}_{phase}_drawn", f"_s{i}_drawn")
+    for limit in cam.limits.each:
+        slope, side, at = (f"_{word}_{limit.name}" for word in ("slope", "side", "touch"))
+        pieces = division.pieces(limit.phase)
         for k, piece in enumerate(pieces):
-            coordinates = (*(f"_x{i}_{phase}_drawn" for i in piece), *(f"_s{i}_drawn" for i in piece))
+            coordinates = (*(f"_x{i}_{limit.phase}_drawn" for i in piece), *(f"_s{i}_drawn" for i in piece))
             board.calc(f"{at}{k}", "touching", slope, side, *coordinates)
         board.calc(at, "outermost", side, *(f"{at}{k}" for k in range(len(pieces))))
-        board.place(f"{SIZES}.T_{limit}", at, "zero")
-        board.turn(f"_tangent_{limit}", f"_inclination_{limit}")
-    tangents = [operand for limit in corner for operand in (f"{SIZES}.T_{limit}", f"_tangent_{limit}")]
+        board.place(f"{SIZES}.T_{limit.name}", at, "zero")
+        board.turn(f"_tangent_{limit.name}", f"_inclination_{limit.name}")
+    tangents = [operand for name in cam.by_tangents.on for operand in (f"{SIZES}.T_{name}", f"_tangent_{name}")]
     board.meet(f"{SIZES}.A", *tangents)
     board.distance("r_0_tangents", f"{SIZES}.0", f"{SIZES}.A")
     board.read("_centre", f"{SIZES}.0", f"{SIZES}.A")
     board.calc("e_tangents", "component", RIGHT, "_centre")
-
-
-def smallest_roller_cam(board: Board, ranged: bool) -> None:
-    """Mark the centre of the smallest cam that the exact curves permit, or of that of a given r_0, with its range."""
     board.calc("e", "part_of_travel", "h", "_e_part")
     board.calc("s_0", "part_of_travel", "h", "_s_0_part")
     board.calc("_below", "negative", "s_0")
     board.pole(f"{SIZES}.0")
     board.place(f"{SIZES}.C", "e", "_below")
     board.distance("r_0", f"{SIZES}.0", f"{SIZES}.C")
-    for phase in (RISE, FALL):
-        board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
-    for end in ("e_least", "e_most") if ranged else ():
+    _least_angles(board)
+    for end in ("e_least", "e_most") if cam.offsets else ():
         board.calc(end, "part_of_travel", "h", f"_{end}")
 
 
-def plate_sizes(board: Board, division: Division) -> None:
-    """Draw S over d2s/dphi2 and the tangent at 45 degrees to its negative branch."""
+def _least_angles(board: Board) -> None:
+    for phase in (RISE, FALL):
+        board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
+
+
+def plate_sizes(board: Board, division: Division, given: bool) -> None:
+    """Draw S over d2s/dphi2 and the tangent at 45 degrees to its negative branch.
+
+    Calculate the smallest cam for a plate, or how sharp that of a `given` r_0 is, and the plate.
+    """
     board.pole(f"{PLATE_SIZES}.0")
     for i in division.lines:
         for end in ("before", "after"):  # where it jumps, the two ends of a line across
@@ -366,10 +400,6 @@ def plate_sizes(board: Board, division: Division) -> None:
     board.calc("_touch_plate", "outermost", "_minus_one", *places)
     board.place(f"{PLATE_SIZES}.T", "zero", "_touch_plate")
     board.distance("r_0_flat_tangent", f"{PLATE_SIZES}.0", f"{PLATE_SIZES}.T")
-
-
-def smallest_plate_cam(board: Board, given: bool) -> None:
-    """Calculate the smallest cam for a plate, or how sharp that of a given r_0 is, and the plate."""
     board.calc("r_0_flat_min", "part_of_travel", "h", "_r_0_flat_part")
     if given:
         board.calc("rho_flat_min", "excess", "r_0_flat", "r_0_flat_min")
@@ -395,25 +425,7 @@ def rocker_sizes(board: Board, division: Division) -> None:
     board.distance("r_0", f"{ROCKER_SIZES}.C", f"{ROCKER_SIZES}.B0")
     board.distance("l_OC", f"{ROCKER_SIZES}.0", f"{ROCKER_SIZES}.C")
     board.calc("psi_0", "angle_of_triangle", "l_rocker", "l_OC", "r_0")
-    for phase in (RISE, FALL):
-        board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
-
-
-def rocker_profile(board: Board, division: Division) -> None:
-    """Draw the pitch curve and the practical profile."""
-    centre = f"{PROFILE}.O"
-    board.pole(centre)
-    for i in division.lines:
-        a, b, d, k = (f"{PROFILE}.{letter}{i}" for letter in "ABDK")
-        board.turn(f"_pivot{i}", f"_pivot_angle{i}")
-        board.lay(a, centre, f"_pivot{i}", "l_OC")
-        board.turn(f"_arm{i}_turned", f"_arm_angle{i}")
-        board.lay(b, a, f"_arm{i}_turned", "l_rocker")
-        board.back(d, b, f"_arm{i}_turned", f"_x{i}_arm")
-        board.measure(f"_normal_length{i}", centre, d)
-        board.direction(f"_normal{i}", centre, d, f"_normal_length{i}")
-        board.back(k, b, f"_normal{i}", "R_roller")
-    board.calc("rho_min", "part_of_travel", "l_rocker", "_rho_part")
+    _least_angles(board)
 
 
 NEEDS = {DIAGRAMS_PART: (), SIZES_PART: (DIAGRAMS_PART,), PROFILE_PART: (SIZES_PART,), PRESSURE_PART: (SIZES_PART,)}
@@ -423,27 +435,22 @@ NEEDS = {DIAGRAMS_PART: (), SIZES_PART: (DIAGRAMS_PART,), PROFILE_PART: (SIZES_P
 class Layout:
     """What the construction of a cam depends on beside numbers.
 
-    `given` is the diagram that the law gives; `fastest` the section line of the greatest velocity; `limits` names the
-    limits of the pressure angle, `corner` the two whose tangents meet at a cam's centre; `ranged` tells that r_0 is
-    given, and between which offsets the cam may be; `plate_given` that r_0 of the cam for a plate is; `rocks` that the
-    travel runs along the arc of a rocker.
+    `given` is the diagram that the law gives; `fastest` the section line of the greatest velocity; `rocks` tells that
+    the travel runs along the arc of a rocker. The cams are those whose sizes are wanted.
     """
 
     division: Division
-    followers: tuple[str, ...]
-    given: str = ACCELERATION
-    fastest: int = 0
-    limits: tuple[str, ...] = ()
-    corner: tuple[str, ...] = ()
-    ranged: bool = False
-    plate_given: bool = False
-    rocks: bool = False
+    given: str
+    fastest: int
+    rocks: bool
+    rolling: RollerCam | None = None
+    plate: PlateCam | None = None
 
 
 def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
     """Record the construction of the plans wanted and of those they need."""
     board, wanted = RecordingBoard(), with_needs(plans, NEEDS)
-    division, given = layout.division, layout.given
+    division, given, rolling, plate = layout.division, layout.given, layout.rolling, layout.plate
     if DIAGRAMS_PART in wanted:
         diagrams(board, division.sections, given)
         if layout.rocks:
@@ -452,20 +459,18 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
         chord_factors(board, division, layout.fastest, given)
     if SIZES_PART in wanted:
         ordinates(board, division, given)
-        if ROLLER in layout.followers:
-            roller_sizes(board, division, layout.limits, layout.corner)
-            smallest_roller_cam(board, layout.ranged)
-        if PLATE in layout.followers:
-            plate_sizes(board, division)
-            smallest_plate_cam(board, layout.plate_given)
-        if ROCKER in layout.followers:
+        if rolling is not None and not layout.rocks:
+            roller_sizes(board, division, rolling)
+        if plate is not None:
+            plate_sizes(board, division, plate.given)
+        if layout.rocks:
             rocker_sizes(board, division)
     if PROFILE_PART in wanted:
         positions(board, division)
-        if ROLLER in layout.followers:
+        if rolling is not None and not layout.rocks:
             roller_profile(board, division)
-        if PLATE in layout.followers:
+        if plate is not None:
             plate_profile(board, division)
-        if ROCKER in layout.followers:
+        if layout.rocks:
             rocker_profile(board, division)
     return Program(board.steps)

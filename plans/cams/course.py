@@ -22,11 +22,9 @@ from numpy.typing import NDArray
 
 from ..solved import Columned, Course, Ends, Rows
 from .cam import PLATE, ROCKER, ROLLER
-from .construction import ROCKER_SIZES
-from .followers import RockerCam, tightest
+from .followers import RIGHT_ANGLE, Limit, PlateProfile, Range, Rocker, RollerCam, RollerProfile
 from .motion import FALL, RISE, TURN, Array, Motion, Phase, least
-from .profile import PlateProfile, RollerProfile
-from .sizes import RIGHT_ANGLE, HalfPlane, Limit
+from .sizes import HalfPlane, tightest
 from .solve import SolvedCam
 
 NEAR = 1e-9  # rad, from a section line, where a jump is on it
@@ -42,37 +40,38 @@ def columns(solved: SolvedCam, phi: Any, side: int = 1) -> list[Columned]:
 
     phi, omega = np.asarray(phi, float), solved.givens["omega"]
     s, ds, d2s = solved.motion.at(phi, side)
-    found = [("phi", "rad", phi), ("t", "s", phi / omega), ("s", "m", s), ("ds", "m", ds), ("d2s", "m", d2s)]
-    found += [("v", "m/s", omega * ds), ("a", "m/s^2", omega * omega * d2s)]
-    if solved.rocker is not None:
-        found.append(("psi", "rad", solved.rocker.rocker.motion.at(phi, side)[0]))
+    table = [("phi", "rad", phi), ("t", "s", phi / omega), ("s", "m", s), ("ds", "m", ds), ("d2s", "m", d2s)]
+    table += [("v", "m/s", omega * ds), ("a", "m/s^2", omega * omega * d2s)]
     if solved.rolling is not None:
-        of, profile = "_rocker" * (solved.rocker is not None), solved.rolling.profile
+        of, profile = "", solved.rolling.profile
+        if solved.rocker is not None:
+            of = "_rocker"
+            table.append(("psi", "rad", profile.motion.at(phi, side)[0]))
         pressure = profile.pressure(phi, side)
         with np.errstate(divide="ignore"):
             rho = 1.0 / profile.curvature(phi, side)
-        found += [(f"theta{of}", "rad", pressure), (f"gamma{of}", "rad", RIGHT_ANGLE - np.abs(pressure))]
-        found += [*points(f"pitch{of}", profile.pitch(phi, side)), (f"rho_pitch{of}", "m", rho)]
-        found += [*points(f"profile{of}", profile.practical(phi, side)), (f"rho{of}", "m", rho - profile.R)]
+        table += [(f"theta{of}", "rad", pressure), (f"gamma{of}", "rad", RIGHT_ANGLE - np.abs(pressure))]
+        table += [*points(f"pitch{of}", profile.pitch(phi, side)), (f"rho_pitch{of}", "m", rho)]
+        table += [*points(f"profile{of}", profile.practical(phi, side)), (f"rho{of}", "m", rho - profile.R)]
     if solved.plate is not None:
         plate = solved.plate.profile
-        found += [*points("profile_plate", plate.practical(phi, side)), ("rho_plate", "m", plate.bend(phi, side))]
-    return [Columned(*column) for column in found]
+        table += [*points("profile_plate", plate.practical(phi, side)), ("rho_plate", "m", plate.bend(phi, side))]
+    return [Columned(*column) for column in table]
 
 
 def extremes(solved: SolvedCam) -> list[Ends]:
     """Return the extremes of travel, velocity, acceleration and pressure angles; at jumps both limits count."""
     motion, omega = solved.motion, solved.givens["omega"]
     weights = {("s", "m"): (1.0, 0.0, 0.0), ("v", "m/s"): (0.0, omega, 0.0), ("a", "m/s^2"): (0.0, 0.0, omega * omega)}
-    found = []
+    ends = []
     for (name, unit), parts in weights.items():
         most, lowest = motion.maximum(*parts), motion.minimum(*parts)
-        found.append(Ends(name, unit, most.value, most.phi, lowest.value + 0.0, lowest.phi))
+        ends.append(Ends(name, unit, most.value, most.phi, lowest.value + 0.0, lowest.phi))
     if solved.rolling is not None:
         pressure, name = solved.rolling.profile.pressure, "theta" if solved.rocker is None else "theta_rocker"
         low, high = least(pressure, motion.corners), least(lambda phi, side: -pressure(phi, side), motion.corners)
-        found.append(Ends(name, "rad", -high.value, high.phi, low.value, low.phi))
-    return found
+        ends.append(Ends(name, "rad", -high.value, high.phi, low.value, low.phi))
+    return ends
 
 
 def profiles(solved: SolvedCam) -> list[tuple[str, str, RollerProfile | PlateProfile]]:
@@ -84,21 +83,18 @@ def profiles(solved: SolvedCam) -> list[tuple[str, str, RollerProfile | PlatePro
 
 def cut_at(solved: SolvedCam, phi: Array) -> list[str]:
     """Return for every angle the followers, joined by +, that rest on a corner of an undercut profile there."""
-    found: list[dict[str, None]] = [{} for _ in phi]
-    for _, follower, profile in profiles(solved):
-        for cut in profile.undercuts:
-            for i in np.flatnonzero(np.mod(phi - cut.start, TURN) < cut.end - cut.start):
-                found[i][follower] = None
-    return ["+".join(followers) for followers in found]
+    cuts = [(follower, cut) for _, follower, profile in profiles(solved) for cut in profile.undercuts]
+    resting = [[name for name, cut in cuts if (at - cut.start) % TURN < cut.end - cut.start] for at in phi.tolist()]
+    return ["+".join(dict.fromkeys(followers)) for followers in resting]
 
 
 def lines(solved: SolvedCam) -> list[tuple[int, float, int]]:
     """Return the section lines: number, angle, side; where velocity or acceleration jumps inside, one for each."""
-    found = []
+    sided = []
     for number, phi in enumerate(solved.angles.tolist()):
         jumps = number > 0 and any(abs(jump.phi - phi) < NEAR for jump in solved.motion.jumps)
-        found += [(number, phi, side) for side in ((-1, 1) if jumps else (1,))]
-    return found
+        sided += [(number, phi, side) for side in ((-1, 1) if jumps else (1,))]
+    return sided
 
 
 TABLED = ("phi", "s", "ds", "d2s", "v", "a", "psi", "theta", "gamma", "theta_rocker", "gamma_rocker")
@@ -162,37 +158,57 @@ class CamCourse(Course):
         }
 
 
-def pieces(solved: SolvedCam, phase: Phase) -> list[tuple[Array, Array, Array, Array]]:
-    """Return the smooth pieces of a phase, densely: phi, s, s', s'' of each, with the limits at both its ends."""
-    found = []
-    for low, high in pairwise(phase.corners):
+# Dense curves.
+
+
+def over(function: Callable[[Any, int], Any], *phases: Phase) -> list[tuple[Array, NDArray[Any]]]:
+    """Return the smooth pieces of a function over phases, densely: places phi and values, along the last axis.
+
+    The function is one of places and a side; at the last place of a piece stands the limit from before it.
+    """
+    pieces = []
+    for low, high in (ends for phase in phases for ends in pairwise(phase.corners)):
         phi = np.linspace(low, high, max(2, int(np.ceil((high - low) / FINE))) + 1)
-        found.append((phi, *_from_before(solved.motion.at, phi)))
-    return found
+        values = np.array(function(phi, 1))
+        values[..., -1:] = function(phi[-1:], -1)
+        pieces.append((phi, values))
+    return pieces
 
 
-def _from_before(function: Callable[[Array, int], Any], phi: Array) -> Array:
-    """Return the values of a function of places and a side, at the last place the limit from before it."""
-    values = np.array(function(phi, 1))
-    values[..., -1:] = function(phi[-1:], -1)
-    return values
-
-
-def diagram(solved: SolvedCam, order: int, phases: tuple[Phase, ...]) -> list[list[tuple[float, float]]]:
+def diagram(solved: SolvedCam, order: int, *phases: Phase) -> list[list[Range]]:
     """Return the smooth pieces of s or of a derivative of it, as places phi, ordinate."""
-    every = (piece for phase in phases for piece in pieces(solved, phase))
-    return [list(zip(piece[0].tolist(), piece[1 + order].tolist(), strict=True)) for piece in every]
-
-
-def over_velocity(solved: SolvedCam, phase: Phase) -> list[complex]:
-    """Return S over ds/dphi, to the side to which the cam's sense turns it."""
-    curves = [(solved.cam.sense * ds + 1j * s).tolist() for _, s, ds, _ in pieces(solved, phase)]
-    return [place for curve in curves for place in curve]
+    return [np.column_stack((phi, curves[order])).tolist() for phi, curves in over(solved.motion.at, *phases)]
 
 
 def over_acceleration(solved: SolvedCam, phase: Phase) -> list[list[complex]]:
     """Return the smooth pieces of S over d2s/dphi2."""
-    return [(d2s + 1j * s).tolist() for _, s, _, d2s in pieces(solved, phase)]
+    return [(d2s + 1j * s).tolist() for _, (s, _, d2s) in over(solved.motion.at, phase)]
+
+
+def courses(solved: SolvedCam) -> list[list[Range]]:
+    """Return the smooth pieces of theta over phi, with the limits at both their ends, as places phi, theta."""
+    pieces = over(_rolling(solved).profile.pressure, *solved.motion.phases[:3])
+    return [np.column_stack(piece).tolist() for piece in pieces]
+
+
+def analogues(solved: SolvedCam, phase: str) -> list[complex]:
+    """Return S over ds/dphi in a phase, of a rocker the ends of the analogues laid off along it."""
+    follower = _rolling(solved).profile.follower
+    return [place for _, piece in over(follower.analogue, follower.motion.phase(phase)) for place in piece.tolist()]
+
+
+def analogue(solved: SolvedCam, line: int, phase: str = "") -> complex:
+    """Return the end of the analogue on a section line; of one that jumps there that inside of a phase, if any."""
+    side = -1 if phase and line > solved.layout.division.of(phase)[0] else 1
+    return complex(_rolling(solved).profile.follower.analogue(float(solved.angles[line]), side))
+
+
+def _rolling(solved: SolvedCam) -> RollerCam:
+    assert solved.rolling is not None
+    return solved.rolling
+
+
+# Limits, and places that they permit.
 
 
 def _limits_at(solved: SolvedCam, phi: float) -> list[list[float]]:
@@ -217,47 +233,19 @@ def touch_of_plate(solved: SolvedCam) -> complex:
 
 def outwards(solved: SolvedCam, line: int, phase: str) -> complex:
     """Return the normal of S over ds/dphi on a section line, out of its loop; where it turns, the sum of both."""
-    division, sense, motion = solved.layout.division, solved.cam.sense, solved.motion
-    lines = division.rise if phase == RISE else division.fall
-    found = 0j
-    for side in (1,) if line == lines[0] else (-1,) if line == lines[-1] else (1, -1):
+    of_phase, sense, motion = solved.layout.division.of(phase), solved.cam.sense, solved.motion
+    normal = 0j
+    for side in (1,) if line == of_phase[0] else (-1,) if line == of_phase[-1] else (1, -1):
         s, ds, d2s = (float(v) for v in motion.at(float(solved.angles[line]), side))
         along = complex(sense * d2s, ds)
         level = 1j * math.copysign(1.0, s - 0.5 * motion.h)
-        found += -1j * sense * along / abs(along) if along else level
-    return found
-
-
-def analogue(solved: SolvedCam, line: int) -> complex:
-    """Return the place of S over ds/dphi on a section line."""
-    s, ds, _ = (float(v) for v in solved.motion.at(solved.angles[line]))
-    return complex(solved.cam.sense * ds, s)
-
-
-# The pressure angle.
-
-
-def theta(solved: SolvedCam, phi: Any, side: int = 1) -> Array:
-    """Return the pressure angle, rad; where the velocity jumps, the limit from one side."""
-    assert solved.rolling is not None
-    return solved.rolling.profile.pressure(phi, side)
-
-
-def transmission(pressure: float) -> float:
-    """Return the transmission angle that goes with a pressure angle, rad."""
-    return RIGHT_ANGLE - abs(pressure)
-
-
-def courses(solved: SolvedCam) -> list[list[tuple[float, float]]]:
-    """Return the smooth pieces of theta over phi, with the limits at both their ends."""
-    every = (phi for phase in solved.motion.phases[:3] for phi, *_ in pieces(solved, phase))
-    return [list(zip(phi.tolist(), _from_before(partial(theta, solved), phi).tolist(), strict=True)) for phi in every]
+        normal += -1j * sense * along / abs(along) if along else level
+    return normal
 
 
 def permitted(solved: SolvedCam) -> list[tuple[str, float]]:
     """Return the phases with what theta must not pass in them, rad."""
-    assert solved.rolling is not None
-    limits = sorted(solved.rolling.limits.each, key=lambda limit: limit.phase != RISE)
+    limits = sorted(_rolling(solved).limits.each, key=lambda limit: limit.phase != RISE)
     return [(limit.phase, limit.way * solved.cam.sense * (RIGHT_ANGLE - limit.gamma)) for limit in limits]
 
 
@@ -266,43 +254,23 @@ def pressed(solved: SolvedCam, part: float) -> int:
 
     It is a line within the phase in which the cam presses more aslant, where the angle is best seen.
     """
-    division = solved.layout.division
+    division, profile = solved.layout.division, _rolling(solved).profile
     phases = (division.rise[1:-1], 1), (division.fall[1:-1], -1)
-    found = [(way * solved.cam.sense * theta(solved, solved.angles[[*lines]]), lines) for lines, way in phases]
-    angles, lines = max(found, key=lambda phase: float(np.max(phase[0])))
+    pressed = [(way * solved.cam.sense * profile.pressure(solved.angles[[*lines]]), lines) for lines, way in phases]
+    angles, lines = max(pressed, key=lambda phase: float(np.max(phase[0])))
     return int(lines[int(np.argmin(np.abs(angles - part * np.max(angles))))])
 
 
-# A rocker about its pivot.
-
-
-def _rocker(solved: SolvedCam) -> RockerCam:
-    assert solved.rocker is not None
-    return solved.rocker
-
-
-def analogues(solved: SolvedCam, phase: Phase) -> list[complex]:
-    """Return the ends of the analogues, laid off along the rocker; at the last angle of a piece the limit before it."""
-    cam = _rocker(solved)
-    found: list[complex] = []
-    for phi, *_ in pieces(solved, phase):
-        psi, dpsi, _ = _from_before(cam.rocker.motion.at, phi)
-        found += (cam.sizes.l * np.exp(1j * psi) * (1.0 - cam.rocker.sense * dpsi)).tolist()
-    return found
-
-
-def analogue_end(solved: SolvedCam, line: int, phase: str) -> complex:
-    """Return the end of the analogue on a section line: where the velocity jumps, that inside of the phase."""
-    division = solved.layout.division
-    if line > (division.rise if phase == RISE else division.fall)[0]:
-        return solved.point(f"{ROCKER_SIZES}.D{line}")
-    ds = float(solved.motion.at(float(solved.angles[line]))[1])
-    return solved.point(f"{ROCKER_SIZES}.B{line}") - complex(solved.values[f"_arm{line}"]) * (solved.cam.sense * ds)
+def _rocker(solved: SolvedCam) -> Rocker:
+    """Return the rocker that follows a cam."""
+    rocker = _rolling(solved).profile.follower
+    assert isinstance(rocker, Rocker)
+    return rocker
 
 
 def limit_direction(solved: SolvedCam, line: int, phase: str) -> complex:
     """Return the direction of the limit on a section line, downwards."""
-    limit = _rocker(solved).limits.each[phase == FALL]
+    limit = _rolling(solved).limits.each[phase == FALL]
     return _limit_along(complex(solved.values[f"_arm{line}"]), limit, solved.cam.sense)
 
 
@@ -317,15 +285,12 @@ def bounds(solved: SolvedCam) -> Iterator[tuple[Limit, complex, complex, complex
 
     With each go the end of the analogue there, m, and the directions of the rocker and of the limit.
     """
-    cam = _rocker(solved)
-    rocker = cam.rocker
+    rocker, cam = _rocker(solved), _rolling(solved)
     for limit in cam.limits.each:
         at = tightest(rocker, limit, complex(cam.sizes.e, cam.sizes.s_0))
         side = 1 if at < rocker.motion.phase(limit.phase).end else -1
-        psi, dpsi, _ = (float(v) for v in rocker.motion.at(at, side))
-        arm = cmath.rect(1.0, psi)
-        end = arm * (cam.sizes.l * (1.0 - rocker.sense * dpsi))
-        yield limit, end, arm, _limit_along(arm, limit, rocker.sense)
+        arm = cmath.rect(1.0, float(rocker.motion.at(at, side)[0]))
+        yield limit, complex(rocker.analogue(at, side)), arm, _limit_along(arm, limit, rocker.sense)
 
 
 def half_planes(solved: SolvedCam) -> Iterator[tuple[complex, float]]:
@@ -333,21 +298,19 @@ def half_planes(solved: SolvedCam) -> Iterator[tuple[complex, float]]:
 
     Each is the unit normal into it and its least component, m.
     """
-    cam = _rocker(solved)
-    motion = cam.rocker.motion
+    rocker = _rocker(solved)
+    motion = rocker.motion
     yield -1j, 0.0  # below the rocker's lowest position, and its highest one
     yield -1j * cmath.rect(1.0, motion.h), 0.0
-    for limit in cam.limits.each:
-        for phi, *_ in pieces(solved, motion.phase(limit.phase)):
-            for places, side in ((phi[:-1], 1), (phi[-1:], -1)):
-                normal, lowest = cam.rocker.half_planes(limit, places, side)
-                for n, c in zip(normal.tolist(), lowest.tolist(), strict=True):
-                    yield -n, c - n.real * cam.sizes.l
+    for limit in _rolling(solved).limits.each:
+        for _, planes in over(partial(rocker.half_planes, limit), motion.phase(limit.phase)):
+            for normal, lowest in planes.T.tolist():
+                yield -normal, lowest.real - normal.real * rocker.l
 
 
 def turning(solved: SolvedCam, line: int) -> float:
     """Return how fast a rocker turns on a section line beside the cam, dpsi/dphi, with the sense of the cam."""
-    return float(_rocker(solved).rocker.motion.at(float(solved.angles[line]))[1]) * solved.cam.sense
+    return float(_rocker(solved).motion.at(float(solved.angles[line]))[1]) * solved.cam.sense
 
 
 def pole_share(solved: SolvedCam, line: int) -> float:
@@ -392,7 +355,7 @@ def offset_places(solved: SolvedCam) -> tuple[complex, ...]:
     if roller is None or roller.offsets is None:
         return ()
     radius = roller.sizes.r_0
-    angles = (math.asin(e / radius) - RIGHT_ANGLE for e in (roller.offsets.least, roller.offsets.most, roller.sizes.e))
+    angles = (math.asin(e / radius) - RIGHT_ANGLE for e in (*roller.offsets, roller.sizes.e))
     return tuple(cmath.rect(radius, angle) for angle in angles)
 
 
@@ -411,15 +374,13 @@ class SharpestPlace:
 
 def sharpest_place(solved: SolvedCam) -> SharpestPlace | None:
     """Return the place of the least radius of curvature of the pitch curve, where it is convex anywhere."""
-    assert solved.rolling is not None
-    profile, lower = solved.rolling.profile, solved.motion.lower
-    found = profile.sharpest
-    if not 0.0 < found.value < math.inf:
+    profile, lower = _rolling(solved).profile, solved.motion.lower
+    rho, at = profile.sharpest.value, profile.sharpest.phi
+    if not 0.0 < rho < math.inf:
         return None
-    phi = found.phi
-    if lower.lasts and abs(found.value * float(profile.curvature(lower.end, -1)) - 1.0) < SAME:
-        phi = lower.start + IN_DWELL * lower.length
+    arc = lower.lasts and abs(rho * float(profile.curvature(lower.end, -1)) - 1.0) < SAME
+    phi = lower.start + IN_DWELL * lower.length if arc else at
     kappa = [float(profile.curvature(phi, side)) for side in (1, -1)]
     side = 1 if kappa[0] >= kappa[1] else -1
     place, normal = complex(profile.pitch(phi, side)), complex(profile.normal(phi, side))
-    return SharpestPlace(place, normal, place - normal * found.value, phi != found.phi)
+    return SharpestPlace(place, normal, place - normal * rho, phi != at)

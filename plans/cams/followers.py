@@ -1,64 +1,167 @@
-"""The cams that one motion has for each kind of follower: sizes, profile, and what the board begins with.
+"""The followers of a cam, and its profiles by inversion: for a roller on a line, on a rocker, and under a plate.
+
+All points are complex numbers, m, in the frame of the cam as it stands at phi = 0: the centre at the origin, the
+follower above it. In that frame the follower goes round against the sense of the cam, by exp(-i sense phi).
+
+A roller's centre q(phi), seen from the frame, moves on the cam with the velocity w = q' - i sense q; the derivative of
+that is q'' - 2 i sense q' - q. Its curvature is positive where the pitch curve is convex. The practical profile is
+parallel to the pitch curve, R inside. A plate at the height r_0 + s touches its profile under the instant centre,
+sense * s' beside its axis, where the radius of curvature is r_0 + s + s''.
 
 A rocker is an oscillating follower with a roller. At phi = 0 the rocker lies in its lowest position, from its pivot
 horizontally to the right; it lifts the roller up, the cam is below. As for a roller on a line, e + i s_0 is the
 roller's lowest place seen from the cam's centre, r_0 its distance; the travel is the angle psi of the rocker. The
-normal runs through the point of the rocker's line that is l (1 - sense psi') from the pivot, so every position of the
-rocker permits a half plane of e + i s_0, and the smallest cam is the place nearest to the origin in all of them.
+normal runs through the point of the rocker's line that is l (1 - sense psi') from the pivot.
 
-With the distance l_OC of the pivot from the cam's centre given, one number is left: the angle beta at the pivot between
-the rocker in its lowest position and the cam's centre, of which every position permits an interval.
-
-Source: Artobolevsky, Theory of mechanisms and machines (cams with an oscillating follower).
+Source: Artobolevsky, Theory of mechanisms and machines (inversion of motion, cams with an oscillating follower).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from ...scales.errors import InputError
-from .cam import Cam
-from .envelopes import Points
-from .motion import FALL, RISE, Array, Division, Extreme, Function, Motion, least, minima, motion_of
-from .profile import PlateProfile, RockerPath, RollerProfile, StraightPath
-from .sizes import (
-    PHASE_OF,
-    RIGHT_ANGLE,
-    HalfPlane,
-    Limit,
-    Limits,
-    Nearest,
-    NoOffset,
-    Offsets,
-    PlateSizes,
-    RockerSizes,
-    RollerSizes,
-    apex,
-    central,
-    least_transmission,
-    nearest,
-    offsets,
-    smallest_plate,
-    smallest_roller,
-    wedge,
-)
+from ..laws import cross, dot
+from .envelopes import Array, Envelope, Points
+from .motion import FALL, RISE, Division, Extreme, Motion, least
 
-ROUNDS = 40
-REACHED = 1e-12  # part of the rocker's length by which a position may be outside its limit
-LOWEST, HIGHEST = "lowest", "highest"  # the cam stays below the rocker
+OF_R_0, OF_RHO_MIN = 0.4, 0.7  # the roller's radius is at most these parts of r_0 and of the pitch curve's rho_min
+RIGHT_ANGLE = 0.5 * math.pi
+BACK = "_back"  # ends the name of a limit on the side to which the cam does not push
+PHASE_OF = {phase + end: phase for end in ("", BACK) for phase in (RISE, FALL)}  # of limits, by their names
+ROUNDS = 60  # of a search that doubles its figures in every round
+Range = tuple[float, float]  # the least and the greatest
 
 
 @dataclass(frozen=True, slots=True)
-class NoPlace:
-    """Limits, one alone or several together, that permit no place of the cam's centre."""
+class Limit:
+    """A limit of the pressure angle in one phase; `way` is +1 where it is to the side of a rise, -1 of a fall."""
 
-    limits: tuple[str, ...]
+    name: str
+    phase: str
+    gamma: float
+    way: int
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """The least transmission angles, rad: of the rise, of the fall, and whether on both sides of the normal."""
+
+    gamma_rise: float
+    gamma_fall: float
+    two_sided: bool = False
+
+    @property
+    def each(self) -> list[Limit]:
+        """The limits of the rise and the fall, then, if wanted, those to the other sides."""
+        phases = ((RISE, self.gamma_rise, 1), (FALL, self.gamma_fall, -1))
+        pushes = ((1, ""), (-1, BACK))[: 1 + self.two_sided]
+        return [Limit(phase + end, phase, gamma, push * up) for push, end in pushes for phase, gamma, up in phases]
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """Sizes of a cam with a roller, m; `on` names the limits that it just reaches: two at the apex of a wedge.
+
+    Those of a rocker have the distance l_OC of its pivot, and the greatest r_0 that the limits permit there.
+    """
+
+    r_0: float
+    e: float
+    s_0: float
+    on: tuple[str, ...] = ()
+    l_OC: float = math.nan
+    r_0_most: float = math.inf
+
+
+NOWHERE = Sizes(math.nan, math.nan, math.nan)
+
+
+@dataclass(frozen=True, slots=True)
+class PlateSizes:
+    """Sizes of a cam with a flat follower: r_0_min makes the profile just convex, at the angle phi of the cam."""
+
+    r_0_min: float
+    r_0: float
+    R_plate: float
+    phi: float
+
+
+@dataclass(frozen=True, slots=True)
+class Straight:
+    """A roller that moves up along a line, at the offset e to the right of the cam's centre.
+
+    The `sense` of the cam is +1 counter-clockwise. `centre` is q, q', q'' of the roller's centre.
+    """
+
+    motion: Motion
+    sense: int = 1
+
+    @property
+    def unit(self) -> float:
+        """The length to which the sizes of a cam are proportional, m."""
+        return self.motion.h
+
+    def centre(self, sizes: Sizes, phi: Any, side: int = 1) -> tuple[Points, Points, Points]:
+        """Return q, q', q''."""
+        s, ds, d2s = self.motion.at(phi, side)
+        return sizes.e + 1j * (sizes.s_0 + s), 1j * ds, 1j * d2s
+
+    def seat(self, sizes: Sizes, corner: Points, R: float) -> Points:
+        """Return the travel at which a roller of radius R rests on points of the frame; NaN where it passes them."""
+        beside = corner.real - sizes.e
+        with np.errstate(invalid="ignore"):
+            return corner.imag + np.sqrt(R * R - beside * beside) - sizes.s_0
+
+    def pressure(self, sizes: Sizes, phi: Any, side: int = 1) -> Any:
+        """Return the pressure angle theta, rad."""
+        s, ds, _ = self.motion.at(phi, side)
+        return np.arctan2(self.sense * ds - sizes.e, sizes.s_0 + s)
+
+    def analogue(self, phi: Any, side: int = 1) -> Points:
+        """Return S over ds/dphi, to the side to which the cam's sense turns it."""
+        s, ds, _ = self.motion.at(phi, side)
+        return self.sense * ds + 1j * s
+
+    def least_transmission(self, sizes: Sizes, phase: str, two_sided: bool = False) -> Extreme:
+        """Return the least transmission angle of the rise or the fall, rad, exactly, and where it is.
+
+        One-sided, only pressure to the side to which the cam pushes counts, and the angle may exceed a right angle.
+        """
+        ways = _pushed(phase)[: 1 + two_sided]
+        steepest = max((self._steepest(sizes, phase, way) for way in ways), key=lambda extreme: extreme.value)
+        return Extreme(RIGHT_ANGLE - math.atan(steepest.value), steepest.phi)
+
+    def _steepest(self, sizes: Sizes, phase: str, way: int) -> Extreme:
+        """Return the greatest way * sense * tan(theta) = way * (s' - sense e) / (s_0 + s).
+
+        A quotient is greatest where its numerator less so many times its denominator is (Dinkelbach).
+        """
+        best, slope = Extreme(-math.inf, 0.0), 0.0
+        for _ in range(ROUNDS):
+            greatest = self.motion.maximum(-slope, way, 0.0, (phase,))
+            s = float(self.motion.at(greatest.phi)[0])
+            slope = (greatest.value + slope * s - way * self.sense * sizes.e) / (sizes.s_0 + s)
+            if slope <= best.value:
+                break
+            best = Extreme(slope, greatest.phi)
+        return best
+
+    def givens(self, cam: RollerCam, division: Division) -> dict[str, float]:
+        """Return the sizes as parts of the stroke, to which they are proportional, and the limits' tangents."""
+        h = self.motion.h
+        numbers = {"_e_part": cam.sizes.e / h, "_s_0_part": cam.sizes.s_0 / h}
+        if cam.offsets is not None:
+            numbers |= {"_e_least": cam.offsets[0] / h, "_e_most": cam.offsets[1] / h}
+        for limit in cam.limits.each:
+            name, gamma, side = limit.name, limit.gamma, limit.way * self.sense
+            numbers |= {f"_slope_{name}": side / math.tan(gamma), f"_side_{name}": float(side)}
+            numbers[f"_inclination_{name}"] = gamma if side > 0 else math.pi - gamma
+        return numbers
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,169 +172,243 @@ class Rocker:
     l: float
     sense: int = 1
 
+    @property
+    def unit(self) -> float:
+        """The length to which the sizes of a cam are proportional, m."""
+        return self.l
+
+    def pivot(self, sizes: Sizes) -> complex:
+        """Return the rocker's pivot, seen from the cam's centre."""
+        return complex(sizes.e - self.l, sizes.s_0)
+
+    def centre(self, sizes: Sizes, phi: Any, side: int = 1) -> tuple[Points, Points, Points]:
+        """Return q, q', q''."""
+        psi, dpsi, d2psi = self.motion.at(phi, side)
+        arm = self.l * (np.cos(psi) + 1j * np.sin(psi))
+        return self.pivot(sizes) + arm, 1j * dpsi * arm, (1j * d2psi - dpsi * dpsi) * arm
+
+    def seat(self, sizes: Sizes, corner: Points, R: float) -> Points:
+        """Return the angle at which a roller of radius R rests on points of the frame; NaN where it passes them."""
+        reach, l = corner - self.pivot(sizes), self.l
+        far = np.abs(reach)
+        with np.errstate(invalid="ignore"):
+            return np.arctan2(reach.imag, reach.real) + np.arccos((l * l + far * far - R * R) / (2.0 * l * far))
+
+    def pressure(self, sizes: Sizes, phi: Any, side: int = 1) -> Any:
+        """Return the pressure angle, rad: from the roller's velocity in the rise to the normal, its sign as usual."""
+        psi, dpsi, _ = self.motion.at(phi, side)
+        cosine, sine, pivot = np.cos(psi), np.sin(psi), self.pivot(sizes)
+        x, y = pivot.real, pivot.imag
+        across = self.l * (self.sense * dpsi - 1.0) - (x * cosine + y * sine)
+        return np.arctan2(across, y * cosine - x * sine)
+
+    def analogue(self, phi: Any, side: int = 1) -> Any:
+        """Return the ends of the analogues of velocity, laid off along the rocker, seen from the pivot."""
+        psi, dpsi, _ = self.motion.at(phi, side)
+        return self.l * np.exp(1j * psi) * (1.0 - self.sense * dpsi)
+
     def half_planes(self, limit: Limit, phi: Any, side: int = 1) -> tuple[Points, Array]:
         """Return normals and least components of the half planes of e + i s_0 that its positions permit."""
         psi, dpsi, _ = self.motion.at(phi, side)
         sine, cosine, way = math.sin(limit.gamma), math.cos(limit.gamma), limit.way
         normal = complex(way * self.sense * sine, cosine) * (np.cos(psi) + 1j * np.sin(psi))
-        least = self.l * (sine * way * (self.sense * (np.cos(psi) - 1.0) + dpsi) - cosine * np.sin(psi))
-        return normal, least
+        lowest = self.l * (sine * way * (self.sense * (np.cos(psi) - 1.0) + dpsi) - cosine * np.sin(psi))
+        return normal, lowest
+
+    def least_transmission(self, sizes: Sizes, phase: str, two_sided: bool = False) -> Extreme:
+        """Return the least transmission angle of the rise or the fall, rad, and where it is."""
+        way = self.sense * _pushed(phase)[0]
+
+        def gamma(phi: Any, side: int) -> Any:
+            theta = self.pressure(sizes, phi, side)
+            return RIGHT_ANGLE - (np.abs(theta) if two_sided else way * theta)
+
+        return least(gamma, self.motion.phase(phase).corners)
+
+    def givens(self, cam: RollerCam, division: Division) -> dict[str, float]:
+        """Return the rocker's positions, the directions of the limits, and the pivot in parts of its length."""
+        psi, dpsi, _ = self.motion.at(division.angles, -1)
+        pivot, sense = self.pivot(cam.sizes), self.sense
+        numbers = {"_centre_x_part": -pivot.real / self.l, "_centre_y_part": -pivot.imag / self.l}
+        start = math.atan2(pivot.imag, pivot.real)
+        for i in division.lines:
+            turned, limit = sense * float(division.angles[i]), cam.limits.each[i not in division.rise]
+            numbers |= {f"_swing{i}": float(psi[i]), f"_analogue{i}": sense * float(dpsi[i])}
+            numbers |= {f"_arm_angle{i}": float(psi[i]) - turned, f"_pivot_angle{i}": start - turned}
+            numbers[f"_limit_angle{i}"] = float(psi[i]) - limit.way * sense * limit.gamma
+        return numbers
 
 
-def smallest_rocker(rocker: Rocker, limits: Limits) -> RockerSizes | NoPlace:
-    """Return the sizes with the least r_0, the place of the cam's centre being free, or why there is none.
-
-    The half planes of a few positions are held; as long as another position is outside its limit, it joins them. A
-    wide swing and large transmission angles may leave nothing.
-    """
-    swing, l = rocker.motion.h, rocker.l
-    high = complex(-math.sin(swing), math.cos(swing))
-    planes = [HalfPlane(LOWEST, 1j, 0.0), HalfPlane(HIGHEST, high, -l * math.sin(swing))]
-    found = Nearest(0j, ())
-    for _ in range(ROUNDS):
-        further = [plane for limit in limits.each for plane in _outside(rocker, limit, found.place)]
-        if not further:
-            break
-        planes += further
-        if (nearer := nearest(planes)) is None:
-            return NoPlace(_opposed(planes))
-        found = nearer
-    place = found.place
-    on = tuple(plane.name for plane in found.on)
-    return RockerSizes(abs(place), abs(l - place), l, place.real, place.imag, on)
+def _pushed(phase: str) -> tuple[int, int]:
+    """Return the ways of the velocity in a phase: first where the cam pushes, then the other."""
+    return (1, -1) if phase == RISE else (-1, 1)
 
 
-def _opposed(planes: list[HalfPlane]) -> tuple[str, ...]:
-    """Return names of half planes that together permit nothing, as few as may be."""
-    names = list(dict.fromkeys(plane.name for plane in planes))
-    for name in tuple(names):
-        fewer = [other for other in names if other != name]
-        if nearest([plane for plane in planes if plane.name in fewer]) is None:
-            names = fewer
-    return tuple(names)
+@dataclass(frozen=True)
+class RollerProfile(Envelope):
+    """The profile of a cam for a follower with a roller of the radius R."""
+
+    follower: Straight | Rocker
+    sizes: Sizes
+    R: float
+
+    @property
+    def motion(self) -> Motion:  # type: ignore[override]
+        """That of the follower."""
+        return self.follower.motion
+
+    @property
+    def sense(self) -> int:
+        """That of the cam."""
+        return self.follower.sense
+
+    def pressure(self, phi: Any, side: int = 1) -> Any:
+        """Return the pressure angle theta, rad, at the angles `phi` of the cam; where s' jumps, a limit."""
+        return self.follower.pressure(self.sizes, phi, side)
+
+    def pitch(self, phi: Any, side: int = 1) -> Points:
+        """Return points of the pitch curve."""
+        return self.follower.centre(self.sizes, phi, side)[0] * turned_back(phi, self.sense)
+
+    def _velocity(self, phi: Any, side: int) -> tuple[Points, Points]:
+        """Return the first and second derivative of the pitch curve, as seen in the frame."""
+        q, dq, d2q = self.follower.centre(self.sizes, phi, side)
+        return dq - 1j * self.sense * q, d2q - 2j * self.sense * dq - q
+
+    def unit(self, phi: Any, side: int = 1) -> Points:
+        """Return the unit tangent of the pitch curve, in the sense of growing phi."""
+        w, _ = self._velocity(phi, side)
+        return w / np.abs(w) * turned_back(phi, self.sense)
+
+    def normal(self, phi: Any, side: int = 1) -> Points:
+        """Return the unit normal of the pitch curve, out of the cam."""
+        return self.unit(phi, side) * (1j * self.sense)
+
+    def curvature(self, phi: Any, side: int = 1) -> Array:
+        """Return the curvature of the pitch curve, 1/m, positive where it is convex."""
+        w, dw = self._velocity(phi, side)
+        kappa: Array = -self.sense * cross(w, dw) / np.abs(w) ** 3
+        return kappa
+
+    def practical(self, phi: Any, side: int = 1) -> Points:
+        """Return points of the practical profile, loops and all."""
+        return self.pitch(phi, side) - self.R * self.normal(phi, side)
+
+    def tangent(self, phi: Any, side: int = 1) -> Points:
+        """Return the derivative of `practical`."""
+        w, _ = self._velocity(phi, side)
+        return w * turned_back(phi, self.sense) * self.bend(phi, side)
+
+    def bend(self, phi: Any, side: int = 1) -> Array:
+        """Return 1 - R / rho, negative where the envelope runs backwards."""
+        return 1.0 - self.R * self.curvature(phi, side)
+
+    def depth(self, points: Any, phi: Any) -> Any:
+        """Return how deep points of the cam are inside the roller, m."""
+        return self.R - np.abs(points - self.pitch(phi))
+
+    def seat(self, corner: complex, phi: Any) -> Array:
+        """Return the travel at which the roller rests on a corner of the cam."""
+        return self.follower.seat(self.sizes, corner * np.conj(turned_back(phi, self.sense)), self.R)
+
+    def across(self, phi: float, part: Any) -> tuple[Points, Points]:
+        """Return the arc, of the roller's radius, by which the profile goes on where the velocity jumps up."""
+        before, after = (complex(self.normal(phi, side)) for side in (-1, 1))
+        angle = math.atan2(float(cross(before, after)), float(dot(before, after)))
+        spoke = self.R * before * turned_back(angle * np.asarray(part), -1)
+        return self.pitch(phi) - spoke, -1j * angle * spoke
+
+    @cached_property
+    def sharpest(self) -> Extreme:
+        """The least radius of curvature of the convex pitch curve, and where: zero where it has a corner."""
+        if self.motion.drops:
+            return Extreme(0.0, self.motion.drops[0])
+        bent = least(lambda phi, side: -self.curvature(phi, side), self.motion.corners)
+        return Extreme(-1.0 / bent.value if bent.value < 0.0 else math.inf, bent.phi)
 
 
-def _outside(rocker: Rocker, limit: Limit, place: complex) -> Iterator[HalfPlane]:
-    """Go through the positions that most lack their limit."""
-    for worst in _slacks(rocker, limit, place):
-        if worst.value < -REACHED * rocker.l:
-            side = 1 if worst.phi < rocker.motion.phase(limit.phase).end else -1
-            normal, least = rocker.half_planes(limit, worst.phi, side)
-            yield HalfPlane(limit.name, complex(normal), float(least), worst.phi)
+@dataclass(frozen=True)
+class PlateProfile(Envelope):
+    """The profile of a cam for a flat plate whose lowest height above the centre is r_0."""
+
+    motion: Motion
+    r_0: float
+    sense: int = 1
+
+    def centre(self, phi: Any) -> Points:
+        """Return the plate's centre, on its axis."""
+        return 1j * (self.r_0 + self.motion.at(phi)[0]) * turned_back(phi, self.sense)
+
+    def practical(self, phi: Any, side: int = 1) -> Points:
+        """Return points of the profile: where the plate touches it."""
+        s, ds, _ = self.motion.at(phi, side)
+        return (self.sense * ds + 1j * (self.r_0 + s)) * turned_back(phi, self.sense)
+
+    def tangent(self, phi: Any, side: int = 1) -> Points:
+        """Return the derivative of `practical`."""
+        return self.sense * self.bend(phi, side) * turned_back(phi, self.sense)
+
+    def bend(self, phi: Any, side: int = 1) -> Array:
+        """Return the radius of curvature r_0 + s + s'', m, negative where the envelope runs backwards."""
+        s, _, d2s = self.motion.at(phi, side)
+        return self.r_0 + s + d2s
+
+    def depth(self, points: Any, phi: Any) -> Array:
+        """Return how far points of the cam are above the plate, m."""
+        return self.seat(points, phi) - self.motion.at(phi)[0]
+
+    def seat(self, corner: Any, phi: Any) -> Array:
+        """Return the travel at which the plate rests on a corner of the cam."""
+        travel: Array = (corner * np.conj(turned_back(phi, self.sense))).imag - self.r_0
+        return travel
+
+    def across(self, phi: float, part: Any) -> tuple[Points, Points]:
+        """Return the flat of the profile on which the plate lies where the velocity jumps up."""
+        begin, end = self.practical(phi, -1), self.practical(phi, 1)
+        along = (end - begin) * np.ones_like(part, float)
+        return begin + along * part, along
+
+    @cached_property
+    def sharpest(self) -> Extreme:
+        """The least radius of curvature, m, and where; negative where the profile is undercut."""
+        found, drops = self.motion.minimum(1.0, 0.0, 1.0), self.motion.drops
+        return Extreme(-math.inf, drops[0]) if drops else Extreme(self.r_0 + found.value, found.phi)
 
 
-def _slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Extreme]:
-    """Return the least distances of a place from the limit, m, negative outside of it, and where they are."""
-
-    def slack(phi: Any, side: int) -> Array:
-        normal, least = rocker.half_planes(limit, phi, side)
-        room: Array = normal.real * place.real + normal.imag * place.imag - least
-        return room
-
-    return minima(slack, rocker.motion.phase(limit.phase).corners)
-
-
-def tightest(rocker: Rocker, limit: Limit, place: complex) -> float:
-    """Return the angle of the cam at which a place e + i s_0 comes nearest to a limit, rad."""
-    return min(_slacks(rocker, limit, place), key=lambda slack: slack.value).phi
-
-
-def smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> RockerSizes | NoPlace:
-    """Return the sizes with the least r_0 at a given distance of the pivot, or the limits that permit none."""
-    least, most = (0.0, LOWEST), (math.pi - rocker.motion.h, HIGHEST)
-    for limit in limits.each:
-        free, low, high = _angles_permitted(rocker, limit, l_OC)
-        if free < -1.0:
-            return NoPlace((limit.name,))
-        least, most = max(least, (-low, limit.name)), min(most, (high, limit.name))
-    beta, name = least
-    if beta > most[0]:
-        return NoPlace((name, most[1]))
-    place, farthest = (rocker.l - l_OC * complex(math.cos(end), -math.sin(end)) for end in (beta, most[0]))
-    return RockerSizes(abs(place), l_OC, rocker.l, place.real, place.imag, (name,), abs(farthest))
-
-
-def _angles_permitted(rocker: Rocker, limit: Limit, d: float) -> tuple[float, ...]:
-    """Return the least -q of the positions, and between which angles -beta and beta they permit the cam's centre.
-
-    With x = beta + psi a limit at the distance d of the pivot is sin(x - way sense gamma) >= q; a -q below -1 permits
-    nothing.
-    """
-
-    def sine(phi: Any, side: int) -> Array:
-        q: Array = (rocker.l / d) * math.sin(limit.gamma) * limit.way * (rocker.motion.at(phi, side)[1] - rocker.sense)
-        return q
-
-    def shift(phi: Any, side: int) -> Array:
-        turned: Array = rocker.motion.at(phi, side)[0] - limit.way * rocker.sense * limit.gamma
-        return turned
-
-    def arc(phi: Any, side: int) -> Array:
-        return np.asarray(np.arcsin(np.clip(sine(phi, side), -1.0, 1.0)))
-
-    ends: tuple[Function, ...] = (
-        lambda phi, side: -sine(phi, side),
-        lambda phi, side: shift(phi, side) - arc(phi, side),
-        lambda phi, side: math.pi - shift(phi, side) - arc(phi, side),
-    )
-    corners = rocker.motion.phase(limit.phase).corners
-    return tuple(least(end, corners).value for end in ends)
-
-
-def least_rocker_transmission(profile: RollerProfile, phase: str, two_sided: bool = False) -> Extreme:
-    """Return the least transmission angle of the rise or the fall with a rocker, rad, and where it is."""
-    way = profile.sense * (1 if phase == RISE else -1)
-
-    def gamma(phi: Any, side: int) -> Array:
-        theta = profile.pressure(phi, side)
-        return RIGHT_ANGLE - (np.abs(theta) if two_sided else way * theta)
-
-    return least(gamma, profile.motion.phase(phase).corners)
-
-
-Values = Mapping[str, float]
-Range = tuple[float, float]  # the least and the greatest
-MILLI = 1e3
-ROUNDING = 1e-12  # part of a length by which it may be less than another, and the same
+def turned_back(phi: Any, sense: int) -> Points:
+    """Return exp(-i sense phi): what turns a vector of the frame onto the cam that stands still."""
+    angle = np.asarray(phi, float)
+    turn: Points = np.cos(angle) - 1j * (sense * np.sin(angle))
+    return turn
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RollingCam:
-    """A cam for a follower with a roller: its sizes, its profile, the limits of the pressure angle.
+class RollerCam:
+    """A cam for a follower with a roller: its profile, the limits of the pressure angle.
 
-    `permitted` is the least r_0 at the offset, or at the l_OC, that is given together with r_0, and the greatest; None
-    where they are not.
+    Of a roller on a line the sizes where the limit tangents meet, and the least and the greatest offset that a given
+    r_0 permits. `permitted` is the least r_0 at the offset, or at the l_OC, that is given together with r_0, and the
+    greatest; None where they are not.
     """
 
-    limits: Limits
-    sizes: RollerSizes | RockerSizes
     profile: RollerProfile
+    limits: Limits
+    by_tangents: Sizes = NOWHERE
+    offsets: Range | None = None
     permitted: Range | None = None
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RollerCam(RollingCam):
-    """A cam for a roller on a line, the sizes where the limit tangents meet, the offsets permitted at a given r_0."""
-
-    sizes: RollerSizes
-    by_tangents: RollerSizes
-    offsets: Offsets | None = None
+    @property
+    def sizes(self) -> Sizes:
+        """The sizes of the cam."""
+        return self.profile.sizes
 
     def givens(self, division: Division) -> dict[str, float]:
-        """Return the sizes as parts of the stroke, to which they are proportional, and the limits' tangents."""
-        motion, sizes, sense = self.profile.motion, self.sizes, self.profile.sense
-        found = {"_e_part": sizes.e / motion.h, "_s_0_part": sizes.s_0 / motion.h}
-        found["_rho_part"] = self.profile.rho_min / motion.h
-        if self.offsets is not None:
-            found |= {"_e_least": self.offsets.least / motion.h, "_e_most": self.offsets.most / motion.h}
-        for limit in self.limits.each:
-            name, gamma, side = limit.name, limit.gamma, limit.way * sense
-            found |= {f"_slope_{name}": side / math.tan(gamma), f"_side_{name}": float(side)}
-            found[f"_inclination_{name}"] = gamma if side > 0 else math.pi - gamma
+        """Return what the board begins with: curvature, transmission angles, what is the follower's own."""
+        follower, numbers = self.profile.follower, {}
         for phase in (RISE, FALL):
-            least = least_transmission(motion, sizes, phase, sense, self.limits.two_sided)
-            found[f"_gamma_{phase}_least"] = min(least.value, RIGHT_ANGLE)  # more: pressed to the other side alone
-        return found
+            lowest = follower.least_transmission(self.sizes, phase, self.limits.two_sided).value
+            numbers[f"_gamma_{phase}_least"] = min(lowest, RIGHT_ANGLE)  # more: pressed to the other side alone
+        return follower.givens(self, division) | numbers | {"_rho_part": self.profile.rho_min / follower.unit}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -245,137 +422,3 @@ class PlateCam:
     def givens(self, division: Division) -> dict[str, float]:
         """Return the least radius as a part of the stroke."""
         return {"_r_0_flat_part": self.sizes.r_0_min / self.profile.motion.h}
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RockerCam(RollingCam):
-    """A cam for a rocker with a roller; `rocker` has the motion as angles, rad."""
-
-    rocker: Rocker
-    sizes: RockerSizes
-
-    def givens(self, division: Division) -> dict[str, float]:
-        """Return the rocker's positions, the directions of the limits, and sizes as parts of its length."""
-        psi, dpsi, _ = self.rocker.motion.at(division.angles, -1)
-        sizes, length, sense = self.sizes, self.sizes.l, self.rocker.sense
-        x, y = sizes.e - length, sizes.s_0  # the pivot
-        found = {"_centre_x_part": -x / length, "_centre_y_part": -y / length}
-        found["_rho_part"] = self.profile.rho_min / length
-        start = math.atan2(y, x)
-        for i in division.lines:
-            turned = sense * float(division.angles[i])
-            found |= {f"_swing{i}": float(psi[i]), f"_analogue{i}": sense * float(dpsi[i])}
-            found |= {f"_arm_angle{i}": float(psi[i]) - turned, f"_pivot_angle{i}": start - turned}
-            limit = self.limits.each[i not in division.rise]
-            found[f"_limit_angle{i}"] = float(psi[i]) - limit.way * sense * limit.gamma
-        for phase in (RISE, FALL):
-            least = least_rocker_transmission(self.profile, phase, self.limits.two_sided)
-            found[f"_gamma_{phase}_least"] = min(least.value, RIGHT_ANGLE)
-        return found
-
-
-def roller_cam(cam: Cam, motion: Motion, values: Values) -> RollerCam:
-    """Return the smallest cam for a roller, or the one with the given r_0, e, or both.
-
-    Raises
-    ------
-    InputError
-        No offset is permitted at the given r_0.
-    """
-    limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
-    planes = wedge(motion, limits, cam.sense)
-    r_0, e, between, permitted = values.get("r_0"), values.get("e"), None, None
-    if r_0 is None:
-        sizes = smallest_roller(planes) if e is None else central(planes, e)
-    else:
-        ends = offsets(planes, r_0)
-        between = ends if isinstance(ends, Offsets) else None
-        if e is not None:
-            permitted = central(planes, e).r_0, math.inf
-        elif isinstance(ends, NoOffset):
-            raise InputError("cam-no-offset", r_0=f"{r_0 * MILLI:.6g}", least=six_digits(ends.r_0_min))
-        else:
-            e = 0.5 * (ends.least + ends.most)
-        sizes = RollerSizes(r_0, e, math.sqrt((r_0 - e) * (r_0 + e)))
-    profile = RollerProfile(StraightPath(motion, sizes), values["R_roller"], cam.sense)
-    tangents = apex(planes)
-    return RollerCam(
-        limits=limits, sizes=sizes, by_tangents=tangents, profile=profile, offsets=between, permitted=permitted
-    )
-
-
-def six_digits(length: float, greatest: bool = False) -> str:
-    """Return a least length in mm, of six digits, or the greatest, rounded down: who takes it is within the limits.
-
-    >>> six_digits(0.0452581786), six_digits(0.02), six_digits(0.0452581786, greatest=True)
-    ('45.2582', '20', '45.2581')
-    """
-    within, rounding = (1.0 + ROUNDING, ROUND_FLOOR) if greatest else (1.0 - ROUNDING, ROUND_CEILING)
-    digits = Context(prec=6, rounding=rounding).create_decimal(Decimal(length * MILLI * within))
-    return f"{float(digits):.6g}"
-
-
-def plate_cam(cam: Cam, motion: Motion, values: Values) -> PlateCam:
-    """Return the smallest cam for a plate, or the one with the given r_0_flat.
-
-    Raises
-    ------
-    InputError
-        At the given r_0 the profile is curved with a smaller radius than is wanted.
-    """
-    sizes = smallest_plate(motion, values["rho_flat"], values["margin"])
-    r_0 = values.get("r_0_flat")
-    if r_0 is not None:
-        if r_0 < sizes.r_0 * (1.0 - ROUNDING):
-            lengths = {"r_0": f"{r_0 * MILLI:.6g}", "rho": f"{values['rho_flat'] * MILLI:.6g}"}
-            raise InputError("cam-plate-r-0", **lengths, least=six_digits(sizes.r_0))
-        sizes = replace(sizes, r_0=r_0)
-    return PlateCam(sizes=sizes, profile=PlateProfile(motion, sizes.r_0, cam.sense), given=r_0 is not None)
-
-
-def rocker_cam(cam: Cam, values: Values) -> RockerCam:
-    """Return the smallest cam for a rocker, with the pivot at the given l_OC or wherever it is best.
-
-    With r_0 given, too, nothing is left to be found.
-
-    Raises
-    ------
-    InputError
-        The limits permit no place of the cam's centre, or the sizes given are those of no rocker's cam.
-    """
-    limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
-    rocker = Rocker(motion_of(cam, {**values, "h": values["psi"]}), values["l_rocker"], cam.sense)
-    distance, r_0, permitted = values.get("l_OC"), values.get("r_0"), None
-    if distance is None:
-        if r_0 is not None:
-            raise InputError("cam-rocker-r-0")
-        found = smallest_rocker(rocker, limits)
-    elif r_0 is None:
-        found = smallest_rocker_at(rocker, limits, distance)
-    else:
-        found, best = _given_sizes(rocker.l, distance, r_0), smallest_rocker_at(rocker, limits, distance)
-        permitted = None if isinstance(best, NoPlace) else (best.r_0, best.r_0_most)
-    if isinstance(found, NoPlace):
-        free = found if distance is None else smallest_rocker(rocker, limits)
-        if distance is None or isinstance(free, NoPlace):
-            raise InputError("cam-no-place", limits=_names(found if isinstance(free, RockerSizes) else free))
-        at = {"l_OC": f"{distance * MILLI:.6g}", "best": f"{free.l_OC * MILLI:.6g}"}
-        raise InputError("cam-no-place-at", limits=_names(found), **at)
-    profile = RollerProfile(RockerPath(rocker.motion, found), values["R_roller"], cam.sense)
-    return RockerCam(limits=limits, rocker=rocker, sizes=found, profile=profile, permitted=permitted)
-
-
-def _given_sizes(l: float, l_OC: float, r_0: float) -> RockerSizes:
-    """Return the sizes of a cam of which the rocker, its pivot and r_0 are given: the sides of a triangle."""
-    cosine = (l * l + l_OC * l_OC - r_0 * r_0) / (2.0 * l * l_OC)
-    if not -1.0 < cosine < 1.0:
-        sides = {"l": l, "l_OC": l_OC, "r_0": r_0}
-        raise InputError("cam-rocker-triangle", **{name: f"{side * MILLI:.6g}" for name, side in sides.items()})
-    place = l - l_OC * complex(cosine, -math.sqrt(1.0 - cosine * cosine))
-    return RockerSizes(r_0, l_OC, l, place.real, place.imag)
-
-
-def _names(found: NoPlace) -> str:
-    """Return the givens that leave no place."""
-    names = (f"gamma_{PHASE_OF[name]}" if name in PHASE_OF else "psi" for name in found.limits)
-    return ", ".join(dict.fromkeys(names))

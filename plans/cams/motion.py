@@ -64,9 +64,18 @@ class Division:
         """Lines of the fall, both ends among them."""
         return range(self.leave, self.last + 1)
 
+    @property
+    def on_lines(self) -> list[tuple[int, str]]:
+        """Lines of the rise, then of the fall, each with the name of its phase."""
+        return [(i, phase) for phase in (RISE, FALL) for i in self.of(phase)]
+
+    def of(self, phase: str) -> range:
+        """Return the lines of the `rise` or the `fall`."""
+        return self.rise if phase == RISE else self.fall
+
     def pieces(self, phase: str) -> tuple[range, ...]:
         """Return the lines of the `rise` or the `fall`, between jumps: of each piece both ends are among them."""
-        lines = self.rise if phase == "rise" else self.fall
+        lines = self.of(phase)
         ends = sorted({lines[0], *(line for line in self.jumps if line in lines), lines[-1]})
         return tuple(range(a, b + 1) for a, b in pairwise(ends))
 

@@ -19,10 +19,10 @@ from typing import Any
 from ..board import Program, Step
 from ..boards.exact import run
 from ..solved import AT_LEAST, AT_MOST, Check
-from .cam import GIVENS, VALUES
-from .construction import SHARPEST
-from .profile import OF_R_0, OF_RHO_MIN
-from .solve import EXACT_OF, SolvedCam, unit_of
+from .cam import GIVENS
+from .construction import EXACT_OF, SHARPEST
+from .followers import OF_R_0, OF_RHO_MIN
+from .solve import SolvedCam, unit_of
 
 ROUNDING = 1e-9  # part of a limit by which rounding may pass it
 
@@ -87,7 +87,7 @@ def _beyond(values: Mapping[str, Any], usual: Mapping[str, tuple[float, float]])
     for name, (least, most) in usual.items():
         value = values.get(name)
         if value is not None and not least * (1.0 - ROUNDING) <= value <= most * (1.0 + ROUNDING):
-            yield Unusual(name, VALUES.get(name, unit_of(name)), float(value), least, most)
+            yield Unusual(name, unit_of(name), float(value), least, most)
 
 
 HEIGHTS = {"_S_max": "S_max_chord", "_V_max": "V_max_chord"}  # ordinates that only a drawing shows keep its name

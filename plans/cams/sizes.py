@@ -1,4 +1,4 @@
-"""The smallest sizes of cams whose follower moves along a line: with a roller, and with a flat plate.
+"""The smallest sizes of cams: for a roller on a line, for a rocker with a roller, and for a flat plate.
 
 A roller's line has the offset e from the cam's centre, positive to the right; r_0 is the pitch curve's least radius,
 s_0 = sqrt(r_0^2 - e^2). Cam and follower have their instant centre at sense * s' beside the centre, so the pressure
@@ -9,21 +9,55 @@ origin, which is its apex or the foot of the perpendicular on one side.
 Where the cam pushes, sense * theta is positive in the rise, negative in the fall; the transmission angle is the rest to
 a right angle. On the S-ds/dphi diagram with the points (sense s', s) the cam's centre is (e, -s_0).
 
-Sources: Artobolevsky, Theory of mechanisms and machines; Geronimus (flat follower).
+Of a rocker every position permits a half plane of e + i s_0, and the smallest cam is the place nearest to the origin in
+all of them. With the distance l_OC of the pivot from the cam's centre given, one number is left: the angle beta at the
+pivot between the rocker in its lowest position and the cam's centre, of which every position permits an interval.
+
+Sources: Artobolevsky, Theory of mechanisms and machines (also of cams with an oscillating follower); Geronimus (flat
+follower).
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from itertools import combinations
+from typing import Any
 
+import numpy as np
+
+from ...scales.errors import InputError
 from ..laws import cross, dot
-from .motion import FALL, RISE, Extreme, Motion
+from .cam import Cam
+from .followers import (
+    PHASE_OF,
+    RIGHT_ANGLE,
+    Limit,
+    Limits,
+    PlateCam,
+    PlateProfile,
+    PlateSizes,
+    Range,
+    Rocker,
+    RollerCam,
+    RollerProfile,
+    Sizes,
+    Straight,
+)
+from .motion import Array, Extreme, Function, Motion, least, minima, motion_of
 
 PARALLEL = 1e-13  # sine of the angle between lines below which they do not meet
 ON = 1e-12  # part of the largest distance by which a place may be outside: rounding
+ON_CIRCLE = 1e-12  # part of r_0 by which a place on the circle may be outside: rounding
+ROUNDS = 40
+REACHED = 1e-12  # part of the rocker's length by which a position may be outside its limit
+LOWEST, HIGHEST = "lowest", "highest"  # the cam stays below the rocker
+MILLI = 1e3
+ROUNDING = 1e-12  # part of a length by which it may be less than another, and the same
+Values = Mapping[str, float]
+Names = tuple[str, ...]  # of limits, one alone or several together, that permit no place of the cam's centre
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,15 +77,10 @@ class HalfPlane:
         return self.least - float(dot(self.normal, place))
 
 
-@dataclass(frozen=True, slots=True)
-class Nearest:
-    """The place nearest to the origin, and the half planes, one or two, on whose lines it lies."""
-
-    place: complex
-    on: tuple[HalfPlane, ...]
+Corner = tuple[complex, tuple[HalfPlane, ...]]  # a place, and on the lines of which half planes it lies
 
 
-def meeting(first: HalfPlane, second: HalfPlane) -> complex | None:
+def _meeting(first: HalfPlane, second: HalfPlane) -> complex | None:
     """Return where two lines meet, None when they are parallel."""
     sine = cross(first.normal, second.normal)
     if abs(sine) < PARALLEL:
@@ -59,115 +88,31 @@ def meeting(first: HalfPlane, second: HalfPlane) -> complex | None:
     return (second.normal * first.least - first.normal * second.least) * complex(0.0, -1.0 / sine)
 
 
-def nearest(planes: Sequence[HalfPlane]) -> Nearest | None:
-    """Return the place nearest to the origin in all half planes, None when they have none in common.
+def _nearest(planes: Sequence[HalfPlane]) -> Sizes | None:
+    """Return the sizes with the least r_0 in all half planes, None when they have no place in common.
 
-    It is the origin, a foot of the perpendicular on one line, or where two lines meet: the region is convex.
+    The place is the origin, a foot of the perpendicular on one line, or where two lines meet: the region is convex.
     """
     if all(plane.least <= 0.0 for plane in planes):
-        return Nearest(0j, ())
+        return Sizes(0.0, 0.0, 0.0)
     size = max(abs(plane.least) for plane in planes)
-    found = [Nearest(plane.normal * plane.least, (plane,)) for plane in planes if plane.least > 0.0]
-    for first, second in combinations(planes, 2):
-        if (place := meeting(first, second)) is not None:
-            found.append(Nearest(place, (first, second)))
+    feet = (plane for plane in planes if plane.least > 0.0)
+    corners: list[Corner] = [(plane.normal * plane.least, (plane,)) for plane in feet]
+    corners += [(place, pair) for pair in combinations(planes, 2) if (place := _meeting(*pair)) is not None]
 
-    def is_inside(one: Nearest) -> bool:
-        slack = ON * max(size, abs(one.place))
-        return math.isfinite(slack) and all(plane.lack(one.place) <= slack for plane in planes if plane not in one.on)
+    def is_inside(corner: Corner) -> bool:
+        place, on = corner
+        slack = ON * max(size, abs(place))
+        return math.isfinite(slack) and all(plane.lack(place) <= slack for plane in planes if plane not in on)
 
-    return min(filter(is_inside, found), key=lambda one: abs(one.place), default=None)
-
-
-RIGHT_ANGLE = 0.5 * math.pi
-BACK = "_back"  # ends the name of a limit on the side to which the cam does not push
-PHASE_OF = {phase + end: phase for end in ("", BACK) for phase in (RISE, FALL)}  # of limits, by their names
-ON_CIRCLE = 1e-12  # part of r_0 by which a place on the circle may be outside: rounding
+    nearest = min(filter(is_inside, corners), key=lambda corner: abs(corner[0]), default=None)
+    return None if nearest is None else _sizes_at(nearest)
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
-    """A limit of the pressure angle in one phase; `way` is +1 where it is to the side of a rise, -1 of a fall."""
-
-    name: str
-    phase: str
-    gamma: float
-    way: int
-
-
-@dataclass(frozen=True, slots=True)
-class Limits:
-    """The least transmission angles, rad: of the rise, of the fall, and whether on both sides of the normal."""
-
-    gamma_rise: float
-    gamma_fall: float
-    two_sided: bool = False
-
-    @property
-    def each(self) -> list[Limit]:
-        """The limits of the rise and the fall, then, if wanted, those to the other sides."""
-        phases = ((RISE, self.gamma_rise, 1), (FALL, self.gamma_fall, -1))
-        pushes = ((1, ""), (-1, BACK))[: 1 + self.two_sided]
-        return [Limit(phase + end, phase, gamma, push * up) for push, end in pushes for phase, gamma, up in phases]
-
-
-@dataclass(frozen=True, slots=True)
-class RollerSizes:
-    """Sizes of a cam with a roller follower; `on` names the limits that it just reaches: two at the wedge's apex."""
-
-    r_0: float
-    e: float
-    s_0: float
-    on: tuple[str, ...] = ()
-
-    @classmethod
-    def at(cls, place: complex, on: tuple[str, ...]) -> RollerSizes:
-        """Return the sizes of the cam whose roller is at e + i s_0 in its lowest place."""
-        return cls(abs(place), place.real, place.imag, on)
-
-
-@dataclass(frozen=True, slots=True)
-class RockerSizes:
-    """Sizes of a cam with a rocker of length l, m; `on` names the limits that it just reaches."""
-
-    r_0: float
-    l_OC: float
-    l: float
-    e: float
-    s_0: float
-    on: tuple[str, ...] = ()
-    r_0_most: float = math.inf  # the greatest r_0 that the limits permit at this l_OC
-
-
-@dataclass(frozen=True, slots=True)
-class Offsets:
-    """The permitted offsets at a given r_0, from `least` to `most`, with the limits (or `r_0`) that end them."""
-
-    least: float
-    most: float
-    at_least: str
-    at_most: str
-
-
-@dataclass(frozen=True, slots=True)
-class NoOffset:
-    """Why no offset is permitted at a given r_0: limits that exclude all, one alone or two together.
-
-    `r_0_min` is the least r_0 at which all limits permit one.
-    """
-
-    limits: tuple[str, ...]
-    r_0_min: float
-
-
-@dataclass(frozen=True, slots=True)
-class PlateSizes:
-    """Sizes of a cam with a flat follower: r_0_min makes the profile just convex, at the angle phi of the cam."""
-
-    r_0_min: float
-    r_0: float
-    R_plate: float
-    phi: float
+def _sizes_at(corner: Corner) -> Sizes:
+    """Return the sizes of the cam whose roller is at e + i s_0 in its lowest place."""
+    place, on = corner
+    return Sizes(abs(place), place.real, place.imag, tuple(plane.name for plane in on))
 
 
 def wedge(motion: Motion, limits: Limits, sense: int = 1) -> tuple[HalfPlane, ...]:
@@ -180,59 +125,48 @@ def wedge(motion: Motion, limits: Limits, sense: int = 1) -> tuple[HalfPlane, ..
     return tuple(planes)
 
 
-def smallest_roller(planes: Sequence[HalfPlane]) -> RollerSizes:
+def smallest_roller(planes: Sequence[HalfPlane]) -> Sizes:
     """Return the sizes with the least r_0 that the half planes of `wedge` permit."""
-    found = nearest(planes)
-    assert found is not None, "half planes that all open upwards have places in common"
-    return RollerSizes.at(found.place, tuple(plane.name for plane in found.on))
+    sizes = _nearest(planes)
+    assert sizes is not None, "half planes that all open upwards have places in common"
+    return sizes
 
 
-def apex(planes: Sequence[HalfPlane]) -> RollerSizes:
+def apex(planes: Sequence[HalfPlane]) -> Sizes:
     """Return the sizes of the cam whose centre is the apex, where the tangents meet: not always the smallest.
 
     With limits on both sides, the apex of the two that bind: the lowest place permitted.
     """
-    corners = [
-        (place, (first.name, second.name))
-        for k, first in enumerate(planes)
-        for second in planes[k + 1 :]
-        if (place := meeting(first, second)) is not None and first.normal.real * second.normal.real < 0.0
-    ]
-    place, on = max(corners, key=lambda corner: corner[0].imag)
-    return RollerSizes.at(place, on)
+    opposed = (pair for pair in combinations(planes, 2) if pair[0].normal.real * pair[1].normal.real < 0.0)
+    corners: list[Corner] = [(place, pair) for pair in opposed if (place := _meeting(*pair)) is not None]
+    return _sizes_at(max(corners, key=lambda corner: corner[0].imag))
 
 
-def central(planes: Sequence[HalfPlane], e: float = 0.0) -> RollerSizes:
+def central(planes: Sequence[HalfPlane], e: float = 0.0) -> Sizes:
     """Return the sizes with the least r_0 at a given offset, by default none."""
-    needed = {plane.name: (plane.least - plane.normal.real * e) / plane.normal.imag for plane in planes}
-    name = max(needed, key=lambda key: needed[key])
-    if needed[name] <= 0.0:
-        return RollerSizes(abs(e), e, 0.0)
-    return RollerSizes.at(complex(e, needed[name]), (name,))
+    needed = (((plane.least - plane.normal.real * e) / plane.normal.imag, plane) for plane in planes)
+    s_0, plane = max(needed, key=lambda at: at[0])
+    return _sizes_at((complex(e, s_0), (plane,))) if s_0 > 0.0 else Sizes(abs(e), e, 0.0)
 
 
-def offsets(planes: Sequence[HalfPlane], r_0: float) -> Offsets | NoOffset:
-    """Return the offsets that are permitted at a given r_0, or why there is none.
+def offsets(planes: Sequence[HalfPlane], r_0: float) -> Range | None:
+    """Return the least and the greatest offset that are permitted at a given r_0, None where none is.
 
     With e = r_0 sin(alpha), s_0 = r_0 cos(alpha) every limit permits one interval of alpha.
     """
-    least, most, at_least, at_most = -RIGHT_ANGLE, RIGHT_ANGLE, "r_0", "r_0"
+    lowest, highest = -RIGHT_ANGLE, RIGHT_ANGLE
     for plane in planes:
         if plane.least > r_0 * (1.0 + ON_CIRCLE):
-            return NoOffset((plane.name,), smallest_roller(planes).r_0)
+            return None
         reach = math.acos(max(-1.0, min(1.0, plane.least / r_0)))
         middle = math.atan2(plane.normal.real, plane.normal.imag)
-        if middle - reach > least:
-            least, at_least = middle - reach, plane.name
-        if middle + reach < most:
-            most, at_most = middle + reach, plane.name
-    if least > most:  # more than rounding?
-        least = most = 0.5 * (least + most)
-        place = complex(r_0 * math.sin(least), r_0 * math.cos(least))
+        lowest, highest = max(lowest, middle - reach), min(highest, middle + reach)
+    if lowest > highest:  # more than rounding?
+        lowest = highest = 0.5 * (lowest + highest)
+        place = complex(r_0 * math.sin(lowest), r_0 * math.cos(lowest))
         if any(plane.lack(place) > ON_CIRCLE * r_0 for plane in planes):
-            both = tuple(plane.name for plane in planes if plane.name in (at_least, at_most))
-            return NoOffset(both, smallest_roller(planes).r_0)
-    return Offsets(r_0 * math.sin(least), r_0 * math.sin(most), at_least, at_most)
+            return None
+    return r_0 * math.sin(lowest), r_0 * math.sin(highest)
 
 
 def smallest_plate(motion: Motion, rho_flat: float, margin: float) -> PlateSizes:
@@ -246,33 +180,194 @@ def smallest_plate(motion: Motion, rho_flat: float, margin: float) -> PlateSizes
     return PlateSizes(r_0_min, r_0_min + rho_flat, motion.ds_max.value + margin, phi)
 
 
-ROUNDS = 60  # of a search that doubles its figures in every round
-SIDES = {RISE: (1, -1), FALL: (-1, 1)}  # of the velocity: first where the cam pushes, then the other
+def smallest_rocker(rocker: Rocker, limits: Limits) -> Sizes | Names:
+    """Return the sizes with the least r_0, the place of the cam's centre being free, or the limits that permit none.
 
-
-def least_transmission(
-    motion: Motion, sizes: RollerSizes, phase: str, sense: int = 1, two_sided: bool = False
-) -> Extreme:
-    """Return the least transmission angle of the rise or the fall, rad, exactly, and where it is.
-
-    One-sided, only pressure to the side to which the cam pushes counts, and the angle may exceed a right angle.
+    The half planes of a few positions are held; as long as another position is outside its limit, it joins them. A
+    wide swing and large transmission angles may leave nothing.
     """
-    sides = SIDES[phase][: 1 + two_sided]
-    steepest = max((_steepest(motion, sizes, phase, sense, way) for way in sides), key=lambda found: found.value)
-    return Extreme(RIGHT_ANGLE - math.atan(steepest.value), steepest.phi)
-
-
-def _steepest(motion: Motion, sizes: RollerSizes, phase: str, sense: int, way: int) -> Extreme:
-    """Return the greatest way * sense * tan(theta) = way * (s' - sense e) / (s_0 + s).
-
-    A quotient is greatest where its numerator less so many times its denominator is (Dinkelbach).
-    """
-    best, slope = Extreme(-math.inf, 0.0), 0.0
+    swing, l = rocker.motion.h, rocker.l
+    high = complex(-math.sin(swing), math.cos(swing))
+    planes = [HalfPlane(LOWEST, 1j, 0.0), HalfPlane(HIGHEST, high, -l * math.sin(swing))]
+    sizes = Sizes(0.0, 0.0, 0.0)
     for _ in range(ROUNDS):
-        found = motion.maximum(-slope, way, 0.0, (phase,))
-        s = float(motion.at(found.phi)[0])
-        slope = (found.value + slope * s - way * sense * sizes.e) / (sizes.s_0 + s)
-        if slope <= best.value:
+        further = [plane for limit in limits.each for plane in _outside(rocker, limit, complex(sizes.e, sizes.s_0))]
+        if not further:
             break
-        best = Extreme(slope, found.phi)
-    return best
+        planes += further
+        if (nearer := _nearest(planes)) is None:
+            return _opposed(planes)
+        sizes = nearer
+    return replace(sizes, l_OC=abs(l - complex(sizes.e, sizes.s_0)))
+
+
+def _opposed(planes: list[HalfPlane]) -> Names:
+    """Return names of half planes that together permit nothing, as few as may be."""
+    names = list(dict.fromkeys(plane.name for plane in planes))
+    for name in tuple(names):
+        fewer = [other for other in names if other != name]
+        if _nearest([plane for plane in planes if plane.name in fewer]) is None:
+            names = fewer
+    return tuple(names)
+
+
+def _outside(rocker: Rocker, limit: Limit, place: complex) -> Iterator[HalfPlane]:
+    """Go through the positions that most lack their limit."""
+    for worst in _slacks(rocker, limit, place):
+        if worst.value < -REACHED * rocker.l:
+            side = 1 if worst.phi < rocker.motion.phase(limit.phase).end else -1
+            normal, lowest = rocker.half_planes(limit, worst.phi, side)
+            yield HalfPlane(limit.name, complex(normal), float(lowest), worst.phi)
+
+
+def _slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Extreme]:
+    """Return the least distances of a place from the limit, m, negative outside of it, and where they are."""
+
+    def slack(phi: Any, side: int) -> Any:
+        normal, lowest = rocker.half_planes(limit, phi, side)
+        return normal.real * place.real + normal.imag * place.imag - lowest
+
+    return minima(slack, rocker.motion.phase(limit.phase).corners)
+
+
+def tightest(rocker: Rocker, limit: Limit, place: complex) -> float:
+    """Return the angle of the cam at which a place e + i s_0 comes nearest to a limit, rad."""
+    return min(_slacks(rocker, limit, place), key=lambda slack: slack.value).phi
+
+
+def smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> Sizes | Names:
+    """Return the sizes with the least r_0 at a given distance of the pivot, or the limits that permit none."""
+    lowest, highest = (0.0, LOWEST), (math.pi - rocker.motion.h, HIGHEST)
+    for limit in limits.each:
+        free, low, high = _angles_permitted(rocker, limit, l_OC)
+        if free < -1.0:
+            return (limit.name,)
+        lowest, highest = max(lowest, (-low, limit.name)), min(highest, (high, limit.name))
+    beta, name = lowest
+    if beta > highest[0]:
+        return name, highest[1]
+    place, farthest = (rocker.l - l_OC * complex(math.cos(end), -math.sin(end)) for end in (beta, highest[0]))
+    return Sizes(abs(place), place.real, place.imag, (name,), l_OC, abs(farthest))
+
+
+def _angles_permitted(rocker: Rocker, limit: Limit, d: float) -> tuple[float, ...]:
+    """Return the least -q of the positions, and between which angles -beta and beta they permit the cam's centre.
+
+    With x = beta + psi a limit at the distance d of the pivot is sin(x - way sense gamma) >= q; a -q below -1 permits
+    nothing.
+    """
+
+    def sine(phi: Any, side: int) -> Any:
+        dpsi = rocker.motion.at(phi, side)[1]
+        return (rocker.l / d) * math.sin(limit.gamma) * limit.way * (dpsi - rocker.sense)
+
+    def shift(phi: Any, side: int) -> Any:
+        return rocker.motion.at(phi, side)[0] - limit.way * rocker.sense * limit.gamma
+
+    def arc(phi: Any, side: int) -> Array:
+        return np.asarray(np.arcsin(np.clip(sine(phi, side), -1.0, 1.0)))
+
+    ends: tuple[Function, ...] = (
+        lambda phi, side: -sine(phi, side),
+        lambda phi, side: shift(phi, side) - arc(phi, side),
+        lambda phi, side: math.pi - shift(phi, side) - arc(phi, side),
+    )
+    corners = rocker.motion.phase(limit.phase).corners
+    return tuple(least(end, corners).value for end in ends)
+
+
+# The cam of each follower: the smallest one, or that of given sizes.
+
+
+def roller_cam(cam: Cam, motion: Motion, values: Values) -> RollerCam:
+    """Return the smallest cam for a roller, or the one with the given r_0, e, or both.
+
+    Raises InputError: no offset is permitted at the given r_0.
+    """
+    limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
+    planes = wedge(motion, limits, cam.sense)
+    r_0, e, between, permitted = values.get("r_0"), values.get("e"), None, None
+    if r_0 is None:
+        sizes = smallest_roller(planes) if e is None else central(planes, e)
+    else:
+        between = offsets(planes, r_0)
+        if e is not None:
+            permitted = central(planes, e).r_0, math.inf
+        elif between is None:
+            raise InputError("cam-no-offset", r_0=_mm(r_0), least=six_digits(smallest_roller(planes).r_0))
+        else:
+            e = 0.5 * (between[0] + between[1])
+        sizes = Sizes(r_0, e, math.sqrt((r_0 - e) * (r_0 + e)))
+    profile = RollerProfile(Straight(motion, cam.sense), sizes, values["R_roller"])
+    return RollerCam(profile=profile, limits=limits, by_tangents=apex(planes), offsets=between, permitted=permitted)
+
+
+def plate_cam(cam: Cam, motion: Motion, values: Values) -> PlateCam:
+    """Return the smallest cam for a plate, or the one with the given r_0_flat.
+
+    Raises InputError: at the given r_0 the profile is curved with a smaller radius than is wanted.
+    """
+    sizes = smallest_plate(motion, values["rho_flat"], values["margin"])
+    r_0 = values.get("r_0_flat")
+    if r_0 is not None:
+        if r_0 < sizes.r_0 * (1.0 - ROUNDING):
+            lengths = {"r_0": _mm(r_0), "rho": _mm(values["rho_flat"]), "least": six_digits(sizes.r_0)}
+            raise InputError("cam-plate-r-0", **lengths)
+        sizes = replace(sizes, r_0=r_0)
+    return PlateCam(sizes=sizes, profile=PlateProfile(motion, sizes.r_0, cam.sense), given=r_0 is not None)
+
+
+def rocker_cam(cam: Cam, values: Values) -> RollerCam:
+    """Return the smallest cam for a rocker, with the pivot at the given l_OC or wherever it is best.
+
+    With r_0 given, too, nothing is left to be found.
+    Raises InputError: the limits permit no place of the cam's centre, or the sizes given are those of no rocker's cam.
+    """
+    limits = Limits(values["gamma_rise"], values["gamma_fall"], cam.two_sided)
+    rocker = Rocker(motion_of(cam, {**values, "h": values["psi"]}), values["l_rocker"], cam.sense)
+    distance, r_0, permitted = values.get("l_OC"), values.get("r_0"), None
+    if distance is None:
+        if r_0 is not None:
+            raise InputError("cam-rocker-r-0")
+        sizes = smallest_rocker(rocker, limits)
+    else:
+        sizes = smallest_rocker_at(rocker, limits, distance)
+        if r_0 is not None:
+            permitted = (sizes.r_0, sizes.r_0_most) if isinstance(sizes, Sizes) else None
+            sizes = _given_sizes(rocker.l, distance, r_0)
+    if not isinstance(sizes, Sizes):
+        free = sizes if distance is None else smallest_rocker(rocker, limits)
+        if distance is None or not isinstance(free, Sizes):
+            raise InputError("cam-no-place", limits=_blamed(sizes if isinstance(free, Sizes) else free))
+        raise InputError("cam-no-place-at", limits=_blamed(sizes), l_OC=_mm(distance), best=_mm(free.l_OC))
+    return RollerCam(profile=RollerProfile(rocker, sizes, values["R_roller"]), limits=limits, permitted=permitted)
+
+
+def _given_sizes(l: float, l_OC: float, r_0: float) -> Sizes:
+    """Return the sizes of a cam of which the rocker, its pivot and r_0 are given: the sides of a triangle."""
+    cosine = (l * l + l_OC * l_OC - r_0 * r_0) / (2.0 * l * l_OC)
+    if not -1.0 < cosine < 1.0:
+        raise InputError("cam-rocker-triangle", l=_mm(l), l_OC=_mm(l_OC), r_0=_mm(r_0))
+    place = l - l_OC * complex(cosine, -math.sqrt(1.0 - cosine * cosine))
+    return Sizes(r_0, place.real, place.imag, l_OC=l_OC)
+
+
+def _blamed(limits: Names) -> str:
+    """Return the givens that leave no place."""
+    names = (f"gamma_{PHASE_OF[name]}" if name in PHASE_OF else "psi" for name in limits)
+    return ", ".join(dict.fromkeys(names))
+
+
+def _mm(length: float) -> str:
+    return f"{length * MILLI:.6g}"
+
+
+def six_digits(length: float, greatest: bool = False) -> str:
+    """Return a least length in mm, of six digits, or the greatest, rounded down: who takes it is within the limits.
+
+    >>> six_digits(0.0452581786), six_digits(0.02), six_digits(0.0452581786, greatest=True)
+    ('45.2582', '20', '45.2581')
+    """
+    within, rounding = (1.0 + ROUNDING, ROUND_FLOOR) if greatest else (1.0 - ROUNDING, ROUND_CEILING)
+    digits = Context(prec=6, rounding=rounding).create_decimal(Decimal(length * MILLI * within))
+    return f"{float(digits):.6g}"

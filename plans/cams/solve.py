@@ -10,7 +10,7 @@ table to the board, as it is to a student: parts of the amplitude, of the travel
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -30,6 +30,7 @@ from .construction import (
     ACCELERATION,
     ARC,
     DIAGRAMS,
+    EXACT_OF,
     NEEDS,
     PLATE_PROFILE,
     PLATE_SIZES,
@@ -43,11 +44,9 @@ from .construction import (
     Layout,
     construct,
 )
-from .followers import PlateCam, RockerCam, RollerCam, RollingCam, plate_cam, rocker_cam, roller_cam
-from .motion import FALL, RISE, Array, Division, Motion, motion_of
-from .sizes import RIGHT_ANGLE
-
-NUMBERS = {"_two": 2.0, "_minus_one": -1.0}
+from .followers import RIGHT_ANGLE, PlateCam, RollerCam
+from .motion import RISE, Array, Division, Motion, motion_of
+from .sizes import plate_cam, rocker_cam, roller_cam
 
 
 def diagram_givens(motion: Motion, division: Division, given: str) -> dict[str, Any]:
@@ -55,34 +54,33 @@ def diagram_givens(motion: Motion, division: Division, given: str) -> dict[str, 
     order, angles, top = 2 if given == ACCELERATION else 1, division.angles, motion.rise.length
     # the greatest ordinate of the given diagram in the rise, SI: A_1, or the greatest ds/dphi
     amplitude = motion.maximum(0.0, float(order == 1), float(order == 2), (RISE,)).value
-    found: dict[str, Any] = dict(NUMBERS)
+    numbers: dict[str, Any] = {"_two": 2.0, "_minus_one": -1.0}
     middles = 0.5 * (angles[:-1] + angles[1:])
     means = motion.at(middles)[order]
     for i in division.sections:
-        found |= {f"_phi{i}": float(angles[i]), f"_phi_middle{i}": float(middles[i - 1])}
-        found[f"_part{i}"] = float(means[i - 1]) / amplitude
+        numbers |= {f"_phi{i}": float(angles[i]), f"_phi_middle{i}": float(middles[i - 1])}
+        numbers[f"_part{i}"] = float(means[i - 1]) / amplitude
     for word, side in (("before", -1), ("after", 1)):
         values = motion.at(angles, side)[order]
-        found |= {f"_part{i}_{word}": float(values[i]) / amplitude for i in division.lines}
+        numbers |= {f"_part{i}_{word}": float(values[i]) / amplitude for i in division.lines}
     if given == VELOCITY:
-        for phase, lines in ((RISE, division.rise), (FALL, division.fall)):  # of two values at a jump that inside
-            words = ("after", *("before" for _ in lines[1:]))
-            found |= {f"_node{i}_{phase}": found[f"_part{i}_{word}"] for i, word in zip(lines, words, strict=True)}
-        return found | {"_part_v": motion.ds_max.value / amplitude, "_part_s": motion.h / (amplitude * top)}
-    found["_part_v"] = motion.ds_max.value / (amplitude * top)
-    found["_part_s"] = motion.h / (amplitude * top * top)
-    found["_part_a"] = motion.d2s_max.value / amplitude
-    return found
+        for i, phase in division.on_lines:  # of two values at a jump that inside
+            word = "after" if i == division.of(phase)[0] else "before"
+            numbers[f"_node{i}_{phase}"] = numbers[f"_part{i}_{word}"]
+        return numbers | {"_part_v": motion.ds_max.value / amplitude, "_part_s": motion.h / (amplitude * top)}
+    numbers["_part_v"] = motion.ds_max.value / (amplitude * top)
+    numbers["_part_s"] = motion.h / (amplitude * top * top)
+    return numbers | {"_part_a": motion.d2s_max.value / amplitude}
 
 
 def profile_givens(motion: Motion, division: Division, sense: int) -> dict[str, float]:
     """Return the follower's axes in the inverted motion, and travels as parts of the stroke."""
     s, ds, _ = motion.at(division.angles, -1)
-    found = {"_sense": float(sense)}
+    numbers = {"_sense": float(sense)}
     for i in division.lines:
-        found[f"_axis_angle{i}"] = RIGHT_ANGLE - sense * float(division.angles[i])
-        found |= {f"_s_part{i}": float(s[i]) / motion.h, f"_x_part{i}": sense * float(ds[i]) / motion.h}
-    return found
+        numbers[f"_axis_angle{i}"] = RIGHT_ANGLE - sense * float(division.angles[i])
+        numbers |= {f"_s_part{i}": float(s[i]) / motion.h, f"_x_part{i}": sense * float(ds[i]) / motion.h}
+    return numbers
 
 
 CHORDS = "chords"
@@ -103,8 +101,6 @@ OF_PLAN = {
     PROFILE_PART: (PROFILE,),
     PRESSURE_PART: (),
 }
-BY_CHORDS = ("mu_s", "mu_ds", "mu_d2s", "mu_v", "mu_a", "S_max", "V_max", "ds_max", "nu", "nu_a")
-EXACT_OF = {f"{name}_chord": name for name in BY_CHORDS}  # what is found from curves of chords, and what it stands for
 _SECTION = {name: section for section, names in NAMES.items() for name in names}
 
 
@@ -149,6 +145,7 @@ LENGTHS = ("H_a", "H_v", "R_roller", "l_rocker", "r_0_flat")  # given ones that 
 # how the numbers that a task has on the paper of the diagrams change with the size of the drawing
 REDUCED = {"l_A1": 1, "H_a": 1, "H_v": 1, "mu_phi": -1}
 UNITS = {
+    **VALUES,
     **{"v_max": "m/s", "a_max": "m/s^2", "mu_phi": "rad/mm", "mu_v": "(m/s)/mm", "mu_a": "(m/s^2)/mm"},
     **dict.fromkeys(("mu_s", "mu_ds", "mu_d2s"), "m/mm"),
     **dict.fromkeys(("nu", "nu_a", "psi_0", *PRESSURES), "rad"),
@@ -156,20 +153,37 @@ UNITS = {
 
 
 def unit_of(name: str) -> str:
-    """Return the SI unit of a cam's quantity by its name; analogues have that of the travel."""
+    """Return the SI unit of a cam's number or quantity by its name; analogues have that of the travel."""
     return UNITS.get(EXACT_OF.get(name, name), "m")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SolvedCam(Solved):
-    """A cam solved."""
+    """A cam solved; the cams for its followers are those of `layout`."""
 
     cam: Cam
     motion: Motion
     layout: Layout
-    roller: RollerCam | None
-    plate: PlateCam | None
-    rocker: RockerCam | None
+
+    @property
+    def rolling(self) -> RollerCam | None:
+        """The cam for a follower with a roller, on a line or on a rocker."""
+        return self.layout.rolling
+
+    @property
+    def roller(self) -> RollerCam | None:
+        """The cam for a roller on a line."""
+        return None if self.layout.rocks else self.layout.rolling
+
+    @property
+    def rocker(self) -> RollerCam | None:
+        """The cam for a rocker."""
+        return self.layout.rolling if self.layout.rocks else None
+
+    @property
+    def plate(self) -> PlateCam | None:
+        """The cam for a plate."""
+        return self.layout.plate
 
     @property
     def angles(self) -> Array:
@@ -180,11 +194,6 @@ class SolvedCam(Solved):
     def edges(self) -> tuple[str, ...]:
         """The directions of axes and section lines."""
         return RIGHT, UP
-
-    @property
-    def rolling(self) -> RollingCam | None:
-        """The cam for a follower with a roller, on a line or on a rocker."""
-        return self.roller or self.rocker
 
     @property
     def on_paper(self) -> tuple[str, ...]:
@@ -205,7 +214,7 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     cam : Cam
         Followers, laws, senses, all chosen.
     values : mapping of str to float
-        Its numbers in SI by name.
+        Its numbers in SI by name; r_0_flat of a cam for a plate alone may be called r_0.
     plans : iterable of str
         Plans wanted, of `cam.PLANS`; those they need are built too, no others.
 
@@ -214,25 +223,30 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     InputError
         A law that cannot be had with these numbers, or a size that the limits do not permit.
     """
-    values = _of_plate_alone(values) if cam.followers == (PLATE,) else values
-    motion = _motion(cam, values)
+    if cam.followers == (PLATE,) and "r_0" in values:
+        if "r_0_flat" in values:
+            raise InputError("cam-r-0-twice")
+        values = {"r_0_flat" if name == "r_0" else name: value for name, value in values.items()}
     wanted = with_needs(plans, NEEDS)
-    cams = _cams(cam, motion, values) if SIZES_PART in wanted else {}
-    layout = _layout(cam, motion, cams)
+    motion = _motion(cam, values)
+    division = motion.division(cam.sections)
+    layout = Layout(
+        division,
+        VELOCITY if motion.velocity_jumps else ACCELERATION,  # a velocity that jumps is given: no acceleration has it
+        int(abs(division.angles - motion.ds_max.phi).argmin()),
+        ROCKER in cam.followers,
+        *(_cams(cam, motion, values) if SIZES_PART in wanted else ()),
+    )
     program = construct(layout, wanted)
-    givens = {**values, **_givens(cam, motion, layout, cams)}
     shown = SHOWN_ON | dict.fromkeys(("r_0", "l_OC") if ROCKER_SIZES in program.plans else (), ROCKER_SIZES)
     return SolvedCam(
-        **_found(program, givens),
+        **_found(program, {**values, **_givens(cam, motion, layout)}),
         program=program,
         shown_on=shown_on(program) | {name: plan for name, plan in shown.items() if plan in program.plans},
         scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
         cam=cam,
         motion=motion,
         layout=layout,
-        roller=cams.get(ROLLER),
-        plate=cams.get(PLATE),
-        rocker=cams.get(ROCKER),
     )
 
 
@@ -248,23 +262,14 @@ def again(solved: SolvedCam, values: Mapping[str, float]) -> Mapping[str, Any]:
     """Return what the same construction gives with other numbers; its section lines go with the pieces of the law."""
     import numpy as np
 
-    cam = solved.cam
+    cam, layout = solved.cam, solved.layout
     motion = _motion(cam, values)
     # up to the lower dwell, which begins where phases that fill the turn become shorter
     before, now = (of.corners[: len(of.corners) - len(of.lower.pieces)] for of in (solved.motion, motion))
-    angles = np.interp(solved.angles, before, now)
-    layout = replace(solved.layout, division=replace(solved.layout.division, angles=angles))
-    cams = _cams(cam, motion, values) if layout.followers else {}
-    return run(solved.program, {**values, **_givens(cam, motion, layout, cams)}).values
-
-
-def _of_plate_alone(values: Mapping[str, float]) -> Mapping[str, float]:
-    """Return the numbers of a cam for a plate alone, whose r_0_flat may be called r_0."""
-    if "r_0" not in values:
-        return values
-    if "r_0_flat" in values:
-        raise InputError("cam-r-0-twice")
-    return {"r_0_flat" if name == "r_0" else name: value for name, value in values.items()}
+    division = replace(layout.division, angles=np.interp(solved.angles, before, now))
+    rolling, plate = _cams(cam, motion, values) if layout.rolling or layout.plate else (None, None)
+    layout = replace(layout, division=division, rolling=rolling, plate=plate)
+    return run(solved.program, {**values, **_givens(cam, motion, layout)}).values
 
 
 def _motion(cam: Cam, values: Mapping[str, float]) -> Motion:
@@ -273,56 +278,37 @@ def _motion(cam: Cam, values: Mapping[str, float]) -> Motion:
     return motion_of(cam, {**values, "h": h})
 
 
+def _cams(cam: Cam, motion: Motion, values: Mapping[str, float]) -> tuple[RollerCam | None, PlateCam | None]:
+    """Return the cams for a follower with a roller and for a plate, which cannot follow a velocity that jumps."""
+    rolling = roller_cam(cam, motion, values) if ROLLER in cam.followers else None
+    if ROCKER in cam.followers:
+        rolling = rocker_cam(cam, values)
+    follows = PLATE in cam.followers and not motion.velocity_jumps
+    return rolling, plate_cam(cam, motion, values) if follows else None
+
+
+def _givens(cam: Cam, motion: Motion, layout: Layout) -> dict[str, Any]:
+    """Return what the board begins with beside the numbers of the cam."""
+    division = layout.division
+    numbers = diagram_givens(motion, division, layout.given) | profile_givens(motion, division, cam.sense)
+    for follower in (layout.rolling, layout.plate):
+        numbers |= follower.givens(division) if follower is not None else {}
+    return numbers
+
+
 def _found(program: Program, givens: Mapping[str, Any]) -> dict[str, Any]:
     """Return what the construction gives with these numbers, by fields of a cam solved."""
     board = run(program, givens)
     stated = {"mu_phi": Quantity("mu_phi", float(givens["mu_phi"]), unit_of("mu_phi"))} if "mu_phi" in givens else {}
     lengths = {name: givens[name] for name in LENGTHS if name in givens}
+    found = stated | quantities(program, board.values, lengths, unit_of)
     return {
         "givens": givens,
         "values": board.values,
-        "quantities": stated | quantities(program, board.values, lengths, unit_of),
+        "quantities": found,
         "sines": board.sines,
         "status": board.status,
         "trouble": board.trouble,
-    }
-
-
-def _layout(cam: Cam, motion: Motion, cams: Mapping[str, Any]) -> Layout:
-    """Return what the construction depends on: a velocity that jumps is given, as no acceleration has it."""
-    roller: RollerCam | None = cams.get(ROLLER)
-    plate: PlateCam | None = cams.get(PLATE)
-    division = motion.division(cam.sections)
-    return Layout(
-        division,
-        tuple(cams),
-        VELOCITY if motion.velocity_jumps else ACCELERATION,
-        fastest=int(abs(division.angles - motion.ds_max.phi).argmin()),
-        limits=tuple(limit.name for limit in roller.limits.each) if roller else (),
-        corner=roller.by_tangents.on if roller else (),
-        ranged=roller is not None and roller.offsets is not None,
-        plate_given=plate is not None and plate.given,
-        rocks=ROCKER in cam.followers,
-    )
-
-
-def _givens(cam: Cam, motion: Motion, layout: Layout, cams: Mapping[str, Any]) -> dict[str, Any]:
-    """Return what the board begins with beside the numbers of the cam."""
-    found = diagram_givens(motion, layout.division, layout.given) | profile_givens(motion, layout.division, cam.sense)
-    for follower in cams.values():
-        found |= follower.givens(layout.division)
-    return found
-
-
-def _cams(cam: Cam, motion: Motion, values: Mapping[str, float]) -> dict[str, Any]:
-    """Return the cam for every follower; a plate cannot follow a velocity that jumps."""
-    makers: dict[str, Callable[[], Any]] = {
-        ROLLER: lambda: roller_cam(cam, motion, values),
-        ROCKER: lambda: rocker_cam(cam, values),
-        PLATE: lambda: plate_cam(cam, motion, values),
-    }
-    return {
-        follower: makers[follower]() for follower in cam.followers if follower != PLATE or not motion.velocity_jumps
     }
 
 

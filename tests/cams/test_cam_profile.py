@@ -8,8 +8,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath, turned_back
-from kulman.plans.cams.sizes import RollerSizes, smallest_plate
+from kulman.plans.cams.followers import PlateProfile, RollerProfile, Sizes, Straight, turned_back
+from kulman.plans.cams.sizes import smallest_plate
 from kulman.tests.support.cams import (
     SEED,
     SMOOTH,
@@ -42,7 +42,7 @@ def traced(profile: RollerProfile | PlateProfile, phi: float, cells: int = 720) 
 @pytest.mark.parametrize("count", COUNTS)
 def test_roller_traced_on_the_finished_profile_has_its_travel(count: int) -> None:
     for profile in random_profiles(count, 1, 0.7):
-        unit = 1.0 if isinstance(profile.path, StraightPath) else profile.path.sizes.l
+        unit = 1.0 if isinstance(profile.follower, Straight) else profile.follower.unit
         for phi in np.linspace(0.05, 6.2, 13):
             travel = float(profile.motion.at(phi)[0])
             assert traced(profile, phi) * unit == pytest.approx(travel * unit, abs=1e-6 * MM)
@@ -119,7 +119,7 @@ def test_contact_of_a_plate_is_beside_its_axis_by_the_analogue_of_velocity() -> 
 
 def test_pitch_curve_is_traced_against_the_sense_of_the_cam() -> None:
     for sense in (1, -1):
-        profile = RollerProfile(StraightPath(madi_motion(), RollerSizes(0.05, 0.0, 0.05)), 0.01, sense)
+        profile = RollerProfile(Straight(madi_motion(), sense), Sizes(0.05, 0.0, 0.05), 0.01)
         centre = profile.pitch(np.array([0.0, 0.1]))
         assert centre[0] == pytest.approx(0.05j)
         assert math.copysign(1.0, centre[1].real) == sense

@@ -178,7 +178,7 @@ def test_a_rocker_has_its_angle_and_columns_of_its_own() -> None:
     assert rocker is not None
     psi = np.array([float(row[head.index("psi [°]")]) for row in rows])
     s = np.array([float(row[head.index("s [mm]")]) for row in rows])
-    assert s == pytest.approx(np.radians(psi) * rocker.sizes.l * 1e3, rel=1e-9, abs=1e-9)
+    assert s == pytest.approx(np.radians(psi) * rocker.profile.follower.unit * 1e3, rel=1e-9, abs=1e-9)
     assert "gamma_rocker [°]" in head
     assert "pitch.x [mm]" not in head
     assert "e-" not in found.table()

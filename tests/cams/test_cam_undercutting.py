@@ -12,10 +12,10 @@ from shapely.affinity import rotate
 
 from kulman.plans.cams.cam import LAWS
 from kulman.plans.cams.envelopes import Undercut, backward
+from kulman.plans.cams.followers import Limits, PlateProfile, RollerProfile, Sizes, Straight
 from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
 from kulman.plans.cams.motion import Motion
-from kulman.plans.cams.profile import PlateProfile, RollerProfile, StraightPath
-from kulman.plans.cams.sizes import Limits, RollerSizes, smallest_plate, smallest_roller, wedge
+from kulman.plans.cams.sizes import smallest_plate, smallest_roller, wedge
 from kulman.tests.support.cams import (
     MADI_LIMITS,
     SEED,
@@ -42,13 +42,14 @@ def undercut_cams() -> tuple[RollerProfile, ...]:
     """Return undercut cams: of the project at three radii of the roller, of laws that jump in velocity, random ones."""
     motion = madi_motion()
     sizes = smallest_roller(wedge(motion, MADI_LIMITS))
-    path, turned = StraightPath(motion, sizes), StraightPath(motion, RollerSizes(sizes.r_0, -sizes.e, sizes.s_0))
+    turned = Sizes(sizes.r_0, -sizes.e, sizes.s_0)
     uniform = Motion(0.01, 2.0, 0.5, 2.0, law_of_motion("uniform"))
-    found = [RollerProfile(path, R, 1) for R in (0.0293, 0.032, 0.04)] + [RollerProfile(turned, 0.034, -1)]
-    found.append(RollerProfile(StraightPath(uniform, RollerSizes(0.05, 0.0, 0.05)), 0.02, 1))
+    found = [RollerProfile(Straight(motion), sizes, R) for R in (0.0293, 0.032, 0.04)]
+    found.append(RollerProfile(Straight(motion, -1), turned, 0.034))
+    found.append(RollerProfile(Straight(uniform), Sizes(0.05, 0.0, 0.05), 0.02))
     for profile in random_profiles(4, 5, 1.0):
-        R = min(1.15 * profile.rho_min, 0.98 * profile.path.sizes.r_0)
-        found.append(RollerProfile(profile.path, R, profile.sense))
+        R = min(1.15 * profile.rho_min, 0.98 * profile.sizes.r_0)
+        found.append(RollerProfile(profile.follower, profile.sizes, R))
     return tuple(found)
 
 
@@ -85,7 +86,7 @@ def test_undercut_is_found_and_the_lost_travel_is_that_of_the_cut_cam(k: int) ->
     cuts = profile.undercuts
 
     assert cuts
-    unit = 1.0 if isinstance(profile.path, StraightPath) else profile.path.sizes.l
+    unit = 1.0 if isinstance(profile.follower, Straight) else profile.follower.unit
     for phi in np.linspace(0.0, TURN, 61):
         inside = next((cut for cut in cuts if (phi - cut.start) % TURN < cut.end - cut.start), None)
         travel = float(profile.motion.at(phi)[0])
@@ -122,7 +123,7 @@ def cut_by(
     R, sense = roller
     motion = Motion(stroke * MM, math.radians(phases[0]), 0.0, math.radians(phases[1]), law_of_motion(law))
     limits = Limits(math.radians(gamma[0]), math.radians(gamma[1]))
-    return RollerProfile(StraightPath(motion, smallest_roller(wedge(motion, limits, sense))), R * MM, sense)
+    return RollerProfile(Straight(motion, sense), smallest_roller(wedge(motion, limits, sense)), R * MM)
 
 
 WIDE_CUTTERS = {  # the cam, and its undercuts: from, to, deg, the travel that is lost, mm, and where
@@ -152,8 +153,8 @@ def test_undercuts_of_wide_cutters_are_those_of_the_cut_cam(name: str) -> None:
 
 def test_a_neck_narrower_than_the_cutter_cuts_the_lobe_off_where_nothing_runs_backwards() -> None:
     motion = Motion(287.0 * MM, *np.radians((51.34, 26.21, 41.19)), law_of_motion("sine"))
-    sizes = RollerSizes(math.hypot(5.0, 33.9) * MM, -5.0 * MM, 33.9 * MM)
-    profile = RollerProfile(StraightPath(motion, sizes), 33.2 * MM)
+    sizes = Sizes(math.hypot(5.0, 33.9) * MM, -5.0 * MM, 33.9 * MM)
+    profile = RollerProfile(Straight(motion), sizes, 33.2 * MM)
 
     (cut,) = profile.undercuts
 
@@ -165,15 +166,15 @@ def test_a_neck_narrower_than_the_cutter_cuts_the_lobe_off_where_nothing_runs_ba
 @pytest.mark.parametrize("wider", [1e-9, 1e-6, 1e-3, 0.02])
 def test_a_neck_hardly_narrower_than_the_cutter_is_found(wider: float) -> None:
     motion = Motion(287.0 * MM, *np.radians((51.34, 26.21, 41.19)), law_of_motion("sine"))
-    path = StraightPath(motion, RollerSizes(math.hypot(5.0, 33.9) * MM, -5.0 * MM, 33.9 * MM))
-    width, ends = neck(RollerProfile(path, 1.0 * MM), math.radians(20.0), math.radians(105.0))
+    cam = Straight(motion), Sizes(math.hypot(5.0, 33.9) * MM, -5.0 * MM, 33.9 * MM)
+    width, ends = neck(RollerProfile(*cam, 1.0 * MM), math.radians(20.0), math.radians(105.0))
 
-    narrower, (cut,) = (RollerProfile(path, 0.5 * width * (1.0 + w)).undercuts for w in (-1e-9, wider))
+    narrower, (cut,) = (RollerProfile(*cam, 0.5 * width * (1.0 + w)).undercuts for w in (-1e-9, wider))
 
     assert narrower == []
     assert cut.lost > 0.95 * motion.h
     assert (cut.start, cut.end) == pytest.approx(ends, abs=2.0 * math.sqrt(wider))
-    outline = RollerProfile(path, 0.5 * width * (1.0 + wider)).outline(math.radians(0.1))
+    outline = RollerProfile(*cam, 0.5 * width * (1.0 + wider)).outline(math.radians(0.1))
     assert Polygon(np.column_stack((outline.real, outline.imag))).is_valid
 
 
@@ -217,17 +218,17 @@ def test_wide_cutters_leave_what_is_round_the_centre(count: int) -> None:
             phases = np.radians(random.uniform(30.0, 110.0, 2))
             motion = Motion(motion.h, phases[0], 0.0, phases[1], law)
         sizes = smallest_roller(wedge(motion, limits, sense))
-        profile = RollerProfile(StraightPath(motion, sizes), sizes.r_0 * random.uniform(0.4, 0.97), sense)
+        profile = RollerProfile(Straight(motion, sense), sizes, sizes.r_0 * random.uniform(0.4, 0.97))
         if profile.undercuts:
             assert_left_by_the_cutter(profile)
 
 
 def test_roller_just_smaller_than_the_least_radius_undercuts_nothing() -> None:
     motion = madi_motion()
-    path = StraightPath(motion, smallest_roller(wedge(motion, MADI_LIMITS)))
-    rho = RollerProfile(path, 0.0).rho_min
+    cam = Straight(motion), smallest_roller(wedge(motion, MADI_LIMITS))
+    rho = RollerProfile(*cam, 0.0).rho_min
 
-    below, above = (RollerProfile(path, rho * part) for part in (1.0 - 1e-9, 1.0 + 1e-3))
+    below, above = (RollerProfile(*cam, rho * part) for part in (1.0 - 1e-9, 1.0 + 1e-3))
 
     assert below.undercuts == []
     assert [math.degrees(cut.start) for cut in above.undercuts] == pytest.approx([36.0], abs=0.1)
@@ -236,9 +237,9 @@ def test_roller_just_smaller_than_the_least_radius_undercuts_nothing() -> None:
 
 def test_velocity_that_drops_undercuts_at_any_radius() -> None:
     motion = Motion(0.01, 2.0, 0.5, 2.0, law_of_motion("uniform"))
-    path = StraightPath(motion, RollerSizes(0.05, 0.0, 0.05))
+    cam = Straight(motion), Sizes(0.05, 0.0, 0.05)
 
-    profile = RollerProfile(path, 1e-3)
+    profile = RollerProfile(*cam, 1e-3)
 
     assert profile.rho_min == 0.0
     starts = [(cut.start, cut.end) for cut in profile.undercuts]
@@ -275,9 +276,9 @@ def test_cams_are_undercut_exactly_when_a_radius_is_too_small(count: int) -> Non
         motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
         if k % 3:
             sizes = smallest_roller(wedge(motion, limits, sense))
-            rho = RollerProfile(path := StraightPath(motion, sizes), 0.0, sense).rho_min
+            rho = RollerProfile(Straight(motion, sense), sizes, 0.0).rho_min
             R = min(max(rho, 0.1 * sizes.r_0) * math.exp(random.uniform(-0.3, 0.7)), 0.97 * sizes.r_0)
-            profile: RollerProfile | PlateProfile = RollerProfile(path, R, sense)
+            profile: RollerProfile | PlateProfile = RollerProfile(Straight(motion, sense), sizes, R)
             expected = rho < R
         else:
             motion = random_motion(random, SMOOTH)

@@ -11,9 +11,9 @@ import math
 import pytest
 
 from kulman.plans.cams.cam import ORDERS
+from kulman.plans.cams.followers import RollerProfile, Straight
 from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import Motion
-from kulman.plans.cams.profile import RollerProfile, StraightPath
 from kulman.plans.cams.sizes import smallest_plate, smallest_roller, wedge
 from kulman.tests.support.cams import MADI_LIMITS, SMOOTH, madi_motion
 
@@ -51,7 +51,7 @@ def test_printed_least_radius_is_not_that_of_the_sharpest_place() -> None:
     motion = madi_motion()
     sizes = smallest_roller(wedge(motion, MADI_LIMITS))
 
-    sharpest = RollerProfile(StraightPath(motion, sizes), 7.0 * MM).sharpest
+    sharpest = RollerProfile(Straight(motion), sizes, 7.0 * MM).sharpest
 
     assert sharpest.value == pytest.approx(29.24 * MM, rel=1e-3)  # printed 60 mm
     assert math.degrees(sharpest.phi) == pytest.approx(36.0)  # where the acceleration jumps

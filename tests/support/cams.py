@@ -9,11 +9,10 @@ from itertools import pairwise
 import numpy as np
 
 from kulman.plans.cams.cam import LAWS, ORDERS
-from kulman.plans.cams.followers import Rocker, smallest_rocker
+from kulman.plans.cams.followers import Limits, Rocker, RollerProfile, Sizes, Straight
 from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
 from kulman.plans.cams.motion import Motion
-from kulman.plans.cams.profile import RockerPath, RollerProfile, StraightPath
-from kulman.plans.cams.sizes import Limits, RockerSizes, smallest_roller, wedge
+from kulman.plans.cams.sizes import smallest_rocker, smallest_roller, wedge
 
 SEED = 1868
 SMOOTH = tuple(law for law in LAWS if law != UNIFORM)
@@ -60,14 +59,15 @@ def random_profiles(count: int, seed: int, part: float) -> Iterator[RollerProfil
     random = np.random.default_rng([SEED, seed])
     for k in range(count):
         limits, sense = random_limits(random), int(random.choice((-1, 1)))
+        follower: Rocker | Straight
         if k % 3 == 2:
             motion = random_motion(random, SMOOTH, random.uniform(0.1, 0.4))
-            sizes = smallest_rocker(Rocker(motion, 0.1, sense), limits)
-            if not isinstance(sizes, RockerSizes):
+            follower = Rocker(motion, 0.1, sense)
+            sizes = smallest_rocker(follower, limits)
+            if not isinstance(sizes, Sizes):
                 continue
-            path = RockerPath(motion, sizes)
         else:
             motion = random_motion(random, SMOOTH)
-            path = StraightPath(motion, smallest_roller(wedge(motion, limits, sense)))
-        sharpest = RollerProfile(path, 0.0, sense).rho_min
-        yield RollerProfile(path, part * min(sharpest, 0.9 * path.sizes.r_0), sense)
+            follower, sizes = Straight(motion, sense), smallest_roller(wedge(motion, limits, sense))
+        sharpest = RollerProfile(follower, sizes, 0.0).rho_min
+        yield RollerProfile(follower, sizes, part * min(sharpest, 0.9 * sizes.r_0))

@@ -23,7 +23,7 @@ from .sized import Sized
 if TYPE_CHECKING:
     from ...drawing.cams.scene import CamScene
     from ...drawing.words import Words
-    from ...plans.cams.profile import PlateProfile, RollerProfile
+    from ...plans.cams.followers import PlateProfile, RollerProfile
     from ...plans.cams.solve import SolvedCam
     from ...plans.marking.key import Question
 
@@ -225,7 +225,7 @@ def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlatePro
 
 def _outside(solved: SolvedCam) -> Iterator[InputError]:
     """Tell which r_0 the limits permit, where one is given together with e or l_OC that they do not."""
-    from ...plans.cams.followers import ROUNDING, six_digits
+    from ...plans.cams.sizes import ROUNDING, six_digits
 
     cam = solved.rolling
     if cam is None or cam.permitted is None:
