@@ -2,101 +2,95 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from math import hypot
+from functools import reduce
+from typing import Any, TypeAlias
 
 import numpy as np
+import shapely
+from numpy.typing import ArrayLike, NDArray
 
 from .shapes import Group, Line, Pen, Polyline, Shape
 from .text import Box
 
+Shapes: TypeAlias = NDArray[Any]  # of shapely
 SLACK = 1e-9  # mm
 Side = tuple[complex, float]  # unit normal into the area, its least component
 SHORTEST = 0.3  # mm: a shorter stroke would be a dot
 FEW = 8  # points of a line that is left as it is
-FAR = 1e6 + 0j  # mm
+FAR = shapely.Point(1e6, 0.0)  # mm
+
+
+def pairs(places: ArrayLike) -> NDArray[np.float64]:
+    """Return complex places as pairs of coordinates, shape (..., 2), as shapely takes them."""
+    return np.ascontiguousarray(places, dtype=complex)[..., np.newaxis].view(float)
+
+
+def lines(a: ArrayLike, b: ArrayLike) -> Shapes:
+    """Return straight lines from places `a` to places `b`, each of which may be a point."""
+    found: Shapes = shapely.linestrings(pairs(np.stack((a, b), axis=-1)))
+    return found
+
+
+def _pieces(found: Shapes, along: complex, shortest: float) -> list[tuple[complex, complex]]:
+    """Return the ends of what is left of parallel lines, each piece in the direction `along`, those of a line so, too.
+
+    Pieces that are not longer than `shortest` are left out.
+    """
+    parts, of = shapely.get_parts(found, return_index=True)
+    long = shapely.length(parts) > shortest
+    parts, of = parts[long], of[long]
+    ends = shapely.get_coordinates(shapely.get_point(parts[:, np.newaxis], [0, -1])).view(complex).reshape(-1, 2)
+    ends = np.take_along_axis(ends, np.argsort((ends * np.conj(along)).real, axis=1), axis=1)
+    order = np.lexsort(((ends[:, 0] * np.conj(along)).real, of))
+    return [(a, b) for a, b in ends[order].tolist()]
+
+
+def _hatch(area: shapely.Geometry, levels: NDArray[np.float64], along: complex, shortest: float) -> list[Line]:
+    """Return strokes over an area, on lines in a unit direction that have these levels across it."""
+    across, reach = along * 1j * levels, along * float(np.abs(shapely.total_bounds(area)).sum())
+    found = shapely.intersection(lines(across - reach, across + reach), area)
+    return [Line(a, b, Pen.THIN, role="hatch") for a, b in _pieces(found, along, shortest)]
 
 
 def strokes(outline: Sequence[complex], along: complex, apart: float) -> list[Line]:
     """Return lines in the unit direction `along`, so far apart, over the area inside of a closed line.
 
-    Where the line crosses itself every part counts that an odd number of its sides surrounds.
+    Where the line crosses itself every part counts that an odd number of its sides surrounds. Strokes of areas side by
+    side lie in one line.
     """
-    turned = [point * along.conjugate() for point in outline]  # the strokes level
-    sides = list(zip(turned, turned[1:] + turned[:1], strict=True))
-    low, high = min(p.imag for p in turned), max(p.imag for p in turned)
-    first = int(low // apart) + 1  # strokes of areas side by side lie in one line
-    found = []
-    for level in (k * apart for k in range(first, int(high // apart) + 1)):
-        cuts = sorted(
-            a.real + (b.real - a.real) * (level - a.imag) / (b.imag - a.imag)
-            for a, b in sides
-            if (a.imag < level) != (b.imag < level)
-        )
-        ends = zip(cuts[::2], cuts[1::2], strict=True)
-        found += [(complex(x, level) * along, complex(y, level) * along) for x, y in ends if y - x > SHORTEST]
-    return [Line(a, b, Pen.THIN, role="hatch") for a, b in found]
+    levels = (np.array(outline) * np.conj(along)).imag // apart
+    area = shapely.make_valid(shapely.Polygon(pairs(outline)))
+    return _hatch(area, np.arange(levels.min() + 1.0, levels.max() + 1.0) * apart, along, SHORTEST)
 
 
 def hatched(sides: Sequence[Side], box: Box, apart: float, name: str) -> Group:
     """Return strokes at 45 degrees over the part of a box that lies inside of all `sides`."""
-    x0, y0, x1, y1 = box
-    frame: list[Side] = [(1 + 0j, x0), (-1 + 0j, -x1), (1j, y0), (-1j, -y1)]
-    along = complex(1.0, 1.0) / 2**0.5
-    across = along * 1j
-    corners = [complex(x, y) for x in (x0, x1) for y in (y0, y1)]
-    reach = [(corner * across.conjugate()).real for corner in corners]
-    count = int((max(reach) - min(reach)) / apart)
-    lines = (across * (min(reach) + (k + 0.5) * apart) for k in range(count))
-    return Group(tuple(_within(lines, along, [*frame, *sides], hypot(x1 - x0, y1 - y0))), "permitted", name)
-
-
-def _within(lines: Iterable[complex], along: complex, sides: Sequence[Side], reach: float) -> Iterator[Line]:
-    """Go through the parts of lines, through points along a direction, that lie inside of all sides."""
-    for point in lines:
-        low, high = -1e3 * reach, 1e3 * reach
-        for normal, least in sides:
-            slope = (normal.conjugate() * along).real
-            lack = least - (normal.conjugate() * point).real
-            if abs(slope) < SLACK:
-                low = high if lack > 0.0 else low
-            elif slope > 0.0:
-                low = max(low, lack / slope)
-            else:
-                high = min(high, lack / slope)
-        if high - low > SLACK * reach:
-            yield Line(point + along * low, point + along * high, Pen.THIN, role="hatch")
+    frame, along = shapely.box(*box), (1.0 + 1.0j) / 2**0.5
+    corners = shapely.get_coordinates(frame).view(complex)
+    far = 2.0 * float(np.max(np.abs(corners))) + max((abs(least) for _, least in sides), default=0.0)
+    halves = (
+        shapely.Polygon(pairs(normal * (least + far * np.array([1j, -1j, 2 - 1j, 2 + 1j])))) for normal, least in sides
+    )
+    reach = (corners * np.conj(along)).imag
+    levels = reach.min() + (np.arange(int(np.ptp(reach) / apart)) + 0.5) * apart
+    area = reduce(shapely.intersection, halves, frame)
+    return Group(() if area.is_empty else tuple(_hatch(area, levels, along, SLACK)), "permitted", name)
 
 
 def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
-    """Return the part of the line from `a` to `b` inside of a box (Liang and Barsky), None when there is none."""
-    x0, y0, x1, y1 = box
-    low, high, way = 0.0, 1.0, b - a
-    for start, step, least, most in ((a.real, way.real, x0, x1), (a.imag, way.imag, y0, y1)):
-        if abs(step) < 1e-12:
-            if not least <= start <= most:
-                return None
-            continue
-        first, last = sorted(((least - start) / step, (most - start) / step))
-        low, high = max(low, first), min(high, last)
-    return (a + way * low, a + way * high) if low <= high else None
+    """Return the part of the line from `a` to `b` inside of a box, None when there is none."""
+    line = lines(a, b) if a != b else shapely.points(pairs(a))
+    part = shapely.get_coordinates(shapely.intersection(line, shapely.box(*box))).view(complex).ravel()
+    ends = sorted(part.tolist(), key=lambda place: abs(place - a))
+    return (ends[0], ends[-1]) if ends else None
 
 
-def beside(a: complex, b: complex, boxes: Sequence[Box]) -> Iterator[tuple[complex, complex]]:
-    """Go through the pieces of a line from `a` to `b` that lie outside of all boxes, or on their sides."""
-    inside = ((clipped(a, b, box), box) for box in boxes)
-    start, gaps = a, (ends for ends, box in inside if ends and _within_sides(0.5 * (ends[0] + ends[1]), box))
-    for first, last in sorted(gaps, key=lambda gap: abs(gap[0] - a)):
-        if abs(first - a) > abs(start - a):
-            yield start, first
-        start = max(start, last, key=lambda place: abs(place - a))
-    if abs(b - a) > abs(start - a):
-        yield start, b
-
-
-def _within_sides(place: complex, box: Box) -> bool:
-    return box[0] < place.real < box[2] and box[1] < place.imag < box[3]
+def beside(a: complex, b: complex, boxes: Sequence[Box]) -> list[tuple[complex, complex]]:
+    """Return the pieces of a line from `a` to `b` that lie outside of all boxes, or on their sides."""
+    inside = [shapely.box(x0 + SLACK, y0 + SLACK, x1 - SLACK, y1 - SLACK) for x0, y0, x1, y1 in boxes]
+    return _pieces(shapely.difference(lines([a], [b]), shapely.union_all(inside)), b - a, SLACK)
 
 
 def coarser(shape: Shape, within: float) -> Shape:
@@ -111,7 +105,10 @@ def coarser(shape: Shape, within: float) -> Shape:
 
 
 def thinned(points: Sequence[complex], within: float) -> tuple[complex, ...]:
-    """Return as few of these points as keep the line through them within so many mm (Douglas and Peucker)."""
+    """Return as few of these points as keep the line through them within so many mm (Douglas and Peucker).
+
+    The simplification of shapely keeps others, and letters beside a curve would stand elsewhere.
+    """
     line, kept = np.array(points), np.zeros(len(points), dtype=bool)
     kept[[0, -1]] = True
     open_parts = [(0, len(points) - 1)]
@@ -134,22 +131,14 @@ def freest(curves: Sequence[Sequence[complex]], step: float, each: float) -> Ite
 
     They are looked for `step` mm apart; a curve has one such place for `each` mm of it, and one more.
     """
-    dense = [_dense(curve, step) for curve in curves]
+    whole = [shapely.LineString(pairs(curve)) for curve in curves]
+    dense = [shapely.line_interpolate_point(c, np.linspace(0.0, c.length, max(3, int(c.length / step)))) for c in whole]
     for n, places in enumerate(dense):
-        others = np.array([place for m, found in enumerate(dense) if m != n for place in found] or [FAR])
-        own = np.array(places)
-        room = np.min(np.abs(own[:, np.newaxis] - others[np.newaxis, :]), axis=1)
+        others = shapely.multipoints([place for m, found in enumerate(dense) if m != n for place in found] or [FAR])
+        room, own = shapely.distance(places, others), shapely.get_coordinates(places).view(complex).ravel()
         room[[0, -1]] = -1.0  # not at the ends
-        for _ in range(1 + int(len(places) / (each / step))):
+        for _ in range(1 + int(len(own) / (each / step))):
             k = int(np.argmax(room))
-            along = places[min(k + 1, len(places) - 1)] - places[max(k - 1, 0)]
-            yield n, places[k], along / abs(along)
+            along = complex(own[min(k + 1, len(own) - 1)] - own[max(k - 1, 0)])
+            yield n, complex(own[k]), along / abs(along)
             room = np.minimum(room, np.abs(own - own[k]) - 0.5 * each)
-
-
-def _dense(curve: Sequence[complex], step: float) -> list[complex]:
-    """Return places along a curve, equally far apart, three at least."""
-    reach = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(curve)))))
-    at = np.linspace(0.0, reach[-1], max(3, int(reach[-1] / step)))
-    places: list[complex] = (np.interp(at, reach, np.real(curve)) + 1j * np.interp(at, reach, np.imag(curve))).tolist()
-    return places

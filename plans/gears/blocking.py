@@ -17,9 +17,9 @@ from itertools import combinations
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
-from ..laws import cross
 from .gear import WHEELS
 from .geometry import geometry
 
@@ -127,18 +127,14 @@ def _runs(links: dict[Edge, list[Edge]]) -> Iterator[list[Edge]]:
 
 def near_crossings(first: Iterable[Places], second: Iterable[Places]) -> Places:
     """Return the places where chords of two curves cross, those that only just miss each other among them."""
-    found = [_chords_cross(one, other) for one in first for other in second]
-    return np.concatenate(found) if found else np.zeros(0, complex)
-
-
-def _chords_cross(one: Places, other: Places) -> Places:
-    p, u = (part[:, np.newaxis] + 0.0 * other[np.newaxis, 1:] for part in (one[:-1], np.diff(one)))
-    q, w = (part[np.newaxis, :] + 0.0 * one[1:, np.newaxis] for part in (other[:-1], np.diff(other)))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        sine = cross(u, w)
-        along, across = cross(q - p, w) / sine, cross(q - p, u) / sine
-    hit = (np.abs(along - 0.5) <= 0.5 + MISSED) & (np.abs(across - 0.5) <= 0.5 + MISSED)
-    return np.asarray(p[hit] + u[hit] * along[hit])
+    ours, others = (
+        shapely.linestrings(np.concatenate(chords or [np.zeros((0, 2), complex)]).view(float).reshape(-1, 2, 2))
+        for chords in ([np.stack((run[:-1], run[1:]), axis=-1) for run in curve] for curve in (first, second))
+    )
+    i, j = shapely.STRtree(others).query(ours, predicate="dwithin", distance=MISSED * shapely.length(ours))
+    between = shapely.get_coordinates(shapely.shortest_line(ours[i], others[j]))
+    ends: Places = between.view(complex).reshape(-1, 2)
+    return np.asarray(ends.mean(axis=1))
 
 
 def crossings(both: Callable[[Any], Mapping[str, Array]], starts: Places, reach: float) -> Places:

@@ -31,7 +31,7 @@ import numpy as np
 
 KEPT = Path(__file__).with_name("digests.txt")
 MACHINE = "machine"  # stands in the place of a case
-PACKAGES = ("click", "matplotlib", "numpy", "openpyxl", "reportlab", "svgwrite")
+PACKAGES = ("click", "matplotlib", "numpy", "openpyxl", "reportlab", "shapely", "svgwrite")
 DIGITS = 16  # of a digest
 EVERY = {"few": 24, "many": 7}  # every how-manieth case a short and a longer run compare
 WRONG = 1.25  # how many times too large the student's answers of every fifth line are

@@ -1,4 +1,4 @@
-"""No label covers anything, each stands beside its own; shapely, which the code does not use, is the judge."""
+"""No label covers anything, each stands beside its own; distances that shapely measures are the judge of its places."""
 
 import itertools
 import math
