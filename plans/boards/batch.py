@@ -16,8 +16,8 @@ from numpy.typing import DTypeLike, NDArray
 from ...scales.errors import InputError
 from ...scales.kept import Kept
 from ..board import Program
-from .arrays import CODES, ORDERS, ArrayBoard
-from .exact import MARKS, ROUND, STATUSES, Status, graduation, run
+from .arrays import CODES, ArrayBoard
+from .exact import MARKS, ORDERS, ROUND, STATUSES, Status, graduation, run
 from .printers import ARRAYS, PYTHON, Chunked, Output, Plain, compiled, in_order, number, plain_names
 from .trace import Real, TracingBoard, Vector
 

@@ -11,7 +11,7 @@ and a table round alike everywhere; marks at multiples of 90 degrees are exact.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Literal
@@ -49,6 +49,25 @@ TANGENT = 4 * 2.0**-52  # part of r^2 within which an arc touches a line
 Status = Literal["ok", "ill-conditioned", "singular", "no-assembly"]
 STATUSES: tuple[Status, ...] = ("ok", "ill-conditioned", "singular", "no-assembly")
 NAN = float("nan")
+Marks = Sequence[tuple[Any, ...]]  # statuses with their conditions, and what tells the sine or the gap of one position
+Rarely = tuple[Marks, Any]  # and the value to go on with
+# how numbers, by the least and the most of them, must lie to a bound to be left alone; never where a number is none
+ORDERS = {
+    "above": "{least} > {bound}",
+    "at least": "{least} >= {bound}",
+    "at most": "{most} <= {bound}",
+    "beyond": "({least} >= {bound} or {most} <= -{bound})",
+    "within": "({least} > -{bound} and {most} < {bound})",
+}
+
+
+def calm_by(least: str, most: str, functions: Mapping[str, Any] = {}) -> dict[str, Callable[[Any, Any], bool]]:
+    """Return for each of `ORDERS` what tells whether a `value` lies so to a `bound`; the ends may call functions."""
+    sources = {name: said.format(least=least, most=most, bound="bound") for name, said in ORDERS.items()}
+    return {name: eval(f"lambda value, bound: {source}", dict(functions)) for name, source in sources.items()}
+
+
+_CALM = calm_by("value", "value")
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +102,7 @@ class ExactBoard(Board):
         self.values: dict[str, Any] = {"zero": 0.0, "one": 1.0, **givens}
         self.sines: dict[str, float] = {}
         self.trouble: Trouble | None = None
-        self._name = ""
+        self._name = self._failed = ""
         self._operands: tuple[str, ...] = ()
         self._begin()
 
@@ -143,10 +162,12 @@ class ExactBoard(Board):
     def _complex(real: Any, imag: Any) -> Any:
         return complex(real, imag)
 
-    def _near(self, angle: Any) -> Any:
-        """Return an angle without the full turns that only cost digits."""
-        if abs(angle) < FARTHEST:
-            return angle
+    @staticmethod
+    def _choose(where: Any, value: Any, other: Any) -> Any:
+        return value if where else other
+
+    @staticmethod
+    def _remainder(angle: Any) -> Any:
         return math.fmod(angle, TURN) if math.isfinite(angle) else NAN
 
     def _graduation(self, rounded: Any) -> tuple[Any, Any]:
@@ -157,21 +178,65 @@ class ExactBoard(Board):
         mark = int(rounded - ROUND) % MARKS
         return cosines[mark], sines[mark]
 
+    def _calm(self, value: Any, order: str, bound: float, of: Any = None, squared: bool = False) -> Any:
+        """Return whether numbers lie so that nothing is the matter: to `bound`, or to it times the largest `of`."""
+        if of is not None:
+            bound = bound * of
+        return _CALM[order](value, bound * bound if squared else bound)
+
+    def _look(self, check: str, operands: tuple[Any, ...], calm: tuple[Any, ...], rare: Callable[[], Rarely]) -> Any:
+        """Return the first of the operands of a check, or what it is worth where not all is calm."""
+        if all(calm):
+            return operands[0]
+        marks, result = rare()
+        for status, here, *measure in reversed(marks):  # the worst comes last
+            if here and status != "ill-conditioned":
+                self._failed, size = self._name, measure[0]() if measure else 0.0
+                failed = Trouble(status, self._name, *((size, 0.0) if status == "singular" else (0.0, size)))
+                self.trouble = self.trouble or failed
+                break
+        return result
+
+    def _note_sine(self, part: Any, whole: Any = None) -> None:
+        """Note the sine of two lines, or of a line and an arc: by the square of half a chord, and its radius."""
+        if whole is None:
+            self.sines[self._name] = abs(part)
+        elif self._failed is not self._name:
+            self.sines[self._name] = math.sqrt(part) / whole if whole else 0.0
+
+    def _note_pins(self, distance: Any, size: Any) -> None:
+        """Note how near two joints come that settle a direction."""
+        if distance > self.parallel * size:
+            self.sines[self._name] = min(self.sines[self._name], float(distance / size))
+
+    # What is looked at, written once for all boards: how a number must lie to be left alone; else what statuses that
+    # sets, with a sine or a gap that tells how much is wrong, and what to go on with.
+
+    def _near(self, angle: Any) -> Any:
+        """Return an angle without the full turns that only cost digits."""
+        calm = self._calm(angle, "within", FARTHEST)
+        return self._look(
+            "near", (angle,), (calm,), lambda: ((), self._choose(abs(angle) < FARTHEST, angle, self._remainder(angle)))
+        )
+
     def _upright(self, component: Any) -> Any:
         """Return a component of a unit direction without the rounding at a multiple of 90 degrees."""
-        return 0.0 if abs(component) <= RIGHT else component
-
-    def _fail(self, status: Status, sine: float = 0.0, gap: float = 0.0) -> None:
-        if self.trouble is None:
-            self.trouble = Trouble(status, self._name, sine, gap)
+        size = abs(component)
+        calm = self._calm(size, "above", RIGHT)
+        return self._look(
+            "upright", (component, size), (calm,), lambda: ((), self._choose(size <= RIGHT, 0.0, component))
+        )
 
     def _lines_sine(self, sine: Any) -> Any:
-        """Note the sine of two lines; parallel lines do not meet."""
-        self.sines[self._name] = abs(sine)
-        if abs(sine) < self.parallel:
-            self._fail("singular", sine)
-            return NAN
-        return sine
+        """Look at the sine of two lines; parallel lines do not meet."""
+
+        def rare() -> Rarely:
+            size = abs(sine)
+            flat = size < self.parallel
+            return [("ill-conditioned", size < ILL), ("singular", flat, lambda: sine)], self._choose(flat, NAN, sine)
+
+        self._note_sine(sine)
+        return self._look("sine", (sine,), (self._calm(sine, "beyond", ILL),), rare)
 
     def _half_chord(self, radius: Any, distance: Any, first: Any, second: Any) -> Any:
         """Half the chord that a circle cuts from a line at `distance` from its centre, factored, not to cancel."""
@@ -184,68 +249,98 @@ class ExactBoard(Board):
         One that crosses it by no more than rounding touches it: there is no angle to draw anything with. The distance
         is rounded as the coordinates of the `places` are from which it comes.
         """
-        touching = self.touching * radius * (radius + sum(map(abs, places)))
-        if square < -touching:
-            self._fail("no-assembly", gap=distance - radius)
-            return NAN
-        square = 0.0 if square <= touching else square
-        self.sines[self._name] = math.sqrt(square) / radius if radius else 0.0
-        return square
+
+        def rare() -> Rarely:
+            touching = self.touching * radius * (radius + sum(map(abs, places)))
+            out = square < -touching
+            half = self._choose(out, NAN, self._choose(square <= touching, 0.0, square))
+            marks: Marks = [
+                ("ill-conditioned", square < ILL * ILL * radius * radius),
+                ("no-assembly", out, lambda: distance - radius),
+            ]
+            return marks, half
+
+        calm = self._calm(square, "at least", ILL, radius, squared=True)
+        half = self._look("reaches", (square, radius, distance, *places), (calm,), rare)
+        self._note_sine(half, radius)
+        return half
 
     def _assembles(self, product: Any, first: Any, second: Any, base: Any, total: Any, *places: Any) -> Any:
         """Return Heron's product, factored, not to cancel; arcs that do not meet make no triangle.
 
         Links in line but for rounding are in line, and pins together but for rounding coincide.
         """
-        rounded = self.touching * (total + sum(map(abs, places)))
         double = first * second * 2.0
-        touching = rounded * double
-        if product < -touching * total:
-            self._fail("no-assembly", gap=max(base - total, abs(first - second) - base))
-            return NAN
-        if base <= rounded:
-            self._fail("singular")
-            return NAN
-        product = 0.0 if product <= touching * base else product
-        self.sines[self._name] = math.sqrt(product) / double
-        return product
+
+        def rare() -> Rarely:
+            rounded = self.touching * (total + sum(map(abs, places)))
+            touching, together = rounded * double, base <= rounded
+            out = product < -touching * total
+            ill = product < ILL * double * (ILL * double)
+            area = self._choose(out | together, NAN, self._choose(product <= touching * base, 0.0, product))
+            marks: Marks = [
+                ("ill-conditioned", ill),
+                ("singular", together),
+                ("no-assembly", out, lambda: max(base - total, abs(first - second) - base)),
+            ]
+            return marks, area
+
+        calm = self._calm(product, "above", ILL, double, squared=True)
+        area = self._look("assembles", (product, first, second, base, total, *places), (calm,), rare)
+        self._note_sine(area, double)
+        return area
 
     def _apart(self, distance: Any) -> Any:
-        """Two joints that coincide settle no direction."""
-        if distance == 0.0:
-            self._fail("singular")
-            return NAN
-        return distance
+        """Look at the distance of two joints, which settle no direction when they coincide."""
+
+        def rare() -> Rarely:
+            together = distance == 0.0
+            return [("singular", together)], self._choose(together, NAN, distance)
+
+        return self._look("apart", (distance,), (self._calm(distance, "above", 0.0),), rare)
 
     def _clear(self, distance: Any, size: Any) -> Any:
         """Return the distance of two joints, which must not be rounding beside the whole mechanism."""
-        if distance <= self.parallel * size:
-            self._fail("singular")
-            return NAN
-        if distance < ILL * size:
-            self.sines[self._name] = min(self.sines[self._name], float(distance / size))
-        return distance
+
+        def rare() -> Rarely:
+            together = distance <= self.parallel * size
+            marks: Marks = [("ill-conditioned", distance < ILL * size), ("singular", together)]
+            self._note_pins(distance, size)
+            return marks, self._choose(together, NAN, distance)
+
+        return self._look("clear", (distance, size), (self._calm(distance, "at least", ILL, size),), rare)
 
     def _divisor(self, size: Any) -> Any:
         """Return a size to divide by: one in the place of zero, where what is divided is known to fail."""
-        return size or 1.0
+        calm = self._calm(size, "above", 0.0)
+        return self._look("divisor", (size,), (calm,), lambda: ((), self._choose(size == 0.0, 1.0, size)))
 
     def _bears(self, size: Any, moment: Any) -> Any:
         """Return the size of a force to divide its moment by; a moment without a force is a couple: it has no arm."""
-        if size == 0.0:
-            return 1.0 if moment == 0.0 else NAN
-        return size
+
+        def rare() -> Rarely:
+            return (), self._choose(size == 0.0, self._choose(moment == 0.0, 1.0, NAN), size)
+
+        return self._look("bears", (size, moment), (self._calm(size, "above", 0.0),), rare)
 
     def _holds(self, determinant: Any, apart: Any, astray: Any, missing: Any) -> Any:
         """Return the determinant of the legs that hold a template: they must reach it, and must not concur."""
-        self.sines[self._name] = abs(determinant)
-        if astray == 0.0 and abs(determinant) < self.folded:
-            self._fail("singular", determinant)
-            return NAN
-        if not (astray == 0.0 and apart <= self.closed):
-            self._fail("no-assembly", gap=astray or missing)
-            return NAN
-        return determinant
+        size, astray = abs(determinant), abs(astray)
+
+        def rare() -> Rarely:
+            reached, folded = astray == 0.0, size < self.folded
+            apart_here = (reached & (folded | (apart <= self.closed))) == 0.0
+            marks: Marks = [
+                ("ill-conditioned", size < ILL),
+                ("singular", reached & folded, lambda: determinant),
+                ("no-assembly", apart_here, lambda: astray or missing),
+            ]
+            return marks, self._choose(folded | apart_here, NAN, determinant)
+
+        self._note_sine(determinant)
+        calm = [self._calm(size, "at least", ILL), self._calm(apart, "at most", self.closed)]
+        calm.append(self._calm(astray, "at most", 0.0))
+        return self._look("holds", (determinant, apart, astray, missing), tuple(calm), rare)
 
     # The verbs, the same for one and for many.
 

@@ -15,8 +15,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from .arrays import ORDERS, cosine_of, mark_of, sine_of
-from .exact import MARKS, ROUND, graduation
+from .arrays import cosine_of, mark_of, sine_of
+from .exact import MARKS, ORDERS, ROUND, graduation
 from .trace import Calm, Entry, Rare, Trace
 
 DEEPEST = 12  # brackets within brackets

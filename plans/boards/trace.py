@@ -15,8 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..laws import cross, dot
-from .arrays import CALM, CODES, ArrayBoard, ManyChecks, Rarely
-from .exact import TURN, ExactBoard
+from .arrays import CODES, ArrayBoard
+from .exact import TURN, ExactBoard, Rarely
 
 
 class Entry(NamedTuple):
@@ -276,7 +276,7 @@ class Vector:
         return self * other
 
 
-class TracingBoard(ManyChecks, ExactBoard):
+class TracingBoard(ExactBoard):
     """A position as numbers of a trace: what depends on no given of it is computed, all else is noted.
 
     Steps that are more than sums, products and roots are left to the array board `checks` as a whole, and `sample` does
@@ -365,51 +365,43 @@ class TracingBoard(ManyChecks, ExactBoard):
 
     @staticmethod
     def _remainder(angle: Any) -> Any:
-        return angle.trace.apply("fmod", angle, TURN)
+        return angle.trace.apply("fmod", angle, TURN) if isinstance(angle, Real) else ExactBoard._remainder(angle)
 
     def _calm(self, value: Any, order: str, bound: float, of: Any = None, squared: bool = False) -> Calm | bool:
         if not isinstance(value, Real):  # it does not change: it can be looked at now, if its bound can
-            return not isinstance(of, Real) and CALM[order](value, _bound(bound, of, squared))
+            return not isinstance(of, Real) and super()._calm(value, order, bound, of, squared)
         if isinstance(of, Real):
             return Calm(self.trace.place(value), order, bound, self.trace.place(of), squared)
-        return Calm(self.trace.place(value), order, _bound(bound, of, squared))
+        bound = bound if of is None else bound * of
+        return Calm(self.trace.place(value), order, bound * bound if squared else bound)
 
     def _look(self, check: str, operands: tuple[Any, ...], calm: tuple[Any, ...], rare: Callable[[], Rarely]) -> Any:
+        if not any(isinstance(operand, Real) for operand in operands):
+            return super()._look(check, operands, calm, rare)
+
         def look() -> tuple[Iterable[tuple[int, Real]], Any]:
             marks, result = rare()
-            return [(CODES[status], where) for status, where in marks], result
+            return [(CODES[status], where) for status, where, *_ in marks], result
 
         key = check, *(self.trace.place(operand) for operand in operands)
-        noted = [one for one in calm if isinstance(one, Calm)]
+        noted = [bounds for bounds in calm if isinstance(bounds, Calm)]
         restless = not all(calm)  # what is noted counts as calm here
         if not noted and not restless:
             return operands[0]
         return self.trace.rare(key, operands[0], () if restless else noted, look)
 
+    def _note_sine(self, part: Any, whole: Any = None) -> None:
+        if not isinstance(part, Real) and not isinstance(whole, Real):
+            super()._note_sine(part, whole)
+
+    def _note_pins(self, distance: Any, size: Any) -> None:
+        if not isinstance(distance, Real) and not isinstance(size, Real):
+            super()._note_pins(distance, size)
+
     def _lines_sine(self, sine: Any) -> Any:
-        if not isinstance(sine, Real):
-            return ExactBoard._lines_sine(self, sine)
-        size = ManyChecks._lines_sine(self, Real(self.trace, sine.place))
-        return -size if sine.negative else size
-
-
-def _either(check: str) -> Callable[..., Any]:
-    """Return a check of numbers of a trace that looks at others here and now."""
-    many, one = getattr(ManyChecks, check), getattr(ExactBoard, check)
-
-    def checked(self: TracingBoard, *operands: Any) -> Any:
-        return (many if any(isinstance(operand, Real) for operand in operands) else one)(self, *operands)
-
-    return checked
-
-
-for _check in ("_near", "_upright", "_reaches", "_assembles", "_apart", "_holds", "_clear", "_divisor", "_bears"):
-    setattr(TracingBoard, _check, _either(_check))
-
-
-def _bound(bound: float, of: Any, squared: bool) -> float:
-    bound = bound if of is None else bound * of
-    return bound * bound if squared else bound
+        if not isinstance(sine, Real) or not sine.negative:
+            return super()._lines_sine(sine)
+        return -super()._lines_sine(-sine)
 
 
 def _parts(value: Any) -> tuple[Any, ...]:
