@@ -60,6 +60,15 @@ def _verb(signature: Verb) -> Verb:
     return cast(Verb, wraps(signature)(step))
 
 
+POINTS: list[str] = []  # verbs that mark points
+
+
+def _point(signature: Verb) -> Verb:
+    """Return a verb that marks a point."""
+    POINTS.append(signature.__name__)
+    return _verb(signature)
+
+
 class Board:
     """Verbs for constructions; a kind of board says what a step does."""
 
@@ -67,7 +76,7 @@ class Board:
         """Do one step: make `name` from `operands`."""
         raise NotImplementedError
 
-    @_verb
+    @_point
     def place(self, name: str, x: str, y: str) -> None:
         """Mark the point with the coordinates `x`, `y`."""
 
@@ -87,11 +96,11 @@ class Board:
     def normal(self, name: str, vector: str) -> None:
         """Turn a direction or a vector by +90 degrees with the set square."""
 
-    @_verb
+    @_point
     def lay(self, name: str, start: str, direction: str, length: str) -> None:
         """Lay off `length` (signed) from `start` along the unit `direction`."""
 
-    @_verb
+    @_point
     def back(self, name: str, start: str, direction: str, length: str) -> None:
         """Lay off `length` (signed) from `start` against the unit `direction`."""
 
@@ -99,15 +108,15 @@ class Board:
     def chain(self, name: str, start: str, vector: str) -> None:
         """Hang `vector` on `start`: tip to tail."""
 
-    @_verb
+    @_point
     def meet(self, name: str, p: str, u: str, q: str, w: str) -> None:
         """Mark where the line through `p` along `u` meets the line through `q` along `w` (unit directions)."""
 
-    @_verb
+    @_point
     def arc(self, name: str, centre: str, radius: str, q: str, w: str, side: str) -> None:
         """Mark where the arc about `centre` crosses the line through `q` along `w`, on the side +1 or -1 of the two."""
 
-    @_verb
+    @_point
     def arcs(self, name: str, first: str, radius: str, second: str, other: str, side: str) -> None:
         """Mark where arcs about `first` and `second` cross, to the left (+1) or right (-1) of the way between them."""
 
@@ -119,7 +128,7 @@ class Board:
         `size` is that of the whole drawing: two marks that are close together beside it settle no direction.
         """
 
-    @_verb
+    @_point
     def template(self, name: str, point: str, *where: str) -> None:
         """Lay a template of a link on the paths of its three joints and mark `point` through it.
 
@@ -146,15 +155,15 @@ class Board:
     def angle(self, name: str, first: str, second: str) -> None:
         """Read with the protractor the angle from one unit direction to another, -180 to 180 degrees."""
 
-    @_verb
+    @_point
     def similar(self, name: str, start: str, end: str, along: str, across: str) -> None:
         """Mark the third point of a figure on start-end similar to the link: parts of it along and to the left."""
 
-    @_verb
+    @_point
     def divide(self, name: str, start: str, end: str, part: str, whole: str) -> None:
         """Divide start-end in the ratio part : whole, counted from `start` (theorem of similarity on a line)."""
 
-    @_verb
+    @_point
     def same(self, name: str, mark: str) -> None:
         """Give a mark another letter: a point of a link that does not turn moves like this one."""
 

@@ -168,6 +168,10 @@ def _kept(maker: Maker) -> Maker:
     return cast(Maker, lru_cache(maxsize=16_384)(maker))
 
 
+def _joined(*parts: str) -> str:
+    return "_".join(filter(None, parts))
+
+
 @_kept
 def spelled(kind: str, of: str | int, about: str = "", part: str = "", links: tuple[int, ...] = ()) -> Name:
     """Return a quantity, a direction, a plan of forces: kind, whose, part."""
@@ -192,10 +196,8 @@ def rate(kind: str, link: int, part: str = "") -> Name:
     return Name(f"{kind}_{part}{part and '_'}{link}", kind, str(link), part=part, links=(link,))
 
 
-@_kept
-def between(kind: str, start: str, end: str) -> Name:
-    """Return the length `l_AB` between two points, the direction `e_AB` from one to the other, the normal `n_AB`."""
-    return spelled(kind, start, end)
+# the length `l_AB` between two points, the direction `e_AB` from one to the other, the normal `n_AB`
+between = spelled
 
 
 @_kept
@@ -215,7 +217,7 @@ def arm(force: str, about: str = "") -> Name:
     acting = role(force)
     of, part = (acting.of, acting.part) if acting.kind == "R" else (acting, "")
     of = str(acting.links[0]) if acting.part == INERTIA else of
-    return Name("_".join(filter(None, ("h", of, part, about))), "h", of, about, part, acting.links)
+    return Name(_joined("h", of, part, about), "h", of, about, part, acting.links)
 
 
 @_kept
@@ -244,13 +246,13 @@ def couple(moment: str, point: str = "") -> Name:
     """Return a couple as one of two equal forces, or that of them at a point: `F_i2_couple`, `F_i2_couple_B`."""
     turning = role(moment)
     kind = "F" if turning.kind == "M" else turning.kind
-    text = "_".join(filter(None, (kind, turning.of, COUPLE, point)))
+    text = _joined(kind, turning.of, COUPLE, point)
     return Name(text, kind, turning.of, point, COUPLE, turning.links)
 
 
 def lever_arm(force: str, point: str = "") -> Name:
     """Return the arm of a force on Zhukovsky's lever; of a couple that of its force at a point."""
-    return Name("_".join(filter(None, ("h", LEVER, force, point))), "h", force, point, LEVER, role(force).links)
+    return Name(_joined("h", LEVER, force, point), "h", force, point, LEVER, role(force).links)
 
 
 def magnitude(load: str) -> Name:
@@ -260,4 +262,4 @@ def magnitude(load: str) -> Name:
 
 def scale_factor(kind: str, part: str = "", links: Iterable[int] = ()) -> Name:
     """Return the scale factor of plans that show quantities of a kind: `mu_V`; of forces by their group, `mu_F_23`."""
-    return Name("_".join(filter(None, ("mu", kind, part))), "mu", kind, part, links=links)
+    return Name(_joined("mu", kind, part), "mu", kind, part, links=links)

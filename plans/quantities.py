@@ -13,7 +13,7 @@ from typing import Any
 
 from ..scales.display import Display
 from ..scales.scale import Scale
-from .board import POSITION, Program, Step
+from .board import POINTS, POSITION, Program, Step
 from .boards.exact import ILL
 from .names import LEVER, by_lever, is_shown, role, spelled
 
@@ -36,7 +36,6 @@ M_BAL, F_BAL = spelled("M", "bal"), spelled("F", "bal")
 BALANCES = (M_BAL, by_lever(M_BAL), F_BAL, by_lever(F_BAL))  # what balances the driver: by plans, by the lever
 RESULTS = ("read", "calc", "arm", "distance", "measure")  # verbs that make quantities
 MEETING = ("meet", "arc", "arcs", "tangent")
-POINTS = ("place", "lay", "back", "arc", "arcs", "meet", "divide", "similar", "template", "same")
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,11 +11,12 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
+from ..board import POINTS
 from ..boards.exact import run
 from ..laws import cross, dot
 from ..marking.key import answer_key
 from ..names import role
-from ..quantities import POINTS, RESULTS, plans_of, references, results
+from ..quantities import RESULTS, plans_of, references, results
 from .shaky import PRESETS, Hand, Paper, ShakyBoard, Shape, Tolerance, draw
 
 Array = NDArray[Any]

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from ..board import POSITION, Step
+from ..board import POINTS, POSITION, Step
 from ..boards.exact import run
 from ..hands.shaky import Paper, Tolerance
 from ..laws import LAWS
 from ..names import role
-from ..quantities import POINTS, RESULTS, results, shown_on, unit_of, worst_behind
+from ..quantities import RESULTS, results, shown_on, unit_of, worst_behind
 
 ROUNDED = 0.005  # part of a value by which three digits are rounded
 COARSER = 2.0  # how much coarser than ours a student's own scale may be for its millimetres to count

@@ -18,11 +18,10 @@ from typing import Any
 
 import numpy as np
 
-from ..board import POSITION, Program, Step
+from ..board import POINTS, POSITION, Program, Step
 from ..boards.exact import NAN, ExactBoard
 from ..laws import LAWS, cross, dot
 from ..names import role
-from ..quantities import POINTS
 from .answers import Answer, Said
 from .key import COARSER, MARKS, READ, ROUNDED, Key, inherited
 

@@ -9,8 +9,9 @@ import pytest
 
 from kulman import sheet, solve
 from kulman.drawing.words import Words
+from kulman.plans.board import POINTS
 from kulman.plans.linkages.solved import conditions_of, worst_condition
-from kulman.plans.quantities import POINTS, plans_of
+from kulman.plans.quantities import plans_of
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.printed_numbers import decimal
 

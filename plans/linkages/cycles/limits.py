@@ -18,9 +18,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...along import Along, remembering
 from ...board import Program
-from ...boards.arrays import ArrayBoard
+from ...boards.arrays import Along, ArrayBoard, remembering
 from ...boards.exact import TANGENT
 from ...laws import TURN
 from ...names import role

@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....scales.errors import InputError
-from ...along import remembering
 from ...board import Program, Step
+from ...boards.arrays import remembering
 from ...laws import TURN, inclination
 from ...zeros import Stretch, zeros
 from ..chain import constructed, moving_bodies
