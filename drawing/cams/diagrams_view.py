@@ -18,7 +18,7 @@ from ..printed import DEGREES
 from ..shapes import Group, Line, Pen, Polyline, Text
 from ..text import Box, lay_out
 from ..view import Canvas, View, linear
-from .scene import CamScene, letter
+from .scene import CamScene, grouped, letter, thin
 
 ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a diagram shows
 LETTER = {TRAVEL: "s", VELOCITY: "ds", ACCELERATION: "d2s"}
@@ -49,8 +49,8 @@ def _diagrams_view(scene: CamScene) -> View:
         heights += [0.0, *(scene.mm(f"{plan}.{i}").imag for i in _nodes(scene, plan))]
         low, high = min(heights), max(heights)
         level -= high + BETWEEN[scene.style.label] if fields else 0.0
-        across = Axis(scene.words.symbol("phi"), scene.across, 0.0, float(solved.angles[-1]), {})
-        up = Axis(scene.words.symbol(LETTER[plan]), scale, scale.measured(low), scale.measured(high), {})
+        across = Axis(scene.symbol("phi"), scene.across, 0.0, float(solved.angles[-1]), {})
+        up = Axis(scene.symbol(LETTER[plan]), scale, scale.measured(low), scale.measured(high), {})
         fields[plan] = Field(1j * level, across, up)
         level += low
     canvas.part("scales")
@@ -79,7 +79,7 @@ def _diagrams_view(scene: CamScene) -> View:
 
 def _nodes(scene: CamScene, plan: str) -> list[int]:
     """Return the section lines on which a diagram has nodes of chords."""
-    return [i for i in scene.solved.layout.division.lines if f"{plan}.{i}" in scene.solved.values]
+    return [i for i in scene.division.lines if f"{plan}.{i}" in scene.solved.values]
 
 
 def _scales(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Box:
@@ -107,7 +107,7 @@ def _section_lines(canvas: Canvas, scene: CamScene, fields: Sequence[Field], box
     top, bottom, height, angles = fields[0], fields[-1], scene.style.text, scene.solved.angles.tolist()
     for i, phi in enumerate(angles):
         a, b = top.at(phi, top.y.high) + 1.5j, bottom.at(phi, bottom.y.low) - 1.5j
-        canvas.add(Group(tuple(Line(*part, Pen.THIN) for part in beside(a, b, boxes)), "section", str(i)))
+        grouped(canvas, "section", str(i), *(Line(*part, Pen.THIN) for part in beside(a, b, boxes)))
     lines = [top.at(phi, 0.0).real for phi in angles]
     above, below = top.at(0.0, top.y.high).imag + 2.3, bottom.at(0.0, bottom.y.low).imag - 2.3 - height
     canvas.add(*numbers(lines, above, height)[1:], *numbers(lines, below, height))
@@ -117,7 +117,7 @@ def _exact(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
     """Draw the exact curve; at a jump a line across, between its two ends."""
     exact = diagram(scene.solved, ORDER[plan], *scene.solved.motion.phases[:3])
     curves = [[field.at(*place) for place in curve] for curve in exact]
-    canvas.add(Group(tuple(Polyline(tuple(points), Pen.MAIN) for points in curves), "curve", plan))
+    grouped(canvas, "curve", plan, *(Polyline(tuple(points), Pen.MAIN) for points in curves))
     jumps(canvas, [[field.at(0.0, 0.0)], *curves, [field.at(field.x.high, 0.0)]], plan)
 
 
@@ -125,7 +125,7 @@ def jumps(canvas: Canvas, pieces: Sequence[Sequence[complex]], name: str) -> Non
     """Draw the lines from the end of a piece of a curve to the beginning of the next, where they are apart."""
     steps = [(a[-1], b[0]) for a, b in pairwise(pieces) if abs(b[0] - a[-1]) > SAME]
     for k, (a, b) in enumerate(steps, start=1):
-        canvas.add(Group((Line(a, b, Pen.MAIN),), "jump", f"{name}.{k}"))
+        grouped(canvas, "jump", f"{name}.{k}", Line(a, b, Pen.MAIN))
 
 
 def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field, away: float) -> None:
@@ -147,7 +147,7 @@ def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field, away: float
 
 def _means(scene: CamScene, plan: str) -> list[tuple[int, complex]]:
     """Return the mean ordinates of a diagram that is integrated, by section, mm from its origin."""
-    sections = scene.solved.layout.division.sections if f"{plan}.O" in scene.solved.values else ()
+    sections = scene.division.sections if f"{plan}.O" in scene.solved.values else ()
     return [(i, scene.mm(f"{plan}.m{i}")) for i in sections]
 
 
@@ -162,7 +162,7 @@ def _amplitudes(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Non
         if not name or abs(extreme.value) < SAME * field.y.scale.mu:
             continue
         peak, foot = field.at(last, extreme.value), field.at(last, 0.0)
-        canvas.add(Line(field.at(extreme.phi, extreme.value), peak, Pen.THIN, role="extension"))
+        thin(canvas, "extension", "", field.at(extreme.phi, extreme.value), peak)
         symbol = words.symbol("V_max" if name == "V_min" else name)
         linear(canvas, (foot, peak), 14.0, f"{symbol} = {words.short(round(abs(peak - foot), 2))}", name)
 
@@ -215,14 +215,14 @@ def _fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, co
         cuts.setdefault(round(mean.imag, 4), []).append((i, mean))
     feet = [complex(zero.real, cut) for cut in sorted(cuts)]
     for foot, (_, equal) in zip(feet, sorted(cuts.items()), strict=True):
-        canvas.add(Line(at, foot, Pen.THIN, role="ray", name=" ".join(str(i) for i, _ in equal)))
+        thin(canvas, "ray", " ".join(str(i) for i, _ in equal), at, foot)
         nearest = min((mean for _, mean in equal), key=lambda mean: mean.real)
         level = complex(foot.real, nearest.imag)
         canvas.add(*(Line(*part, Pen.DASHED, role="projection") for part in beside(nearest, level, boxes)))
     stage = canvas.part("axes")
     lowest, highest = (end(foot, zero, key=lambda place: place.imag) for end, foot in ((min, feet[0]), (max, feet[-1])))
     if len(feet) > 1:
-        canvas.add(Line(lowest, highest, Pen.THIN, role="feet"))
+        thin(canvas, "feet", "", lowest, highest)
     wide = lay_out(beyond[0], height).width + AROUND if beyond else 0.0
     axis = beside(field.origin, at - max(AT_POLE, wide), boxes)
     canvas.add(*(Line(*part, Pen.THIN, role="axis") for part in axis))
@@ -273,7 +273,7 @@ def _pressure_view(scene: CamScene) -> View:
     axes(canvas, field, lettered=False)
     canvas.part("curve")
     points = [tuple(field.at(*place) for place in curve) for curve in curves]
-    canvas.add(Group(tuple(map(Polyline, points)), "curve", "theta"))
+    grouped(canvas, "curve", "theta", *map(Polyline, points))
     canvas.part("limits")
     places = [place for curve in points for place in curve]
     boxes = [box for name, limit in limits if (box := _pressure_limit(canvas, scene, field, places, name, limit))]
@@ -283,7 +283,7 @@ def _pressure_view(scene: CamScene) -> View:
     canvas.add(*numbers(lines, field.at(0.0, field.y.low).imag - 2.3 - height, height))
     for i, (phi, value) in enumerate(zip(angles, values, strict=True)):
         for a, b in beside(field.at(phi, field.y.high), field.at(phi, field.y.low) - 1.5j, boxes):
-            canvas.add(Line(a, b, Pen.THIN, role="section", name=str(i)))
+            thin(canvas, "section", str(i), a, b)
         canvas.add(scene.node(field.at(phi, value), str(i)))
     per_mm = f"{words.symbol('mu_theta')} = {scene.degrees(field.y.scale.mu)}/{words.unit('mm')}"
     heading = words["heading.cam_pressure"], f"{per_mm};  {scene.factor(field.x.scale)}"
@@ -307,8 +307,8 @@ def _pressure_limit(
     """Draw a limit over its phase, and write it on the line; return the box of what stands among section lines."""
     phase, height = scene.solved.motion.phase(name), scene.style.text
     ends = field.at(phase.start, limit), field.at(phase.end, limit)
-    canvas.add(Group((Line(*ends, Pen.DASHED),), "limit", f"{name}{'' if limit > 0 else '-'}"))
-    markup = f"[{scene.words.symbol('theta')}] = {scene.degrees(abs(limit))}"
+    grouped(canvas, "limit", f"{name}{'' if limit > 0 else '-'}", Line(*ends, Pen.DASHED))
+    markup = f"[{scene.symbol('theta')}] = {scene.degrees(abs(limit))}"
     for share in SHARES if limit < field.y.high else ():  # section lines run through, or their numbers stand below
         text = Text(ends[0] + share * (ends[1] - ends[0]) + 0.5j * height, markup, height, "middle", role="label")
         box = x0, y0, x1, y1 = _around(text, CLEAR)

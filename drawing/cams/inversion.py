@@ -17,7 +17,7 @@ from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import angle_dimension, polar, shaft, shaft_radius, swept, turning_arrow, unit
 from ..text import lay_out
 from ..view import View
-from .scene import CamScene, letter
+from .scene import CamScene, grouped, letter, thin
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles
 Free = tuple[float, float, float]  # radii, mm: text stands between the first two, or beyond the third
@@ -55,7 +55,7 @@ class Inversion(ABC):
 
     def __init__(self, scene: CamScene, profile: Envelope, *circles: str, outer: float) -> None:
         self.scene, self.profile, self.outer, self.sense = scene, profile, outer, scene.solved.cam.sense
-        self.canvas, self.style, self.lines = self.figure.canvas(scene), scene.style, scene.solved.layout.division.lines
+        self.canvas, self.style, self.lines = self.figure.canvas(scene), scene.style, scene.division.lines
         self.circles = dict(zip(circles, scene.sizes(*circles), strict=True))
         self.r_0, self.arcs = self.circles[circles[0]], outer + self.phased * scene.style.label
         self.edge = self.arcs + EDGE * scene.style.label
@@ -126,7 +126,7 @@ class Inversion(ABC):
             self.canvas.add(angle_dimension(0j, radius, begin, sweep, name, self.style))
             for angle in (begin, begin + sweep):
                 ends = polar(radius - 1.5, angle), polar(radius + 2.0, angle)
-                self.canvas.add(Line(*ends, Pen.THIN, role="extension"))
+                thin(self.canvas, "extension", "", *ends)
             text = scene.angle(name, phase.length)
             half = 0.6 * lay_out(text, height).width / radius
             # beside the radius dimensioned
@@ -146,7 +146,7 @@ class Inversion(ABC):
         if polar(1.0, arrow).imag < -SIDEWAYS:  # the support is there
             arrow = -arrow
         canvas.add(turning_arrow(0j, radius, arrow, 0.9, float(self.sense), "omega"))
-        canvas.label(self.scene.words.symbol("omega"), polar(radius, arrow), prefer=polar(1.0, arrow), clear=0.8)
+        canvas.label(self.scene.symbol("omega"), polar(radius, arrow), prefer=polar(1.0, arrow), clear=0.8)
 
     def _letter_centre(self) -> None:
         """Write the letter of the cam's centre, when all else is drawn: near the shaft, clear of all lines."""
@@ -169,14 +169,14 @@ class Inversion(ABC):
         canvas, style, (size,) = self.canvas, self.style, self.scene.sizes(name)
         ray, (whole,) = polar(1.0, angle), self.scene.lettered(name)
         low, high = max(shaft_radius(size, style), free[0]) + 1.0, min(free[1], size - style.arrow)
-        text = whole if lay_out(whole, style.text).width < high - low else self.scene.words.symbol(name)
+        text = whole if lay_out(whole, style.text).width < high - low else self.scene.symbol(name)
         self.left += [whole] if text != whole else []
         wide = lay_out(text, style.text).width
         inside, is_small = wide < high - low, size < SMALLEST * style.label
         line = Line(
             0j, ray * (size if inside or is_small else free[2] + wide + 1.5), Pen.THIN, role="radius", name=name
         )
-        canvas.add(Group((line, Head(ray * size, ray)), "dimension", name))
+        grouped(canvas, "dimension", name, line, Head(ray * size, ray))
         if is_small:
             letter(canvas, text, (0.5 * ray * size, ray * size), ray)
             return
@@ -193,10 +193,10 @@ class Inversion(ABC):
             curves.insert(0, ("pitch", "pitch", profile.pitch(profile.motion.samples()[:-1]), Pen.AXIS))
         for part, name, points, pen in curves:
             canvas.part(part)
-            canvas.add(Group((Polyline(scene.curve(points.tolist()), pen, closed=True),), "curve", name))
+            grouped(canvas, "curve", name, Polyline(scene.curve(points.tolist()), pen, closed=True))
         for k, cut in enumerate(profile.undercuts):
             corner, radius = scene.drawn(cut.corner), 2.5 * self.style.node
-            canvas.add(Group((Circle(corner, radius, Pen.THIN),), "corner", str(k + 1)))
+            grouped(canvas, "corner", str(k + 1), Circle(corner, radius, Pen.THIN))
             letter(canvas, _corner(profile.undercuts, k), corner, -corner, radius + 0.5)
 
 
@@ -235,7 +235,7 @@ class RollerInversion(Inversion):
     def roller(self, i: int, pen: Pen = Pen.THIN) -> None:
         """Draw the roller in a position."""
         (R,) = self.scene.sizes("R_roller")
-        self.canvas.add(Group((Circle(self.mark("B", i), R, pen),), "roller", str(i)))
+        grouped(self.canvas, "roller", str(i), Circle(self.mark("B", i), R, pen))
 
     def sharpest(self) -> None:
         """Mark the place of the least radius of curvature of the pitch curve, and the radius."""
@@ -245,13 +245,13 @@ class RollerInversion(Inversion):
         if sharpest is None:
             return
         place, core, normal = scene.drawn(sharpest.place), scene.drawn(sharpest.core), sharpest.normal
-        canvas.add(Group((Line(core, place, Pen.THIN), Head(place, normal)), "dimension", "rho_min"))
+        grouped(canvas, "dimension", "rho_min", Line(core, place, Pen.THIN), Head(place, normal))
         size = 0.8 * self.style.arrow / 2
         cross = (Line(core - size * d, core + size * d, Pen.THIN) for d in (1 + 0j, 1j))
-        canvas.add(Group(tuple(cross), "point", "curvature"))
+        grouped(canvas, "point", "curvature", *cross)
         canvas.add(scene.node(place, "rho_min", "sharpest", filled=True, pen=Pen.MAIN))
         anchor = (core, place) if sharpest.arc else core  # about the cam's centre stands enough
-        letter(canvas, scene.words.symbol("rho_min"), anchor, -normal)
+        letter(canvas, scene.symbol("rho_min"), anchor, -normal)
 
     def normal_end(self, i: int) -> complex:
         """Return the outer end of the normal that is drawn in a position."""
@@ -264,9 +264,9 @@ class RollerInversion(Inversion):
         at, touch, (pole, up) = self.mark("B", i), self.mark("K", i), self.rising(i)
         out = unit(at - touch)
         canvas.part("normal")
-        canvas.add(Line(pole, self.normal_end(i), Pen.THIN, role="normal", name=str(i)))
-        canvas.add(Line(at - 1j * up * reach, at + 1j * up * reach, Pen.THIN, role="transverse", name=str(i)))
-        canvas.add(Line(0j, pole, Pen.THIN, role="transverse", name=f"P{i}"))
+        thin(canvas, "normal", str(i), pole, self.normal_end(i))
+        thin(canvas, "transverse", str(i), at - 1j * up * reach, at + 1j * up * reach)
+        thin(canvas, "transverse", f"P{i}", 0j, pole)
         for mark, place, part in (("K", touch, "profile"), ("P", pole, "normal")):
             canvas.part(part)
             canvas.add(scene.node(place, f"{mark}{i}", "point", pen=Pen.MAIN))
@@ -274,7 +274,7 @@ class RollerInversion(Inversion):
         across = up * -1j if swept(out, up) > 0.0 else up * 1j
         for name, rays, far in (("theta", (out, up), reach), ("gamma", (out, across), 0.5 * reach)):
             if abs(swept(*rays)) > FLAT:
-                self._angle(f"{scene.words.symbol(name)}_{{{i}}}", f"{name}_{i}", at, rays, far)
+                self._angle(f"{scene.symbol(name)}_{{{i}}}", f"{name}_{i}", at, rays, far)
 
     def _angle(self, text: str, name: str, at: complex, rays: tuple[complex, complex], far: float) -> None:
         """Dimension the angle between two rays near a radius at which its letter is clear of all lines."""
@@ -306,5 +306,5 @@ class RollerInversion(Inversion):
         at = self.mark("B", line)
         rim = at + course.up_at(solved, line, ASIDE if rest else -ASIDE) * R
         self.canvas.part("profile")
-        self.canvas.add(Group((Line(at, rim, Pen.THIN), Head(rim, rim - at)), "dimension", "R_roller"))
-        letter(self.canvas, self.scene.words.symbol("R_roller"), rim, rim - at, 1.0)
+        grouped(self.canvas, "dimension", "R_roller", Line(at, rim, Pen.THIN), Head(rim, rim - at))
+        letter(self.canvas, self.scene.symbol("R_roller"), rim, rim - at, 1.0)

@@ -11,7 +11,7 @@ from ..symbols import Rod, fixed_pivot, polar, revolute, swept, unit
 from ..text import lay_out
 from ..view import View, angle, linear
 from .inversion import NUMBERS, PHASES, RADIUS, Inversion, RollerInversion
-from .scene import CamScene, is_aside, is_sharp, letter
+from .scene import CamScene, grouped, is_aside, is_sharp, letter, thin
 
 OUT = 1.5  # heights of letters from the roller to the dimension of the stroke
 ASIDE = 0.45  # rad between the rays of two radii
@@ -31,7 +31,7 @@ class _Roller(RollerInversion):
 
     def __init__(self, scene: CamScene) -> None:
         e, s_0, R, stroke = scene.sizes("e", "s_0", "R_roller", "h")
-        outer = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in scene.solved.layout.division.lines) + R
+        outer = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in scene.division.lines) + R
         super().__init__(scene, scene.rolling.profile, "r_0", outer=outer)
         self.circles |= {"e": abs(e)} if is_aside(scene) else {}
         self.e, self.start, self.past = e, on_circle(e, self.arcs, 1j), self.normal_end(scene.shown)
@@ -42,7 +42,7 @@ class _Roller(RollerInversion):
         canvas, reach = self.canvas, self.outer + (NUMBERS - 0.9) * self.style.label
         canvas.part("lines")
         line = self.mark("E", i), on_circle(self.e, reach, up_at(self.scene.solved, i))
-        canvas.add(Line(*line, Pen.THIN, role="position", name=str(i)))
+        thin(canvas, "position", str(i), *line)
         if i:
             canvas.part("profile")
             self.roller(i)
@@ -55,7 +55,7 @@ class _Roller(RollerInversion):
 
     def follower(self) -> list[str]:
         """Draw the normal of one position, roller and rod in position 0; dimension r_0, e, R and h."""
-        canvas, scene, rod, division = self.canvas, self.scene, self.rod, self.scene.solved.layout.division
+        canvas, scene, rod, division = self.canvas, self.scene, self.rod, self.scene.division
         (R,), low = scene.sizes("R_roller"), complex(rod.x, rod.low)
         self.sharpest()
         self.normal(scene.shown)
@@ -65,7 +65,7 @@ class _Roller(RollerInversion):
         canvas.part("circles")
         self.radius_at("r_0", self.quiet - RADIUS * self.sense, (0.0, self.r_0 - R, self.r_0))
         ends = complex(0.0, rod.top), complex(rod.x, rod.top)
-        linear(canvas, ends, 6.0j, scene.dimension("e", abs(float(scene.solved.values["e"]))), "e")
+        linear(canvas, ends, 6.0j, scene.dimension("e", abs(scene.value_of("e"))), "e")
         self.roller_radius()
         canvas.part("pitch")
         if rests(scene.solved.motion):
@@ -75,7 +75,7 @@ class _Roller(RollerInversion):
             up = up_at(scene.solved, division.top)
             out = up * (-1j * self.sense) * (0.5 * R)
             ends = on_circle(rod.x, self.r_0, up), self.mark("B", division.top)
-        linear(canvas, ends, out, scene.words.symbol("h"), "h")
+        linear(canvas, ends, out, scene.symbol("h"), "h")
         return [*scene.pressed(), *scene.lettered("rho_min", "h", "R_roller"), *self.left]
 
 
@@ -86,9 +86,7 @@ class _Rocker(RollerInversion):
     phased = PHASES + 1.0
 
     def __init__(self, scene: CamScene) -> None:
-        marks = {
-            letter: [scene.mm(f"{PROFILE}.{letter}{i}") for i in scene.solved.layout.division.lines] for letter in "AB"
-        }
+        marks = {letter: [scene.mm(f"{PROFILE}.{letter}{i}") for i in scene.division.lines] for letter in "AB"}
         self.start = marks["A"][0]
         self.turned = swept(1j, marks["B"][0])
         self.far = max(map(abs, marks["B"])) + scene.sizes("R_roller")[0]
@@ -97,7 +95,7 @@ class _Rocker(RollerInversion):
     def position(self, i: int) -> None:
         """Draw the pivot, the roller's arc about it, and the roller."""
         canvas, scene, pivot = self.canvas, self.scene, self.mark("A", i)
-        l, (swing,) = scene.sizes("l_rocker")[0], [float(scene.solved.values["psi"])]
+        l, (swing,) = scene.sizes("l_rocker")[0], [scene.value_of("psi")]
         canvas.part("pitch")
         low = -self.sense * float(scene.solved.angles[i]) - OVER / l
         canvas.add(Arc(pivot, l, low, swing + 2.0 * (OVER / l), Pen.THIN, role="arc", name=str(i)))
@@ -114,7 +112,7 @@ class _Rocker(RollerInversion):
         for i in self.lines:
             pivot = self.mark("A", i)
             tick = pivot, unit(pivot) * (radius - 0.9 * self.style.label)
-            self.canvas.add(Line(*tick, Pen.THIN, role="position", name=str(i)))
+            thin(self.canvas, "position", str(i), *tick)
             self.number(unit(pivot) * radius, i)
 
     def rising(self, i: int) -> tuple[complex, complex]:
@@ -125,16 +123,16 @@ class _Rocker(RollerInversion):
     def follower(self) -> list[str]:
         """Draw one position with its normal, the rocker in position 0; dimension sizes and swing."""
         canvas, scene, words, pair = self.canvas, self.scene, self.scene.words, self.style.pair
-        pivot, at, top = self.start, self.mark("B", 0), scene.solved.layout.division.top
+        pivot, at, top = self.start, self.mark("B", 0), scene.division.top
         self.sharpest()
         canvas.part("normal")
         shown = self.mark("A", scene.shown), self.mark("B", scene.shown)
-        canvas.add(Group((Line(*shown, Pen.THIN),), "rocker", str(scene.shown)))
+        grouped(canvas, "rocker", str(scene.shown), Line(*shown, Pen.THIN))
         self.normal(scene.shown)
         canvas.part("follower")
         along = unit(at - pivot)
         self.roller(0, Pen.MAIN)
-        canvas.add(Group((Line(pivot + along * pair, at - along * pair, Pen.MAIN),), "rocker", "0"))
+        grouped(canvas, "rocker", "0", Line(pivot + along * pair, at - along * pair, Pen.MAIN))
         canvas.add(fixed_pivot(pivot, "A0", self.style), revolute(at, "B0", self.style))
         canvas.label("C", pivot, prefer=1 - 1j, clear=pair + 0.5)
         canvas.label("B", at, prefer=1 + 1j, clear=pair + 0.5)
@@ -147,7 +145,7 @@ class _Rocker(RollerInversion):
         high, low = self.mark("A", top), -self.sense * float(scene.solved.angles[top])
         rays = polar(l, low), self.mark("B", top) - high
         for ray in rays:
-            canvas.add(Line(high, high + ray, Pen.THIN, role="rocker", name=str(top)))
+            thin(canvas, "rocker", str(top), high, high + ray)
         angle(canvas, high, rays, 0.4 * abs(rays[0]), "psi", words.symbol("psi"), clear=0.8)
         canvas.part("follower")
         letter(canvas, words.symbol("l_rocker"), (pivot, at), 1j)
@@ -160,7 +158,7 @@ class _Plate(Inversion):
     plan, heading = PLATE_PROFILE, "heading.cam_plate_profile"
 
     def __init__(self, scene: CamScene) -> None:
-        (self.R, stroke, r_0), lines = scene.sizes("R_plate", "h", "r_0_flat"), scene.solved.layout.division.lines
+        (self.R, stroke, r_0), lines = scene.sizes("R_plate", "h", "r_0_flat"), scene.division.lines
         self.scene = scene
         outer = max(abs(end) for i in lines for end in self.plate(i))
         super().__init__(scene, scene.plate.profile, "r_0_flat", outer=outer)
@@ -175,10 +173,10 @@ class _Plate(Inversion):
         """Draw the axis and the plate, its centre, and where it touches the profile."""
         canvas, reach = self.canvas, self.outer + (NUMBERS - 0.9) * self.style.label
         canvas.part("circles")
-        canvas.add(Line(0j, up_at(self.scene.solved, i) * reach, Pen.THIN, role="position", name=str(i)))
+        thin(canvas, "position", str(i), 0j, up_at(self.scene.solved, i) * reach)
         canvas.part("profile")
         if i:
-            canvas.add(Line(*self.plate(i), Pen.THIN, role="plate", name=str(i)))
+            thin(canvas, "plate", str(i), *self.plate(i))
         for role, mark, part in (("node", "B", "centres"), ("contact", "K", "profile")):
             canvas.part(part)
             canvas.add(self.scene.node(self.mark(mark, i), str(i), role))
@@ -193,7 +191,7 @@ class _Plate(Inversion):
         canvas.part("circles")
         self.radius_at("r_0_flat", self.quiet - RADIUS * self.sense, (0.0, self.r_0, self.r_0))
         canvas.part("follower")
-        self._over((level, level - self.sense * R), ABOVE[1] * up, scene.words.symbol("R_plate"), "R_plate")
+        self._over((level, level - self.sense * R), ABOVE[1] * up, scene.symbol("R_plate"), "R_plate")
         right, left = (motion.maximum(0.0, side, 0.0).value for side in (1.0, -1.0))
         for far, name in ((right, "ds_right"), (-left, "ds_left")):
             ends = level, level + scene.drawn(far)
@@ -203,12 +201,12 @@ class _Plate(Inversion):
                 same = abs(right - left) < SAME * right
                 linear(canvas, ends, ABOVE[0] * up, "" if same else ANALOGUE, name)
         canvas.part("centres")
-        top = scene.solved.layout.division.top
+        top = scene.division.top
         axis = up_at(scene.solved, top)
         ends = axis * self.r_0, self.mark("B", top)
-        linear(canvas, ends, axis * (-1j * self.sense) * 4.0, scene.words.symbol("h"), "h")
+        linear(canvas, ends, axis * (-1j * self.sense) * 4.0, scene.symbol("h"), "h")
         analogues = ", ".join(dict.fromkeys(scene.length(value) for value in (right, left)))
-        greatest = f"{ANALOGUE} = |{scene.words.symbol('ds')}|_{{max}} = {analogues}"
+        greatest = f"{ANALOGUE} = |{scene.symbol('ds')}|_{{max}} = {analogues}"
         return [*self.left, *scene.lettered("h", "R_plate"), greatest]
 
     def _over(self, ends: tuple[complex, complex], out: complex, text: str, name: str) -> None:

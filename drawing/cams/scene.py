@@ -11,11 +11,13 @@ from typing import TypeVar
 from ...plans.cams.construction import DIAGRAMS, EXACT, EXACT_OF
 from ...plans.cams.course import pressed
 from ...plans.cams.followers import RIGHT_ANGLE, PlateCam, RollerCam
+from ...plans.cams.motion import Division
 from ...plans.cams.solve import SCALES, SolvedCam, unit_of
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale
 from ..figure import SubjectScene
+from ..shapes import Group, Line, Pen, Shape
 from ..view import Canvas
 from ..words import Words
 
@@ -43,9 +45,22 @@ class CamScene(SubjectScene[SolvedCam]):
         """The scale factor of the profiles, m/mm."""
         return self.mus["mu_l"]
 
+    @property
+    def division(self) -> Division:
+        """The section lines."""
+        return self.solved.layout.division
+
+    def symbol(self, name: str) -> str:
+        """Return the letter of a quantity."""
+        return self.words.symbol(name)
+
+    def value_of(self, name: str) -> float:
+        """Return a quantity or an intermediate value, SI."""
+        return float(self.solved.values[name])
+
     def mu(self, symbol: str) -> float:
         """Return a scale factor as it is drawn, SI per mm."""
-        return self.mus[symbol] if symbol in self.mus else float(self.solved.values[symbol])
+        return self.mus[symbol] if symbol in self.mus else self.value_of(symbol)
 
     def scale(self, plan: str) -> Scale:
         """Return the scale factor of a plan as it is drawn."""
@@ -75,7 +90,7 @@ class CamScene(SubjectScene[SolvedCam]):
 
     def sizes(self, *names: str) -> list[float]:
         """Return lengths of the mechanism by their names as the profiles show them, mm."""
-        return [self.drawn(float(self.solved.values[name])) for name in names]
+        return [self.drawn(self.value_of(name)) for name in names]
 
     def curve(self, places: Iterable[complex], plan: str = "") -> tuple[complex, ...]:
         """Return a curve as a plan shows it, or without one the profiles, mm."""
@@ -83,7 +98,7 @@ class CamScene(SubjectScene[SolvedCam]):
 
     def paper(self, name: str) -> float:
         """Return a length on the diagrams, mm as drawn."""
-        return float(self.solved.values[EXACT.get(name, name)]) / PAPER_MM
+        return self.value_of(EXACT.get(name, name)) / PAPER_MM
 
     def factor(self, scale: Scale) -> str:
         """Return a scale factor with as many digits as drawings of 0.01 mm need."""
@@ -93,7 +108,7 @@ class CamScene(SubjectScene[SolvedCam]):
     def factors(self, *symbols: str, unit: str = "m", times: float = 1.0) -> str:
         """Return a value of several scale factors at once: mu_s = mu_ds = 0.0002 m/mm."""
         last = self.factor(Scale(symbols[-1], self.mu(symbols[0]) * times, unit))
-        return " = ".join([*(self.words.symbol(symbol) for symbol in symbols[:-1]), last])
+        return " = ".join([*(self.symbol(symbol) for symbol in symbols[:-1]), last])
 
     def length(self, value: float) -> str:
         """Return a length of the mechanism in mm, as a dimension has it."""
@@ -101,17 +116,17 @@ class CamScene(SubjectScene[SolvedCam]):
 
     def dimension(self, name: str, length: float) -> str:
         """Return a length of the mechanism with its letter, as a dimension has it."""
-        return f"{self.words.symbol(name)} = {self.length(length)}"
+        return f"{self.symbol(name)} = {self.length(length)}"
 
     def lettered(self, *names: str) -> list[str]:
         """Return quantities that are not infinite with their letters, as dimensions have them."""
-        sizes = {name: float(self.solved.values[name]) for name in names}
+        sizes = {name: self.value_of(name) for name in names}
         written = {name: self.angle if unit_of(name) == "rad" else self.dimension for name in names}
         return [written[name](name, size) for name, size in sizes.items() if math.isfinite(size)]
 
     def angle(self, name: str, angle: float, line: int | None = None) -> str:
         """Return an angle with its letter, with the number of a section line for one of its position."""
-        return f"{self.words.symbol(name)}{'' if line is None else f'_{{{line}}}'} = {self.degrees(angle)}"
+        return f"{self.symbol(name)}{'' if line is None else f'_{{{line}}}'} = {self.degrees(angle)}"
 
     def heading(self, key: str, plan: str) -> tuple[str, str]:
         """Return the heading of a plan to the scale of the profiles: its name, its scale."""
@@ -121,7 +136,7 @@ class CamScene(SubjectScene[SolvedCam]):
         """Return a length of the mechanism with its letter in mm, as a sentence has it; a given as it is given."""
         given = self.givens.get(name)
         if given is not None and given.unit == "mm" and not isinstance(given.value, str):
-            return f"{self.words.symbol(name)} = {self.words.short(given.value)} {self.words.unit('mm')}"
+            return f"{self.symbol(name)} = {self.words.short(given.value)} {self.words.unit('mm')}"
         return f"{self.dimension(name, value)} {self.words.unit('mm')}"
 
     @property
@@ -153,6 +168,16 @@ def letter(
 ) -> None:
     """Ask for a letter as small as texts beside a node or a line."""
     canvas.label(text, at, prefer=prefer, clear=clear, height=canvas.style.text)
+
+
+def thin(canvas: Canvas, role: str, name: str, a: complex, b: complex) -> None:
+    """Draw a thin line."""
+    canvas.add(Line(a, b, Pen.THIN, role=role, name=name))
+
+
+def grouped(canvas: Canvas, role: str, name: str, *shapes: Shape) -> None:
+    """Draw shapes that are one thing."""
+    canvas.add(Group(shapes, role, name))
 
 
 def given(*names: str) -> Callable[[CamScene], str]:

@@ -56,12 +56,12 @@ RADII = {"mu_s_ds": "r_0", "mu_s_d2s": "r_0_flat"}  # least radii that plans wit
 SYMBOLS = ("mu_l", *EQUAL)  # what may be chosen: the others follow from the drawn amplitude and the pole distances
 
 
-def ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, ...]:
+def _ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, ...]:
     """Return the scale factors of `symbol`, one of `SYMBOLS`, the one wanted first.
 
     A plan that is made of two diagrams is drawn to the scale factor of one of them, or to a multiple of it.
     """
-    across, chooser = size_of(solved, symbol), choosers.get(symbol)
+    across, chooser = _size_of(solved, symbol), choosers.get(symbol)
     if chooser is not None and symbol in solved.scale_of_plan.values():
         visible(chooser, symbol, chooser.ladder(lambda _: across)[0], across, "m")
     if symbol not in EQUAL:
@@ -88,7 +88,7 @@ def first_scales(
     """Return the format and the scale factors by plan: those of the diagrams follow from the construction."""
     if "mu_phi" in solved.givens:
         not_a_point("mu_phi", solved.givens["mu_phi"], math.tau, "rad")
-    mus = {symbol: ladder(solved, choosers, symbol)[0] for symbol in SYMBOLS}
+    mus = {symbol: _ladder(solved, choosers, symbol)[0] for symbol in SYMBOLS}
     return smallest(AREAS[plan] for plan in plans), scales(solved, mus)
 
 
@@ -98,7 +98,7 @@ def scales(solved: SolvedCam, mus: dict[str, float]) -> dict[str, Scale]:
     return {plan: Scale(symbol, float(values[symbol]), "m") for plan, symbol in solved.scale_of_plan.items()}
 
 
-def size_of(solved: SolvedCam, symbol: str) -> float:
+def _size_of(solved: SolvedCam, symbol: str) -> float:
     """Return the largest size that plans of a scale factor show, m: to the cam's centre from the follower's top."""
     names = (RADII[symbol],) if symbol in RADII else RADII.values()
     sizes = [float(solved.values[name]) + solved.motion.h for name in names if name in solved.values]
@@ -193,11 +193,11 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
         """Whether no plan made of two diagrams becomes too small to be read for the sake of one page."""
         scene = self.scene(sheet, rungs)
         smaller = (name for name in EQUAL if rungs[name])
-        return all(size_of(scene.solved, name) >= LEGIBLE[name] * scene.mus[name] for name in smaller)
+        return all(_size_of(scene.solved, name) >= LEGIBLE[name] * scene.mus[name] for name in smaller)
 
 
 def _chosen(solved: SolvedCam, choosers: Choosers) -> dict[str, tuple[float, ...]]:
-    return {symbol: ladder(solved, choosers, symbol) for symbol in SYMBOLS}
+    return {symbol: _ladder(solved, choosers, symbol) for symbol in SYMBOLS}
 
 
 def _missed(rungs: Rungs) -> tuple[int, int]:

@@ -17,12 +17,12 @@ from ...plans.cams.sizes import apex, wedge
 from ..areas import hatched
 from ..diagram import small
 from ..figure import Figure, Stage
-from ..shapes import Arc, Circle, Group, Head, Line, Pen, Polyline
+from ..shapes import Arc, Circle, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, arc_between, at_level, fixed_pivot, nearer, swept, unit
 from ..text import lay_out
 from ..view import Canvas, View, angle, linear, turning
 from .diagrams_view import jumps
-from .scene import CamScene, given, letter
+from .scene import CamScene, given, grouped, letter, thin
 from .text import transfer
 
 PAST = 8.0  # mm by which an axis runs past the curve, a rocker's path past its ends
@@ -46,7 +46,7 @@ def _sizes_view(scene: CamScene) -> View:
     outline = [0j]
     for phase in (RISE, FALL):  # a line across where the velocity jumps
         points = scene.curve(course.analogues(solved, phase), SIZES)
-        canvas.add(Group((Polyline(points, Pen.MAIN),), "curve", phase))
+        grouped(canvas, "curve", phase, Polyline(points, Pen.MAIN))
         outline += points
     canvas.part("axes")
     _axes(canvas, scene, outline, centre.imag - 2 * PAST, "ds")
@@ -67,7 +67,7 @@ def _sizes_view(scene: CamScene) -> View:
     canvas.part("pressure")
     at = scene.drawn(course.analogue(solved, scene.shown), SIZES)
     canvas.add(Line(centre, at, Pen.DASHED, role="ray", name=str(scene.shown)))
-    radius, theta = 0.55 * abs(centre), f"{scene.words.symbol('theta')}_{{{scene.shown}}}"
+    radius, theta = 0.55 * abs(centre), f"{scene.symbol('theta')}_{{{scene.shown}}}"
     canvas.add(Line(centre, centre + 1.12j * radius, Pen.AXIS, role="axis"))
     angle(canvas, centre, (1j, at - centre), radius, "theta", theta)
     aslant = f"{theta} = {scene.degrees(swept(at - centre, 1j))}"
@@ -81,8 +81,8 @@ def _axes(canvas: Canvas, scene: CamScene, outline: Sequence[complex], foot: flo
     top, last = 1j * (max(p.imag for p in outline) + PAST), complex(right + PAST, 0.0)
     for a, b in ((complex(left - PAST, 0.0), last), (1j * foot, top)):
         canvas.add(Line(a, b, Pen.THIN, role="axis"), Head(b, b - a))
-    canvas.label(scene.words.symbol("s"), top, prefer=1 + 0j, clear=1.2)
-    canvas.label(scene.words.symbol(letter), last, prefer=-1j, clear=1.2)
+    canvas.label(scene.symbol("s"), top, prefer=1 + 0j, clear=1.2)
+    canvas.label(scene.symbol(letter), last, prefer=-1j, clear=1.2)
 
 
 def _limits(canvas: Canvas, scene: CamScene, centre: complex) -> None:
@@ -99,7 +99,7 @@ def _limits(canvas: Canvas, scene: CamScene, centre: complex) -> None:
         touch = scene.drawn(course.touch_of(scene.solved, plane), SIZES)
         up = plane.normal.conjugate() * 1j  # along the line, upwards: a mirror image turns e + i s_0 down
         up = up if up.imag > 0.0 else -up
-        canvas.add(Line(touch + up * LINE, at_level(touch, up, low), Pen.THIN, role="limit", name=plane.name))
+        thin(canvas, "limit", plane.name, touch + up * LINE, at_level(touch, up, low))
         canvas.add(scene.node(touch, plane.name, "touch", filled=True))
         if not _is_lettered(scene, plane.name):
             continue
@@ -141,7 +141,7 @@ def _number(canvas: Canvas, group: list[tuple[int, str]], at: complex, prefer: c
 def _radius(canvas: Canvas, centre: complex, end: complex, name: str) -> complex:
     """Draw the dimension line from the cam's centre to a point; return its direction."""
     out = unit(end - centre)
-    canvas.add(Group((Line(centre, end, Pen.THIN), Head(end, out), Head(centre, -out)), "dimension", name))
+    grouped(canvas, "dimension", name, Line(centre, end, Pen.THIN), Head(end, out), Head(centre, -out))
     return out
 
 
@@ -149,11 +149,11 @@ def _mark_centre(
     canvas: Canvas, scene: CamScene, centre: complex, prefer: complex, middle: float | None = None
 ) -> None:
     """Mark the centre of the cam, and where its middle is said show its sense."""
-    canvas.add(Group((Circle(centre, canvas.style.node * 1.5, Pen.MAIN, fill="white"),), "point", "O"))
+    grouped(canvas, "point", "O", Circle(centre, canvas.style.node * 1.5, Pen.MAIN, fill="white"))
     canvas.label("O", centre, prefer=prefer, clear=1.0)
     if middle is not None:
         radius, sense = 2.4 * scene.style.label, float(scene.solved.cam.sense)
-        turning(canvas, centre, radius, middle, 1.4, sense, "omega", scene.words.symbol("omega"))
+        turning(canvas, centre, radius, middle, 1.4, sense, "omega", scene.symbol("omega"))
 
 
 def _permitted_offsets(canvas: Canvas, scene: CamScene) -> None:
@@ -165,11 +165,11 @@ def _permitted_offsets(canvas: Canvas, scene: CamScene) -> None:
     ends = sorted((low, high, at), key=lambda place: place.real)
     whole = arc_between(0j, ends[0], ends[-1], Pen.AXIS, "circle", "r_0")
     canvas.add(replace(whole, start=whole.start - OVER, sweep=whole.sweep + 2.0 * OVER))
-    canvas.add(Group((arc_between(0j, low, high, Pen.MAIN),), "offsets", "e"))
+    grouped(canvas, "offsets", "e", arc_between(0j, low, high, Pen.MAIN))
     for name, end, side in (("e_least", low, -1.0), ("e_most", high, 1.0)):
         tick = TICK * unit(end)
-        canvas.add(Line(end - tick, end + tick, Pen.THIN, role="offset", name=name))
-        letter(canvas, scene.words.symbol(name), end, complex(side, -1.0), 1.0)
+        thin(canvas, "offset", name, end - tick, end + tick)
+        letter(canvas, scene.symbol(name), end, complex(side, -1.0), 1.0)
 
 
 def _plate_sizes_view(scene: CamScene) -> View:
@@ -180,7 +180,7 @@ def _plate_sizes_view(scene: CamScene) -> View:
     outline: list[complex] = []
     for phase in (solved.motion.rise, solved.motion.fall):  # a line across where the acceleration jumps
         curves = [scene.curve(piece, PLATE_SIZES) for piece in course.over_acceleration(solved, phase)]
-        canvas.add(Group(tuple(Polyline(points, Pen.MAIN) for points in curves), "curve", phase.name))
+        grouped(canvas, "curve", phase.name, *(Polyline(points, Pen.MAIN) for points in curves))
         feet = ((complex(0.0, place.imag),) for place in (curves[0][0], curves[-1][-1]))
         jumps(canvas, [next(feet), *curves, next(feet)], phase.name)
         outline += [point for points in curves for point in points]
@@ -188,7 +188,7 @@ def _plate_sizes_view(scene: CamScene) -> View:
     _axes(canvas, scene, outline, centre.imag - PAST, "d2s")
     canvas.part("tangent")  # from past the place where it touches to its foot on the axis
     touch = scene.drawn(course.touch_of_plate(solved), PLATE_SIZES)
-    canvas.add(Line(touch + ALONG * TANGENT, low - ALONG * TANGENT, Pen.THIN, role="limit", name="convex"))
+    thin(canvas, "limit", "convex", touch + ALONG * TANGENT, low - ALONG * TANGENT)
     canvas.add(scene.node(touch, "convex", "touch", filled=True))
     angle(canvas, low, (1j, ALONG), 3.0 * scene.style.label, "tangent", "45°")
     canvas.part("points")
@@ -201,7 +201,7 @@ def _plate_sizes_view(scene: CamScene) -> View:
     canvas.part("centre")
     _mark_centre(canvas, scene, centre, 1 - 1j)
     for at, name in ((low, "r_0_flat_min"), (centre, "r_0_flat")):
-        symbol, (text,) = scene.words.symbol(name), scene.lettered(name)
+        symbol, (text,) = scene.symbol(name), scene.lettered(name)
         wide, between = (
             (lay_out(written, scene.style.text).width for written in (text, symbol)),
             abs(at) - 2.0 * scene.style.arrow,
@@ -222,7 +222,7 @@ def _rocker_sizes_view(scene: CamScene) -> View:
     ends = [(k, phase, scene.drawn(course.analogue(solved, k, phase))) for k, phase in division.on_lines]
     for k, phase, end in ends:  # towards the cam's centre
         past = end + course.limit_direction(solved, k, phase) * (LIMIT * scene.style.label)
-        canvas.add(Line(end, past, Pen.THIN, role="limit", name=f"{k}_{phase}"))
+        thin(canvas, "limit", f"{k}_{phase}", end, past)
     _bounds(canvas, scene, centre.imag - AROUND)
     x, y = centre.real, centre.imag
     box = (x - 2.0 * AROUND, y - AROUND, x + 2.0 * AROUND, min(0.0, y + 2.0 * AROUND))
@@ -251,21 +251,21 @@ def _rocker_sizes_view(scene: CamScene) -> View:
 
 def _rocker(canvas: Canvas, scene: CamScene) -> None:
     """Draw the rocker in all positions, the path of its roller, and the curve of the analogues' ends."""
-    division, (l,) = scene.solved.layout.division, scene.sizes("l_rocker")
-    over, swing = PAST / l, float(scene.solved.values["psi"])
+    division, (l,) = scene.division, scene.sizes("l_rocker")
+    over, swing = PAST / l, scene.value_of("psi")
     canvas.part("positions")
     canvas.add(Arc(0j, l, -over, swing + 2.0 * over, Pen.AXIS, role="path", name="B"))
     canvas.part("analogues")
     for phase in (RISE, FALL):
         points = scene.curve(course.analogues(scene.solved, phase))
-        canvas.add(Group((Polyline(points, Pen.MAIN),), "curve", phase))
+        grouped(canvas, "curve", phase, Polyline(points, Pen.MAIN))
     canvas.part("positions")
     for i in division.lines:
         at, end = (scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for letter in "BD")
         # from the pivot only the rocker itself, its highest position, and the one that is lettered
         near = 0j if i in (0, division.top, scene.shown) else min(at, end, key=abs)
         line = Line(near, at, Pen.MAIN) if i == 0 else Line(near, max(at, end, key=abs), Pen.THIN)
-        canvas.add(Group((line,), "position", str(i)))
+        grouped(canvas, "position", str(i), line)
     canvas.part("pivot")
     canvas.add(fixed_pivot(0j, "C", scene.style))
     canvas.label("C", 0j, prefer=-1 + 1j, clear=scene.style.pair + 1.0)
@@ -276,20 +276,20 @@ def _bounds(canvas: Canvas, scene: CamScene, low: float) -> None:
     for limit, place, arm, along in course.bounds(scene.solved):
         end, radius = scene.drawn(place), 5.0 * scene.style.label
         canvas.add(scene.node(end, limit.name, "touch", filled=True))
-        canvas.add(Line(end, at_level(end, along, low), Pen.THIN, role="bound", name=limit.name))
+        thin(canvas, "bound", limit.name, end, at_level(end, along, low))
         if not _is_lettered(scene, limit.name):
             continue
-        start, text = nearer(arm, along), scene.words.symbol(f"gamma_{limit.phase}")
+        start, text = nearer(arm, along), scene.symbol(f"gamma_{limit.phase}")
         angle(canvas, end, (start, along), radius, f"gamma_{limit.name}", text, clear=0.8)
         if start == arm:  # beyond the rocker
-            canvas.add(Line(end, end + arm * (radius + 2.0), Pen.THIN, role="extension"))
+            thin(canvas, "extension", "", end, end + arm * (radius + 2.0))
 
 
 def _rocker_nodes(canvas: Canvas, scene: CamScene, ends: Ends) -> None:
     """Mark the roller's centre and the end of the analogue in every position, and number the ends."""
     shown = scene.shown
     canvas.part("positions")
-    for i in scene.solved.layout.division.lines:
+    for i in scene.division.lines:
         canvas.add(scene.node(scene.mm(f"{ROCKER_SIZES}.B{i}"), f"B{i}"))
     canvas.part("analogues")
     shared = _marked(canvas, scene, ends)

@@ -69,9 +69,7 @@ def _worked(scene: CamScene, name: str, law: str, *operands: str | Input, shown:
         if isinstance(operand, str):
             exact, unit = operand in scene.solved.givens and operand not in FOUND, unit_of(operand)
             times = DEGREES if unit == "rad" else 1e3 if unit == "m" and shown.unit in ("mm", "deg") else 1.0
-            value = (
-                abs(float(scene.solved.values[operand])) * times if operand not in ON_PAPER else scene.paper(operand)
-            )
+            value = abs(scene.value_of(operand)) * times if operand not in ON_PAPER else scene.paper(operand)
             operand = Input(value, exact, name=operand, times=1e3 if operand in ON_PAPER else times)
         inputs.append(operand)
     return worked(scene.words, name, law, inputs, shown)
@@ -89,28 +87,28 @@ def choices_block(scene: CamScene, note: str, width: float) -> View:
         lines.append((words["said.cam_lower"].format(angle=scene.angle("phi_lower", lower.length)),))
     if scene.reduction != 1.0:  # with what lengths they are drawn instead of those given
         lengths = ((name, words.short(round(scene.paper(name), 2))) for name in ("l_A1", "H_a", "H_v"))
-        drawn = (f"{words.symbol(name)} = {length} {mm};" for name, length in lengths)
+        drawn = (f"{scene.symbol(name)} = {length} {mm};" for name, length in lengths)
         part = words["said.cam_smaller"].format(part=words.short(scene.reduction))
         lines.append((*words_of(part), *drawn, scene.axis))
     lines += [words_of(note)] if note else []
     return text_block("choices", words["heading.cam_choices"], lines, scene.style, width)
 
 
-def roller_block(scene: CamScene, width: float) -> View:
+def _roller_block(scene: CamScene, width: float) -> View:
     """Return the sizes of the cam for a roller, with the rules for its radius and the transmission angles."""
     lines = [_worked(scene, "r_0", "hypotenuse", "e", "s_0"), *_tangents(scene, "r_0_tangents", "e_tangents")]
-    lines += [(line,) for line in offsets_line(scene)]
+    lines += [(line,) for line in _offsets_line(scene)]
     return text_block(
-        "equations_roller", scene.words["heading.cam_roller"], [*lines, *rules(scene)], scene.style, width
+        "equations_roller", scene.words["heading.cam_roller"], [*lines, *_rules(scene)], scene.style, width
     )
 
 
-def plate_block(scene: CamScene, width: float) -> View:
+def _plate_block(scene: CamScene, width: float) -> View:
     """Return the sizes of the cam for a plate."""
     words, lines = scene.words, _tangents(scene, "r_0_flat_tangent")
     if scene.plate.given:
-        rho = words.short(float(scene.solved.values["rho_flat"]) * 1e3)
-        more = f"≥ {words.symbol('rho_flat')} = {rho} {words.unit('mm')}"
+        rho = words.short(scene.value_of("rho_flat") * 1e3)
+        more = f"≥ {scene.symbol('rho_flat')} = {rho} {words.unit('mm')}"
         lines.append((*_worked(scene, "rho_flat_min", "excess", "r_0_flat", "r_0_flat_min"), more))
     else:
         lines.append(_worked(scene, "r_0_flat", "enlarged", "r_0_flat_min", "rho_flat"))
@@ -118,7 +116,7 @@ def plate_block(scene: CamScene, width: float) -> View:
     return text_block("equations_plate", words["heading.cam_plate"], lines, scene.style, width)
 
 
-def rocker_block(scene: CamScene, width: float) -> View:
+def _rocker_block(scene: CamScene, width: float) -> View:
     """Return the sizes of the cam for a rocker, with the rules for its roller and the transmission angles."""
     words, degrees = scene.words, Shown("deg", DEGREES)
     lines = [
@@ -126,12 +124,12 @@ def rocker_block(scene: CamScene, width: float) -> View:
         _worked(scene, "h", ARC, "psi", "l_rocker"),
         (f"{words['said.cam_first_angle']}:",),
         _worked(scene, "psi_0", "angle_of_triangle", "l_rocker", "l_OC", "r_0", shown=degrees),
-        *rules(scene),
+        *_rules(scene),
     ]
     return text_block("equations_rocker", words["heading.cam_rocker"], lines, scene.style, width)
 
 
-SIZES_OF = {"roller": roller_block, "rocker": rocker_block, "plate": plate_block}
+SIZES_OF = {"roller": _roller_block, "rocker": _rocker_block, "plate": _plate_block}
 
 
 def _tangents(scene: CamScene, *names: str) -> Lines:
@@ -140,22 +138,22 @@ def _tangents(scene: CamScene, *names: str) -> Lines:
     return [(f"{scene.words['said.cam_tangents']}:", "; ".join(texts))]
 
 
-def rules(scene: CamScene) -> Lines:
+def _rules(scene: CamScene) -> Lines:
     """Return the rules of good design, each with its numbers and whether it is kept."""
     words, mm, lines = scene.words, scene.words.unit("mm"), Lines()
     for rule in rules_of(scene.solved):
         if rule.of:  # the roller's radius beside the greatest one, a part of a size
             factors = [Input(rule.part, True), Input(rule.size * 1e3)]
             (part, size), limit = calculation(words, lambda a, b: a * b, factors)
-            roller = f"{words.symbol('R_roller')} = {words.short(round(rule.value * 1e3, 6))} {mm}"
-            text = f"{roller} ≤ {words.short(rule.part)}·{words.symbol(rule.of)} = {part}·{size} = {limit} {mm}"
+            roller = f"{scene.symbol('R_roller')} = {words.short(round(rule.value * 1e3, 6))} {mm}"
+            text = f"{roller} ≤ {words.short(rule.part)}·{scene.symbol(rule.of)} = {part}·{size} = {limit} {mm}"
         else:
             text = f"{scene.angle(f'{rule.name}_min', rule.value)} ≥ {scene.angle(rule.name, rule.limit)}"
         lines.append((text, f"({words['said.ok' if rule.ok else 'said.fails']})"))
     return lines
 
 
-def offsets_line(scene: CamScene) -> list[str]:
+def _offsets_line(scene: CamScene) -> list[str]:
     """Return the offsets permitted at a given r_0, and the one chosen."""
     roller = scene.solved.roller
     if roller is None or roller.offsets is None:
@@ -170,19 +168,19 @@ def offsets_line(scene: CamScene) -> list[str]:
 def transfer(scene: CamScene, plan: str) -> tuple[str, ...]:
     """Return by how much the ordinates of both diagrams are multiplied, and the angle of the projecting line."""
     words = scene.words
-    ratios = [f"{words.symbol(DRAWN[mu])}: {ratio(scene, mu, SCALES[plan])}" for mu in FROM[plan]]
+    ratios = [f"{scene.symbol(DRAWN[mu])}: {_ratio(scene, mu, SCALES[plan])}" for mu in FROM[plan]]
     lines = [words["said.cam_equal"], ";  ".join(ratios)]
     if plan == SIZES:  # of the straight line that projects one diagram to the scale of the other
         _, over, under = FACTORS["nu"]
         angle = scene.degrees(swept(1.0 + 0j, complex(scene.mu(under), scene.mu(over))))
-        lines.append(f"tg {words.symbol('nu')} = {ratio(scene, over, under)};  {words.symbol('nu')} = {angle}")
+        lines.append(f"tg {scene.symbol('nu')} = {_ratio(scene, over, under)};  {scene.symbol('nu')} = {angle}")
     return tuple(lines)
 
 
-def ratio(scene: CamScene, over: str, under: str) -> str:
+def _ratio(scene: CamScene, over: str, under: str) -> str:
     """Return the ratio of two scale factors in letters and its value."""
     ratio = scene.words.short(round(scene.mu(over) / scene.mu(under), DECIMALS))
-    return f"{scene.words.symbol(over)}/{scene.words.symbol(under)} = {ratio}"
+    return f"{scene.symbol(over)}/{scene.symbol(under)} = {ratio}"
 
 
 def motion_table(scene: CamScene) -> View:
@@ -196,8 +194,8 @@ def motion_table(scene: CamScene) -> View:
     columns = [[words.number(float(phi) * DEGREES, 2) for phi in solved.angles]]
     columns += [_column(scene, limits) for limits in zip(*sides, strict=True)]
     units = {"theta": "°"}
-    head = [words["table.cam_row"], f"{words.symbol('phi')}, °"]
-    head += [f"{words.symbol(name)}, {units.get(name, words.unit('mm'))}" for name in names]
+    head = [words["table.cam_row"], f"{scene.symbol('phi')}, °"]
+    head += [f"{scene.symbol(name)}, {units.get(name, words.unit('mm'))}" for name in names]
     rows = [[str(i), *cells] for i, cells in enumerate(zip(*columns, strict=True))]
     return table("motion", words["heading.cam_table"], [head, *rows], scene.style)
 
@@ -222,7 +220,7 @@ def story(scene: CamScene, scales: Mapping[str, Scale], texts: Texts) -> Story:
     named = texts["cam.and"].join(texts[f"cam.for.{follower}"] for follower in followers)
     aim = Sentences((texts["cam.aims" if len(followers) > 1 else "cam.aim"].format(followers=named),))
     said = _said(scene, texts)
-    return Story(conclusions=tuple(conclusions(scene, texts)), before={"givens": (aim,)}, texts=texts, said=said)
+    return Story(conclusions=tuple(_conclusions(scene, texts)), before={"givens": (aim,)}, texts=texts, said=said)
 
 
 def begun(scene: CamScene, steps: int) -> dict[str, Begun]:
@@ -246,20 +244,20 @@ def _said(scene: CamScene, texts: Texts) -> Said:
         said |= {f"theta_{phase}": f"[θ] = {scene.degrees(abs(limit))}" for phase, limit in course.permitted(solved)}
         said["line"] = str(scene.shown)
     if solved.roller is not None:
-        said |= {"e": scene.stated("e", abs(solved.roller.sizes.e)), "offsets": "".join(offsets_line(scene))}
+        said |= {"e": scene.stated("e", abs(solved.roller.sizes.e)), "offsets": "".join(_offsets_line(scene))}
         said["rise_side"], said["fall_side"] = (texts["cam.right"], texts["cam.left"])[:: solved.cam.sense]
-        said |= {"ratio_s": ratio(scene, "mu_s", "mu_s_ds"), "ratio_ds": ratio(scene, "mu_ds", "mu_s_ds")}
+        said |= {"ratio_s": _ratio(scene, "mu_s", "mu_s_ds"), "ratio_ds": _ratio(scene, "mu_ds", "mu_s_ds")}
         ds = scene.length(abs(course.analogue(solved, scene.shown).real))
-        said["OP"] = f"OP_{{{scene.shown}}} = |{words.symbol('ds')}| = {ds} {words.unit('mm')}"
+        said["OP"] = f"OP_{{{scene.shown}}} = |{scene.symbol('ds')}| = {ds} {words.unit('mm')}"
     if solved.rocker is not None:
-        said |= {"l_letter": words.symbol("l_rocker"), "l_OC_letter": words.symbol("l_OC")}
-        said["l_rocker_paper"] = on_paper(scene, scene.drawn(sizes["l_rocker"]))
+        said |= {"l_letter": scene.symbol("l_rocker"), "l_OC_letter": scene.symbol("l_OC")}
+        said["l_rocker_paper"] = _on_paper(scene, scene.drawn(sizes["l_rocker"]))
         said["ratio"] = words.short(float(f"{abs(course.turning(solved, scene.shown)):.4g}"))
     if solved.plate is not None:
-        said |= {"ratio_s_d2s": ratio(scene, "mu_s", "mu_s_d2s"), "ratio_d2s": ratio(scene, "mu_d2s", "mu_s_d2s")}
+        said |= {"ratio_s_d2s": _ratio(scene, "mu_s", "mu_s_d2s"), "ratio_d2s": _ratio(scene, "mu_d2s", "mu_s_d2s")}
         parts = " + ".join(scene.length(sizes[name]) for name in ("ds_max", "margin"))
         total = f"{parts} = {scene.length(sizes['R_plate'])} {words.unit('mm')}"
-        said["R_plate_sum"] = f"{words.symbol('R_plate')} = {total}"
+        said["R_plate_sum"] = f"{scene.symbol('R_plate')} = {total}"
     if solved.draws_profiles:  # the plans of the cam begin with their scale and the first circles
         beside = ("l_OC",) if solved.rocker is not None else ("e",) * is_aside(scene)
         radii = ("r_0", *beside) if solved.rolling is not None else ()
@@ -267,34 +265,34 @@ def _said(scene: CamScene, texts: Texts) -> Said:
     return said
 
 
-def on_paper(scene: CamScene, mm: float) -> str:
+def _on_paper(scene: CamScene, mm: float) -> str:
     """Return a length on paper with its unit, without zeros at the end."""
     return f"{scene.words.short(round(mm, PAPER))} {scene.words.unit('mm')}"
 
 
 def _closing(scene: CamScene, name: str) -> str:
     """Return by how much a curve of chords does not close, with its letter."""
-    return f"{scene.words.symbol(name)} = {scene.words.number(scene.paper(name), PAPER)} {scene.words.unit('mm')}"
+    return f"{scene.symbol(name)} = {scene.words.number(scene.paper(name), PAPER)} {scene.words.unit('mm')}"
 
 
 def _read(scene: CamScene, plan: str, name: str) -> str:
     """Return a size as it is read from a plan: its millimetres times the scale factor."""
     words, mu = scene.words, float(f"{scene.scale(plan).mu:.{MU_DIGITS}g}")
-    metres = float(scene.solved.values[name])
+    metres = scene.value_of(name)
     places, decimals = segment_decimals(metres, mu)
     product = f"{words.number(metres / mu, places)}·{words.short(mu)} = {words.number(metres, decimals)}"
-    return f"{words.symbol(name)} = {product} {words.unit('m')} = {scene.length(metres)} {words.unit('mm')}"
+    return f"{scene.symbol(name)} = {product} {words.unit('m')} = {scene.length(metres)} {words.unit('mm')}"
 
 
 def _of_diagrams(scene: CamScene, texts: Texts) -> Said:
     """Return the section lines and phases, poles, greatest ordinates and closing errors, mm of paper."""
-    solved, words, division = scene.solved, scene.words, scene.solved.layout.division
+    solved, division = scene.solved, scene.division
     phases = {f"phi_{p.name}": p.length for p in solved.motion.phases[:3] if p.lasts}
     drawn = {name: angle / scene.across.mu for name, angle in phases.items()}
     drawn |= {
         name: scene.paper(name) for name in (*ON_PAPER, "V_max", "l_A2") if name in ("V_max", "S_max", *solved.values)
     }
-    said = {name: f"{words.symbol(name)} = {on_paper(scene, mm)}" for name, mm in drawn.items()}
+    said = {name: f"{scene.symbol(name)} = {_on_paper(scene, mm)}" for name, mm in drawn.items()}
     said |= {name: _closing(scene, name) for name in ("v_close", "s_close") if name in solved.values}
     said |= {"last": str(division.last), "n_rise": str(division.top), "n_fall": str(division.last - division.leave)}
     said["phases"] = ", ".join(said.pop(name) for name in phases)
@@ -305,11 +303,11 @@ def _of_diagrams(scene: CamScene, texts: Texts) -> Said:
     return said | {"per_mm": scene.axis, "jumps": texts["cam.jumps"].format(lines=jumps) if jumps else ""}
 
 
-def conclusions(scene: CamScene, texts: Texts) -> Iterator[str]:
+def _conclusions(scene: CamScene, texts: Texts) -> Iterator[str]:
     """Go through the sentences for the end of the note."""
     solved, words, values = scene.solved, scene.words, scene.solved.values
     said = {
-        name: f"{words.symbol(name)} = {scene.value(float(values[name]))} {words.unit(unit_of(name))}"
+        name: f"{scene.symbol(name)} = {scene.value(float(values[name]))} {words.unit(unit_of(name))}"
         for name in ("v_max", "a_max")
         if name in values
     }
@@ -339,7 +337,7 @@ def _roller(scene: CamScene, texts: Texts) -> Iterator[str]:
     yield texts[f"cam.conclusion.{follower}"].format(**said)
     for rule in rules_of(solved):
         if rule.of:
-            part = f"{words.short(rule.part)}·{words.symbol(rule.of)}"
+            part = f"{words.short(rule.part)}·{scene.symbol(rule.of)}"
             limit = f"{scene.length(rule.limit)} {words.unit('mm')}"
             said = {"part": part, "limit": limit, rule.of: scene.stated(rule.of, rule.size)}
         else:

@@ -155,7 +155,7 @@ DIAGRAMS = (ACCELERATION, VELOCITY, TRAVEL)
 RIGHT, UP = "_right", "_up"
 
 
-def foot(plan: str, line: int) -> str:
+def _foot(plan: str, line: int) -> str:
     """Return the mark where a section line meets the axis of angles."""
     return f"{plan}.f{line}" if line else f"{plan}.0"
 
@@ -165,12 +165,12 @@ def ray(plan: str, section: int) -> str:
     return f"_{plan}_ray{section}"
 
 
-def mean(section: int) -> Name:
+def _mean(section: int) -> Name:
     """Return the name of the mean ordinate of a section on the given diagram."""
     return Name(f"_mean{section}", "mean", str(section))
 
 
-def integrate(board: Board, plan: str, onto: str, pole_distance: str, sections: Iterable[int]) -> None:
+def _integrate(board: Board, plan: str, onto: str, pole_distance: str, sections: Iterable[int]) -> None:
     """Integrate the diagram `plan`, whose mean ordinates are marked, by chords onto the diagram `onto`."""
     origin, pole = f"{plan}.0", f"{plan}.O"
     board.back(pole, origin, RIGHT, pole_distance)
@@ -179,10 +179,10 @@ def integrate(board: Board, plan: str, onto: str, pole_distance: str, sections: 
         board.meet(projection, f"{plan}.m{i}", RIGHT, origin, UP)
         board.measure(length, pole, projection)
         board.direction(ray(plan, i), pole, projection, length)
-        board.meet(f"{onto}.{i}", f"{onto}.{i - 1}", ray(plan, i), foot(onto, i), UP)
+        board.meet(f"{onto}.{i}", f"{onto}.{i - 1}", ray(plan, i), _foot(onto, i), UP)
 
 
-def diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
+def _diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
     """Draw the diagrams from the one that is given on: the analogue of acceleration, or that of velocity."""
     board.turn(RIGHT, "zero")
     board.normal(UP, RIGHT)
@@ -190,16 +190,16 @@ def diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:
         board.pole(f"{plan}.0")
         for i in sections:
             board.calc(f"_x{i}", "on_axis", f"_phi{i}", "mu_phi")
-            board.lay(foot(plan, i), f"{plan}.0", RIGHT, f"_x{i}")
+            board.lay(_foot(plan, i), f"{plan}.0", RIGHT, f"_x{i}")
     for i in sections:  # mean ordinates, each in the middle of its section
         board.calc(f"_middle{i}", "on_axis", f"_phi_middle{i}", "mu_phi")
-        board.calc(mean(i), "part_of_amplitude", "l_A1", f"_part{i}")
-        board.place(f"{given}.m{i}", f"_middle{i}", mean(i))
+        board.calc(_mean(i), "part_of_amplitude", "l_A1", f"_part{i}")
+        board.place(f"{given}.m{i}", f"_middle{i}", _mean(i))
     if given == ACCELERATION:
-        integrate(board, ACCELERATION, VELOCITY, "H_a", sections)
+        _integrate(board, ACCELERATION, VELOCITY, "H_a", sections)
         for i in sections:  # of a curve of chords they are the middles of the chords
             board.divide(f"{VELOCITY}.m{i}", f"{VELOCITY}.{i - 1}", f"{VELOCITY}.{i}", "one", "_two")
-    integrate(board, VELOCITY, TRAVEL, "H_v", sections)
+    _integrate(board, VELOCITY, TRAVEL, "H_v", sections)
 
 
 # scale factors and angles of transfer: the law and what it takes; the last ones where the acceleration is given
@@ -219,19 +219,14 @@ CHORD_OF = {exact: name for name, exact in EXACT_OF.items()}
 EXACT = {"S_max": "_S_max", "V_max": "_V_max"}  # what the greatest ordinates of the exact curves are called
 
 
-def factors(given: str) -> list[str]:
-    """Return the names of the scale factors and angles that diagrams have, by the one that is given."""
-    return [name for name in FACTORS if given == ACCELERATION or name not in OF_ACCELERATION]
-
-
 def _factors(board: Board, given: str, called: Mapping[str, str]) -> None:
     """Calculate them from the stroke on the diagram; what is `called` otherwise has that name."""
-    for name in factors(given):
-        law, *operands = FACTORS[name]
-        board.calc(called.get(name, name), law, *(called.get(operand, operand) for operand in operands))
+    for name, (law, *operands) in FACTORS.items():
+        if given == ACCELERATION or name not in OF_ACCELERATION:
+            board.calc(called.get(name, name), law, *(called.get(operand, operand) for operand in operands))
 
 
-def exact_factors(board: Board, given: str) -> None:
+def _exact_factors(board: Board, given: str) -> None:
     """Calculate the scale factors of the exact curves, and with them what these show."""
     board.calc("_x_rise", "on_axis", "phi_rise", "mu_phi")
     if given == ACCELERATION:
@@ -252,7 +247,7 @@ def exact_factors(board: Board, given: str) -> None:
         board.calc("a_max", "to_scale", "mu_a", "_A_max")
 
 
-def chord_factors(board: Board, division: Division, fastest: int, given: str) -> None:
+def _chord_factors(board: Board, division: Division, fastest: int, given: str) -> None:
     """Measure the curves of chords: the stroke, the greatest velocity, by how much they do not close."""
     _height(board, "S_max_chord", TRAVEL, division.top)
     _height(board, "s_close", TRAVEL, division.last)
@@ -264,13 +259,13 @@ def chord_factors(board: Board, division: Division, fastest: int, given: str) ->
 
 
 def _height(board: Board, name: str, plan: str, line: int) -> None:
-    board.distance(name, foot(plan, line), f"{plan}.{line}")
+    board.distance(name, _foot(plan, line), f"{plan}.{line}")
 
 
 PROFILE, PLATE_PROFILE = "profile", "plate_profile"
 
 
-def positions(board: Board, division: Division) -> None:
+def _positions(board: Board, division: Division) -> None:
     """Lay off the phase angles against the sense of the cam; the travels and the analogues of velocity go with them."""
     for i in division.lines:
         board.turn(f"_axis{i}", f"_axis_angle{i}")
@@ -279,7 +274,7 @@ def positions(board: Board, division: Division) -> None:
         board.calc(f"_x{i}_exact", "part_of_travel", "h", f"_x_part{i}")
 
 
-def roller_profile(board: Board, division: Division) -> None:
+def _roller_profile(board: Board, division: Division) -> None:
     """Draw the pitch curve and the practical profile of a cam for a roller."""
     board.pole(f"{PROFILE}.O")
     for i in division.lines:
@@ -292,7 +287,7 @@ def roller_profile(board: Board, division: Division) -> None:
     board.calc("rho_min", "part_of_travel", "h", "_rho_part")
 
 
-def rocker_profile(board: Board, division: Division) -> None:
+def _rocker_profile(board: Board, division: Division) -> None:
     """Draw the pitch curve and the practical profile of a cam for a rocker."""
     board.pole(f"{PROFILE}.O")
     for i in division.lines:
@@ -313,7 +308,7 @@ def _touch(board: Board, line: int, start: str, end: str) -> None:
     board.back(f"{PROFILE}.K{line}", f"{PROFILE}.B{line}", f"_normal{line}", "R_roller")
 
 
-def plate_profile(board: Board, division: Division) -> None:
+def _plate_profile(board: Board, division: Division) -> None:
     """Draw the plate in all positions and where it touches the profile."""
     board.pole(f"{PLATE_PROFILE}.O")
     for i in division.lines:
@@ -325,13 +320,13 @@ def plate_profile(board: Board, division: Division) -> None:
 SIZES, PLATE_SIZES, ROCKER_SIZES = "sizes", "plate_sizes", "rocker_sizes"
 
 
-def ordinates(board: Board, division: Division, given: str) -> None:
+def _ordinates(board: Board, division: Division, given: str) -> None:
     """Read the curves on every section line, as values: a velocity that is given, because it jumps, in both phases."""
     curves = {TRAVEL: ("_s", "mu_s_chord")} | ({VELOCITY: ("_ds", "mu_ds_chord")} if given == ACCELERATION else {})
     for i in division.lines:
         for plan, (letter, mu) in curves.items():
             name = f"{letter}{i}_drawn"
-            board.read(f"{name}_segment", foot(plan, i), f"{plan}.{i}")
+            board.read(f"{name}_segment", _foot(plan, i), f"{plan}.{i}")
             board.calc(name, "ordinate_to_scale", mu, UP, f"{name}_segment")
     for i, phase in division.on_lines:
         analogue = f"_ds{i}_drawn"
@@ -342,7 +337,7 @@ def ordinates(board: Board, division: Division, given: str) -> None:
         board.calc(f"_x{i}_{phase}_drawn", "turned_with", analogue, "_sense")
 
 
-def roller_sizes(board: Board, division: Division, cam: RollerCam) -> None:
+def _roller_sizes(board: Board, division: Division, cam: RollerCam) -> None:
     """Draw S over ds/dphi with the limit tangents; mark where two of them meet, and the centre of the cam.
 
     It is the smallest cam that the exact curves permit, or that of a given r_0, with its range.
@@ -380,7 +375,7 @@ def _least_angles(board: Board) -> None:
         board.calc(f"gamma_{phase}_min", "given", f"_gamma_{phase}_least")
 
 
-def plate_sizes(board: Board, division: Division, given: bool) -> None:
+def _plate_sizes(board: Board, division: Division, given: bool) -> None:
     """Draw S over d2s/dphi2 and the tangent at 45 degrees to its negative branch.
 
     Calculate the smallest cam for a plate, or how sharp that of a `given` r_0 is, and the plate.
@@ -408,7 +403,7 @@ def plate_sizes(board: Board, division: Division, given: bool) -> None:
     board.calc("R_plate", "enlarged", "ds_max", "margin")
 
 
-def rocker_sizes(board: Board, division: Division) -> None:
+def _rocker_sizes(board: Board, division: Division) -> None:
     """Draw the rocker in all positions, their limits, and the centre of the smallest cam."""
     board.pole(f"{ROCKER_SIZES}.0")
     for i in division.lines:
@@ -452,25 +447,25 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
     board, wanted = RecordingBoard(), with_needs(plans, NEEDS)
     division, given, rolling, plate = layout.division, layout.given, layout.rolling, layout.plate
     if DIAGRAMS_PART in wanted:
-        diagrams(board, division.sections, given)
+        _diagrams(board, division.sections, given)
         if layout.rocks:
             board.calc("h", ARC, "psi", "l_rocker")
-        exact_factors(board, given)
-        chord_factors(board, division, layout.fastest, given)
+        _exact_factors(board, given)
+        _chord_factors(board, division, layout.fastest, given)
     if SIZES_PART in wanted:
-        ordinates(board, division, given)
+        _ordinates(board, division, given)
         if rolling is not None and not layout.rocks:
-            roller_sizes(board, division, rolling)
+            _roller_sizes(board, division, rolling)
         if plate is not None:
-            plate_sizes(board, division, plate.given)
+            _plate_sizes(board, division, plate.given)
         if layout.rocks:
-            rocker_sizes(board, division)
+            _rocker_sizes(board, division)
     if PROFILE_PART in wanted:
-        positions(board, division)
+        _positions(board, division)
         if rolling is not None and not layout.rocks:
-            roller_profile(board, division)
+            _roller_profile(board, division)
         if plate is not None:
-            plate_profile(board, division)
+            _plate_profile(board, division)
         if layout.rocks:
-            rocker_profile(board, division)
+            _rocker_profile(board, division)
     return Program(board.steps)

@@ -21,83 +21,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..solved import Columned, Course, Ends, Rows
-from .cam import PLATE, ROCKER, ROLLER
-from .followers import RIGHT_ANGLE, Limit, PlateProfile, Range, Rocker, RollerCam, RollerProfile
+from .followers import RIGHT_ANGLE, Limit, Range, Rocker, RollerCam
 from .motion import FALL, RISE, TURN, Array, Motion, Phase, least
 from .sizes import HalfPlane, tightest
 from .solve import SolvedCam
 
 NEAR = 1e-9  # rad, from a section line, where a jump is on it
 FINE = np.radians(0.5)  # between points of a curve
-SAME, IN_DWELL = 1e-9, 0.25  # part of a radius; of the lower dwell, at which the radius of its arc is shown
-
-
-def columns(solved: SolvedCam, phi: Any, side: int = 1) -> list[Columned]:
-    """Return the columns at the angles `phi` of the cam, rad; where something jumps, the limits from one side."""
-
-    def points(name: str, places: NDArray[Any]) -> list[tuple[str, str, Array]]:
-        return [(f"{name}.x", "m", places.real), (f"{name}.y", "m", places.imag)]
-
-    phi, omega = np.asarray(phi, float), solved.givens["omega"]
-    s, ds, d2s = solved.motion.at(phi, side)
-    table = [("phi", "rad", phi), ("t", "s", phi / omega), ("s", "m", s), ("ds", "m", ds), ("d2s", "m", d2s)]
-    table += [("v", "m/s", omega * ds), ("a", "m/s^2", omega * omega * d2s)]
-    if solved.rolling is not None:
-        of, profile = "", solved.rolling.profile
-        if solved.rocker is not None:
-            of = "_rocker"
-            table.append(("psi", "rad", profile.motion.at(phi, side)[0]))
-        pressure = profile.pressure(phi, side)
-        with np.errstate(divide="ignore"):
-            rho = 1.0 / profile.curvature(phi, side)
-        table += [(f"theta{of}", "rad", pressure), (f"gamma{of}", "rad", RIGHT_ANGLE - np.abs(pressure))]
-        table += [*points(f"pitch{of}", profile.pitch(phi, side)), (f"rho_pitch{of}", "m", rho)]
-        table += [*points(f"profile{of}", profile.practical(phi, side)), (f"rho{of}", "m", rho - profile.R)]
-    if solved.plate is not None:
-        plate = solved.plate.profile
-        table += [*points("profile_plate", plate.practical(phi, side)), ("rho_plate", "m", plate.bend(phi, side))]
-    return [Columned(*column) for column in table]
-
-
-def extremes(solved: SolvedCam) -> list[Ends]:
-    """Return the extremes of travel, velocity, acceleration and pressure angles; at jumps both limits count."""
-    motion, omega = solved.motion, solved.givens["omega"]
-    weights = {("s", "m"): (1.0, 0.0, 0.0), ("v", "m/s"): (0.0, omega, 0.0), ("a", "m/s^2"): (0.0, 0.0, omega * omega)}
-    ends = []
-    for (name, unit), parts in weights.items():
-        most, lowest = motion.maximum(*parts), motion.minimum(*parts)
-        ends.append(Ends(name, unit, most.value, most.phi, lowest.value + 0.0, lowest.phi))
-    if solved.rolling is not None:
-        pressure, name = solved.rolling.profile.pressure, "theta" if solved.rocker is None else "theta_rocker"
-        low, high = least(pressure, motion.corners), least(lambda phi, side: -pressure(phi, side), motion.corners)
-        ends.append(Ends(name, "rad", -high.value, high.phi, low.value, low.phi))
-    return ends
-
-
-def profiles(solved: SolvedCam) -> list[tuple[str, str, RollerProfile | PlateProfile]]:
-    """Return the profiles: the curve whose curvature counts, the follower, the profile."""
-    named = (("pitch", ROLLER), ("pitch_rocker", ROCKER), ("profile_plate", PLATE))
-    cams = zip(named, (solved.roller, solved.rocker, solved.plate), strict=True)
-    return [(curve, follower, cam.profile) for (curve, follower), cam in cams if cam is not None]
-
-
-def cut_at(solved: SolvedCam, phi: Array) -> list[str]:
-    """Return for every angle the followers, joined by +, that rest on a corner of an undercut profile there."""
-    cuts = [(follower, cut) for _, follower, profile in profiles(solved) for cut in profile.undercuts]
-    resting = [[name for name, cut in cuts if (at - cut.start) % TURN < cut.end - cut.start] for at in phi.tolist()]
-    return ["+".join(dict.fromkeys(followers)) for followers in resting]
-
-
-def lines(solved: SolvedCam) -> list[tuple[int, float, int]]:
-    """Return the section lines: number, angle, side; where velocity or acceleration jumps inside, one for each."""
-    sided = []
-    for number, phi in enumerate(solved.angles.tolist()):
-        jumps = number > 0 and any(abs(jump.phi - phi) < NEAR for jump in solved.motion.jumps)
-        sided += [(number, phi, side) for side in ((-1, 1) if jumps else (1,))]
-    return sided
-
-
 TABLED = ("phi", "s", "ds", "d2s", "v", "a", "psi", "theta", "gamma", "theta_rocker", "gamma_rocker")
+SAME, IN_DWELL = 1e-9, 0.25  # part of a radius; of the lower dwell, at which the radius of its arc is shown
 
 
 class CamCourse(Course):
@@ -106,49 +38,89 @@ class CamCourse(Course):
     usual = 360  # one place a degree
 
     def __init__(self, solved: SolvedCam) -> None:
-        self.solved = solved
+        self.solved, self.motion, self.rolling = solved, solved.motion, solved.rolling
+        self.of = "_rocker" * (solved.rocker is not None)  # ends the names of what rollers on lines have, too
 
     def places(self, count: int) -> Array:
         """Return so many angles of the cam."""
         return np.asarray(TURN * (np.arange(count) / count))
 
-    def columns(self, places: Any) -> list[Columned]:
-        """Return the columns at angles of the cam."""
-        return columns(self.solved, places)
+    def columns(self, places: Any, side: int = 1) -> list[Columned]:
+        """Return the columns at angles of the cam, rad; where something jumps, the limits from one side."""
+
+        def points(name: str, places: NDArray[Any]) -> list[tuple[str, str, Array]]:
+            return [(f"{name}.x", "m", places.real), (f"{name}.y", "m", places.imag)]
+
+        phi, omega = np.asarray(places, float), self.solved.givens["omega"]
+        s, ds, d2s = self.motion.at(phi, side)
+        table = [("phi", "rad", phi), ("t", "s", phi / omega), ("s", "m", s), ("ds", "m", ds), ("d2s", "m", d2s)]
+        table += [("v", "m/s", omega * ds), ("a", "m/s^2", omega * omega * d2s)]
+        if self.rolling is not None:
+            of, profile = self.of, self.rolling.profile
+            if of:
+                table.append(("psi", "rad", profile.motion.at(phi, side)[0]))
+            pressure = profile.pressure(phi, side)
+            with np.errstate(divide="ignore"):
+                rho = 1.0 / profile.curvature(phi, side)
+            table += [(f"theta{of}", "rad", pressure), (f"gamma{of}", "rad", RIGHT_ANGLE - np.abs(pressure))]
+            table += [*points(f"pitch{of}", profile.pitch(phi, side)), (f"rho_pitch{of}", "m", rho)]
+            table += [*points(f"profile{of}", profile.practical(phi, side)), (f"rho{of}", "m", rho - profile.R)]
+        if self.solved.plate is not None:
+            plate = self.solved.plate.profile
+            table += [*points("profile_plate", plate.practical(phi, side)), ("rho_plate", "m", plate.bend(phi, side))]
+        return [Columned(*column) for column in table]
 
     def rows(self, count: int | None) -> Rows:
         """Return the motion at so many places, without a number on the section lines, with both limits at jumps."""
         if count is not None:
-            heads, found = super().rows(count)
+            heads, columns = super().rows(count)
         else:
-            numbers, angles, sides = zip(*lines(self.solved), strict=True)
-            heads, phi, after = list(map(str, numbers)), np.array(angles), np.array(sides) > 0
-            before_and_after = zip(*(columns(self.solved, phi, side) for side in (-1, 1)), strict=True)
-            found = [Columned(b.name, b.unit, np.where(after, b.values, a.values)) for a, b in before_and_after]
-        return heads, [column for column in found if column.name in TABLED]
+            lines = []  # number, angle, side
+            for number, phi in enumerate(self.solved.angles.tolist()):
+                jumps = number > 0 and any(abs(jump.phi - phi) < NEAR for jump in self.motion.jumps)
+                lines += [(str(number), phi, side) for side in ((-1, 1) if jumps else (1,))]
+            names, angles, sides = zip(*lines, strict=True)
+            heads, after = list(names), np.array(sides) > 0
+            before_and_after = zip(*(self.columns(angles, side) for side in (-1, 1)), strict=True)
+            columns = [Columned(b.name, b.unit, np.where(after, b.values, a.values)) for a, b in before_and_after]
+        return heads, [column for column in columns if column.name in TABLED]
 
     def extremes(self) -> list[Ends]:
-        """Return the extremes of motion and pressure angles."""
-        return extremes(self.solved)
+        """Return the extremes of travel, velocity, acceleration and pressure angles; at jumps both limits count."""
+        motion, omega, ends = self.motion, self.solved.givens["omega"], []
+        rates = ("s", "m", (1.0, 0.0, 0.0)), ("v", "m/s", (0.0, omega, 0.0)), ("a", "m/s^2", (0.0, 0.0, omega * omega))
+        for name, unit, parts in rates:
+            most, lowest = motion.maximum(*parts), motion.minimum(*parts)
+            ends.append(Ends(name, unit, most.value, most.phi, lowest.value + 0.0, lowest.phi))
+        if self.rolling is not None:
+            pressure = self.rolling.profile.pressure
+            low, high = least(pressure, motion.corners), least(lambda phi, side: -pressure(phi, side), motion.corners)
+            ends.append(Ends(f"theta{self.of}", "rad", -high.value, high.phi, low.value, low.phi))
+        return ends
 
     def remarks(self) -> Iterator[tuple[str, Mapping[str, Any]]]:
         """Say where profiles are curved most."""
-        for curve, _, profile in profiles(self.solved):
+        for curve, _, profile in self.solved.profiles:
             sharpest = profile.sharpest
             yield f"sweep.sharpest.{curve}", {"rho": (sharpest.value, "m"), "at": (sharpest.phi, "rad")}
 
     def states(self, places: Any) -> dict[str, list[str]]:
-        """Return at which places a profile is undercut."""
-        return {"status": [f"undercut: {cut}" if cut else "ok" for cut in cut_at(self.solved, places)]}
+        """Return at which places a follower rests on a corner of an undercut profile, which followers, joined by +."""
+        cuts = [(follower, cut) for _, follower, profile in self.solved.profiles for cut in profile.undercuts]
+        states = []
+        for at in places.tolist():
+            resting = dict.fromkeys(name for name, cut in cuts if (at - cut.start) % TURN < cut.end - cut.start)
+            states.append(f"undercut: {'+'.join(resting)}" if resting else "ok")
+        return {"status": states}
 
     def data(self, places: Any) -> dict[str, Any]:
         """Return the least radii of curvature, jumps and what an undercut profile loses."""
-        every = profiles(self.solved)
+        every = self.solved.profiles
         return {
             "rho_min": {curve: {"value": p.sharpest.value, "at": p.sharpest.phi} for curve, _, p in every},
             "jumps": [
                 {"at": jump.phi, "of": "ds" if jump.order == 1 else "d2s", "before": jump.before, "after": jump.after}
-                for jump in self.solved.motion.jumps
+                for jump in self.motion.jumps
             ],
             "undercut": [
                 {"follower": follower, "from": cut.start, "to": cut.end, "lost": cut.lost, "at": cut.phi_lost}
@@ -161,7 +133,7 @@ class CamCourse(Course):
 # Dense curves.
 
 
-def over(function: Callable[[Any, int], Any], *phases: Phase) -> list[tuple[Array, NDArray[Any]]]:
+def _over(function: Callable[[Any, int], Any], *phases: Phase) -> list[tuple[Array, NDArray[Any]]]:
     """Return the smooth pieces of a function over phases, densely: places phi and values, along the last axis.
 
     The function is one of places and a side; at the last place of a piece stands the limit from before it.
@@ -177,24 +149,24 @@ def over(function: Callable[[Any, int], Any], *phases: Phase) -> list[tuple[Arra
 
 def diagram(solved: SolvedCam, order: int, *phases: Phase) -> list[list[Range]]:
     """Return the smooth pieces of s or of a derivative of it, as places phi, ordinate."""
-    return [np.column_stack((phi, curves[order])).tolist() for phi, curves in over(solved.motion.at, *phases)]
+    return [np.column_stack((phi, curves[order])).tolist() for phi, curves in _over(solved.motion.at, *phases)]
 
 
 def over_acceleration(solved: SolvedCam, phase: Phase) -> list[list[complex]]:
     """Return the smooth pieces of S over d2s/dphi2."""
-    return [(d2s + 1j * s).tolist() for _, (s, _, d2s) in over(solved.motion.at, phase)]
+    return [(d2s + 1j * s).tolist() for _, (s, _, d2s) in _over(solved.motion.at, phase)]
 
 
 def courses(solved: SolvedCam) -> list[list[Range]]:
     """Return the smooth pieces of theta over phi, with the limits at both their ends, as places phi, theta."""
-    pieces = over(_rolling(solved).profile.pressure, *solved.motion.phases[:3])
+    pieces = _over(_rolling(solved).profile.pressure, *solved.motion.phases[:3])
     return [np.column_stack(piece).tolist() for piece in pieces]
 
 
 def analogues(solved: SolvedCam, phase: str) -> list[complex]:
     """Return S over ds/dphi in a phase, of a rocker the ends of the analogues laid off along it."""
     follower = _rolling(solved).profile.follower
-    return [place for _, piece in over(follower.analogue, follower.motion.phase(phase)) for place in piece.tolist()]
+    return [place for _, piece in _over(follower.analogue, follower.motion.phase(phase)) for place in piece.tolist()]
 
 
 def analogue(solved: SolvedCam, line: int, phase: str = "") -> complex:
@@ -303,7 +275,7 @@ def half_planes(solved: SolvedCam) -> Iterator[tuple[complex, float]]:
     yield -1j, 0.0  # below the rocker's lowest position, and its highest one
     yield -1j * cmath.rect(1.0, motion.h), 0.0
     for limit in _rolling(solved).limits.each:
-        for _, planes in over(partial(rocker.half_planes, limit), motion.phase(limit.phase)):
+        for _, planes in _over(partial(rocker.half_planes, limit), motion.phase(limit.phase)):
             for normal, lowest in planes.T.tolist():
                 yield -normal, lowest.real - normal.real * rocker.l
 

@@ -104,15 +104,40 @@ class Envelope(ABC):
 
     @cached_property
     def undercuts(self) -> list[Undercut]:
-        """What the profile does not give of the motion."""
-        return undercuts(self)
+        """What the profile does not give of the motion, in order: nothing where no position cuts another's part."""
+        parts, corners = backward(self), self.motion.corners
+        size = float(np.max(np.abs(self.practical(np.linspace(0.0, TURN, WITHIN)))))
+        narrow = _necks(self, INSIDE * size)
+        if not parts and not narrow:
+            return []
+        rooms = [AROUND * max(end - begin, LEAST) for begin, end in parts]
+        close = [np.linspace(a - room, b + room, CLOSE) for (a, b), room in zip(parts, rooms, strict=True)]
+        closer = (TURN / CELLS) * HALVED
+        close += [np.concatenate((phi - closer, [phi], phi + closer)) for ends in narrow for phi in ends]
+        traced = _Traced.of(self, Places.between(corners, np.concatenate(close)))
+        ring = traced.ring()
+        edges = [traced.curve.at(a, -1)[0] for a, _ in ring]
+        cuts = (_undercut(traced.curve, ends, k, edges) for k, ends in enumerate(ring))
+        return sorted(cuts, key=lambda cut: cut.start)
 
     def outline(self, most: float = OUTLINE) -> Points:
-        """Return points of the profile as it is cut, in order of phi, at most `most` rad apart, without loops."""
-        return outline(self, self.undercuts, most)
+        """Return points of the profile as it is cut, in order of phi, at most `most` rad apart, without loops.
+
+        The corner of an undercut stands in the place of its loop.
+        """
+        curve, phi, cuts = Curve(self), self.motion.samples(most)[:-1], self.undercuts
+        pieces = [*curve.arcs(np.arange(ARC) / ARC), (curve.places(phi), self.practical(phi))]
+        pieces += [(np.array([cut.along[0] % curve.length]), np.array([cut.corner])) for cut in cuts]
+        t, points = (np.concatenate(part) for part in zip(*pieces, strict=True))
+        kept = np.ones(len(t), bool)
+        for cut in cuts:
+            leaves, returns = cut.along
+            into = (t - leaves % curve.length) % curve.length
+            kept &= (into == 0.0) | (into >= (returns - leaves) % curve.length)
+        return np.asarray(points[kept][np.argsort(t[kept], kind="stable")])
 
 
-def necks(envelope: Envelope, inside: float) -> list[tuple[float, float]]:
+def _necks(envelope: Envelope, inside: float) -> list[tuple[float, float]]:
     """Return the deepest cuts of positions into places of the envelope that are not next to them.
 
     The depth is looked at in all cells; where it is greatest among its neighbours, and might be positive between
@@ -320,24 +345,6 @@ def _chords(curve: Curve, before: Ends, after: Ends) -> Iterator[Ends]:
         yield 0.5 * float(a[i] + a[i + 1]), 0.5 * float(b[j] + b[j + 1])
 
 
-def undercuts(envelope: Envelope) -> list[Undercut]:
-    """Return what the profile does not give of the motion, in order; nothing where no position cuts another's part."""
-    parts, corners = backward(envelope), envelope.motion.corners
-    size = float(np.max(np.abs(envelope.practical(np.linspace(0.0, TURN, WITHIN)))))
-    narrow = necks(envelope, INSIDE * size)
-    if not parts and not narrow:
-        return []
-    rooms = [AROUND * max(end - begin, LEAST) for begin, end in parts]
-    close = [np.linspace(a - room, b + room, CLOSE) for (a, b), room in zip(parts, rooms, strict=True)]
-    closer = (TURN / CELLS) * HALVED
-    close += [np.concatenate((phi - closer, [phi], phi + closer)) for ends in narrow for phi in ends]
-    traced = _Traced.of(envelope, Places.between(corners, np.concatenate(close)))
-    ring = traced.ring()
-    edges = [traced.curve.at(a, -1)[0] for a, _ in ring]
-    found = [_undercut(traced.curve, ends, k, edges) for k, ends in enumerate(ring)]
-    return sorted(found, key=lambda cut: cut.start)
-
-
 def _undercut(curve: Curve, ends: tuple[float, float], k: int, corners: list[complex]) -> Undercut:
     """Return an undercut; where its own corner does not bear the follower another one does."""
     envelope = curve.envelope
@@ -352,22 +359,3 @@ def _undercut(curve: Curve, ends: tuple[float, float], k: int, corners: list[com
     at = int(np.clip(np.argmin(kept(phi)), 1, WITHIN - 2))
     least, where = refined(kept, phi[at - 1], phi[at + 1])
     return Undercut(start, end, corners[k], ends, -float(least[0]), float(where[0]) % TURN)
-
-
-def outline(envelope: Envelope, cuts: list[Undercut], most: float) -> Points:
-    """Return points of the profile as it is cut, in order of phi, at most `most` rad apart.
-
-    The corner of an undercut stands in the place of its loop.
-    """
-    curve, phi = Curve(envelope), envelope.motion.samples(most)[:-1]
-    pieces = [*curve.arcs(np.arange(ARC) / ARC), (curve.places(phi), envelope.practical(phi))]
-    pieces += [(np.array([cut.along[0] % curve.length]), np.array([cut.corner])) for cut in cuts]
-    t, points = (np.concatenate(part) for part in zip(*pieces, strict=True))
-    kept = np.ones(len(t), bool)
-    for cut in cuts:
-        leaves, returns = cut.along
-        into = (t - leaves % curve.length) % curve.length
-        kept &= (into == 0.0) | (into >= (returns - leaves) % curve.length)
-    order = np.argsort(t[kept], kind="stable")
-    found: Points = points[kept][order]
-    return found

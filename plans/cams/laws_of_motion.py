@@ -14,6 +14,7 @@ Source: Artobolevsky, Theory of mechanisms and machines; Rothbart, Cam Design Ha
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -32,55 +33,43 @@ ROUNDING = 1e-15  # part of an interval within which two of its points are one
 
 @dataclass(frozen=True, slots=True)
 class Smooth:
-    """c0 + c1 t + c2 t^2 + ... + sine sin(rate t) + cosine cos(rate t), t = x - origin, for low <= x <= high."""
+    """c0 + c1 t + c2 t^2 + ... + the real part of wave exp(i rate t), t = x - origin, for low <= x <= high."""
 
     # the piece's ends
     low: float
     high: float
     origin: float  # from where t is counted: that end at which small values must be exact
     coefficients: tuple[float, ...]  # of the polynomial, beginning with the constant
-    # amplitudes of the wave, and its angle per unit of x
-    sine: float = 0.0
-    cosine: float = 0.0
-    rate: float = 0.0
-
-    @property
-    def waves(self) -> bool:
-        """Whether there is a wave."""
-        return self.sine != 0.0 or self.cosine != 0.0
+    wave: complex = 0j  # amplitudes: of the cosine, less i times that of the sine
+    rate: float = 0.0  # angle of the wave per unit of x
 
     def value(self, x: float) -> float:
         """Return the value at one place."""
         t, value = x - self.origin, 0.0
         for coefficient in reversed(self.coefficients):
             value = value * t + coefficient
-        if self.waves:
-            value += self.sine * math.sin(self.rate * t) + self.cosine * math.cos(self.rate * t)
-        return value
+        angle = self.rate * t
+        return value + (self.wave.real * math.cos(angle) - self.wave.imag * math.sin(angle)) if self.wave else value
 
     def derivative(self) -> Smooth:
         """Return the derivative."""
         powers = tuple(k * c for k, c in enumerate(self.coefficients))[1:] or (0.0,)
-        return replace(self, coefficients=powers, sine=-self.rate * self.cosine, cosine=self.rate * self.sine)
+        return replace(self, coefficients=powers, wave=1j * self.rate * self.wave)
 
     def integral(self, start: float) -> Smooth:
         """Return the integral that is `start` at the origin."""
-        powers = (0.0, *(c / (k + 1) for k, c in enumerate(self.coefficients)))
-        if not self.waves:
-            return replace(self, coefficients=(start, *powers[1:]))
-        sine, cosine = self.cosine / self.rate, -self.sine / self.rate
-        return replace(self, coefficients=(start - cosine, *powers[1:]), sine=sine, cosine=cosine)
+        powers = (c / (k + 1) for k, c in enumerate(self.coefficients))
+        wave = self.wave / (1j * self.rate) if self.wave else 0j
+        return replace(self, coefficients=(start - wave.real, *powers), wave=wave)
 
     def times(self, factor: float) -> Smooth:
         """Return the curve multiplied by a number."""
-        powers = tuple(factor * c for c in self.coefficients)
-        return replace(self, coefficients=powers, sine=factor * self.sine, cosine=factor * self.cosine)
+        return replace(self, coefficients=tuple(factor * c for c in self.coefficients), wave=factor * self.wave)
 
     def plus(self, other: Smooth) -> Smooth:
         """Return the sum with another curve of the same piece."""
         powers = tuple(a + b for a, b in zip_longest(self.coefficients, other.coefficients, fillvalue=0.0))
-        sine, cosine = self.sine + other.sine, self.cosine + other.cosine
-        return replace(self, coefficients=powers, sine=sine, cosine=cosine, rate=self.rate or other.rate)
+        return replace(self, coefficients=powers, wave=self.wave + other.wave, rate=self.rate or other.rate)
 
     def stretched(self, length: float, start: float) -> Smooth:
         """Return the curve over x = start + length * (the present x)."""
@@ -92,7 +81,7 @@ class Smooth:
         """Return the curve run through backwards: over x = 1 - (the present x)."""
         powers = tuple(c * (-1.0) ** k for k, c in enumerate(self.coefficients))
         low, high, origin = 1.0 - self.high, 1.0 - self.low, 1.0 - self.origin
-        return replace(self, low=low, high=high, origin=origin, coefficients=powers, sine=-self.sine)
+        return replace(self, low=low, high=high, origin=origin, coefficients=powers, wave=self.wave.conjugate())
 
     def less_than_one(self) -> Smooth:
         """Return 1 less the curve."""
@@ -106,7 +95,7 @@ class Smooth:
     def roots(self) -> list[float]:
         """Return the places of the piece where the curve changes its sign, its ends left out, in order."""
         slope, steady = self.derivative(), not any(self.coefficients[1:])
-        if self.high <= self.low or (steady and not self.waves):
+        if self.high <= self.low or (steady and not self.wave):
             return []
         turns = self._crests() if steady else slope.roots()
         changes = [
@@ -117,8 +106,8 @@ class Smooth:
         return [root for root in changes if self.low < root < self.high]
 
     def _crests(self) -> list[float]:
-        """Return the crests and troughs of the wave, where sine cos(rate t) = cosine sin(rate t)."""
-        first = math.atan2(self.sine, self.cosine)
+        """Return the crests and troughs of the wave, where its derivative is zero."""
+        first = -cmath.phase(self.wave)
         a, b = sorted(self.rate * (x - self.origin) for x in (self.low, self.high))
         turns = range(math.ceil((a - first) / math.pi), math.floor((b - first) / math.pi) + 1)
         return sorted(self.origin + (first + k * math.pi) / self.rate for k in turns)
@@ -151,7 +140,7 @@ def _ramp(low: float, high: float, *coefficients: float) -> Smooth:
 
 
 def _wave(low: float, high: float, rate: float, sine: float, cosine: float) -> Smooth:
-    return Smooth(low, high, low, (0.0,), sine, cosine, rate)
+    return Smooth(low, high, low, (0.0,), complex(cosine, -sine), rate)
 
 
 # the first lobe of every law, its height any, over 0..1; at 1 it joins the second
@@ -189,7 +178,7 @@ class LawOfMotion:
         return tuple(piece.less_than_one() for piece in self.pieces)
 
 
-def integrated(pieces: Sequence[Smooth]) -> tuple[Smooth, ...]:
+def _integrated(pieces: Sequence[Smooth]) -> tuple[Smooth, ...]:
     """Return the integral of pieces, each with its origin at its low end, that begins with zero."""
     found, start = [], 0.0
     for piece in pieces:
@@ -212,7 +201,7 @@ def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
         raise InputError("choice-unknown", text=quote(name), known=", ".join(LAWS))
     if not 0.0 < u < 1.0:
         raise InputError("law-u", text=f"{u:.6g}")
-    lobe = integrated(integrated(LOBES[name]))
+    lobe = _integrated(_integrated(LOBES[name]))
     whole = lobe[-1].value(1.0)
     first = [piece.times(u / whole).stretched(u, 0.0) for piece in lobe]
     second = [piece.times((1.0 - u) / whole).stretched(1.0 - u, 0.0).mirrored() for piece in reversed(lobe)]
@@ -235,12 +224,12 @@ def law_of_pieces(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
     acceleration = [
         _ramp(low, high, a, (b - a) / (high - low)) for (low, a), (high, b) in pairwise(nodes) if high > low
     ]
-    velocity = integrated(acceleration)
+    velocity = _integrated(acceleration)
     greatest = max(abs(piece.value(x)) for piece in velocity for x in piece.extreme_places())
     rest = velocity[-1].value(1.0)
     if abs(rest) > CLOSED * greatest:
         raise InputError("law-open", text=f"{rest / greatest:+.3g}")
-    travel = integrated(velocity)
+    travel = _integrated(velocity)
     whole = travel[-1].value(1.0)
     if whole <= CLOSED * greatest:
         raise InputError("law-still")
@@ -264,7 +253,7 @@ def law_of_points(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
     if values[-1] == values[0]:
         raise InputError("law-still")
     s = (np.asarray(values, float) - values[0]) / (values[-1] - values[0])
-    travel = integrated(integrated(_spline(x, s)))
+    travel = _integrated(_integrated(_spline(x, s)))
     scale = 1.0 / travel[-1].value(1.0)  # rounding
     for piece in travel:
         for place in piece.extreme_places():

@@ -128,26 +128,24 @@ class _Table:
     """The pieces of one derivative side by side: one column each, so that many angles are one array."""
 
     powers: Array  # (degree + 1, pieces), the highest first
-    sine: Array
-    cosine: Array
+    wave: NDArray[np.complex128]
     rate: Array
-    waves: bool
 
     @classmethod
     def of(cls, curves: Sequence[Smooth]) -> _Table:
         """Return the table of pieces."""
         rows = list(zip_longest(*(curve.coefficients for curve in curves), fillvalue=0.0))
-        sine, cosine, rate = np.array([(curve.sine, curve.cosine, curve.rate) for curve in curves]).T
-        return cls(np.array(rows[::-1]), sine, cosine, rate, any(curve.waves for curve in curves))
+        wave, rate = np.array([curve.wave for curve in curves]), np.array([curve.rate for curve in curves])
+        return cls(np.array(rows[::-1]), wave, rate)
 
     def at(self, t: Array, which: NDArray[np.intp]) -> Array:
         """Return the values at the distances `t` from the origins of the pieces `which`."""
         value = self.powers[0, which]
         for row in self.powers[1:]:
             value = value * t + row[which]
-        if self.waves:
-            angle = self.rate[which] * t
-            value = value + (self.sine[which] * np.sin(angle) + self.cosine[which] * np.cos(angle))
+        if self.wave.any():
+            angle, wave = self.rate[which] * t, self.wave[which]
+            value = value + (wave.real * np.cos(angle) - wave.imag * np.sin(angle))
         return np.asarray(value)
 
 

@@ -44,7 +44,7 @@ from .construction import (
     Layout,
     construct,
 )
-from .followers import RIGHT_ANGLE, PlateCam, RollerCam
+from .followers import RIGHT_ANGLE, PlateCam, PlateProfile, RollerCam, RollerProfile
 from .motion import RISE, Array, Division, Motion, motion_of
 from .sizes import plate_cam, rocker_cam, roller_cam
 
@@ -73,7 +73,7 @@ def diagram_givens(motion: Motion, division: Division, given: str) -> dict[str, 
     return numbers | {"_part_a": motion.d2s_max.value / amplitude}
 
 
-def profile_givens(motion: Motion, division: Division, sense: int) -> dict[str, float]:
+def _profile_givens(motion: Motion, division: Division, sense: int) -> dict[str, float]:
     """Return the follower's axes in the inverted motion, and travels as parts of the stroke."""
     s, ds, _ = motion.at(division.angles, -1)
     numbers = {"_sense": float(sense)}
@@ -186,6 +186,13 @@ class SolvedCam(Solved):
         return self.layout.plate
 
     @property
+    def profiles(self) -> list[tuple[str, str, RollerProfile | PlateProfile]]:
+        """The profiles: the curve whose curvature counts, the follower, the profile."""
+        rolling = ("pitch_rocker", ROCKER) if self.layout.rocks else ("pitch", ROLLER)
+        cams = (*rolling, self.rolling), ("profile_plate", PLATE, self.plate)
+        return [(curve, follower, cam.profile) for curve, follower, cam in cams if cam is not None]
+
+    @property
     def angles(self) -> Array:
         """The angles of the section lines, rad."""
         return self.layout.division.angles
@@ -258,7 +265,7 @@ def reduced(solved: SolvedCam, part: float) -> SolvedCam:
     return replace(solved, **_found(solved.program, {**solved.givens, **drawn}))
 
 
-def again(solved: SolvedCam, values: Mapping[str, float]) -> Mapping[str, Any]:
+def _again(solved: SolvedCam, values: Mapping[str, float]) -> Mapping[str, Any]:
     """Return what the same construction gives with other numbers; its section lines go with the pieces of the law."""
     import numpy as np
 
@@ -290,7 +297,7 @@ def _cams(cam: Cam, motion: Motion, values: Mapping[str, float]) -> tuple[Roller
 def _givens(cam: Cam, motion: Motion, layout: Layout) -> dict[str, Any]:
     """Return what the board begins with beside the numbers of the cam."""
     division = layout.division
-    numbers = diagram_givens(motion, division, layout.given) | profile_givens(motion, division, cam.sense)
+    numbers = diagram_givens(motion, division, layout.given) | _profile_givens(motion, division, cam.sense)
     for follower in (layout.rolling, layout.plate):
         numbers |= follower.givens(division) if follower is not None else {}
     return numbers
@@ -330,7 +337,7 @@ def conditions_of(solved: SolvedCam) -> dict[str, Condition]:
     def solve_with(others: Mapping[str, float]) -> Mapping[str, Any]:
         changed = {name for name, value in others.items() if value != numbers[name]}
         on_board = changed <= ON_BOARD
-        values = run(solved.program, {**solved.givens, **others}).values if on_board else again(solved, others)
+        values = run(solved.program, {**solved.givens, **others}).values if on_board else _again(solved, others)
         return {name: values[name] for name in solved.quantities}
 
     totals = by_solving_again(solve_with, numbers)

@@ -78,7 +78,8 @@ def in_extended(motion: Motion, angles: Array) -> Course:
             found = np.zeros_like(t)
             for coefficient in reversed(curve.coefficients):
                 found = found * t + coefficient
-            values[there] = found + (curve.sine * np.sin(curve.rate * t) + curve.cosine * np.cos(curve.rate * t))
+            angle, wave = curve.rate * t, curve.wave
+            values[there] = found + (wave.real * np.cos(angle) - wave.imag * np.sin(angle))
     return s, ds
 
 

@@ -13,7 +13,7 @@ import pytest
 
 import kulman
 from kulman import cli
-from kulman.plans.cams.course import columns, extremes
+from kulman.plans.cams.course import CamCourse
 from kulman.plans.cams.solve import SolvedCam
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.variants.sweeps.swept import CourseSweep
@@ -71,7 +71,8 @@ def test_velocity_and_acceleration_are_derivatives_of_the_travel() -> None:
     solved = SolvedCam.of(swept().case.solved)
     phi, step = np.radians(np.arange(5.0, 230.0, 7.0)), 1e-4
     at, ahead, behind = (
-        {column.name: column.values for column in columns(solved, phi + shift)} for shift in (0.0, step, -step)
+        {column.name: column.values for column in CamCourse(solved).columns(phi + shift)}
+        for shift in (0.0, step, -step)
     )
 
     seconds = step / 200.0
@@ -82,14 +83,14 @@ def test_velocity_and_acceleration_are_derivatives_of_the_travel() -> None:
 def test_extremes_are_those_of_a_close_look_at_both_sides_of_jumps() -> None:
     solved = SolvedCam.of(swept().case.solved)
     phi = solved.motion.samples(1e-3)
-    sides = [{column.name: column.values for column in columns(solved, phi, side)} for side in (-1, 1)]
+    sides = [{column.name: column.values for column in CamCourse(solved).columns(phi, side)} for side in (-1, 1)]
 
-    for found in extremes(solved):
+    for found in CamCourse(solved).extremes():
         values = np.concatenate([side[found.name] for side in sides])
         size = np.abs(values).max()
         assert found.most == pytest.approx(values.max(), abs=1e-6 * size)
         assert found.least == pytest.approx(values.min(), abs=1e-6 * size)
-    assert {found.name for found in extremes(solved)} == {"s", "v", "a", "theta"}
+    assert {found.name for found in CamCourse(solved).extremes()} == {"s", "v", "a", "theta"}
 
 
 def test_json_has_jumps_with_both_limits_and_si(capsys: pytest.CaptureFixture[str]) -> None:

@@ -217,10 +217,8 @@ KIND = Cams()
 
 def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlateProfile]]:
     """Go through the profiles that are drawn, each with the follower that it moves."""
-    from ...plans.cams.course import profiles
-
     if solved.draws_profiles:
-        yield from ((follower, profile) for _, follower, profile in profiles(solved))
+        yield from ((follower, profile) for _, follower, profile in solved.profiles)
 
 
 def _outside(solved: SolvedCam) -> Iterator[InputError]:
