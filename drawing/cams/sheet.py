@@ -65,7 +65,10 @@ def _ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, 
     if chooser is not None and symbol in solved.scale_of_plan.values():
         visible(chooser, symbol, chooser.ladder(lambda _: across)[0], across, "m")
     if symbol not in EQUAL:
-        return (chooser or From(_profile_mu(solved, across))).ladder(lambda _: 2.0 * across)
+        # M 2:1 of a small cam, else M 1:1 or less
+        radii = (solved.values[name] for name in RADII.values() if name in solved.values)
+        usual = max(MU_L / 2.0 if max(radii, default=SMALL) < SMALL else MU_L, steps(across / LARGEST)[0])
+        return (chooser or From(usual)).ladder(lambda _: 2.0 * across)
     if chooser is not None:
         return chooser.ladder(lambda _: across)
     finest = float(solved.values[EQUAL[symbol]]) if EQUAL[symbol] in solved.values else MU_L
@@ -76,26 +79,15 @@ def _ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, 
     return tuple(mu for mu in rungs if across <= LARGEST * mu) or (steps(across / LARGEST)[0],)
 
 
-def _profile_mu(solved: SolvedCam, across: float) -> float:
-    """Return the scale factor of profiles where nothing is said: M 2:1 of a small cam, else M 1:1 or less, m/mm."""
-    small = max((solved.values[name] for name in RADII.values() if name in solved.values), default=SMALL) < SMALL
-    return max(MU_L / 2.0 if small else MU_L, steps(across / LARGEST)[0])
-
-
 def first_scales(
     solved: SolvedCam, choosers: Choosers, plans: Sequence[str] = PARTS
 ) -> tuple[Format, dict[str, Scale]]:
     """Return the format and the scale factors by plan: those of the diagrams follow from the construction."""
     if "mu_phi" in solved.givens:
         not_a_point("mu_phi", solved.givens["mu_phi"], math.tau, "rad")
-    mus = {symbol: _ladder(solved, choosers, symbol)[0] for symbol in SYMBOLS}
-    return smallest(AREAS[plan] for plan in plans), scales(solved, mus)
-
-
-def scales(solved: SolvedCam, mus: dict[str, float]) -> dict[str, Scale]:
-    """Return the scale factors by plan, the chosen ones of `mus` among them."""
-    values = {**solved.values, **mus}
-    return {plan: Scale(symbol, float(values[symbol]), "m") for plan, symbol in solved.scale_of_plan.items()}
+    values = {**solved.values, **{symbol: rungs[0] for symbol, rungs in _chosen(solved, choosers).items()}}
+    scales = {plan: Scale(symbol, float(values[symbol]), "m") for plan, symbol in solved.scale_of_plan.items()}
+    return smallest(AREAS[plan] for plan in plans), scales
 
 
 def _size_of(solved: SolvedCam, symbol: str) -> float:

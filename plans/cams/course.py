@@ -183,23 +183,18 @@ def _rolling(solved: SolvedCam) -> RollerCam:
 # Limits, and places that they permit.
 
 
-def _limits_at(solved: SolvedCam, phi: float) -> list[list[float]]:
-    """Return s, s', s'' at an angle of the cam, after it and before it."""
-    return [[float(value) for value in solved.motion.at(phi, side)] for side in (1, -1)]
-
-
 def touch_of(solved: SolvedCam, plane: HalfPlane) -> complex:
     """Return where a limit touches S over ds/dphi: at a jump the side that reaches farther."""
-    sense, normal = solved.cam.sense, plane.normal
-    ends = _limits_at(solved, plane.phi)
-    s, ds, _ = min(ends, key=lambda at: normal.real * sense * -at[1] + normal.imag * at[0])
-    return complex(sense * ds, s)
+    follower = _rolling(solved).profile.follower
+    ends = (complex(follower.analogue(plane.phi, side)) for side in (1, -1))
+    return max(ends, key=lambda end: (plane.normal * end).real)
 
 
 def touch_of_plate(solved: SolvedCam) -> complex:
-    """Return where the tangent at 45 degrees touches S over d2s/dphi2."""
+    """Return where the tangent at 45 degrees touches S over d2s/dphi2: at a jump the side that reaches farther."""
     assert solved.plate is not None
-    s, _, d2s = min(_limits_at(solved, solved.plate.sizes.phi), key=lambda at: at[0] + at[2])
+    ends = ([float(value) for value in solved.motion.at(solved.plate.sizes.phi, side)] for side in (1, -1))
+    s, _, d2s = min(ends, key=lambda at: at[0] + at[2])
     return complex(d2s, s)
 
 

@@ -167,7 +167,6 @@ class LawOfMotion:
     """The travel over one phase, from (0, 0) to (1, 1), as smooth pieces one after the other."""
 
     pieces: tuple[Smooth, ...]  # the travel s; each piece begins where the one before ends
-    u: float | None = None  # where the lobes of acceleration join; None for a law of one's own
 
     def mirrored(self) -> tuple[Smooth, ...]:
         """Return the way back run through backwards in time: s(1 - x)."""
@@ -206,7 +205,7 @@ def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
     first = [piece.times(u / whole).stretched(u, 0.0) for piece in lobe]
     second = [piece.times((1.0 - u) / whole).stretched(1.0 - u, 0.0).mirrored() for piece in reversed(lobe)]
     second[0] = replace(second[0], low=first[-1].high)  # not an ulp beside it
-    return LawOfMotion((*first, *(piece.less_than_one() for piece in second)), u)
+    return LawOfMotion((*first, *(piece.less_than_one() for piece in second)))
 
 
 def law_of_pieces(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:

@@ -123,32 +123,6 @@ class Phase:
         return (*(piece.low for piece in self.pieces), self.end)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Table:
-    """The pieces of one derivative side by side: one column each, so that many angles are one array."""
-
-    powers: Array  # (degree + 1, pieces), the highest first
-    wave: NDArray[np.complex128]
-    rate: Array
-
-    @classmethod
-    def of(cls, curves: Sequence[Smooth]) -> _Table:
-        """Return the table of pieces."""
-        rows = list(zip_longest(*(curve.coefficients for curve in curves), fillvalue=0.0))
-        wave, rate = np.array([curve.wave for curve in curves]), np.array([curve.rate for curve in curves])
-        return cls(np.array(rows[::-1]), wave, rate)
-
-    def at(self, t: Array, which: NDArray[np.intp]) -> Array:
-        """Return the values at the distances `t` from the origins of the pieces `which`."""
-        value = self.powers[0, which]
-        for row in self.powers[1:]:
-            value = value * t + row[which]
-        if self.wave.any():
-            angle, wave = self.rate[which] * t, self.wave[which]
-            value = value + (wave.real * np.cos(angle) - wave.imag * np.sin(angle))
-        return np.asarray(value)
-
-
 class Motion:
     """The travel s(phi) of a follower over one turn, with the stroke h, m, or for a rocker its swing, rad.
 
@@ -196,35 +170,45 @@ class Motion:
 
     @cached_property
     def _derivatives(self) -> list[list[Smooth]]:
-        """The pieces of s, s', s'', s'''."""
-        found = [[piece for _, piece in self._pieces]]
-        for _ in range(3):
-            found.append([piece.derivative() for piece in found[-1]])
-        return found
+        """The pieces of the travel and of its two derivatives."""
+        travel = [piece for _, piece in self._pieces]
+        velocity = [piece.derivative() for piece in travel]
+        return [travel, velocity, [piece.derivative() for piece in velocity]]
 
     @cached_property
-    def _tables(self) -> tuple[Array, Array, list[_Table]]:
-        """Where the pieces begin, from where they are counted, and the tables of their derivatives."""
-        starts, origins = np.array([(piece.low, piece.origin) for _, piece in self._pieces]).T
-        return starts.copy(), origins.copy(), [_Table.of(curves) for curves in self._derivatives]
+    def _tables(self) -> tuple[Array, Array, Array, list[tuple[Array, NDArray[Any]]]]:
+        """Where pieces begin, from where they are counted, rates of waves; of every derivative powers and waves.
 
-    def derivatives(self, phi: Any, side: int = 1, order: int = 2) -> tuple[Array, ...]:
-        """Return s, s', ... up to the given order (at most 3) at the angles `phi`, rad, of any turn.
+        The powers are the highest first; each piece has a column, so that many angles are one array.
+        """
+        starts, origins, rates = np.array([(piece.low, piece.origin, piece.rate) for _, piece in self._pieces]).T.copy()
+        tables = []
+        for curves in self._derivatives:
+            rows = [*zip_longest(*(curve.coefficients for curve in curves), fillvalue=0.0)]
+            tables.append((np.array(rows[::-1]), np.array([curve.wave for curve in curves])))
+        return starts, origins, rates, tables
+
+    def at(self, phi: Any, side: int = 1) -> tuple[Array, Array, Array]:
+        """Return s, ds/dphi, d2s/dphi2 at the angles `phi`, rad, of any turn.
 
         Where they jump, the limits from the right (side +1) or from the left (side -1).
         """
         phi = np.asarray(phi, float)
         turns = np.floor((phi + NEAR) / TURN) if side > 0 else -np.floor(1.0 - (phi - NEAR) / TURN)
         phi = phi - TURN * turns
-        starts, origins, tables = self._tables
+        starts, origins, rates, tables = self._tables
         which = np.maximum(np.searchsorted(starts, phi + side * NEAR) - 1, 0)
         t = phi - origins[which]
-        return tuple(table.at(t, which) for table in tables[: order + 1])
-
-    def at(self, phi: Any, side: int = 1) -> tuple[Array, Array, Array]:
-        """Return s, ds/dphi, d2s/dphi2 at the angles `phi`; where they jump, the limits from one side (+1 right)."""
-        s, ds, d2s = self.derivatives(phi, side)
-        return s, ds, d2s
+        angle, curves = rates[which] * t, []
+        for powers, waves in tables:
+            value = powers[0, which]
+            for row in powers[1:]:
+                value = value * t + row[which]
+            if waves.any():
+                wave = waves[which]
+                value = value + (wave.real * np.cos(angle) - wave.imag * np.sin(angle))
+            curves.append(np.asarray(value))
+        return curves[0], curves[1], curves[2]
 
     def maximum(self, s: float, ds: float, d2s: float, phases: Iterable[str] = PHASES) -> Extreme:
         """Return the exact maximum of s * travel + ds * first + d2s * second derivative over some of the phases.
