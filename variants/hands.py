@@ -127,15 +127,9 @@ def table(
     worst = max((item.spread.undrawn for item in drawn.expected.values() if item.spread.exact is not None), default=0.0)
     if 0.0 < worst < math.inf:
         lines += ["", words["hand.undrawn"].format(percent=words.short(100.0 * worst, 2))]
-    return "\n".join((_heading(drawn, words), *lines))
-
-
-def _heading(drawn: Drawing, words: Words) -> str:
-    hand, tolerance = drawn.hand, drawn.tolerance
-    numbers = {"point": hand.point, "direction": hand.direction, "reading": hand.reading}
-    numbers |= {"mm": tolerance.mm, "part": tolerance.part * 100.0, "degrees": tolerance.degrees, "n": DRAWINGS}
+    numbers = {**asdict(drawn.hand), **asdict(drawn.tolerance), "part": drawn.tolerance.part * 100.0, "n": DRAWINGS}
     shown = {name: words.short(value, DIGITS) for name, value in numbers.items()}
-    return words["hand.heading"].format(hand=words[f"hand.{drawn.name}"], **shown)
+    return "\n".join((words["hand.heading"].format(hand=words[f"hand.{drawn.name}"], **shown), *lines))
 
 
 def _row(quantity: Quantity, expected: Expectation, program: Program, words: Words) -> list[str]:

@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -27,13 +27,6 @@ from ..solved import Solved
 ZERO = "zero"
 Shape = int | tuple[int, ...]
 Operate = Callable[..., Any]
-
-
-class Errors(Protocol):
-    """Where errors come from: a generator of numpy, or what takes its place."""
-
-    def standard_normal(self, size: Shape, /) -> Any:
-        """Return an array of errors in standard deviations."""
 
 
 LARGEST = {"point": 100.0, "direction": 90.0, "reading": 100.0}  # mm, degrees: the sheet, a right angle
@@ -137,7 +130,7 @@ class ShakyBoard(ArrayBoard):
     """
 
     def __init__(
-        self, paper: Paper, hand: Hand, random: Errors, shape: Shape, only: Collection[str] | None = None
+        self, paper: Paper, hand: Hand, random: Any, shape: Shape, only: Collection[str] | None = None
     ) -> None:
         super().__init__(paper.givens, 0)
         self.codes = np.zeros(shape, np.int8)
@@ -170,22 +163,22 @@ class ShakyBoard(ArrayBoard):
         self.erred.append(self._name)
         return self._random.standard_normal(self.codes.shape) * size
 
-    def _point(self, mark: str) -> Any:
-        """Return the error of a mark, or of a line's distance from it, on the plan of `mark`."""
+    def _point(self, mark: str = "") -> Any:
+        """Return the error of a mark, or of a line's distance from it, on the plan of `mark`, else of this step."""
         return self._error(self._hand.point * self._mu(mark))
 
-    def _reading(self, mark: str) -> Any:
+    def _reading(self, mark: str = "") -> Any:
         return self._error(self._hand.reading * self._mu(mark))
 
     def _direction_error(self) -> Any:
         return self._error(math.radians(self._hand.direction))
 
     def _mu(self, mark: str) -> Any:
-        return self._mus[role(mark).plan]
+        return self._mus[role(mark or self._name).plan]
 
-    def _off(self, mark: Any, name: str) -> Any:
+    def _off(self, mark: Any) -> Any:
         """Miss a mark in both coordinates."""
-        x, y = self._point(name), self._point(name)
+        x, y = self._point(), self._point()
         return mark if _none(x) and _none(y) else mark + self._complex(x, y)
 
     def _swung(self, direction: Any) -> Any:
@@ -196,9 +189,9 @@ class ShakyBoard(ArrayBoard):
         """Draw a line parallel to the direction `name`, which a drafting machine has for the sheet's edges."""
         return direction if name in self._edges else self._swung(direction)
 
-    def _aside(self, mark: Any, direction: Any, name: str) -> Any:
+    def _aside(self, mark: Any, direction: Any) -> Any:
         """Draw a line along `direction` a little aside of the mark."""
-        error = self._point(name)
+        error = self._point()
         return mark if _none(error) else mark + (direction * 1j) * error
 
     # What is on the paper, and what is not.
@@ -211,10 +204,6 @@ class ShakyBoard(ArrayBoard):
                 found[i] = mark = step.operands[0]
         return found[0] != found[1]
 
-    def _aside_of_paper(self, name: str) -> bool:
-        """Whether a name is a mark or a direction on a drawing of a link alone."""
-        return role(name).hidden and not (name in self._steps and role(name).plan != POSITION)
-
     # Templates: Newton's method looks at the paths of all legs at once.
 
     def _lay_template(self, names: tuple[str, ...], marks: tuple[Any, ...]) -> Any:
@@ -223,9 +212,9 @@ class ShakyBoard(ArrayBoard):
             missed = list(marks)
             for leg in (5, 9, 13):  # of each: joint, start, radius, direction
                 if names[leg + 2] == ZERO:
-                    missed[leg + 1] = self._aside(missed[leg + 1], missed[leg + 3], POSITION)
+                    missed[leg + 1] = self._aside(missed[leg + 1], missed[leg + 3])
                 else:
-                    missed[leg + 2] = missed[leg + 2] + self._point(POSITION)
+                    missed[leg + 2] = missed[leg + 2] + self._point()
             marks = tuple(missed)
         return super()._lay_template(names, marks)
 
@@ -244,7 +233,7 @@ def swung(direction: Any, angle: Any) -> Any:
 
 def _place(b: ShakyBoard, exact: Operate, x: Any, y: Any) -> Any:
     aside = role(b._name).hidden or b._operands == (ZERO, ZERO)  # a place on a drawing of the link alone; the origin
-    return exact(x, y) if aside else b._off(exact(x, y), b._name)
+    return exact(x, y) if aside else b._off(exact(x, y))
 
 
 def _turn(b: ShakyBoard, exact: Operate, angle: Any) -> Any:
@@ -270,58 +259,60 @@ def _direction(b: ShakyBoard, exact: Operate, start: Any, end: Any, length: Any)
 def _normal(b: ShakyBoard, exact: Operate, vector: Any) -> Any:
     """Turn a whole plan, mark by mark; the normal to a line is only drawn where it is needed."""
     found = exact(vector)
-    return b._off(b._swung(found), b._name) if "." in b._operands[0] else found
+    return b._off(b._swung(found)) if "." in b._operands[0] else found
 
 
 def _lay(b: ShakyBoard, exact: Operate, start: Any, direction: Any, length: Any) -> Any:
     line = b._steps.get(b._operands[1])  # of directions only those of links lie on the paper already, on the mechanism
     if role(b._name).plan != POSITION or (line is not None and line.verb == "normal"):
         direction = b._parallel(direction, b._operands[1])
-    return b._off(exact(start, direction, length), b._name)
+    return b._off(exact(start, direction, length))
 
 
 def _chain(b: ShakyBoard, exact: Operate, start: Any, vector: Any) -> Any:
-    return b._off(exact(start, b._swung(vector)), b._name)
+    return b._off(exact(start, b._swung(vector)))
 
 
 def _meet(b: ShakyBoard, exact: Operate, p: Any, u: Any, q: Any, w: Any) -> Any:
     u, w = b._parallel(u, b._operands[1]), b._parallel(w, b._operands[3])
-    p, q = b._aside(p, u, b._name), b._aside(q, w, b._name)
+    p, q = b._aside(p, u), b._aside(q, w)
     b._sine_of = {}  # each crossing has lines of its own
     return exact(p, u, q, w)
 
 
 def _arc(b: ShakyBoard, exact: Operate, centre: Any, radius: Any, q: Any, w: Any, side: Any) -> Any:
     w = b._swung(w)
-    centre, q = b._off(centre, b._name), b._aside(q, w, b._name)
-    return exact(centre, radius + b._reading(b._name), q, w, side)
+    centre, q = b._off(centre), b._aside(q, w)
+    return exact(centre, radius + b._reading(), q, w, side)
 
 
 def _arcs(b: ShakyBoard, exact: Operate, first: Any, radius: Any, second: Any, other: Any, side: Any) -> Any:
-    radius, other = radius + b._reading(b._name), other + b._reading(b._name)
-    return exact(b._off(first, b._name), radius, b._off(second, b._name), other, side)
+    radius, other = radius + b._reading(), other + b._reading()
+    return exact(b._off(first), radius, b._off(second), other, side)
 
 
 def _tangent(b: ShakyBoard, exact: Operate, centre: Any, point: Any, offset: Any, *rest: Any) -> Any:
     """Lay the ruler on a mark and on the circle, or on another mark where the circle has no radius."""
     if b._operands[2] != ZERO:
-        offset = offset + b._reading(b._name)
-    return exact(b._off(centre, b._name), b._off(point, b._name), offset, *rest)
+        offset = offset + b._reading()
+    return exact(b._off(centre), b._off(point), offset, *rest)
 
 
 def _mark(b: ShakyBoard, exact: Operate, *operands: Any) -> Any:
-    return b._off(exact(*operands), b._name)
+    return b._off(exact(*operands))
 
 
 def _similar(b: ShakyBoard, exact: Operate, start: Any, end: Any, along: Any, across: Any) -> Any:
     """Draw a similar figure: its side is there, the line to the third point is not."""
     point, error = exact(start, end, along, across), b._direction_error()
-    return b._off(point if _none(error) else start + swung(point - start, error), b._name)
+    return b._off(point if _none(error) else start + swung(point - start, error))
 
 
 def _measure(b: ShakyBoard, exact: Operate, start: Any, end: Any) -> Any:
     found, (first, second) = exact(start, end), b._operands
-    if all(b._aside_of_paper(mark) for mark in (first, second)) or not b._apart_by_name(first, second):
+    # both marks on a drawing of a link alone
+    alone = all(role(mark).hidden and (mark not in b._steps or role(mark).plan == POSITION) for mark in (first, second))
+    if alone or not b._apart_by_name(first, second):
         return found
     return abs(found + b._reading(first))
 
@@ -371,10 +362,11 @@ SHAKY: Mapping[str, Operate] = {
 
 
 def draw(
-    paper: Paper, hand: Hand, random: Errors, drawings: Shape = 1000, only: Collection[str] | None = None
+    paper: Paper, hand: Hand, random: Any, drawings: Shape = 1000, only: Collection[str] | None = None
 ) -> ShakyBoard:
     """Draw a construction so many times with a shaky hand: the same seed of `random` draws the same.
 
+    `random` is a generator of numpy, or what has its `standard_normal`.
     `only` has the names of the only steps at which the hand errs; all when left out.
     """
     board = ShakyBoard(paper, hand, random, drawings, only)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
-from ..board import POINTS
+from ..board import POINTS, Step
 from ..boards.exact import run
 from ..laws import cross, dot
 from ..marking.key import answer_key
@@ -28,7 +28,7 @@ ROUNDING = 1e-9  # part of a tolerance
 
 @dataclass(frozen=True, slots=True)
 class Spread:
-    """What many drawings give for one quantity; in SI, on paper where a plan shows it, `mm`, and in per cent."""
+    """What many drawings give for one quantity, SI."""
 
     undrawn: float  # part of the drawings in which it cannot be drawn
     deviation: float = math.nan  # standard deviation; of a point that of its distance from the exact place, from zero
@@ -36,11 +36,8 @@ class Spread:
     exact: float | None = None  # of a vector its magnitude; None for a point, as the ends of the interval of drawn ones
     low: float | None = None
     high: float | None = None
-    mm: float | None = None  # the deviation
-    mm_miss: float | None = None
-    percent: float | None = None  # the deviation, of the value
-    of_largest: float | None = None  # the same, of the largest vector of its plan
     degrees: float | None = None  # by which a vector turns at most in the part `share` of all; None for one of zero
+    size: float = 0.0  # beside which it counts, such as the largest vector of its plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,32 +55,25 @@ class Drawn:
     def spreads(self, share: float = SHARE) -> dict[str, Spread]:
         """Return what the drawings give for every quantity; `share` of them lie in the intervals."""
         sizes = references(self.paper.program, self.exact)
-        plans = plans_of(self.paper.program)
-        found = {}
-        for step in results(self.paper.program):
-            mu = self.paper.mus.get(plans.get(step.name, ""))
-            found[step.name] = self._spread(step.name, step.verb in POINTS, mu, sizes[step.name], share)
-        return found
+        return {step.name: self._spread(step, sizes[step.name], share) for step in results(self.paper.program)}
 
-    def _spread(self, name: str, point: bool, mu: float | None, size: float, share: float) -> Spread:
-        exact, drawings = self.exact[name], self[name]
+    def _spread(self, step: Step, size: float, share: float) -> Spread:
+        exact, drawings = self.exact[step.name], self[step.name]
         values = drawings[~np.isnan(drawings)]
-        undrawn = 1.0 - values.size / self.board.codes.size
+        undrawn = 1.0 - values.size / drawings.size
         if not values.size or not np.isfinite(exact):  # infinite is what a rigid beam has
             return Spread(undrawn)
-        misses = np.abs(values - exact)
-        miss = float(kept(drawings, exact, share))
-        if point:
-            deviation, value, low, high = float(np.sqrt(np.mean(misses**2))), None, None, None
-        else:
-            numbers = np.abs(values) if np.iscomplexobj(values) else values
-            value = abs(exact) if isinstance(exact, complex) else float(exact)
-            low, high = map(float, np.quantile(numbers, (0.5 - share / 2.0, 0.5 + share / 2.0)))
-            deviation = float(np.std(numbers)) if name in self.board.missed else 0.0
-        mm, mm_miss = (None, None) if mu is None else (deviation / mu, miss / mu)
-        parts = _per_cent(deviation, value, size), _per_cent(deviation, size, size)
-        turned = None if point else _turning(drawings, exact, size, share)
-        return Spread(undrawn, deviation, miss, value, low, high, mm, mm_miss, *parts, turned)
+        miss, turned = float(kept(drawings, exact, share)), None
+        if step.verb in POINTS:
+            return Spread(undrawn, float(np.sqrt(np.mean(np.abs(values - exact) ** 2))), miss)
+        if isinstance(exact, complex):
+            if abs(exact) > NOTHING * size:
+                angles = np.arctan2(cross(exact, drawings), dot(exact, drawings))
+                turned = math.degrees(kept(angles, 0.0, share))
+            values, exact = np.abs(values), abs(exact)
+        low, high = map(float, np.quantile(values, (0.5 - share / 2.0, 0.5 + share / 2.0)))
+        deviation = float(np.std(values)) if step.name in self.board.missed else 0.0
+        return Spread(undrawn, deviation, miss, float(exact), low, high, turned, size)
 
     def failing(self, allowed: Mapping[str, float]) -> dict[str, float]:
         """Return for each quantity the part of the drawings that a tolerance would fail, undrawn ones among them.
@@ -92,14 +82,10 @@ class Drawn:
         """
         found = {}
         for step in results(self.paper.program):
-            values, exact = self[step.name], self.exact[step.name]
-            if not np.isfinite(exact):
-                found[step.name] = 0.0
-                continue
+            values, exact, most = self[step.name], self.exact[step.name], allowed[step.name] * (1.0 + ROUNDING)
             if step.verb in RESULTS and np.iscomplexobj(values):
                 values, exact = np.sqrt(dot(values, values)), abs(exact)
-            wrong = ~(abs(values - exact) <= allowed[step.name] * (1.0 + ROUNDING))
-            found[step.name] = float(np.mean(wrong))
+            found[step.name] = float(np.mean(~(abs(values - exact) <= most))) if np.isfinite(exact) else 0.0
         return found
 
 
@@ -117,19 +103,6 @@ def kept(drawings: Array, exact: Any, share: float = SHARE) -> Array:
     return found
 
 
-def _turning(values: Array, exact: Any, size: float, share: float) -> float | None:
-    """Return the degrees by which most drawn vectors turn from the exact one."""
-    if not isinstance(exact, complex) or abs(exact) <= NOTHING * size:
-        return None
-    angles = np.arctan2(cross(exact, values), dot(exact, values))
-    return math.degrees(kept(angles, 0.0, share))
-
-
-def _per_cent(part: float, whole: float | None, size: float) -> float | None:
-    """Return per cents of a whole, None where that is nothing beside `size`."""
-    return None if whole is None or abs(whole) <= NOTHING * size else part / abs(whole) * 100.0
-
-
 def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = 1000) -> Drawn:
     """Draw a construction many times with a shaky hand.
 
@@ -140,7 +113,7 @@ def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = 1000) -> 
     >>> solution = solve("nau-slider-crank", "example")
     >>> paper = paper_of(solution.solved, {"mu_l": 0.001, "mu_V": 0.05, "mu_a": 2.0, "mu_F_23": 10.0, "mu_F_1": 10.0})
     >>> spreads = drawn(paper, preset("normal").hand, np.random.default_rng(1)).spreads()
-    >>> 0.1 < spreads["V_B"].mm < 2.0
+    >>> 0.1 < spreads["V_B"].deviation / paper.mus["velocity"] < 2.0  # mm
     True
     """
     exact = run(paper.program, paper.givens).values
@@ -186,7 +159,7 @@ class Sensitivities:
             squares[step] = squares.get(step, 0.0) + abs(miss) ** 2
         broken = [step for step, square in squares.items() if square != square]
         if broken:
-            return dict.fromkeys(broken, float("nan"))
+            return dict.fromkeys(broken, math.nan)
         total = sum(squares.values())
         ranked = sorted(squares.items(), key=lambda item: -item[1])
         return {step: float(square / total) for step, square in ranked if square > 0.0}
@@ -208,19 +181,15 @@ def sensitivities(paper: Paper, hand: Hand, names: Iterable[str] = ()) -> Sensit
     paper = replace(paper, program=paper.program.needed_for(wanted))
     steps = tuple(draw(paper, hand, _OneByOne(), 1).erred)
     board = draw(paper, hand, _OneByOne(), (2, len(steps)))
-    exact = run(paper.program, paper.givens).values
-    misses = {name: _misses(np.broadcast_to(board.values[name], (2, len(steps))), exact[name]) for name in wanted}
+    exact, misses = run(paper.program, paper.givens).values, dict[str, Array]()
+    for name in wanted:
+        if np.isinf(exact[name]):  # of a rigid beam
+            misses[name] = np.zeros(len(steps))
+            continue
+        forth, back = np.broadcast_to(board.values[name], (2, len(steps)))
+        slope, kink = (forth - back) * (0.5 / STEP), abs((forth + back) * 0.5 - exact[name]) * (1.0 / STEP)
+        misses[name] = np.where(kink > abs(slope), kink, slope)  # a distance that should be none grows with either
     return Sensitivities(steps, misses, exact)
-
-
-def _misses(values: Array, exact: Any) -> Array:
-    """Return what errors forth and back do: a distance that should be none grows with either."""
-    if np.isinf(exact):  # of a rigid beam
-        return np.zeros(values.shape[1:])
-    forth, back = values
-    slope, kink = (forth - back) * (0.5 / STEP), abs((forth + back) * 0.5 - exact) * (1.0 / STEP)
-    found: Array = np.where(kink > abs(slope), kink, slope)
-    return found
 
 
 MOST = 2.0  # standard deviations that nearly all honest hands keep
@@ -270,25 +239,25 @@ class Expectation:
     def percent(self) -> float | None:
         """Half the interval in per cents of the value, None where the value is nothing beside its plan."""
         exact = self.spread.exact
-        if self.half is None or not exact or self.spread.percent is None:
+        if self.half is None or not exact or abs(exact) <= NOTHING * self.spread.size:
             return None
         return 100.0 * self.half / abs(exact)
 
     def as_data(self) -> dict[str, Any]:
         """Return it as the command line's JSON has it, None for what is undefined."""
-        spread = self.spread
+        spread, mu = self.spread, self.mu or math.nan
         data = {
             "low": spread.low,
             "high": spread.high,
             "mm": self.mm,
             "percent": self.percent,
             "miss": spread.miss,
-            "miss_mm": spread.mm_miss,
+            "miss_mm": spread.miss / mu,
             "degrees": spread.degrees,
             "step": self.step,
             "share": self.share,
             "tolerance": self.allowed,
-            "tolerance_mm": None if self.allowed is None or self.mu is None else self.allowed / self.mu,
+            "tolerance_mm": None if self.allowed is None else self.allowed / mu,
             "tolerance_deg": self.degrees,
             "failed": self.failed,
             "undrawn": spread.undrawn,

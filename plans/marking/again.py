@@ -36,7 +36,7 @@ class Judged:
     def by_value(self) -> Judged:
         """Return the answers by their values alone where these are written, without their millimetres."""
         said = [one if one.value is None else replace(one, mm=None) for one in self.answers]
-        marker = Marker.of(self._key, said)
+        marker = Marker(self._key, said)
         marker.settle_scales(redraw=False)
         if self._alone or marker.guessed or any(self._marker.mus[name] != mu for name, mu in marker.mus.items()):
             marker.guessed = True
@@ -58,15 +58,14 @@ class Judged:
         if unlikely and self._marker.again(key, anew, self._behind(first, steps, key)).misses(first):
             return None
         marker = self._marker.again(key, anew, steps)
-        if first and (marker.misses(first) or not self._mends(marker, anew, faulty)):
-            return None
+        if first:
+            kept = (line for line in self._lines if line.name in faulty and line.name not in anew)
+            asked = (name for name in marker.key.questions if name in faulty and name in anew)
+            if marker.misses(first) or not (
+                any(not line.verdict.faulty for line in kept) or any(map(marker.passes, asked))
+            ):
+                return None
         return tuple(marker.lines(self._lines, anew))
-
-    def _mends(self, marker: Marker, anew: Collection[str], faulty: Collection[str]) -> bool:
-        """Whether any of some faulty lines passes: those made anew are judged in order, until one does."""
-        kept = (line for line in self._lines if line.name in faulty and line.name not in anew)
-        asked = (name for name in marker.key.questions if name in faulty and name in anew)
-        return any(not line.verdict.faulty for line in kept) or any(map(marker.passes, asked))
 
     def _steps(self, program: Program, anew: set[str]) -> tuple[Step, ...]:
         return tuple(step for step in program.steps if step.name in anew)

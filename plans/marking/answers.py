@@ -118,23 +118,19 @@ def miss(said: Said, value: Any, allowed: float, angle: float = math.pi) -> Miss
     """
     if value != value:
         return Miss(NEVER, SIZE)
-    if isinstance(value, complex):
-        return _of_vector(said, value, allowed, angle)
-    right = abs(said.size - abs(value)) if said.size is not None else 0.0
+    size = abs(value)
+    right = 0.0 if said.size is None else abs(said.size - size)
     off = ratio(right, allowed)
-    if said.sign is None:
+    if not isinstance(value, complex):
+        if said.sign is None:
+            return Miss(off, SIZE)
+        turned = ratio(abs((size if said.size is None else said.size) * said.sign - value), allowed)
+        return Miss(turned, DIRECTION if off <= 1.0 < turned else SIZE)
+    if said.direction is None or size <= allowed:
         return Miss(off, SIZE)
-    turned = ratio(abs((abs(value) if said.size is None else said.size) * said.sign - value), allowed)
-    return Miss(turned, DIRECTION if off <= 1.0 < turned else SIZE)
-
-
-def _of_vector(said: Said, value: complex, allowed: float, angle: float) -> Miss:
-    size = 0.0 if said.size is None else ratio(abs(said.size - abs(value)), allowed)
-    if said.direction is None or abs(value) <= allowed:
-        return Miss(size, SIZE)
-    most = max(angle, math.asin(allowed / abs(value)))
+    most = max(angle, math.asin(allowed / size))
     turned = abs(math.atan2(cross(value, said.direction), dot(value, said.direction))) / most
-    return Miss(turned, DIRECTION) if size <= 1.0 < turned else Miss(max(size, turned), SIZE)
+    return Miss(turned, DIRECTION) if off <= 1.0 < turned else Miss(max(off, turned), SIZE)
 
 
 def ratio(missed: float, allowed: float) -> float:

@@ -243,7 +243,12 @@ class _Rule:
             slant = max(self.slants.get(mark, 0.0) for mark in step.operands)
             least = self._tilt(self.longest.get(step.plan, 0.0), slant) / sine
             drawn = max(self.most.of_segment(abs(values[step.name]) / mu, sine) * mu, least)
-            return min(drawn, self._laid_off(step, mu))
+            calculated = self.allowed.get(f"_{step.name}")
+            if calculated is None:
+                return drawn
+            # a part that is calculated, laid off and read: as it is calculated, and its two marks
+            laid = math.hypot(calculated, MARKS * self.most.mm * mu)
+            return min(drawn, max(self.most.part * abs(values[step.name]), laid))
         if step.verb == "moment":
             force, at, about = step.operands
             mu, size = self._mu(at), abs(values[force])
@@ -259,14 +264,6 @@ class _Rule:
             return self._inherited(step)
         is_point = step.verb in POINTS and "." not in step.name
         return self.most.mm * self._mu(step.name) / self.flat[step.name] if is_point else 0.0
-
-    def _laid_off(self, step: Step, mu: float) -> float:
-        """Return what a part may miss that is calculated, laid off and read: as it is calculated, and its two marks."""
-        calculated = self.allowed.get(f"_{step.name}")
-        if calculated is None:
-            return math.inf
-        least = self.most.part * abs(self.values[step.name])
-        return float(max(least, math.hypot(calculated, MARKS * self.most.mm * mu)))
 
     def slant(self, step: Step) -> float:
         """Return by how much directions behind a mark miss because links are short on paper, radians."""

@@ -175,9 +175,18 @@ class _Held(NamedTuple):
 class Marker:
     """Marks the lines of one student, one after the other."""
 
-    def __init__(self, key: Key, answers: Mapping[str, Answer], mus: dict[str, float | None]) -> None:
-        self.key, self.answers, self.mus = key, answers, mus
-        self.written = {name: mu is not None for name, mu in mus.items()}  # whether the scale factor is the student's
+    def __init__(self, key: Key, answers: Iterable[Answer]) -> None:
+        """Take the answers of one student, of two to one question the first."""
+        said: dict[str, Answer] = {}
+        for answer in answers:
+            if answer.name not in key.questions:
+                raise unknown("quantity-unknown", answer.name, key.questions)
+            if not answer.empty:
+                said.setdefault(answer.name, answer)
+        on_paper = (_on_paper(key, answer, said) for answer in said.values())
+        self.key, self.answers = key, {answer.name: answer for answer in on_paper if not answer.empty}
+        self.mus = {name: (known(answer.mu) and answer.mu) or None for name, answer in self.answers.items()}
+        self.written = {name for name, mu in self.mus.items() if mu is not None}  # whose scale factor is the student's
         self.guessed = False  # whether a scale factor is taken from the key
         self.segments: dict[str, list[str]] = {}  # the lines of a plan with millimetres
         self.ways: dict[str, tuple[Said, ...]] = {}  # to take each answer
@@ -186,22 +195,9 @@ class Marker:
         self.failed = False
 
     @classmethod
-    def of(cls, key: Key, answers: Iterable[Answer]) -> Marker:
-        """Return what marks the answers of one student, of two to one question the first."""
-        said: dict[str, Answer] = {}
-        for answer in answers:
-            if answer.name not in key.questions:
-                raise unknown("quantity-unknown", answer.name, key.questions)
-            if not answer.empty:
-                said.setdefault(answer.name, answer)
-        on_paper = {name: _on_paper(key, answer, said) for name, answer in said.items()}
-        said = {name: answer for name, answer in on_paper.items() if not answer.empty}
-        return cls(key, said, {name: (known(a.mu) and a.mu) or None for name, a in said.items()})
-
-    @classmethod
     def begun(cls, key: Key, answers: Iterable[Answer], redraw: bool = True) -> Marker:
         """Return what has begun to mark the answers of one student."""
-        marker = cls.of(key, answers)
+        marker = cls(key, answers)
         marker.settle_scales(redraw)
         marker.begin()
         return marker
@@ -225,9 +221,12 @@ class Marker:
         drawn = {}
         for plan, names in self.segments.items():
             written = next((mu for name in names if (mu := self.mus[name])), None) or self._from_pairs(names)
-            self.guessed |= written is None
             mu = written or self._likeliest(names)
-            self.written.update(dict.fromkeys(names, written is not None))
+            if written is None:
+                self.guessed = True
+                self.written.difference_update(names)
+            else:
+                self.written.update(names)
             self.mus.update({name: mu for name in names if not self.mus[name]})
             ours = self.key.paper.mus.get(plan, mu)
             drawn[plan] = nearest((mu, 1.0 / mu), ours) if mu else ours  # in whichever convention it is meant
@@ -298,7 +297,7 @@ class Marker:
     def _sure(self, name: str) -> bool:
         """Whether the student has said a size, and not only a segment whose scale factor is to be guessed."""
         answer = self.answers[name]
-        return known(answer.value) or (known(answer.mm) and self.written[name])
+        return known(answer.value) or (known(answer.mm) and name in self.written)
 
     def _faulty(self, name: str) -> bool:
         return name in self.held and self.held[name].verdict.faulty
@@ -351,10 +350,10 @@ class Marker:
 
     def _right(self, name: str) -> Any:
         """Return the right value, of two that which the answer is nearer to."""
-        found = self.key.right(name)
-        if len(found) == 1 or name not in self.held:
-            return found[0]
-        return min(found, key=lambda x: self._best(self.ways[name], name, x, right=True).miss.off)
+        values = self.key.right(name)
+        if len(values) == 1 or name not in self.held:
+            return values[0]
+        return min((self._best(self.ways[name], name, x, right=True) for x in values), key=_off).against
 
     def _judge(self, name: str, value: Any) -> tuple[Said | None, bool]:
         """Judge a line whose value follows from what was wrong before; go on with what the student says if it differs.
@@ -399,9 +398,7 @@ class Marker:
     def _held(self, ways: tuple[Said, ...], name: str, value: Any) -> _Held:
         """Hold an answer against the right values, and against what follows."""
         values = self.key.right(name)
-        right = self._best(ways, name, values[0], right=True)
-        if len(values) > 1:
-            right = min((right, *(self._best(ways, name, x, right=True) for x in values[1:])), key=_off)
+        right = min((self._best(ways, name, x, right=True) for x in values), key=_off)
         if right.miss.off <= 1.0:
             return right
         own = self._best(ways, name, self._follows(name))

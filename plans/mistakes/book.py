@@ -180,7 +180,9 @@ def signatures(key: Key, found: Iterable[Broken], last: Signature | None = None)
     for (one, board), row, most in zip(runs, rows, table, strict=True):
         flat = min(board.sines.values(), default=1.0)
         if 0.0 < flat < SMALL and flat < FLATTER * flattest:
-            most = _wider(key, one, board, most)
+            mus = {plan: key.paper.mus.get(plan, UNDRAWN) for plan in one.program.plans}
+            again = tolerances(Paper(one.program, one.givens, mus), board.values, board.sines, key.tolerance)
+            most = np.fmax(most, np.array([again[name] for name in key.questions]))
         yield Signature(one, board.values, board.sines, row, most)
 
 
@@ -190,14 +192,6 @@ def _right(key: Key) -> Complex:
 
 def _allowed(key: Key) -> Floats:
     return np.array([key.allowed[name] for name in key.questions])
-
-
-def _wider(key: Key, found: Broken, board: ExactBoard, most: Floats) -> Floats:
-    """Return the tolerances of a construction whose lines meet more flatly than they should."""
-    mus = {plan: key.paper.mus.get(plan, UNDRAWN) for plan in found.program.plans}
-    again = tolerances(Paper(found.program, found.givens, mus), board.values, board.sines, key.tolerance)
-    wider = np.array([again[name] for name in key.questions])
-    return np.where(np.isnan(wider), most, np.maximum(most, wider))
 
 
 def _run(found: Broken, before: Key | Signature) -> ExactBoard | None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -135,18 +136,16 @@ def read_rubric(file: str | Path | None, preset_name: str, asked: Asked, directi
     InputError
         The file cannot be read, or holds what no rubric has; with file and key; or `directions` is unknown.
     """
-    tolerance = preset(preset_name).tolerance
     if directions is not None and directions not in DIRECTIONS:
         raise unknown("choice-unknown", directions, DIRECTIONS)
-    rubric = Rubric(tolerance)
-    if file is not None:
-        rubric = _Reader(quote(file, SHOWN), _table(Path(file)), asked).rubric(tolerance)
+    tolerance = preset(preset_name).tolerance
+    rubric = Rubric(tolerance) if file is None else _Reader(quote(file, SHOWN), _table(file), asked).rubric(tolerance)
     return rubric if directions is None else replace(rubric, directions=directions)
 
 
-def _table(path: Path) -> dict[str, Any]:
+def _table(file: str | Path) -> dict[str, Any]:
     """Return the table of a rubric's file."""
-    shown = quote(path, SHOWN)
+    path, shown = Path(file), quote(file, SHOWN)
     try:
         data = path.read_bytes() if path.stat().st_size <= LARGEST else b"\0"
         return tomllib.loads(data.decode("utf-8-sig"))
@@ -166,67 +165,57 @@ class _Reader:
     raw: Mapping[str, Any]
     asked: Asked
 
-    def rubric(self, tolerance: Tolerance) -> Rubric:
-        """Return what the file says."""
-        known = ("out_of", "asked", "weights", "worth", "tolerance", "limits", "directions")
-        for key in self.raw:
-            if key not in known:
-                raise self._at(key, unknown("key-unknown", key, known))
-        worth = {Verdict(name): value for name, value in self._numbers("worth", list(map(str, Verdict))).items()}
-        own = self._numbers("tolerance", ("mm", "percent", "degrees"))
-        part = own["percent"] / 100.0 if "percent" in own else tolerance.part
-        rubric = Rubric(
-            Tolerance(own.get("mm", tolerance.mm), part, own.get("degrees", tolerance.degrees)),
-            self._number("out_of", self.raw.get("out_of", 100.0)),
-            self._numbers("weights", self.asked.quantities),
-            {**WORTH, **worth},
-            self._names(),
-            self._limits(),
-        )
+    def rubric(self, usual: Tolerance) -> Rubric:
+        """Return what the file says; what it leaves out of the tolerance is as usual."""
+        quantities = self.asked.quantities
+        self.known("", self.raw, ("out_of", "asked", "weights", "worth", "tolerance", "limits", "directions"))
+        worth = {Verdict(name): value for name, value in self.under("worth", list(map(str, Verdict))).items()}
+        own = self.under("tolerance", ("mm", "percent", "degrees"))
+        part = own["percent"] / 100.0 if "percent" in own else usual.part
+        out_of = self.located("out_of", lambda: _number(self.raw.get("out_of", 100.0)))
+        weights, names = self.under("weights", quantities), self.raw.get("asked", [])
+        if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+            raise self.at("asked", InputError("rubric-names"))
+        for name in names:
+            if name not in quantities:
+                raise self.at("asked", unknown("quantity-unknown", name, quantities))
+        limits = self.under("limits", quantities, lambda text, name: value(str(text), "", name, self.asked))
         directions = self.raw.get("directions", DIRECTIONS[0])
         if directions not in DIRECTIONS:
-            raise self._at("directions", unknown("choice-unknown", str(directions), DIRECTIONS))
-        return replace(rubric, directions=directions)
+            raise self.at("directions", unknown("choice-unknown", str(directions), DIRECTIONS))
+        tolerance = Tolerance(own.get("mm", usual.mm), part, own.get("degrees", usual.degrees))
+        return Rubric(tolerance, out_of, weights, {**WORTH, **worth}, tuple(names), limits, directions)
 
-    def _names(self) -> tuple[str, ...]:
-        """Return the quantities asked."""
-        names = self.raw.get("asked", [])
-        if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-            raise self._at("asked", InputError("rubric-names"))
-        for name in names:
-            if name not in self.asked.quantities:
-                raise self._at("asked", unknown("quantity-unknown", name, self.asked.quantities))
-        return tuple(names)
-
-    def _limits(self) -> dict[str, float]:
-        """Return tolerances with their units."""
-        found = {}
-        for name, text in self._under("limits", self.asked.quantities).items():
-            try:
-                found[name] = value(str(text), "", name, self.asked)
-            except InputError as error:
-                raise self._at(f"limits.{name}", error) from error
-        return found
-
-    def _numbers(self, table: str, known: Iterable[str]) -> dict[str, float]:
-        """Return the numbers of a table, none of them negative."""
-        return {name: self._number(f"{table}.{name}", value) for name, value in self._under(table, known).items()}
-
-    def _under(self, table: str, known: Iterable[str]) -> dict[str, Any]:
-        """Return a table whose keys are all known."""
+    def under(
+        self, table: str, known: Iterable[str], read: Callable[[Any, str], float] = lambda raw, name: _number(raw)
+    ) -> dict[str, float]:
+        """Return the numbers of a table whose keys are all known."""
         found = self.raw.get(table, {})
         if not isinstance(found, dict):
-            raise self._at(table, InputError("type-table"))
-        names = list(known)
+            raise self.at(table, InputError("type-table"))
+        self.known(f"{table}.", found, list(known))
+        return {name: self.located(f"{table}.{name}", partial(read, raw, name)) for name, raw in found.items()}
+
+    def known(self, before: str, found: Iterable[str], known: Sequence[str]) -> None:
+        """Refuse keys that no rubric has."""
         for name in found:
-            if name not in names:
-                raise self._at(f"{table}.{name}", unknown("key-unknown", name, names))
-        return found
+            if name not in known:
+                raise self.at(f"{before}{name}", unknown("key-unknown", name, known))
 
-    def _number(self, key: str, value: object) -> float:
-        if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0.0 <= value < 1e9:
-            raise self._at(key, InputError("rubric-number", text=quote(value)))
-        return float(value)
+    def located(self, key: str, read: Callable[[], float]) -> float:
+        """Return what is read; an error has the place of the key."""
+        try:
+            return read()
+        except InputError as error:
+            raise self.at(key, error) from error
 
-    def _at(self, key: str, error: InputError) -> LocatedError:
+    def at(self, key: str, error: InputError) -> LocatedError:
+        """Return an error with its place."""
         return LocatedError(f"{self.file}: {quote(key)}", error)
+
+
+def _number(raw: object) -> float:
+    """Return a number that is not negative."""
+    if isinstance(raw, bool) or not isinstance(raw, (int, float)) or not 0.0 <= raw < 1e9:
+        raise InputError("rubric-number", text=quote(raw))
+    return float(raw)
