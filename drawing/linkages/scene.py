@@ -128,7 +128,7 @@ class Scene(SubjectScene[SolvedLinkage]):
     def figure_of(self, name: str) -> str:
         """Return the plan, or the figure with a scale factor of its own, on which a quantity is a segment, or ""."""
         plan = self.solved.shown_on.get(name, "")
-        own = plan == POSITION and DRIVER in self.scales and name in arms_of_driver(self.solved)
+        own = plan == POSITION and DRIVER in self.scales and name in _arms_of_driver(self.solved)
         return DRIVER if own else plan
 
     def letter(self, vector: str, known: int = 0) -> str:
@@ -154,7 +154,7 @@ def plan_heading(words: Words, structure: Structure, plan: str) -> str:
     return text.format(links=", ".join(map(str, links)), link=number)
 
 
-def arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
+def _arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
     """Return the arms about the driver's pivot of the forces on the driver, which its own figure shows."""
     driver = solved.mechanism.driver
     if not isinstance(driver, Driver):

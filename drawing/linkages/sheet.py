@@ -29,9 +29,9 @@ from .calculations.equations import PLANS, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
 from .calculations.tables import givens_table, results_parts, results_table, structure_lines
 from .compound import block_name, compound_lines
-from .figures.acting import lever_view
 from .figures.compound import ACCELERATIONS, VELOCITIES, acceleration_figure, velocity_figure
 from .figures.group import driver_view, group_view, link_view
+from .figures.lever import lever_view
 from .figures.plan import plan_view
 from .figures.scheme import scheme
 from .ladders import by_plan, chosen, extents_of, links_apart, marks_on, mus_of
@@ -223,7 +223,7 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     usual, rungs = chosen(fitting.extents, sheet)
     found, candidate = None, FORMATS["A1"]
     if contents.cycle is not None and {*PLANS} <= {*contents.plans} and sheet in (None, candidate):
-        found = zoned(fitting, candidate, rungs)
+        found = _zoned(fitting, candidate, rungs)
     formats = [] if found else [sheet] if sheet is not None else from_format(usual)
     for candidate in formats:
         found = _single(fitting, candidate, rungs, candidate is formats[-1])
@@ -247,12 +247,12 @@ def _single(fitting: Fitting, sheet: Format, rungs: Rungs, last: bool) -> Found 
     if taken != rungs and not last:
         return None  # a larger format may hold them
     sizes, norm = [view.size for view in views], fitting.contents.norm
-    places = arrange(sizes, sheet, norm, 1) or arrange_halves(sizes, forces_begin(views), sheet, norm)
+    places = arrange(sizes, sheet, norm, 1) or arrange_halves(sizes, _forces_begin(views), sheet, norm)
     places = places or arrange(sizes, sheet, norm, 1, any_order=True)
     return None if places is None else (views, scales, places)
 
 
-def forces_begin(views: Sequence[View]) -> int:
+def _forces_begin(views: Sequence[View]) -> int:
     """Return how many views come before the part of the forces."""
     return next((i for i, view in enumerate(views) if view.name.startswith(OF_FORCES)), len(views))
 
@@ -266,7 +266,7 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     norm = fitting.contents.norm
 
     def placed(views: Sequence[View]) -> list[Placement] | None:
-        sizes, forces = [view.size for view in views], forces_begin(views)
+        sizes, forces = [view.size for view in views], _forces_begin(views)
         return arrange_parts((sizes[:forces], sizes[forces:]), sheet, norm)
 
     for first in (False, True):
@@ -288,14 +288,14 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     return None if places is None else (views, scales, places)
 
 
-def zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
+def _zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
     """Return views, scale factors and places in zones, or None where the plan of positions has no room in its own."""
     structure = fitting.contents.solved.structure
     crowded, rungs = set[str](), dict(first)
     while True:
         built, scales = fitting.build(sheet, rungs)
         views = [view for view, _ in built]
-        zones = [zone_of(view.name, structure) for view in views]
+        zones = [_zone_of(view.name, structure) for view in views]
         placed, tight = _place(views, zones, structure)
         own = ((s, zone) for (_, s), zone in zip(built, zones, strict=True) if s and zone in tight - crowded)
         coarser = {s: zone for s, zone in own if role(s).of == OWN[zone] and not fitting.is_fixed(s)}
@@ -315,7 +315,7 @@ def zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
     return views, scales, [placed[i] for i in range(len(views))]
 
 
-def zone_of(name: str, structure: Structure) -> str:
+def _zone_of(name: str, structure: Structure) -> str:
     """Return the zone of a view by its name, or ""."""
     if name in ("positions", "velocity", "acceleration", "diagrams"):
         return name

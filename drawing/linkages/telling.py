@@ -16,7 +16,7 @@ from .. import notes
 from ..printed import HUNDREDTHS, POINT, Input, Symbol, calculation
 from .calculations.equations import Product, ends_of, factor, is_given, line_of, paper, size_of, triangles
 from .calculations.tables import printed_segment
-from .figures.acting import hung_on_lever, letter_of, moments_on_lever
+from .figures.lever import hung_on_lever, letter_of, moments_on_lever
 from .reading import Reading
 from .scene import Scene
 

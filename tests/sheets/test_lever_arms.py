@@ -7,14 +7,15 @@ from itertools import combinations
 import numpy as np
 
 from kulman.drawing.formats import STYLES
-from kulman.drawing.linkages.figures.acting import Arm, staggered
+from kulman.drawing.linkages.figures.lever import staggered
+from kulman.drawing.linkages.figures.sketch import Arm
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.view import Canvas
 from kulman.tests.support.sheet_geometry import crosses
 
 
 def arm_to(foot: complex, along: complex = 1j) -> Arm:
-    return Arm(("F",), ("h_F",), foot, along, foot)
+    return Arm(["F"], ["h_F"], foot, along, foot)
 
 
 def test_arms_side_by_side_are_staggered_away_from_the_figure() -> None:

@@ -77,10 +77,12 @@ def worked(
     words: Words, head: str, products: Sequence[Product], unit: str, divisor: Product | None = None
 ) -> tuple[str, ...]:
     """Return `head = formula = numbers = result unit` of a sum of products, perhaps over a divisor."""
-    return by_law(words, head, lambda *x: sum(x[1:]) / x[0], (divisor or Product(()), *products), unit)
+    return _by_law(words, head, lambda *x: sum(x[1:]) / x[0], (divisor or Product(()), *products), unit)
 
 
-def by_law(words: Words, head: str, law: Callable[..., Any], operands: Sequence[Product], unit: str) -> tuple[str, ...]:
+def _by_law(
+    words: Words, head: str, law: Callable[..., Any], operands: Sequence[Product], unit: str
+) -> tuple[str, ...]:
     """Return `head = formula = numbers = result unit` of a law of operands each of which is a product.
 
     The numbers are printed with as many digits as it takes for the result to come out to its last one.
@@ -118,7 +120,7 @@ def size_by_law(
         value = form_of(step.law)(*x)
         return value.size if isinstance(value, Symbol) else abs(value)
 
-    return by_law(scene.words, head, size, [operand(scene, name) for name in step.operands], unit)
+    return _by_law(scene.words, head, size, [operand(scene, name) for name in step.operands], unit)
 
 
 def distance(scene: Scene, start: str, end: str) -> Product:
@@ -190,7 +192,7 @@ def stated(words: Words, symbol: str, value: float, unit: str) -> str:
     return f"{symbol} = {value_text(words, words.display.value(value, unit))} {words.unit(shown)}"
 
 
-class Side(NamedTuple):
+class _Side(NamedTuple):
     """One way from the pole to a point: vectors known in full, then one along the line `direction`."""
 
     knowns: tuple[str, ...]
@@ -198,7 +200,7 @@ class Side(NamedTuple):
     direction: str
 
 
-def meeting(scene: Scene, step: Step) -> tuple[str, ...]:
+def _meeting(scene: Scene, step: Step) -> tuple[str, ...]:
     """Return the equation that two lines of a plan solve, and along which lines its unknown vectors lie.
 
     Both sides lead from the pole to the point where the lines meet; its absolute vector stands before them unless it is
@@ -217,11 +219,11 @@ def meeting(scene: Scene, step: Step) -> tuple[str, ...]:
     return noted((texts[0], *(f"= {text}" for text in texts[1:])), *notes)
 
 
-def _side(reading: Reading, step: Step, start: str, direction: str) -> Side:
+def _side(reading: Reading, step: Step, start: str, direction: str) -> _Side:
     before = reading.number[step.name]
     edge = reading.between(start, step.name)
     name = edge.name if edge is not None else _named(reading, start, step.name)
-    return Side(tuple(edge.name for edge in reading.way(start, before)), name, direction)
+    return _Side(tuple(edge.name for edge in reading.way(start, before)), name, direction)
 
 
 def _named(reading: Reading, start: str, tip: str) -> str:
@@ -255,7 +257,7 @@ def line_of(scene: Scene, direction: str) -> str:
     return f"{sign} {letters or ''.join(map(scene.words.mark, ends_of(scene.reading, along)))}"
 
 
-def line_through(scene: Scene, point: str, direction: str) -> str:
+def _line_through(scene: Scene, point: str, direction: str) -> str:
     """Return the line through a point: AB, or (B ⊥ x–x)."""
     line = line_of(scene, direction)
     return line.removeprefix("∥ ") if line.startswith("∥ ") else f"({scene.words.mark(point)} {line})"
@@ -274,7 +276,7 @@ def ends_of(reading: Reading, direction: str) -> tuple[str, str]:
 def kinematics_text(scene: Scene, plans: Sequence[str], before: Sequence[str]) -> Lines:
     """Return the equations of plans; lengths that those of the plans `before` take have been told with these."""
     steps = [step for step in scene.program if step.law]
-    told = {name for step in steps if stage_of(step) in before for name in step.operands}
+    told = {name for step in steps if _stage_of(step) in before for name in step.operands}
     lines = [line for plan in plans for line in kinematics_lines(scene, plan, told)]
     if "velocity" in (*plans, *before):
         return lines
@@ -289,9 +291,9 @@ def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> L
     """
     told, apart = told if told is not None else set(), found_here(scene.program)
     lines, held = Lines(), Lines()  # these of a group's known parts, which come after its vector equation
-    for step in (s for s in scene.program if stage_of(s) == plan and s.name not in apart):
+    for step in (s for s in scene.program if _stage_of(s) == plan and s.name not in apart):
         if step.verb == "meet":
-            lines += [*_special_point(scene, step), meeting(scene, step), *held]
+            lines += [*_special_point(scene, step), _meeting(scene, step), *held]
             held.clear()
         elif step.law in TOLD:
             here = held if step.law in BEFORE_MEETING or _is_met(scene, step) else lines
@@ -309,7 +311,7 @@ def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> L
     return lines
 
 
-def stage_of(step: Step) -> str:
+def _stage_of(step: Step) -> str:
     """Return the plan to which a step of the kinematics belongs; nothing for other steps."""
     if step.plan != POSITION or step.verb == "read":
         return step.plan
@@ -378,7 +380,7 @@ def _special_point(scene: Scene, step: Step) -> Lines:
     if step.plan != "velocity" or made is None or made.verb != "meet" or point in lettered:
         return []
     p, u, q, w = made.operands
-    lines = f"{line_through(scene, p, u)} ∩ {line_through(scene, q, w)}"
+    lines = f"{_line_through(scene, p, u)} ∩ {_line_through(scene, q, w)}"
     return [(scene.words["said.special_point"].format(point=scene.words.mark(point)), lines)]
 
 

@@ -66,7 +66,7 @@ def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, eq.Lin
             held.setdefault(part, []).append((step, lines))
     for part, after in held.items():
         for step, lines in after:
-            number = link_of(scene, step.operands[1] if step.verb == "arm" else step.name)
+            number = _link_of(scene, step.operands[1] if step.verb == "arm" else step.name)
             found.setdefault(f"link_{number}" if number in apart else last[part], []).extend(lines)
     return found
 
@@ -76,7 +76,7 @@ def _part(scene: Scene, step: Step) -> str:
     plan = drawn.of if (drawn := role(step.name).plan).kind == FORCES else ""
     known = [group.name for group in scene.solved.structure.groups]
     acting = step.operands[1] if step.verb == "arm" else step.name
-    group = group_of(scene, int(plan) if plan and plan not in known else link_of(scene, acting))
+    group = _group_of(scene, int(plan) if plan and plan not in known else _link_of(scene, acting))
     return plan if plan in known else str(scene.solved.structure.driver) if group is None else group.name
 
 
@@ -94,7 +94,7 @@ def _load(scene: Scene, step: Step) -> eq.Lines:
     if step.law in UNITS:
         return [eq.size_by_law(scene, words.symbol(step.name), step, UNITS[step.law])]
     if step.law == "sum":
-        products = terms(scene, step.operands)
+        products = _terms(scene, step.operands)
         return [_solved_for(scene, step.name, products, 1.0) if products else (f"{words.symbol(step.name)} = 0",)]
     loads = {load.name: load.magnitude for load in mechanism.loads} | {c.name: c.magnitude for c in mechanism.couples}
     made = scene.reading.made.get(step.operands[0])
@@ -120,7 +120,7 @@ def _solved_for(scene: Scene, moment: str, products: Iterable[eq.Product], sign:
 def _force(scene: Scene, step: Step) -> eq.Lines:
     """Tell a step of the force plans: a sum of moments, or the sums of forces of a plan."""
     if step.verb == "pole" and role(step.name).plan.kind == FORCES:
-        return list(closed(scene, role(step.name).plan))
+        return list(_closed(scene, role(step.name).plan))
     if step.law in SIGNS and role(step.operands[0]).kind != "V":  # of the lever
         return _for_a_force(scene, step)
     if step.law == "closing_moment":
@@ -147,12 +147,12 @@ def _for_a_force(scene: Scene, step: Step) -> eq.Lines:
     """Tell the moments about a joint, solved for a force: drawn as it acts, its moment turns against the others."""
     words, reading = scene.words, scene.reading
     length, *moments = step.operands
-    name, found = reading.visible(step.name), terms(scene, moments)
+    name, found = reading.visible(step.name), _terms(scene, moments)
     laid = next((s for s in reading.users(step.name) if s.verb in ("lay", "back")), None)
-    point = about(scene, step)
+    point = _about(scene, step)
     if laid is not None and not any(map(_is_sum, moments)):
         point = eq.ends_of(reading, reading.made[laid.operands[1]].operands[0])[laid.verb == "lay"]
-    head = _head(scene, links_in(scene, link_of(scene, step.name), point), point)
+    head = _head(scene, _links_in(scene, _link_of(scene, step.name), point), point)
     arm = _reach(scene, name, length)
     own = Symbol.of(words.symbol(name)) * arm.in_letters
     if not found:
@@ -170,14 +170,14 @@ def _reach(scene: Scene, name: str, length: str) -> eq.Product:
     made = scene.reading.made.get(length)
     if made is None or made.verb == "measure":
         return eq.Product((eq.factor(scene, length),))
-    return eq.Product(on_arm(scene, next(s.name for s in scene.program.which(("arm",)) if s.operands[1] == name)))
+    return eq.Product(_on_arm(scene, next(s.name for s in scene.program.which(("arm",)) if s.operands[1] == name)))
 
 
 def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> eq.Lines:
     """Tell the moments about a joint, solved for a moment: of a guide's reaction, or the balancing one."""
     words = scene.words
-    found, point = terms(scene, sum_of.operands), about(scene, sum_of)
-    head = _head(scene, str(link_of(scene, step.name)), point)
+    found, point = _terms(scene, sum_of.operands), _about(scene, sum_of)
+    head = _head(scene, str(_link_of(scene, step.name)), point)
     if not found:
         arm = next((s for s in scene.reading.users(step.name) if s.verb == "arm"), None)
         zeros = [f"{words.symbol(arm.operands[1])}·{words.symbol(arm.name)}", words.symbol(arm.name)] if arm else []
@@ -195,7 +195,7 @@ def _arm(scene: Scene, step: Step) -> eq.Lines:
     return [eq.worked(words, words.symbol(step.name), [product], "m")]
 
 
-def terms(scene: Scene, names: Iterable[str]) -> list[eq.Product]:
+def _terms(scene: Scene, names: Iterable[str]) -> list[eq.Product]:
     """Return the moments that are not zero, each with its sign, counter-clockwise positive."""
     found = []
     for name in names:
@@ -212,7 +212,7 @@ def _factors(scene: Scene, name: str) -> tuple[eq.Factor, ...]:
     step = scene.reading.made.get(name)
     if step is not None and step.verb == "moment":
         arm = next(user.name for user in scene.reading.users(name) if user.verb == "arm")
-        return eq.factor(scene, step.operands[0]), *on_arm(scene, arm)
+        return eq.factor(scene, step.operands[0]), *_on_arm(scene, arm)
     if step is not None and step.law == "couple_on_lever":
         scale = eq.paper(scene.words, scene.scales["lever"])
         over = eq.Factor(scale.symbol, scale.value, scale.exact, -scale.power)
@@ -220,59 +220,59 @@ def _factors(scene: Scene, name: str) -> tuple[eq.Factor, ...]:
     return (eq.factor(scene, name),)
 
 
-def on_arm(scene: Scene, arm: str) -> tuple[eq.Factor, ...]:
+def _on_arm(scene: Scene, arm: str) -> tuple[eq.Factor, ...]:
     """Return an arm in mm, and the scale factor unless the plan's own cancels, as on the lever."""
     plan = scene.figure_of(arm)
     own = eq.segment(scene, scene.words.symbol(arm), plan, eq.size_of(scene, arm))
     return (own,) if plan == "lever" else (own, eq.paper(scene.words, scene.scales[plan]))
 
 
-def about(scene: Scene, step: Step) -> str:
+def _about(scene: Scene, step: Step) -> str:
     """Return the point about which the moments of a calculation are taken."""
     made = (scene.reading.made.get(name) for name in step.operands)
     point = next((moment.operands[2] for moment in made if moment is not None and moment.verb == "moment"), "")
     if point:
         return point
     # about which a link without loads would turn: its pin in the group, or the group's only one
-    number = link_of(scene, step.name)
-    group, driver = group_of(scene, number), scene.mechanism.driver
+    number = _link_of(scene, step.name)
+    group, driver = _group_of(scene, number), scene.mechanism.driver
     if group is None:
         return driver.pivot if isinstance(driver, Driver) else driver.point
     pins = [pair for pair in (*group.inner, *group.outer) if isinstance(pair, Revolute)]
     return next((pair.point for pair in pins if number in pair.links), pins[0].point)
 
 
-def group_of(scene: Scene, number: int) -> Group | None:
+def _group_of(scene: Scene, number: int) -> Group | None:
     """Return the group of a link; None for the driver."""
     return next((group for group in scene.solved.structure.groups if number in group.links), None)
 
 
-def link_of(scene: Scene, name: str) -> int:
+def _link_of(scene: Scene, name: str) -> int:
     """Return the link on which a reaction or the moment of one acts: 2 of `R_12_t`, 3 of `_M_3`; else the driver."""
     numbers = role(name).links if role(name).kind in ("R", "M") else ()
     moving = {link.number for link in scene.mechanism.links}
     return numbers[-1] if moving.intersection(numbers[-1:]) else scene.solved.structure.driver
 
 
-def links_in(scene: Scene, number: int, point: str) -> str:
+def _links_in(scene: Scene, number: int, point: str) -> str:
     """Return the links whose moments a sum about a point has: the link's own, or those of the whole group.
 
     About a point that is not the link's the inner reactions of the group would have moments, too.
     """
-    group = group_of(scene, number)
+    group = _group_of(scene, number)
     if group is None or point in scene.mechanism.link(number).points or len(group.links) < 2:
         return str(number)
     return ", ".join(map(str, sorted(group.links)))
 
 
-def closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
+def _closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
     """Go through the sums of forces of a plan: the one that closes it, then those that its chords show."""
     reading = scene.reading
     edges = reading.on(plan)
     meet = next((step for step in scene.program.on(plan) if step.verb == "meet"), None)
     if meet is None:
         last = edges[-1]
-        around = path([e for e in edges if e is not last], last.tip, last.tail)
+        around = _path([e for e in edges if e is not last], last.tip, last.tail)
         yield _zero(scene, around, (), last.name)
         return
     p, u, q, w = meet.operands
@@ -287,7 +287,7 @@ def closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
         edges = tuple(sorted((e for e in edges if e is not by_moments), key=lambda e: e.name != whole))
         yield from _chords(scene, edges, [*firm, *found], ())
         return
-    yield eq.noted(_zero(scene, path(firm, q, p), [edge.name for edge in found], ""), *notes)
+    yield eq.noted(_zero(scene, _path(firm, q, p), [edge.name for edge in found], ""), *notes)
     yield from _chords(scene, edges, [*firm, *found], edges)
 
 
@@ -296,11 +296,11 @@ def _chords(
 ) -> Iterable[tuple[str, ...]]:
     """Go through the sums of forces that the chords of a plan show, by what is ready before each, or by all others."""
     for chord in (e for e in edges if e not in ready):
-        parts = path(ready, chord.tail, chord.tip)
+        parts = _path(ready, chord.tail, chord.tip)
         if parts and all(role(part).whole == chord.name != part for part in parts):  # of one reaction
             yield eq.summed(scene, chord.name, parts)
         else:
-            around = path([e for e in others or ready if e is not chord], chord.tip, chord.tail)
+            around = _path([e for e in others or ready if e is not chord], chord.tip, chord.tail)
             yield _zero(scene, around, (), chord.name)
         if not others:
             ready = [*ready, chord]
@@ -313,7 +313,7 @@ def _two_ways(scene: Scene, whole: str, normal: str, note: str, along: str) -> t
     return eq.noted((f"{scene.letter(whole)} {first}", second), note, eq.line_note(scene, f"{whole}_p", along))
 
 
-def path(edges: Iterable[Edge], start: str, end: str) -> list[str]:
+def _path(edges: Iterable[Edge], start: str, end: str) -> list[str]:
     """Return the shortest way of vectors, tip to tail, from one mark to another."""
     ways, every = {start: list[str]()}, list(edges)
     for mark in (queue := [start]):
@@ -350,7 +350,7 @@ def _sum(scene: Scene, step: Step) -> eq.Lines:
     """Sum of moments about the pole, each force times its arm in mm, solved for the balancing force."""
     words = scene.words
     speed, *moments = step.operands
-    found = terms(scene, moments)
+    found = _terms(scene, moments)
     laid = next(s for s in scene.reading.users(speed) if s.verb in ("lay", "back"))
     reach = eq.segment(scene, words.mark(laid.operands[0]) + words.mark(laid.name), "lever", eq.size_of(scene, speed))
     # the balancing force along the line of its point's velocity has the moment -F * V, with the signs of both

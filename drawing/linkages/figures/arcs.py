@@ -83,7 +83,7 @@ def _arcs(canvas: Canvas, scene: Scene, turns: Sequence[_Turn], figure: Skeleton
         rays.insert(0, (scene.mm(turns[0].start), scene.mm(turns[0].end)))
     # centres of mass are drawn with their letters, later
     marks = [scene.mm(point) for link in scene.mechanism.links for point in link.points]
-    busy = [*obstacles(canvas.shapes), *((at, at, scene.style.centre, 2.0) for at in marks)]
+    busy = [*_obstacles(canvas.shapes), *((at, at, scene.style.centre, 2.0) for at in marks)]
     wanted = [PLACES[role(turn.rate).kind] for turn in turns]
     places = _places(rays, wanted, busy, scene.style.force, figure.strokes)
     for (rate, *_), (centre, along, radius, spread) in zip(turns, places, strict=True):
@@ -124,7 +124,7 @@ def _places(
         points = _points(start, radii, angle, spreads)
         # the line of the link itself along a ray is crossed by all arcs about its start
         along = [line for line in own if _on(line, (start, end))]
-        costs = crowd(points, [thing for thing in busy if not any(_on(line, thing[:2]) for line in along)])
+        costs = _crowd(points, [thing for thing in busy if not any(_on(line, thing[:2]) for line in along)])
         costs += SHORTER * np.arange(len(LENGTHS)) + 10.0 * (radii > reach)
         columns = (number, start, angle, reach, radii, spreads, costs)
         tries.append([*(np.broadcast_to(c, costs.shape).ravel() for c in columns), points.reshape(-1, len(ALONG))])
@@ -154,7 +154,7 @@ def free_arc(
     middles = wanted + np.arange(-12, 12) * (np.pi / 12)
     radius, middle = (grid.reshape(-1, 1) for grid in np.meshgrid(radii, middles, indexing="ij"))
     far = 0.1 * np.abs(middle - wanted) + 0.2 * (radius != radii[0])
-    cost = crowd(_points(centre, radius, middle, spread), list(obstacles(shapes))) + far
+    cost = _crowd(_points(centre, radius, middle, spread), list(_obstacles(shapes))) + far
     best = int(np.round(cost, 6).argmin())
     return float(radius[best, 0]), float(middle[best, 0])
 
@@ -184,7 +184,7 @@ def _on(line: Stroke, other: Stroke) -> bool:
     return abs(other[1] - other[0]) > NEAR and all(abs(((end - line[0]) / way).imag) * abs(way) < NEAR for end in other)
 
 
-def crowd(points: np.ndarray, busy: Sequence[Obstacle]) -> np.ndarray:
+def _crowd(points: np.ndarray, busy: Sequence[Obstacle]) -> np.ndarray:
     """Return how much arcs are in the way of what is drawn; arcs of several lengths have one middle.
 
     `points` has axes for places, lengths and the points of an arc; the result has the first two.
@@ -209,12 +209,12 @@ def _gaps(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return np.asarray(np.abs(points - a - along * way))
 
 
-def obstacles(shapes: Iterable[Shape]) -> Iterator[Obstacle]:
+def _obstacles(shapes: Iterable[Shape]) -> Iterator[Obstacle]:
     """Go through what is drawn, as lines that count by their pen, and circles."""
     for shape in shapes:
         match shape:
             case Group(shapes=parts):
-                yield from obstacles(parts)
+                yield from _obstacles(parts)
             case Circle(centre=centre, radius=radius):
                 yield centre, centre, radius, 1.0
             case Vector(tail=a, tip=b) | Arrow(tail=a, tip=b):

@@ -56,7 +56,7 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
     """Draw N positions thin, the calculated one in main lines, dead positions dash-two-dot, and all paths."""
     canvas = scene.canvas()
     numbers = [link.number for link in scene.mechanism.links]
-    for name, path in paths(scene, cycle):
+    for name, path in _paths(scene, cycle):
         canvas.add(Polyline(path, Pen.AXIS, role="curve", name=name))
     stands = dict(_stands(scene, cycle, cycle.angles.tolist()))
     motion = main_output(cycle)
@@ -96,7 +96,7 @@ def _lay_down(canvas: Canvas, scene: Scene, numbers: list[int], pen: Pen, role: 
     canvas.add(*(Circle(at, scene.style.node, Pen.THIN, fill="white", role=role) for at in pins))
 
 
-def paths(scene: Scene, cycle: Cycle) -> Iterator[tuple[str, tuple[complex, ...]]]:
+def _paths(scene: Scene, cycle: Cycle) -> Iterator[tuple[str, tuple[complex, ...]]]:
     """Go through the paths of all lettered points, mm, each in pieces where it breaks; straight ones left out."""
     span = cycle.range
     places = np.linspace(span.low, span.high, DENSE + 1)
@@ -207,7 +207,7 @@ def field_view(scene: Scene, link: int) -> View:
     return canvas.finish("field", (*heading, scene.words.scale(scale)))
 
 
-class Band(NamedTuple):
+class _Band(NamedTuple):
     """One of the diagrams over one another: its smooth curve, the points found by chords, its scale factor."""
 
     name: str
@@ -257,12 +257,12 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     return canvas.finish("diagrams", heading, _chord_notes(scene, drawn, bands))
 
 
-def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion: OutputMotion) -> tuple[Band, ...]:
+def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion: OutputMotion) -> tuple[_Band, ...]:
     """Choose the scale factors: round ones with which the diagrams are tall enough and the poles near enough."""
     tall, travel = TALL * LENGTH[scene.style.label], dense.s - np.nanmin(dense.s)
     kinds, unit = (("s", "V", "a"), "m") if motion.output.slides else (("phi", "omega", "epsilon"), "rad")
     names = [f"{kind}_{motion.output.link}" for kind in kinds]
-    bands = [Band(names[0], _round(f"mu_{names[0]}", travel, tall, unit), travel)]
+    bands = [_Band(names[0], _round(f"mu_{names[0]}", travel, tall, unit), travel)]
     rates = (dense.v, drawn.velocity, "s"), (dense.a, drawn.acceleration, "s^2")
     for name, (values, found, per) in zip(names[1:], rates, strict=True):
         shown, chords = _cut(values, found.chords)
@@ -271,7 +271,7 @@ def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion
             scale = Scale(scale.symbol, mu, scale.unit)
             if pole_distance(bands[-1].scale.mu, across.mu, mu) <= FARTHEST:
                 break
-        bands.append(Band(name, scale, shown, (found.times, chords), shown is not values))
+        bands.append(_Band(name, scale, shown, (found.times, chords), shown is not values))
     return tuple(bands)
 
 
@@ -290,14 +290,14 @@ def _round(symbol: str, values: Array, tall: float, unit: str) -> Scale:
     return Scale(symbol, steps(reach / tall)[0] if reach > 0.0 else 1.0, unit)
 
 
-def _field(scene: Scene, band: Band, across: Scale, drawn: Diagrams, origin: complex) -> Field:
+def _field(scene: Scene, band: _Band, across: Scale, drawn: Diagrams, origin: complex) -> Field:
     times = drawn.times.tolist()
     x = Axis("t", across, 0.0, times[-1], {t: str(k) for k, t in enumerate(times)})
     letter = f"{scene.words.symbol(band.name)};  {scene.words.scale(band.scale)}"
     return Field(origin, x, Axis(letter, band.scale, *band.ends, {}))
 
 
-def _draw(canvas: Canvas, scene: Scene, field: Field, band: Band) -> None:
+def _draw(canvas: Canvas, scene: Scene, field: Field, band: _Band) -> None:
     """Draw the axes, the curve by plans in main lines, the points by chords on a dashed line."""
     axes(canvas, field)
     places = np.linspace(0.0, field.x.high, len(band.curve))
@@ -310,7 +310,7 @@ def _draw(canvas: Canvas, scene: Scene, field: Field, band: Band) -> None:
     canvas.add(*(Circle(at, scene.style.node, Pen.THIN, fill="white", role="chord-point") for at in points))
 
 
-def _pole(canvas: Canvas, scene: Scene, field: Field, bands: Sequence[Band], letter: str) -> None:
+def _pole(canvas: Canvas, scene: Scene, field: Field, bands: Sequence[_Band], letter: str) -> None:
     """Draw the pole at its distance to the left of the axis, and a ray parallel to each chord of the diagram above."""
     above, band = bands
     reach = pole_distance(above.scale.mu, field.x.scale.mu, band.scale.mu)
@@ -321,7 +321,7 @@ def _pole(canvas: Canvas, scene: Scene, field: Field, bands: Sequence[Band], let
     rays(canvas, field, Pole(reach, letter, name, text), ordinates)
 
 
-def _chord_notes(scene: Scene, drawn: Diagrams, bands: Sequence[Band]) -> tuple[str, ...]:
+def _chord_notes(scene: Scene, drawn: Diagrams, bands: Sequence[_Band]) -> tuple[str, ...]:
     parts = []
     for band, found in zip(bands[1:], (drawn.velocity, drawn.acceleration), strict=True):
         most = float(np.nanmax(found.per_cent, initial=0.0))

@@ -335,7 +335,7 @@ def letter_links(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> N
             links = ",".join(map(str, several.get(point, ())))
             _letter_joint(canvas, scene, point, f"{point}_{{{links}}}" if links else scene.words.mark(point), figures)
         elif all(abs(scene.mm(point) - scene.mm(pin)) >= scene.style.pair for pin in pins):
-            _letter_point(canvas, scene, figure, point)
+            _letter_beside(canvas, scene, figure, point)
     for figure in figures:
         canvas.part(_drawn_with(scene, figure))
         _number(canvas, scene, figure, figures)
@@ -365,7 +365,7 @@ def _up(scene: Scene, number: int, at: complex, u: complex, figures: Sequence[Sk
     return max((slider_up(u), -slider_up(u)), key=lambda side: round(_room(side, rays), 3))
 
 
-def _letter_point(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) -> None:
+def _letter_beside(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) -> None:
     """Draw and letter a point that is no joint; a centre of mass is tied to its link where it stands beside it."""
     at, radius = scene.mm(point), scene.style.centre
     if point == scene.mechanism.link(figure.number).centre:
@@ -381,6 +381,12 @@ def _letter_point(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) ->
     else:
         canvas.add(scene.point(at, point))
     canvas.label(scene.words.mark(point), at, clear=radius + 0.8)
+
+
+def letter_point(canvas: Canvas, scene: Scene, point: str) -> None:
+    """Draw and letter a point that is no point of the links drawn."""
+    canvas.add(scene.point(scene.mm(point), point))
+    canvas.label(scene.words.mark(point), scene.mm(point), clear=scene.style.node + 0.8)
 
 
 def _number(canvas: Canvas, scene: Scene, figure: Skeleton, figures: Sequence[Skeleton]) -> None:

@@ -16,7 +16,7 @@ from ...symbols import angle_dimension
 from ...view import Canvas, View
 from ..scene import Scene
 from .arcs import senses, turning_of_driver
-from .links import Skeleton, draw_links, foot_of, guide_of, guide_up, letter_links, skeleton
+from .links import Skeleton, draw_links, foot_of, guide_of, guide_up, letter_links, letter_point, skeleton
 from .plan import draw_sides, said_flat
 
 FAR = 40.0  # mm from the pivot at which the arrow of omega_1 stands
@@ -176,6 +176,4 @@ def special_points(canvas: Canvas, scene: Scene, wanted: Iterable[str] | None = 
     for step in (step for step in scene.program.on(POSITION) if step.verb == "meet" and step.name not in lettered):
         if not role(step.name).hidden and (wanted is None or step.name in wanted):
             _found_by(canvas, scene, step)
-            at = scene.mm(step.name)
-            canvas.add(scene.point(at, step.name))
-            canvas.label(scene.words.mark(step.name), at, clear=scene.style.node + 0.8)
+            letter_point(canvas, scene, step.name)

@@ -1,0 +1,147 @@
+"""Zhukovsky's lever: the velocity plan turned by 90 degrees, all forces hung on its ends, their arms about its pole."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import combinations, pairwise
+from math import cos, radians
+
+from ....plans.board import Step
+from ....plans.names import COUPLE, lever_arm, role, spelled
+from ...shapes import Line
+from ...view import View
+from ..reading import Edge
+from ..scene import Scene
+from .inset import letter_marks
+from .links import rays_of
+from .sketch import LEAST, Arm, Moment, Sketch, arms_of, zeros
+
+BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
+BESIDE = cos(radians(12.0))  # arms that make a smaller angle run into one another
+STEP = 2.4  # heights of an arm's letters between arms that are staggered
+
+
+def lever_view(scene: Scene) -> View:
+    """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
+    words, driven, hung, lines = scene.words, scene.mechanism.driver.point, hung_on_lever(scene), _lines(scene)
+    images = [step.name for step in scene.program.on("lever") if step.verb == "normal"]
+    marks = ("lever.p", *dict.fromkeys((*images, *(f"lever.{p}" for points in _joints(scene) for p in points))))
+    canvas = scene.canvas(_drawn_with(scene, hung, (*marks, *(end for line in lines for end in (line.tail, line.tip)))))
+    strokes = [(_image(scene, line.tail), _image(scene, line.tip)) for line in lines]
+    for stroke, line in zip(strokes, lines, strict=True):
+        canvas.part(scene.last(canvas.parts.get(mark, mark) for mark in (line.tail, line.tip)))
+        canvas.add(Line(*stroke, role="lever", name=line.name))
+    sketch, places, pole = (
+        Sketch(canvas, scene, strokes),
+        {m: _image(scene, m) for m in marks},
+        _image(scene, "lever.p"),
+    )
+    for name, mark in hung:
+        at = _image(scene, mark)
+        canvas.part(name)
+        sketch.bar(at, rays_of(at, strokes))
+        sketch.hang(name, at)
+    moments = [Moment(name, _arm_of(name), _image(scene, mark), pole) for name, mark in hung if name not in BALANCE]
+    arms = [own for _, own in arms_of(scene, moments)]
+    shifts = staggered(pole, arms, sum(places.values()) / len(places), STEP * scene.style.text)
+    for number, own in enumerate(arms):
+        canvas.part(scene.last(canvas.parts[force] for force in own.forces))
+        own.draw(canvas, scene, pole, shifts.get(number, 0j))
+    balance, mark = hung[-1]
+    canvas.part(balance)  # the velocity of the driver's point is the arm of the force that balances
+    text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{driven}')} = {scene.segment(f'V_{driven}')}"
+    canvas.label(text, (pole, _image(scene, mark)), clear=0.9, height=scene.style.text, spare=text)
+    letters = {mark: letter_of(scene, mark) for mark in marks} | {"lever.p": words.mark("lever.p")}
+    letter_marks(canvas, scene, letters, places, ("lever.p",))
+    gone = [_arm_of(name) for name, _ in hung if scene.direction(name) != 0]
+    notes = (words["said.lever"], *zeros(scene, [*sketch.zero, *gone]))
+    return canvas.finish("lever", scene.heading("heading.lever", "lever"), notes)
+
+
+def _drawn_with(scene: Scene, hung: Sequence[tuple[str, str]], marks: Collection[str]) -> dict[str, str]:
+    """Return the step in which each force and each image is drawn that is drawn with another.
+
+    A force is hung with the first one on its mark; an image on which nothing hangs is turned with the last one.
+    """
+    first, parts = dict[str, str](), dict[str, str]()
+    for step in moments_on_lever(scene):
+        parts[step.operands[0]] = first.setdefault(step.operands[1], step.name)
+    couples = {role(name).of: step for name, step in reversed(parts.items()) if role(name).part == COUPLE}
+    parts |= {name: couples[role(name).of] for name, _ in hung if name not in parts and role(name).of in couples}
+    last = [step.name for step in scene.program.on("lever") if step.verb == "normal"][-1]
+    return parts | {mark: last for mark in marks if mark not in scene.reading.made}
+
+
+def letter_of(scene: Scene, mark: str) -> str:
+    """Return the letter of a mark of the lever: that of the velocity plan."""
+    return scene.words.mark(f"velocity.{role(mark).of}")
+
+
+def _image(scene: Scene, mark: str) -> complex:
+    """Return a mark of the lever, mm: that of the velocity plan turned by +90 degrees where nothing hangs on it."""
+    return scene.mm(mark) if mark in scene.solved.values else scene.mm(f"velocity.{role(mark).of}") * 1j
+
+
+def _joints(scene: Scene) -> Iterator[list[str]]:
+    """Go through the letters of the joints of each link, and of its points over others, that have marks of velocity."""
+    for link in scene.mechanism.links:
+        pairs = [pair for pair in scene.mechanism.pairs if link.number in pair.links]
+        joints = [pair.point for pair in pairs if pair.point in link.points]
+        points = dict.fromkeys((*joints, *(f"{pair.point}{link.number}" for pair in pairs)))
+        yield [point for point in points if f"velocity.{point}" in scene.reading.made]
+
+
+def _lines(scene: Scene) -> list[Edge]:
+    """Return the lines of the turned velocity plan: all its vectors, and those between images of each link's joints."""
+    ends = [(role(edge.tail).of, role(edge.tip).of, edge.name) for edge in scene.reading.on("velocity")]
+    for points in _joints(scene):
+        ways = combinations(points, 2) if len(points) < 4 else pairwise([*points, points[0]])
+        ends += [(a, b, a + b) for a, b in ways]
+    kept: dict[frozenset[complex], Edge] = {}
+    for start, end, name in ends:
+        line = Edge(name, f"lever.{start}", f"lever.{end}")
+        both = (_image(scene, mark) for mark in (line.tail, line.tip))
+        places = frozenset(complex(round(at.real, 4), round(at.imag, 4)) for at in both)
+        if len(places) == 2:
+            kept.setdefault(places, line)
+    return list(kept.values())
+
+
+def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
+    """Return (force, mark) of all that hangs on the lever, the balancing force last."""
+    hung = {step.operands[0]: step.operands[1] for step in moments_on_lever(scene)}
+    # of a couple on a link that turns about a pivot the second force stands at the pole: it has no moment
+    for step in scene.program:
+        if role(step.name).part == COUPLE and step.law in ("along", "opposite"):
+            hung.setdefault(step.name, "lever.p")
+    balance = next(name for name in BALANCE if name in scene.solved.values)
+    return [*hung.items(), (balance, f"lever.{scene.mechanism.driver.point}")]
+
+
+def moments_on_lever(scene: Scene) -> Iterator[Step]:
+    """Go through the moments that are taken about the pole of the lever."""
+    return (step for step in scene.program.which(("moment",)) if step.operands[2] == "lever.p")
+
+
+def _arm_of(force: str) -> str:
+    """Return the arm's name: of `F_i2` it is `h_lever_F_i2`, of the couple `F_i2_couple_B` `h_lever_M_i2_B`."""
+    acting = role(force)
+    if acting.part != COUPLE:
+        return lever_arm(force)
+    return lever_arm(spelled("M", acting.of, links=acting.links), acting.about)
+
+
+def staggered(pole: complex, arms: Sequence[Arm], middle: complex, step: float) -> Mapping[int, complex]:
+    """Return by how much arms are moved along the lines of their forces; the shortest of those side by side stays.
+
+    Arms are side by side when they make a small angle; each is moved away from the middle of the figure.
+    """
+    shifts, bundles = dict[int, complex](), dict[complex, int]()  # how many, by the direction of the shortest of them
+    for reach, i in sorted((abs(own.foot - pole), i) for i, own in enumerate(arms) if abs(own.foot - pole) >= LEAST):
+        way, outward = (arms[i].foot - pole) * (1.0 / reach), arms[i].along
+        first = next((other for other in bundles if (way.conjugate() * other).real > BESIDE), way)
+        outward *= -1.0 if (outward.conjugate() * (middle - pole)).real > 0 else 1.0
+        if first in bundles:
+            shifts[i] = outward * step * bundles[first]
+        bundles[first] = bundles.get(first, 0) + 1
+    return shifts
