@@ -24,7 +24,7 @@ Line = tuple[str, ...]
 
 def compound_told(teller: Teller, points: Sequence[At]) -> Iterator[Told]:
     """Go through the steps of one figure: the mechanism once more, then the vectors of every point."""
-    scene, made = teller.scene, teller.reading.made
+    scene, made = teller, teller.made
     marks = tuple(point for link in scene.mechanism.links for point in link.points)
     yield Told(scene.program.on(points[0].plan)[0], teller.say("compound_mechanism"), others=marks)
     for at in points:
@@ -63,13 +63,13 @@ def _start(teller: Teller, at: At, mark: str) -> str:
     """Return in words where a vector or a line begins: in the point itself, or at the end of another vector."""
     if role(mark).kind == POLE:
         return teller.say("compound_point", point=teller.mark(at.point))
-    return teller.say("compound_end", vector=teller.scene.letter(teller.reading.made[mark].operands[1]))
+    return teller.say("compound_end", vector=teller.letter(teller.made[mark].operands[1]))
 
 
 def _measured(teller: Teller, at: At, step: Step, key: str, name: str) -> Told:
     """Tell what of a quantity is measured in a step."""
-    parts = {"vector": teller.scene.letter(name), "point": teller.mark(at.point)}
-    text = teller.say(f"compound_{key}", sum=" ".join(_segment(teller.scene, name, at.plan)), **parts)
+    parts = {"vector": teller.letter(name), "point": teller.mark(at.point)}
+    text = teller.say(f"compound_{key}", sum=" ".join(_segment(teller, name, at.plan)), **parts)
     return Told(step, text, others=(name,))
 
 
@@ -113,7 +113,7 @@ def _lines_of_point(scene: Scene, c: Coupler, point: str, turning: str, carrier:
     if kind == "V":
         yield _segment(scene, between("l", c.pivot, point), POSITION)
     for part in (vector(kind, letter, part=part) for part in COMPOUND[kind]):
-        step = scene.reading.made[part]
+        step = scene.made[part]
         if step.verb == "calc":
             yield _by_law(scene, step)
             continue
@@ -125,7 +125,7 @@ def _lines_of_point(scene: Scene, c: Coupler, point: str, turning: str, carrier:
         yield _segment(scene, part, plan)
         if normal is not None:
             yield _segment(scene, _tangential(normal), plan)
-        yield noted(_by_law(scene, scene.reading.made[relative]), sensed(scene.words, scene.solved.values[relative]))
+        yield noted(_by_law(scene, scene.made[relative]), sensed(scene.words, scene.values[relative]))
         yield _sum_of_rates(scene, rate(turning, c.number), carrier, relative, 1.0)
         yield from _centre(scene, c) if kind == "V" else ()
     yield _segment(scene, f"{kind}_{point}", plan)
@@ -137,7 +137,7 @@ def _by_law(scene: Scene, step: Step) -> Line:
         return (f"{scene.words.symbol(step.name)} = 0",)
 
     def own(scene: Scene, name: str) -> Product:
-        made = scene.reading.made.get(name)
+        made = scene.made.get(name)
         arm = made is not None and made.verb == "read" and made.plan == POSITION
         return Product((_length(scene, *made.operands),)) if made is not None and arm else operand(scene, name)
 
@@ -182,7 +182,7 @@ def _product(scene: Scene, name: str, *factors: Factor) -> Line:
 
 def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float) -> Line:
     """Return a rate as the algebraic sum of two others; one that is zero by the form of the mechanism is left out."""
-    words, values = scene.words, scene.solved.values
+    words, values = scene.words, scene.values
     terms = [(other, turn) for other, turn in ((first, 1.0), (second, sign)) if other != ZERO]
     signs = ["" if i == 0 and turn > 0 else "+ " if turn > 0 else "− " for i, (_, turn) in enumerate(terms)]
     formula = " ".join(f"{sign}{words.symbol(other)}" for sign, (other, _) in zip(signs, terms, strict=True))
@@ -195,7 +195,7 @@ def _sum_of_rates(scene: Scene, name: str, first: str, second: str, sign: float)
 
 def _segment(scene: Scene, name: str, plan: str) -> Line:
     """Return what was measured: the segment and the scale factor."""
-    words, item = scene.words, scene.solved.quantities[name]
+    words, item = scene.words, scene.quantities[name]
     segment, number, value = printed_segment(scene, item, plan)
     head = f"{words.symbol(name)} = {segment}{'/' if words.per_unit else '·'}{number} ="
     return head, f"{value} {words.unit(words.display.unit(item.unit))}"

@@ -6,13 +6,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ...plans.board import POSITION, Program
+from ...plans.board import POSITION, Program, Step
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
 from ...plans.linkages.mechanism import Driver, Mechanism, Prismatic
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Structure
 from ...plans.names import FORCES, inertia, rate, role
-from ...plans.quantities import unit_of
+from ...plans.quantities import Quantity, unit_of
 from ...scales.scale import Scale
 from ..figure import ANSWERS, SubjectScene
 from ..printed import segment_decimals
@@ -65,6 +65,21 @@ class Scene(SubjectScene[SolvedLinkage]):
         """What is looked up in the steps."""
         return read(self.solved.program)
 
+    @property
+    def made(self) -> Mapping[str, Step]:
+        """The recorded steps by the names that they make."""
+        return self.reading.made
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """What the steps have made."""
+        return self.solved.values
+
+    @property
+    def quantities(self) -> Mapping[str, Quantity]:
+        """The results."""
+        return self.solved.quantities
+
     def canvas(self, parts: Mapping[str, str] | None = None) -> Canvas:
         """Return an empty canvas: what is drawn is an answer until it is a `part`, by the step of the program.
 
@@ -95,18 +110,18 @@ class Scene(SubjectScene[SolvedLinkage]):
     def direction(self, name: str) -> complex:
         """Return the unit direction of a vector, or 0 when it is zero."""
         size = self.solved.size(name)
-        return 0j if self.vanishes(name) else complex(self.solved.values[name]) / size
+        return 0j if self.vanishes(name) else complex(self.values[name]) / size
 
     def vanishes(self, name: str) -> bool:
         """Whether a quantity is zero, or rounding beside the largest of its unit."""
         if (unit := unit_of(role(name).shown)) not in self._largest:
-            sizes = (abs(q.value or 0.0) for q in self.solved.quantities.values() if q.unit == unit)
+            sizes = (abs(q.value or 0.0) for q in self.quantities.values() if q.unit == unit)
             self._largest[unit] = max(sizes, default=0.0)
         return self.solved.size(name) <= ROUNDING * self._largest[unit]
 
     def defined(self, name: str) -> bool:
         """Whether a value exists and is a number."""
-        value = self.solved.values.get(name)
+        value = self.values.get(name)
         return value is not None and value == value
 
     def ends(self, edge: Edge) -> tuple[complex, complex]:
@@ -117,12 +132,12 @@ class Scene(SubjectScene[SolvedLinkage]):
         """Return a vector of a plan whose origin is `at`, mm."""
         scale, name = self.scales[role(edge.tail).plan], edge.name
         a, b = (end + at for end in self.ends(edge))
-        size = self.solved.size(name) if name in self.solved.values else abs(b - a) * scale.mu
+        size = self.solved.size(name) if name in self.values else abs(b - a) * scale.mu
         return Vector(a, b, name, size, scale.unit, scale.mu, title=name)
 
     def segment(self, name: str) -> str:
         """Return the printed millimetres of a quantity that a plan shows."""
-        value, mu = self.solved.quantities[name].value or 0.0, self.scales[self.figure_of(name)].mu
+        value, mu = self.quantities[name].value or 0.0, self.scales[self.figure_of(name)].mu
         return self.words.number(abs(value) / mu, segment_decimals(value, mu)[0])
 
     def figure_of(self, name: str) -> str:

@@ -24,7 +24,7 @@ from .figures.compound import figures_of
 from .figures.inset import ENLARGED
 from .ladders import links_apart
 from .scene import Scene, is_at_point, plan_heading
-from .telling import TOLD, Teller, Told, lever_told
+from .telling import Teller, Told, lever_told, tell
 
 SET = ("pole", "place")  # verbs that set a drawing up
 PLANS = {"velocity": ("V", "omega"), "acceleration": ("a", "epsilon")}  # kinds of vectors and of rates
@@ -56,7 +56,7 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
 
 def drawn_views(teller: Teller) -> list[str]:
     """Return the views whose drawing is told step by step, in order: the plans, the figures of compound motion."""
-    scene = teller.scene
+    scene = teller
     plans = [plan for plan in scene.program.plans if plan in scene.scales and not is_at_point(plan)]
     forces = next((at for at, plan in enumerate(plans) if role(plan).kind == FORCES), len(plans))
     return [*plans[:forces], *figures_of(scene), *plans[forces:]]
@@ -64,17 +64,17 @@ def drawn_views(teller: Teller) -> list[str]:
 
 def told_of(teller: Teller, view: str) -> Iterator[Told]:
     """Return the steps of a view, each with its sentence."""
-    if points := figures_of(teller.scene).get(view):
+    if points := figures_of(teller).get(view):
         return compound_told(teller, points)
     return lever_told(teller) if view == "lever" else _plan(teller, view)
 
 
 def _plan(teller: Teller, plan: str) -> Iterator[Told]:
-    centres = {at.coupler.centre for points in figures_of(teller.scene).values() for at in points}
-    for step in teller.scene.program.on(plan):
+    centres = {at.coupler.centre for points in figures_of(teller).values() for at in points}
+    for step in teller.program.on(plan):
         hidden = role(step.name).hidden and step.verb not in ("place", "read")
         arm = plan == POSITION and step.verb == "read"  # that a calculation takes
-        text = "" if hidden or arm or step.name in centres or step.verb not in TOLD else TOLD[step.verb](teller, step)
+        text = "" if hidden or arm or step.name in centres else tell(teller, step)
         if text:
             yield Told(step, text, before=step.verb in SET)
 
@@ -89,7 +89,7 @@ def _begun(teller: Teller, view: str, steps: int) -> Shown:
     every, before, drawn = list(told_of(teller, view)), "", dict[str, bool]()
     for number, told in enumerate(every, 1):
         drawn |= dict.fromkeys((told.step.name, *told.others), told.before or number <= steps)
-    for step in teller.scene.program.on(view):  # what nothing is said of is drawn with what stands before it
+    for step in teller.program.on(view):  # what nothing is said of is drawn with what stands before it
         before = step.name if step.name in drawn else before
         drawn.setdefault(step.name, drawn.get(before, False))
     whole = len(every) <= steps
@@ -101,16 +101,16 @@ def _begun(teller: Teller, view: str, steps: int) -> Shown:
 def conclusions(teller: Teller) -> Iterator[str]:
     """Go through the sentences for the end of the note: what the plans that are drawn have shown."""
     for plan, (kind, rate) in PLANS.items():
-        if plan in teller.scene.scales:
-            absolute = {f"{kind}_{point}" for link in teller.scene.mechanism.links for point in link.points}
-            names = [name for name in teller.scene.solved.quantities if name in absolute]
+        if plan in teller.scales:
+            absolute = {f"{kind}_{point}" for link in teller.mechanism.links for point in link.points}
+            names = [name for name in teller.quantities if name in absolute]
             yield from _extremes(teller, f"conclusion.{plan}", names)
             yield from _fastest(teller, rate)
-    gap = disagreement(teller.scene.solved)
+    gap = disagreement(teller.solved)
     if gap is not None:  # by which the theorems of compound motion give what the plans give
-        yield teller.texts["conclusion.compound"].format(part=teller.scene.words.number(100.0 * gap, 2))
-    if any(role(plan).kind == FORCES for plan in teller.scene.scales):
-        quantities = teller.scene.solved.quantities
+        yield teller.texts["conclusion.compound"].format(part=teller.words.number(100.0 * gap, 2))
+    if any(role(plan).kind == FORCES for plan in teller.scales):
+        quantities = teller.quantities
         yield from _extremes(teller, "conclusion.reactions", [n for n in quantities if _pair(n)])
         for name in BALANCES:
             yield from _balance(teller, name)
@@ -121,7 +121,7 @@ def conclusions(teller: Teller) -> Iterator[str]:
 
 def _extremes(teller: Teller, key: str, names: Iterable[str]) -> Iterator[str]:
     """Tell the largest and the smallest of some vectors; of forces on one another only one."""
-    scene, listed = teller.scene, tuple(names)
+    scene, listed = teller, tuple(names)
     pairs = filter(None, map(_pair, listed))
     twice = {scene.mechanism.pair("R", pair[1], pair[0]) for pair in pairs}  # both are as large
     found = {n: size_of(scene, n) for n in listed if not (n in twice and _pair(n)[0] > _pair(n)[1])}
@@ -140,7 +140,7 @@ def _pair(name: str) -> tuple[int, ...]:
 
 def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:
     """Return the symbols of all quantities that are as large as one, with its value as the tables print it."""
-    scene, item = teller.scene, teller.scene.solved.quantities[name]
+    scene, item = teller, teller.quantities[name]
     alike = [other for other in found if math.isclose(abs(found[other]), abs(found[name]), rel_tol=SAME)]
     symbol = " = ".join(dict.fromkeys(scene.words.symbol(other) for other in alike))
     if not scene.figure_of(name):
@@ -149,10 +149,10 @@ def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:
 
 
 def _fastest(teller: Teller, rate: str) -> Iterator[str]:
-    scene = teller.scene
+    scene = teller
     driver = str(scene.solved.structure.driver)
     names = [f"{rate}_{link.number}" for link in scene.mechanism.links if str(link.number) != driver]
-    values = {name: rate_of(scene, name) for name in names if name in scene.solved.quantities}
+    values = {name: rate_of(scene, name) for name in names if name in scene.quantities}
     fastest = max(values, key=lambda name: abs(values[name]), default="")
     if values.get(fastest):
         value, sense = _alike(teller, values, fastest), sensed(scene.words, values[fastest])
@@ -160,14 +160,14 @@ def _fastest(teller: Teller, rate: str) -> Iterator[str]:
 
 
 def _balance(teller: Teller, name: str) -> Iterator[str]:
-    scene, words = teller.scene, teller.scene.words
-    item, driver = scene.solved.quantities.get(name), scene.mechanism.driver
+    scene, words = teller, teller.words
+    item, driver = scene.quantities.get(name), scene.mechanism.driver
     by_moment = isinstance(driver, Driver) and driver.balance == MOMENT
     if item is None or not item.value or by_moment != (name == "M_bal"):
         return
     speed = f"omega_{driver.link}" if by_moment else f"V_{driver.point}"
-    force = item.value if by_moment else scene.solved.values["_F_bal"]
-    power = dot(complex(force), complex(scene.solved.values[speed]))
+    force = item.value if by_moment else scene.values["_F_bal"]
+    power = dot(complex(force), complex(scene.values[speed]))
     yield teller.texts[f"conclusion.{name}_{'drives' if power > 0.0 else 'brakes'}"].format(
         value=stated(words, words.symbol(name), abs(item.value), item.unit),
         sense=sensed(words, item.value),
@@ -177,7 +177,7 @@ def _balance(teller: Teller, name: str) -> Iterator[str]:
 
 
 def _compared(teller: Teller, name: str) -> Iterator[str]:
-    words, quantities = teller.scene.words, teller.scene.solved.quantities
+    words, quantities = teller.words, teller.quantities
     by_plans, by_lever = quantities.get(name), quantities.get(f"{name}_lever")
     if by_plans is None or by_lever is None or not by_plans.value or by_lever.value is None:
         return
@@ -190,9 +190,9 @@ def _compared(teller: Teller, name: str) -> Iterator[str]:
 
 def _angles(teller: Teller) -> Iterator[str]:
     """Tell where lines meet at less than 20 degrees, or at which angle the flattest ones do."""
-    words = teller.scene.words
-    plans = {plan for plan in teller.scene.scales if not is_at_point(plan)}  # compound motion meets the same lines
-    drawn = {mark: sine for mark, sine in teller.scene.solved.sines.items() if role(mark).plan in plans}
+    words = teller.words
+    plans = {plan for plan in teller.scales if not is_at_point(plan)}  # compound motion meets the same lines
+    drawn = {mark: sine for mark, sine in teller.solved.sines.items() if role(mark).plan in plans}
     flat = sorted((mark for mark in drawn if 0.0 < drawn[mark] < SMALL), key=lambda mark: drawn[mark])
     if flat:
         listed = "; ".join(_met(teller, mark, drawn[mark]) for mark in flat)
@@ -204,7 +204,7 @@ def _angles(teller: Teller) -> Iterator[str]:
 
 
 def _met(teller: Teller, mark: str, sine: float) -> str:
-    words, solved = teller.scene.words, teller.scene.solved
+    words, solved = teller.words, teller.solved
     heading = plan_heading(words, solved.structure, role(mark).plan)
     angle = words.short(math.degrees(math.asin(min(sine, 1.0))), 3)
     return f"{words.mark(point_of(solved.program, mark))} ({heading[:1].lower()}{heading[1:]}, {angle}°)"

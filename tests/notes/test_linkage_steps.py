@@ -62,12 +62,12 @@ def is_given(name: str) -> bool:
 @pytest.mark.parametrize("task", tasks())
 def test_no_step_of_a_drawn_plan_is_left_out(task: str) -> None:
     teller = Teller.of(scene_of(case_of(task)))
-    program = teller.scene.solved.program
+    program = teller.solved.program
     told = {told.step.name for view in drawn_views(teller) for told in told_of(teller, view)}
     edges = [edge for plan in program.plans for edge in teller.reading.on(plan)]
     hung = {edge.name for edge in edges if teller.reading.is_hung(edge)}
 
-    steps = [step for step in program if step.plan in teller.scene.scales and not is_given(step.name)]
+    steps = [step for step in program if step.plan in teller.scales and not is_given(step.name)]
     made = {step.name for step in steps if step.verb in DRAWING}
     # a vector between two marks is measured once, under the first of its names
     first = {

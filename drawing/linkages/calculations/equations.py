@@ -103,7 +103,7 @@ def _by_law(
 
 def operand(scene: Scene, name: str) -> Product:
     """Return an operand of a law: a value, an arm that was read off the plan of the mechanism, or a direction."""
-    made = scene.reading.made.get(name)
+    made = scene.made.get(name)
     if made is not None and made.verb in DIRECTIONS:
         return Product(())
     if made is not None and made.verb == "read" and made.plan == POSITION:
@@ -137,18 +137,18 @@ def moments_in_letters(own: Symbol, others: Iterable[Product]) -> list[str]:
 
 def size_of(scene: Scene, name: str) -> float:
     """Return the magnitude of a quantity or of a value of the construction; what its plan shows as a point is zero."""
-    item, plan = scene.solved.quantities.get(name), scene.solved.shown_on.get(name, "")
+    item, plan = scene.quantities.get(name), scene.solved.shown_on.get(name, "")
     size = abs(scene.solved.size(name)) if item is None else abs(item.value or 0.0)
     return 0.0 if plan in scene.scales and size < POINT * scene.scales[plan].mu else size
 
 
 def rate_of(scene: Scene, name: str) -> float:
     """Return an angular velocity or acceleration, zero where the vector that it is read from is a point of its plan."""
-    step = scene.reading.made.get(name)
+    step = scene.made.get(name)
     if step is not None and step.law == "same_turning":
         return rate_of(scene, step.operands[0])
     still = step is not None and step.law == "turning" and size_of(scene, step.operands[0]) == 0.0
-    return 0.0 if still else float(scene.solved.values[name])
+    return 0.0 if still else float(scene.values[name])
 
 
 def factor(scene: Scene, name: str, power: int = 1) -> Factor:
@@ -166,7 +166,7 @@ def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
 
 def is_given(scene: Scene, name: str) -> bool:
     """Whether a value is stated by the task, not constructed."""
-    return name in scene.solved.values and name not in scene.reading.made
+    return name in scene.values and name not in scene.made
 
 
 def paper(words: Words, scale: Scale) -> Factor:
@@ -251,7 +251,7 @@ def line_note(scene: Scene, vector: str, direction: str) -> str:
 
 def line_of(scene: Scene, direction: str) -> str:
     """Return a line by the name of its direction: ∥ AB, ⊥ AB, ∥ x–x."""
-    step = scene.reading.made[direction]
+    step = scene.made[direction]
     sign, along = ("⊥", step.operands[0]) if step.verb == "normal" else ("∥", direction)
     letters = guide_letters(scene.program).get(along)
     return f"{sign} {letters or ''.join(map(scene.words.mark, ends_of(scene.reading, along)))}"
@@ -330,7 +330,7 @@ def _lengths(scene: Scene, step: Step, told: set[str]) -> Iterator[tuple[str, ..
 
     They are measured on the plan of the mechanism, or follow from the coordinates of a link's joints.
     """
-    measured = (made for name in step.operands if (made := scene.reading.made.get(name)) and made.verb == "measure")
+    measured = (made for name in step.operands if (made := scene.made.get(name)) and made.verb == "measure")
     for name, made in ((made.name, made) for made in measured if made.name not in told):
         told.add(name)
         symbol = scene.words.symbol(role(name).shown)
@@ -375,7 +375,7 @@ def _turning_alike(scene: Scene, step: Step) -> Lines:
 
 def _special_point(scene: Scene, step: Step) -> Lines:
     """Say where a point stands that no link has, such as Assur's special point, when it is found for the first time."""
-    point, made = role(step.name).of, scene.reading.made.get(role(step.name).of)
+    point, made = role(step.name).of, scene.made.get(role(step.name).of)
     lettered = {point for link in scene.mechanism.links for point in link.points}
     if step.plan != "velocity" or made is None or made.verb != "meet" or point in lettered:
         return []
@@ -389,7 +389,7 @@ def _given(scene: Scene, step: Step) -> tuple[str, ...]:
     if given == ZERO:
         return (f"{words.symbol(name)} = 0",)
     head = " = ".join(dict.fromkeys((words.symbol(name), words.symbol(given))))
-    line = stated(words, head, float(scene.solved.values[given]), unit_of(name))
+    line = stated(words, head, float(scene.values[given]), unit_of(name))
     laid = next(user for user in scene.reading.users(step.name) if user.verb == "lay")
     return noted((line,), line_note(scene, name, laid.operands[1]))
 

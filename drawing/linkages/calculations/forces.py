@@ -97,11 +97,11 @@ def _load(scene: Scene, step: Step) -> eq.Lines:
         products = _terms(scene, step.operands)
         return [_solved_for(scene, step.name, products, 1.0) if products else (f"{words.symbol(step.name)} = 0",)]
     loads = {load.name: load.magnitude for load in mechanism.loads} | {c.name: c.magnitude for c in mechanism.couples}
-    made = scene.reading.made.get(step.operands[0])
+    made = scene.made.get(step.operands[0])
     if step.name not in loads or (made is None and step.law not in RESISTING):
         return []
     notes = [words["said.diagram"]] if loads[step.name] in {d.name for d in mechanism.diagrams} else []
-    size, unit = eq.size_of(scene, step.name), scene.solved.quantities[step.name].unit
+    size, unit = eq.size_of(scene, step.name), scene.quantities[step.name].unit
     if step.law in RESISTING and size > 0.0:
         against = words.symbol(step.operands[1], bar=step.law != "resisting_moment")
         notes.append(words["said.against"].format(motion=against))
@@ -112,7 +112,7 @@ def _load(scene: Scene, step: Step) -> eq.Lines:
 
 def _solved_for(scene: Scene, moment: str, products: Iterable[eq.Product], sign: float) -> tuple[str, ...]:
     """Return a moment as the sum of others, with numbers and its sense; `sign` is that of the sum in it."""
-    words, value = scene.words, scene.solved.values[moment]
+    words, value = scene.words, scene.values[moment]
     turn = math.copysign(sign, sign * value)
     return eq.noted(eq.worked(words, words.symbol(moment), eq.turned(products, turn), "N*m"), eq.sensed(words, value))
 
@@ -126,7 +126,7 @@ def _force(scene: Scene, step: Step) -> eq.Lines:
     if step.law == "closing_moment":
         return _for_a_moment(scene, step, step)
     if step.law == "opposite" and _is_sum(step.operands[0]):
-        return _for_a_moment(scene, step, scene.reading.made[step.operands[0]])
+        return _for_a_moment(scene, step, scene.made[step.operands[0]])
     if step.verb == "arm" and role(step.operands[0]).kind == "M" and not role(step.operands[0]).hidden:
         return _arm(scene, step)
     return []
@@ -157,7 +157,7 @@ def _for_a_force(scene: Scene, step: Step) -> eq.Lines:
     own = Symbol.of(words.symbol(name)) * arm.in_letters
     if not found:
         return [(head, f"{own} = 0,", f"{words.symbol(name)} = 0")]
-    values = scene.solved.values
+    values = scene.values
     sign, turn = math.copysign(SIGNS[step.law], SIGNS[step.law] * values[length]), math.copysign(1.0, values[step.name])
     return [
         (head, *eq.moments_in_letters(own * (sign * turn), found), "= 0"),
@@ -167,7 +167,7 @@ def _for_a_force(scene: Scene, step: Step) -> eq.Lines:
 
 def _reach(scene: Scene, name: str, length: str) -> eq.Product:
     """Return the arm of the force to be found: a length, or what was measured from the point to the force's line."""
-    made = scene.reading.made.get(length)
+    made = scene.made.get(length)
     if made is None or made.verb == "measure":
         return eq.Product((eq.factor(scene, length),))
     return eq.Product(_on_arm(scene, next(s.name for s in scene.program.which(("arm",)) if s.operands[1] == name)))
@@ -187,7 +187,7 @@ def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> eq.Lines:
 
 def _arm(scene: Scene, step: Step) -> eq.Lines:
     words, (moment, reaction) = scene.words, step.operands
-    if scene.solved.values[moment] == 0.0:
+    if scene.values[moment] == 0.0:
         return []  # told with the moment
     if not scene.defined(step.name):
         return [(f"{words.symbol(reaction)} = 0:", words["said.couple"].format(moment=words.symbol(moment)))]
@@ -199,7 +199,7 @@ def _terms(scene: Scene, names: Iterable[str]) -> list[eq.Product]:
     """Return the moments that are not zero, each with its sign, counter-clockwise positive."""
     found = []
     for name in names:
-        value = 0.0 if name == ZERO else scene.solved.values[name]
+        value = 0.0 if name == ZERO else scene.values[name]
         factors = _factors(scene, name) if value != 0.0 else ()
         # a force whose line passes through the point has no moment but rounding
         if factors and min(factor.value for factor in factors if not factor.exact) >= POINT:
@@ -209,7 +209,7 @@ def _terms(scene: Scene, names: Iterable[str]) -> list[eq.Product]:
 
 def _factors(scene: Scene, name: str) -> tuple[eq.Factor, ...]:
     """Return what makes a moment: a force and its arm, a couple's power, or a couple that is known."""
-    step = scene.reading.made.get(name)
+    step = scene.made.get(name)
     if step is not None and step.verb == "moment":
         arm = next(user.name for user in scene.reading.users(name) if user.verb == "arm")
         return eq.factor(scene, step.operands[0]), *_on_arm(scene, arm)
@@ -229,7 +229,7 @@ def _on_arm(scene: Scene, arm: str) -> tuple[eq.Factor, ...]:
 
 def _about(scene: Scene, step: Step) -> str:
     """Return the point about which the moments of a calculation are taken."""
-    made = (scene.reading.made.get(name) for name in step.operands)
+    made = (scene.made.get(name) for name in step.operands)
     point = next((moment.operands[2] for moment in made if moment is not None and moment.verb == "moment"), "")
     if point:
         return point
@@ -354,7 +354,7 @@ def _sum(scene: Scene, step: Step) -> eq.Lines:
     laid = next(s for s in scene.reading.users(speed) if s.verb in ("lay", "back"))
     reach = eq.segment(scene, words.mark(laid.operands[0]) + words.mark(laid.name), "lever", eq.size_of(scene, speed))
     # the balancing force along the line of its point's velocity has the moment -F * V, with the signs of both
-    turn = math.copysign(1.0, scene.solved.values[step.name] * scene.solved.values[speed])
+    turn = math.copysign(1.0, scene.values[step.name] * scene.values[speed])
     symbol = words.symbol(step.name)
     own = Symbol.of(symbol) * reach.letter * -turn
     lines: eq.Lines = [(f"ΣM_{{{words.mark('lever.p')}}} = 0:", *eq.moments_in_letters(own, found), "= 0")]
@@ -364,7 +364,7 @@ def _sum(scene: Scene, step: Step) -> eq.Lines:
 
 
 def _difference(scene: Scene, step: Step) -> eq.Lines:
-    words, values = scene.words, scene.solved.values
+    words, values = scene.words, scene.values
     lever, plan = (abs(values[name]) for name in step.operands)
     if lever == 0.0:
         return []

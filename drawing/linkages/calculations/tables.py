@@ -58,7 +58,7 @@ def givens_table(scene: Scene) -> View:
     shared: dict[float, list[str]] = {}
     for name in dict.fromkeys(link.inertia_factor for link in scene.mechanism.links):
         if name and name not in scene.givens and scene.defined(name):
-            shared.setdefault(float(scene.solved.values[name]), []).append(words.symbol(name))
+            shared.setdefault(float(scene.values[name]), []).append(words.symbol(name))
     factors = [(" = ".join(s), words.short(value), words["table.calculated"]) for value, s in shared.items()]
     return givens_view(scene.givens, words, scene.style, factors)
 
@@ -146,7 +146,7 @@ def results_table(scene: Scene, part: Part) -> View:
     head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
     head[1] = head[1].format(unit=words.unit(words.display.paper))
     angles = [words["table.angle"]] if words.notation["angles"] else []
-    quantities = scene.solved.quantities
+    quantities = scene.quantities
     rows = [[*_row(scene, quantities[n]), *(_angle(scene, quantities[n]) for _ in angles)] for n in part.names]
     return table(part.name, heading, [[*head, *angles], *rows], scene.style)
 

@@ -53,7 +53,7 @@ def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
     All else but letters has been drawn: the arcs keep clear of it.
     """
     canvas.part(ANSWERS)
-    made, force = scene.reading.made, scene.style.force
+    made, force = scene.made, scene.style.force
     taken: dict[tuple[complex, complex], float] = {}  # mm that vectors take at a joint in a direction
     turns: dict[int, list[_Turn]] = {}
     for step in scene.program:
@@ -87,7 +87,7 @@ def _arcs(canvas: Canvas, scene: Scene, turns: Sequence[_Turn], figure: Skeleton
     wanted = [PLACES[role(turn.rate).kind] for turn in turns]
     places = _places(rays, wanted, busy, scene.style.force, figure.strokes)
     for (rate, *_), (centre, along, radius, spread) in zip(turns, places, strict=True):
-        sense = math.copysign(1.0, scene.solved.values[rate])
+        sense = math.copysign(1.0, scene.values[rate])
         canvas.add(turning_arrow(centre, radius, along, spread, sense, rate))
         tip = centre + rect(radius, along + sense * spread / 2)
         canvas.label(scene.words.symbol(rate), tip, prefer=rect(sense, along + math.pi / 2), clear=1.4)
@@ -163,7 +163,7 @@ def turning_of_driver(
     canvas: Canvas, scene: Scene, driver: Driver, radii: Sequence[float], spread: float, wanted: float
 ) -> None:
     """Draw the arrows of omega_1 and epsilon_1 about the pivot where there is room, near the direction `wanted`."""
-    o, values = scene.mm(driver.pivot), scene.solved.values
+    o, values = scene.mm(driver.pivot), scene.values
     omega, epsilon = (f"{kind}_{driver.link}" for kind in ("omega", "epsilon"))
     canvas.part(ANSWERS)
     for name, turn in ((omega, values.get(omega) or values[driver.sense]), (epsilon, values.get(epsilon))):

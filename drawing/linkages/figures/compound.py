@@ -65,7 +65,7 @@ class At(Plan):
     def vectors(self) -> Iterator[Vector]:
         """Go through the vectors as they were drawn, the total last, each with the name of the quantity it shows."""
         edges, (n, end) = [*self.scene.reading.on(self.plan)], (mark(self.plan, k) for k in ("n", self.letter))
-        if n in self.scene.solved.values:
+        if n in self.scene.values:
             edges.append(Edge(named("a", self.point, part="t"), n, end))
         total = named(self.kind, self.letter, part=TOTAL).size
         for edge in sorted(edges, key=lambda edge: edge.name == total):
@@ -248,7 +248,7 @@ def _instant_centre(canvas: Canvas, scene: Scene, c: Coupler, figures: Sequence[
 
 
 def _turn(canvas: Canvas, scene: Scene, rate: str, centre: str) -> None:
-    value, c, style = scene.solved.values.get(rate), scene.mm(centre), scene.style
+    value, c, style = scene.values.get(rate), scene.mm(centre), scene.style
     if not value or value != value:
         return
     canvas.part(ANSWERS)

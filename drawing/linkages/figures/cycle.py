@@ -354,7 +354,7 @@ def load_diagram(scene: Scene, diagram: Diagram) -> View:
 
 
 def _value(scene: Scene, name: str) -> float:
-    values = scene.solved.values
+    values = scene.values
     return float(values.get(f"|{name}|", values.get(name, 0.0)))
 
 
@@ -371,7 +371,7 @@ def _points(scene: Scene, diagram: Diagram, names: Sequence[str]) -> list[tuple[
 
 def _span(scene: Scene, diagram: Diagram) -> tuple[float, str]:
     """Return what a place of 1 on a diagram is, and its unit: a radian, or the whole stroke."""
-    mechanism, values = scene.mechanism, scene.solved.values
+    mechanism, values = scene.mechanism, scene.values
     if diagram.over == ANGLE:
         return 1.0, "rad"
     assert mechanism.stroke is not None
@@ -405,7 +405,7 @@ def _parts(scene: Scene, diagram: Diagram) -> dict[float, str]:
 
 def _here(canvas: Canvas, scene: Scene, field: Field, diagram: Diagram, load: Load | Couple) -> None:
     """Mark the calculated position and the load that acts there."""
-    values, words, acting = scene.solved.values, scene.words, scene.solved.size(load.name)
+    values, words, acting = scene.values, scene.words, scene.solved.size(load.name)
     if diagram.over == ANGLE:
         place = float(values[f"_diagram_{diagram.name}_angle"])
     else:

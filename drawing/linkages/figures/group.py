@@ -28,7 +28,7 @@ Reaction = tuple[str, Pair, int, list[str]]  # pin, pair, own link in it, names 
 def _loads(scene: Scene, number: int) -> Hung:
     """Return (force, point) of the loads on a link: inertia force, weight, then outer ones."""
     mechanism, centre = scene.mechanism, str(scene.mechanism.link(number).centre)
-    own = [(name, centre) for name in (f"F_i{number}", f"G_{number}") if name in scene.solved.quantities]
+    own = [(name, centre) for name in (f"F_i{number}", f"G_{number}") if name in scene.quantities]
     return own + [(load.name, load.point) for load in mechanism.loads_on(number)]
 
 
@@ -62,7 +62,7 @@ def _reactions(scene: Scene, group: Group) -> Iterator[Reaction]:
     for pair, before in zip(group.outer, group.before, strict=True):
         own = next(number for number in pair.links if number in group.links)
         whole = f"R_{scene.mechanism.index(before, own)}"
-        parts = [name for name in (f"{whole}_n", f"{whole}_t") if name in scene.solved.values]
+        parts = [name for name in (f"{whole}_n", f"{whole}_t") if name in scene.values]
         yield group.pin(pair), pair, own, parts or [whole]
 
 
@@ -149,7 +149,7 @@ def driver_view(scene: Scene) -> View:
         for name, point in _loads(scene, number):
             if point in still:
                 sketch.hang(name, scene.mm(point))
-        if "M_bal" in scene.solved.values:
+        if "M_bal" in scene.values:
             _balance(sketch, o)
         else:
             sketch.hang("_F_bal", scene.mm(driver.point))
@@ -164,7 +164,7 @@ def driver_view(scene: Scene) -> View:
 
 def _balance(sketch: Sketch, o: complex) -> None:
     """Draw the balancing moment on the freest side of O: foot, crank, reaction and arms leave from there, too."""
-    scene, canvas, value = sketch.scene, sketch.canvas, sketch.scene.solved.values["M_bal"]
+    scene, canvas, value = sketch.scene, sketch.canvas, sketch.scene.values["M_bal"]
     if value != value or scene.vanishes("M_bal"):
         sketch.zero.append("M_bal")
         return

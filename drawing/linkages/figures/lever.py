@@ -69,7 +69,7 @@ def _drawn_with(scene: Scene, hung: Sequence[tuple[str, str]], marks: Collection
     couples = {role(name).of: step for name, step in reversed(parts.items()) if role(name).part == COUPLE}
     parts |= {name: couples[role(name).of] for name, _ in hung if name not in parts and role(name).of in couples}
     last = [step.name for step in scene.program.on("lever") if step.verb == "normal"][-1]
-    return parts | {mark: last for mark in marks if mark not in scene.reading.made}
+    return parts | {mark: last for mark in marks if mark not in scene.made}
 
 
 def letter_of(scene: Scene, mark: str) -> str:
@@ -79,7 +79,7 @@ def letter_of(scene: Scene, mark: str) -> str:
 
 def _image(scene: Scene, mark: str) -> complex:
     """Return a mark of the lever, mm: that of the velocity plan turned by +90 degrees where nothing hangs on it."""
-    return scene.mm(mark) if mark in scene.solved.values else scene.mm(f"velocity.{role(mark).of}") * 1j
+    return scene.mm(mark) if mark in scene.values else scene.mm(f"velocity.{role(mark).of}") * 1j
 
 
 def _joints(scene: Scene) -> Iterator[list[str]]:
@@ -88,7 +88,7 @@ def _joints(scene: Scene) -> Iterator[list[str]]:
         pairs = [pair for pair in scene.mechanism.pairs if link.number in pair.links]
         joints = [pair.point for pair in pairs if pair.point in link.points]
         points = dict.fromkeys((*joints, *(f"{pair.point}{link.number}" for pair in pairs)))
-        yield [point for point in points if f"velocity.{point}" in scene.reading.made]
+        yield [point for point in points if f"velocity.{point}" in scene.made]
 
 
 def _lines(scene: Scene) -> list[Edge]:
@@ -114,7 +114,7 @@ def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
     for step in scene.program:
         if role(step.name).part == COUPLE and step.law in ("along", "opposite"):
             hung.setdefault(step.name, "lever.p")
-    balance = next(name for name in BALANCE if name in scene.solved.values)
+    balance = next(name for name in BALANCE if name in scene.values)
     return [*hung.items(), (balance, f"lever.{scene.mechanism.driver.point}")]
 
 

@@ -41,7 +41,7 @@ def scheme(scene: Scene) -> View:
     canvas.part(driver.point)
     if isinstance(driver, Driver):
         _angle(canvas, scene, driver)
-    elif speed := scene.solved.values[driver.speed]:
+    elif speed := scene.values[driver.speed]:
         canvas.part(ANSWERS)
         pair = next(p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and driver.link in p.links)
         up, e = guide_up(scene, pair), guide_of(scene, pair) * math.copysign(1.0, speed)
@@ -60,7 +60,7 @@ def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
     """Dimension phi from the axis x, and draw the arrows of omega_1 and epsilon_1 on the other side."""
     o, style = scene.mm(driver.pivot), scene.style
     crank_mm = abs(scene.mm(driver.point) - o)
-    phi = math.remainder(scene.solved.values[driver.angle], 2 * math.pi)
+    phi = math.remainder(scene.values[driver.angle], 2 * math.pi)
     phi = phi + 2 * math.pi if phi < -1e-12 else phi
     text = f"{scene.words.symbol(driver.angle)} = {scene.words.short(round(math.degrees(phi), 9))}°"
     radius = max(0.45 * crank_mm, 9.0)
@@ -145,7 +145,7 @@ def _found_by(canvas: Canvas, scene: Scene, step: Step) -> None:
         ways = [(operands[i], operands[i + 1], f"{step.name}_{i // 2 + 1}") for i in (0, 2)]
     elif step.verb == "tangent":
         centre, point, offset = operands[:3]
-        radius = scene.solved.values[offset] / scene.scales[POSITION].mu
+        radius = scene.values[offset] / scene.scales[POSITION].mu
         if abs(radius) > scene.style.pair:
             side = math.copysign(1.0, radius) * 1j * scene.solved.point(step.name)
             ends = phase(side) - 0.7, 1.4

@@ -153,7 +153,7 @@ class Sketch:
 
     def couple(self, name: str, figure: Skeleton) -> None:
         """Draw the turning arrow of a couple about the middle of a link, round those that stand there already."""
-        value, scene = self.scene.solved.values[name], self.scene
+        value, scene = self.scene.values[name], self.scene
         if scene.vanishes(name):
             self.zero.append(name)
             return
@@ -196,7 +196,7 @@ class Sketch:
         step = next((s for s in arms if s.name in {f"h_{index}" for index in indices}), None)
         if step is None:
             return start, ""
-        (moment, reaction), name, values = step.operands, step.name, scene.solved.values
+        (moment, reaction), name, values = step.operands, step.name, scene.values
         size = cross(u, complex(values[reaction])) if scene.direction(reaction) != 0 else 0.0
         if size == 0.0 and not scene.vanishes(moment):
             return start, moment
