@@ -68,16 +68,12 @@ class Product:
         return math.copysign(1.0, self.sign) * math.prod(sizes)
 
 
-def turned(products: Iterable[Product], turn: float) -> list[Product]:
-    """Return the products with all signs multiplied by that of `turn`."""
-    return [replace(product, sign=product.sign * turn) for product in products]
-
-
 def worked(
-    words: Words, head: str, products: Sequence[Product], unit: str, divisor: Product | None = None
+    words: Words, head: str, products: Iterable[Product], unit: str, divisor: Product | None = None, turn: float = 1.0
 ) -> tuple[str, ...]:
-    """Return `head = formula = numbers = result unit` of a sum of products, perhaps over a divisor."""
-    return _by_law(words, head, lambda *x: sum(x[1:]) / x[0], (divisor or Product(()), *products), unit)
+    """Return `head = formula = numbers = result unit` of a sum of products, all of them turned, perhaps divided."""
+    turned = (replace(product, sign=product.sign * turn) for product in products)
+    return _by_law(words, head, lambda *x: sum(x[1:]) / x[0], (divisor or Product(()), *turned), unit)
 
 
 def _by_law(
@@ -128,11 +124,6 @@ def distance(scene: Scene, start: str, end: str) -> Product:
     words, size = scene.words, abs(scene.solved.point(end) - scene.solved.point(start))
     own = segment(scene, words.mark(start) + words.mark(end), POSITION, size)
     return Product((own, paper(words, scene.scales[POSITION])))
-
-
-def moments_in_letters(own: Symbol, others: Iterable[Product]) -> list[str]:
-    """Return the terms of a sum of moments, that of the force to be found first."""
-    return sum((product.in_letters for product in others), own).chunks
 
 
 def size_of(scene: Scene, name: str) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import chain
 
@@ -14,9 +14,26 @@ from ....plans.linkages.structure import Group
 from ....plans.names import FORCES, role
 from ....scales.display import AS_INSIDE
 from ...printed import POINT, Symbol, value_text
+from ...words import Words
 from ..reading import Edge
 from ..scene import Scene
-from . import equations as eq
+from .equations import (
+    Factor,
+    Lines,
+    Product,
+    ends_of,
+    factor,
+    line_note,
+    noted,
+    paper,
+    segment,
+    sensed,
+    size_by_law,
+    size_of,
+    stated,
+    summed,
+    worked,
+)
 
 WHOLE, LOADS = "", "loads"
 
@@ -36,7 +53,7 @@ def equations_heading(scene: Scene, part: str) -> str:
     return words[key].format(links=", ".join(map(str, links.get(part, ()))), link=part)
 
 
-def force_lines(scene: Scene, part: str = WHOLE) -> eq.Lines:
+def force_lines(scene: Scene, part: str = WHOLE) -> Lines:
     """Return the lines of the part in order of construction."""
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
     loads = (_load(scene, step) for step in scene.program if step.law in LOADING and part in (WHOLE, LOADS))
@@ -44,20 +61,20 @@ def force_lines(scene: Scene, part: str = WHOLE) -> eq.Lines:
     return [*chain.from_iterable(loads), *chain.from_iterable(forces)]
 
 
-def _forces(scene: Scene) -> Iterator[tuple[str, Step, eq.Lines]]:
+def _forces(scene: Scene) -> Iterator[tuple[str, Step, Lines]]:
     """Go through the steps of the force plans that have equations, each with its part and these."""
     told = ((step, _force(scene, step)) for step in scene.program if step.law not in LOADING)
     return ((_part(scene, step), step, lines) for step, lines in told if lines)
 
 
-def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, eq.Lines]:
+def lines_by_plan(scene: Scene, apart: Collection[int] = ()) -> dict[str, Lines]:
     """Return the equations that stand before each force plan, by plan: moments first, then the sums that it shows.
 
     What is found of a link after its plans stands with the figure of that link where it is `apart`, or else with the
     last plan of its group.
     """
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))
-    last, found, held = dict[str, str](), dict[str, eq.Lines](), dict[str, list[tuple[Step, eq.Lines]]]()
+    last, found, held = dict[str, str](), dict[str, Lines](), dict[str, list[tuple[Step, Lines]]]()
     for part, step, lines in _forces(scene):
         if step.verb == "pole":
             last[part] = plan = role(step.name).plan
@@ -86,13 +103,13 @@ RESISTING = ("resisting_force", "resisting_along", "resisting_moment")
 LOADING = (*UNITS, *RESISTING, "along", "signed", "sum")
 
 
-def _load(scene: Scene, step: Step) -> eq.Lines:
+def _load(scene: Scene, step: Step) -> Lines:
     """Tell a mass, a load, a weight, a force or moment of inertia, or a sum of couples."""
     if role(step.name).hidden or not scene.defined(step.name):
         return []
     words, mechanism = scene.words, scene.mechanism
     if step.law in UNITS:
-        return [eq.size_by_law(scene, words.symbol(step.name), step, UNITS[step.law])]
+        return [size_by_law(scene, words.symbol(step.name), step, UNITS[step.law])]
     if step.law == "sum":
         products = _terms(scene, step.operands)
         return [_solved_for(scene, step.name, products, 1.0) if products else (f"{words.symbol(step.name)} = 0",)]
@@ -101,34 +118,40 @@ def _load(scene: Scene, step: Step) -> eq.Lines:
     if step.name not in loads or (made is None and step.law not in RESISTING):
         return []
     notes = [words["said.diagram"]] if loads[step.name] in {d.name for d in mechanism.diagrams} else []
-    size, unit = eq.size_of(scene, step.name), scene.quantities[step.name].unit
+    size, unit = size_of(scene, step.name), scene.quantities[step.name].unit
     if step.law in RESISTING and size > 0.0:
         against = words.symbol(step.operands[1], bar=step.law != "resisting_moment")
         notes.append(words["said.against"].format(motion=against))
     elif size == 0.0:
         notes.append(words["said.idle"])
-    return [eq.noted((eq.stated(words, words.symbol(step.name), size, unit),), *notes)]
+    return [noted((stated(words, words.symbol(step.name), size, unit),), *notes)]
 
 
-def _solved_for(scene: Scene, moment: str, products: Iterable[eq.Product], sign: float) -> tuple[str, ...]:
+def _solved_for(scene: Scene, moment: str, products: Iterable[Product], sign: float) -> tuple[str, ...]:
     """Return a moment as the sum of others, with numbers and its sense; `sign` is that of the sum in it."""
     words, value = scene.words, scene.values[moment]
-    turn = math.copysign(sign, sign * value)
-    return eq.noted(eq.worked(words, words.symbol(moment), eq.turned(products, turn), "N*m"), eq.sensed(words, value))
+    line = worked(words, words.symbol(moment), products, "N*m", turn=math.copysign(sign, sign * value))
+    return noted(line, sensed(words, value))
 
 
-def _force(scene: Scene, step: Step) -> eq.Lines:
+def _force(scene: Scene, step: Step) -> Lines:
     """Tell a step of the force plans: a sum of moments, or the sums of forces of a plan."""
+    words, first = scene.words, step.operands[0] if step.operands else ""
     if step.verb == "pole" and role(step.name).plan.kind == FORCES:
         return list(_closed(scene, role(step.name).plan))
-    if step.law in SIGNS and role(step.operands[0]).kind != "V":  # of the lever
+    if step.law in SIGNS and role(first).kind != "V":  # of the lever
         return _for_a_force(scene, step)
     if step.law == "closing_moment":
-        return _for_a_moment(scene, step, step)
-    if step.law == "opposite" and _is_sum(step.operands[0]):
-        return _for_a_moment(scene, step, scene.made[step.operands[0]])
-    if step.verb == "arm" and role(step.operands[0]).kind == "M" and not role(step.operands[0]).hidden:
-        return _arm(scene, step)
+        return [_for_a_moment(scene, step, step)]
+    if step.law == "opposite" and _is_sum(first):
+        return [_for_a_moment(scene, step, scene.made[first])]
+    # what is zero has been told with the moment
+    if step.verb == "arm" and role(first).kind == "M" and not role(first).hidden and scene.values[first] != 0.0:
+        reaction = step.operands[1]
+        if not scene.defined(step.name):
+            return [(f"{words.symbol(reaction)} = 0:", words["said.couple"].format(moment=words.symbol(first)))]
+        quotient = Product((factor(scene, first), factor(scene, reaction, -1)))
+        return [worked(words, words.symbol(step.name), [quotient], "m")]
     return []
 
 
@@ -139,63 +162,50 @@ def _is_sum(moment: str) -> bool:
     return role(moment).kind == "M" and role(moment).hidden
 
 
-def _head(scene: Scene, links: str, point: str) -> str:
-    return f"ΣM_{{{scene.words.mark(point)}}}({links}) = 0:"
-
-
-def _for_a_force(scene: Scene, step: Step) -> eq.Lines:
+def _for_a_force(scene: Scene, step: Step) -> Lines:
     """Tell the moments about a joint, solved for a force: drawn as it acts, its moment turns against the others."""
-    words, reading = scene.words, scene.reading
+    words, reading, values = scene.words, scene.reading, scene.values
     length, *moments = step.operands
-    name, found = reading.visible(step.name), _terms(scene, moments)
+    name, known, point, made = reading.visible(step.name), _terms(scene, moments), _about(scene, step), scene.made
     laid = next((s for s in reading.users(step.name) if s.verb in ("lay", "back")), None)
-    point = _about(scene, step)
     if laid is not None and not any(map(_is_sum, moments)):
-        point = eq.ends_of(reading, reading.made[laid.operands[1]].operands[0])[laid.verb == "lay"]
-    head = _head(scene, _links_in(scene, _link_of(scene, step.name), point), point)
-    arm = _reach(scene, name, length)
-    own = Symbol.of(words.symbol(name)) * arm.in_letters
-    if not found:
+        point = ends_of(reading, made[laid.operands[1]].operands[0])[laid.verb == "lay"]
+    if length not in made or made[length].verb == "measure":
+        arm = Product((factor(scene, length),))
+    else:  # measured from the point to the line of the force
+        arm = Product(_on_arm(scene, next(s.name for s in scene.program.which(("arm",)) if s.operands[1] == name)))
+    # about a point that is not the link's the inner reactions of the group would have moments, too
+    number = _link_of(scene, step.name)
+    group, links = _group_of(scene, number), [number]
+    if group is not None and point not in scene.mechanism.link(number).points:
+        links = sorted(group.links)
+    head = f"ΣM_{{{words.mark(point)}}}({', '.join(map(str, links))}) = 0:"
+    if not known:
+        own = Symbol.of(words.symbol(name)) * arm.in_letters
         return [(head, f"{own} = 0,", f"{words.symbol(name)} = 0")]
-    values = scene.values
-    sign, turn = math.copysign(SIGNS[step.law], SIGNS[step.law] * values[length]), math.copysign(1.0, values[step.name])
-    return [
-        (head, *eq.moments_in_letters(own * (sign * turn), found), "= 0"),
-        eq.worked(words, words.symbol(name), eq.turned(found, -sign * turn), "N", arm),
-    ]
+    sign = math.copysign(SIGNS[step.law], SIGNS[step.law] * values[length]) * math.copysign(1.0, values[step.name])
+    return _moments(words, head, name, arm, known, sign)
 
 
-def _reach(scene: Scene, name: str, length: str) -> eq.Product:
-    """Return the arm of the force to be found: a length, or what was measured from the point to the force's line."""
-    made = scene.made.get(length)
-    if made is None or made.verb == "measure":
-        return eq.Product((eq.factor(scene, length),))
-    return eq.Product(_on_arm(scene, next(s.name for s in scene.program.which(("arm",)) if s.operands[1] == name)))
+def _moments(words: Words, head: str, force: str, arm: Product, known: Sequence[Product], sign: float) -> Lines:
+    """Return the sum of the moment of a force, with its sign, and of others, and that solved for the force."""
+    own = Symbol.of(words.symbol(force)) * arm.in_letters
+    line = (head, *sum((product.in_letters for product in known), own * sign).chunks, "= 0")
+    return [line, worked(words, words.symbol(force), known, "N", arm, -sign)] if known else [line]
 
 
-def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> eq.Lines:
+def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> tuple[str, ...]:
     """Tell the moments about a joint, solved for a moment: of a guide's reaction, or the balancing one."""
-    words = scene.words
-    found, point = _terms(scene, sum_of.operands), _about(scene, sum_of)
-    head = _head(scene, str(_link_of(scene, step.name)), point)
-    if not found:
-        arm = next((s for s in scene.reading.users(step.name) if s.verb == "arm"), None)
-        zeros = [f"{words.symbol(arm.operands[1])}·{words.symbol(arm.name)}", words.symbol(arm.name)] if arm else []
-        return [(head, *(f"{zero} = 0," for zero in zeros[:-1]), f"{[words.symbol(step.name), *zeros][-1]} = 0")]
-    return [(head, *_solved_for(scene, step.name, found, -1.0))]
+    symbol, known = scene.words.symbol, _terms(scene, sum_of.operands)
+    head = f"ΣM_{{{scene.words.mark(_about(scene, sum_of))}}}({_link_of(scene, step.name)}) = 0:"
+    if known:
+        return (head, *_solved_for(scene, step.name, known, -1.0))
+    arm = next((s for s in scene.reading.users(step.name) if s.verb == "arm"), None)
+    zeros = (f"{symbol(arm.operands[1])}·{symbol(arm.name)} = 0,", symbol(arm.name)) if arm else (symbol(step.name),)
+    return (head, *zeros[:-1], f"{zeros[-1]} = 0")
 
 
-def _arm(scene: Scene, step: Step) -> eq.Lines:
-    words, (moment, reaction) = scene.words, step.operands
-    if scene.values[moment] == 0.0:
-        return []  # told with the moment
-    if not scene.defined(step.name):
-        return [(f"{words.symbol(reaction)} = 0:", words["said.couple"].format(moment=words.symbol(moment)))]
-    product = eq.Product((eq.factor(scene, moment), eq.factor(scene, reaction, -1)))
-    return [eq.worked(words, words.symbol(step.name), [product], "m")]
-
-
-def _terms(scene: Scene, names: Iterable[str]) -> list[eq.Product]:
+def _terms(scene: Scene, names: Iterable[str]) -> list[Product]:
     """Return the moments that are not zero, each with its sign, counter-clockwise positive."""
     found = []
     for name in names:
@@ -203,28 +213,28 @@ def _terms(scene: Scene, names: Iterable[str]) -> list[eq.Product]:
         factors = _factors(scene, name) if value != 0.0 else ()
         # a force whose line passes through the point has no moment but rounding
         if factors and min(factor.value for factor in factors if not factor.exact) >= POINT:
-            found.append(eq.Product(factors, math.copysign(1.0, value)))
+            found.append(Product(factors, math.copysign(1.0, value)))
     return found
 
 
-def _factors(scene: Scene, name: str) -> tuple[eq.Factor, ...]:
+def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
     """Return what makes a moment: a force and its arm, a couple's power, or a couple that is known."""
     step = scene.made.get(name)
     if step is not None and step.verb == "moment":
         arm = next(user.name for user in scene.reading.users(name) if user.verb == "arm")
-        return eq.factor(scene, step.operands[0]), *_on_arm(scene, arm)
+        return factor(scene, step.operands[0]), *_on_arm(scene, arm)
     if step is not None and step.law == "couple_on_lever":
-        scale = eq.paper(scene.words, scene.scales["lever"])
-        over = eq.Factor(scale.symbol, scale.value, scale.exact, -scale.power)
-        return eq.factor(scene, step.operands[0]), eq.factor(scene, step.operands[1]), over
-    return (eq.factor(scene, name),)
+        scale = paper(scene.words, scene.scales["lever"])
+        over = Factor(scale.symbol, scale.value, scale.exact, -scale.power)
+        return factor(scene, step.operands[0]), factor(scene, step.operands[1]), over
+    return (factor(scene, name),)
 
 
-def _on_arm(scene: Scene, arm: str) -> tuple[eq.Factor, ...]:
+def _on_arm(scene: Scene, arm: str) -> tuple[Factor, ...]:
     """Return an arm in mm, and the scale factor unless the plan's own cancels, as on the lever."""
     plan = scene.figure_of(arm)
-    own = eq.segment(scene, scene.words.symbol(arm), plan, eq.size_of(scene, arm))
-    return (own,) if plan == "lever" else (own, eq.paper(scene.words, scene.scales[plan]))
+    own = segment(scene, scene.words.symbol(arm), plan, size_of(scene, arm))
+    return (own,) if plan == "lever" else (own, paper(scene.words, scene.scales[plan]))
 
 
 def _about(scene: Scene, step: Step) -> str:
@@ -254,17 +264,6 @@ def _link_of(scene: Scene, name: str) -> int:
     return numbers[-1] if moving.intersection(numbers[-1:]) else scene.solved.structure.driver
 
 
-def _links_in(scene: Scene, number: int, point: str) -> str:
-    """Return the links whose moments a sum about a point has: the link's own, or those of the whole group.
-
-    About a point that is not the link's the inner reactions of the group would have moments, too.
-    """
-    group = _group_of(scene, number)
-    if group is None or point in scene.mechanism.link(number).points or len(group.links) < 2:
-        return str(number)
-    return ", ".join(map(str, sorted(group.links)))
-
-
 def _closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
     """Go through the sums of forces of a plan: the one that closes it, then those that its chords show."""
     reading = scene.reading
@@ -279,15 +278,18 @@ def _closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
     firm = [e for e in edges if reading.is_hung(e)]
     lines = ((reading.between(p, meet.name), u), (reading.between(meet.name, q), w))
     found = [edge for edge, _ in lines if edge is not None]
-    notes = [eq.line_note(scene, edge.name, along) for edge, along in lines if edge is not None]
+    notes = [line_note(scene, edge.name, along) for edge, along in lines if edge is not None]
     by_moments = next((e for e in edges if {e.tail, e.tip} & {p, q} and role(e.name).part == "m"), None)
     if by_moments is not None:
         whole, along = role(by_moments.name).whole, next(line for edge, line in lines if edge is None)
-        yield _two_ways(scene, whole, found[0].name, notes[0], along)
+        # by its parts along and across its link, and along and across another line
+        ways = ((f"{whole}_t", found[0].name), (f"{whole}_m", f"{whole}_p"))
+        first, second = (f"= {scene.letter(one, 2)} + {scene.letter(other, 1)}" for one, other in ways)
+        yield noted((f"{scene.letter(whole)} {first}", second), notes[0], line_note(scene, f"{whole}_p", along))
         edges = tuple(sorted((e for e in edges if e is not by_moments), key=lambda e: e.name != whole))
         yield from _chords(scene, edges, [*firm, *found], ())
         return
-    yield eq.noted(_zero(scene, _path(firm, q, p), [edge.name for edge in found], ""), *notes)
+    yield noted(_zero(scene, _path(firm, q, p), [edge.name for edge in found], ""), *notes)
     yield from _chords(scene, edges, [*firm, *found], edges)
 
 
@@ -298,19 +300,12 @@ def _chords(
     for chord in (e for e in edges if e not in ready):
         parts = _path(ready, chord.tail, chord.tip)
         if parts and all(role(part).whole == chord.name != part for part in parts):  # of one reaction
-            yield eq.summed(scene, chord.name, parts)
+            yield summed(scene, chord.name, parts)
         else:
             around = _path([e for e in others or ready if e is not chord], chord.tip, chord.tail)
             yield _zero(scene, around, (), chord.name)
         if not others:
             ready = [*ready, chord]
-
-
-def _two_ways(scene: Scene, whole: str, normal: str, note: str, along: str) -> tuple[str, ...]:
-    """Return the equation of a reaction by its parts along and across its link, and along and across another line."""
-    ways = ((f"{whole}_t", normal), (f"{whole}_m", f"{whole}_p"))
-    first, second = (f"= {scene.letter(x, 2)} + {scene.letter(y, 1)}" for x, y in ways)
-    return eq.noted((f"{scene.letter(whole)} {first}", second), note, eq.line_note(scene, f"{whole}_p", along))
 
 
 def _path(edges: Iterable[Edge], start: str, end: str) -> list[str]:
@@ -330,52 +325,35 @@ def _zero(scene: Scene, knowns: Sequence[str], lines: Sequence[str], unknown: st
     return (texts[0], *(f"+ {text}" for text in texts[1:]), "= 0")
 
 
-def lever_lines(scene: Scene, with_loads: bool = False) -> eq.Lines:
+def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
     """Return the moments on Zhukovsky's lever and what balances the driver by it; where that is wanted, loads first."""
     lines = force_lines(scene, LOADS) if with_loads else []
     scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
     for step in scene.program:
-        if step.law in TOLD and (step.law != "moment_equation" or role(step.operands[0]).kind == "V"):
-            lines += TOLD[step.law](scene, step)
+        symbol = scene.words.symbol
+        if step.law == "couple" and scene.defined(step.name):
+            pair = [s.name for s in scene.program if role(s.name).whole == step.name != s.name]
+            lines.append(size_by_law(scene, " = ".join(dict.fromkeys(map(symbol, pair))), step, "N"))
+        elif step.law == "moment_equation" and role(step.operands[0]).kind == "V":
+            lines += _on_lever(scene, step)
+        elif step.law == "crank_moment":
+            lines.append(size_by_law(scene, symbol(step.name), step, "N*m"))
+        elif step.law == "difference" and scene.values[step.operands[0]] != 0.0:
+            (a, b), (first, second) = zip(
+                *((value_text(scene.words, abs(scene.values[n])), symbol(n)) for n in step.operands), strict=True
+            )
+            head = f"{symbol(step.name)} = ({first} − {second})/{first}·100 % ="
+            result = scene.words.number(scene.values[step.name], 2)
+            lines.append((head, f"({a} − {b})/{a}·100 % =", f"{result} %"))
     return lines
 
 
-def _couple(scene: Scene, step: Step) -> eq.Lines:
-    pair = [s.name for s in scene.program if role(s.name).whole == step.name != s.name]
-    symbols = " = ".join(dict.fromkeys(map(scene.words.symbol, pair)))
-    return [eq.size_by_law(scene, symbols, step, "N")] if scene.defined(step.name) else []
-
-
-def _sum(scene: Scene, step: Step) -> eq.Lines:
+def _on_lever(scene: Scene, step: Step) -> Lines:
     """Sum of moments about the pole, each force times its arm in mm, solved for the balancing force."""
-    words = scene.words
-    speed, *moments = step.operands
-    found = _terms(scene, moments)
+    words, (speed, *moments) = scene.words, step.operands
     laid = next(s for s in scene.reading.users(speed) if s.verb in ("lay", "back"))
-    reach = eq.segment(scene, words.mark(laid.operands[0]) + words.mark(laid.name), "lever", eq.size_of(scene, speed))
+    reach = segment(scene, words.mark(laid.operands[0]) + words.mark(laid.name), "lever", size_of(scene, speed))
     # the balancing force along the line of its point's velocity has the moment -F * V, with the signs of both
-    turn = math.copysign(1.0, scene.values[step.name] * scene.values[speed])
-    symbol = words.symbol(step.name)
-    own = Symbol.of(symbol) * reach.letter * -turn
-    lines: eq.Lines = [(f"ΣM_{{{words.mark('lever.p')}}} = 0:", *eq.moments_in_letters(own, found), "= 0")]
-    if found:
-        lines.append(eq.worked(words, symbol, eq.turned(found, turn), "N", eq.Product((reach,))))
-    return lines
-
-
-def _difference(scene: Scene, step: Step) -> eq.Lines:
-    words, values = scene.words, scene.values
-    lever, plan = (abs(values[name]) for name in step.operands)
-    if lever == 0.0:
-        return []
-    (a, b), (first, second) = (value_text(words, size) for size in (lever, plan)), map(words.symbol, step.operands)
-    head = f"{words.symbol(step.name)} = ({first} − {second})/{first}·100 % ="
-    return [(head, f"({a} − {b})/{a}·100 % =", f"{words.number(values[step.name], 2)} %")]
-
-
-TOLD: dict[str, Callable[[Scene, Step], eq.Lines]] = {
-    "couple": _couple,
-    "moment_equation": _sum,
-    "crank_moment": lambda scene, step: [eq.size_by_law(scene, scene.words.symbol(step.name), step, "N*m")],
-    "difference": _difference,
-}
+    sign = -math.copysign(1.0, scene.values[step.name] * scene.values[speed])
+    head = f"ΣM_{{{words.mark('lever.p')}}} = 0:"
+    return _moments(words, head, step.name, Product((reach,)), _terms(scene, moments), sign)
