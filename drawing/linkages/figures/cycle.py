@@ -74,8 +74,14 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
         radius = abs(scene.mm(driver.point) - scene.mm(driver.pivot)) + 2.0 * scene.style.label
         turning_of_driver(canvas, scene, driver, (radius, radius * 1.15, radius * 1.3), ARC / radius, START)
     letter_links(canvas, scene, figures)
+    notes = list[str]()
+    if dead:
+        times, unit = (180.0 / math.pi, "°") if cycle.drive.turns else (1e3, f" {scene.words['unit.mm']}")
+        places = "; ".join(f"{scene.words.number(place * times, 2)}{unit}" for place in dead)
+        symbol = scene.words.symbol(role(cycle.drive.variable).shown)
+        notes = [scene.words["said.dead"].format(symbol=symbol, places=places)]
     heading = scene.heading("heading.positions", "position", n=str(len(stands)))
-    return canvas.finish("positions", heading, _notes(scene, cycle, dead))
+    return canvas.finish("positions", heading, tuple(notes))
 
 
 def _stands(scene: Scene, cycle: Cycle, places: Iterable[float]) -> Iterator[tuple[int, Scene]]:
@@ -105,20 +111,16 @@ def _paths(scene: Scene, cycle: Cycle) -> Iterator[tuple[str, tuple[complex, ...
     seen: list[complex] = []
     for name, values in cycle.at(places, points).items():
         path = values * (1.0 / scene.scales[POSITION].mu)
-        if any(abs(path[0] - other) < STRAIGHT for other in seen) or _is_straight(path):
+        known = path[np.isfinite(path)]
+        ways = known - known[:1]
+        far = ways[np.argmax(np.abs(ways))] if len(ways) > 1 else 0.0
+        if any(abs(path[0] - other) < STRAIGHT for other in seen) or abs(far) < STRAIGHT:
+            continue
+        if np.max(np.abs((ways / far).imag)) * abs(far) < STRAIGHT:  # along a straight line
             continue
         seen.append(complex(path[0]))
         pieces = (piece[np.isfinite(piece)] for piece in np.split(path, np.flatnonzero(~np.isfinite(path))))
         yield from ((name, tuple(piece.tolist())) for piece in pieces if len(piece) > 1)
-
-
-def _is_straight(path: np.ndarray) -> bool:
-    known = path[np.isfinite(path)]
-    if len(known) < 2:
-        return True
-    ways = known - known[0]
-    far = ways[np.argmax(np.abs(ways))]
-    return bool(abs(far) < STRAIGHT or np.max(np.abs((ways / far).imag)) * abs(far) < STRAIGHT)
 
 
 def _output_point(cycle: Cycle) -> str:
@@ -160,15 +162,6 @@ def _ways(scene: Scene, stands: Iterable[Scene]) -> dict[str, tuple[float, float
     return found
 
 
-def _notes(scene: Scene, cycle: Cycle, dead: list[float]) -> tuple[str, ...]:
-    if not dead:
-        return ()
-    times, unit = (180.0 / math.pi, "°") if cycle.drive.turns else (1e3, f" {scene.words['unit.mm']}")
-    places = "; ".join(f"{scene.words.number(place * times, 2)}{unit}" for place in dead)
-    symbol = scene.words.symbol(role(cycle.drive.variable).shown)
-    return (scene.words["said.dead"].format(symbol=symbol, places=places),)
-
-
 def coupler(solved: SolvedLinkage) -> int | None:
     """Return the first link with two joints that is not on the frame: only such a link has a field worth drawing."""
     mechanism = solved.mechanism
@@ -178,21 +171,15 @@ def coupler(solved: SolvedLinkage) -> int | None:
     return next((n for n in turning if len({p.point for p in mechanism.pairs if n in p.links}) > 1), None)
 
 
-def _grid(scene: Scene, link: int) -> tuple[int, int]:
-    """Return how many columns and rows stand so far apart that arrows have room between them."""
-    pitch = PITCH * scene.style.arrow * scene.scales[POSITION].mu
-    points = [scene.solved.point(point) for point in scene.mechanism.link(link).points]
-    sides = [float(np.ptp(part)) for part in (np.real(points), np.imag(points))]
-    wanted = ((part + 2.0 * MARGIN * max(sides)) / pitch for part in sides)
-    columns, rows = (max(2, round(min(count, MOST)) + 1) for count in wanted)
-    return columns, rows
-
-
 def field_view(scene: Scene, link: int) -> View:
     """Draw a link with the velocities of a grid of its points, at a scale factor at which they do not cross."""
-    canvas = scene.canvas()
-    places, velocities = velocity_field(scene.solved, link, *_grid(scene, link))
-    per_mm = 1.0 / scene.scales[POSITION].mu
+    canvas, per_mm = scene.canvas(), 1.0 / scene.scales[POSITION].mu
+    points = [scene.solved.point(point) for point in scene.mechanism.link(link).points]
+    sides = [float(np.ptp(part)) for part in (np.real(points), np.imag(points))]
+    pitch = PITCH * scene.style.arrow * scene.scales[POSITION].mu  # so far apart arrows have room between them
+    wanted = ((part + 2.0 * MARGIN * max(sides)) / pitch for part in sides)
+    columns, rows = (max(2, round(min(count, MOST)) + 1) for count in wanted)
+    places, velocities = velocity_field(scene.solved, link, columns, rows)
     nearest = min(abs(places[0, 1] - places[0, 0]), abs(places[1, 0] - places[0, 0])) * per_mm
     scale = Scale("mu_V", steps(float(np.max(np.abs(velocities))) / (APART * nearest))[0], "m/s")
     for at, velocity in zip(places.ravel().tolist(), velocities.ravel().tolist(), strict=True):
@@ -237,17 +224,23 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     canvas, of, length = scene.canvas(), str(motion.output.link), LENGTH[scene.style.label]
     drawn, dense = (diagrams(cycle, of, sections) for sections in (len(cycle.angles), SECTIONS))
     across = Scale("mu_t", rounded(float(drawn.times[-1]) / length, 6), "s")
-    bands, fields, low = _bands(scene, drawn, dense, across, motion), list[Field](), 0.0
+    bands, low, times = _bands(scene, drawn, dense, across, motion), 0.0, drawn.times.tolist()
     for number, band in enumerate(bands):
         below, above = (band.scale.drawn(end) for end in band.ends)
         low -= above + (GAP + scene.style.label * 2 if number else 0.0)
-        fields.append(_field(scene, band, across, drawn, 1j * low))
-        _draw(canvas, scene, fields[-1], band)
+        letter = f"{scene.words.symbol(band.name)};  {scene.words.scale(band.scale)}"
+        x = Axis("t", across, 0.0, times[-1], {t: str(k) for k, t in enumerate(times)})
+        field = Field(1j * low, x, Axis(letter, band.scale, *band.ends, {}))
+        axes(canvas, field)
+        places = np.linspace(0.0, times[-1], len(band.curve)).tolist()
+        curve(canvas, field, zip(places, band.curve.tolist(), strict=True), band.name)
         if number:
-            _pole(canvas, scene, fields[-1], bands[number - 1 : number + 1], f"P_{{{number}}}")
+            _chords(canvas, scene, field, bands[number - 1].scale, band, f"P_{{{number}}}")
+        else:
+            top = field
         low += below
     travel = (drawn.s - np.nanmin(dense.s)).tolist()
-    ends = (fields[0].at(t, s) for t, s in zip(drawn.times.tolist(), travel, strict=True))
+    ends = (top.at(t, s) for t, s in zip(times, travel, strict=True))
     chords = Polyline(tuple(end for end in ends if math.isfinite(end.imag)), Pen.THIN)  # of the travel
     canvas.add(Group((chords,), "chords", "s"))
     scales = [across]
@@ -290,34 +283,17 @@ def _round(symbol: str, values: Array, tall: float, unit: str) -> Scale:
     return Scale(symbol, steps(reach / tall)[0] if reach > 0.0 else 1.0, unit)
 
 
-def _field(scene: Scene, band: _Band, across: Scale, drawn: Diagrams, origin: complex) -> Field:
-    times = drawn.times.tolist()
-    x = Axis("t", across, 0.0, times[-1], {t: str(k) for k, t in enumerate(times)})
-    letter = f"{scene.words.symbol(band.name)};  {scene.words.scale(band.scale)}"
-    return Field(origin, x, Axis(letter, band.scale, *band.ends, {}))
-
-
-def _draw(canvas: Canvas, scene: Scene, field: Field, band: _Band) -> None:
-    """Draw the axes, the curve by plans in main lines, the points by chords on a dashed line."""
-    axes(canvas, field)
-    places = np.linspace(0.0, field.x.high, len(band.curve))
-    curve(canvas, field, zip(places.tolist(), band.curve.tolist(), strict=True), band.name)
-    if band.chords is None:
-        return
-    found = list(zip(*(values.tolist() for values in band.chords), strict=True))
-    curve(canvas, field, found, f"{band.name}_chords", Pen.DASHED)
-    points = (field.at(t, y) for t, y in found if math.isfinite(y))
-    canvas.add(*(Circle(at, scene.style.node, Pen.THIN, fill="white", role="chord-point") for at in points))
-
-
-def _pole(canvas: Canvas, scene: Scene, field: Field, bands: Sequence[_Band], letter: str) -> None:
-    """Draw the pole at its distance to the left of the axis, and a ray parallel to each chord of the diagram above."""
-    above, band = bands
-    reach = pole_distance(above.scale.mu, field.x.scale.mu, band.scale.mu)
+def _chords(canvas: Canvas, scene: Scene, field: Field, above: Scale, band: _Band, letter: str) -> None:
+    """Draw points found by chords on a dashed line, the pole, and a ray parallel to each chord of the diagram above."""
     assert band.chords is not None
-    name = f"H_{role(band.name).kind or band.name}"
+    points = list(zip(*(values.tolist() for values in band.chords), strict=True))
+    curve(canvas, field, points, f"{band.name}_chords", Pen.DASHED)
+    places = (field.at(t, y) for t, y in points if math.isfinite(y))
+    canvas.add(*(Circle(at, scene.style.node, Pen.THIN, fill="white", role="chord-point") for at in places))
+    # the pole stands at its distance to the left of the axis
+    reach, name = pole_distance(above.mu, field.x.scale.mu, band.scale.mu), f"H_{role(band.name).kind or band.name}"
     text = f"{scene.words.symbol(name)} = {scene.words.number(reach, 2)}"
-    ordinates = ((i, field.y.mm(y)) for i, y in enumerate(band.chords[1].tolist(), 1) if math.isfinite(y))
+    ordinates = ((i, field.y.mm(y)) for i, (_, y) in enumerate(points, 1) if math.isfinite(y))
     rays(canvas, field, Pole(reach, letter, name, text), ordinates)
 
 
@@ -333,20 +309,28 @@ def _chord_notes(scene: Scene, drawn: Diagrams, bands: Sequence[_Band]) -> tuple
 
 def load_diagram(scene: Scene, diagram: Diagram) -> View:
     """Draw what the task gives: the diagram with its scale factors, and the ordinate of the calculated position."""
-    canvas, words = scene.canvas(), scene.words
+    canvas, words, turns = scene.canvas(), scene.words, diagram.over == ANGLE
     every: Sequence[Load | Couple] = (*scene.mechanism.loads, *scene.mechanism.couples)
     loads, (span, unit) = [load for load in every if load.magnitude == diagram.name], _span(scene, diagram)
-    forth, back = (_points(scene, diagram, names) for names in (diagram.values, diagram.back or ()))
+    forth, back = (_points(scene, diagram, names, span) for names in (diagram.values, diagram.back or ()))
     field = _load_field(scene, diagram, loads, [*forth, *back])
     axes(canvas, field)
     curve(canvas, field, forth, diagram.name)
     curve(canvas, field, back, f"{diagram.name}_back", Pen.DASHED)
-    if loads:
-        _here(canvas, scene, field, diagram, loads[0])
+    if loads:  # mark the calculated position and the load that acts there, which may not act in this stroke
+        name, values = loads[0].name, scene.values
+        part = min(max(float(values["_stroke_part"]), 0.0), 1.0) if not turns else 0.0
+        place = float(values[f"_diagram_{diagram.name}_angle"]) if turns else part * span
+        size, acting = float(values[f"_diagram_{diagram.name}"]), scene.solved.size(name)
+        at = field.at(place, 0.0 if abs(acting - abs(size)) > 1e-9 * abs(size) else size)
+        text = f"{words.symbol(name)} = {value_text(words, acting)} {words.unit(field.y.scale.unit)}"
+        canvas.add(Line(field.at(place, 0.0), at, Pen.DASHED, role="ordinate", name=name))
+        canvas.add(Circle(at, scene.style.node, Pen.THIN, fill="white", role="ordinate", name=name))
+        canvas.label(text, at, prefer=1.0 + 1.0j, clear=1.2, height=scene.style.text)
     notes = [words["said.load_back"]] if back else []
     if not back and loads and loads[0].stroke != BOTH:
         notes.append(words["said.load_working" if loads[0].stroke == WORKING else "said.load_idle"])
-    if diagram.over != ANGLE:
+    if not turns:
         shown = words.unit(words.display.unit(unit))
         notes.append(f"H = {value_text(words, words.display.value(span, unit))} {shown}")
     heading = (words["heading.load"], words.scale(field.x.scale), words.scale(field.y.scale))
@@ -354,13 +338,11 @@ def load_diagram(scene: Scene, diagram: Diagram) -> View:
 
 
 def _value(scene: Scene, name: str) -> float:
-    values = scene.values
-    return float(values.get(f"|{name}|", values.get(name, 0.0)))
+    return float(scene.values.get(f"|{name}|", scene.values.get(name, 0.0)))
 
 
-def _points(scene: Scene, diagram: Diagram, names: Sequence[str]) -> list[tuple[float, float]]:
+def _points(scene: Scene, diagram: Diagram, names: Sequence[str], span: float) -> list[tuple[float, float]]:
     """Return places and values of one stroke, in SI; over the angle the first value comes again after a turn."""
-    span, _ = _span(scene, diagram)
     points = [(_value(scene, at) * span, _value(scene, name)) for at, name in zip(diagram.at, names, strict=False)]
     if diagram.over == ANGLE and points:
         points.append((points[0][0] + 2.0 * math.pi, points[0][1]))
@@ -375,46 +357,30 @@ def _span(scene: Scene, diagram: Diagram) -> tuple[float, str]:
     if diagram.over == ANGLE:
         return 1.0, "rad"
     assert mechanism.stroke is not None
-    number = mechanism.stroke.link
-    slides = any(isinstance(p, Prismatic) and number in p.links and FRAME in p.links for p in mechanism.pairs)
+    ends = {mechanism.stroke.link, FRAME}
+    slides = any(isinstance(pair, Prismatic) and ends <= {*pair.links} for pair in mechanism.pairs)
     return abs(float(values["_stroke_end"]) - float(values["_stroke_begin"])), "m" if slides else "rad"
 
 
 def _load_field(
     scene: Scene, diagram: Diagram, loads: Sequence[Load | Couple], points: list[tuple[float, float]]
 ) -> Field:
-    """Choose round scale factors and return the axes with their divisions."""
-    words, letter, turns = scene.words, scene.style.label, diagram.over == ANGLE
-    (_, unit), (xs, ys) = _span(scene, diagram), zip(*points, strict=True)
+    """Choose round scale factors and return the axes with their divisions; those of a stroke are parts of it."""
+    words, letter, (span, unit), (xs, ys) = (
+        scene.words,
+        scene.style.label,
+        _span(scene, diagram),
+        zip(*points, strict=True),
+    )
     across = Scale("mu_phi" if unit == "rad" else "mu_s", steps(max(xs) / (LOAD_WIDE * letter))[0], unit)
     symbol, up_unit = ("mu_M", "N*m") if loads and isinstance(loads[0], Couple) else ("mu_F", "N")
     up = Scale(symbol, steps((max(map(abs, ys)) or 1.0) / (LOAD_TALL * letter))[0], up_unit)
-    places = {x: words.short(round(math.degrees(x), 6)) + "°" for x, _ in points} if turns else _parts(scene, diagram)
+    if turns := diagram.over == ANGLE:
+        places = {x: words.short(round(math.degrees(x), 6)) + "°" for x in xs}
+    else:
+        parts = filter(None, (_value(scene, name) for name in diagram.at))
+        places = {0.0: "0"} | {part * span: f"{words.short(part)}H" for part in parts} | {span: "H"}
     divisions = {y: words.short(y) for y in sorted({*ys}) if y}
     of = " = ".join(words.symbol(load.name) for load in loads) or words.symbol(diagram.name)
     x = Axis(words.symbol("phi") if turns else "s", across, min(xs), max(xs), places)
     return Field(0j, x, Axis(f"{of}, {words.unit(up.unit)}", up, min(0.0, *ys), max(0.0, *ys), divisions))
-
-
-def _parts(scene: Scene, diagram: Diagram) -> dict[float, str]:
-    """Return the places of a diagram over the stroke, written as parts of it."""
-    span, _ = _span(scene, diagram)
-    parts = filter(None, (_value(scene, name) for name in diagram.at))
-    return {0.0: "0"} | {part * span: f"{scene.words.short(part)}H" for part in parts} | {span: "H"}
-
-
-def _here(canvas: Canvas, scene: Scene, field: Field, diagram: Diagram, load: Load | Couple) -> None:
-    """Mark the calculated position and the load that acts there."""
-    values, words, acting = scene.values, scene.words, scene.solved.size(load.name)
-    if diagram.over == ANGLE:
-        place = float(values[f"_diagram_{diagram.name}_angle"])
-    else:
-        place = min(max(float(values["_stroke_part"]), 0.0), 1.0) * _span(scene, diagram)[0]
-    size = float(values[f"_diagram_{diagram.name}"])
-    if abs(acting - abs(size)) > 1e-9 * abs(size):  # it does not act in this stroke
-        size = 0.0
-    text = f"{words.symbol(load.name)} = {value_text(words, acting)} {words.unit(field.y.scale.unit)}"
-    at = field.at(place, size)
-    canvas.add(Line(field.at(place, 0.0), at, Pen.DASHED, role="ordinate", name=load.name))
-    canvas.add(Circle(at, scene.style.node, Pen.THIN, fill="white", role="ordinate", name=load.name))
-    canvas.label(text, at, prefer=1.0 + 1.0j, clear=1.2, height=scene.style.text)
