@@ -1,6 +1,6 @@
 """The PDF writer: the same shapes in points, with selectable text in an embedded subset of the font, in layers.
 
-Pages as large as they are, or spread over small paper; and a PNG as a picture of the PDF.
+Pages as large as they are, or spread over small paper.
 """
 
 from __future__ import annotations
@@ -12,16 +12,16 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from io import BytesIO
 from math import ceil, cos, pi, sin, tan
-from typing import TYPE_CHECKING, BinaryIO, assert_never
+from typing import TYPE_CHECKING, BinaryIO
 from zlib import compress
 
 from ..scales.errors import InputError
 from ..scales.numbers import quote
 from .font import font
-from .page import Layer, Page, parts_of
-from .pens import Pens, arrow_parts, head_outline, length_of
-from .shapes import Arc, Arrow, Circle, Fill, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
-from .text import Box, lay_out, placer
+from .page import Layer, Page
+from .shapes import Arc, Arrow, Circle, Line, Pen, Polyline, Shape, Text, Vector
+from .text import Box, Run
+from .walk import BLACK, Part, Stroke, Walk, filled
 
 if TYPE_CHECKING:
     from reportlab.pdfbase.pdfdoc import PDFDictionary, PDFResourceDictionary
@@ -31,10 +31,7 @@ if TYPE_CHECKING:
 
 POINT = 72 / 25.4  # points in a millimetre
 FONT = "DejaVuSans"
-BLACK = "#000"
 QUICK = 4  # how hard zlib tries
-_SOLID = (Pen.MAIN, Pen.THIN)
-DPI = 200  # of a picture
 PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0)}  # small paper, mm
 MARGIN = 10.0  # of small paper, mm: no printer reaches its edge
 OVERLAP = 10.0  # mm of small sheets, to glue on
@@ -98,7 +95,7 @@ class _Document:
         return self.canvas._doc.Reference(self.groups[layer], f"layer-{layer.value}")
 
 
-def write_pdf(pages: Sequence[Page], stream: BinaryIO) -> None:
+def write(pages: Sequence[Page], stream: BinaryIO) -> None:
     """Write pages as one PDF document; the same pages give the same bytes.
 
     Raises ValueError: a coordinate is not a finite number.
@@ -136,17 +133,10 @@ def _font() -> TTFont:
 def _draw_page(canvas: Canvas, page: Page) -> list[Layer]:
     """Draw a page layer by layer on a canvas whose unit is the point and whose y points up; return its layers."""
     canvas.saveState()
-    writer = _Writer(canvas, page.pens)
-    parts = parts_of(page)
-    for layer, shapes in parts:
-        if layer is not None:
-            writer.put(f"/OC /{layer.value} BDC")  # all is in the layer up to its `EMC`
-        for shape in shapes:
-            writer.draw(shape)
-        if layer is not None:
-            writer.put("EMC")
+    walk = _Walk(page, canvas)
+    walk.whole()
     canvas.restoreState()
-    return [layer for layer, _ in parts if layer is not None]
+    return walk.layers
 
 
 def _place(point: complex) -> str:
@@ -166,80 +156,60 @@ def _channels(colour: str) -> str:
     return " ".join(f"{int(digits[at : at + 2], 16) / 255:.4g}" for at in (0, 2, 4))
 
 
-class _Writer:
-    """Draws shapes as operators of the page, and changes the pen only when it has to.
+class _Walk(Walk):
+    """Puts shapes down as operators of the page, and changes the pen only when it has to.
 
-    Lines and letters are put down as literal operators: the canvas's own methods take three times as long.
+    Lines and letters are literal operators: the canvas's own methods take three times as long.
     """
 
-    def __init__(self, canvas: Canvas, pens: Pens) -> None:
+    def __init__(self, page: Page, canvas: Canvas) -> None:
+        super().__init__(page)
         self.put = canvas.addLiteral
         self.document = canvas._doc
         self.font = _font()
-        self.pens = pens
+        self.layers: list[Layer] = []
         self.inked: tuple[object, ...] = ()
         self.filled = ""
         self.lettered = ""
         self.codes: dict[tuple[str, float], list[tuple[str, str]]] = {}
 
-    def draw(self, shape: Shape) -> None:
-        """Draw one shape."""
-        match shape:
-            case Line(a=a, b=b):
-                self.ink(shape)
-                self.put(f"{_place(a)} m {_place(b)} l S")
-            case Polyline(points=points, closed=closed, fill=fill, colour=colour):
-                self.ink(shape)
-                self.fill(fill, colour)
-                self.put(f"{_outline(points)} {_paint(closed, fill)}")
-            case Circle(centre=centre, radius=radius, fill=fill, colour=colour):
-                self.ink(shape)
-                self.fill(fill, colour)
-                self.put(f"{_curve(centre, radius, 0.0, 2 * pi)} {_paint(True, fill)}")
-            case Arc(centre=centre, radius=radius, start=start, sweep=sweep):
-                self.ink(shape)
-                self.put(f"{_curve(centre, radius, start, sweep)} S")
-            case Head(colour=colour):
-                self.fill(True, colour)
-                self.put(f"{_outline(head_outline(shape, self.pens))} h f")
-            case Text():
-                self.text(shape)
-            case Vector() | Arrow():
-                _place(shape.tail), _place(shape.tip)  # refuse what is not a number before its direction is taken
-                for part in arrow_parts(shape, self.pens):
-                    self.draw(part)
-            case Group(shapes=shapes):
-                for part in shapes:
-                    self.draw(part)
-            case _:
-                assert_never(shape)
-
-    def ink(self, shape: Line | Polyline | Circle | Arc) -> None:
-        """Set width, dashes and colour of the lines to come."""
-        dashes = () if shape.pen in _SOLID else self.pens.dashes(shape.pen, length_of(shape))
+    def stroke(self, shape: Stroke, dashes: tuple[float, ...]) -> None:
+        """Put down a path, in the pen and the colour of areas that it wants."""
         wanted = (self.pens.width(shape.pen), dashes, shape.colour or BLACK)
         if wanted != self.inked:
             self.inked = wanted
             pattern = " ".join(f"{dash * POINT:.5f}" for dash in dashes)
             self.put(f"{wanted[0] * POINT:.5f} w [{pattern}] 0 d {_channels(wanted[2])} RG")
+        closed, filling = isinstance(shape, Circle), None
+        match shape:
+            case Line(a=a, b=b):
+                path = f"{_place(a)} m {_place(b)} l"
+            case Polyline(points=points):
+                path, closed, filling = _outline(points), shape.closed, filled(shape)
+            case Circle(centre=centre, radius=radius):
+                path, filling = _curve(centre, radius, 0.0, 2 * pi), filled(shape)
+            case Arc(centre=centre, radius=radius, start=start, sweep=sweep):
+                path = _curve(centre, radius, start, sweep)
+        self.fill(filling)
+        self.put(f"{path} {_PAINT[closed, filling is not None]}")
 
-    def fill(self, fill: Fill, colour: str | None) -> None:
-        """Set the colour of areas and letters to come."""
-        if fill is False:
-            return
-        wanted = "#fff" if fill == "white" else BLACK if fill == "black" else colour or BLACK
-        if wanted != self.filled:
+    def fill(self, wanted: str | None) -> None:
+        """Set the colour of areas and letters to come, if there are any."""
+        if wanted is not None and wanted != self.filled:
             self.filled = wanted
             self.put(f"{_channels(wanted)} rg")
 
-    def text(self, text: Text) -> None:
-        """Draw the runs of a text as one text object, and its rules as thin lines."""
-        lines = lay_out(text.markup, text.height)
-        self.fill(True, text.colour)
-        turn, place = _turn(text.angle, text.squeeze), placer(text)
-        words = ["BT"]
-        for run in lines.runs:
-            words += (turn, _place(place(run.x, run.y)), "Tm")
+    def head(self, corners: tuple[complex, complex, complex], colour: str) -> None:
+        """Put down a triangle."""
+        self.fill(colour)
+        self.put(f"{_outline(corners)} h f")
+
+    def letters(self, text: Text, runs: Sequence[tuple[Run, complex]], alone: bool) -> None:
+        """Put down runs as one text object."""
+        self.fill(text.colour or BLACK)
+        turn, words = _turn(text.angle, text.squeeze), ["BT"]
+        for run, at in runs:
+            words += (turn, _place(at), "Tm")
             for face, shown in self.shown(run.string, run.size):
                 if face != self.lettered:
                     self.lettered = face
@@ -247,8 +217,6 @@ class _Writer:
                 words.append(shown)
         words.append("ET")
         self.put(" ".join(words))
-        for x0, y0, x1, y1 in lines.rules:
-            self.draw(Line(place(x0, y0), place(x1, y1), Pen.THIN, colour=text.colour))
 
     def shown(self, string: str, size: float) -> list[tuple[str, str]]:
         """Return what sets the font and what shows characters of one size, for each subset of the font they are in."""
@@ -260,6 +228,23 @@ class _Writer:
             self.codes[string, size] = codes
         return codes
 
+    def begin(self, part: Part) -> None:
+        """Begin a layer: all is in it up to its end."""
+        if isinstance(part, Layer):
+            self.layers.append(part)
+            self.put(f"/OC /{part.value} BDC")
+        elif isinstance(part, Vector | Arrow):
+            _place(part.tail), _place(part.tip)  # refuse what is not a number before its direction is taken
+
+    def end(self, part: Part) -> None:
+        """End a layer."""
+        if isinstance(part, Layer):
+            self.put("EMC")
+
+
+# what strokes a path, by whether it is closed and filled
+_PAINT = {(False, False): "S", (False, True): "B", (True, False): "s", (True, True): "b"}
+
 
 @lru_cache(maxsize=64)
 def _turn(angle: float, squeeze: float) -> str:
@@ -270,11 +255,6 @@ def _turn(angle: float, squeeze: float) -> str:
 
 def _outline(points: tuple[complex, ...]) -> str:
     return f"{_place(points[0])} m " + " ".join(f"{_place(point)} l" for point in points[1:])
-
-
-def _paint(closed: bool, fill: Fill) -> str:
-    """Return the operator that strokes a path, closed and filled as asked."""
-    return ("S" if fill is False else "B") if not closed else ("s" if fill is False else "b")
 
 
 def _curve(centre: complex, radius: float, start: float, sweep: float) -> str:
@@ -290,29 +270,6 @@ def _curve(centre: complex, radius: float, start: float, sweep: float) -> str:
         path += f" {' '.join(_place(centre + end) for end in ends)} c"
         here = there
     return path
-
-
-def write_png(pages: Sequence[Page], stream: BinaryIO, dpi: float = DPI) -> None:
-    """Write the first of `pages` as a picture of `dpi` dots per inch.
-
-    Raises InputError: the extra `png` is not installed.
-    """
-    try:
-        from pypdfium2 import PdfDocument
-    except ImportError:
-        raise InputError("extra-missing", extra="png", suffix=".png") from None
-    pdf = BytesIO()
-    write_pdf(pages[:1], pdf)
-    document = PdfDocument(pdf.getvalue())
-    try:
-        grey = not _coloured(pages[0].shapes)
-        document[0].render(scale=dpi / 72, grayscale=grey).to_pil().save(stream, "PNG", dpi=(dpi, dpi))
-    finally:
-        document.close()
-
-
-def _coloured(shapes: Iterable[Shape]) -> bool:
-    return any(_coloured(shape.shapes) if isinstance(shape, Group) else shape.colour is not None for shape in shapes)
 
 
 @dataclass(frozen=True, slots=True)

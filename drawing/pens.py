@@ -7,7 +7,7 @@ from functools import cache
 from math import isfinite, pi, tan
 from typing import Literal, TypeAlias
 
-from .shapes import Arc, Arrow, Circle, Head, Line, Pen, Polyline, Shape, Vector, sides_of
+from .shapes import Pen
 
 Norm: TypeAlias = Literal["gost", "iso"]
 
@@ -74,44 +74,3 @@ def pens_for(width: float, height: float, norm: Norm = "gost") -> Pens:
     side = max(width, height)
     name = "A1" if side >= 841 else "A2" if side >= 594 else "A3" if side >= 420 else "A4"
     return (_ISO if norm == "iso" else _GOST)[name]
-
-
-def head_outline(head: Head, pens: Pens) -> tuple[complex, complex, complex]:
-    """Return the corners of an arrowhead, its tip first."""
-    along = head.direction * (pens.arrow / abs(head.direction))
-    across = along * 1j * HEAD_HALF_WIDTH
-    return head.tip, head.tip - along + across, head.tip - along - across
-
-
-def arrow_parts(arrow: Vector | Arrow, pens: Pens) -> tuple[Shape, ...]:
-    """Return the stroked shaft and the head of an arrow, or the dot of a zero vector.
-
-    The shaft ends inside the head, so that a wide line does not blunt the tip. A head asked for at the tip of an
-    arrow shorter than two heads moves to the middle while there is room for it.
-    """
-    span = arrow.tip - arrow.tail
-    length = abs(span)
-    if length < ZERO:
-        return (Circle(arrow.tip, pens.main, Pen.THIN, fill=True, colour=arrow.colour),)
-    if arrow.head == "none":
-        return (Line(arrow.tail, arrow.tip, arrow.pen, colour=arrow.colour),)
-    in_middle = arrow.head == "middle" or pens.arrow < length < 2 * pens.arrow
-    tip = arrow.tail + span * ((length + pens.arrow) / (2 * length)) if in_middle else arrow.tip
-    head = Head(tip, span, arrow.colour)
-    if in_middle:
-        return Line(arrow.tail, arrow.tip, arrow.pen, colour=arrow.colour), head
-    reach = length - 0.6 * pens.arrow
-    if reach <= 0:
-        return (head,)
-    return Line(arrow.tail, arrow.tail + span * (reach / length), arrow.pen, colour=arrow.colour), head
-
-
-def length_of(shape: Line | Polyline | Circle | Arc) -> float:
-    """Return the length of a line, as its dashes need it."""
-    match shape:
-        case Line() | Polyline():
-            return sum(abs(b - a) for a, b in sides_of(shape))
-        case Circle(radius=radius):
-            return 2 * pi * radius
-        case Arc(radius=radius, sweep=sweep):
-            return abs(radius * sweep)

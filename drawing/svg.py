@@ -5,26 +5,29 @@ from __future__ import annotations
 import re
 from base64 import b64encode
 from cmath import rect
+from collections.abc import Sequence
 from functools import lru_cache
 from math import cos, degrees, isfinite, pi, sin
 from typing import Any, BinaryIO, assert_never
 from xml.etree import ElementTree
 
 from .font import FAMILY, web_subset
-from .page import Page, parts_of
-from .pens import arrow_parts, head_outline, length_of
-from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
-from .text import lay_out, placer
+from .page import Layer, Page
+from .shapes import Arc, Arrow, Circle, Group, Line, Polyline, Text, Vector
+from .text import Run
+from .walk import BLACK, Part, Stroke, Walk, filled
 
-BLACK = "#000"
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"  # which shows groups of its mode as layers
 LETTERS = "text{font-kerning:none;font-variant-ligatures:none;white-space:pre}"  # each where it has been measured
 _FORBIDDEN = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")  # by XML, in every spelling
 
 
-def write_svg(page: Page, stream: BinaryIO) -> None:
-    """Write one page as SVG in UTF-8, always the same bytes. Raises ValueError: a coordinate is not a finite number."""
-    stream.write(svg_text(page).encode("utf-8", "replace"))
+def write(pages: Sequence[Page], stream: BinaryIO) -> None:
+    """Write the first of `pages` as SVG in UTF-8, always the same bytes.
+
+    Raises ValueError: a coordinate is not a finite number.
+    """
+    stream.write(svg_text(pages[0]).encode("utf-8", "replace"))
 
 
 def svg_text(page: Page, with_font: bool = True) -> str:
@@ -41,18 +44,11 @@ def svg_text(page: Page, with_font: bool = True) -> str:
         **{"xml:lang": page.language, **of_layers},
     )
     drawing.set_desc(title=page.title)
-    writer = _Writer(page, drawing)
-    for layer, shapes in parts_of(page):
-        group = drawing
-        if layer is not None:
-            shown = {"inkscape:groupmode": "layer", "inkscape:label": layer.title(page.language)}
-            hidden = "none" if layer.hidden else None
-            group = drawing.add(drawing.g(id=f"layer-{layer.value}", class_="layer", display=hidden, **shown))
-        for shape in shapes:
-            writer.draw(shape, group)
+    walk = _Walk(page, drawing)
+    walk.whole()
     face = ""
-    if with_font and writer.characters:  # so that every reader sees the same letters
-        font = b64encode(web_subset("".join(sorted(writer.characters)))).decode()
+    if with_font and walk.characters:  # so that every reader sees the same letters
+        font = b64encode(web_subset("".join(sorted(walk.characters)))).decode()
         face = f"@font-face{{font-family:'{FAMILY}';src:url(data:font/woff;base64,{font})}}\n"
     drawing.embed_stylesheet(f"\n{face}{LETTERS}\n")
     tree = drawing.get_xml()
@@ -80,67 +76,40 @@ def _exact(value: float) -> str:
     return repr(float(value))
 
 
-class _Writer:
+class _Walk(Walk):
     """Adds shapes to a drawing as elements, all numbers already written; notes the characters that they use."""
 
     def __init__(self, page: Page, drawing: Any) -> None:
-        self.height, self.pens = page.height, page.pens
-        self.new = drawing
+        super().__init__(page)
+        self.new, self.groups = drawing, [drawing]
         self.characters: set[str] = set()
 
     def places(self, *points: complex) -> list[tuple[str, str]]:
         """Return the coordinates of points as they are written."""
-        height = self.height
+        height = self.page.height
         return [(_number(point.real), _number(height - point.imag)) for point in points]
 
-    def draw(self, shape: Shape, group: Any) -> None:
-        """Add the elements of one shape to a group."""
-        match shape:
-            case Line(a=a, b=b):
-                group.add(self.new.line(*self.places(a, b), **self.looks(shape)))
-            case Polyline(points=points, closed=closed):
-                make = self.new.polygon if closed else self.new.polyline
-                group.add(make(self.places(*points), **self.looks(shape), fill=_fill(shape)))
-            case Circle(centre=centre, radius=radius):
-                looks = self.looks(shape)
-                group.add(self.new.circle(*self.places(centre), _number(radius), **looks, fill=_fill(shape)))
-            case Arc():
-                group.add(self.new.path(self.arc(shape), **self.looks(shape), fill="none"))
-            case Head():
-                corners = self.places(*head_outline(shape, self.pens))
-                group.add(self.new.polygon(corners, class_="head", fill=shape.colour or BLACK))
-            case Text():
-                self.text(shape, group)
-            case Vector():
-                facts = {"data_quantity": shape.quantity, "data_unit": shape.unit}
-                values = {"data_value": _exact(shape.value), "data_mu": _exact(shape.mu)}
-                self.arrow(shape, group, class_="vector", **facts, **values)
-            case Arrow(name=name):
-                self.arrow(shape, group, class_="arrow", data_name=name)
-            case Group(shapes=shapes, role=role, name=name, title=title):
-                inner = self.group(group, title, class_=role, data_name=name)
-                for part in shapes:
-                    self.draw(part, inner)
-            case _:
-                assert_never(shape)
-
-    def group(self, group: Any, title: str = "", **identity: str) -> Any:
-        """Add a group to a group and return it."""
-        inner = group.add(self.new.g(**identity))
-        if title:
-            inner.set_desc(title=title)
-        return inner
-
-    def looks(self, shape: Line | Polyline | Circle | Arc) -> dict[str, str | None]:
-        """Return the attributes by which a line is read back, and those of its stroke."""
-        dashes = self.pens.dashes(shape.pen, length_of(shape)) if shape.pen not in (Pen.MAIN, Pen.THIN) else ()
-        return {
+    def stroke(self, shape: Stroke, dashes: tuple[float, ...]) -> None:
+        """Add an element with the attributes by which it is read back."""
+        looks = {
             "class_": shape.role or shape.pen.value,
             "data_name": shape.name,
             "stroke": shape.colour or BLACK,
             "stroke_width": _number(self.pens.width(shape.pen)),
             "stroke_dasharray": " ".join(map(_number, dashes)),
         }
+        match shape:
+            case Line(a=a, b=b):
+                element = self.new.line(*self.places(a, b), **looks)
+            case Polyline(points=points, closed=closed):
+                make = self.new.polygon if closed else self.new.polyline
+                element = make(self.places(*points), **looks, fill=filled(shape) or "none")
+            case Circle(centre=centre, radius=radius):
+                fill = filled(shape) or "none"
+                element = self.new.circle(*self.places(centre), _number(radius), **looks, fill=fill)
+            case Arc():
+                element = self.new.path(self.arc(shape), **looks, fill="none")
+        self.groups[-1].add(element)
 
     def arc(self, arc: Arc) -> str:
         """Return the path of an arc, in two halves if it is more than half a circle: one command would be ambiguous."""
@@ -150,48 +119,53 @@ class _Writer:
         first, *others = (f"{x} {y}" for x, y in self.places(*ends))
         return f"M{first}" + "".join(f"A{r} {r} 0 0 {turn} {end}" for end in others)
 
-    def arrow(self, arrow: Vector | Arrow, group: Any, **identity: str) -> None:
-        """Add a group whose first line runs from tail to tip without ink; what is seen follows it."""
-        inner = self.group(group, arrow.title, **identity)
-        inner.add(self.new.line(*self.places(arrow.tail, arrow.tip), class_="span", stroke="none"))
-        for part in arrow_parts(arrow, self.pens):
-            self.draw(part, inner)
+    def head(self, corners: tuple[complex, complex, complex], colour: str) -> None:
+        """Add a triangle."""
+        self.groups[-1].add(self.new.polygon(self.places(*corners), class_="head", fill=colour))
 
-    def text(self, text: Text, group: Any) -> None:
-        """Add one `text` element, or a group of them when there are scripts or rules."""
-        lines, place_of = lay_out(text.markup, text.height), placer(text)
-        identity = {"class_": text.role, "data_name": text.name}
-        if len(lines.runs) != 1 or lines.rules:
-            group, identity = self.group(group, **identity), {}
-        for run in lines.runs:
+    def letters(self, text: Text, runs: Sequence[tuple[Run, complex]], alone: bool) -> None:
+        """Add a `text` element for each run; one that is alone carries what a group would."""
+        identity = {"class_": text.role, "data_name": text.name} if alone else {}
+        for run, at in runs:
             self.characters.update(run.string)
-            at = place_of(run.x, run.y)
             looks = {"font_size": _number(run.size), "fill": text.colour, "transform": self.turn(text, at)}
-            group.add(self.new.text(run.string, *self.places(at), **identity, **looks))
-        for x0, y0, x1, y1 in lines.rules:
-            self.draw(Line(place_of(x0, y0), place_of(x1, y1), Pen.THIN, "rule", "", text.colour), group)
+            self.groups[-1].add(self.new.text(run.string, *self.places(at), **identity, **looks))
 
     def turn(self, text: Text, at: complex) -> str | None:
         """Return the transform of a turned or squeezed text, which keeps the point `at` in its place."""
         if text.squeeze == 1.0 and text.angle == 0.0:
             return None
-        x, y = at.real, self.height - at.imag
+        x, y = at.real, self.page.height - at.imag
         if text.squeeze == 1.0:
             return f"rotate({_number(-degrees(text.angle))} {_number(x)} {_number(y)})"
         c, s, k = cos(text.angle), -sin(text.angle), text.squeeze
         matrix = (k * c, k * s, -s, c, x - k * c * x + s * y, y - k * s * x - c * y)
         return f"matrix({' '.join(map(_number, matrix))})"
 
+    def begin(self, part: Part) -> None:
+        """Add a group; the first line of an arrow runs from tail to tip without ink, what is seen follows it."""
+        identity: dict[str, str | None]
+        match part:
+            case Layer():
+                shown = {"inkscape:groupmode": "layer", "inkscape:label": part.title(self.page.language)}
+                hidden = "none" if part.hidden else None
+                identity = {"id": f"layer-{part.value}", "class_": "layer", "display": hidden, **shown}
+            case Vector(quantity=quantity, unit=unit):
+                values = {"data_value": _exact(part.value), "data_mu": _exact(part.mu)}
+                identity = {"class_": "vector", "data_quantity": quantity, "data_unit": unit, **values}
+            case Arrow(name=name):
+                identity = {"class_": "arrow", "data_name": name}
+            case Group(role=role, name=name) | Text(role=role, name=name):
+                identity = {"class_": role, "data_name": name}
+            case _:
+                assert_never(part)
+        group = self.groups[-1].add(self.new.g(**identity))
+        self.groups.append(group)
+        if isinstance(part, Vector | Arrow | Group) and part.title:
+            group.set_desc(title=part.title)
+        if isinstance(part, Vector | Arrow):
+            group.add(self.new.line(*self.places(part.tail, part.tip), class_="span", stroke="none"))
 
-def _fill(shape: Polyline | Circle) -> str:
-    match shape.fill:
-        case "white":
-            return "#fff"
-        case "black":
-            return BLACK
-        case True:
-            return shape.colour or BLACK
-        case False:
-            return "none"
-        case _:
-            assert_never(shape.fill)
+    def end(self, part: Part) -> None:
+        """Go on with the group before."""
+        self.groups.pop()

@@ -9,27 +9,29 @@ import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from functools import partial
+from importlib import import_module
 from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO, TypeAlias
 
 from ..scales.arguments import of_kind
+from ..scales.choices import SHEETS
 from ..scales.errors import InputError
 from ..scales.numbers import SHOWN, quote
 from .page import Page
-from .pdf import write_pdf, write_png, write_tiles
-from .svg import write_svg
 
 Writer: TypeAlias = Callable[[Sequence[Page], BinaryIO], None]
 Files: TypeAlias = Iterable[tuple[Path, bytes]]
 
-WRITERS: dict[str, Writer] = {
-    ".svg": lambda pages, stream: write_svg(pages[0], stream),
-    ".pdf": write_pdf,
-    ".png": write_png,
-}
+
+def _by_module(kind: str, pages: Sequence[Page], stream: BinaryIO) -> None:
+    """Write pages as the module named after the kind of file does, which is loaded now."""
+    import_module(f".{kind}", __package__).write(pages, stream)
+
+
+WRITERS: dict[str, Writer] = {f".{kind}": partial(_by_module, kind) for kind in SHEETS}
 SUFFIXES = tuple(WRITERS)
-ONE_PAGE = {".svg", ".png"}  # several pages become x-1.svg, x-2.svg, ...
+SEVERAL = (".pdf",)  # hold several pages; of other kinds they become x-1.svg, x-2.svg, ...
 PART = ".part"  # ends the names of files that are not whole yet
 PAUSES = (0.05, 0.1, 0.2, 0.4) if os.name == "nt" else ()  # seconds between attempts
 _LEFT = re.compile(r"\.(.+)\.\d+\.part")
@@ -95,9 +97,11 @@ def page_files(pages: Sequence[Page], path: Path, tile: str | None = None) -> It
     if tile is not None:
         if path.suffix.lower() != ".pdf":
             raise InputError("tile-suffix", file=quote(path, SHOWN))
+        from .pdf import write_tiles
+
         writer = partial(write_tiles, paper=tile)
     parts: list[tuple[Path, Sequence[Page]]] = [(path, pages)]
-    if path.suffix.lower() in ONE_PAGE and len(pages) > 1:
+    if path.suffix.lower() not in SEVERAL and len(pages) > 1:
         numbered = enumerate(pages, start=1)
         parts = [(path.with_name(f"{path.stem}-{number}{path.suffix}"), [page]) for number, page in numbered]
     for target, some in parts:

@@ -4,3 +4,4 @@ from __future__ import annotations
 
 HANDS = ("cad", "careful", "normal", "lenient")  # presets of `plans.hands`
 SIZES = ("A4", "A3", "A2", "A1")  # of `drawing.formats`, the smallest first
+SHEETS = ("svg", "pdf", "png")  # kinds of files of sheets, each with a module of its name in `drawing`

@@ -75,13 +75,13 @@ class Sheet:
 
     def svg(self, page: int = 1) -> str:
         """Return one page, counted from 1, as SVG text; one that the sheet has not is refused."""
-        from ..drawing.svg import write_svg
+        from ..drawing.svg import write
 
         of_kind("page", page, (int,), "int")
         if not 1 <= page <= len(self.pages):
             raise InputError("page-missing", number=page, n=len(self.pages))
         stream = io.BytesIO()
-        write_svg(self.pages[page - 1], stream)
+        write(self.pages[page - 1 :], stream)
         return stream.getvalue().decode("utf-8")
 
     def __repr__(self) -> str:

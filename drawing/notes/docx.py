@@ -18,7 +18,7 @@ from ...scales.errors import InputError
 from ...scales.packaged import home, packaged
 from ..font import font
 from ..formats import FORMATS
-from ..pdf import write_png
+from ..png import write as write_png
 from ..table import cells as cells_of
 from ..text import lay_out
 from . import blocks as note

@@ -12,7 +12,7 @@ from pdfminer.pdfdocument import PDFDocument
 from pdfminer.pdfparser import PDFParser
 
 from kulman.drawing.page import Page
-from kulman.drawing.pdf import write_pdf
+from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.shapes import Arc, Circle, Line, Pen, Polyline, Text, Vector
 
 MM = 25.4 / 72

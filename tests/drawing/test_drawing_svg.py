@@ -2,6 +2,7 @@
 
 import math
 import time
+from collections import Counter
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -12,8 +13,10 @@ from lxml import etree
 from kulman.drawing.page import Page, _reach, extent
 from kulman.drawing.pens import pens_for
 from kulman.drawing.shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Text, Vector
-from kulman.drawing.svg import svg_text, write_svg
+from kulman.drawing.svg import svg_text
+from kulman.drawing.svg import write as write_svg
 from kulman.drawing.text import lay_out
+from kulman.drawing.walk import Walk
 
 GOLDEN = Path(__file__).parent / "golden" / "one-of-each.svg"
 SVG = "{http://www.w3.org/2000/svg}"
@@ -37,7 +40,7 @@ def page(*shapes, language="uk"):
 
 def read(drawn):
     stream = BytesIO()
-    write_svg(drawn, stream)
+    write_svg([drawn], stream)
     return etree.fromstring(stream.getvalue())
 
 
@@ -179,6 +182,45 @@ def test_what_is_not_a_number_is_refused(bad, shape):
 
 def test_control_characters_never_reach_the_file():
     assert read(Page(210, 297, (), "a\x00\x0bb", "en")).findtext(f"{SVG}title") == "ab"
+
+
+class Tally(Walk):
+    """A writer that counts what it is told to put down."""
+
+    def __init__(self, page):
+        super().__init__(page)
+        self.counts, self.open = Counter(), []
+
+    def stroke(self, shape, dashes):
+        self.counts["stroke"] += 1
+        self.counts["dashed"] += bool(dashes)
+
+    def head(self, corners, colour):
+        self.counts["head"] += 1
+
+    def letters(self, text, runs, alone):
+        self.counts["text"] += len(runs)
+
+    def begin(self, part):
+        self.open.append(part)
+
+    def end(self, part):
+        assert self.open.pop() is part
+        self.counts["g"] += 1
+
+
+def test_every_writer_is_told_the_same_of_a_page():
+    drawn = replace(page(*ONE_OF_EACH), layers=True)
+    tally, root = Tally(drawn), read(drawn)
+    seen = [element for element in root.iter() if element.get("class") not in ("span", None) or element.get("x")]
+
+    tally.whole()
+
+    kinds = Counter("head" if e.get("class") == "head" else etree.QName(e).localname for e in seen)
+    strokes = sum(kinds[kind] for kind in ("line", "polygon", "polyline", "circle", "path"))
+    found = {"stroke": strokes, "dashed": len(root.findall(".//*[@stroke-dasharray]"))}
+    assert tally.counts == {**found, "head": kinds["head"], "text": kinds["text"], "g": kinds["g"]}
+    assert tally.open == []
 
 
 def test_the_same_page_gives_the_same_bytes_later():

@@ -10,7 +10,7 @@ from pdfminer.layout import LTLine
 
 from kulman.drawing.formats import FORMATS, block_box, drawing_area
 from kulman.drawing.page import Page, extent
-from kulman.drawing.pdf import write_pdf
+from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.pens import pens_for
 from kulman.drawing.shapes import Group, Line, Pen, Polyline, Text
 from kulman.drawing.svg import svg_text

@@ -23,7 +23,8 @@ from pypdfium2 import PdfDocument
 from kulman import cli, handout, sheet
 from kulman.drawing.formats import FORMATS, drawing_area, printable, reserved_boxes
 from kulman.drawing.page import Layer, Page, layered
-from kulman.drawing.pdf import write_pdf, write_tiles
+from kulman.drawing.pdf import write as write_pdf
+from kulman.drawing.pdf import write_tiles
 from kulman.drawing.shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from kulman.drawing.svg import svg_text
 from kulman.scales.errors import LANGUAGES

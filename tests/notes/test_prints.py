@@ -12,7 +12,8 @@ import pytest
 from kulman import handout
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.page import extent
-from kulman.drawing.pdf import MARGIN, tiles, write_pdf, write_tiles
+from kulman.drawing.pdf import MARGIN, tiles, write_tiles
+from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.shapes import Group, Shape
 from kulman.tests.support.prints import Print, Stroke, farthest, prints
 from kulman.variants.sheets import Sheet

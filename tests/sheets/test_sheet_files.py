@@ -16,7 +16,7 @@ from pdfminer.pdfdocument import PDFDocument
 from pdfminer.pdfparser import PDFParser
 from pdfminer.pdftypes import resolve1
 
-from kulman.drawing.pdf import write_pdf
+from kulman.drawing.pdf import write as write_pdf
 from kulman.tests.sheets.test_sheet_points import SAMPLE
 from kulman.tests.support.mechanisms import NAU_VARIANTS
 from kulman.tests.support.sheet_cases import TASK, Case, drawn, sheet_of, solved

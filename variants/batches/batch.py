@@ -24,6 +24,7 @@ from ...drawing.words import Words
 from ...drawing.writers import WRITERS, folder_for, page_files, save_all, slug, sweep_parts, write_whole
 from ...plans.quantities import measured
 from ...scales.arguments import all_known, by_name
+from ...scales.choices import SHEETS
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
@@ -46,7 +47,7 @@ Tasks: TypeAlias = One | Sequence[One]
 NOTE, HANDOUT = "note", "handout"
 KEPT = 32  # variants whose drawings a process keeps for the next students that have them
 NOTES = {NOTE: ".pdf", "docx": ".docx"}
-FORMS = ("svg", "pdf", "png", *NOTES, HANDOUT)
+FORMS = (*SHEETS, *NOTES, HANDOUT)
 _SUFFIXES = {*WRITERS, *NOTES.values()}
 JOURNAL = ".kulman-batch.jsonl"
 _OWN = re.compile(rf"[0-9]{{3,}}-.+|(?:manifest|key)\b.*\.csv|{re.escape(JOURNAL)}")  # names of files of a batch

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ...scales.choices import HANDS, SIZES
+from ...scales.choices import HANDS, SHEETS, SIZES
 from ...scales.errors import InputError, messages
 from ...scales.language import system_language
 from ...scales.numbers import SHOWN, quote
@@ -152,7 +152,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 @click.option(
     "--as",
     "kinds",
-    type=Word("svg", "pdf", "png", "note", "docx", "handout"),
+    type=Word(*SHEETS, "note", "docx", "handout"),
     multiple=True,
     default=("svg", "pdf", "note"),
     show_default=True,
