@@ -90,7 +90,7 @@ def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
 def beside(a: complex, b: complex, boxes: Sequence[Box]) -> list[tuple[complex, complex]]:
     """Return the pieces of a line from `a` to `b` that lie outside of all boxes, or on their sides."""
     inside = [shapely.box(x0 + SLACK, y0 + SLACK, x1 - SLACK, y1 - SLACK) for x0, y0, x1, y1 in boxes]
-    return _pieces(shapely.difference(lines([a], [b]), shapely.union_all(inside)), b - a, SLACK)
+    return _pieces(shapely.difference(lines([a], [b]), shapely.union_all(inside)), b - a, 2 * SLACK)
 
 
 def coarser(shape: Shape, within: float) -> Shape:
