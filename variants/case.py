@@ -218,13 +218,12 @@ class Kind(ABC, Generic[Subject, Answer]):
         """Whether a form asks for a quantity."""
         return True
 
-    def as_drawn(self, solved: Answer) -> Answer:
-        """Return what has been solved as a student draws it, with what hangs on the drawing: it is marked."""
-        return solved
+    def as_drawn(self, solved: Answer) -> tuple[Answer, Mapping[str, str]]:
+        """Return what has been solved as a student draws it, with what hangs on the drawing: it is marked.
 
-    def stands_for(self, solved: Answer) -> dict[str, str]:
-        """Return what quantities of `solved` are called in `as_drawn`, those that are called otherwise there."""
-        return {}
+        Quantities that are called otherwise there follow, by the names that they have in `solved`.
+        """
+        return solved, {}
 
     def limits(self, drawn: Answer, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Return by how much single quantities may miss, SI, where the usual rule does not hold.
@@ -241,12 +240,8 @@ class Kind(ABC, Generic[Subject, Answer]):
         """Return the section of the form in which a question stands; `current` is that of the one before it."""
         return question.plan
 
-    def section_heading(self, solved: Answer, section: str, words: Words) -> str:
-        """Return the heading of a section of the form."""
-        return self.plan_heading(solved, section, words)
-
     def plan_heading(self, solved: Answer, plan: str, words: Words) -> str:
-        """Return the heading of a plan, as the sheet has it."""
+        """Return the heading of a plan, as the sheet has it, or of a section of the form."""
         return words[f"heading.{plan}"]
 
     def vector_letters(self, solved: Answer, words: Words) -> dict[str, str]:

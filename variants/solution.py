@@ -74,8 +74,8 @@ class Solution(Result):
     @property
     def drawn_by_students(self) -> Solved:
         """What has been solved, as a student draws it."""
-        found: Solved = self.kind.as_drawn(self.solved)
-        return found
+        drawn: Solved = self.kind.as_drawn(self.solved)[0]
+        return drawn
 
     def __getitem__(self, name: str) -> Quantity:
         """Return a quantity by its name."""
@@ -337,6 +337,6 @@ def _drawing(kind: Kind[Any, Any], solved: Solved, scales: Mapping[str, Scale], 
     _, _, tolerance = hand_of(hand)  # a wrong one is refused in any position
     if solved.trouble is not None:
         return None
-    drawn = kind.as_drawn(solved)
+    drawn, exact = kind.as_drawn(solved)
     paper = drawing_of(drawn, {plan: scale.mu for plan, scale in scales.items()})
-    return drawing(paper, hand, kind.limits(drawn, paper, tolerance), kind.stands_for(solved))
+    return drawing(paper, hand, kind.limits(drawn, paper, tolerance), exact)

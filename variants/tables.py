@@ -79,12 +79,12 @@ class Table:
 
     def csv(self) -> str:
         """Return it as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
-        return csv_text((self.columns, *self.rows), self.language, number=exact if self.exact else rounded)
+        return csv_text((self.columns, *self.rows), self.language, number=exact if self.exact else _rounded)
 
     def html(self) -> str:
         """Return it as a page for a browser."""
         cells = (
-            (escape(_text(cell, self.language != "en", rounded)) for cell in row) for row in (self.columns, *self.rows)
+            (escape(_text(cell, self.language != "en", _rounded)) for cell in row) for row in (self.columns, *self.rows)
         )
         rows = "\n".join(f"<tr>{''.join(f'<td>{text}</td>' for text in row)}</tr>" for row in cells)
         head = f'<html lang="{self.language}"><meta charset="utf-8"><title>{escape(self.title)}</title>'
@@ -201,7 +201,7 @@ def csv_table(rows: Rows, language: str, separator: str | None = None) -> bytes:
 
     With a `separator` of its own the file is for another program: decimal points.
     """
-    return csv_text(rows, language, separator, rounded).encode("utf-8-sig", "replace")  # bytes in a name of a file
+    return csv_text(rows, language, separator, _rounded).encode("utf-8-sig", "replace")  # bytes in a name of a file
 
 
 def csv_text(
@@ -249,7 +249,7 @@ def exact(value: float) -> str:
     return repr(float(value) + 0.0) if isinstance(value, float) else str(value)
 
 
-def rounded(value: float) -> str:
+def _rounded(value: float) -> str:
     """Return a number as people want to see it in a table."""
     return f"{value:.10g}"
 
@@ -279,7 +279,7 @@ def xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 0
                     plain = f" {plain}" if plain.startswith("<r>") else plain  # XlsxWriter would take it for XML
                     sheet.write_string(at, column, plain, looks.get(at))
                 elif isinstance(cell, int | float) and math.isfinite(cell):
-                    sheet.write_number(at, column, float(rounded(cell)), looks.get(at))
+                    sheet.write_number(at, column, float(_rounded(cell)), looks.get(at))
         for column, width in widths.items():
             sheet.set_column_pixels(column, column, _PIXELS * (min(width, _WIDEST) + 2))
     return stream.getvalue()

@@ -13,7 +13,7 @@ import pypdfium2
 import pytest
 
 from kulman import all_variants, batch, check, cli, load_task
-from kulman.variants.making.all_variants import Question, gift_bytes, xml_bytes
+from kulman.variants.making.all_variants import _gift_bytes, _Question, _xml_bytes
 from kulman.variants.spreadsheets.files import read_grid
 from kulman.variants.tables import csv_text, harmless, xlsx_bytes
 
@@ -157,9 +157,9 @@ def _bare(text: str) -> str:
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_question_for_moodle_is_a_text(name: str) -> None:
-    asked = [Question(name, name, 1.5, 0.1), Question("next", "next", 2.5, 0.1)]
+    asked = [_Question(name, name, 1.5, 0.1), _Question("next", "next", 2.5, 0.1)]
 
-    gift, xml = gift_bytes("c", asked).decode("utf-8"), minidom.parseString(xml_bytes("c", asked))
+    gift, xml = _gift_bytes("c", asked).decode("utf-8"), minidom.parseString(_xml_bytes("c", asked))
 
     assert len(xml.getElementsByTagName("question")) == 3
     assert {node.tagName for node in xml.getElementsByTagName("*")} == {

@@ -24,7 +24,7 @@ from kulman.scales.units import unit
 from kulman.tests.support.answer_files import ASKED
 from kulman.variants.checks.basics import Places
 from kulman.variants.hands import hand_of
-from kulman.variants.making.new_variants import ranges_of, with_variants
+from kulman.variants.making.new_variants import _ranges_of, _with_variants
 from kulman.variants.making.starter import _label
 from kulman.variants.marking import cells
 from kulman.variants.marking.wording import plain
@@ -62,7 +62,7 @@ READERS: dict[str, Callable[[str], object]] = {
     "direction": cells.direction,
     "paper": cells.of_paper,
     "hand": hand_of,
-    "range": lambda text: ranges_of(SLIDER, {"l_OA": text}),
+    "range": lambda text: _ranges_of(SLIDER, {"l_OA": text}),
     "record book": lambda text: variant_of_book(SLIDER, text),
     "digits": lambda text: variant_of_book(SLIDER, "12", text),
     "scale": lambda text: chooser("mu_V", text),
@@ -81,7 +81,7 @@ READERS: dict[str, Callable[[str], object]] = {
     "cell of CSV": harmless,
     "sheet": lambda text: variant_of_id(SLIDER, text),
     "places of TOML": lambda text: Places(f"x = '{text.translate(_OF_LINE)}' # {text.translate(_OF_LINE)}"),
-    "task file": lambda text: with_variants(bundled_text("nau-slider-crank") + text, ()),
+    "task file": lambda text: _with_variants(bundled_text("nau-slider-crank") + text, ()),
 }
 
 
@@ -122,11 +122,11 @@ def test_an_option_longer_than_any_is_refused(
 
 
 def test_ranges_and_units_are_taken_apart_as_before() -> None:
-    ranges = ranges_of(SLIDER, {"l_OA": " 25 .. 60 / 5 mm ", "n_1": "700–800 rpm", "l_AB": "0.1...0.2 m"})
+    ranges = _ranges_of(SLIDER, {"l_OA": " 25 .. 60 / 5 mm ", "n_1": "700–800 rpm", "l_AB": "0.1...0.2 m"})
 
     assert (ranges["l_OA"].low, ranges["l_OA"].high, ranges["l_OA"].step) == (25, 60, 5)
     assert (ranges["n_1"].low, ranges["n_1"].high) == (700, 800)
     assert (ranges["l_AB"].low, ranges["l_AB"].high) == (100, 200)
     for bad in ("..", "5..", "..5", "5../2", "5..7/", "5", ""):
         with pytest.raises(InputError):
-            ranges_of(SLIDER, {"l_OA": bad})
+            _ranges_of(SLIDER, {"l_OA": bad})

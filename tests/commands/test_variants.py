@@ -15,7 +15,7 @@ from kulman import all_variants, cli, load_task, sheet, solve
 from kulman.plans.boards.exact import SMALL
 from kulman.tests.support.cases import solve_case
 from kulman.tests.support.task_files import task_of, with_changes
-from kulman.variants.making.new_variants import most_pages, ranges_of, with_variants
+from kulman.variants.making.new_variants import _most_pages, _ranges_of, _with_variants
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled
 
@@ -112,7 +112,7 @@ def test_a_plan_that_is_a_line_makes_a_poor_exercise(phi: str, quantity: str) ->
     "text", ["25..60/5 mm", "2,5..6/0,5 см", "25мм..60мм/5мм", "25…60/5", "25–60 / 5 мм", "0.025 .. 0.06 / 0.005 m"]
 )
 def test_a_range_is_read_in_every_usual_form(text: str) -> None:
-    found = ranges_of(load_task(TASK), {"l_OA": text})["l_OA"]
+    found = _ranges_of(load_task(TASK), {"l_OA": text})["l_OA"]
 
     assert (found.low, found.high, found.step, found.unit) == (25, 60, 5, "mm")
 
@@ -149,7 +149,7 @@ def test_other_variants_leave_everything_else_as_it_is(name: str) -> None:
         if (unit := task.givens[given].unit) is not None or isinstance(value, str)
     }
 
-    found, faults = read_text(with_variants(task.text, [("one", row), ("two", row)]), "new.toml")
+    found, faults = read_text(_with_variants(task.text, [("one", row), ("two", row)]), "new.toml")
 
     assert faults == ()
     assert found is not None
@@ -252,4 +252,4 @@ def test_a_table_has_a_decimal_sign_of_its_language(tmp_path: Path) -> None:
 def test_pages_are_counted_though_the_first_variant_of_a_task_is_refused(x_1: str) -> None:
     task = task_of(with_changes(load_task("madi-gear").text, ("x_1 = 0.2", f"x_1 = {x_1}")))
 
-    assert most_pages(task)() == 2
+    assert _most_pages(task)() == 2

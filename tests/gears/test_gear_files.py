@@ -12,7 +12,7 @@ from kulman import solve
 from kulman.plans.gears.gear import STANDARD, GearPair
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.task_files import task_of, with_changes
-from kulman.variants.making.new_variants import ranges_of
+from kulman.variants.making.new_variants import _ranges_of
 from kulman.variants.reader import check_text, load_task, read_text
 from kulman.variants.shelf import bundled_text
 
@@ -188,6 +188,6 @@ def test_limits_that_are_told_are_the_limits() -> None:
 def test_new_variants_have_modules_of_the_standard_unless_a_step_is_said(
     asked: dict[str, str], modules: set[str]
 ) -> None:
-    span, luck = ranges_of(load_task("madi-gear"), asked)["m"], random.Random(5)
+    span, luck = _ranges_of(load_task("madi-gear"), asked)["m"], random.Random(5)
 
     assert {span.pick(luck) for _ in range(200)} == modules

@@ -215,7 +215,7 @@ def output(module: str, help: str, required: bool = False) -> Callable[[Command]
     return click.option(*names, metavar="FILE", multiple=True, required=required, callback=checked, help=said)
 
 
-def stacked(*options: Any) -> Callable[[Command], Command]:
+def _stacked(*options: Any) -> Callable[[Command], Command]:
     """Return what adds options to a command, in the order in which its help shows them."""
 
     def add(command: Command) -> Command:
@@ -250,8 +250,8 @@ _about_task: tuple[Any, ...] = (
     click.option("--notation", help="Letters of another school: artobolevsky, bauman, bertyaev, iso, madi, nau."),
     of_language,
 )
-of_task = stacked(click.argument("task"), *_about_task)
-of_tasks = stacked(click.argument("tasks", metavar="TASK...", nargs=-1, required=True), *_about_task)
+of_task = _stacked(click.argument("task"), *_about_task)
+of_tasks = _stacked(click.argument("tasks", metavar="TASK...", nargs=-1, required=True), *_about_task)
 of_norm = click.option(
     "--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block."
 )
@@ -284,7 +284,7 @@ def processes(ctx: click.Context, param: click.Parameter, value: str | None) -> 
 def titled(*names: str) -> Callable[[Command], Command]:
     """Return what adds `names`, which a title block or a title page says."""
     none = {"date": "; none is invented"}
-    return stacked(*(click.option(f"--{name}", help=f"For the title block{none.get(name, '')}.") for name in names))
+    return _stacked(*(click.option(f"--{name}", help=f"For the title block{none.get(name, '')}.") for name in names))
 
 
 def without_none(options: Mapping[str, Any]) -> dict[str, Any]:

@@ -158,15 +158,11 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
             found.append(Check(name=name, ok=rho >= 0.0, value=rho, unit="m", limit=0.0, relation=AT_LEAST))
         return tuple(found)
 
-    def as_drawn(self, solved: SolvedCam) -> SolvedCam:
+    def as_drawn(self, solved: SolvedCam) -> tuple[SolvedCam, Mapping[str, str]]:
         """Return the cam with chords and tangents in the place of closed forms."""
-        drawn: SolvedCam = self._in("plans", "rules", "as_drawn")(solved)
-        return drawn
+        from ...plans.cams.rules import as_drawn, stands_for
 
-    def stands_for(self, solved: SolvedCam) -> dict[str, str]:
-        """Return for what the sizes by chords and tangents stand."""
-        exact: dict[str, str] = self._in("plans", "rules", "stands_for")(solved)
-        return exact
+        return as_drawn(solved), stands_for(solved)
 
     def listed(self, solved: SolvedCam, plans: tuple[str, ...]) -> tuple[str, ...]:
         """Return what belongs to the plans, section by section, the chosen scale factors among it."""

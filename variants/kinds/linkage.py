@@ -233,17 +233,13 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             return spelled("forces", role(solved.scale_of_plan[plan]).about)
         return "loads" if kind not in ("h", "M", "F") or current in OPEN else current
 
-    def section_heading(self, solved: SolvedLinkage, section: str, words: Words) -> str:
-        """Return the heading of a section: loads have no plan of their own."""
-        if section == "loads":
-            return texts(words.language)["form.loads"]
-        return self.plan_heading(solved, section, words)
-
     def plan_heading(self, solved: SolvedLinkage, plan: str, words: Words) -> str:
         """Return the heading of a plan, as the sheet has it; `V_at` alone stands for the points of one drawing."""
         from ...drawing.linkages.scene import plan_heading
 
         drawn = role(plan)
+        if plan == "loads":  # which have none of their own
+            return texts(words.language)["form.loads"]
         if drawn == spelled("forces", solved.structure.driver):
             return words["heading.driver"]
         if drawn.kind == VELOCITY:

@@ -96,7 +96,7 @@ class AllVariants(Result):
             return [(path, self.new.text.encode("utf-8"))]
         if suffix in FILES:
             return Result._files(self, path, drawn)
-        write = xml_bytes if suffix == ".xml" else gift_bytes
+        write = _xml_bytes if suffix == ".xml" else _gift_bytes
         return [(path, write(task.id, list(self._questions())))]
 
     @property
@@ -112,7 +112,7 @@ class AllVariants(Result):
             values = (_shown(key, name) for key in self.keys.values())
             yield (name, format_unit(unit, language), *values)
 
-    def _questions(self) -> Iterator[Question]:
+    def _questions(self) -> Iterator[_Question]:
         """Go through the questions, variant by variant; tolerances are those of the marking."""
         said = packaged(__package__, "texts", self._language)
         for variant, key in self.keys.items():
@@ -128,7 +128,7 @@ class AllVariants(Result):
                 )  # fmt: skip
                 if unit_of(name) in SIGNED:
                     text = said["question.sense"].format(question=text)
-                yield Question(f"{variant}-{name}", text, value, key.key.allowed[name] * factor)
+                yield _Question(f"{variant}-{name}", text, value, key.key.allowed[name] * factor)
 
 
 def _si(key: Keyed, name: str) -> float | None:
@@ -204,7 +204,7 @@ def all_variants(
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class _Question:
     """A numerical question: a name, the text, the right value and by how much an answer may miss."""
 
     name: str
@@ -213,7 +213,7 @@ class Question:
     tolerance: float
 
 
-def gift_bytes(category: str, questions: Iterable[Question]) -> bytes:
+def _gift_bytes(category: str, questions: Iterable[_Question]) -> bytes:
     """Return questions as GIFT: an answer that misses by up to twice the tolerance gets half."""
     lines = [f"$CATEGORY: {_gift(category)}", ""]
     for asked in questions:
@@ -228,7 +228,7 @@ def _gift(text: str) -> str:
     return re.sub(r"([~=#{}:\\])", r"\\\1", " ".join(text.split()))
 
 
-def xml_bytes(category: str, questions: Iterable[Question]) -> bytes:
+def _xml_bytes(category: str, questions: Iterable[_Question]) -> bytes:
     """Return questions as Moodle's XML: an answer that misses by up to twice the tolerance gets half."""
     parts = [
         '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n',
@@ -239,7 +239,7 @@ def xml_bytes(category: str, questions: Iterable[Question]) -> bytes:
     return "".join(parts).encode("utf-8")
 
 
-def _question(asked: Question) -> str:
+def _question(asked: _Question) -> str:
     answers = "".join(
         f'<answer fraction="{fraction}"><text>{asked.value:.10g}</text>'
         f"<tolerance>{times * asked.tolerance:.3g}</tolerance></answer>"

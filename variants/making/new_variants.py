@@ -73,7 +73,7 @@ def make_variants(
         raise InputError("variants-count", n=MOST)
     fixed = {name: str(value) for name, value in by_name("set", set).items()}
     found.resolve(None, fixed)
-    spans = ranges_of(found, {name: str(text) for name, text in by_name("ranges", ranges).items()})
+    spans = _ranges_of(found, {name: str(text) for name, text in by_name("ranges", ranges).items()})
     spans = {name: one for name, one in spans.items() if name not in fixed}
     rows: dict[str, Mapping[str, str]] = {}
     for row in made(found, spans, count, seed, fixed):
@@ -87,7 +87,7 @@ def import_variants(task: str | os.PathLike[str] | Task, file: str | os.PathLike
     """Read variants from a spreadsheet; those that have no solution are left out and named, unless none has one."""
     found = load_task(task)
     rows: dict[str, Mapping[str, str]] = {}
-    pages = most_pages(found)
+    pages = _most_pages(found)
     left_out: list[KulmanError] = []
     remarks: list[KulmanError] = []
     for read in read_variants(os.fspath(file), found):
@@ -104,7 +104,7 @@ def import_variants(task: str | os.PathLike[str] | Task, file: str | os.PathLike
 
 
 def _judged(
-    task: Task, read: Read, pages: Callable[[], int]
+    task: Task, read: _Read, pages: Callable[[], int]
 ) -> tuple[tuple[KulmanError, ...], tuple[KulmanError, ...]]:
     """Return why a variant is left out, if it is, and what makes it a poor exercise, with the place."""
     if read.problems:
@@ -117,19 +117,19 @@ def _judged(
         plain = (InputError("variants-missing", name=c.data["name"]) if c.key == "key-missing" else c for c in causes)
         return tuple(LocatedError(read.place, cause) for cause in plain), ()
     reason, remark = (
-        () if one is None else (LocatedError(read.place, one),) for one in looked_at(alone, read.id, {}, pages)
+        () if one is None else (LocatedError(read.place, one),) for one in _looked_at(alone, read.id, {}, pages)
     )
     return reason, remark
 
 
 def _task_with(task: Task, rows: Mapping[str, Mapping[str, str]]) -> NewVariants:
     """Return a task with other variants; one that is no variant of the task is a `TaskFileError`."""
-    text = with_variants(task.text, rows.items())
+    text = _with_variants(task.text, rows.items())
     return NewVariants(task_of(text, task.file or f"{task.id}.toml"), text)
 
 
 @dataclass(frozen=True, slots=True)
-class Range:
+class _Range:
     """A given's values: from `low` to `high` in steps, in its own unit; exact decimals.
 
     Where a standard has a `row` of values, only these.
@@ -149,7 +149,7 @@ class Range:
         return f"{value.normalize():f} {self.unit}".strip()
 
 
-def ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, Range]:
+def _ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, _Range]:
     """Return the range of every given: as `asked`, such as `25..60/5 mm`, else what the task's variants span."""
     found = {name: _spanned(task, name, given) for name, given in task.givens.items() if given.unit is not None}
     for name, parameter in kind_of(task.kind).givens.items():
@@ -167,7 +167,7 @@ def ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, Range]:
     return {name: one for name, one in found.items() if one is not None}
 
 
-def _read(given: Given, text: str, usual: Range | None) -> Range:
+def _read(given: Given, text: str, usual: _Range | None) -> _Range:
     """Read a range."""
     assert given.unit is not None
     between = _BETWEEN.search(text.strip(), 1)
@@ -183,7 +183,7 @@ def _read(given: Given, text: str, usual: Range | None) -> Range:
     row = usual.row if usual is not None and step is None else ()
     if step is None:
         step = usual.step if usual is not None and 0 < usual.step <= high - low else _round_step(high - low)
-    return Range(given.unit.behind, low, high, step, row)
+    return _Range(given.unit.behind, low, high, step, row)
 
 
 def _value(given: Given, part: str, whole: str) -> Decimal:
@@ -195,7 +195,7 @@ def _value(given: Given, part: str, whole: str) -> Decimal:
     return _decimal(given.unit.from_si(value))
 
 
-def _spanned(task: Task, name: str, given: Given) -> Range | None:
+def _spanned(task: Task, name: str, given: Given) -> _Range | None:
     """Return what a given's values span in the variants of a task; None where no variant states it."""
     assert given.unit is not None
     stated = [row.values[name] for row in task.variants.values() if name in row.values]
@@ -209,8 +209,8 @@ def _spanned(task: Task, name: str, given: Given) -> Range | None:
         spread = abs(low) * Decimal(str(AROUND))
         step = _round_step(2 * spread)
         low, high = (math.ceil(low / step - spread / step) * step, high + spread) if step else (low, high)
-        return Range(given.unit.behind, low, high, step)
-    return Range(given.unit.behind, low, high, _common_step([value - low for value in values]))
+        return _Range(given.unit.behind, low, high, step)
+    return _Range(given.unit.behind, low, high, _common_step([value - low for value in values]))
 
 
 def _decimal(value: float) -> Decimal:
@@ -234,7 +234,7 @@ def _round_step(width: Decimal) -> Decimal:
 
 
 def made(
-    task: Task, ranges: Mapping[str, Range], count: int, seed: int, fixed: Mapping[str, str]
+    task: Task, ranges: Mapping[str, _Range], count: int, seed: int, fixed: Mapping[str, str]
 ) -> Iterator[dict[str, str]]:
     """Go through new variants that differ, each a good exercise; `fixed` are givens that all have alike.
 
@@ -242,7 +242,7 @@ def made(
     factors that the task wants. Where too few sets are good an error says what was wrong last.
     """
     luck, seen = random.Random(seed), set[tuple[str, ...]]()
-    first, pages = next(iter(task.variants)), most_pages(task)
+    first, pages = next(iter(task.variants)), _most_pages(task)
     for number in range(count):
         reason: KulmanError | None = InputError("variants-few", found=number)
         for _ in range(TRIES):
@@ -251,7 +251,7 @@ def made(
                 continue
             seen.add(tuple(row.values()))
             row |= fixed
-            reason = next(filter(None, looked_at(task, first, row, pages, through=False)), None)
+            reason = next(filter(None, _looked_at(task, first, row, pages, through=False)), None)
             if reason is None:
                 yield row
                 break
@@ -262,7 +262,7 @@ def made(
             raise LocatedError(f"--make {count}", reason)
 
 
-def looked_at(
+def _looked_at(
     task: Task, variant: str, settings: Settings, pages: Callable[[], int], through: bool = True
 ) -> Judgement:
     """Return why data have no solution or no sheet, and what makes them a poor exercise; None where nothing does.
@@ -284,7 +284,7 @@ def looked_at(
     return None, remark or next(iter(drawn.warnings), None)
 
 
-def most_pages(task: Task) -> Callable[[], int]:
+def _most_pages(task: Task) -> Callable[[], int]:
     """Return what says how many pages a good sheet has at most: as many as that of the task's own first variant."""
 
     @cache
@@ -298,7 +298,7 @@ def most_pages(task: Task) -> Callable[[], int]:
     return own
 
 
-def with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]]) -> str:
+def _with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]]) -> str:
     """Return the text of a task file with `rows` in the place of its variants: ids, and givens as they are written."""
     kept, inside, depth = [], False, 0
     for line in text.splitlines():
@@ -320,7 +320,7 @@ def with_variants(text: str, rows: Iterable[tuple[str, Mapping[str, str]]]) -> s
 
 
 @dataclass(frozen=True, slots=True)
-class Read:
+class _Read:
     """One variant of a spreadsheet: its givens as they are written, and what is wrong with its cells."""
 
     id: str
@@ -366,7 +366,7 @@ class _Table:
         return next(said, next(apart, max(min(self.names) - 1, 0)))
 
 
-def read_variants(file: str, task: Task) -> list[Read]:
+def read_variants(file: str, task: Task) -> list[_Read]:
     """Read the variants of a task from a spreadsheet, .csv or .xlsx.
 
     A row, or a column, names the givens, `l_OA [mm]`; beside the names units may stand.
@@ -376,7 +376,7 @@ def read_variants(file: str, task: Task) -> list[Read]:
     if not table.names:
         raise InputError("variants-header", file=quote(grid.file, SHOWN), known=", ".join(task.givens))
     column, units = table.id_column, dict[int, str]()
-    found: list[Read] = []
+    found: list[_Read] = []
     for row in table.rows:
         cells = table.cells[row]
         if not any(cells[at] for at in table.names):
@@ -445,7 +445,7 @@ def _named(part: str, first: bool, known: Mapping[str, str]) -> str:
     return words.pop() if len(words) == 1 else ""
 
 
-def _read_row(table: _Table, row: int, number: str, units: Mapping[int, str], task: Task) -> Read:
+def _read_row(table: _Table, row: int, number: str, units: Mapping[int, str], task: Task) -> _Read:
     """Read one variant; values as a task file has them: a decimal point, the given's own unit."""
     stated: dict[str, str] = {}
     problems: list[InputError] = []
@@ -459,4 +459,4 @@ def _read_row(table: _Table, row: int, number: str, units: Mapping[int, str], ta
                     stated[name] = f"{given.unit.from_si(value):.12g} {given.unit.behind}".strip()
             except InputError as error:
                 problems.append(LocatedError(f"{table.place(row, column)}, {name}", error))
-    return Read(number, f"{table.place(row, table.id_column)}, {number}", stated, tuple(problems))
+    return _Read(number, f"{table.place(row, table.id_column)}, {number}", stated, tuple(problems))

@@ -50,7 +50,7 @@ def sections(solution: Solution, questions: Iterable[Question], words: Words) ->
         fresh = tuple(symbol for symbol in symbols if symbol not in taken and symbol not in solution)
         taken.update(fresh)
         asked = tuple(question for question in own if kind.asks(solved, question))
-        found.append(Section(kind.section_heading(solved, key, words), fresh, tuple(own), asked))
+        found.append(Section(kind.plan_heading(solved, key, words), fresh, tuple(own), asked))
     return found
 
 

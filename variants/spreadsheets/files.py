@@ -40,7 +40,7 @@ def read_grid(file: str | Path) -> Grid:
     if path.suffix.lower() not in SUFFIXES:
         raise InputError("answers-suffix", file=shown, known=", ".join(SUFFIXES))
     data = _bytes(path, shown)
-    return (grid_of_xlsx if path.suffix.lower() == ".xlsx" else grid_of_csv)(str(path), data)
+    return (grid_of_xlsx if path.suffix.lower() == ".xlsx" else _grid_of_csv)(str(path), data)
 
 
 def _bytes(path: Path, shown: str) -> bytes:
@@ -65,7 +65,7 @@ def _bytes(path: Path, shown: str) -> bytes:
     return data
 
 
-def grid_of_csv(file: str, data: bytes) -> Grid:
+def _grid_of_csv(file: str, data: bytes) -> Grid:
     """Return the cells of a CSV file; the separator is the one at which most header words are found.
 
     Where hardly any are, it is the one that cuts most rows into as many cells.

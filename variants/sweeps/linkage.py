@@ -56,7 +56,7 @@ class Sweep(Swept):
         """Solve a linkage over its whole cycle; refuse unknown points, no places, an end where a crank goes round."""
         mechanism = case.task.mechanism
         chosen = names_of("points", asked.points, (str, int))
-        all_known("motion-unknown", chosen, (*letters(mechanism), *(str(link.number) for link in mechanism.links)))
+        all_known("motion-unknown", chosen, (*_letters(mechanism), *(str(link.number) for link in mechanism.links)))
         first, last = (_place(case.task, *item) for item in (("start", asked.start), ("end", asked.end)))
         if last is not None and isinstance(mechanism.driver, Driver):
             raise InputError("sweep-end")
@@ -96,7 +96,7 @@ class Sweep(Swept):
         if self.compared is not None:
             return self.chords(self.compared, language)
         cycle, words = self.cycle, self._words(language)
-        shown = _shown(cycle, columns_of(cycle, self.chosen, whole=False), words)
+        shown = _shown(cycle, _columns_of(cycle, self.chosen, whole=False), words)
         head = ["", *(f"{column.name}, {format_unit(column.unit, words.language)}" for column in shown)]
         statuses = ["" if status == "ok" else words[f"status.{status}"] for status in cycle.statuses]
         rows = [[str(k), *(_cell(words, column, k) for column in shown), said] for k, said in enumerate(statuses)]
@@ -114,7 +114,7 @@ class Sweep(Swept):
     def data(self, language: str | None = None) -> Table:
         """Return the columns of what is chosen, or all."""
         cycle, words = self.cycle, self._words(language)
-        shown = _shown(cycle, columns_of(cycle, self.chosen, whole=True), words)
+        shown = _shown(cycle, _columns_of(cycle, self.chosen, whole=True), words)
         heads = (f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown)
         rows: Rows = [
             [k, *(float(column.values[k]) for column in shown), status] for k, status in enumerate(cycle.statuses)
@@ -124,8 +124,8 @@ class Sweep(Swept):
     def _data(self) -> dict[str, Any]:
         """Return the cycle, of chosen points and links only, or of all."""
         cycle, turns = self.cycle, self.cycle.drive.turns
-        names = quantities_of(cycle, self.chosen)
-        known = (point for point in letters(cycle.mechanism) if point in cycle.values)
+        names = _quantities_of(cycle, self.chosen)
+        known = (point for point in _letters(cycle.mechanism) if point in cycle.values)
         points = [point for point in known if not self.chosen or point in self.chosen]
         return {
             "driver": {
@@ -194,16 +194,16 @@ def driver_name(cycle: Cycle) -> str:
     return ("phi" if cycle.drive.turns else "s") if role(variable).hidden else variable
 
 
-def place_name(output: Output) -> str:
+def _place_name(output: Output) -> str:
     """Return the name of an output's place: the travel of a slider, the angle of a rocker."""
     return f"{'s' if output.slides else 'phi'}_{output.link}"
 
 
-def output_columns(cycle: Cycle, output: Output) -> list[Columned]:
+def _output_columns(cycle: Cycle, output: Output) -> list[Columned]:
     """Return place, velocity and acceleration of a link on the frame, as far as the plans go."""
     if output.place not in cycle.values:
         return []
-    place = Columned(place_name(output), output.unit, output.places(cycle.values))
+    place = Columned(_place_name(output), output.unit, output.places(cycle.values))
     rates = [(output.rate, "V", "m/s"), (output.change, "a", "m/s^2")]
     if not output.slides:
         rates = [(output.rate, "omega", "rad/s"), (output.change, "epsilon", "rad/s^2")]
@@ -220,13 +220,13 @@ def _parts(cycle: Cycle, name: str, point: bool = False) -> dict[str, Array]:
     return {**size, "x": values.real, "y": values.imag}
 
 
-def columns_of(cycle: Cycle, chosen: tuple[str, ...], whole: bool) -> list[Columned]:
+def _columns_of(cycle: Cycle, chosen: tuple[str, ...], whole: bool) -> list[Columned]:
     """Return the columns of chosen points, by their letters, and links, by their numbers.
 
     Without any how the outputs move, and all points and quantities if `whole`, else what balances the driver.
     """
-    outputs = {str(output.link): output_columns(cycle, output) for output in cycle.outputs}
-    points = [name for name in letters(cycle.mechanism) if name in cycle.values]
+    outputs = {str(output.link): _output_columns(cycle, output) for output in cycle.outputs}
+    points = [name for name in _letters(cycle.mechanism) if name in cycle.values]
     columns: list[Columned] = []
     for one in chosen or ("",):
         columns += outputs.get(one, []) if chosen else [column for found in outputs.values() for column in found]
@@ -241,13 +241,13 @@ def columns_of(cycle: Cycle, chosen: tuple[str, ...], whole: bool) -> list[Colum
     return columns
 
 
-def letters(mechanism: Mechanism) -> tuple[str, ...]:
+def _letters(mechanism: Mechanism) -> tuple[str, ...]:
     """Return the letters of all points."""
     points = (point for link in mechanism.links for point in link.points)
     return tuple(dict.fromkeys((*mechanism.frame_points, *points)))
 
 
-def quantities_of(cycle: Cycle, chosen: tuple[str, ...]) -> tuple[str, ...]:
+def _quantities_of(cycle: Cycle, chosen: tuple[str, ...]) -> tuple[str, ...]:
     """Return the quantities of what was chosen, or all."""
     wanted = {f"{symbol}_{one}" for one in chosen for symbol in ("V", "a", "omega", "epsilon")}
     return tuple(name for name in cycle.quantities if name in wanted or not chosen)
@@ -292,7 +292,7 @@ def _limits(cycle: Cycle, words: Words) -> str:
 
 def _output(cycle: Cycle, motion: OutputMotion, words: Words) -> Iterable[str]:
     """Say where an output stands dead, how far it moves and how its times compare."""
-    output, name = motion.output, place_name(motion.output)
+    output, name = motion.output, _place_name(motion.output)
     kind = words["sweep.slider" if output.slides else "sweep.rocker"].format(link=output.link)
     if motion.travel is None:
         yield f"{kind}: {words['sweep.round']}"
@@ -324,7 +324,7 @@ def _amount(words: Words, value: float, of: str) -> str:
 def _extremes(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
     """Return the largest and smallest values with the driver's places, constants left out."""
     laws = {step.name: step.law for step in cycle.program}
-    names = [name for name in quantities_of(cycle, chosen) if role(name).kind not in LESS_WANTED]
+    names = [name for name in _quantities_of(cycle, chosen) if role(name).kind not in LESS_WANTED]
     rows = [["", words["sweep.most"], "", words["sweep.least"], ""]]
     for name, (most, least) in cycle.extremes([name for name in names if laws[name] != "opposite"]).items():
         size = max(abs(most.value), abs(least.value))

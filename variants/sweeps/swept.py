@@ -101,7 +101,7 @@ class CourseSweep(Swept):
         """Return the columns at what is marked, or at the positions asked for, then extremes and remarks."""
         words = self._words(language)
         heads, columns = self.course.rows(self.positions)
-        shown = [in_degrees_and_millimetres(column) for column in columns]
+        shown = [_in_degrees_and_millimetres(column) for column in columns]
         rows = [["", *(_titled(column.name, column.unit, words) for column in shown)]]
         for k, head in enumerate(heads):  # one that comes again stands but once
             first = k == 0 or heads[k - 1] != head
@@ -117,7 +117,7 @@ class CourseSweep(Swept):
     def data(self, language: str | None = None) -> Table:
         """Return all columns, the number of the row before them, after them what is said of each row."""
         places, words = self.course.places(self.count), self._words(language)
-        shown = [in_degrees_and_millimetres(column) for column in self.course.columns(places)]
+        shown = [_in_degrees_and_millimetres(column) for column in self.course.columns(places)]
         states = self.course.states(places)
         units = (format_unit(column.unit, words.language) for column in shown)
         heads = (f"{column.name} [{of}]" if of else column.name for column, of in zip(shown, units, strict=True))
@@ -153,7 +153,7 @@ def ends_data(of: str, most: tuple[float, float], least: tuple[float, float]) ->
     return {"unit": of} | {key: {"value": x, "at": at} for key, (x, at) in (("max", most), ("min", least))}
 
 
-def in_degrees_and_millimetres(column: Columned) -> Columned:
+def _in_degrees_and_millimetres(column: Columned) -> Columned:
     """Return a column as it is shown."""
     shown = SHOWN.get(column.unit)
     if shown is None:
@@ -186,12 +186,12 @@ def _extremes_table(found: Collection[Ends], words: Words) -> str:
         small = NOTHING * max(abs(one.most), abs(one.least))
         for value, at in ((one.most, one.most_at), (one.least, one.least_at)):
             tidy = 0.0 if abs(value) <= small else value
-            cells += [words.short(of.from_si(tidy) + 0.0, DIGITS), f"{DRIVES} = {degrees(at, words)}"]
+            cells += [words.short(of.from_si(tidy) + 0.0, DIGITS), f"{DRIVES} = {_degrees(at, words)}"]
         rows.append(cells)
     return aligned(rows, (0, 2, 4)) if found else ""
 
 
-def degrees(at: float, words: Words) -> str:
+def _degrees(at: float, words: Words) -> str:
     """Return an angle in degrees."""
     return f"{words.short(round(unit('deg').from_si(at), 4), DIGITS)}°"
 
@@ -201,9 +201,6 @@ def _filled(value: Any, words: Words) -> Any:
     if not isinstance(value, tuple):
         return value
     number, of = value
-    return degrees(number, words) if of == "rad" else millimetres(number, words)
-
-
-def millimetres(length: float, words: Words) -> str:
-    """Return a length in millimetres."""
-    return f"{words.short(unit('mm').from_si(length), DIGITS)} {format_unit('mm', words.language)}"
+    if of == "rad":
+        return _degrees(number, words)
+    return f"{words.short(unit('mm').from_si(number), DIGITS)} {format_unit('mm', words.language)}"
