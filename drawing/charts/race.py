@@ -30,7 +30,7 @@ LARGEST = 3.0  # error beyond which a method means nothing
 RIGHT, UP, DOWN = (1, 0), (0, 1), (0, -1)
 
 
-class Look(NamedTuple):
+class _Look(NamedTuple):
     """How a method is drawn: its marker, filled or not, the line between its points, where labels go."""
 
     marker: str
@@ -44,32 +44,32 @@ class Look(NamedTuple):
         return {"ms": 4.2, "mfc": BLACK if self.filled else "white", "mec": BLACK, "mew": 0.9}
 
 
-LOOKS: Mapping[str, Look] = {
-    "plan": Look("o", True, SOLID, RIGHT),
-    "plan-single": Look("s", False, "none", DOWN),
-    "plan-extended": Look("s", False, "none", UP),
-    "newton": Look("^", False, DASHED, UP),
-    "differences": Look("D", True, DOTTED, DOWN),
-    "chords": Look("x", True, CHAINED, RIGHT),
-    "closed": Look("o", True, SOLID, RIGHT),
-    "board": Look("x", True, CHAINED, UP),
-    "boards": Look("+", True, CHAINED, DOWN),
-    "midpoint": Look("D", True, DOTTED, DOWN),
-    "missed": Look("s", False, DASHED, UP),
-    "simpson": Look("^", False, MIXED, DOWN),
-    "hoist-closed": Look("o", True, SOLID, RIGHT),
-    "bisection": Look("s", True, DOTTED, UP),
-    "newton-root": Look("^", True, DASHED, DOWN),
-    "secant": Look("D", True, MIXED, DOWN),
-    "illinois": Look("v", True, CHAINED, UP),
-    "brent": Look("P", True, LONG, DOWN),
-    "hoist-drawn": Look("+", True, MIXED, DOWN),
-    "rk4": Look("o", False, SOLID, DOWN),
-    "rk4-missed": Look("x", True, SOLID, UP),
-    "verlet": Look("s", False, DASHED, DOWN),
-    "trapezoid": Look("^", False, CHAINED, UP),
-    "symplectic": Look("D", False, DOTTED, DOWN),
-    "euler": Look("v", False, LONG, UP),
+LOOKS: Mapping[str, _Look] = {
+    "plan": _Look("o", True, SOLID, RIGHT),
+    "plan-single": _Look("s", False, "none", DOWN),
+    "plan-extended": _Look("s", False, "none", UP),
+    "newton": _Look("^", False, DASHED, UP),
+    "differences": _Look("D", True, DOTTED, DOWN),
+    "chords": _Look("x", True, CHAINED, RIGHT),
+    "closed": _Look("o", True, SOLID, RIGHT),
+    "board": _Look("x", True, CHAINED, UP),
+    "boards": _Look("+", True, CHAINED, DOWN),
+    "midpoint": _Look("D", True, DOTTED, DOWN),
+    "missed": _Look("s", False, DASHED, UP),
+    "simpson": _Look("^", False, MIXED, DOWN),
+    "hoist-closed": _Look("o", True, SOLID, RIGHT),
+    "bisection": _Look("s", True, DOTTED, UP),
+    "newton-root": _Look("^", True, DASHED, DOWN),
+    "secant": _Look("D", True, MIXED, DOWN),
+    "illinois": _Look("v", True, CHAINED, UP),
+    "brent": _Look("P", True, LONG, DOWN),
+    "hoist-drawn": _Look("+", True, MIXED, DOWN),
+    "rk4": _Look("o", False, SOLID, DOWN),
+    "rk4-missed": _Look("x", True, SOLID, UP),
+    "verlet": _Look("s", False, DASHED, DOWN),
+    "trapezoid": _Look("^", False, CHAINED, UP),
+    "symplectic": _Look("D", False, DOTTED, DOWN),
+    "euler": _Look("v", False, LONG, UP),
 }
 FRONT: Mapping[str, Any] = {"ms": 9.5, "mfc": "none", "mec": BLACK, "mew": 0.7}  # rings of what no other beats
 # steps of all integrators, and tolerances of all ways to a root, are the same

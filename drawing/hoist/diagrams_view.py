@@ -34,14 +34,14 @@ SAME = 1e-6  # part of the radius
 ANGLE = 0.3  # part of the radius at which the angle is dimensioned
 
 
-def lift_off_view(scene: HoistScene) -> View:
+def _lift_off_view(scene: HoistScene) -> View:
     """Draw the crossing of parabola and sinusoid."""
     canvas, words, roots, h = LIFT_OFF_FIGURE.canvas(scene), scene.words, _roots(scene), scene.style.text
     curves = {name: scene.places(equation(scene.solved, letter)) for name, letter in CURVES.items()}
     heights = [place.imag for places in curves.values() for place in places]
     field = _field(scene, f"y, {words.unit('m')}", "mu_y", heights)
     canvas.part("axes")
-    ruled(canvas, field)
+    _ruled(canvas, field)
     canvas.part("curves")
     for name, places in curves.items():
         drawn_through(canvas, places, name)
@@ -59,7 +59,7 @@ def lift_off_view(scene: HoistScene) -> View:
     return canvas.finish("lift_off", heading, (scene.stated("t_1", unit="s"),))
 
 
-def extremes_view(scene: HoistScene) -> View:
+def _extremes_view(scene: HoistScene) -> View:
     """Draw the crossings of sinusoid and straight line."""
     canvas, words, roots, h = EXTREMES_FIGURE.canvas(scene), scene.words, _roots(scene), scene.style.text
     wave = scene.places(equation(scene.solved, "W"))
@@ -68,7 +68,7 @@ def extremes_view(scene: HoistScene) -> View:
     least = BELOW * min(left.imag, right.imag, *heights)
     field = _field(scene, words.unit("m/s"), "mu_v", (least, max(heights)))
     canvas.part("axes")
-    ruled(canvas, field)
+    _ruled(canvas, field)
     canvas.part("curves")
     drawn_through(canvas, wave, "sinusoid")
     canvas.add(Line(left, right, Pen.MAIN, role="curve", name="line"))
@@ -88,9 +88,9 @@ def extremes_view(scene: HoistScene) -> View:
 
 
 LIFT_OFF_FIGURE = Figure(
-    "lift_off", lift_off_view, ("part",), stages("axes", "points", "curves", "crossing"), "hoist.lift_off"
+    "lift_off", _lift_off_view, ("part",), stages("axes", "points", "curves", "crossing"), "hoist.lift_off"
 )
-EXTREMES_FIGURE = Figure("extremes", extremes_view, ("part",), stages("axes", "curves", "crossing"), "hoist.extremes")
+EXTREMES_FIGURE = Figure("extremes", _extremes_view, ("part",), stages("axes", "curves", "crossing"), "hoist.extremes")
 
 
 def _roots(scene: HoistScene) -> Roots:
@@ -108,7 +108,7 @@ def _field(scene: HoistScene, letter: str, symbol: str, heights: Sequence[float]
     return Field(0j, x, Axis(letter, scale, low, high, up))
 
 
-def ruled(canvas: Canvas, field: Field) -> None:
+def _ruled(canvas: Canvas, field: Field) -> None:
     """Draw axes with numbers in fixed places, those of the abscissas at the foot: no grid runs through curves."""
     x, y, h = field.x, field.y, canvas.style.text
     foot, top = field.at(0.0, y.low), field.at(0.0, y.high) + 1j * PAST
@@ -167,12 +167,12 @@ def _magnified(canvas: Canvas, scene: HoistScene, corner: complex) -> None:
     canvas.add(Text(at, f"{scene.words.short(TIMES)}:1", h, "middle", role="magnified"))
 
 
-def forces_view(scene: HoistScene) -> View:
+def _forces_view(scene: HoistScene) -> View:
     """Draw the forces over time."""
     canvas, words = FORCES_FIGURE.canvas(scene), scene.words
     field = _forces_field(scene)
     canvas.part("axes")
-    ruled(canvas, field)
+    _ruled(canvas, field)
     canvas.part("levels")
     for name in ("P_st", "P_m"):
         ends = field.at(0.0, scene.size(name)), field.at(field.x.high, scene.size(name))
@@ -264,14 +264,14 @@ def _values(canvas: Canvas, scene: HoistScene) -> None:
 MOVED = Stage("moved", when=lambda scene: scene.solved.forces.motion is not None)
 FORCES_FIGURE = Figure(
     "forces",
-    forces_view,
+    _forces_view,
     ("part",),
     (Stage("axes"), MOVED, *stages("levels", RESTING, HANGING, "article")),
     "hoist.forces",
 )
 
 
-def circle_view(scene: HoistScene) -> View:
+def _circle_view(scene: HoistScene) -> View:
     """Draw the circle with its start, its diameter and the angle run through."""
     canvas, words = CIRCLE_FIGURE.canvas(scene), scene.words
     centre = scene.mm(f"{CIRCLE}.C")  # the origin of the view
@@ -319,5 +319,5 @@ def _circle(canvas: Canvas, scene: HoistScene, ends: tuple[complex, complex]) ->
 # a rope that goes slack need not reach the ends of the diameter: they are no step of their own
 ENDS = Stage("ends", when=lambda scene: scene.solved.forces.motion is None)
 CIRCLE_FIGURE = Figure(
-    "circle", circle_view, ("mu_F_circle",), (*stages("axes", "start", "circle"), ENDS), "hoist.circle"
+    "circle", _circle_view, ("mu_F_circle",), (*stages("axes", "start", "circle"), ENDS), "hoist.circle"
 )

@@ -35,7 +35,7 @@ KINDS = {"begin": "round", "end": "round", "data": "slanted", "places": "slanted
 KINDS |= {"larger": "diamond", "strong": "diamond"}
 
 
-def scheme_view(scene: HoistScene) -> View:
+def _scheme_view(scene: HoistScene) -> View:
     """Draw the scheme with its dimensions."""
     canvas, words, style = SCHEME_FIGURE.canvas(scene), scene.words, scene.style
     at = {mark: scene.mm(f"{SCHEME}.{mark}") for mark in ("O1", "O2", "A0", "A2", "B1", "B2")}
@@ -50,7 +50,7 @@ def scheme_view(scene: HoistScene) -> View:
     for left, right, number in (("O1", "O2", "0"), ("B1", "B2", "2")):
         canvas.part(STAGE_OF_BEAM[number])
         canvas.add(Group((Line(at[left], at[right]),), "link", number))
-        supports = fixed_pivot(at[left], left, style), rolling_support(at[right], right, scene)
+        supports = fixed_pivot(at[left], left, style), _rolling_support(at[right], right, scene)
         canvas.add(*(replace(one, layer=Layer.RESULT.value) for one in supports))  # they cover the ends of the beam
     for mark, letter in (("A0", "A_{0}"), ("A2", "A_{2}")):
         canvas.part("support" if mark == "A0" else "rope")
@@ -82,7 +82,7 @@ def _dimensions(canvas: Canvas, scene: HoistScene, at: dict[str, complex]) -> No
     linear(canvas, (at["A0"], at["A2"]), complex(far - at["A0"].real), scene.stated("L", unit="m"), "L")
 
 
-def rolling_support(at: complex, name: str, scene: HoistScene) -> Group:
+def _rolling_support(at: complex, name: str, scene: HoistScene) -> Group:
     """Return a support that can roll: circle, triangle, rollers on a hatched line."""
     width, height, base = scene.style.pivot
     pivot = fixed_pivot(at, name, scene.style)
@@ -96,10 +96,10 @@ def rolling_support(at: complex, name: str, scene: HoistScene) -> Group:
     return Group((Group(kept, "pivot", name), Group((*rollers, *ground), "rollers", name)), "support", name)
 
 
-SCHEME_FIGURE = Figure("scheme", scheme_view, ("mu_l",), stages("blank", "support", "rope", "bridge"), "hoist.scheme")
+SCHEME_FIGURE = Figure("scheme", _scheme_view, ("mu_l",), stages("blank", "support", "rope", "bridge"), "hoist.scheme")
 
 
-def model_view(scene: HoistScene) -> View:
+def _model_view(scene: HoistScene) -> View:
     """Draw the model with its axis, springs, forces."""
     canvas, words = MODEL.canvas(scene), scene.words
     canvas.part("model")
@@ -108,7 +108,7 @@ def model_view(scene: HoistScene) -> View:
     top = bottom + 1j * tall
     end = top + 1j * SPRING
     canvas.add(Group((Line(-14.0 + 0j, 14.0 + 0j), *hatching(-14.0 + 0j, 14.0 + 0j, -1j, scene.style)), "ground", "0"))
-    canvas.add(spring(0j, bottom, "C_01"), spring(top, end, "C_12"))
+    canvas.add(_spring(0j, bottom, "C_01"), _spring(top, end, "C_12"))
     box = tuple(complex(x, y) for x, y in ((-half, SPRING), (half, SPRING), (half, top.imag), (-half, top.imag)))
     canvas.add(Group((Polyline(box, Pen.MAIN, closed=True, fill="white"),), "link", "m"), Line(end - 9.0, end + 9.0))
     h = scene.style.label
@@ -131,7 +131,7 @@ def _arrow(canvas: Canvas, tail: complex, tip: complex, letter: str) -> None:
     canvas.label(letter, tip, prefer=(1.0 + 0j) if tip.real > 0.0 else (-1.0 + 0j), clear=1.2)
 
 
-def spring(a: complex, b: complex, name: str) -> Group:
+def _spring(a: complex, b: complex, name: str) -> Group:
     """Return a spring from `a` to `b`."""
     leg = LEG * unit(b - a)
     step = (b - a - 2.0 * leg) / (2 * COILS)
@@ -139,10 +139,10 @@ def spring(a: complex, b: complex, name: str) -> Group:
     return Group((Polyline((a, a + leg, *bends, b - leg, b), Pen.THIN),), "spring", name)
 
 
-MODEL = Figure("model", model_view, stages=stages("blank", "model"), key="hoist.model")
+MODEL = Figure("model", _model_view, stages=stages("blank", "model"), key="hoist.model")
 
 
-def beams_view(scene: HoistScene) -> View:
+def _beams_view(scene: HoistScene) -> View:
     """Draw the bent beams under their axes."""
     canvas, words, low = BEAMS_FIGURE.canvas(scene), scene.words, 0.0
     for i in scene.solved.layout.bent:
@@ -183,7 +183,7 @@ def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
     return top + min(scene.mm(f"{plan}.M").imag, 0.0)
 
 
-BEAMS_FIGURE = Figure("beams", beams_view, ("part",), stages("axes", "bent", "greatest"), "hoist.beams")
+BEAMS_FIGURE = Figure("beams", _beams_view, ("part",), stages("axes", "bent", "greatest"), "hoist.beams")
 
 
 def flow_view(scene: HoistScene) -> View:

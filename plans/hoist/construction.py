@@ -46,7 +46,7 @@ SECTIONS = 12  # of either phase, at least
 RESTING, HANGING = "f", "g"  # section lines of the phases
 
 
-def axes(board: Board) -> None:
+def _axes(board: Board) -> None:
     """Take the directions of the axes of all diagrams."""
     board.turn(HORIZONTAL, "zero")
     board.normal(UP, HORIZONTAL)
@@ -74,7 +74,7 @@ def part(i: int, sections: int) -> str:
     return f"_part_{i}_{sections}"
 
 
-def resting(board: Board, sections: int, moves: bool) -> None:
+def _resting(board: Board, sections: int, moves: bool) -> None:
     """Draw both forces until the lift-off by the formulas (9) and (10), or as a motion gives them."""
     for i in range(sections + 1):
         time, support, rope = f"_t_{RESTING}{i}", f"_F_01_{i}", f"_F_12_{i}"
@@ -88,7 +88,7 @@ def resting(board: Board, sections: int, moves: bool) -> None:
         points(board, FORCES, f"{RESTING}{i}", time, **{f"S{i}": support, f"R{i}": rope})
 
 
-def hanging(board: Board, sections: int, moves: bool) -> None:
+def _hanging(board: Board, sections: int, moves: bool) -> None:
     """Draw the force of the rope over one swing, from the points of the circle, or as a motion gives it."""
     if not moves:
         board.calc("_period", "period", "k_1")
@@ -96,12 +96,12 @@ def hanging(board: Board, sections: int, moves: bool) -> None:
         if moves:
             moved(f"_T_{HANGING}{i}", f"_P_12_{i}")(board)
         else:
-            swing(board, i, sections)
+            _swing(board, i, sections)
         board.calc(f"_t_{HANGING}{i}", "later", "t_1", f"_T_{HANGING}{i}")
         points(board, FORCES, f"{HANGING}{i}", f"_t_{HANGING}{i}", **{f"P{i}": f"_P_12_{i}"})
 
 
-def swing(board: Board, i: int, sections: int) -> None:
+def _swing(board: Board, i: int, sections: int) -> None:
     """Turn the circle by i sections of a swing, and read the force of the rope there."""
     at = f"{CIRCLE}.{i + 1}"
     board.calc(f"_T_{HANGING}{i}", "product", "_period", part(i, sections))
@@ -115,7 +115,7 @@ def swing(board: Board, i: int, sections: int) -> None:
     board.calc(f"_P_12_{i}", "suspended_force", "P_m", f"_swing{i}")
 
 
-def extreme_points(board: Board) -> None:
+def _extreme_points(board: Board) -> None:
     """Mark the greatest forces, the one before the lift-off last, and the least one after it, whose time is a given.
 
     The force of the support is the deflection of its beam, too, to a scale factor of its own.
@@ -127,7 +127,7 @@ def extreme_points(board: Board) -> None:
     points(board, FORCES, "fL", "_t_P12_min", L="P_12_min")
 
 
-def diameter(board: Board, slack: bool) -> None:
+def _diameter(board: Board, slack: bool) -> None:
     """Mark on the circle the greatest and the least force, and at its sides those of a rope that goes slack."""
     board.turn(HORIZONTAL, "zero")
     board.lay(f"{CIRCLE}.max", f"{CIRCLE}.C", HORIZONTAL, "R")
@@ -139,7 +139,7 @@ def diameter(board: Board, slack: bool) -> None:
             board.place(f"{CIRCLE}.{side}", "zero", f"_slack_{side}")
 
 
-def lift_off_plan(board: Board, sections: int, crossed: int) -> None:
+def _lift_off_plan(board: Board, sections: int, crossed: int) -> None:
     """Draw parabola and sinusoid of (11); they cross in the section after the line `crossed`."""
     board.calc("_height", "ratio", "P_st", "C")
     board.calc("_ratio", "ratio", "C_01", "C_12")
@@ -147,9 +147,9 @@ def lift_off_plan(board: Board, sections: int, crossed: int) -> None:
         board.calc(seen(i), "product", "_section", part(i, 1))
         lift_off_points(board, i)
     for curve in "YO":
-        chord(board, LIFT_OFF, curve, crossed)
+        _chord(board, LIFT_OFF, curve, crossed)
     board.meet(f"{LIFT_OFF}.X", *_on(LIFT_OFF, "Y", crossed), *_on(LIFT_OFF, "O", crossed))
-    read_time(board, drawn_name("t_1"), LIFT_OFF, "X")
+    _read_time(board, drawn_name("t_1"), LIFT_OFF, "X")
 
 
 def drawn_name(name: str) -> Name:
@@ -172,7 +172,7 @@ def lift_off_points(board: Board, i: int | str) -> None:
     points(board, LIFT_OFF, f"f{i}", seen(i), **{f"Y{i}": f"_parabola{i}", f"O{i}": f"_sinusoid{i}"})
 
 
-def extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
+def _extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
     """Draw sinusoid and straight line of (12), which cross in the sections after the lines `crossed`."""
     for i in range(sections + 1):
         extremes_point(board, i)
@@ -181,12 +181,12 @@ def extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
         board.calc(f"_share{k}", "product", "_ratio", f"_winding{k}")
         board.calc(f"_line{k}", "opposite", f"_share{k}")
         point(board, f"{EXTREMES}.L{k}", f"_abscissa_{EXTREMES}_f{i}", f"_line{k}", "mu_v")
-    chord(board, EXTREMES, "L", 0)
+    _chord(board, EXTREMES, "L", 0)
     for n, i in enumerate(crossed, 1):
-        chord(board, EXTREMES, "W", i)
+        _chord(board, EXTREMES, "W", i)
         board.meet(f"{EXTREMES}.X{n}", *_on(EXTREMES, "W", i), *_on(EXTREMES, "L", 0))
         board.calc(f"t_2_{n}", "given", f"_t_2_{n}_exact")
-        read_time(board, drawn_name(f"t_2_{n}"), EXTREMES, f"X{n}")
+        _read_time(board, drawn_name(f"t_2_{n}"), EXTREMES, f"X{n}")
 
 
 def extremes_point(board: Board, i: int | str) -> None:
@@ -195,7 +195,7 @@ def extremes_point(board: Board, i: int | str) -> None:
     points(board, EXTREMES, f"f{i}", seen(i), **{f"W{i}": f"_wave{i}"})
 
 
-def chord(board: Board, plan: str, curve: str, i: int) -> None:
+def _chord(board: Board, plan: str, curve: str, i: int) -> None:
     """Join the points of a curve on the section line `i` and the next one."""
     ends = f"{plan}.{curve}{i}", f"{plan}.{curve}{i + 1}"
     board.measure(f"_{plan}_{curve}{i}_length", *ends)
@@ -207,7 +207,7 @@ def _on(plan: str, curve: str, i: int) -> tuple[str, str]:
     return f"{plan}.{curve}{i}", f"_{plan}_{curve}{i}"
 
 
-def read_time(board: Board, name: str, plan: str, mark: str) -> None:
+def _read_time(board: Board, name: str, plan: str, mark: str) -> None:
     """Read the abscissa of a mark as a time, beginning with that of the first section line."""
     board.read(f"_{name}_segment", f"{plan}.f0", f"{plan}.{mark}")
     board.calc(f"_{name}_length", "component", f"_{name}_segment", HORIZONTAL)
@@ -221,9 +221,9 @@ LETTERS = ("w", "v")
 ENDS = {0: ("O1", "O2"), 2: ("B1", "B2")}
 
 
-def scheme(board: Board, near: dict[int, str]) -> None:
+def _scheme(board: Board, near: dict[int, str]) -> None:
     """Draw beams and rope; `near` says of either beam whether its left or its right end is the nearer one."""
-    axes(board)
+    _axes(board)
     board.pole(f"{SCHEME}.A0")
     board.lay(f"{SCHEME}.A2", f"{SCHEME}.A0", UP, "L")
     for i, (left, right) in ENDS.items():
@@ -233,7 +233,7 @@ def scheme(board: Board, near: dict[int, str]) -> None:
         board.lay(f"{SCHEME}.{right}", f"{SCHEME}.A{i}", HORIZONTAL, sides[1])
 
 
-def beam(board: Board, i: int) -> None:
+def _beam(board: Board, i: int) -> None:
     """Draw a beam bent by its forces."""
     plan = BENT[i]
     board.calc(f"_x_M_{i}", "excess", f"l_{i}", f"x_w{i}")
@@ -321,7 +321,7 @@ def layout_of(hoist: Hoist, forces: Forces) -> Layout:
         hanging=SECTIONS * (2 if moves else 1),
         bent=tuple(i for i in BENT if math.isfinite(found[f"I_{i}"])),
         slack=found["P_m"] < found["R"],
-        roots=roots_of(found) if forces.ok[ROPE_1] else None,
+        roots=_roots_of(found) if forces.ok[ROPE_1] else None,
     )
 
 
@@ -329,7 +329,7 @@ def _turns(found: Mapping[str, float]) -> float:
     return 0.0 if math.isinf(found["k"]) else found["k"] * found["t_1"] / TURN
 
 
-def roots_of(found: Mapping[str, float]) -> Roots:
+def _roots_of(found: Mapping[str, float]) -> Roots:
     """Return how the equations are drawn: the lift-off is in the middle of a section."""
     V, a, k, t_1 = (found[name] for name in ("V_t", "a", "k", "t_1"))
     turns, begin = _turns(found), 0.0
@@ -355,20 +355,20 @@ def _constructed(layout: Layout, wanted: frozenset[str]) -> Program:
     board = RecordingBoard()
     for part in ONE_SIDED if layout.moved else TWO_SIDED:
         part(board)
-    axes(board)
+    _axes(board)
     if SCHEME_PART in wanted:
-        scheme(board, dict(zip(BENT, layout.near, strict=True)))
+        _scheme(board, dict(zip(BENT, layout.near, strict=True)))
     if CIRCLE_PART in wanted:
-        diameter(board, layout.slack)
+        _diameter(board, layout.slack)
     if FORCES_PART in wanted:
-        resting(board, layout.resting, layout.moved)
-        hanging(board, layout.hanging, layout.moved)
-        extreme_points(board)
+        _resting(board, layout.resting, layout.moved)
+        _hanging(board, layout.hanging, layout.moved)
+        _extreme_points(board)
     if ROOTS_PART in wanted and layout.roots is not None:
-        lift_off_plan(board, layout.roots.sections, layout.roots.lift_off)
+        _lift_off_plan(board, layout.roots.sections, layout.roots.lift_off)
         if layout.roots.waves:
-            extremes_plan(board, layout.roots.sections, layout.roots.extremes)
+            _extremes_plan(board, layout.roots.sections, layout.roots.extremes)
     if BEAMS_PART in wanted:
         for i in layout.bent:
-            beam(board, i)
+            _beam(board, i)
     return Program(board.steps)

@@ -36,7 +36,7 @@ def valid(found: Numbers) -> Any:
     return (found["F_12_min"] >= 0.0) & (found["P_12_min"] >= 0.0) & (found["s_min"] > 0.0)
 
 
-def validity(found: Numbers, motion: OneSided | None) -> list[Check]:
+def _validity(found: Numbers, motion: OneSided | None) -> list[Check]:
     """Return the checks of the two-sided formulas: least forces of the rope in both phases, least height of the load.
 
     A value is what the formulas give as long as the checks before it hold, else that of the motion.
@@ -110,7 +110,7 @@ def forces(values: Numbers) -> Forces:
     found = model(givens)
     in_range(found)
     motion = None if valid(found) else one_sided(found)
-    checks = validity(found, motion)
+    checks = _validity(found, motion)
     if motion is not None:
         found = model(givens | motion_givens(motion), one_sided=True)
     return Forces(found, (*checks, strength(found)), motion)
@@ -245,7 +245,7 @@ ROUNDS, FINE, LESS = 5, 9, 5  # rounds in which the optimum is closed in on, and
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Spectrum:
+class _Spectrum:
     """Greatest forces over the places of load and drum."""
 
     # shape (N,): the places
@@ -282,7 +282,7 @@ class Trial:
 class Choice:
     """The spectrum, the best places, and the way of the article's loop."""
 
-    spectrum: Spectrum
+    spectrum: _Spectrum
     given: Trial  # the places that are given
     best: Trial  # those with the least force, between the places of the grid too
     trials: tuple[Trial, ...]  # what the loop tried, `given` first; the last is safe, unless no place is
@@ -294,7 +294,7 @@ class Choice:
         return self.trials[-1].safety >= self.K
 
 
-def spectrum(values: Numbers, beta_0: Array, beta_2: Array) -> Spectrum:
+def spectrum(values: Numbers, beta_0: Array, beta_2: Array) -> _Spectrum:
     """Return the greatest forces at all pairs of places, of complete givens, whose own places do not count."""
     formulas = _formulas(values, beta_0, beta_2)
     F_max = forces_of_many(_placed(values, beta_0, beta_2), ("F_max",))["F_max"]
@@ -302,7 +302,7 @@ def spectrum(values: Numbers, beta_0: Array, beta_2: Array) -> Spectrum:
     F_max = F_max.reshape(shape)
     sigma_max = F_max * (1.0 / values["S"])
     safety = values["sigma"] / sigma_max
-    return Spectrum(beta_0, beta_2, F_max, sigma_max, safety, formulas.reshape(shape), safety >= values["K"])
+    return _Spectrum(beta_0, beta_2, F_max, sigma_max, safety, formulas.reshape(shape), safety >= values["K"])
 
 
 def _placed(values: Numbers, beta_0: Array, beta_2: Array) -> dict[str, Any]:
@@ -341,7 +341,7 @@ def choose(values: Numbers, places: int = PLACES) -> Choice:
     return Choice(found, given, _best(values, found, fine), tuple(trials), values["K"])
 
 
-def _best(values: Numbers, found: Spectrum, count: int) -> Trial:
+def _best(values: Numbers, found: _Spectrum, count: int) -> Trial:
     """Return the places of the least force: those of the grid, then of finer and finer grids around them."""
     width = float(found.beta_0[1] - found.beta_0[0])
     best = found.best

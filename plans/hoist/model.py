@@ -161,7 +161,7 @@ define(
 BEAMS = (0, 2)  # the support beam and the bridge beam
 
 
-def reduced(board: Board) -> None:
+def _reduced(board: Board) -> None:
     """Reduced mass and stiffnesses, formulas (4) to (7)."""
     board.calc("m", "reduced_mass", "G_1", "G_2", "g")
     board.calc("P_st", "static_force", "m", "g")
@@ -178,7 +178,7 @@ def reduced(board: Board) -> None:
     board.calc("V_t", "taut_speed", "V_0", "a", "slack")
 
 
-def lifting_off(board: Board) -> None:
+def _lifting_off(board: Board) -> None:
     """The end of phase 1, formula (11), and what the rope and the load do there."""
     board.calc("_mu", "support_share", "C_12", "C_01")
     board.calc("_C_osc", "product", "_mu", "C_12")
@@ -201,7 +201,7 @@ def rope_force(board: Board, name: str, time: str) -> None:
 CIRCLE, HORIZONTAL = "circle", "_right"
 
 
-def extremes(board: Board) -> None:
+def _extremes(board: Board) -> None:
     """The greatest and the least force of the rope in phase 1: formula (12)."""
     board.calc("_ratio", "ratio", "C_01", "C_12")
     board.calc("_t_last", "last_maximum", "V_t", "a", "k", "_ratio", "t_1")
@@ -213,7 +213,7 @@ def extremes(board: Board) -> None:
     board.calc("F_12_min", "smaller_of", "_F_first", "F_12_t1")
 
 
-def circle(board: Board) -> None:
+def _circle(board: Board) -> None:
     """Phase 2 as a circle: abscissas are the force of the rope, ordinates its rate by k_1; formula (13)."""
     board.calc("P_m", "mean_force", "m", "g", "a")
     board.calc("D_0", "excess", "F_12_t1", "P_m")
@@ -227,14 +227,14 @@ def circle(board: Board) -> None:
     board.calc("phi_1", "whole_angle", "_phi")
 
 
-def suspended(board: Board) -> None:
+def _suspended(board: Board) -> None:
     """The greatest and the least force of the rope in phase 2, at the ends of a diameter: formula (15')."""
     board.calc("T_1", "ratio", "phi_1", "k_1")
     board.calc("P_12_max", "sum", "P_m", "R")
     board.calc("P_12_min", "excess", "P_m", "R")
 
 
-def lifted(board: Board) -> None:
+def _lifted(board: Board) -> None:
     """How high above the support the load is when it is lowest after the lift-off."""
     board.calc("_T_low", "lowest_after", "_dy_t1", "a", "k_1", "D_0", "D_1", "m")
     board.calc("_t_low", "later", "t_1", "_T_low")
@@ -244,7 +244,7 @@ def lifted(board: Board) -> None:
     board.calc("s_min", "height", "_y_low", "P_st", "C_01", "_P_low", "C_12")
 
 
-def printed(board: Board) -> None:
+def _printed(board: Board) -> None:
     """What the article prints: formulas (14) and (15), for a rigid support and V_0 as the speed at the lift-off."""
     board.calc("_V_printed", "article_speed", "V_0", "a", "slack", "P_st", "C_12")
     board.calc("P_12_max_printed", "article_maximum", "m", "g", "a", "_V_printed", "C_12")
@@ -253,7 +253,7 @@ def printed(board: Board) -> None:
     board.calc("_safety_printed", "ratio", "sigma", "_stress_printed")
 
 
-def strength(board: Board) -> None:
+def _strength(board: Board) -> None:
     """The stress of the rope, its safety, and how far the beams bend."""
     board.calc("F_max", "larger_of", "F_12_max", "P_12_max")
     board.calc("sigma_max", "stress", "F_max", "S")
@@ -279,9 +279,9 @@ def motion_given(name: str) -> str:
     return f"_{role(name).shown}_motion"
 
 
-TWO_SIDED = (reduced, lifting_off, extremes, circle, suspended, lifted, strength, printed)
+TWO_SIDED = (_reduced, _lifting_off, _extremes, _circle, _suspended, _lifted, _strength, _printed)
 IN_PHASE_1 = moved("t_1", "F_12_t1", "_dF_t1", "F_12_max", "t_F12_max", "F_12_min")
-ONE_SIDED = (reduced, IN_PHASE_1, circle, moved("T_1", "P_12_max", "P_12_min", "s_min"), strength, printed)
+ONE_SIDED = (_reduced, IN_PHASE_1, _circle, moved("T_1", "P_12_max", "P_12_min", "s_min"), _strength, _printed)
 
 
 def model_program(one_sided: bool = False) -> Program:
@@ -335,7 +335,7 @@ def _programs() -> tuple[Program, Program]:
     def condition(board: Board) -> None:
         board.calc("_condition", "condition_of_root", "V_t", "a", "k", "_height", "_t_1")
 
-    whole = recorded(reduced, lifting_off, condition)
+    whole = recorded(_reduced, _lifting_off, condition)
     return whole.needed_for(("_condition",)), whole.needed_for(("V_t", "k", "_height"))
 
 
@@ -381,11 +381,11 @@ def _rest(program: Program, values: Numbers, t_1: float) -> float:
 
 
 PARTS = {
-    "reduced": (reduced,),
-    "resting": (lifting_off, extremes),
-    "hanging": (circle, suspended, lifted),
-    "strength": (strength,),
-    "printed": (printed,),
+    "reduced": (_reduced,),
+    "resting": (_lifting_off, _extremes),
+    "hanging": (_circle, _suspended, _lifted),
+    "strength": (_strength,),
+    "printed": (_printed,),
 }
 SECTIONS = (*PARTS, DRAWN)
 

@@ -156,7 +156,7 @@ SAME = 1e-9  # part of a force within which two are alike
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class _Piece:
     """A piece of the motion from `begin` on, which lasts `time`; the curves are of the time since its begin."""
 
     begin: float
@@ -185,7 +185,7 @@ class Piece:
 class OneSided:
     """The whole motion until it only repeats itself, higher and higher."""
 
-    pieces: tuple[Piece, ...]  # in order; the last one is on the rope, and one swing or as long as it takes to go slack
+    pieces: tuple[_Piece, ...]  # the last one is on the rope, and one swing or as long as it takes to go slack
     C_12: float
 
     @cached_property
@@ -206,7 +206,7 @@ class OneSided:
         """Return how high the load is above the unloaded support beam."""
         return (piece := self.at(t)).height.at(t - piece.begin)
 
-    def at(self, t: float) -> Piece:
+    def at(self, t: float) -> _Piece:
         """Return the piece to which a time of the motion belongs."""
         return self.pieces[min(bisect_right(self._ends, t), len(self.pieces) - 1)]
 
@@ -271,7 +271,7 @@ class _State:
 
 
 @dataclass(frozen=True, slots=True)
-class Hoisting:
+class _Hoisting:
     """What moves a load: the numbers that the pieces of its motion follow from."""
 
     m: float
@@ -309,7 +309,7 @@ class Hoisting:
         p = (whole.p_0 + down.p_0, whole.p_1 + down.p_1, whole.p_2 + down.p_2)
         return Curve(*p, down.A, down.B, down.w), height
 
-    def piece(self, state: _State) -> tuple[Piece, _State]:
+    def piece(self, state: _State) -> tuple[_Piece, _State]:
         """Return the piece that begins in a state, and the state in which it ends."""
         stretch, height = self.curves(state)
         room = self.room
@@ -331,7 +331,7 @@ class Hoisting:
             rope=state.rope != (time == at_rope),
             support=state.support != (time == at_support),
         )
-        return Piece(state.t, time, state.rope, state.support, stretch, height), following
+        return _Piece(state.t, time, state.rope, state.support, stretch, height), following
 
 
 def one_sided(found: Mapping[str, float], most: float = MOST) -> OneSided:
@@ -339,8 +339,8 @@ def one_sided(found: Mapping[str, float], most: float = MOST) -> OneSided:
 
     Needed are the quantities `m g C_01 C_12 V_t a`, SI. Raises InputError of more pieces and swings than `most`.
     """
-    hoisting = Hoisting(*(found[name] for name in ("m", "g", "C_01", "C_12", "V_t", "a")))
-    state, pieces, slack, events = hoisting.start(), list[Piece](), False, 0.0
+    hoisting = _Hoisting(*(found[name] for name in ("m", "g", "C_01", "C_12", "V_t", "a")))
+    state, pieces, slack, events = hoisting.start(), list[_Piece](), False, 0.0
     while True:
         piece, following = hoisting.piece(state)
         pieces.append(piece)

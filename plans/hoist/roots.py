@@ -51,7 +51,7 @@ MOST_ROUNDS = 600  # halving alone needs 54 beside one end that is not zero
 CLOSE = 2.0**-52
 
 
-def rising_zero(function: Function, low: Any, high: Any) -> Any:
+def _rising_zero(function: Function, low: Any, high: Any) -> Any:
     """Return the zero of a function that only rises, which returns value and slope, between `low` and `high`.
 
     Newton's steps that stay inside the bracket and are at most half as long as the last but one; else the bracket is
@@ -76,7 +76,7 @@ def rising_zero(function: Function, low: Any, high: Any) -> Any:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Wave:
+class _Wave:
     """A cos(x - psi) + c + d x; not negative at x = 0, and d >= 0."""
 
     amplitude: Any
@@ -119,7 +119,7 @@ class Wave:
             value = self.amplitude * np.cos(z) + (self.c + self.d * (begin + z))
             return sign * value, sign * (self.d - self.amplitude * np.sin(z))
 
-        return begin + rising_zero(beyond, low, high)
+        return begin + _rising_zero(beyond, low, high)
 
 
 STANDING = 1e-9  # part of the speeds that is none
@@ -166,20 +166,20 @@ def lift_off(V: Any, a: Any, k: Any, height: Any) -> Any:
     def surplus(x: Any) -> tuple[Any, Any]:
         return lag(V, u, x) - wanted, lag_rate(V, u, x)
 
-    x = rising_zero(surplus, np.where(rigid, NAN, low), np.where(rigid, NAN, high))
+    x = _rising_zero(surplus, np.where(rigid, NAN, low), np.where(rigid, NAN, high))
     return np.where(rigid, time_to_wind(V, a, height), x / rate)
 
 
-def force_rate(V: Any, a: Any, k: Any, ratio: Any) -> Wave:
+def _force_rate(V: Any, a: Any, k: Any, ratio: Any) -> _Wave:
     """Return the left side of (12) as a wave of x = k t; `ratio` is C_01/C_12, infinite where nothing swings."""
     u = a / k
-    return Wave(np.sqrt(V * V + u * u), np.arctan2(u, V), ratio * V, ratio * u)
+    return _Wave(np.sqrt(V * V + u * u), np.arctan2(u, V), ratio * V, ratio * u)
 
 
 @np.errstate(invalid="ignore", divide="ignore")
 def last_maximum(V: Any, a: Any, k: Any, ratio: Any, t_1: Any) -> Any:
     """Return when the force of the rope was greatest for the last time before t_1; NaN where it never was."""
-    wave, end = force_rate(V, a, k, ratio), np.asarray(k * t_1)
+    wave, end = _force_rate(V, a, k, ratio), np.asarray(k * t_1)
     n = np.fmin(np.floor((end - wave.psi - wave.crest) / TURN), wave.last)
     late, early = wave.falling(n), wave.falling(n - 1.0)
     found = np.where(late < end, late, np.where(n >= 1.0, early, NAN))
@@ -189,7 +189,7 @@ def last_maximum(V: Any, a: Any, k: Any, ratio: Any, t_1: Any) -> Any:
 @np.errstate(invalid="ignore", divide="ignore")
 def first_minimum(V: Any, a: Any, k: Any, ratio: Any, t_1: Any) -> Any:
     """Return when the force of the rope was least for the first time before t_1; NaN where it never was."""
-    wave, end = force_rate(V, a, k, ratio), np.asarray(k * t_1)
+    wave, end = _force_rate(V, a, k, ratio), np.asarray(k * t_1)
     x = wave.rising(0.0)
     return np.where((wave.last >= 0.0) & (x < end), x, NAN) / k
 
@@ -197,7 +197,7 @@ def first_minimum(V: Any, a: Any, k: Any, ratio: Any, t_1: Any) -> Any:
 @np.errstate(invalid="ignore", divide="ignore")
 def extremes(V: float, a: float, k: float, ratio: float, t_1: float, begin: float = 0.0) -> tuple[Any, Any]:
     """Return the roots of (12) from `begin` to t_1, times of maxima and of minima of the rope's force, in order."""
-    wave, end, start = force_rate(V, a, k, ratio), k * t_1, k * begin
+    wave, end, start = _force_rate(V, a, k, ratio), k * t_1, k * begin
     if not wave.last >= 0.0:
         return np.zeros(0), np.zeros(0)
     most = min(float(np.floor((end - wave.psi - wave.crest) / TURN)), float(wave.last))
@@ -216,7 +216,7 @@ def lowest_after(speed: Any, a: Any, k_1: Any, D_0: Any, D_1: Any, m: Any) -> An
     """
     part = 1.0 / (m * k_1)
     swing, psi = part * np.sqrt(D_0 * D_0 + D_1 * D_1), np.arctan2(D_0, -D_1)
-    wave = Wave(swing, psi, speed, a / k_1)
-    sinking = Wave(swing, psi, speed + STANDING * (swing + speed), a / k_1)  # at the lift-off it may stand
+    wave = _Wave(swing, psi, speed, a / k_1)
+    sinking = _Wave(swing, psi, speed + STANDING * (swing + speed), a / k_1)  # at the lift-off it may stand
     n = wave.first
     return np.where(sinking.last >= n, wave.rising(n), TURN) / k_1

@@ -73,7 +73,7 @@ def board_givens(forces: Forces, layout: Layout, part_of: float = 1.0) -> dict[s
         given |= {f"_t_2_{n}_exact": time for n, time in enumerate(layout.roots.times, 1)}
     given |= {part(i, n): i / n for i, n in parts}
     end = forces.end if motion else found["t_1"] + max(TURN / found["k_1"], SWINGS * found["T_1"])
-    given |= {name: mu / PAPER_MM for name, mu in scale_factors(found, layout, end, part_of).items()}
+    given |= {name: mu / PAPER_MM for name, mu in _scale_factors(found, layout, end, part_of).items()}
     if motion is None:
         return given | {"_rest": rest_of_root(found)}
     return given | motion_givens(motion) | _ordinates(forces, layout)
@@ -93,7 +93,7 @@ def _ordinates(forces: Forces, layout: Layout) -> dict[str, float]:
     return {motion_given(name): value for name, value in given.items()}
 
 
-def scale_factors(found: Numbers, layout: Layout, end: float, part_of: float = 1.0) -> dict[str, float]:
+def _scale_factors(found: Numbers, layout: Layout, end: float, part_of: float = 1.0) -> dict[str, float]:
     """Return the scale factors of the diagrams, SI per millimetre, by which they fill their axes."""
     wanted = {"mu_t": end / TIMES, "mu_F": (TALLEST * found["F_max"] + found["P_st"]) / ORDINATES}
     if layout.roots is not None:

@@ -51,7 +51,7 @@ def lift_off_equation(V: float, a: float, k: float, height: float) -> Equation:
 Guess = tuple[float, float]  # an approximation, and how far it is believed to be from the root
 
 
-def bisection(equation: Equation) -> Iterator[Guess]:
+def _bisection(equation: Equation) -> Iterator[Guess]:
     """Halve the bracket."""
     low, high = equation.low, equation.high
     while True:
@@ -63,7 +63,7 @@ def bisection(equation: Equation) -> Iterator[Guess]:
         yield 0.5 * (low + high), 0.5 * (high - low)
 
 
-def newton(equation: Equation) -> Iterator[Guess]:
+def _newton(equation: Equation) -> Iterator[Guess]:
     """Go along the tangent, from the middle of the bracket; f and f' are two evaluations."""
     x = 0.5 * (equation.low + equation.high)
     step = math.inf
@@ -75,7 +75,7 @@ def newton(equation: Equation) -> Iterator[Guess]:
         yield x, abs(step)
 
 
-def chords(equation: Equation, bracketed: bool) -> Iterator[Guess]:
+def _chords(equation: Equation, bracketed: bool) -> Iterator[Guess]:
     """Go along the chord of the two latest places, from the ends of the bracket.
 
     Illinois's rule keeps the root `bracketed`: an end that stays twice counts half.
@@ -96,7 +96,7 @@ def chords(equation: Equation, bracketed: bool) -> Iterator[Guess]:
         y, f_y = z, f_z
 
 
-def brent(equation: Equation) -> Iterator[Guess]:
+def _brent(equation: Equation) -> Iterator[Guess]:
     """Interpolate by chords and inverse parabolas where that is quick, halve where it is not."""
     a, b = equation.low, equation.high
     f_a, f_b = equation.value(a), equation.value(b)
@@ -145,11 +145,11 @@ def _interpolated(x: Three, f: Three, half: float, steps: tuple[float, float], l
 
 
 FINDERS: Mapping[str, Callable[[Equation], Iterator[Guess]]] = {
-    BISECTION: bisection,
-    NEWTON: newton,
-    SECANT: partial(chords, bracketed=False),
-    ILLINOIS: partial(chords, bracketed=True),
-    BRENT: brent,
+    BISECTION: _bisection,
+    NEWTON: _newton,
+    SECANT: partial(_chords, bracketed=False),
+    ILLINOIS: partial(_chords, bracketed=True),
+    BRENT: _brent,
 }
 
 

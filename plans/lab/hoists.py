@@ -274,7 +274,7 @@ T_1: str = drawn_name("t_1")
 ENDS = {"R": "F_12", "P": "P_12"}  # forces by the letters of the marks at their ends
 
 
-def sectioned(solved: SolvedHoist, before: int) -> tuple[Program, dict[str, Any]]:
+def _sectioned(solved: SolvedHoist, before: int) -> tuple[Program, dict[str, Any]]:
     """Return the construction with so many sections before the lift-off, and what it begins with."""
     assert solved.layout.roots is not None
     begin = solved.layout.roots.begin
@@ -288,7 +288,7 @@ def by_board(solved: SolvedHoist, clock: Clock) -> Iterator[Entry]:
     """Go through lift-offs on exact boards with more and more sections: the crossing errs as chords do."""
     t_1 = solved.forces.found["t_1"]
     for before in SECTIONS:
-        program, givens = sectioned(solved, before)
+        program, givens = _sectioned(solved, before)
         board, spent = timed(partial(run, program.needed_for((T_1,)), givens), clock)
         errors = {T_1: np.array([abs(float(board.values[T_1]) / t_1 - 1.0)])}
         yield Way(DRAWN, before, spent).entry(LIFT_OFF, np.array([t_1]), errors)
@@ -301,7 +301,7 @@ def by_hand(solved: SolvedHoist, mus: Numbers, hand: Hand) -> Iterator[Entry]:
     """
     assert solved.layout.roots is not None
     found, before = solved.forces.found, solved.layout.roots.lift_off
-    program, givens = sectioned(solved, before)
+    program, givens = _sectioned(solved, before)
     paper = Paper(program, givens, solved.worth(mus), solved.edges, solved.on_paper)
     values = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS).values
     exact, way = run(program, givens).values, Way(HAND, f"n = {before}")

@@ -48,20 +48,20 @@ class Motion:
 Stepper = Callable[[Motion, Any, State, Any], State]
 
 
-def explicit_euler(motion: Motion, t: Any, state: State, h: Any) -> State:
+def _explicit_euler(motion: Motion, t: Any, state: State, h: Any) -> State:
     """Step along the tangents at the beginning."""
     u, v = state
     return u + h * v, v + h * motion.acceleration(t, u)
 
 
-def symplectic_euler(motion: Motion, t: Any, state: State, h: Any) -> State:
+def _symplectic_euler(motion: Motion, t: Any, state: State, h: Any) -> State:
     """Step the velocity first, then the place with the new velocity."""
     u, v = state
     v = v + h * motion.acceleration(t, u)
     return u + h * v, v
 
 
-def verlet(motion: Motion, t: Any, state: State, h: Any) -> State:
+def _verlet(motion: Motion, t: Any, state: State, h: Any) -> State:
     """Half a step of the velocity, a step of the place, half a step of the velocity."""
     u, v = state
     half = 0.5 * h
@@ -70,7 +70,7 @@ def verlet(motion: Motion, t: Any, state: State, h: Any) -> State:
     return u, v + half * motion.acceleration(t + h, u)
 
 
-def trapezoid(motion: Motion, t: Any, state: State, h: Any) -> State:
+def _trapezoid(motion: Motion, t: Any, state: State, h: Any) -> State:
     """Take the means of both ends: implicit, solved for the new velocity as the motion is linear."""
     u, v = state
     half = 0.5 * h
@@ -80,7 +80,7 @@ def trapezoid(motion: Motion, t: Any, state: State, h: Any) -> State:
     return ahead + half * late, late
 
 
-def rk4(motion: Motion, t: Any, state: State, h: Any) -> State:
+def _rk4(motion: Motion, t: Any, state: State, h: Any) -> State:
     """Runge and Kutta's method of fourth order."""
     u, v = state
     half, sixth = 0.5 * h, h * (1.0 / 6.0)
@@ -95,11 +95,11 @@ def rk4(motion: Motion, t: Any, state: State, h: Any) -> State:
 
 
 STEPPERS: Mapping[str, Stepper] = {
-    RK4: rk4,
-    VERLET: verlet,
-    TRAPEZOID: trapezoid,
-    SYMPLECTIC: symplectic_euler,
-    EXPLICIT: explicit_euler,
+    RK4: _rk4,
+    VERLET: _verlet,
+    TRAPEZOID: _trapezoid,
+    SYMPLECTIC: _symplectic_euler,
+    EXPLICIT: _explicit_euler,
 }
 
 
@@ -169,7 +169,7 @@ class Run:
     F_12: Array
 
 
-class Hoists:
+class _Hoists:
     """The load's motion in both phases, of many hoists: `m C_01 C_12 V_t a g` as arrays of one shape (N,)."""
 
     def __init__(self, values: Mapping[str, Any]) -> None:
@@ -177,9 +177,9 @@ class Hoists:
         self.m, self.C_01, self.C_12, self.V_t, self.a, self.g = (np.asarray(one) for one in given)
         self.k_1, self.k = np.sqrt(self.C_12 / self.m), np.sqrt((self.C_01 + self.C_12) / self.m)
 
-    def chosen(self, which: Any) -> Hoists:
+    def chosen(self, which: Any) -> _Hoists:
         """Return some of the hoists."""
-        return Hoists({name: getattr(self, name)[which] for name in NAMES})
+        return _Hoists({name: getattr(self, name)[which] for name in NAMES})
 
     def travel(self, t: Any) -> Any:
         """Return what has been wound up, m."""
@@ -230,29 +230,29 @@ def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool =
     go at once, too. Lift-off and extrema are `located` within steps; else they are taken at the steps, as programs do
     that know no events, and the support is one-sided: a method that is not implicit is needed then.
     """
-    hoists = Hoists({**values, "m": np.broadcast_arrays(values["m"], step)[0]})
+    hoists = _Hoists({**values, "m": np.broadcast_arrays(values["m"], step)[0]})
     z = np.broadcast_to(np.asarray(step, float), hoists.m.shape)
     h = z / hoists.k
     with np.errstate(over="ignore", invalid="ignore"):
         return (_located if located else _missed)(hoists, method, z, h)
 
 
-def _located(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
+def _located(hoists: _Hoists, method: str, z: Array, h: Array) -> Run:
     take = STEPPERS[method]
     first, off = _until_lift_off(hoists, take, h)
     last = np.ceil(2.0 * math.pi / (hoists.k_1 * h)).astype(np.int64) + 1
     second = _columns(itertools.islice(_rows(take, hoists.lifted(), off, h), int(last.max()) + 1))
     t_1, F_12_t1 = off[0], hoists.force(*off)
-    F_12_max = np.maximum(F_12_t1, _peak(hoists, take, Hoists.on_support, first, t_1))
+    F_12_max = np.maximum(F_12_t1, _peak(hoists, take, _Hoists.on_support, first, t_1))
     end = t_1 + 2.0 * math.pi / hoists.k_1
-    P_12_max = np.maximum(F_12_t1, _peak(hoists, take, Hoists.lifted, second, end + h))
+    P_12_max = np.maximum(F_12_t1, _peak(hoists, take, _Hoists.lifted, second, end + h))
     counted = np.ceil(t_1 / h).astype(np.int64)
     t = np.concatenate((first[0], second[0]))
     force = np.concatenate((hoists.force(*first), hoists.force(*second)))
     return _judged(hoists, method, (z, counted, last), (t_1, F_12_t1, F_12_max, P_12_max), (t, force, end))
 
 
-def _missed(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
+def _missed(hoists: _Hoists, method: str, z: Array, h: Array) -> Run:
     until = hoists.latest() + 2.0 * math.pi / hoists.k_1
     rows = _rows(STEPPERS[method], hoists.one_sided(), _rest(h), h)
     trace = _columns(itertools.islice(rows, int(np.ceil(until / h).max()) + 2))
@@ -268,7 +268,7 @@ def _missed(hoists: Hoists, method: str, z: Array, h: Array) -> Run:
 
 
 def _judged(
-    hoists: Hoists, method: str, taken: tuple[Array, Any, Any], found: tuple[Array, ...], trace: tuple[Array, ...]
+    hoists: _Hoists, method: str, taken: tuple[Array, Any, Any], found: tuple[Array, ...], trace: tuple[Array, ...]
 ) -> Run:
     """Refuse what the method has made grow."""
     z, first, last = taken
@@ -301,7 +301,7 @@ def _columns(rows: Iterable[Trace]) -> Trace:
     return [np.stack(column) for column in zip(*rows, strict=True)]
 
 
-def _until_lift_off(hoists: Hoists, take: Stepper, h: Array) -> tuple[Trace, Trace]:
+def _until_lift_off(hoists: _Hoists, take: Stepper, h: Array) -> tuple[Trace, Trace]:
     """Step until every load has left its support; return the steps, and time and state where it does."""
     motion = hoists.on_support()
     source = _rows(take, motion, _rest(h), h)
@@ -319,7 +319,7 @@ def _until_lift_off(hoists: Hoists, take: Stepper, h: Array) -> tuple[Trace, Tra
     return [np.concatenate((column[last, own], [end])) for column, end in zip(trace, off, strict=True)], off
 
 
-def _peak(hoists: Hoists, take: Stepper, phase: Callable[[Hoists], Motion], trace: Trace, end: Array) -> Array:
+def _peak(hoists: _Hoists, take: Stepper, phase: Callable[[_Hoists], Motion], trace: Trace, end: Array) -> Array:
     """Return the highest maximum of the rope's force up to `end`, found within steps; minus infinity for none."""
     rate, times = hoists.rate(*trace), trace[0]
     row, own = np.nonzero((rate[:-1] > 0.0) & (rate[1:] <= 0.0) & (times[1:] <= end))

@@ -183,7 +183,7 @@ def _turns(name: str) -> bool:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Truth:
+class _Truth:
     """What fifty digits give for quantities, as sums of two long numbers, and the sizes beside which errors count."""
 
     high: Mapping[str, Array]
@@ -205,7 +205,7 @@ def places_of(cycle: Cycle, count: int) -> Array:
     return low + (high - low) * ((np.arange(count) + 0.5) / count)
 
 
-def truth(cycle: Cycle, places: Array, names: Sequence[str]) -> Truth:
+def truth(cycle: Cycle, places: Array, names: Sequence[str]) -> _Truth:
     """Run a program with fifty digits at all places that have plans; elsewhere there are NaN."""
     program = cycle.program.needed_for(names)
     high, low, sizes = (
@@ -220,10 +220,10 @@ def truth(cycle: Cycle, places: Array, names: Sequence[str]) -> Truth:
             high[name][i] = complex(exact[name])
             low[name][i] = complex(exact[name] - high[name][i])
             sizes[name][i] = size[name]
-    return Truth(high, low, {name: beside(cycle, name, sizes[name]) for name in names})
+    return _Truth(high, low, {name: _beside(cycle, name, sizes[name]) for name in names})
 
 
-def beside(cycle: Cycle, name: str, sizes: Array) -> Array:
+def _beside(cycle: Cycle, name: str, sizes: Array) -> Array:
     """Return the sizes beside which errors count: of a number that no plan shows the largest over the cycle."""
     if name not in plans_of(cycle.program):
         sizes = np.where(np.isnan(sizes), np.nan, np.nanmax(sizes, initial=0.0))
@@ -319,7 +319,7 @@ def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Kind]) 
     for name in names:
         exact = np.array([there.values[name] for there in runs])[:, None]
         drawings = np.broadcast_to(board.values[name], (len(places), DRAWINGS))
-        errors[name] = kept(drawings, exact) * (1.0 / beside(cycle, name, np.array([of[name] for of in largest])))
+        errors[name] = kept(drawings, exact) * (1.0 / _beside(cycle, name, np.array([of[name] for of in largest])))
     for kind in kinds:
         yield Way(HAND, sheet.paper).entry(kind.name, places, {name: errors[name] for name in kind.names})
 

@@ -225,7 +225,7 @@ Changes = Mapping[str, float | None]
 
 
 @dataclass(frozen=True, slots=True)
-class OneMass:
+class _OneMass:
     """One reduced mass beside a rope of many masses; errors in parts."""
 
     ratio: float
@@ -250,18 +250,18 @@ class HoistDepth:
     # rigid or formulas are not valid
     ropes: tuple[Heavy, ...]
     ratio: float  # G_2 / G_1 of this hoist
-    one_mass: tuple[OneMass, ...]  # beside a rope of `MANY` masses, over the ratio of the weights
+    one_mass: tuple[_OneMass, ...]  # beside a rope of `MANY` masses, over the ratio of the weights
     tolerance: float  # in parts
 
     @property
-    def here(self) -> OneMass | None:
+    def here(self) -> _OneMass | None:
         """One mass beside the rope of the most masses of this hoist itself."""
         return _beside(self.full, self.ropes[-1], self.ratio) if self.ropes else None
 
     @property
     def enough_to(self) -> float:
         """The ratio of the weights up to which one mass misses by no more than the tolerance, between those known."""
-        before: OneMass | None = None
+        before: _OneMass | None = None
         for one in self.one_mass:
             if one.worst > self.tolerance:
                 return 0.0 if before is None else _between(before, one, self.tolerance)
@@ -302,7 +302,7 @@ def _changes(full: Numbers, other: Numbers) -> Changes:
     return {name: change if math.isfinite(change) else None for name, change in changes.items()}
 
 
-def _at_ratio(values: Numbers, ratio: float) -> OneMass | None:
+def _at_ratio(values: Numbers, ratio: float) -> _OneMass | None:
     """Compare one mass with many for the same load on a rope of other weight; None where no formula is valid."""
     found = model({**values, "G_2": ratio * values["G_1"]})
     rope = _followed(found, MANY) if valid(found) else None
@@ -317,12 +317,12 @@ def _followed(found: Numbers, n: int) -> Heavy | None:
         return None
 
 
-def _beside(found: Numbers, rope: Heavy, ratio: float) -> OneMass:
+def _beside(found: Numbers, rope: Heavy, ratio: float) -> _OneMass:
     at_load = found["F_max"] / max(rope.F_12_max, rope.P_12_max) - 1.0
-    return OneMass(ratio, found["t_1"] / rope.t_1 - 1.0, at_load, found["F_max"] / rope.F_drum_max - 1.0)
+    return _OneMass(ratio, found["t_1"] / rope.t_1 - 1.0, at_load, found["F_max"] / rope.F_drum_max - 1.0)
 
 
-def _between(low: OneMass, high: OneMass, tolerance: float) -> float:
+def _between(low: _OneMass, high: _OneMass, tolerance: float) -> float:
     """Return the ratio at which the error is the tolerance, on a straight line of logarithms."""
     if low.worst <= 0.0:
         return low.ratio

@@ -20,7 +20,7 @@ EVERY = 5  # of the places of a line beside a jump stands in the table
 ORDINATES = ("speed_top", "speed_last", "stroke_last")
 
 
-class SectionsChart(charts.Chart[Convergence]):
+class _SectionsChart(charts.Chart[Convergence]):
     """Errors of the diagrams by chords against the number of sections, with and without errors of drawing."""
 
     heading, page = "chart.sections", staticmethod(sections_page)
@@ -78,7 +78,7 @@ class SectionsChart(charts.Chart[Convergence]):
         }
 
 
-class CamStabilityChart(charts.Chart[Robustness]):
+class _CamStabilityChart(charts.Chart[Robustness]):
     """What a line beside a jump does, and by how much drawings do not close."""
 
     heading, page = "chart.cam_stability", staticmethod(closing_page)
@@ -142,16 +142,16 @@ def _accuracy(scene: charts.Scene) -> charts.AccuracyChart:
     return charts.AccuracyChart(scene, found, "rad", "chart.cam_compared")
 
 
-def _stability(scene: charts.Scene) -> CamStabilityChart:
+def _stability(scene: charts.Scene) -> _CamStabilityChart:
     """Draw section lines beside jumps, and let hands draw what does not close."""
-    return CamStabilityChart(scene, robustness(SolvedCam.of(scene.case.solved), charts.HANDS))
+    return _CamStabilityChart(scene, robustness(SolvedCam.of(scene.case.solved), charts.HANDS))
 
 
-def _sections(scene: charts.Scene) -> SectionsChart:
+def _sections(scene: charts.Scene) -> _SectionsChart:
     """Draw the diagrams with more and more sections."""
     solved = SolvedCam.of(scene.case.solved)
     all_known("quantity-unknown", scene.quantities, compared(solved))
-    return SectionsChart(scene, convergence(solved, charts.HANDS, scene.quantities))
+    return _SectionsChart(scene, convergence(solved, charts.HANDS, scene.quantities))
 
 
 CHARTS: charts.Gallery = {

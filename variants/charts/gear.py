@@ -17,7 +17,7 @@ from .charts import HANDS, PERCENT, Chart, Gallery, Scene, error_rows
 PARTS = {hand: preset.tolerance.part for hand, preset in PRESETS.items()}  # that are let pass
 
 
-class ScaleChart(Chart[ScaleErrors]):
+class _ScaleChart(Chart[ScaleErrors]):
     """What hands make of the meshing at one scale after the other."""
 
     heading, page = "chart.scale", staticmethod(scales_page)
@@ -71,11 +71,11 @@ class ScaleChart(Chart[ScaleErrors]):
         }
 
 
-def _scale(scene: Scene) -> ScaleChart:
+def _scale(scene: Scene) -> _ScaleChart:
     """Draw the meshing at one scale after the other."""
     solved = SolvedGear.of(scene.case.solved)
     all_known("quantity-unknown", scene.quantities, compared(solved))
-    return ScaleChart(scene, scale_errors(solved, HANDS, scene.quantities))
+    return _ScaleChart(scene, scale_errors(solved, HANDS, scene.quantities))
 
 
 CHARTS: Gallery = {"scale": (_scale, ("quantities",))}

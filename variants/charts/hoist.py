@@ -31,7 +31,7 @@ EVERY = 5  # of the places stands in the tables
 TABLED = (("F_max", "kN"), ("sigma_max", "MPa"))
 
 
-class HoistStepsChart(Chart[StepLimits]):
+class _HoistStepsChart(Chart[StepLimits]):
     """Errors over the step of every method that integrates: orders, limits of stability, refusals."""
 
     heading, page = "chart.hoist_stability", staticmethod(steps_page)
@@ -91,7 +91,7 @@ class HoistStepsChart(Chart[StepLimits]):
         }
 
 
-class HoistRootsChart(Chart[RootRace]):
+class _HoistRootsChart(Chart[RootRace]):
     """Ways to the root of the hoist, and to one that is nearly triple."""
 
     heading, noted, page = "chart.roots", "chart.hoist.roots_note", staticmethod(roots_page)
@@ -139,7 +139,7 @@ class HoistRootsChart(Chart[RootRace]):
         }
 
 
-class HoistDepthChart(Chart[HoistDepth]):
+class _HoistDepthChart(Chart[HoistDepth]):
     """What simplifications change, and one mass beside ropes of many."""
 
     heading, noted, page = "chart.hoist_depth", "chart.hoist.depth_note", staticmethod(hoist_page)
@@ -205,7 +205,7 @@ class HoistDepthChart(Chart[HoistDepth]):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class HoistChoiceChart(Chart[Choice]):
+class _HoistChoiceChart(Chart[Choice]):
     """The spectrum of forces and stresses over the places of load and drum; `S` is the area of the rope, m^2."""
 
     heading, page = "chart.choice", staticmethod(choice_page)
@@ -274,18 +274,18 @@ def _accuracy(scene: Scene) -> AccuracyChart:
     return AccuracyChart(scene, replace(found, entries=(*found.entries, *drawn)), "s", "chart.hoist_compared")
 
 
-def _choice(scene: Scene) -> HoistChoiceChart:
+def _choice(scene: Scene) -> _HoistChoiceChart:
     """Look for the places of load and drum."""
     givens = complete(SolvedHoist.of(scene.case.solved).givens)
-    return HoistChoiceChart(scene, choose(givens), givens["S"])
+    return _HoistChoiceChart(scene, choose(givens), givens["S"])
 
 
 CHARTS: charts.Gallery = {
     "accuracy": (_accuracy, ("hand",)),
-    "stability": (lambda scene: HoistStepsChart(scene, step_limits(_swinging(scene)[1])), ()),
-    "roots": (lambda scene: HoistRootsChart(scene, root_race(_swinging(scene)[1])), ()),
+    "stability": (lambda scene: _HoistStepsChart(scene, step_limits(_swinging(scene)[1])), ()),
+    "roots": (lambda scene: _HoistRootsChart(scene, root_race(_swinging(scene)[1])), ()),
     "depth": (
-        lambda scene: HoistDepthChart(scene, depth(complete(scene.case.solved.givens), 0.01 * scene.tolerance)),
+        lambda scene: _HoistDepthChart(scene, depth(complete(scene.case.solved.givens), 0.01 * scene.tolerance)),
         ("tolerance",),
     ),
     "choice": (_choice, ()),

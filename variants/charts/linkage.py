@@ -70,18 +70,18 @@ def _accuracy(scene: Scene) -> AccuracyChart:
     return AccuracyChart(scene, found, "rad" if whole.drive.turns else "m")
 
 
-def _stability(scene: Scene) -> StabilityChart:
+def _stability(scene: Scene) -> _StabilityChart:
     """Look at what is lost over the cycle."""
     whole = _cycle_of("stability", scene)
     mus = scales_of_cycle(scene, whole)
     found = stability(whole, scene.quantities or usual(whole), mus, charts.HANDS[scene.hand])
-    return StabilityChart(scene, found, whole, mus)
+    return _StabilityChart(scene, found, whole, mus)
 
 
-def _depth(scene: Scene) -> DepthChart:
+def _depth(scene: Scene) -> _DepthChart:
     """Look at what each part of the model is worth."""
     whole = _cycle_of("depth", scene)
-    return DepthChart(scene, depth(whole, scene.tolerance), whole)
+    return _DepthChart(scene, depth(whole, scene.tolerance), whole)
 
 
 def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
@@ -119,7 +119,7 @@ class _OfCycle(charts.Chart[Found]):
         return f"{driver_name(self.cycle)}, {format_unit('deg' if self.cycle.drive.turns else 'mm', words.language)}"
 
 
-class DepthChart(_OfCycle[Depth]):
+class _DepthChart(_OfCycle[Depth]):
     """What simplifications cost over the cycle."""
 
     heading, noted, page = "chart.depth", "chart.whole", staticmethod(depth_page)
@@ -173,7 +173,7 @@ class DepthChart(_OfCycle[Depth]):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class StabilityChart(_OfCycle[Stability]):
+class _StabilityChart(_OfCycle[Stability]):
     """What is lost over the cycle; `scales` are the scale factors of the hand, by plan."""
 
     heading, page = "chart.stability", staticmethod(stability_page)
