@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ...plans.cams import chords
 from ...plans.gears.solve import MILLI, ScaleErrors
 from ...plans.hands.shaky import PRESETS
-from ...plans.lab.hoists import RootRace, StepLimits
+from ...plans.lab.hoists import StepLimits, Ways
 from ...plans.lab.integrators import RK4, STEPPERS, VERLET, growth
 from ..gears.sheet import lettered
 from ..words import Words
@@ -302,13 +302,10 @@ def _growths(axes: Axes, found: StepLimits, words: Words) -> None:
     legend(axes, "upper left", handlelength=4.0, borderaxespad=0.8)
 
 
-def roots_page(found: RootRace, words: Words, title: str, note: str) -> Figure:
+def roots_page(found: Mapping[str, Ways], words: Words, title: str, note: str) -> Figure:
     """Draw the error over the evaluations of all ways, at the hoist's own root and at one that is nearly triple."""
     with page(title, note) as figure:
-        for left, name, ways, corner in (
-            (LEFT, "own", found.own, "right"),
-            (APART, "triple", found.triple, "lower left"),
-        ):
+        for left, corner, (name, ways) in zip((LEFT, APART), ("right", "lower left"), found.items(), strict=True):
             axes = box(figure, (left, 30.0, 116.0, 152.0), xlabel=words["chart.hoist.evaluations"])
             head = words[f"chart.hoist.{name}_root"].format(x=words.short(ways.root, 5))
             axes.set(title=head, ylabel=words["chart.error.lift_off"])

@@ -17,7 +17,7 @@ from ..notes.blocks import Story
 from ..printed import Input, Symbol, calculation
 from ..table import givens_view, table, text_block
 from ..view import View
-from ..words import Given
+from ..words import Given, Words
 from .scene import HoistScene
 
 USUAL = {"Pa": (1e-6, "MPa"), "m^2": (1e6, "mm^2")}
@@ -53,7 +53,7 @@ def results_table(scene: HoistScene) -> View:
         value = words["table.calculated"] if quantity.value is None else scene.value(quantity.value * times)
         cells.append([words.symbol(name), value, "" if unit == "1" else words.unit(unit)])
     half = (len(cells) + 1) // 2
-    head = [words["table.symbol"], words["table.value"], words["table.unit"]]
+    head = _head(words, "symbol", "value", "unit")
     rows = [left + right for left, right in zip(cells[:half], [*cells[half:], ["", "", ""]], strict=False)]
     return table("results", words["heading.hoist_results"], [head + head, *rows], scene.style)
 
@@ -61,15 +61,18 @@ def results_table(scene: HoistScene) -> View:
 def checks_table(scene: HoistScene) -> View:
     """Return the conditions of validity and strength, each with its number and verdict."""
     words = scene.words
-    head = [words[f"table.{name}"] for name in ("check", "condition", "value", "verdict")]
-    rows = []
+    rows = [_head(words, "check", "condition", "value", "verdict")]
     for check in scene.solved.forces.checks:
         condition = f"{words.symbol(check.quantity)} {check.sign} {words.short(check.limit)}"
         unit = f" {words.unit(check.unit)}" if check.unit != "1" else ""
         would = scene.solved.forces.motion is not None and check.name != STRENGTH and not check.ok
         value = f"{words['hoist.would_be']} " * would + scene.value(check.value) + unit
         rows.append([words[f"hoist.{check.name}"], condition, value, words["said.ok" if check.ok else "said.fails"]])
-    return table("checks", words["heading.hoist_checks"], [head, *rows], scene.style)
+    return table("checks", words["heading.hoist_checks"], rows, scene.style)
+
+
+def _head(words: Words, *columns: str) -> list[str]:
+    return [words[f"table.{column}"] for column in columns]
 
 
 def begun(scene: HoistScene, steps: int) -> dict[str, Shown]:
@@ -80,14 +83,13 @@ def begun(scene: HoistScene, steps: int) -> dict[str, Shown]:
 def scales_table(scene: HoistScene) -> View:
     """Return the scale factors, and by how much a reading may err."""
     words = scene.words
-    head = [words["table.symbol"], words["table.value"], words["table.unit"], words["hoist.reading"]]
-    rows = []
+    rows = [[*_head(words, "symbol", "value", "unit"), words["hoist.reading"]]]
     found = (symbol for symbol in SCALED if symbol in scene.solved.quantities)
     for symbol in dict.fromkeys((*scene.solved.scale_of_plan.values(), *found)):
         scale = scene.scale(symbol)
         error = f"±{words.short(round(READING * scale.mu, 12))} {words.unit(scale.unit)}"
         rows.append([words.symbol(symbol), words.short(scale.mu), words.unit(scale.per_mm_unit), error])
-    return table("scales", words["heading.scales"], [head, *rows], scene.style)
+    return table("scales", words["heading.scales"], rows, scene.style)
 
 
 def strength_block(scene: HoistScene) -> View:

@@ -137,7 +137,7 @@ def motion_givens(motion: OneSided) -> dict[str, float]:
 
 
 def forces_of_many(values: Numbers, wanted: Iterable[str]) -> dict[str, Any]:
-    """Return quantities of many hoists at once, each found as it is valid for it.
+    """Return quantities of many hoists at once, each found as it is valid for it; `formulas`: whether these are.
 
     The `values` are complete and admissible givens, of any shapes that go together. Raises InputError of motions of too
     many pieces and swings.
@@ -146,14 +146,15 @@ def forces_of_many(values: Numbers, wanted: Iterable[str]) -> dict[str, Any]:
     found = model(values, (*names, *VALIDITY, *MOVED))
     shape = np.broadcast_shapes(*(np.shape(values[name]) for name in VALUES))
     kept = {name: np.array(np.broadcast_to(found[name], shape)) for name in names}
-    for index in map(tuple, np.argwhere(~np.broadcast_to(valid(found), shape))):
+    formulas = np.broadcast_to(valid(found), shape)
+    for index in map(tuple, np.argwhere(~formulas)):
         one = {name: float(np.broadcast_to(values[name], shape)[index]) for name in VALUES}
         motion = one_sided({name: float(np.broadcast_to(found[name], shape)[index]) for name in MOVED}, left)
         left -= motion.events
         alone = model(one | motion_givens(motion), names, one_sided=True)
         for name in names:
             kept[name][index] = alone[name]
-    return kept
+    return kept | {"formulas": formulas}
 
 
 # what is known over time, and in what; the forces of both phases are one
@@ -296,30 +297,21 @@ class Choice:
 
 def spectrum(values: Numbers, beta_0: Array, beta_2: Array) -> _Spectrum:
     """Return the greatest forces at all pairs of places, of complete givens, whose own places do not count."""
-    formulas = _formulas(values, beta_0, beta_2)
-    F_max = forces_of_many(_placed(values, beta_0, beta_2), ("F_max",))["F_max"]
-    shape = len(beta_0), len(beta_2)
-    F_max = F_max.reshape(shape)
+    found = forces_of_many(_placed(values, beta_0, beta_2), ("F_max",))
+    F_max, formulas = (found[name].reshape(len(beta_0), len(beta_2)) for name in ("F_max", "formulas"))
     sigma_max = F_max * (1.0 / values["S"])
     safety = values["sigma"] / sigma_max
-    return _Spectrum(beta_0, beta_2, F_max, sigma_max, safety, formulas.reshape(shape), safety >= values["K"])
+    return _Spectrum(beta_0, beta_2, F_max, sigma_max, safety, formulas, safety >= values["K"])
 
 
 def _placed(values: Numbers, beta_0: Array, beta_2: Array) -> dict[str, Any]:
     """Return the givens of the hoists at all pairs of places."""
-    first, second = (one.ravel() for one in np.meshgrid(beta_0, beta_2, indexing="ij"))
+    first, second = (places.ravel() for places in np.meshgrid(beta_0, beta_2, indexing="ij"))
     return {**values, "beta_0": first, "beta_2": second}
 
 
-def _formulas(values: Numbers, beta_0: Array, beta_2: Array) -> Flags:
-    """Return at which pairs of places the formulas are valid."""
-    found: Flags = valid(model(_placed(values, beta_0, beta_2), VALIDITY))
-    return found
-
-
 def _grid(places: int) -> Array:
-    found: Array = LEAST + (MOST - LEAST) * (np.arange(places) / (places - 1))
-    return found
+    return LEAST + (MOST - LEAST) * (np.arange(places) / (places - 1))
 
 
 def choose(values: Numbers, places: int = PLACES) -> Choice:
@@ -328,7 +320,7 @@ def choose(values: Numbers, places: int = PLACES) -> Choice:
     So many `places` of each beam from `LEAST` to `MOST` are tried, fewer where the formulas are not valid at many.
     """
     grid, fine = _grid(places), FINE
-    if np.sum(~_formulas(values, grid, grid)) > MANY:
+    if np.sum(~valid(model(_placed(values, grid, grid), VALIDITY))) > MANY:
         grid, fine = _grid(min(places, FEWER)), LESS
     found = spectrum(values, grid, grid)
     given = spectrum(values, np.array([values["beta_0"]]), np.array([values["beta_2"]])).trial(0, 0)

@@ -115,23 +115,18 @@ class Contours:
         link = next(link for link in self._m.links if letter in link.points)
         return self._origins[link.number] + self._arm(link.number, link.points[letter])
 
-    def pose(self, directions: Mapping[int, Array], places: Mapping[str, Array]) -> Array:
-        """Return the pose in which the links lie, from unit directions of their x axes, by number, and lettered points.
+    def pose(self, directions: Mapping[int, Array]) -> Array:
+        """Return the pose in which the links lie, from unit directions of their x axes, by number, complex128 (N,).
 
-        All are complex128 of shape (N,).
+        The ways are those that close the contours.
         """
         pose = np.zeros((self.count + len(self._guides), len(next(iter(directions.values())))))
         for link, direction in directions.items():
             if self.angle_of[link]:
                 pose[self.angle_of[link]] = np.angle(direction) - self._ahead[link]
-        for row, pair in self._guides.items():  # how far the slider's point is from where the guide passes
-            guide, through = pair.links[1], self._at(pair.through)
-            turn = np.exp(1j * (pose[self.angle_of[guide]] + self._ahead[guide]))
-            if guide != FRAME:
-                letter, origin = next(iter(self._m.link(guide).points.items()))
-                through = places[letter] + turn * (through - self._at(origin))
-            along = turn * cmath.rect(1.0, self._v[pair.direction])
-            pose[row] = np.real((places[pair.point] - through) * np.conj(along))
+        turned = np.einsum("ckj,kn->ncj", np.stack(self.closed), np.exp(1j * pose[: self.count]))
+        parts = np.concatenate((turned.real, turned.imag), axis=1)
+        pose[self.count :] = -(np.linalg.pinv(parts[:, :, 1:]) @ parts[:, :, :1])[:, :, 0].T
         return pose
 
     def _turned(self, form: Array, pose: Array) -> Array:

@@ -183,16 +183,11 @@ class Ways:
         return abs(self.found[method].root / self.root - 1.0)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class RootRace:
-    """Ways to the root of the hoist itself, and to the nearly triple one."""
+def root_race(values: Numbers) -> dict[str, Ways]:
+    """Follow all ways to the `own` root of a hoist on a support that yields, and to a nearly `triple` one.
 
-    own: Ways
-    triple: Ways
-
-
-def root_race(values: Numbers) -> RootRace:
-    """Follow all ways to both roots, of a hoist on a support that yields with its complete givens, SI."""
+    The `values` are its complete givens, SI.
+    """
     right = exact(values)
     k, height = float(right["k"]), float(right["P_st"] / right["C"])
     V = float(right["V_t"])
@@ -200,7 +195,7 @@ def root_race(values: Numbers) -> RootRace:
     speed = V if V > 0.0 else values["a"] / k  # of a rope that starts from rest: what it has soon after
     x = TURN + AWAY
     triple = lift_off_equation(speed, 0.0, k, speed / k * float(sine_rest(x)))
-    return RootRace(_ways(own, float(right["k"] * right["t_1"])), _ways(triple, x))
+    return {"own": _ways(own, float(right["k"] * right["t_1"])), "triple": _ways(triple, x)}
 
 
 def _ways(equation: Equation, root: float) -> Ways:

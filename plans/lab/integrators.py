@@ -156,7 +156,6 @@ MARGIN = 1.5  # times as long as the exact lift-off can take
 class Run:
     """What an integrator finds, of N hoists; NaN where it is refused. Quantities as of the closed form, SI."""
 
-    step: Array  # k h, rad
     t_1: Array
     F_12_t1: Array
     F_12_max: Array
@@ -164,7 +163,6 @@ class Run:
     F_max: Array
     grown: Array  # by what the method makes oscillations grow over the run
     refused: Flags  # steps beyond the stability limit, or oscillations that grow by more than `GROWN`
-    steps: NDArray[np.int64]  # steps until the end, one period after lift-off
     t: Array  # shape (rows, N): at the steps; NaN after the end
     F_12: Array
 
@@ -276,12 +274,11 @@ def _judged(
     grown = np.exp(np.log(growth(method, z)) * first + np.log(growth(method, z_1)) * last)
     limit = stability_limit(method)
     refused: Flags = ((z > limit) & (limit > 0.0)) | (grown > GROWN) | ~np.isfinite(found[0])
-    t_1, F_12_t1, F_12_max, P_12_max = (np.where(refused, np.nan, one) for one in found)
+    t_1, F_12_t1, F_12_max, P_12_max = (np.where(refused, np.nan, value) for value in found)
     t, force, end = trace
     over = refused | (t > end)
-    highest = np.maximum(F_12_max, P_12_max)
-    masked = (np.where(over, np.nan, one) for one in (t, force))
-    return Run(z, t_1, F_12_t1, F_12_max, P_12_max, highest, grown, refused, first + last, *masked)
+    masked = (np.where(over, np.nan, column) for column in (t, force))
+    return Run(t_1, F_12_t1, F_12_max, P_12_max, np.maximum(F_12_max, P_12_max), grown, refused, *masked)
 
 
 def _rest(h: Array) -> Trace:

@@ -154,15 +154,15 @@ class Rivals:
     def _at_grid(self) -> Array:
         """Return how the links lie at places round the cycle."""
         cycle = self.cycle
-        points = [point for link in cycle.mechanism.links for point in link.points]
         names = [mark for body in self._bodies.values() for mark in (body.direction, body.local) if mark]
-        wanted = tuple(name for name in dict.fromkeys((*names, *points)) if name in cycle.program.names)
-        found = cycle.at(places_of(cycle, GRID), wanted)
+        found = cycle.at(
+            places_of(cycle, GRID), tuple(name for name in dict.fromkeys(names) if name in cycle.program.names)
+        )
         directions = {
             number: found[body.direction] * (np.conj(found[body.local]) if body.local else 1.0)
             for number, body in self._bodies.items()
         }
-        return self.contours.pose(directions, found)
+        return self.contours.pose(directions)
 
     def _of_pose(self, name: str, pose: Array, rates: Array, changes: Array | None) -> Array:
         contours, of = self.contours, role(name).of

@@ -97,7 +97,7 @@ def test_newton_agrees_with_plans_of_dyads_on_links_that_move(kind: str, carries
         at = np.array([own[mechanism.driver.coordinate]])
         points = {point: np.array([exact[point]]) for link in mechanism.links for point in link.points}
         turns = {link.number: np.exp(1j * places[i, k, 2:]) for k, link in enumerate(mechanism.links)}
-        near = contours.pose(turns, points)
+        near = contours.pose(turns)
         near[: contours.count] += 1e-3
         pose = contours.solve(near, at, 1e-6)
         speed = exact[f"omega_{mechanism.driver.link}"]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, astuple, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,8 +17,7 @@ from ...drawing.words import Words
 from ...plans.hoist.forces import Choice, choose
 from ...plans.hoist.hoist import complete
 from ...plans.hoist.solve import SolvedHoist
-from ...plans.lab.finders import FINDERS
-from ...plans.lab.hoists import RootRace, StepLimits, Ways, by_board, by_hand, rivals, root_race, step_limits
+from ...plans.lab.hoists import StepLimits, Ways, by_board, by_hand, rivals, root_race, step_limits
 from ...plans.lab.integrators import GROWN, STEPPERS
 from ...plans.lab.ropes import COMPARED, MANY, HoistDepth, depth
 from ...scales.errors import InputError
@@ -43,12 +42,11 @@ class _HoistStepsChart(Chart[StepLimits]):
         rows = [[words[key] for key in heads]]
         for method in STEPPERS:
             order, refused, limit = found.order(method), found.refused_from(method), found.limit(method)
-            said = "–" if order is None else words.number(order, 2)
             stable = "∞" if math.isinf(limit) else words.short(limit, 5) if limit else words["chart.hoist.always"]
             since = words["chart.hoist.never"] if refused is None else words.short(refused, 3)
-            rows.append([words[f"chart.{method}"], said, stable, since])
+            rows.append([words[f"chart.{method}"], "–" if order is None else words.number(order, 2), stable, since])
         errors = [[words["chart.hoist.step"], *(words[f"chart.{method}"] for method in STEPPERS)]]
-        known = {(method, z): error for method, z, error, *_ in self._items()}
+        known = {(run["method"], run["step"]): run["error"] for run in self._runs()}
         for z in sorted({z for _, z in known}, reverse=True):
             cells = [short(words, known[m, z]) if (m, z) in known else "" for m in STEPPERS]
             errors.append([words.short(z, 3), *cells])
@@ -59,17 +57,19 @@ class _HoistStepsChart(Chart[StepLimits]):
         grown = words.short(PERCENT * (GROWN - 1.0), 3)
         return words["chart.hoist.limits_note"].format(grown=grown, ratio=words.short(self.found.ratio, 3))
 
-    def _items(self) -> Iterator[tuple[str, float, float, float, bool]]:
-        """Go through all runs: method, step, error, growth, whether it is refused: then it has no error."""
+    def _runs(self) -> Iterator[dict[str, Any]]:
+        """Go through all runs; one that is refused has no error."""
         found = self.found
         for method in STEPPERS:
             columns = (found.steps[method], found.errors[method], found.grown[method])
             for z, error, grown in zip(*(column.tolist() for column in columns), strict=True):
-                yield method, z, error, grown, not math.isfinite(error)
+                refused = not math.isfinite(error)
+                yield {"method": method, "step": z, "error": error, "grown": grown, "refused": refused}
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         yield "method", "step [rad]", "error", "grown", "refused", "order", "limit"
-        for method, *numbers, refused in self._items():
+        for run in self._runs():
+            method, *numbers, refused = run.values()
             yield method, *numbers, int(refused), self.found.order(method), self.found.limit(method)
 
     def _data(self) -> dict[str, Any]:
@@ -84,41 +84,32 @@ class _HoistStepsChart(Chart[StepLimits]):
                 }
                 for method in STEPPERS
             },
-            "runs": [
-                {"method": method, "step": z, "error": error, "grown": grown, "refused": refused}
-                for method, z, error, grown, refused in self._items()
-            ],
+            "runs": [*self._runs()],
         }
 
 
-class _HoistRootsChart(Chart[RootRace]):
+class _HoistRootsChart(Chart[Mapping[str, Ways]]):
     """Ways to the root of the hoist, and to one that is nearly triple."""
 
     heading, noted, page = "chart.roots", "chart.hoist.roots_note", staticmethod(roots_page)
 
-    @property
-    def _of_roots(self) -> dict[str, Ways]:
-        return {"own": self.found.own, "triple": self.found.triple}
-
     def _parts(self, words: Words) -> Iterator[str]:
         """Go through how many evaluations every method takes to which error."""
-        for name, ways in self._of_roots.items():
+        for name, ways in self.found.items():
             rows = [[words["chart.method"], words["chart.hoist.evaluations"], words["chart.hoist.reached"]]]
-            for method in FINDERS:
-                found, said = ways.found[method], words[f"chart.{method}"]
+            for method, found in ways.found.items():
+                cells = [words[f"chart.{method}"], str(found.evaluations), short(words, ways.error(method))]
                 if math.isnan(found.root):
-                    rows.append([words["chart.hoist.fails"].format(method=said), "–", "–"])
-                else:
-                    rows.append([said, str(found.evaluations), short(words, ways.error(method))])
+                    cells = [words["chart.hoist.fails"].format(method=cells[0]), "–", "–"]
+                rows.append(cells)
             head = words[f"chart.hoist.{name}_root"].format(x=words.short(ways.root, 7))
             yield f"{head}\n{aligned(rows)}"
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         """Go through all evaluations."""
         yield "root", "method", "evaluation", "error", "stops", "fails"
-        for name, ways in self._of_roots.items():
-            for method in FINDERS:
-                found = ways.found[method]
+        for name, ways in self.found.items():
+            for method, found in ways.found.items():
                 for i, error in enumerate(ways.errors[method].tolist(), 1):
                     yield name, method, i, error, found.evaluations, int(math.isnan(found.root))
 
@@ -128,14 +119,14 @@ class _HoistRootsChart(Chart[RootRace]):
                 "root": ways.root,
                 "methods": {
                     method: {
-                        "evaluations": ways.found[method].evaluations,
+                        "evaluations": found.evaluations,
                         "error": ways.error(method),
                         "errors": ways.errors[method],
                     }
-                    for method in FINDERS
+                    for method, found in ways.found.items()
                 },
             }
-            for name, ways in self._of_roots.items()
+            for name, ways in self.found.items()
         }
 
 
@@ -150,28 +141,19 @@ class _HoistDepthChart(Chart[HoistDepth]):
         for key, changes in self.found.simpler.items():
             cells = [short(words, per_cent(changes[name])) for name in COMPARED]
             rows.append([words[f"chart.hoist.without.{key}"], *cells])
-        yield from (aligned(rows), self._ropes(words), self._one_mass(words))
-        yield "\n".join(hoist_verdict(self.found, words))
-
-    def _ropes(self, words: Words) -> str:
-        if not self.found.ropes:
-            return ""
+        yield aligned(rows)
         newton, second = (format_unit(unit, words.language) for unit in ("N", "s"))
         heads = [f"t_1, {second}", f"F_12_max, {newton}", f"P_12_max, {newton}"]
         rows = [[words["chart.hoist.masses"], *heads, f"{words['chart.hoist.at_drum']}, {newton}"]]
-        for rope in self.found.ropes:
-            values = (rope.t_1, rope.F_12_max, rope.P_12_max, rope.F_drum_max)
-            rows.append([str(rope.n), *(short(words, value, 7) for value in values)])
-        return aligned(rows, ())
-
-    def _one_mass(self, words: Words) -> str:
-        if not self.found.one_mass:
-            return ""
+        rows += [[str(rope.n), *(short(words, value, 7) for value in astuple(rope)[1:])] for rope in self.found.ropes]
+        yield aligned(rows, ()) if self.found.ropes else ""
         rows = [["G_2/G_1", "t_1, %", *(f"{words[f'chart.hoist.{key}']}, %" for key in ("at_load", "at_drum"))]]
-        for one in self.found.one_mass:
-            errors = (one.t_1, one.at_load, one.at_drum)
-            rows.append([words.short(one.ratio, 3), *(short(words, PERCENT * error) for error in errors)])
-        return f"{words['chart.hoist.one_mass'].format(n=MANY)}\n{aligned(rows, ())}"
+        for mass in self.found.one_mass:
+            errors = (short(words, PERCENT * error) for error in (mass.t_1, mass.at_load, mass.at_drum))
+            rows.append([words.short(mass.ratio, 3), *errors])
+        head = words["chart.hoist.one_mass"].format(n=MANY)
+        yield f"{head}\n{aligned(rows, ())}" if self.found.one_mass else ""
+        yield "\n".join(hoist_verdict(self.found, words))
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         """Go through simplifications, ropes, weights of the rope."""
