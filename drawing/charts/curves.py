@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ...plans.cams import chords
 from ...plans.gears.solve import MILLI, ScaleErrors
 from ...plans.hands.shaky import PRESETS
-from ...plans.lab.hoists import StepLimits, Ways
-from ...plans.lab.integrators import RK4, STEPPERS, VERLET, growth
+from ...plans.lab.hoists import Steps, Ways
+from ...plans.lab.integrators import RK4, VERLET, growth
 from ..gears.sheet import lettered
 from ..words import Words
 from .paper import (
@@ -250,7 +250,7 @@ def _scales(axes: Axes, found: ScaleErrors, name: str, words: Words) -> None:
     put(axes, [replace(label, x=1.06 * label.x) for label in labels], points)  # clear of a ring
 
 
-def steps_page(found: StepLimits, words: Words, title: str, note: str) -> Figure:
+def steps_page(found: Mapping[str, Steps], words: Words, title: str, note: str) -> Figure:
     """Draw what steps of what size do: errors over the step with their orders, and by what a period grows."""
     with page(title, note) as figure:
         axes = box(figure, (LEFT, 32.0, 126.0, 150.0), title=words["chart.hoist.errors"])
@@ -262,17 +262,16 @@ def steps_page(found: StepLimits, words: Words, title: str, note: str) -> Figure
     return figure
 
 
-def _errors(axes: Axes, found: StepLimits, words: Words) -> None:
+def _errors(axes: Axes, found: Mapping[str, Steps], words: Words) -> None:
     """Draw errors over steps; crosses at the top are runs that are refused."""
-    for limit in {found.limit(method) for method in STEPPERS}:
+    for limit in {runs.limit for runs in found.values()}:
         if 0.0 < limit < math.inf:
             axes.axvline(limit, color=GREY, lw=0.8, ls=(0, (4, 2)), zorder=1)
-    for k, method in enumerate(STEPPERS):
-        order = np.argsort(found.steps[method])
-        z, error = found.steps[method][order], found.errors[method][order]
-        power, name = found.order(method), words[f"chart.{method}"]
-        of_order = words["chart.hoist.of_order"].format(method=name, order=words.number(power or 0.0, 2))
-        curve(axes, k, z, error, zorder=3, label=name if power is None else of_order)
+    for k, (method, runs) in enumerate(found.items()):
+        rising, name = np.argsort(runs.steps), words[f"chart.{method}"]
+        z, error = runs.steps[rising], runs.errors[rising]
+        of_order = words["chart.hoist.of_order"].format(method=name, order=words.number(runs.order or 0.0, 2))
+        curve(axes, k, z, error, zorder=3, label=name if runs.order is None else of_order)
         refused = z[np.isnan(error)]
         if refused.size:
             height = REFUSED * ROW**k
@@ -286,14 +285,14 @@ def _errors(axes: Axes, found: StepLimits, words: Words) -> None:
     legend(axes, "lower right", handlelength=4.0, borderaxespad=0.8)
 
 
-def _growths(axes: Axes, found: StepLimits, words: Words) -> None:
+def _growths(axes: Axes, found: Mapping[str, Steps], words: Words) -> None:
     """Draw by what an oscillation grows in a period, over the step."""
     z = np.linspace(0.002, FARTHEST, 2000)
-    for k, method in enumerate(STEPPERS):
+    for k, method in enumerate(found):
         grown = growth(method, z) ** (2.0 * math.pi / z)
         curve(axes, k, z, grown, label=words[f"chart.{method}"], markevery=(40 * k, 200))
     for method, (dx, dy, side) in LIMITED.items():
-        limit = found.limit(method)
+        limit = found[method].limit
         axes.plot(limit, 1.0, "o", ms=6.0, mfc=BLACK, mec=BLACK, zorder=4)
         text = words["chart.hoist.limit"].format(value=words.short(limit, 4))
         beside(axes, text, (limit, 1.0), (dx, dy), ha=side, va="center", fontsize=TEXT)

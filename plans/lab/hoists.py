@@ -34,7 +34,7 @@ from ..hoist.roots import sine_rest
 from ..hoist.solve import SolvedHoist, board_givens
 from ..laws import LAWS, TURN
 from .finders import FINDERS, Equation, Found, approximations, find, lift_off_equation
-from .integrators import EXPLICIT, RK4, STEPPERS, Run, integrate, stability_limit
+from .integrators import EXPLICIT, RK4, STEPPERS, integrate, stability_limit
 from .race import FULL, SEED, Clock, Contest, Effort, Entry, Kind, Way, timed
 
 Array = NDArray[np.float64]
@@ -215,52 +215,47 @@ ROUNDING = 1e-12  # error that is none
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class StepLimits:
-    """Errors of the rope's force, the worst until one period after lift-off, in parts of the greatest force."""
+class Steps:
+    """Runs by one integrator, with steps of several sizes; all arrays have the shape (N,)."""
 
-    steps: Mapping[str, Array]  # shape (N,): k h, rad, by method
+    steps: Array  # k h, rad
+    errors: Array  # of the force, the worst until one period after lift-off, parts of the greatest; NaN: refused
+    grown: Array  # by what the method makes oscillations grow over the run
+    limit: float  # the largest k h at which it is stable
     ratio: float  # k_1 / k: in phase 2 steps are so much smaller beside the period
-    errors: Mapping[str, Array]  # shape (N,): by method; NaN where a run is refused
-    grown: Mapping[str, Array]  # shape (N,): by what a method makes oscillations grow over the run
 
-    def order(self, method: str) -> float | None:
-        """Return the power of the step as which the error falls; None where too few runs show it."""
-        steps, error = self.steps[method], self.errors[method]
-        shown = (steps <= SHOWING) & (error > ROUNDING)
+    @property
+    def order(self) -> float | None:
+        """The power of the step as which the error falls; None where too few runs show it."""
+        shown = (self.steps <= SHOWING) & (self.errors > ROUNDING)
         if shown.sum() < 2:
             return None
-        return float(np.polyfit(np.log(steps[shown]), np.log(error[shown]), 1)[0])
+        return float(np.polyfit(np.log(self.steps[shown]), np.log(self.errors[shown]), 1)[0])
 
-    def refused_from(self, method: str) -> float | None:
-        """Return the smallest step of those tried that is refused; None where none is."""
-        refused = self.steps[method][np.isnan(self.errors[method])]
-        return float(refused.min()) if refused.size else None
-
-    @staticmethod
-    def limit(method: str) -> float:
-        """Return the largest k h at which a method is stable."""
-        return stability_limit(method)
+    @property
+    def refused_from(self) -> float | None:
+        """The smallest step of those tried that is refused; None where none is."""
+        return min(self.steps[np.isnan(self.errors)].tolist(), default=None)
 
 
-def step_limits(values: Numbers, steps: tuple[float, ...] = TRIED, tiny: tuple[float, ...] = TRIED_TINY) -> StepLimits:
-    """Integrate a hoist with larger and larger steps, all of them at once.
+def step_limits(
+    values: Numbers, steps: tuple[float, ...] = TRIED, tiny: tuple[float, ...] = TRIED_TINY
+) -> dict[str, Steps]:
+    """Integrate a hoist by every method with larger and larger steps, all of them at once.
 
     The `values` are complete givens, SI, of a hoist on a support that yields, whose formulas are valid.
     """
-    right = exact(values)
+    right, limits = exact(values), {}
     hoist = {name: float(right[name]) for name in COMPARED} | {"a": values["a"]}
-    taken = {method: np.array((*steps, *(tiny if method == EXPLICIT else ()))) for method in STEPPERS}
-    runs = {method: integrate(hoist, method, z) for method, z in taken.items()}
-    errors = {method: _worst(run, right) for method, run in runs.items()}
-    return StepLimits(taken, hoist["k_1"] / hoist["k"], errors, {method: run.grown for method, run in runs.items()})
-
-
-def _worst(run: Run, right: Numbers) -> Array:
-    """Return the worst error of every run, NaN of those that are refused."""
-    known = ~np.isnan(run.t)
-    forces = rope_forces(right, np.where(known, run.t, 0.0).astype(np.longdouble))[1]
-    away = np.abs((run.F_12 - forces) * (1.0 / right["F_max"])).astype(float)
-    return np.where(run.refused, np.nan, np.max(away, axis=0, initial=0.0, where=known))
+    for method in STEPPERS:
+        taken = np.array((*steps, *(tiny if method == EXPLICIT else ())))
+        run = integrate(hoist, method, taken)
+        known = ~np.isnan(run.t)
+        forces = rope_forces(right, np.where(known, run.t, 0.0).astype(np.longdouble))[1]
+        away = np.abs((run.F_12 - forces) * (1.0 / right["F_max"])).astype(float)
+        errors = np.where(run.refused, np.nan, np.max(away, axis=0, initial=0.0, where=known))
+        limits[method] = Steps(taken, errors, run.grown, stability_limit(method), hoist["k_1"] / hoist["k"])
+    return limits
 
 
 SECTIONS = (10, 20, 40, 80, 160)  # before the lift-off

@@ -22,7 +22,7 @@ from kulman.plans.lab.hoists import (
     FORMULAS,
     LIFT_OFF,
     PEAK,
-    StepLimits,
+    Steps,
     by_board,
     by_hand,
     exact,
@@ -106,7 +106,7 @@ def test_runs_that_are_refused_give_nothing_and_are_in_no_front() -> None:
 
 
 @cache
-def limits() -> StepLimits:
+def limits() -> dict[str, Steps]:
     return step_limits(STEADY, (4.0, 2.4, 1.0, 0.32, 0.16, 0.08), (0.0125, 0.00625))
 
 
@@ -114,7 +114,7 @@ def limits() -> StepLimits:
     ("method", "order"), [(RK4, 4.0), (VERLET, 2.0), (TRAPEZOID, 2.0), (SYMPLECTIC, 2.0), (EXPLICIT, 1.0)]
 )
 def test_steps_show_their_orders(method: str, order: float) -> None:
-    assert limits().order(method) == pytest.approx(order, abs=0.15)
+    assert limits()[method].order == pytest.approx(order, abs=0.15)
 
 
 def test_runs_of_too_many_steps_give_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -130,10 +130,10 @@ def test_runs_of_too_many_steps_give_nothing(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_steps_are_refused_beyond_their_limits() -> None:
-    refused = {method: limits().refused_from(method) for method in STEPPERS}
+    refused = {method: limits()[method].refused_from for method in STEPPERS}
 
     assert refused == {RK4: 4.0, VERLET: 2.4, SYMPLECTIC: 2.4, TRAPEZOID: None, EXPLICIT: 0.08}
-    assert np.nanmax(limits().errors[RK4]) < 0.5
+    assert np.nanmax(limits()[RK4].errors) < 0.5
 
 
 @pytest.mark.parametrize("values", [STEADY, STEADY | {"a": 0.3, "slack": 0.01}, PUSHING], ids=["a=0", "a>0", "slack"])

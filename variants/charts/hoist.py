@@ -17,8 +17,8 @@ from ...drawing.words import Words
 from ...plans.hoist.forces import Choice, choose
 from ...plans.hoist.hoist import complete
 from ...plans.hoist.solve import SolvedHoist
-from ...plans.lab.hoists import StepLimits, Ways, by_board, by_hand, rivals, root_race, step_limits
-from ...plans.lab.integrators import GROWN, STEPPERS
+from ...plans.lab.hoists import Steps, Ways, by_board, by_hand, rivals, root_race, step_limits
+from ...plans.lab.integrators import GROWN
 from ...plans.lab.ropes import COMPARED, MANY, HoistDepth, depth
 from ...scales.errors import InputError
 from ...scales.units import format_unit, unit
@@ -30,39 +30,37 @@ EVERY = 5  # of the places stands in the tables
 TABLED = (("F_max", "kN"), ("sigma_max", "MPa"))
 
 
-class _HoistStepsChart(Chart[StepLimits]):
+class _HoistStepsChart(Chart[Mapping[str, Steps]]):
     """Errors over the step of every method that integrates: orders, limits of stability, refusals."""
 
     heading, page = "chart.hoist_stability", staticmethod(steps_page)
 
     def _parts(self, words: Words) -> Iterator[str]:
         """Go through order and limit of every method, then errors over the step; a dash where a run is refused."""
-        found = self.found
         heads = ("chart.method", "chart.order", "chart.hoist.limit_head", "chart.hoist.refused_from")
         rows = [[words[key] for key in heads]]
-        for method in STEPPERS:
-            order, refused, limit = found.order(method), found.refused_from(method), found.limit(method)
+        for method, runs in self.found.items():
+            order, refused, limit = runs.order, runs.refused_from, runs.limit
             stable = "∞" if math.isinf(limit) else words.short(limit, 5) if limit else words["chart.hoist.always"]
             since = words["chart.hoist.never"] if refused is None else words.short(refused, 3)
             rows.append([words[f"chart.{method}"], "–" if order is None else words.number(order, 2), stable, since])
-        errors = [[words["chart.hoist.step"], *(words[f"chart.{method}"] for method in STEPPERS)]]
+        errors = [[words["chart.hoist.step"], *(words[f"chart.{method}"] for method in self.found)]]
         known = {(run["method"], run["step"]): run["error"] for run in self._runs()}
         for z in sorted({z for _, z in known}, reverse=True):
-            cells = [short(words, known[m, z]) if (m, z) in known else "" for m in STEPPERS]
+            cells = [short(words, known[m, z]) if (m, z) in known else "" for m in self.found]
             errors.append([words.short(z, 3), *cells])
         yield from (aligned(rows), aligned(errors, ()))
 
     def note(self, words: Words) -> str:
         """Return what is refused, and why."""
-        grown = words.short(PERCENT * (GROWN - 1.0), 3)
-        return words["chart.hoist.limits_note"].format(grown=grown, ratio=words.short(self.found.ratio, 3))
+        grown, [ratio, *_] = PERCENT * (GROWN - 1.0), (runs.ratio for runs in self.found.values())
+        return words["chart.hoist.limits_note"].format(grown=words.short(grown, 3), ratio=words.short(ratio, 3))
 
     def _runs(self) -> Iterator[dict[str, Any]]:
         """Go through all runs; one that is refused has no error."""
-        found = self.found
-        for method in STEPPERS:
-            columns = (found.steps[method], found.errors[method], found.grown[method])
-            for z, error, grown in zip(*(column.tolist() for column in columns), strict=True):
+        for method, runs in self.found.items():
+            columns = (column.tolist() for column in (runs.steps, runs.errors, runs.grown))
+            for z, error, grown in zip(*columns, strict=True):
                 refused = not math.isfinite(error)
                 yield {"method": method, "step": z, "error": error, "grown": grown, "refused": refused}
 
@@ -70,19 +68,18 @@ class _HoistStepsChart(Chart[StepLimits]):
         yield "method", "step [rad]", "error", "grown", "refused", "order", "limit"
         for run in self._runs():
             method, *numbers, refused = run.values()
-            yield method, *numbers, int(refused), self.found.order(method), self.found.limit(method)
+            yield method, *numbers, int(refused), self.found[method].order, self.found[method].limit
 
     def _data(self) -> dict[str, Any]:
-        found = self.found
         return {
             "methods": {
                 method: {
-                    "order": found.order(method),
-                    "limit": found.limit(method),
-                    "stable": math.isinf(found.limit(method)),
-                    "refused_from": found.refused_from(method),
+                    "order": runs.order,
+                    "limit": runs.limit,
+                    "stable": math.isinf(runs.limit),
+                    "refused_from": runs.refused_from,
                 }
-                for method in STEPPERS
+                for method, runs in self.found.items()
             },
             "runs": [*self._runs()],
         }
