@@ -8,8 +8,8 @@ positions at once, velocities and accelerations from linear systems with the sam
 A pose is a float64 array of shape (unknowns, N): first the angles, rad, that of the frame among them, then the ways, m.
 Rates of these, and rates of rates, have the same shape.
 
-A vector is a form, complex128 of shape (angles, 1 + ways): what turns with each angle, as it is for an angle of zero, a
-constant part in column 0 and the direction of each slider's guide in the column of its way. Forms add up as arrays do.
+A vector is a form, complex128 of shape (unknowns,): what turns with each angle, as it is for an angle of zero, then the
+direction of each slider's guide, which turns with the guide and counts as long as its way. Forms add up as arrays do.
 
 Source: Zinoviev, method of closed vector contours; Artobolevsky, Theory of mechanisms and machines.
 """
@@ -17,7 +17,7 @@ Source: Zinoviev, method of closed vector contours; Artobolevsky, Theory of mech
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -42,10 +42,11 @@ class Contours:
         self.angle_of, self._ahead = self._alike(guides)
         self.count = len(set(self.angle_of.values()))  # of the angles
         self._guides = dict(enumerate(guides, start=self.count))
-        self._none = np.zeros((self.count, 1 + len(guides)), complex)
-        self._origins = {FRAME: self._none}
-        self.closed = tuple(self._walk())
-        self.size = max((float(np.abs(form[:, 0]).max()) for form in self.closed), default=1.0) or 1.0
+        self._rows = [*range(self.count), *(self.angle_of[pair.links[1]] for pair in guides)]  # with what each turns
+        self._slides = (np.arange(len(self._rows)) >= self.count)[:, None]
+        self._origins = {FRAME: np.zeros(len(self._rows), complex)}
+        self.closed = np.stack([*self._walk()])
+        self.size = float(np.abs(self.closed[:, : self.count]).max()) or 1.0
         driver, self._zero = mechanism.driver, 0.0  # the driver's variable where its row is zero
         if isinstance(driver, Driver):
             points = mechanism.link(driver.link).points
@@ -95,8 +96,8 @@ class Contours:
             return self._arm(first, ends[0]) - self._arm(second, ends[1])
         on_slider, through = self._arm(first, self._m.link(first).points[pair.point]), self._arm(second, pair.through)
         along = cmath.rect(1.0, self._ahead[second] + self._v[pair.direction])
-        slid, row = self._none.copy(), next(row for row, guide in self._guides.items() if guide is pair)
-        slid[self.angle_of[second], [0, 1 + row - self.count]] = along * 1j * self._v[pair.offset], along
+        slid, row = np.zeros_like(through), next(row for row, guide in self._guides.items() if guide is pair)
+        slid[self.angle_of[second]], slid[row] = along * 1j * self._v[pair.offset], along
         return on_slider - through - slid
 
     def _at(self, place: tuple[str, str]) -> complex:
@@ -104,8 +105,8 @@ class Contours:
 
     def _arm(self, link: int, place: tuple[str, str]) -> Array:
         """Return the vector from a link's origin to a place on it."""
-        arm = self._none.copy()
-        arm[self.angle_of[link], 0] = cmath.rect(1.0, self._ahead[link]) * self._at(place)
+        arm = np.zeros(len(self._rows), complex)
+        arm[self.angle_of[link]] = cmath.rect(1.0, self._ahead[link]) * self._at(place)
         return arm
 
     def point(self, letter: str) -> Array:
@@ -124,34 +125,41 @@ class Contours:
         for link, direction in directions.items():
             if self.angle_of[link]:
                 pose[self.angle_of[link]] = np.angle(direction) - self._ahead[link]
-        turned = np.einsum("ckj,kn->ncj", np.stack(self.closed), np.exp(1j * pose[: self.count]))
+        turned = self._turned(self.closed, pose).transpose(2, 0, 1)
         parts = np.concatenate((turned.real, turned.imag), axis=1)
-        pose[self.count :] = -(np.linalg.pinv(parts[:, :, 1:]) @ parts[:, :, :1])[:, :, 0].T
+        gaps = parts[:, :, : self.count].sum(axis=2, keepdims=True)
+        pose[self.count :] = -(np.linalg.pinv(parts[:, :, self.count :]) @ gaps)[:, :, 0].T
         return pose
 
     def _turned(self, form: Array, pose: Array) -> Array:
-        """Return what turns with each angle, shape (angles, N)."""
-        ways = np.concatenate((np.ones((1, pose.shape[1])), pose[self.count :]))
-        return np.asarray(np.exp(1j * pose[: self.count]) * (form @ ways))
+        """Return what turns of forms of shape (..., unknowns) in every position: shape (..., unknowns, N)."""
+        return np.asarray(form[..., None] * np.exp(1j * pose[: self.count])[self._rows])
+
+    def _lengths(self, pose: Array) -> Array:
+        """Return what each part of a form counts: a constant one once, a way as it is long."""
+        return np.where(self._slides, pose, 1.0)
+
+    def _speeds(self, pose: Array, rates: Array) -> Array:
+        """Return the first derivatives of lengths that turn, in parts of the turn."""
+        return np.asarray(self._slides * rates + 1j * rates[self._rows] * self._lengths(pose))
+
+    def _bends(self, pose: Array, rates: Array, changes: Array) -> Array:
+        """Return their second derivatives."""
+        omega = rates[self._rows]
+        turned = (1j * changes[self._rows] - omega * omega) * self._lengths(pose)
+        return np.asarray(self._slides * (changes + 2j * omega * rates) + turned)
 
     def value(self, form: Array, pose: Array) -> Array:
         """Return a vector in every position, shape (N,)."""
-        return np.asarray(self._turned(form, pose).sum(axis=0))
-
-    def _slopes(self, form: Array, pose: Array) -> Array:
-        """Return the derivatives of a vector by all unknowns, shape (unknowns, N)."""
-        along = form[:, 1:].T @ np.exp(1j * pose[: self.count])
-        return np.concatenate((1j * self._turned(form, pose), along))
+        return np.asarray((self._turned(form, pose) * self._lengths(pose)).sum(axis=0))
 
     def rate(self, form: Array, pose: Array, rates: Array) -> Array:
         """Return its first derivative by time."""
-        return np.asarray((self._slopes(form, pose) * rates).sum(axis=0))
+        return np.asarray((self._turned(form, pose) * self._speeds(pose, rates)).sum(axis=0))
 
     def change(self, form: Array, pose: Array, rates: Array, changes: Array) -> Array:
         """Return its second derivative by time."""
-        omega, slid = rates[: self.count], np.exp(1j * pose[: self.count]) * (form[:, 1:] @ rates[self.count :])
-        bent = omega * (2j * slid - omega * self._turned(form, pose))
-        return np.asarray(self.rate(form, pose, changes) + bent.sum(axis=0))
+        return np.asarray((self._turned(form, pose) * self._bends(pose, rates, changes)).sum(axis=0))
 
     def solve(self, near: Array, places: Array, tolerance: float) -> Array:
         """Find poses by Newton's method, from a pose `near` each place of the driver, float64 of shape (N,).
@@ -163,7 +171,7 @@ class Contours:
         pose[0], pose[self._driven] = 0.0, places - self._zero
         parts = np.where(np.arange(len(pose)) < self.count, 1.0, 1.0 / self.size)[:, None]
         for _ in range(ROUNDS):
-            step = self._solved(pose, [self.value(form, pose) for form in self.closed])
+            step = self._solved(pose, self._lengths(pose))
             pose = pose + step
             held = (np.abs(step) * parts).max(axis=0) < tolerance
             if held.all():
@@ -172,23 +180,31 @@ class Contours:
 
     def rates(self, pose: Array, speed: float) -> Array:
         """Return velocities at a speed of the driver, by a linear system."""
-        return self._driven_by(pose, speed, lambda form, own: self.rate(form, pose, own))
+        own = self._own(pose, speed)
+        return self._solved(pose, self._speeds(pose, own)) + own
 
     def changes(self, pose: Array, rates: Array, acceleration: float = 0.0) -> Array:
         """Return accelerations, by a linear system; `acceleration` is the driver's."""
-        return self._driven_by(pose, acceleration, lambda form, own: self.change(form, pose, rates, own))
+        own = self._own(pose, acceleration)
+        return self._solved(pose, self._bends(pose, rates, own)) + own
 
-    def _driven_by(self, pose: Array, driver: float, gap: Callable[[Array, Array], Array]) -> Array:
+    def _own(self, pose: Array, driver: float) -> Array:
+        """Return what the driver has alone."""
         own = np.zeros_like(pose)
         own[self._driven] = driver
-        return self._solved(pose, [gap(form, own) for form in self.closed]) + own
+        return own
 
-    def _solved(self, pose: Array, gaps: list[Array]) -> Array:
-        """Return the unknowns that close gaps, to first order: both components of every contour."""
-        slopes = np.concatenate([(of.real, of.imag) for of in (self._slopes(form, pose) for form in self.closed)])
-        right = np.stack([part for gap in gaps for part in (-gap.real, -gap.imag)], axis=1)[:, :, None]
+    def _solved(self, pose: Array, parts: Array) -> Array:
+        """Return the unknowns that close the gaps of all contours whose parts count so, to first order."""
+        slopes = self._turned(self.closed, pose)
+        gaps = (slopes * parts).sum(axis=1)
+        for row, pair in self._guides.items():  # what slides turns with its guide, too
+            slopes[:, self.angle_of[pair.links[1]]] += slopes[:, row] * pose[row]
+        slopes[:, : self.count] *= 1j
+        free = slopes[:, self._free].transpose(2, 0, 1)
+        right = -np.concatenate((gaps.real, gaps.imag)).T[:, :, None]
         step = np.zeros_like(pose)
-        step[self._free] = _linear(slopes[:, self._free].transpose(2, 0, 1), right)[:, :, 0].T
+        step[self._free] = _linear(np.concatenate((free.real, free.imag), axis=1), right)[:, :, 0].T
         return step
 
 
