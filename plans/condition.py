@@ -116,13 +116,11 @@ class _Dual:
     def __neg__(self) -> _Dual:
         return _Dual(-self.value, -self.slopes)
 
-    def __sub__(self, other: Any) -> _Dual:
-        if isinstance(other, _Dual):
-            return _Dual(self.value - other.value, self.slopes - other.slopes)
-        return _Dual(self.value - other, self.slopes)
+    def __sub__(self, other: Any) -> Any:
+        return self + -other
 
-    def __rsub__(self, other: Any) -> _Dual:
-        return _Dual(other - self.value, -self.slopes)
+    def __rsub__(self, other: Any) -> Any:
+        return -self + other
 
     def __mul__(self, other: Any) -> _Dual:
         if isinstance(other, _Dual):

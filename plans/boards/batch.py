@@ -85,10 +85,9 @@ def traced(
     scalars = {name: float(value) for name, value in givens.items() if name not in arrays}
     work = _written(program, scalars, arrays, tuple(wanted), boards)
     rooms = {name: _room(value, size, number) for name, value in work.results.items()}
-    results, outputs = (
-        {name: room for name, (room, _) in rooms.items()},
-        [into for _, own in rooms.values() for into in own],
-    )
+    results = {name: room for name, (room, _) in rooms.items()}
+    outputs = [into for _, filled in rooms.values() for into in filled]
+    given = [arrays[name] for name in work.chunked.given.values()]
     with np.errstate(invalid="ignore", divide="ignore"):
         code, shared = work.once(scalars)
         codes = np.full(size, max(code, work.code), np.int8)
@@ -98,13 +97,10 @@ def traced(
                 out[:] = 0.0 - kept[place] if negative else kept[place] + 0.0
         if loop and work.loop:
             varying = [out for (place, _), out in zip(work.chunked.outputs, outputs, strict=True) if place not in kept]
-            work.loop(
-                codes, *(arrays[name] for name in work.names), *(kept[p] for p in work.chunked.computed), *varying
-            )
+            work.loop(codes, *given, *(kept[p] for p in work.chunked.computed), *varying)
             return results, codes
         constants = [np.array(value, number) for value in shared]
         block = work.buffers(min(size, chunk) + PADDING, number)
-        given = [arrays[name] for name in work.names]
         for start in range(0, size, chunk):
             part = slice(start, min(start + chunk, size))
             buffers = [buffer[: part.stop - start] for buffer in block]
@@ -120,7 +116,6 @@ class _Work:
     results: Mapping[str, Any]
     chunked: Chunked
     code: int
-    names: Sequence[str]
     once: Callable[..., Any]
     chunk: Callable[..., Any]
     spare: list[NDArray[Any]] = field(default_factory=list)
@@ -173,7 +168,7 @@ def _written(
         whole = {i: entry.data for i, entry in enumerate(board.trace.entries) if entry.operation == "whole"}
         once = compiled(chunked.once(), "once", plain_names())
         chunk = compiled(chunked.chunk(), "chunk", {**ARRAYS, "whole": whole})
-        return _Work(results, chunked, CODES[board.status], chunked.names, once, chunk)
+        return _Work(results, chunked, CODES[board.status], once, chunk)
 
     key = program, tuple(plain.items()), frozenset(scalars), frozenset(arrays), wanted, tracing
     return _KEPT.get(key, write)

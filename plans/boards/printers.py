@@ -321,15 +321,10 @@ class Chunked:
         return self._buffers[1]
 
     @cached_property
-    def given(self) -> list[tuple[int, str]]:
-        """Places and names of the givens that are needed."""
+    def given(self) -> dict[int, str]:
+        """Places and names of the givens that are arrays, in the order in which `chunk` takes them."""
         entries = self.trace.entries
-        return [(place, entries[place].data) for place in self.order if entries[place].operation == "given"]
-
-    @property
-    def names(self) -> list[str]:
-        """Names of the givens that are arrays, in the order in which `chunk` takes them."""
-        return [name for place, name in self.given if place in self.varying]
+        return {place: entries[place].data for place in self.each if entries[place].operation == "given"}
 
     def once(self) -> str:
         """Return the source of `once(given) -> (code, shared)`, for a mapping of numbers by name."""
@@ -339,7 +334,7 @@ class Chunked:
     def chunk(self) -> str:
         """Return the source of `chunk(codes, given, shared, buffers, outputs)`."""
         unpacked = {
-            "given": [f"g{place}" for place, _ in self.given if place in self.varying],
+            "given": [f"g{place}" for place in self.given],
             "shared": [f"s{place}" for place in self.shared],
             "buffers": [f"b{index}" for index in range(self.buffers)],
         }

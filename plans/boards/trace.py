@@ -195,8 +195,7 @@ class Real:
         first, second = sorted((self.place, other.place))
         return Real(self.trace, self.trace.note("add", (first, second)), self.negative)
 
-    def __radd__(self, other: float) -> Real:
-        return self + other
+    __radd__ = __add__
 
     def __sub__(self, other: Real | float) -> Real:
         return self + -other if isinstance(other, Real | float | int) else NotImplemented
@@ -215,8 +214,7 @@ class Real:
         first, second = sorted((self.place, other.place))
         return Real(self.trace, self.trace.note("multiply", (first, second)), self.negative != other.negative)
 
-    def __rmul__(self, other: Any) -> Any:
-        return self * other
+    __rmul__ = __mul__
 
     def __truediv__(self, other: Real | float) -> Real:
         if not isinstance(other, Real | float | int):
@@ -254,13 +252,10 @@ class Vector:
             return NotImplemented
         return Vector(self.real + other.real, self.imag + other.imag)
 
-    def __radd__(self, other: complex) -> Vector:
-        return self + other
+    __radd__ = __add__
 
     def __sub__(self, other: Vector | complex) -> Vector:
-        if not isinstance(other, Vector | complex):
-            return NotImplemented
-        return Vector(self.real - other.real, self.imag - other.imag)
+        return self + -other if isinstance(other, Vector | complex) else NotImplemented
 
     def __rsub__(self, other: complex) -> Vector:
         return -self + other
@@ -272,8 +267,7 @@ class Vector:
             return Vector(-self.imag, self.real)
         return NotImplemented  # a product of two vectors is rounded in another way on each machine
 
-    def __rmul__(self, other: Real | float | complex) -> Vector:
-        return self * other
+    __rmul__ = __mul__
 
 
 class TracingBoard(ExactBoard):

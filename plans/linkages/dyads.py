@@ -119,13 +119,13 @@ class RRR(_Pinned):
         if part is None:
             return plan.close(CB.e, AB.e)
         e, n = spelled("e", self.name), spelled("n", self.name)
-        start, last, end, beside = (f"{plan.plan}.{mark}" for mark in (0, plan.last, closing, closing + 1))
+        start, last, end, beside = (f"{plan.name}.{mark}" for mark in (0, plan.last, closing, closing + 1))
         if dict(self.mechanism.centres)[self.name] == CB.start:
-            board.lay(beside, f"{plan.plan}.1", n, part.size)
+            board.lay(beside, f"{plan.name}.1", n, part.size)
             plan.read(part, closing + 1, 1)
             board.meet(end, beside, e, start, AB.e)
         else:
-            board.back(beside, f"{plan.plan}.{chained}", n, part.size)
+            board.back(beside, f"{plan.name}.{chained}", n, part.size)
             plan.read(part, chained, closing + 1)
             board.meet(end, last, CB.e, beside, e)
         return closing

@@ -235,13 +235,13 @@ class Polygon:
     """A plan of forces, which hang on one another from mark 0 on; its marks go by their numbers."""
 
     def __init__(self, board: Board, of: str | int) -> None:
-        self.board, self.plan, self.last = board, spelled("forces", of), 0
-        board.pole(f"{self.plan}.0")
+        self.board, self.name, self.last = board, spelled("forces", of), 0
+        board.pole(f"{self.name}.0")
 
     def hang(self, *forces: str) -> int:
         """Hang forces on the last mark, tip to tail; return the mark at the end."""
         for force in forces:
-            self.board.chain(f"{self.plan}.{self.last + 1}", f"{self.plan}.{self.last}", force)
+            self.board.chain(f"{self.name}.{self.last + 1}", f"{self.name}.{self.last}", force)
             self.last += 1
         return self.last
 
@@ -249,16 +249,16 @@ class Polygon:
         """Lay off a part of a reaction, of known size, along a direction or (-1) against it; return the mark made."""
         lay, start = self.board.lay if sense > 0 else self.board.back, self.last
         self.last += 1
-        lay(f"{self.plan}.{self.last}", f"{self.plan}.{start}", along, part.size)
+        lay(f"{self.name}.{self.last}", f"{self.name}.{start}", along, part.size)
         self.read(part, start, self.last)
         return self.last
 
     def close(self, along: str, other: str) -> int:
         """Mark where the line through the last mark meets the other one, through mark 0."""
-        self.board.meet(f"{self.plan}.{self.last + 1}", f"{self.plan}.{self.last}", along, f"{self.plan}.0", other)
+        self.board.meet(f"{self.name}.{self.last + 1}", f"{self.name}.{self.last}", along, f"{self.name}.0", other)
         self.last += 1
         return self.last
 
     def read(self, force: str, tail: int, tip: int) -> None:
         """Read a force from one mark to another."""
-        self.board.read(force, f"{self.plan}.{tail}", f"{self.plan}.{tip}")
+        self.board.read(force, f"{self.name}.{tail}", f"{self.name}.{tip}")

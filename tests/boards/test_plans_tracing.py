@@ -33,7 +33,7 @@ def in_chunk(value: Real, arrays: dict[str, Any]) -> tuple[Any, Any]:
     size = len(next(iter(arrays.values())))
     constant = dict(zip(chunked.shared, shared, strict=True)).get(value.place, 0.0)
     result, codes = np.full(size, -constant if value.negative else constant), np.full(size, code, np.int8)
-    given, buffers = [arrays[name] for name in chunked.names], np.empty((chunked.buffers, size))
+    given, buffers = [arrays[name] for name in chunked.given.values()], np.empty((chunked.buffers, size))
     compiled(chunked.chunk(), "chunk", FUNCTIONS)(codes, given, shared, buffers, [result])
     return result, codes
 
