@@ -89,7 +89,8 @@ def _scales(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Box:
     """
     texts = [scene.factor(scene.scale(plan))]
     if plan in RATES:
-        texts.append(scene.factors(RATES[plan][0], unit=RATES[plan][1]))
+        symbol, unit = RATES[plan]
+        texts.append(scene.factor(Scale(symbol, scene.mu(symbol), unit)))
     top = RAISED + 1.6 * scene.style.text * (plan == scene.solved.layout.given)
     at = field.at(0.0, field.y.high) + complex(0.8 * scene.style.label, top)
     text = Text(at, ";  ".join(texts), scene.style.text)

@@ -58,7 +58,7 @@ class Inversion(ABC):
         self.canvas, self.style, self.lines = self.figure.canvas(scene), scene.style, scene.division.lines
         self.circles = dict(zip(circles, scene.sizes(*circles), strict=True))
         self.r_0, self.arcs = self.circles[circles[0]], outer + self.phased * scene.style.label
-        self.edge = self.arcs + EDGE * scene.style.label
+        self.edge = self.axis = self.top = self.arcs + EDGE * scene.style.label  # also of the upright axis, of letters
         self.left: list[str] = []  # sizes that have no place in the figure
 
     def mark(self, letter: str, line: int) -> complex:
@@ -70,10 +70,10 @@ class Inversion(ABC):
         """The direction in the middle of the longer dwell."""
         return course.dwelling(self.scene.solved) + self.turned
 
-    def view(self, axis: float, top: float) -> View:
-        """Draw everything; the upright axis ends at `axis`, letters end at `top`."""
+    def view(self) -> View:
+        """Draw the cam as it stands when the follower is lowest."""
         canvas, scene = self.canvas, self.scene
-        self._centre(axis)
+        self._centre()
         canvas.part(self.base)
         canvas.add(*(Group((Circle(0j, r, Pen.THIN),), "circle", name) for name, r in self.circles.items()))
         for i in self.lines:
@@ -85,7 +85,7 @@ class Inversion(ABC):
         self._phases()
         notes = "; ".join(self.follower()), *undercut_notes(scene, self.profile)
         self._letter_centre()
-        canvas.bounds = -self.edge, -self.edge, self.edge, top
+        canvas.bounds = -self.edge, -self.edge, self.edge, self.top
         return canvas.finish(self.plan, scene.heading(self.heading, self.plan), notes)
 
     @abstractmethod
@@ -134,11 +134,11 @@ class Inversion(ABC):
             clear = (a for a in middles if not past or abs(swept(1.0 + 0j, past * polar(1.0, -a))) > half)
             self.canvas.add(_along(text, radius, next(clear, middles[0]), abs(sweep), height))
 
-    def _centre(self, top: float) -> None:
+    def _centre(self) -> None:
         """Draw the cam's shaft, its axes, and the arrow of omega."""
         canvas, reach = self.canvas, self.r_0 + PAST
         canvas.part("shaft")
-        for a, b in ((complex(-reach, 0.0), complex(reach, 0.0)), (complex(0.0, -reach), 1j * top)):
+        for a, b in ((complex(-reach, 0.0), complex(reach, 0.0)), (complex(0.0, -reach), 1j * self.axis)):
             canvas.add(Line(a, b, Pen.AXIS, role="axis"))
         r = shaft_radius(self.r_0, self.style, abs(self.e))
         canvas.add(shaft(0j, r, self.style))

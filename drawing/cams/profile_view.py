@@ -9,7 +9,7 @@ from ..page import extent
 from ..shapes import Arc, Group, Line, Pen, Polyline, Text
 from ..symbols import Rod, fixed_pivot, polar, revolute, swept, unit
 from ..text import lay_out
-from ..view import View, angle, linear
+from ..view import angle, linear
 from .inversion import NUMBERS, PHASES, RADIUS, Inversion, RollerInversion
 from .scene import CamScene, grouped, is_aside, is_sharp, letter, thin
 
@@ -24,18 +24,23 @@ THICK = 0.5  # thickness of the plate, in heights of letters
 ROOM = 16.0  # mm for letters above a rod
 
 
+def _farthest(scene: CamScene) -> float:
+    """Return a radius about the cam's centre beyond the roller in all positions, mm."""
+    return max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in scene.division.lines) + scene.sizes("R_roller")[0]
+
+
 class _Roller(RollerInversion):
     """The cam for a roller on a line."""
 
     numbered = "lines"
 
     def __init__(self, scene: CamScene) -> None:
-        e, s_0, R, stroke = scene.sizes("e", "s_0", "R_roller", "h")
-        outer = max(abs(scene.mm(f"{PROFILE}.B{i}")) for i in scene.division.lines) + R
-        super().__init__(scene, scene.rolling.profile, "r_0", outer=outer)
+        e, s_0, stroke = scene.sizes("e", "s_0", "h")
+        super().__init__(scene, scene.rolling.profile, "r_0", outer=_farthest(scene))
         self.circles |= {"e": abs(e)} if is_aside(scene) else {}
         self.e, self.start, self.past = e, on_circle(e, self.arcs, 1j), self.normal_end(scene.shown)
         self.rod = Rod(e, s_0, self.edge, stroke, scene.style)
+        self.axis, self.top = self.rod.top + 12.0, self.rod.top + ROOM
 
     def position(self, i: int) -> None:
         """Draw the follower's line and the roller; the line touches the circle of the offset."""
@@ -86,19 +91,19 @@ class _Rocker(RollerInversion):
     phased = PHASES + 1.0
 
     def __init__(self, scene: CamScene) -> None:
-        marks = {letter: [scene.mm(f"{PROFILE}.{letter}{i}") for i in scene.division.lines] for letter in "AB"}
-        self.start = marks["A"][0]
-        self.turned = swept(1j, marks["B"][0])
-        self.far = max(map(abs, marks["B"])) + scene.sizes("R_roller")[0]
-        super().__init__(scene, scene.rolling.profile, "r_0", "l_OC", outer=max(abs(self.start), self.far))
+        self.start, low = (scene.mm(f"{PROFILE}.{letter}0") for letter in "AB")
+        self.turned, far = swept(1j, low), _farthest(scene)
+        super().__init__(scene, scene.rolling.profile, "r_0", "l_OC", outer=max(abs(self.start), far))
+        self.axis = far + 3.0
 
     def position(self, i: int) -> None:
         """Draw the pivot, the roller's arc about it, and the roller."""
         canvas, scene, pivot = self.canvas, self.scene, self.mark("A", i)
-        l, (swing,) = scene.sizes("l_rocker")[0], [scene.value_of("psi")]
+        (l,), low = scene.sizes("l_rocker"), -self.sense * float(scene.solved.angles[i])
+        over = OVER / l
         canvas.part("pitch")
-        low = -self.sense * float(scene.solved.angles[i]) - OVER / l
-        canvas.add(Arc(pivot, l, low, swing + 2.0 * (OVER / l), Pen.THIN, role="arc", name=str(i)))
+        sweep = scene.value_of("psi") + 2.0 * over
+        canvas.add(Arc(pivot, l, low - over, sweep, Pen.THIN, role="arc", name=str(i)))
         if i:
             canvas.part("profile")
             self.roller(i)
@@ -163,6 +168,7 @@ class _Plate(Inversion):
         outer = max(abs(end) for i in lines for end in self.plate(i))
         super().__init__(scene, scene.plate.profile, "r_0_flat", outer=outer)
         self.rod = Rod(0.0, r_0 + THICK * scene.style.label, self.edge, stroke, scene.style)
+        self.axis, self.top = self.rod.top + 6.0, self.rod.top + ROOM
 
     def plate(self, i: int) -> tuple[complex, complex]:
         """Return the ends of the plate in a position."""
@@ -223,21 +229,6 @@ class _Plate(Inversion):
             canvas.add(over)
 
 
-def _roller_view(scene: CamScene) -> View:
-    plan = _Roller(scene)
-    return plan.view(plan.rod.top + 12.0, plan.rod.top + ROOM)
-
-
-def _rocker_view(scene: CamScene) -> View:
-    plan = _Rocker(scene)
-    return plan.view(plan.far + 3.0, plan.edge)
-
-
-def _plate_view(scene: CamScene) -> View:
-    plan = _Plate(scene)
-    return plan.view(plan.rod.top + 6.0, plan.rod.top + ROOM)
-
-
 def _central(scene: CamScene) -> str:
     """Return the ending of the key of a sentence that is another one where the follower's line has no offset."""
     return "" if is_aside(scene) else "_central"
@@ -245,7 +236,7 @@ def _central(scene: CamScene) -> str:
 
 _Roller.figure = Figure(
     PROFILE,
-    _roller_view,
+    lambda scene: _Roller(scene).view(),
     ("mu_l",),
     (
         Stage("shaft", "profile.O"),
@@ -261,7 +252,7 @@ _Roller.figure = Figure(
 )
 _Rocker.figure = Figure(
     PROFILE,
-    _rocker_view,
+    lambda scene: _Rocker(scene).view(),
     ("mu_l",),
     (
         Stage("shaft", "profile.O"),
@@ -276,7 +267,7 @@ _Rocker.figure = Figure(
 )
 _Plate.figure = Figure(
     PLATE_PROFILE,
-    _plate_view,
+    lambda scene: _Plate(scene).view(),
     ("mu_l",),
     (
         Stage("shaft", "plate_profile.O"),

@@ -105,11 +105,6 @@ class CamScene(SubjectScene[SolvedCam]):
         rounded = Scale(scale.symbol, float(f"{scale.mu:.{MU_DIGITS}g}"), scale.unit, scale.paper)
         return self.words.scale(rounded)
 
-    def factors(self, *symbols: str, unit: str = "m", times: float = 1.0) -> str:
-        """Return a value of several scale factors at once: mu_s = mu_ds = 0.0002 m/mm."""
-        last = self.factor(Scale(symbols[-1], self.mu(symbols[0]) * times, unit))
-        return " = ".join([*(self.symbol(symbol) for symbol in symbols[:-1]), last])
-
     def length(self, value: float) -> str:
         """Return a length of the mechanism in mm, as a dimension has it."""
         return self.words.number(value * 1e3, 2)

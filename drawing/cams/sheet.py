@@ -19,8 +19,8 @@ from ..table import givens_view
 from ..view import View
 from .scene import CamScene, lettered
 
-# what may be drawn smaller for the sake of one page, and by how many rungs
-GIVING = {"mu_l": 2, "reduction": 2, "mu_s_ds": 2, "mu_s_d2s": 2}
+GIVING = ("mu_l", "reduction", *EQUAL)  # what may be drawn smaller for the sake of one page
+RUNGS = 2  # by how many rungs
 # mm of the least radius and the stroke on a plan, so that it can be read: on S over ds/dphi more numbers stand closely
 LEGIBLE = {"mu_s_ds": 60.0, "mu_s_d2s": 50.0}
 REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the lengths that the task has on the diagrams
@@ -176,9 +176,9 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
     def _ways(self, last: bool) -> list[Rungs]:
         """Return rungs to be tried: first what is least missed gives way, what the task asks for at the end."""
         asked = ["mu_l"] * isinstance(self.contents.choosers.get("mu_l"), Fixed)
-        most = {name: rungs for name, rungs in GIVING.items() if name not in asked and (last or name in EQUAL)}
-        ranges = (range(min(rungs + 1, len(self.ladders[name]))) for name, rungs in most.items())
-        ways = (self.wanted | dict(zip(most, steps, strict=True)) for steps in product(*ranges))
+        giving = [name for name in GIVING if name not in asked and (last or name in EQUAL)]
+        ranges = (range(min(RUNGS + 1, len(self.ladders[name]))) for name in giving)
+        ways = (self.wanted | dict(zip(giving, rungs, strict=True)) for rungs in product(*ranges))
         return sorted(ways, key=_missed)
 
     def _legible(self, sheet: Format, rungs: Rungs) -> bool:

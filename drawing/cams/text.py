@@ -11,7 +11,7 @@ from typing import Any
 
 from ...plans.cams import course
 from ...plans.cams.cam import PLATE, VALUES
-from ...plans.cams.construction import ACCELERATION, ARC, CHORD_OF, FACTORS, PLATE_SIZES, ROCKER_SIZES, SIZES
+from ...plans.cams.construction import ACCELERATION, CHORD_OF, EXACT, FACTORS, PLATE_SIZES, ROCKER_SIZES, SIZES
 from ...plans.cams.envelopes import Envelope
 from ...plans.cams.rules import rules_of
 from ...plans.cams.solve import SCALES, unit_of
@@ -26,7 +26,8 @@ from .inversion import undercut_notes
 from .scene import MU_DIGITS, CamScene, is_aside
 
 Lines = list[tuple[str, ...]]
-MM = Shown("mm", 1e3)
+TIMES = {"m": 1e3, "rad": DEGREES}  # by SI unit, of lengths and angles as they are printed
+LETTERED = {exact: name for name, exact in EXACT.items()}
 FROM = {SIZES: ("mu_s", "mu_ds"), PLATE_SIZES: ("mu_s", "mu_d2s")}  # scale factors of the diagrams
 DRAWN = {"mu_s": "s", "mu_ds": "ds", "mu_d2s": "d2s"}  # what they draw
 ON_PAPER = ("l_A1", "H_a", "H_v", "S_max", "S_max_chord")
@@ -41,38 +42,34 @@ SAME = 1e-9  # part of the greatest value of its column within which two limits 
 def scales_block(scene: CamScene, width: float) -> View:
     """Return the calculation of amplitudes, scale factors and greatest rates, and by how much chords do not close."""
     words, values, motion = scene.words, scene.solved.values, scene.solved.motion
-    lines = [_worked(scene, "l_A2", "second_amplitude", "l_A1", "u")] if "l_A2" in values else []
-    lines += [_factor(scene, name) for name in (*DRAWN, "mu_v", "mu_a") if name in values]
+    lines = [_worked(scene, name) for name in ("l_A2", *DRAWN, "mu_v", "mu_a") if name in values]
     lines.append((f"{words['said.cam_by_chords']}:",))
-    lines += [_factor(scene, name, "_chord") for name in DRAWN if name in values]
+    lines += [_worked(scene, CHORD_OF[name]) for name in DRAWN if name in values]
     gaps = (_closing(scene, name) for name in ("s_close", "v_close") if name in values)
     lines.append((words["said.cam_closing"].format(values=", ".join(gaps)),))
-    for name, of, rate in (("v", "ds_max", motion.ds_max), ("a", "d2s_max", motion.d2s_max)):
-        if f"{name}_max" in values:
-            law, omega, _ = FACTORS[f"mu_{name}"]
-            analogue = Input(rate.value, name=of)
-            lines.append(_worked(scene, f"{name}_max", law, omega, analogue, shown=Shown(unit_of(f"{name}_max"))))
+    rates = ("v_max", "mu_v", "ds_max", motion.ds_max), ("a_max", "mu_a", "d2s_max", motion.d2s_max)
+    for name, mu, of, rate in rates:
+        if name in values:
+            lines.append(_worked(scene, name, FACTORS[mu][0], "omega", Input(rate.value, name=of)))
     return text_block("equations_scales", words["heading.scales"], lines, scene.style, width)
 
 
-def _factor(scene: CamScene, name: str, chord: str = "") -> tuple[str, ...]:
-    """Return how a scale factor is calculated, of the exact curves or by chords."""
-    law, *operands = FACTORS[name]
-    called = [f"{operand}{chord}" if operand in CHORD_OF else operand for operand in operands]
-    return _worked(scene, f"{name}{chord}", law, *called, shown=Shown(unit_of(name)))
+def _worked(scene: CamScene, name: str, law: str = "", *operands: str | Input) -> tuple[str, ...]:
+    """Return how a quantity is calculated, in letters and in numbers: by its step, or by another law.
 
-
-def _worked(scene: CamScene, name: str, law: str, *operands: str | Input, shown: Shown = MM) -> tuple[str, ...]:
-    """Return how a quantity is calculated, in letters and in numbers: lengths in millimetres where it is shown so."""
-    inputs = []
-    for operand in operands:
+    Lengths go into lengths in millimetres, angles in degrees.
+    """
+    step, unit, inputs = scene.solved.program.by_name[name], unit_of(name), list[Input]()
+    for operand in operands or step.operands:
         if isinstance(operand, str):
-            exact, unit = operand in scene.solved.givens and operand not in FOUND, unit_of(operand)
-            times = DEGREES if unit == "rad" else 1e3 if unit == "m" and shown.unit in ("mm", "deg") else 1.0
-            value = abs(scene.value_of(operand)) * times if operand not in ON_PAPER else scene.paper(operand)
-            operand = Input(value, exact, name=operand, times=1e3 if operand in ON_PAPER else times)
+            called = LETTERED.get(operand, operand)
+            times = TIMES.get(unit_of(operand), 1.0) if unit in TIMES else 1.0
+            on_paper, exact = called in ON_PAPER, operand in scene.solved.givens and operand not in FOUND
+            value = scene.paper(operand) if on_paper else abs(scene.value_of(operand)) * times
+            operand = Input(value, exact, name=called, times=1e3 if on_paper else times)
         inputs.append(operand)
-    return worked(scene.words, name, law, inputs, shown)
+    shown = {"m": Shown("mm", 1e3), "rad": Shown("deg", DEGREES)}.get(unit, Shown(unit))
+    return worked(scene.words, name, law or step.law, inputs, shown)
 
 
 def choices_block(scene: CamScene, note: str, width: float) -> View:
@@ -109,21 +106,21 @@ def _plate_block(scene: CamScene, width: float) -> View:
     if scene.plate.given:
         rho = words.short(scene.value_of("rho_flat") * 1e3)
         more = f"≥ {scene.symbol('rho_flat')} = {rho} {words.unit('mm')}"
-        lines.append((*_worked(scene, "rho_flat_min", "excess", "r_0_flat", "r_0_flat_min"), more))
+        lines.append((*_worked(scene, "rho_flat_min"), more))
     else:
-        lines.append(_worked(scene, "r_0_flat", "enlarged", "r_0_flat_min", "rho_flat"))
-    lines.append(_worked(scene, "R_plate", "enlarged", "ds_max", "margin"))
+        lines.append(_worked(scene, "r_0_flat"))
+    lines.append(_worked(scene, "R_plate"))
     return text_block("equations_plate", words["heading.cam_plate"], lines, scene.style, width)
 
 
 def _rocker_block(scene: CamScene, width: float) -> View:
     """Return the sizes of the cam for a rocker, with the rules for its roller and the transmission angles."""
-    words, degrees = scene.words, Shown("deg", DEGREES)
+    words = scene.words
     lines = [
         (f"{words['said.cam_arc']}:",),
-        _worked(scene, "h", ARC, "psi", "l_rocker"),
+        _worked(scene, "h"),
         (f"{words['said.cam_first_angle']}:",),
-        _worked(scene, "psi_0", "angle_of_triangle", "l_rocker", "l_OC", "r_0", shown=degrees),
+        _worked(scene, "psi_0"),
         *_rules(scene),
     ]
     return text_block("equations_rocker", words["heading.cam_rocker"], lines, scene.style, width)

@@ -274,38 +274,27 @@ def _positions(board: Board, division: Division) -> None:
         board.calc(f"_x{i}_exact", "part_of_travel", "h", f"_x_part{i}")
 
 
-def _roller_profile(board: Board, division: Division) -> None:
-    """Draw the pitch curve and the practical profile of a cam for a roller."""
+def _rolling_profile(board: Board, division: Division, rocks: bool) -> None:
+    """Draw the pitch curve and the practical profile of a cam for a roller, on a line or on a rocker."""
     board.pole(f"{PROFILE}.O")
     for i in division.lines:
-        e, b, p = (f"{PROFILE}.{letter}{i}" for letter in "EBP")
-        board.back(e, f"{PROFILE}.O", f"_left{i}", "e")
-        board.calc(f"_reach{i}", "enlarged", "s_0", f"_s{i}")
-        board.lay(b, e, f"_axis{i}", f"_reach{i}")
-        board.back(p, f"{PROFILE}.O", f"_left{i}", f"_x{i}_exact")
-        _touch(board, i, p, b)
-    board.calc("rho_min", "part_of_travel", "h", "_rho_part")
-
-
-def _rocker_profile(board: Board, division: Division) -> None:
-    """Draw the pitch curve and the practical profile of a cam for a rocker."""
-    board.pole(f"{PROFILE}.O")
-    for i in division.lines:
-        a, b, d = (f"{PROFILE}.{letter}{i}" for letter in "ABD")
-        board.turn(f"_pivot{i}", f"_pivot_angle{i}")
-        board.lay(a, f"{PROFILE}.O", f"_pivot{i}", "l_OC")
-        board.turn(f"_arm{i}_turned", f"_arm_angle{i}")
-        board.lay(b, a, f"_arm{i}_turned", "l_rocker")
-        board.back(d, b, f"_arm{i}_turned", f"_x{i}_arm")
-        _touch(board, i, f"{PROFILE}.O", d)
-    board.calc("rho_min", "part_of_travel", "l_rocker", "_rho_part")
-
-
-def _touch(board: Board, line: int, start: str, end: str) -> None:
-    """Draw the normal between two marks on it, and mark where the roller touches the practical profile."""
-    board.measure(f"_normal_length{line}", start, end)
-    board.direction(f"_normal{line}", start, end, f"_normal_length{line}")
-    board.back(f"{PROFILE}.K{line}", f"{PROFILE}.B{line}", f"_normal{line}", "R_roller")
+        a, b, d, e, k, p = (f"{PROFILE}.{letter}{i}" for letter in "ABDEKP")
+        if rocks:
+            board.turn(f"_pivot{i}", f"_pivot_angle{i}")
+            board.lay(a, f"{PROFILE}.O", f"_pivot{i}", "l_OC")
+            board.turn(f"_arm{i}_turned", f"_arm_angle{i}")
+            board.lay(b, a, f"_arm{i}_turned", "l_rocker")
+            board.back(d, b, f"_arm{i}_turned", f"_x{i}_arm")
+        else:
+            board.back(e, f"{PROFILE}.O", f"_left{i}", "e")
+            board.calc(f"_reach{i}", "enlarged", "s_0", f"_s{i}")
+            board.lay(b, e, f"_axis{i}", f"_reach{i}")
+            board.back(p, f"{PROFILE}.O", f"_left{i}", f"_x{i}_exact")
+        normal = (f"{PROFILE}.O", d) if rocks else (p, b)
+        board.measure(f"_normal_length{i}", *normal)
+        board.direction(f"_normal{i}", *normal, f"_normal_length{i}")
+        board.back(k, b, f"_normal{i}", "R_roller")
+    board.calc("rho_min", "part_of_travel", "l_rocker" if rocks else "h", "_rho_part")
 
 
 def _plate_profile(board: Board, division: Division) -> None:
@@ -454,18 +443,16 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
         _chord_factors(board, division, layout.fastest, given)
     if SIZES_PART in wanted:
         _ordinates(board, division, given)
-        if rolling is not None and not layout.rocks:
+        if layout.rocks:
+            _rocker_sizes(board, division)
+        elif rolling is not None:
             _roller_sizes(board, division, rolling)
         if plate is not None:
             _plate_sizes(board, division, plate.given)
-        if layout.rocks:
-            _rocker_sizes(board, division)
     if PROFILE_PART in wanted:
         _positions(board, division)
-        if rolling is not None and not layout.rocks:
-            _roller_profile(board, division)
+        if rolling is not None:
+            _rolling_profile(board, division, layout.rocks)
         if plate is not None:
             _plate_profile(board, division)
-        if layout.rocks:
-            _rocker_profile(board, division)
     return Program(board.steps)

@@ -54,7 +54,7 @@ class Undercut:
     start: float
     end: float
     corner: complex  # the corner of the profile, m, in the frame of the cam at phi = 0
-    along: tuple[float, float]  # where the profile leaves the envelope and comes back to it: places of the `Curve`
+    along: tuple[float, float]  # where the profile leaves the envelope and comes back to it: places of the curve
     # the greatest travel that is lost, and where
     lost: float
     phi_lost: float
@@ -102,6 +102,48 @@ class Envelope(ABC):
         """The least radius of curvature, m."""
         return self.sharpest.value
 
+    # The closed curve of the envelope, with the arcs where the velocity jumps up. A place `t` on it is the angle phi,
+    # rad, to which every arc before it adds 1.
+
+    @property
+    def length(self) -> float:
+        """Length of the parameter over a turn."""
+        return TURN + len(self.motion.leaps)
+
+    def places(self, phi: Any, side: Any = 1) -> Array:
+        """Return the places of angles of the first turn; at a jump up the two sides are the two ends of its arc."""
+        leaps = self.motion.leaps
+        before = np.where(np.asarray(side) > 0, *(np.searchsorted(leaps, phi, end) for end in ("right", "left")))
+        found: Array = phi + before
+        return found
+
+    def arcs(self, parts: Array) -> Iterator[tuple[Array, Points]]:
+        """Go through the arcs: places and points of the given parts of them."""
+        for k, leap in enumerate(self.motion.leaps):
+            yield leap + k + parts, self.across(leap, parts)[0]
+
+    def locate(self, t: float) -> tuple[float, float | None]:
+        """Return the angle of a place, and which part of an arc it is at if it is on one."""
+        t %= self.length
+        for k, leap in enumerate(self.motion.leaps):
+            if t < leap + k:
+                return t - k, None
+            if t <= leap + k + 1.0:
+                return leap, min(t - leap - k, 1.0)
+        return t - len(self.motion.leaps), None
+
+    def at(self, t: float, side: int) -> tuple[complex, complex]:
+        """Return the point of a place and its derivative; where the velocity jumps down, from a side."""
+        phi, part = self.locate(t)
+        if part is not None:
+            point, along = self.across(phi, part)
+        else:
+            jumps = [jump.phi for jump in self.motion.velocity_jumps]
+            near = min((at - phi for jump in jumps for at in (jump, jump + TURN)), key=abs, default=0.0)
+            side = -1 if near > 0.0 else 1 if near < 0.0 else side
+            point, along = self.practical(phi, side), self.tangent(phi, side)
+        return complex(point), complex(along)
+
     @cached_property
     def undercuts(self) -> list[Undercut]:
         """What the profile does not give of the motion, in order: nothing where no position cuts another's part."""
@@ -116,8 +158,8 @@ class Envelope(ABC):
         close += [np.concatenate((phi - closer, [phi], phi + closer)) for ends in narrow for phi in ends]
         traced = _Traced.of(self, Places.between(corners, np.concatenate(close)))
         ring = traced.ring()
-        edges = [traced.curve.at(a, -1)[0] for a, _ in ring]
-        cuts = (_undercut(traced.curve, ends, k, edges) for k, ends in enumerate(ring))
+        edges = [self.at(a, -1)[0] for a, _ in ring]
+        cuts = (_undercut(self, ends, k, edges) for k, ends in enumerate(ring))
         return sorted(cuts, key=lambda cut: cut.start)
 
     def outline(self, most: float = OUTLINE) -> Points:
@@ -125,15 +167,15 @@ class Envelope(ABC):
 
         The corner of an undercut stands in the place of its loop.
         """
-        curve, phi, cuts = Curve(self), self.motion.samples(most)[:-1], self.undercuts
-        pieces = [*curve.arcs(np.arange(ARC) / ARC), (curve.places(phi), self.practical(phi))]
-        pieces += [(np.array([cut.along[0] % curve.length]), np.array([cut.corner])) for cut in cuts]
+        phi, cuts = self.motion.samples(most)[:-1], self.undercuts
+        pieces = [*self.arcs(np.arange(ARC) / ARC), (self.places(phi), self.practical(phi))]
+        pieces += [(np.array([cut.along[0] % self.length]), np.array([cut.corner])) for cut in cuts]
         t, points = (np.concatenate(part) for part in zip(*pieces, strict=True))
         kept = np.ones(len(t), bool)
         for cut in cuts:
             leaves, returns = cut.along
-            into = (t - leaves % curve.length) % curve.length
-            kept &= (into == 0.0) | (into >= (returns - leaves) % curve.length)
+            into = (t - leaves % self.length) % self.length
+            kept &= (into == 0.0) | (into >= (returns - leaves) % self.length)
         return np.asarray(points[kept][np.argsort(t[kept], kind="stable")])
 
 
@@ -164,55 +206,6 @@ def _deepest(envelope: Envelope, place: float, position: float) -> tuple[tuple[f
         place, position, value = float(places[i]), float(positions[j]), float(depth[i, j])
         width *= 0.5
     return (place % TURN, position % TURN), value
-
-
-@dataclass(frozen=True, slots=True)
-class Curve:
-    """The closed curve of an envelope, the arcs where the velocity jumps up among it.
-
-    A place `t` on it is the angle phi, rad, to which every arc before it adds 1.
-    """
-
-    envelope: Envelope
-
-    @property
-    def length(self) -> float:
-        """Length of the parameter over a turn."""
-        return TURN + len(self.envelope.motion.leaps)
-
-    def places(self, phi: Any, side: Any = 1) -> Array:
-        """Return the places of angles of the first turn; at a jump up the two sides are the two ends of its arc."""
-        leaps = self.envelope.motion.leaps
-        before = np.where(np.asarray(side) > 0, *(np.searchsorted(leaps, phi, end) for end in ("right", "left")))
-        found: Array = phi + before
-        return found
-
-    def arcs(self, parts: Array) -> Iterator[tuple[Array, Points]]:
-        """Go through the arcs: places and points of the given parts of them."""
-        for k, leap in enumerate(self.envelope.motion.leaps):
-            yield leap + k + parts, self.envelope.across(leap, parts)[0]
-
-    def locate(self, t: float) -> tuple[float, float | None]:
-        """Return the angle of a place, and which part of an arc it is at if it is on one."""
-        t %= self.length
-        for k, leap in enumerate(self.envelope.motion.leaps):
-            if t < leap + k:
-                return t - k, None
-            if t <= leap + k + 1.0:
-                return leap, min(t - leap - k, 1.0)
-        return t - len(self.envelope.motion.leaps), None
-
-    def at(self, t: float, side: int) -> tuple[complex, complex]:
-        """Return the point of a place and its derivative; where the velocity jumps down, from a side."""
-        phi, part = self.locate(t)
-        if part is not None:
-            point, along = self.envelope.across(phi, part)
-        else:
-            jumps = [jump.phi for jump in self.envelope.motion.velocity_jumps]
-            near = min((at - phi for jump in jumps for at in (jump, jump + TURN)), key=abs, default=0.0)
-            side = -1 if near > 0.0 else 1 if near < 0.0 else side
-            point, along = self.envelope.practical(phi, side), self.envelope.tangent(phi, side)
-        return complex(point), complex(along)
 
 
 def backward(envelope: Envelope) -> list[tuple[float, float]]:
@@ -257,7 +250,7 @@ def _sign_changes(envelope: Envelope, places: Places, i: int) -> float:
 class _Traced:
     """An envelope looked at all round: places `t` in order, their points, and which of them a position contains."""
 
-    curve: Curve
+    envelope: Envelope
     t: Array
     points: Points
     cut: NDArray[np.bool_]
@@ -265,9 +258,8 @@ class _Traced:
     @classmethod
     def of(cls, envelope: Envelope, places: Places) -> _Traced:
         """Return an envelope looked at in places."""
-        curve = Curve(envelope)
-        arcs = list(curve.arcs(np.arange(1, ARC) / ARC))
-        t = np.concatenate([curve.places(places.phi, places.side), *(t for t, _ in arcs)])
+        arcs = list(envelope.arcs(np.arange(1, ARC) / ARC))
+        t = np.concatenate([envelope.places(places.phi, places.side), *(t for t, _ in arcs)])
         points = np.concatenate([places.values(envelope.practical), *(points for _, points in arcs)])
         order = np.argsort(t, kind="stable")
         t, points = t[order], points[order]
@@ -275,7 +267,7 @@ class _Traced:
         blocks = (points[k : k + ROWS, np.newaxis] for k in range(0, len(points), ROWS))
         cut = np.concatenate([np.max(envelope.depth(block, places.phi), axis=1) > inside for block in blocks])
         cut[np.argmin(np.abs(points))] = False
-        return cls(curve, t, points, cut)
+        return cls(envelope, t, points, cut)
 
     def ring(self) -> list[tuple[float, float]]:
         """Return where the curve round the centre leaves the envelope and comes back, in order."""
@@ -308,22 +300,22 @@ class _Traced:
 
         def place(i: int) -> float:  # it may be one of another turn
             turns, k = divmod(i, len(self.t))
-            return float(self.t[k]) + turns * self.curve.length
+            return float(self.t[k]) + turns * self.envelope.length
 
         before, after = (place(last - OUTWARD), place(last + 1)), (place(first - 1), place(first + OUTWARD))
         middle = 0.5 * (place(last) + before[1]), 0.5 * (after[0] + place(first))
-        gap, ends = _newton(self.curve, before, after, middle)
+        gap, ends = _newton(self.envelope, before, after, middle)
         if gap < MEETING * float(np.max(np.abs(self.points))):
             return gap, ends
-        begins = _chords(self.curve, before, after)
-        return min([(gap, ends), *(_newton(self.curve, before, after, begin) for begin in begins)])
+        begins = _chords(self.envelope, before, after)
+        return min([(gap, ends), *(_newton(self.envelope, before, after, begin) for begin in begins)])
 
 
-def _newton(curve: Curve, before: Ends, after: Ends, begin: Ends) -> tuple[float, Ends]:
+def _newton(envelope: Envelope, before: Ends, after: Ends, begin: Ends) -> tuple[float, Ends]:
     """Return how far apart two branches stay, m, and the places, each between its ends, where Newton's steps lead."""
     a, b = begin
     for _ in range(STEPS):
-        (start, along), (end, across) = curve.at(a, -1), curve.at(b, 1)
+        (start, along), (end, across) = envelope.at(a, -1), envelope.at(b, 1)
         gap, sine = end - start, cross(along, across)
         if sine == 0.0:
             break
@@ -332,23 +324,22 @@ def _newton(curve: Curve, before: Ends, after: Ends, begin: Ends) -> tuple[float
         b = min(max(b + cross(gap, along) / sine, after[0]), after[1])
         if (a, b) == old:
             break
-    return abs(curve.at(b, 1)[0] - curve.at(a, -1)[0]), (a, b)
+    return abs(envelope.at(b, 1)[0] - envelope.at(a, -1)[0]), (a, b)
 
 
-def _chords(curve: Curve, before: Ends, after: Ends) -> Iterator[Ends]:
+def _chords(envelope: Envelope, before: Ends, after: Ends) -> Iterator[Ends]:
     """Go through the places at which chords of two branches cross: branches that cross at a small angle need it."""
     a, b = (np.linspace(*ends, CHORDS + 1) for ends in (before, after))
-    p, q = (np.array([curve.at(t, side)[0] for t in at.tolist()]) for at, side in ((a, -1), (b, 1)))
+    p, q = (np.array([envelope.at(t, side)[0] for t in at.tolist()]) for at, side in ((a, -1), (b, 1)))
     apart = q - p[:, np.newaxis]
     left, right = cross(np.diff(p)[:, np.newaxis], apart[:-1]) > 0.0, cross(np.diff(q), apart[:, :-1]) > 0.0
     for i, j in np.argwhere((left[:, 1:] != left[:, :-1]) & (right[1:] != right[:-1])):
         yield 0.5 * float(a[i] + a[i + 1]), 0.5 * float(b[j] + b[j + 1])
 
 
-def _undercut(curve: Curve, ends: tuple[float, float], k: int, corners: list[complex]) -> Undercut:
+def _undercut(envelope: Envelope, ends: tuple[float, float], k: int, corners: list[complex]) -> Undercut:
     """Return an undercut; where its own corner does not bear the follower another one does."""
-    envelope = curve.envelope
-    start, end = (curve.locate(t)[0] % TURN for t in ends)
+    start, end = (envelope.locate(t)[0] % TURN for t in ends)
     end = start + (end - start) % TURN
 
     def kept(phi: Any, side: int = 1) -> Array:

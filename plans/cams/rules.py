@@ -20,7 +20,7 @@ from ..board import Program, Step
 from ..boards.exact import run
 from ..solved import AT_LEAST, AT_MOST, Check
 from .cam import GIVENS
-from .construction import EXACT_OF, SHARPEST
+from .construction import CHORD_OF, EXACT, EXACT_OF, SHARPEST
 from .followers import OF_R_0, OF_RHO_MIN
 from .solve import SolvedCam, unit_of
 
@@ -90,7 +90,7 @@ def _beyond(values: Mapping[str, Any], usual: Mapping[str, tuple[float, float]])
             yield Unusual(name, unit_of(name), float(value), least, most)
 
 
-HEIGHTS = {"_S_max": "S_max_chord", "_V_max": "V_max_chord"}  # ordinates that only a drawing shows keep its name
+HEIGHTS = {EXACT[name]: CHORD_OF[name] for name in EXACT}  # ordinates that only a drawing shows keep its name
 TANGENTS = {"r_0": "r_0_tangents", "e": "e_tangents", "r_0_flat_min": "r_0_flat_tangent"}
 GIVEN = ("r_0", "e")  # of a cam whose sizes are given none are drawn
 
@@ -98,8 +98,7 @@ GIVEN = ("r_0", "e")  # of a cam whose sizes are given none are drawn
 def stands_for(solved: SolvedCam) -> dict[str, str]:
     """Return for every size that is drawn, and found by a formula, too, what it is called there."""
     names = {*solved.program.names}
-    chords = {name: EXACT_OF[name] for name in solved.program.names if name in EXACT_OF}
-    found = {drawn: exact for drawn, exact in chords.items() if exact in names}
+    found = {drawn: exact for drawn, exact in EXACT_OF.items() if {drawn, exact} <= names}
     sized = any(name in solved.givens for name in GIVEN)
     for exact, drawn in TANGENTS.items():
         if {exact, drawn} <= names and not (sized and exact in GIVEN):

@@ -342,11 +342,10 @@ def conditions_of(solved: SolvedCam) -> dict[str, Condition]:
 
     totals = by_solving_again(solve_with, numbers)
     worst = worst_behind(solved.program, solved.sines)
-    sizes = {name: float(abs(solved.values[BESIDE.get(name, name)])) for name in totals}
-    return {name: Condition(ratio(total, sizes[name]), worst.get(name, 1.0)) for name, total in totals.items()}
-
-
-MEASURED = ("distance", "read")
+    return {
+        name: Condition(ratio(total, float(abs(solved.values[BESIDE.get(name, name)]))), worst.get(name, 1.0))
+        for name, total in totals.items()
+    }
 
 
 def tolerances_of(drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
@@ -357,20 +356,16 @@ def tolerances_of(drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> dict[
     only calculated from exact numbers, such as the inclination of the line of transfer, is rounded.
     """
     names = [step.name for step in results(paper.program)]
-    found = added_up(paper, tolerance, names)
-    return {name: max(found[name], _alone(name, drawn, paper, tolerance)) for name in names}
-
-
-def _alone(name: str, drawn: SolvedCam, paper: Paper, tolerance: Tolerance) -> float:
-    """Return what a quantity may miss by itself."""
-    value = float(abs(drawn.values[name]))
-    least = rounded(value, tolerance)
-    if drawn.quantities[name].unit == "rad":
-        return max(least, math.radians(tolerance.degrees))
-    step = paper.program.by_name[name]
-    plan = role(step.operands[0]).plan if step.verb in MEASURED else drawn.shown_on.get(name, "")
-    if not plan:
-        return least
-    calculated_there = plan in paper.unscaled and step.verb not in MEASURED
-    mu = drawn.values[drawn.scale_of_plan[plan]] if calculated_there else paper.mus[plan]
-    return max(least, float(tolerance.of_segment(value / mu) * mu))
+    limits = added_up(paper, tolerance, names)
+    for name in names:
+        value, step = float(abs(drawn.values[name])), paper.program.by_name[name]
+        alone, is_measured = rounded(value, tolerance), step.verb in ("distance", "read")
+        plan = role(step.operands[0]).plan if is_measured else drawn.shown_on.get(name, "")
+        if drawn.quantities[name].unit == "rad":
+            alone = max(alone, math.radians(tolerance.degrees))
+        elif plan:
+            of_drawing = plan in paper.unscaled and not is_measured  # calculated where nothing is to scale
+            mu = drawn.values[drawn.scale_of_plan[plan]] if of_drawing else paper.mus[plan]
+            alone = max(alone, float(tolerance.of_segment(value / mu) * mu))
+        limits[name] = max(limits[name], alone)
+    return limits
