@@ -15,7 +15,7 @@ from ...plans.gears.solve import MILLI, ScaleErrors
 from ...plans.hands.shaky import PRESETS
 from ...plans.lab.hoists import Steps, Ways
 from ...plans.lab.integrators import RK4, VERLET, growth
-from ..gears.sheet import lettered
+from ..gears.scene import lettered
 from ..words import Words
 from .paper import (
     BLACK,

@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from ...plans.gears.construction import SLIDING, THETA
-from ...plans.gears.course import active_area, sliding_curve, zones
+from ...plans.gears.course import GearCourse, active_area, sliding_curve
 from ...plans.gears.gear import WHEELS
 from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale
@@ -20,7 +20,7 @@ from ..symbols import unit
 from ..text import lay_out
 from ..view import Canvas, View, linear
 from ..words import Words, indexed
-from .sheet import CURVES, ENDS, GearScene, cut_of, places
+from .scene import CURVES, ENDS, GearScene, cut_of
 
 LEVEL = 2.2  # heights of letters for each pair that touches
 ROW = 1.8  # heights of letters between dimension lines
@@ -37,7 +37,7 @@ ALONG = {1: unit(1.0 + 1.0j), 2: unit(-1.0 + 1.0j)}  # of the strokes under each
 HATCH = 2.5  # mm between strokes
 
 
-def action_view(overall: GearScene) -> View:
+def _action_view(overall: GearScene) -> View:
     """Draw N1N2 along the abscissa, N1 on the left."""
     scene = replace(overall, mu_l=overall.rolled)
     canvas = ACTION_FIGURE.canvas(scene, coarse=0.0)
@@ -46,8 +46,8 @@ def action_view(overall: GearScene) -> View:
     _line(canvas, scene)
     canvas.part(ANSWERS)
     _dimensions(canvas, scene)
-    heading = scene.words["heading.gear_action"], scene.factor(scene.mu_l)
-    notes, words = [*ratios(scene), *scene.words["said.gear_zones"].split("|")], scene.words
+    heading = scene.words["heading.gear_action"], scene.factor
+    notes, words = [*_ratios(scene), *scene.words["said.gear_zones"].split("|")], scene.words
     if scene.lacking:  # say how long the flanks touch, and the contact ratio of that
         touching, mm = scene.touching[1] - scene.touching[0], words.unit("mm")
         parts = [Input(length * 1e3) for length in (touching, scene.size("p_b"))]
@@ -57,7 +57,7 @@ def action_view(overall: GearScene) -> View:
     return canvas.finish("action", heading, tuple(notes))
 
 
-def ratios(scene: GearScene) -> tuple[str, ...]:
+def _ratios(scene: GearScene) -> tuple[str, ...]:
     """Return the contact ratio by the active line and by the angles of action, printed so that it recomputes."""
     words = scene.words
     epsilon = words.symbol("epsilon_alpha")
@@ -76,8 +76,8 @@ def ratios(scene: GearScene) -> tuple[str, ...]:
 def _zones(canvas: Canvas, scene: GearScene) -> None:
     """Draw over each part as many steps as pairs touch, with their number."""
     label = scene.style.label
-    for k, zone in enumerate(zones(scene.solved)):
-        a, b, count = scene.drawn(zone.first), scene.drawn(zone.last), zone.pairs
+    for k, (first, last, count) in enumerate(GearCourse(scene.solved).zones):
+        a, b = scene.drawn(first), scene.drawn(last)
         top = LEVEL * label * count
         corners = complex(a, 0.0), complex(a, top), complex(b, top), complex(b, 0.0)
         canvas.add(Group((Polyline(corners, Pen.THIN),), "zone", f"{k + 1}_{count}"))
@@ -131,101 +131,95 @@ def _dimensions(canvas: Canvas, scene: GearScene) -> None:
 
 
 ACTION_FIGURE = Figure(
-    "action", action_view, ("rolled",), stages("pole", "line_of_action", "active_line", "pitches"), "gear.action"
+    "action", _action_view, ("rolled",), stages("pole", "line_of_action", "active_line", "pitches"), "gear.action"
 )
 
 
-def sliding_view(scene: GearScene) -> View:
+def _sliding_view(scene: GearScene) -> View:
     """Draw both diagrams over N1N2, with the points of the table as section lines through both."""
     canvas, words = SLIDING_FIGURE.canvas(scene, coarse=0.0), scene.words
-    highest = max(scene.size(f"y_{i}_{point}") for i in WHEELS for point in POINTS) * 1e3
+    highest = max(scene.size(f"y_{i}_{point}") for i in WHEELS for point in POINTS)
     most = TALLEST[scene.style.label] * scene.part
-    reduction = next((part for part in REDUCTIONS if highest * part <= most), REDUCTIONS[-1])
-    above, below = _fields(scene, highest * reduction)
-    past = PAST * scene.style.label
+    reduction = next((part for part in REDUCTIONS if highest * 1e3 * part <= most), REDUCTIONS[-1])
+    above, below = _fields(scene, highest, 1e-3 / reduction)
     canvas.part("axes")
     for field in (above, below):
-        axes(canvas, field, False, past)
-    _sections(canvas, scene, above, below, reduction)
-    _velocities(canvas, scene, above, reduction)
-    said = _pole(canvas, scene, above, reduction)
-    theta_diagram(canvas, scene, below)
-    cut = words["gear.cut"].format(theta=words.number(cut_of(scene.solved), 0))
+        axes(canvas, field, False, PAST * scene.style.label)
+    _sections(canvas, scene, above, below)
+    _velocities(canvas, scene, above)
+    lines = [words["gear.speeds"].format(length=words.short(scene.solved.values["PW"] * 1e3))]
     if reduction < 1.0:
-        said.insert(0, words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / reduction)}"))
-    said.insert(0, words["gear.speeds"].format(length=words.short(scene.solved.values["PW"] * 1e3)))
-    notes = [f"{words['gear.hatched']}; {cut}", "; ".join(said)]
+        lines.append(words["gear.reduced"].format(ratio=f"1:{words.short(1.0 / reduction)}"))
+    lines += _pole(canvas, scene, above)
+    _theta_diagram(canvas, scene, below)
+    cut = words["gear.cut"].format(theta=words.number(cut_of(scene.solved), 0))
     theta = theta_said(words, below.y.scale.mu)
     heading = words["heading.gear_sliding"], f"{words.scale(above.x.scale)};  {theta}"
-    return canvas.finish("sliding", heading, tuple(notes))
+    return canvas.finish("sliding", heading, (f"{words['gear.hatched']}; {cut}", "; ".join(lines)))
 
 
-def _ordinate(scene: GearScene, name: str, reduction: float) -> float:
-    """Return an ordinate of velocities as it is drawn, `reduction` times that of the table, mm."""
-    return scene.size(name) * 1e3 * reduction
+def _fields(scene: GearScene, highest: float, mu: float) -> tuple[Field, Field]:
+    """Return the axes of velocities, whose greatest is so high, m, and those of specific sliding under them.
 
-
-def _fields(scene: GearScene, highest: float) -> tuple[Field, Field]:
-    """Return the axes of velocities, whose greatest is so high, mm, and those of specific sliding under them.
-
-    Along N1N2 they are longer where interference puts an end of the active line beyond it.
+    Ordinates of velocities have a scale factor `mu`, m/mm. Along N1N2 the axes are longer where interference puts an
+    end of the active line beyond it.
     """
-    words, low, scale = scene.words, cut_of(scene.solved), scene.scale(THETA)
-    lengths = places(scene.solved.sizes).values()
+    words, low, scale, lengths = scene.words, cut_of(scene.solved), scene.scale(THETA), scene.places.values()
     x = Axis(words.symbol("rho_1"), scene.scale(SLIDING), min(lengths), max(lengths), {})
     marks = {value: words.short(value) for value in divisions(1.0, low, scale.mu, 9.0)}
     origin = 0j - 1j * (BETWEEN * scene.style.label + scale.drawn(1.0))
-    above = Field(0j, x, Axis(words.symbol("V_k"), Scale("", 1.0, "mm"), 0.0, highest, {}))
+    above = Field(0j, x, Axis(words.symbol("V_k"), Scale("", mu, "m"), 0.0, highest, {}))
     return above, Field(origin, replace(x, letter=""), Axis(words.symbol("theta"), scale, low, 1.0, marks))
 
 
-def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field, reduction: float) -> None:
+def _place(scene: GearScene, point: str) -> float:
+    """Return how far a point of the table is from N1, m."""
+    return float(scene.solved.values[f"_rho_1_{point}"])
+
+
+def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field) -> None:
     """Draw a line through both diagrams at every point of the table, with its number; the named places with letters.
 
     The lines begin at the higher ordinate of velocities, so that letters above these stand free.
     """
-    height = scene.style.text
-    foot = below.at(0.0, below.y.low).imag - 1.5
-    lines = []
+    height, foot, lines = scene.style.text, below.at(0.0, below.y.low).imag - 1.5, []
     canvas.part(ANSWERS)
     for i, point in enumerate(POINTS, start=1):
-        top = above.at(place(scene, point), max(_ordinate(scene, f"y_{k}_{point}", reduction) for k in WHEELS))
+        top = above.at(_place(scene, point), max(scene.size(f"y_{k}_{point}") for k in WHEELS))
         canvas.add(Line(top, complex(top.real, foot), Pen.THIN, role="section", name=str(i)))
         lines.append(top.real)
     canvas.add(*numbers(lines, foot - 0.8 - height, height, first=1))
-    for name, rho in places(scene.solved.sizes).items():
+    for name, rho in scene.places.items():
         at = above.at(rho, 0.0)
         canvas.part("active_line" if name in ("A1", "A2") else "axes")
         canvas.add(scene.node(at, name, "point", pen=Pen.MAIN))
         canvas.label(indexed(name), at, prefer=-0.6 - 1j if name == "N1" else 0.6 - 1j, clear=1.0, priority=1)
 
 
-def _velocities(canvas: Canvas, scene: GearScene, field: Field, reduction: float) -> None:
+def _velocities(canvas: Canvas, scene: GearScene, field: Field) -> None:
     """Draw the lines of both velocities from N1 and N2, marked at the points of the table."""
-    words, style, w = scene.words, scene.style, w_of(scene, field, reduction)
+    words, w = scene.words, _w_of(scene, field)
     for i in WHEELS:
-        heights = [_ordinate(scene, f"y_{i}_{point}", reduction) for point in POINTS]
-        tips = [field.at(place(scene, point), y) for point, y in zip(POINTS, heights, strict=True)]
+        tips = [field.at(_place(scene, point), scene.size(f"y_{i}_{point}")) for point in POINTS]
         canvas.part("velocities")
         canvas.add(Group((Line(tips[0], tips[-1], Pen.MAIN),), "curve", f"V_k{i}"))
-        for point, tip in zip(POINTS, tips, strict=True):
-            canvas.add(scene.node(tip, f"y_{i}_{point}", "ordinate"))
+        canvas.add(*(scene.node(tip, f"y_{i}_{n}", "ordinate") for n, tip in zip(POINTS, tips, strict=True)))
         far = [tip for tip in tips if (tip - w).real * SIDES[i] > -1e-6]
-        canvas.label(words.symbol(f"V_k{i}"), widest(far, w), prefer=1j, clear=1.0)
+        canvas.label(words.symbol(f"V_k{i}"), _widest(far, w), prefer=1j, clear=1.0)
         point, tip = (POINTS[-1], tips[-1]) if i == 1 else (POINTS[0], tips[0])
         canvas.part(ANSWERS)
         text = f"{words.symbol(f'y_{i}')} = {words.number(scene.size(f'y_{i}_{point}') * 1e3, 2)}"
-        linear(canvas, (complex(tip.real, 0.0), tip), 2.0 * style.label * SIDES[i], text, f"y_{i}_{point}")
+        linear(canvas, (complex(tip.real, 0.0), tip), 2.0 * scene.style.label * SIDES[i], text, f"y_{i}_{point}")
 
 
-def w_of(scene: GearScene, field: Field, reduction: float) -> complex:
+def _w_of(scene: GearScene, field: Field) -> complex:
     """Return W, over the pole."""
-    return field.at(scene.size("rho_w1"), _ordinate(scene, "PW", reduction))
+    return field.at(scene.size("rho_w1"), scene.size("PW"))
 
 
-def _pole(canvas: Canvas, scene: GearScene, field: Field, reduction: float) -> list[str]:
+def _pole(canvas: Canvas, scene: GearScene, field: Field) -> list[str]:
     """Mark W over the pole, and dimension PW; return its text where it has no room along its line."""
-    w, words = w_of(scene, field, reduction), scene.words
+    w, words = _w_of(scene, field), scene.words
     text = f"{words.symbol('PW')} = {words.short(round(scene.size('PW') * 1e3, 6))}"
     canvas.part(ANSWERS)
     fits = w.imag - 2.0 * scene.style.arrow > lay_out(text, scene.style.text).width
@@ -236,41 +230,30 @@ def _pole(canvas: Canvas, scene: GearScene, field: Field, reduction: float) -> l
     return [] if fits else [f"{text} {words.unit('mm')}"]
 
 
-def place(scene: GearScene, point: str) -> float:
-    """Return how far a point of the table is from N1, m."""
-    return float(scene.solved.values[f"_rho_1_{point}"])
-
-
 def theta_said(words: Words, mu: float) -> str:
     """Return the scale factor of specific sliding, which has no unit of its own."""
     return f"{words.symbol('mu_theta')} = {words.short(mu)} {words.unit('mm')}^{{−1}}"
 
 
-def theta_diagram(canvas: Canvas, scene: GearScene, field: Field) -> None:
+def _theta_diagram(canvas: Canvas, scene: GearScene, field: Field) -> None:
     """Draw both curves with the points of the table, the active part hatched, its extremes with their values."""
     canvas.part("sliding")
+    pole, low = scene.size("rho_w1"), field.y.low
     for i, name in CURVES.items():
-        curve(canvas, field, sliding_curve(scene.solved, i, field.y.low), name)
-        for point in POINTS:
-            if (value := scene.size(f"{name}_{point}")) >= field.y.low:
-                canvas.add(scene.node(field.at(place(scene, point), value), f"{name}_{point}"))
-        outline = [field.at(*place) for place in active_area(scene.solved, i, field.y.low)]
+        tips = {point: (_place(scene, point), scene.size(f"{name}_{point}")) for point in POINTS}
+        curve(canvas, field, sliding_curve(scene.solved, i, low), name)
+        canvas.add(*(scene.node(field.at(*tip), f"{name}_{point}") for point, tip in tips.items() if tip[1] >= low))
+        outline = [field.at(*place) for place in active_area(scene.solved, i, low)]
         if outline:
-            canvas.add(Group(tuple(strokes(outline, ALONG[i], HATCH)), "active", CURVES[i]))
-        canvas.label(scene.words.symbol(name), _free(scene, field, i), prefer=1j, clear=1.0)
+            canvas.add(Group(tuple(strokes(outline, ALONG[i], HATCH)), "active", name))
+        beyond = [field.at(*tip) for tip in tips.values() if (tip[0] - pole) * SIDES[i] >= 0.0]
+        canvas.label(scene.words.symbol(name), _widest(beyond, field.at(pole, 0.0)), prefer=1j, clear=1.0)
     canvas.part(ANSWERS)
     _extremes(canvas, scene, field)
 
 
-def _free(scene: GearScene, field: Field, i: int) -> tuple[complex, complex]:
-    """Return a part of a curve above the axis, between lines that are far apart: room for its letter."""
-    pole = scene.size("rho_w1")
-    beyond = [p for p in POINTS if (place(scene, p) - pole) * SIDES[i] >= 0.0]
-    return widest([field.at(place(scene, p), scene.size(f"{CURVES[i]}_{p}")) for p in beyond], field.at(pole, 0.0))
-
-
-def widest(tips: Sequence[complex], pole: complex) -> tuple[complex, complex]:
-    """Return the two neighbours that are farthest apart across, but for those beside the pole."""
+def _widest(tips: Sequence[complex], pole: complex) -> tuple[complex, complex]:
+    """Return the two neighbours that are farthest apart across, room for a letter, but for those beside the pole."""
     pairs = sorted(pairwise(tips), key=lambda ends: abs((ends[0] + ends[1]).real - 2.0 * pole.real))
     return max(pairs[1:] or pairs, key=lambda ends: abs((ends[1] - ends[0]).real))
 
@@ -290,14 +273,14 @@ def _extremes(canvas: Canvas, scene: GearScene, field: Field) -> None:
         for (name, value), at in zip(seen.items(), tips, strict=False):
             canvas.add(scene.node(at, f"{name}_{end}", "extreme", filled=True))
             shown.append((at, f"{words.symbol(f'{name}_{end}')} = {words.number(value, 2)}"))
-    levels = spread([at.imag for at, _ in shown], field.origin.imag, APART * height)
+    levels = _spread([at.imag for at, _ in shown], field.origin.imag, APART * height)
     for (at, text), level in zip(shown, levels, strict=True):
         corner, start = complex(right + 1.5, at.imag), complex(right + 1.5 + 0.8 * height, level)
         canvas.add(Line(at, corner, Pen.DASHED, role="projection"), Line(corner, start, Pen.THIN, role="leader"))
         canvas.add(Text(start + complex(0.4 * height, -0.5 * height), text, height, role="extreme"))
 
 
-def spread(levels: Sequence[float], axis: float, apart: float) -> list[float]:
+def _spread(levels: Sequence[float], axis: float, apart: float) -> list[float]:
     """Return levels of texts, in the order given, so far apart, and from the axis: moved away from this."""
     found = dict.fromkeys(range(len(levels)), 0.0)
     for side in (1.0, -1.0):
@@ -310,5 +293,5 @@ def spread(levels: Sequence[float], axis: float, apart: float) -> list[float]:
 
 
 SLIDING_FIGURE = Figure(
-    "sliding", sliding_view, ("part",), stages("axes", "pole", "velocities", "active_line", "sliding"), "gear.sliding"
+    "sliding", _sliding_view, ("part",), stages("axes", "pole", "velocities", "active_line", "sliding"), "gear.sliding"
 )

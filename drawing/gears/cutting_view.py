@@ -5,10 +5,10 @@ The blocking contour stands in the plane of both shifts: the curves that bound t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 
-from ...plans.gears.blocking import BLOCKING, CURVES, OF_CURVE, RATIOS, Plane, plane_of
+from ...plans.gears.blocking import BLOCKING, CURVES, LEAST_TIP, OF_CURVE, Plane, plane_of
 from ...plans.gears.course import Rack
 from ...plans.gears.teeth import Wheel
 from ...scales.scale import Scale, steps
@@ -20,7 +20,7 @@ from ..shapes import Anchor, Arc, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import HALF_TURN, right_angle, unit
 from ..view import Canvas, View, angle, linear
 from .meshing_view import PAST, PENS, WIDEST, node
-from .sheet import GearScene
+from .scene import GearScene
 
 DOT = 0.6  # of a division, in radii of nodes
 TIP = "a"  # the division that ends on the tip circle
@@ -32,7 +32,7 @@ SPACES = 1.2  # pitches of the wheel to both sides
 OUT = unit(-1.0 - 1.0j)  # in which the radius of a corner of the rack is drawn
 
 
-def rolling_view(overall: GearScene) -> View:
+def _rolling_view(overall: GearScene) -> View:
     """Draw how the flanks that touch at the pole are constructed."""
     scene = replace(overall, mu_l=overall.rolled)
     canvas, pair, along = FIGURE.canvas(scene, coarse=0.0), scene.wheels(), overall.meshing.along
@@ -47,7 +47,7 @@ def rolling_view(overall: GearScene) -> View:
     canvas.add(Line(first - PAST * along, last + PAST * along, Pen.THIN, role=LINE, name="N1N2"))
     canvas.part("pole")
     node(canvas, scene, "P", 1j * along)
-    heading = scene.words["heading.gear_rolling"], scene.factor(scene.mu_l)
+    heading = scene.words["heading.gear_rolling"], scene.factor
     return canvas.finish("rolling", heading, tuple(scene.words["said.gear_rolling"].split("|")))
 
 
@@ -119,7 +119,7 @@ def _divisions(scene: GearScene, wheel: Wheel) -> range:
 
 FIGURE = Figure(
     "rolling",
-    rolling_view,
+    _rolling_view,
     ("rolled",),
     stages("pole", "line_of_action", "parts", "arcs", "tangents", "involutes"),
     "gear.rolling",
@@ -139,7 +139,7 @@ def rack_view(overall: GearScene) -> View:
     at = rack.corner + scene.paper("rho_f") * OUT
     canvas.add(Line(rack.corner, at, Pen.THIN, role="radius", name="rho_f"), Head(at, OUT))
     canvas.label(scene.stated("rho_f"), at, prefer=OUT, clear=1.0, height=scene.style.text)
-    heading = scene.words["heading.gear_rack"], scene.factor(scene.mu_l)
+    heading = scene.words["heading.gear_rack"], scene.factor
     return canvas.finish("rack", heading, tuple(scene.words["said.gear_rack"].split("|")))
 
 
@@ -191,29 +191,33 @@ EACH = 0.7  # of the longer side of the window: a curve has a number for each su
 LEAST = 0.2  # of the longer side: shorter curves in a corner of the window, which bound nothing, are left out
 IN_A_LINE = 3  # entries of the legend
 STEP = 2.0  # mm between places that are looked at
-Runs = list[tuple[complex, ...]]  # of a curve that passes through the window several times
 
 
 def contour_view(scene: GearScene) -> View:
     """Draw the window round the contour of the wheels."""
-    plane = plane_of(scene.solved.givens, scene.solved.pair.least_tip)
-    canvas, words = Canvas(scene.style), scene.words
-    field = _field(scene, plane)
+    plane, words, style = plane_of(scene.solved.givens, scene.solved.pair.least_tip), scene.words, scene.style
+    canvas, field, sides = Canvas(style), _field(scene, plane), plane.contour()
     _frame(canvas, scene, field)
-    sides = plane.contour()
-    curves = {name: [_thinned(field, run) for run in plane.curve(name)] for name in CURVES}
-    least = LEAST * SIDE[scene.style.label]
-    for name in set(CURVES).difference(name for name, _ in sides):
-        curves[name] = [run for run in curves[name] if abs(run[-1] - run[0]) >= least]
+    curves = {name: [_thinned(field, run) for run in runs] for name, runs in plane.curves.items()}
+    for name in {*CURVES}.difference(name for name, _ in sides):
+        curves[name] = [run for run in curves[name] if abs(run[-1] - run[0]) >= LEAST * SIDE[style.label]]
     for name, runs in curves.items():
         pen = Pen.THIN if name in BLOCKING else Pen.DASHED
         canvas.add(Group(tuple(Polyline(run, pen) for run in runs), "limit", name))
     for name, side in sides:
         canvas.add(Group((Polyline(_thinned(field, side), Pen.MAIN),), "contour", name))
-    _chosen(canvas, scene, field)
-    _numbers(canvas, scene, curves)
+    x_1, x_2 = scene.size("x_1"), scene.size("x_2")
+    at, feet = field.at(x_1, x_2), (field.at(x_1, field.y.low), field.at(field.x.low, x_2))
+    canvas.add(*(Line(at, foot, Pen.DASHED, role="projection") for foot in feet))
+    canvas.add(Group((Circle(at, 1.5 * style.node, Pen.MAIN, fill="black"),), "point", "chosen"))
+    # curves have numbers, long ones in several places, where they are far from others
+    seen = [name for name, runs in curves.items() if runs]
+    numbered = [(number, run) for number, name in enumerate(seen, start=1) for run in curves[name]]
+    for n, middle, along in freest([run for _, run in numbered], STEP, EACH * SIDE[style.label]):
+        ends = middle - REACH * along, middle + REACH * along
+        canvas.label(str(numbered[n][0]), ends, clear=0.8, height=style.text)
     mu = f"{words.symbol('mu_x')} = {words.short(field.x.scale.mu)} {words.unit('mm')}^{{−1}}"
-    texts = [f"{n}: {limit(scene, name)}" for n, name in enumerate(seen(curves), start=1)]
+    texts = [f"{number}: {_limit(scene, name)}" for number, name in enumerate(seen, start=1)]
     legend = (";  ".join(texts[k : k + IN_A_LINE]) for k in range(0, len(texts), IN_A_LINE))
     notes = words["gear.contour_lines"], *legend, f"●  {';  '.join(map(scene.shift, ('x_1', 'x_2')))}"
     return canvas.finish("contour", (words["heading.gear_contour"], mu), notes)
@@ -267,37 +271,12 @@ def _thinned(field: Field, run: Iterable[complex]) -> tuple[complex, ...]:
     return thinned([field.at(place.real, place.imag) for place in run], FINE)
 
 
-def _chosen(canvas: Canvas, scene: GearScene, field: Field) -> None:
-    """Mark the shifts of the pair."""
-    x_1, x_2 = scene.size("x_1"), scene.size("x_2")
-    at = field.at(x_1, x_2)
-    for foot in (field.at(x_1, field.y.low), field.at(field.x.low, x_2)):
-        canvas.add(Line(at, foot, Pen.DASHED, role="projection"))
-    canvas.add(Group((Circle(at, 1.5 * scene.style.node, Pen.MAIN, fill="black"),), "point", "chosen"))
-
-
-def _numbers(canvas: Canvas, scene: GearScene, curves: Mapping[str, Runs]) -> None:
-    """Number the curves that pass through the window, long ones in several places, where they are far from others."""
-    dense = [(name, run) for name, runs in curves.items() for run in runs]
-    numbers = {name: str(n) for n, name in enumerate(seen(curves), start=1)}
-    for n, at, along in freest([run for _, run in dense], STEP, EACH * SIDE[scene.style.label]):
-        ends = at - REACH * along, at + REACH * along
-        canvas.label(numbers[dense[n][0]], ends, clear=0.8, height=scene.style.text)
-
-
-def seen(curves: Mapping[str, Runs]) -> list[str]:
-    """Return the names of the curves that pass through the window."""
-    return [name for name, runs in curves.items() if runs]
-
-
-def limit(scene: GearScene, name: str) -> str:
+def _limit(scene: GearScene, name: str) -> str:
     """Return what a curve stands for, in symbols."""
-    words = scene.words
-    kind, of = OF_CURVE[name]
-    if kind == "contact":
-        return f"{words.symbol('epsilon_alpha')} = {words.short(RATIOS[name])}"
-    if kind in ("pointed", "thin"):
-        least = "0" if kind == "pointed" else f"{words.short(scene.solved.pair.least_tip)}m"
-        return f"{words.symbol(f's_a{of}')} = {least}"
-    first, second = {"undercut": ("x_", "x_min"), "interference": ("rho_l", "rho_p")}[kind]
-    return f"{words.symbol(f'{first}{of}')} = {words.symbol(f'{second}{of}')}"
+    symbol, (greater, less, _) = scene.words.symbol, OF_CURVE[name]
+    if less == LEAST_TIP:
+        return f"{symbol(greater)} = {scene.words.short(scene.solved.pair.least_tip)}m"
+    if isinstance(less, float):
+        return f"{symbol(greater)} = {scene.words.short(less)}"
+    first, second = sorted((greater, less))  # x_1 = x_min1, rho_l1 = rho_p1
+    return f"{symbol(first)} = {symbol(second)}"

@@ -15,7 +15,7 @@ from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Polyline, Text
 from ..symbols import HALF_TURN, arc_between, fixed_pivot, right_angle, unit
 from ..view import Canvas, View, angle, linear, turning
 from ..words import indexed
-from .sheet import TOOTH, GearScene
+from .scene import TOOTH, GearScene
 
 PENS = {"a": Pen.THIN, "w": Pen.EXTREME, "": Pen.AXIS, "b": Pen.DASHED, "f": Pen.THIN}
 PAST = 8.0  # mm of a line beyond what it goes to
@@ -36,7 +36,7 @@ ROUNDING = 1.0 + 1e-9
 ENDS = ("start", "end")  # of the engagement
 
 
-def diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, end: float, others: Sequence[complex]) -> None:
+def _diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, end: float, others: Sequence[complex]) -> None:
     """Write the diameters where the circles end on the free side, under one another, each on a leader.
 
     They stand beyond the `others`, points of teeth and circles, that come as high as they are. Beside the middle of the
@@ -73,7 +73,7 @@ def _apart(levels: Sequence[float], least: float) -> list[float]:
     return [middle + (k - 0.5 * (count - 1)) * least for middle, count in groups for k in range(count)]
 
 
-def centres(canvas: Canvas, scene: GearScene, pair: Pair, left: float) -> None:
+def _centres(canvas: Canvas, scene: GearScene, pair: Pair, left: float) -> None:
     """Draw both centres on the line of centres, their distance as a dimension at the abscissa `left`."""
     style, sense = scene.style, scene.meshing.sense
     below, above = (scene.mm(f"O{wheel.number}") for wheel in pair)
@@ -91,7 +91,7 @@ def centres(canvas: Canvas, scene: GearScene, pair: Pair, left: float) -> None:
     linear(canvas, (below, above), complex(left, 0.0), scene.stated("a_w"), "a_w")
 
 
-def tangent(canvas: Canvas, left: float, right: float) -> None:
+def _tangent(canvas: Canvas, left: float, right: float) -> None:
     """Draw the common tangent t-t of the rolling circles through the pole."""
     canvas.part("rolling_circles")
     canvas.add(Line(complex(left, 0.0), complex(right, 0.0), Pen.THIN, role="tangent", name="t"))
@@ -99,7 +99,7 @@ def tangent(canvas: Canvas, left: float, right: float) -> None:
         canvas.label("t", complex(end, 0.0), prefer=complex(end, 0.0), clear=0.8)
 
 
-def line_of_action(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
+def _line_of_action(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     """Draw N1N2 with the radii to its ends."""
     along, size = scene.meshing.along, 0.6 * scene.style.label
     ends = [scene.mm(f"N{wheel.number}") for wheel in pair]
@@ -115,7 +115,7 @@ def line_of_action(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
         node(canvas, scene, name, -radius)
 
 
-def active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
+def _active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
     """Draw the active part of the line of action thick, the pole on it, and its `inner` ends of single contact.
 
     Where undercut or pointed teeth lack a part of their flanks, it is thick only along what is left.
@@ -144,7 +144,7 @@ def node(canvas: Canvas, scene: GearScene, name: str, prefer: complex) -> None:
     canvas.label(indexed(name), at, prefer=prefer, clear=radius + 0.6)
 
 
-def pitch(canvas: Canvas, scene: GearScene, wheel: Wheel, to_centre: bool) -> None:
+def _pitch(canvas: Canvas, scene: GearScene, wheel: Wheel, to_centre: bool) -> None:
     """Dimension the pitch below the root, on lines from the reference circle; these run `to_centre` with its angle."""
     i, radius = wheel.number, wheel.radius("")
     ends = wheel.at(radius, wheel.side), wheel.at(radius)
@@ -152,31 +152,12 @@ def pitch(canvas: Canvas, scene: GearScene, wheel: Wheel, to_centre: bool) -> No
     for end in ends:
         foot = wheel.centre if to_centre else wheel.towards(end, low - 0.4 * scene.style.label)
         canvas.add(Line(end, foot, Pen.THIN, role="extension", name=f"p_{i}"))
-    along(canvas, scene, wheel, _on(wheel, ends, low), f"p_{i}")
+    _along(canvas, scene, wheel, _on(wheel, ends, low), f"p_{i}")
     if to_centre:
-        along(canvas, scene, wheel, _on(wheel, ends, TAU * wheel.radius("f")), f"tau_{i}")
+        _along(canvas, scene, wheel, _on(wheel, ends, TAU * wheel.radius("f")), f"tau_{i}")
 
 
-def action(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
-    """Dimension the angles by which the wheels turn while one pair of teeth touches, between rays to its flanks."""
-    for wheel in pair:
-        i, name = wheel.number, f"phi_alpha{wheel.number}"
-        ends = scene.mm(f"B{i}_start"), scene.mm(f"B{i}_end")
-        for end in ends:
-            canvas.add(Line(end, wheel.centre, Pen.THIN, role="ray", name=name))
-        along(canvas, scene, wheel, _on(wheel, ends, PHI * wheel.radius("f")), name)
-
-
-def gaps(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
-    """Dimension the radial gap on the line of centres at the root of both wheels."""
-    text, height = f"{scene.words.symbol('c')}{scene.words.symbol('m')}", scene.style.text
-    for wheel, mate in zip(pair, reversed(pair), strict=True):
-        ends = scene.mm(f"C_f{wheel.number}"), scene.mm(f"C_a{mate.number}")
-        linear(canvas, ends, 0j, "", f"gap_{wheel.number}")
-        canvas.label(text, 0.5 * (ends[0] + ends[1]), prefer=complex(wheel.side, 0.0), clear=2.0, height=height)
-
-
-def along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str) -> None:
+def _along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str) -> None:
     """Dimension an arc about the wheel's centre between two points of it; the pitch of both wheels is one."""
     a, b = (end - wheel.centre for end in ends)
     kind = role(name).kind
@@ -191,42 +172,46 @@ def _on(wheel: Wheel, ends: Ends, radius: float) -> Ends:
     return a, b
 
 
-def meshing_view(scene: GearScene) -> View:
+def _meshing_view(scene: GearScene) -> View:
     """Draw the pair about its centres while a pair of teeth touches at the pole."""
     canvas, pair = FIGURE.canvas(scene, coarse=0.0), scene.wheels()
     left, right = _circles(canvas, scene, pair, to_end=True)
-    centres(canvas, scene, pair, extent(canvas.shapes)[0] - BESIDE)
-    tangent(canvas, left, right)
-    line_of_action(canvas, scene, pair)
-    active_line(canvas, scene, not scene.apart)
+    _centres(canvas, scene, pair, extent(canvas.shapes)[0] - BESIDE)
+    _tangent(canvas, left, right)
+    _line_of_action(canvas, scene, pair)
+    _active_line(canvas, scene, not scene.apart)
     far = max(scene.mm("N1"), scene.mm("N2"), key=abs)
     canvas.part(ANSWERS)
     angle(
         canvas, 0j, (complex(-1.0 if far.real < 0.0 else 1.0), far), 0.85 * abs(far), "alpha_w", scene.angle("alpha_w")
     )
     if scene.apart:
-        outlines(canvas, pair)
+        _outlines(canvas, pair)
     else:
         _details(canvas, scene, pair)
     canvas.part(ANSWERS)
     for wheel in pair:
-        pitch(canvas, scene, wheel, to_centre=True)
-    action(canvas, scene, pair)
+        _pitch(canvas, scene, wheel, to_centre=True)
+    for wheel in pair:  # the angle by which it turns while one pair of teeth touches, between rays to its flanks
+        i, name = wheel.number, f"phi_alpha{wheel.number}"
+        ends = scene.mm(f"B{i}_start"), scene.mm(f"B{i}_end")
+        canvas.add(*(Line(end, wheel.centre, Pen.THIN, role="ray", name=name) for end in ends))
+        _along(canvas, scene, wheel, _on(wheel, ends, PHI * wheel.radius("f")), name)
     return _finished(canvas, scene, "meshing", not scene.apart)
 
 
-def near_view(overall: GearScene) -> View:
+def _near_view(overall: GearScene) -> View:
     """Draw the middle of the meshing apart, larger."""
     scene = replace(overall, mu_l=overall.near, close=True)
     canvas, pair = NEAR.canvas(scene, coarse=0.0), scene.wheels()
-    tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
+    _tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
     low, high = (wheel.on(wheel.radius("f") - PAST, 0.0) for wheel in pair)
     canvas.part("centres")
     canvas.add(Line(low, high, Pen.AXIS, role="axis", name="O1O2"))
-    active_line(canvas, scene)
+    _active_line(canvas, scene)
     _details(canvas, scene, pair)
     for wheel in pair:
-        pitch(canvas, scene, wheel, to_centre=False)
+        _pitch(canvas, scene, wheel, to_centre=False)
     return _finished(canvas, scene, "near", detailed=True)
 
 
@@ -238,7 +223,7 @@ def _finished(canvas: Canvas, scene: GearScene, name: str, detailed: bool) -> Vi
     if detailed and scene.paper("h") < TOOTH:
         height = words.number(scene.paper("h"), 1)
         notes.append(words["said.gear_small"].format(height=height, usual=words.short(TOOTH)))
-    return canvas.finish(name, (words[f"heading.gear_{name}"], scene.factor(scene.mu_l)), tuple(notes))
+    return canvas.finish(name, (words[f"heading.gear_{name}"], scene.factor), tuple(notes))
 
 
 def _circles(canvas: Canvas, scene: GearScene, pair: Pair, to_end: bool) -> tuple[float, float]:
@@ -262,27 +247,43 @@ def _circles(canvas: Canvas, scene: GearScene, pair: Pair, to_end: bool) -> tupl
             arc = Arc(wheel.centre, wheel.radius(name), wheel.direction + low, high - low, PENS["" if same else name])
             canvas.part(STAGE.get(name, "circles"))
             canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
-        diameters(canvas, scene, wheel, span[1], others)
+        _diameters(canvas, scene, wheel, span[1], others)
     xs = [tip.real for both in tips for tip in both]
     return min(xs), max(xs)
 
 
 def _details(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     """Draw the teeth and what is measured on them."""
-    positions(canvas, scene)
-    outlines(canvas, pair)
-    active_flanks(canvas, scene, pair)
-    lowest_points(canvas, scene, pair)
+    canvas.part("single_contact")
+    for name, rho_1 in zip(ENDS, scene.meshing.touching, strict=True):  # thin, those that touch at both ends
+        for wheel in scene.wheels(rho_1):
+            line = Polyline(wheel.outline(1), Pen.THIN, role="profile", name=f"{name}_{wheel.number}")
+            canvas.add(Group((line,), "position", name))
+    _outlines(canvas, pair)
+    canvas.part("lowest_points")
+    lowest = [_active_flank(canvas, scene, wheel) for wheel in pair]
+    for wheel, low in zip(pair, lowest, strict=True):
+        name = f"L{wheel.number}"
+        if low > scene.size(f"rho_p{wheel.number}") * ROUNDING:
+            continue  # there is no flank: it is undercut
+        # the end of the active line swung about the centre to the flank, which begins to touch there
+        end, at = scene.mm(f"A{wheel.number}"), scene.mm(name)
+        canvas.add(arc_between(wheel.centre, end, at, Pen.THIN, "swing", name, turn=0))
+        node(canvas, scene, name, -wheel.inward(at))
     canvas.part(ANSWERS)
     for wheel in pair:  # a tooth beside the one in contact, away from N, and the space between both
         radius, i = wheel.radius(""), wheel.number
         tooth = wheel.at(radius, wheel.side), wheel.at(radius, wheel.side, active=False)
-        along(canvas, scene, wheel, tooth, f"s_{i}")
-        along(canvas, scene, wheel, (tooth[1], wheel.at(radius)), f"e_{i}")
-    gaps(canvas, scene, pair)
+        _along(canvas, scene, wheel, tooth, f"s_{i}")
+        _along(canvas, scene, wheel, (tooth[1], wheel.at(radius)), f"e_{i}")
+    text, height = f"{scene.words.symbol('c')}{scene.words.symbol('m')}", scene.style.text
+    for wheel, mate in zip(pair, reversed(pair), strict=True):  # radial gaps on the line of centres
+        ends = scene.mm(f"C_f{wheel.number}"), scene.mm(f"C_a{mate.number}")
+        linear(canvas, ends, 0j, "", f"gap_{wheel.number}")
+        canvas.label(text, 0.5 * (ends[0] + ends[1]), prefer=complex(wheel.side, 0.0), clear=2.0, height=height)
 
 
-def outlines(canvas: Canvas, pair: Pair) -> None:
+def _outlines(canvas: Canvas, pair: Pair) -> None:
     """Draw the teeth of both wheels."""
     canvas.part("teeth")
     for wheel in pair:
@@ -290,50 +291,22 @@ def outlines(canvas: Canvas, pair: Pair) -> None:
         canvas.add(Group((line,), "wheel", str(wheel.number)))
 
 
-def positions(canvas: Canvas, scene: GearScene) -> None:
-    """Draw with thin lines the teeth that touch at both ends of the active line."""
-    canvas.part("single_contact")
-    for name, rho_1 in zip(ENDS, scene.meshing.touching, strict=True):
-        for wheel in scene.wheels(rho_1):
-            line = Polyline(wheel.outline(1), Pen.THIN, role="profile", name=f"{name}_{wheel.number}")
-            canvas.add(Group((line,), "position", name))
-
-
-def active_flanks(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
-    """Double the active flanks of the teeth in contact with a strip of strokes."""
-    label = scene.style.label
-    canvas.part("lowest_points")
-    for wheel in pair:
-        flank = wheel.flank(*active_part(scene, wheel))
-        strip = [point + STRIP * label * wheel.inward(point) for point in flank]
-        length = sum(abs(b - a) for a, b in pairwise(flank))
-        count = min(max(3, round(length / (STROKES * label))), len(flank) - 1)
-        picked = (round(k * (len(flank) - 1) / count) for k in range(count + 1))
-        strokes = (Line(flank[i], strip[i], Pen.THIN, role="hatch") for i in picked)
-        canvas.add(Group((Polyline(tuple(strip), Pen.THIN), *strokes), "active", f"flank_{wheel.number}"))
-
-
-def active_part(scene: GearScene, wheel: Wheel) -> tuple[float, float]:
-    """Return between which radii of curvature the flank of a wheel touches its mate, m."""
-    first, last = scene.meshing.touching
-    line = scene.size("l_N1N2")
-    return (first, last) if wheel.number == 1 else (line - last, line - first)
-
-
-def lowest_points(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
-    """Swing the ends of the active line about the wheel's centre to its flank: there the flank begins to touch."""
-    canvas.part("lowest_points")
-    for wheel in pair:
-        name = f"L{wheel.number}"
-        if active_part(scene, wheel)[0] > scene.size(f"rho_p{wheel.number}") * ROUNDING:
-            continue  # there is no flank: it is undercut
-        end, low = scene.mm(f"A{wheel.number}"), scene.mm(name)
-        canvas.add(arc_between(wheel.centre, end, low, Pen.THIN, "swing", name, turn=0))
-        node(canvas, scene, name, -wheel.inward(low))
+def _active_flank(canvas: Canvas, scene: GearScene, wheel: Wheel) -> float:
+    """Double the active flank with a strip of strokes; return the radius of curvature at which it begins, m."""
+    label, line, (first, last) = scene.style.label, scene.size("l_N1N2"), scene.meshing.touching
+    low, high = (first, last) if wheel.number == 1 else (line - last, line - first)
+    flank = wheel.flank(low, high)
+    strip = [point + STRIP * label * wheel.inward(point) for point in flank]
+    length = sum(abs(b - a) for a, b in pairwise(flank))
+    count = min(max(3, round(length / (STROKES * label))), len(flank) - 1)
+    picked = (round(k * (len(flank) - 1) / count) for k in range(count + 1))
+    strokes = (Line(flank[i], strip[i], Pen.THIN, role="hatch") for i in picked)
+    canvas.add(Group((Polyline(tuple(strip), Pen.THIN), *strokes), "active", f"flank_{wheel.number}"))
+    return low
 
 
 STAGES = stages(
     "centres", "rolling_circles", "line_of_action", "circles", "active_line", "teeth", "lowest_points", "single_contact"
 )
-FIGURE = Figure(MESHING, meshing_view, ("mu_l",), STAGES, "gear.meshing")
-NEAR = Figure("near", near_view, ("near",), STAGES)  # told with the meshing
+FIGURE = Figure(MESHING, _meshing_view, ("mu_l",), STAGES, "gear.meshing")
+NEAR = Figure("near", _near_view, ("near",), STAGES)  # told with the meshing

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from ...plans.gears.construction import MESHING, THETA
 from ...plans.gears.gear import SHIFTS, VALUES, WHEELS, unit_of
 from ...plans.gears.geometry import POINTS
-from ...plans.gears.solve import SAME_CENTRES, rule_of
+from ...plans.gears.solve import MARKS, SAME_CENTRES, rule_of
 from ...plans.names import role
 from ...plans.solved import AT_LEAST, AT_MOST, Check
 from ...scales.scale import Scale
@@ -19,21 +19,12 @@ from ..table import table, text_block
 from ..view import View
 from ..words import indexed
 from .action_view import theta_said
-from .sheet import GearScene, marks, places
+from .scene import PLACES, GearScene
 
-MM, DEGREE, NUMBER, WHOLE = "mm", "°", "", "whole"
-DECIMALS = {MM: 3, DEGREE: 3, NUMBER: 4}  # of what is calculated
-TIMES = {MM: 1e3, DEGREE: DEGREES}
 SLIDING = 2  # decimals of ordinates, mm, and of sliding where they show so many
-# rows of the data: names, and what they are given in; of a wheel's quantities the name goes on with its number
-PAIR = (
-    *(("m", MM), ("alpha", DEGREE), ("h_a", NUMBER), ("h_l", NUMBER), ("c", NUMBER), ("x_sum", NUMBER)),
-    *(("y", NUMBER), ("delta_y", NUMBER), ("a_w", MM), ("alpha_w", DEGREE), ("h", MM), ("p", MM), ("p_b", MM)),
-)
-OF_WHEELS = (
-    *(("z", WHOLE), ("x", NUMBER), ("d", MM), ("d_w", MM), ("d_b", MM), ("d_a", MM), ("d_f", MM), ("s", MM)),
-    *(("s_c", MM), ("h_c", MM), ("z_W", WHOLE), ("W", MM)),
-)
+# rows of the data; of a wheel's quantities the name goes on with its number
+PAIR = ("m", "alpha", "h_a", "h_l", "c", "x_sum", "y", "delta_y", "a_w", "alpha_w", "h", "p", "p_b")
+OF_WHEELS = ("z", "x", "d", "d_w", "d_b", "d_a", "d_f", "s", "s_c", "h_c", "z_W", "W")
 Lines = list[tuple[str, ...]]
 # what is calculated: the main sizes, sections I and II of the note; the auxiliary ones, III, and those to measure teeth
 # by; what the pair is judged by, IV and V
@@ -43,7 +34,8 @@ CALCULATED = {
     "s_c1 s_c2 h_c1 h_c2 s_b1 s_b2 W_1 W_2",
     "quality": "x_min1 x_min2 rho_l1 rho_l2 epsilon_alpha s_a1 s_a2 rho_a1 g_alpha phi_alpha1 phi_alpha2",
 }
-PRINTED = {"m": Shown("mm", 1e3, 3), "rad": Shown("deg", DEGREES, 3), "1": Shown("", 1.0, 4)}
+MM, NUMBER = Shown("mm", 1e3, 3), Shown("", 1.0, 4)  # of what is calculated
+PRINTED = {"m": MM, "rad": Shown("deg", DEGREES, 3), "1": NUMBER}
 INV = Shown("", 1.0, 6)  # of the involute function
 SHORT = 4  # decimals of a number that is printed as it is
 NOISE = 1e-9  # by which it may differ
@@ -56,39 +48,39 @@ BROKEN = {AT_LEAST: "<", AT_MOST: ">"}
 RULES = ("undercut", "interference", "contact_ratio", "contact_flanks", "tip")
 # where on the active line a wheel slides most: at the root of its teeth
 STEEPEST = {"theta_12": "A1", "theta_21": "A2"}
-Texts = Mapping[str, str]
 
 
 def data_table(scene: GearScene) -> View:
     """Return the data of the pair, and below them those of its wheels side by side."""
     words = scene.words
     rows: list[list[str | None]] = [[words["table.quantity"], words["table.symbol"], words["table.value"], None]]
-    rows += ([named(scene, name, kind), words.symbol(name), number(scene, name, kind), None] for name, kind in PAIR)
+    rows += ([_named(scene, name), words.symbol(name), _number(scene, name), None] for name in PAIR)
     rows.append(["", None, words["gear.pinion"], words["gear.wheel"]])
-    for name, kind in OF_WHEELS:
-        numbers = (number(scene, f"{name}{i}" if "_" in name else f"{name}_{i}", kind) for i in WHEELS)  # d_1, d_w1
-        rows.append([named(scene, name, kind), words.symbol(name), *numbers])
+    rows += ([_named(scene, n), words.symbol(n), *(_number(scene, _of(n, i)) for i in WHEELS)] for n in OF_WHEELS)
     return table("data", words["heading.gear_data"], rows, scene.style)
 
 
-def named(scene: GearScene, name: str, kind: str) -> str:
-    """Return what a quantity is called, with the unit in which its row is."""
+def _of(name: str, wheel: int) -> str:
+    return f"{name}{wheel}" if "_" in name else f"{name}_{wheel}"  # d_w1, d_1
+
+
+def _named(scene: GearScene, name: str) -> str:
+    """Return what a quantity of the data is called, with the unit in which its row is."""
     words = scene.words
-    unit = {MM: f", {words.unit('mm')}", DEGREE: f", {DEGREE}"}.get(kind, "")
-    return f"{words[f'gear.{name}']}{unit}"
+    unit = _printed(_of(name, 1) if name in OF_WHEELS else name).unit
+    return words[f"gear.{name}"] + {"mm": f", {words.unit('mm')}", "deg": ", °"}.get(unit, "")
 
 
-def number(scene: GearScene, name: str, kind: str) -> str:
+def _number(scene: GearScene, name: str) -> str:
     """Return a quantity as its row has it: a given as it is, what is undefined as a dash."""
-    value, words = scene.size(name), scene.words
+    value, words, (_, times, decimals) = scene.size(name), scene.words, _printed(name)
     if not math.isfinite(value):
         return words["table.calculated"]
-    if kind == WHOLE:
+    if role(name).kind == "z":
         return words.short(value)
-    value *= TIMES.get(kind, 1.0)
     if name in scene.givens or name in ("x_1", "x_2", "x_sum"):
-        return words.short(round(value, 9), 6)
-    return words.number(value, DECIMALS[kind])
+        return words.short(round(value * times, 9), 6)
+    return words.number(value * times, decimals or 0)
 
 
 def points_table(scene: GearScene) -> View:
@@ -97,17 +89,18 @@ def points_table(scene: GearScene) -> View:
     Differences are those of the printed ordinates, and sliding has as many digits as come out of these. Points end in
     N1 and N2: where A1 or A2 lies beyond, no point has its letter.
     """
-    words, line = scene.words, scene.size("l_N1N2")
-    on_line = [name for name, rho_1 in places(scene.solved.sizes).items() if 0.0 <= rho_1 <= line]
-    named_points = {name: point for name, point in marks(scene.solved.sizes).items() if name in on_line}
-    mm = words.unit("mm")
-    letters = {point: indexed(name) for name, point in named_points.items()}
-    y_1, y_2 = words.symbol("y_1"), words.symbol("y_2")
+    words, places = scene.words, scene.places
+    order = ("N1", *(name for name in places if name in PLACES), "N2")
+    letters = {
+        point: indexed(name)
+        for name, point in zip(order, (POINTS[0], *MARKS, POINTS[-1]), strict=True)
+        if 0.0 <= places[name] <= places["N2"]
+    }
+    y_1, y_2, mm = words.symbol("y_1"), words.symbol("y_2"), words.unit("mm")
     head = [words["gear.point"], None, *(f"{y}, {mm}" for y in (y_1, y_2, f"{y_1} − {y_2}")), words.symbol("theta_12")]
-    head += [f"{y_2} − {y_1}, {mm}", words.symbol("theta_21")]
-    rows: list[list[str | None]] = [head]
+    rows: list[list[str | None]] = [[*head, f"{y_2} − {y_1}, {mm}", words.symbol("theta_21")]]
     for point in POINTS:
-        first, second = (round(scene.size(f"y_{i}_{point}") * TIMES[MM], SLIDING) for i in WHEELS)
+        first, second = (round(scene.size(f"y_{i}_{point}") * MM.times, SLIDING) for i in WHEELS)
         cells = [words.number(y, SLIDING) for y in (first, second)]
         for pair, own, mate in (("12", first, second), ("21", second, first)):
             exact = scene.size(f"theta_{pair}_{point}")
@@ -134,36 +127,29 @@ def checks_table(scene: GearScene) -> View:
     for check in scene.solved.checks:
         wheel, about = rule_of(check)[1], words[f"gear.check.{role(check.name).kind}"]
         about += f", {words.symbol(f'z_{wheel}')}" if wheel else ""
-        sides = (number_of(scene, check, side) for side in (check.value, check.limit))
-        rows.append([about, condition(scene, check), *sides, words["said.ok" if check.ok else "said.fails"]])
+        sides = (_side(scene, check, side) for side in (check.value, check.limit))
+        rows.append([about, _condition(scene, check), *sides, words["said.ok" if check.ok else "said.fails"]])
     return table("checks", words["heading.gear_checks"], rows, scene.style)
 
 
-def condition(scene: GearScene, check: Check) -> str:
+def _condition(scene: GearScene, check: Check) -> str:
     """Return what is demanded, in symbols."""
-    words = scene.words
-    if role(check.name).kind == "centre":
-        return f"{words.symbol('a_w')} = {CENTRES[check.quantity](words.symbol)}"
-    if check.of:
-        limit = words.symbol(check.of)
-    elif role(check.name).kind == "tip":
-        limit = f"{words.short(scene.solved.pair.least_tip)}m"
-    else:
-        limit = words.short(check.limit)
-    return f"{words.symbol(check.quantity)} {check.sign} {limit}"
+    symbol, short, kind = scene.words.symbol, scene.words.short, role(check.name).kind
+    if kind == "centre":
+        return f"{symbol('a_w')} = {CENTRES[check.quantity](symbol)}"
+    limit = f"{short(scene.solved.pair.least_tip)}m" if kind == "tip" else short(check.limit)
+    return f"{symbol(check.quantity)} {check.sign} {symbol(check.of) if check.of else limit}"
 
 
-def number_of(scene: GearScene, check: Check, value: float) -> str:
+def _side(scene: GearScene, check: Check, value: float) -> str:
     """Return one side of a check, lengths in mm."""
-    words = scene.words
-    if role(check.quantity).kind in ("epsilon", "x"):
-        return words.number(value, DECIMALS[NUMBER])
-    return f"{words.number(value * TIMES[MM], DECIMALS[MM])} {words.unit('mm')}"
+    unit, times, decimals = _printed(check.quantity)
+    number = scene.words.number(value * times, decimals or 0)
+    return f"{number} {scene.words.unit(unit)}" if unit else number
 
 
-Symbol = Callable[[str], str]
 # the distance of the centres in other ways, in symbols
-CENTRES: dict[str, Callable[[Symbol], str]] = {
+CENTRES: dict[str, Callable[[Callable[[str], str]], str]] = {
     "a_w_rolling": lambda s: f"({s('d_w1')} + {s('d_w2')})/2",
     "a_w_shift": lambda s: f"({s('d_1')} + {s('d_2')})/2 + {s('y')}·{s('m')}",
     "a_w_tip1": lambda s: f"({s('d_a1')} + {s('d_f2')})/2 + {s('c')}·{s('m')}",
@@ -175,9 +161,9 @@ def begun(scene: GearScene, steps: int) -> dict[str, Begun]:
     """Return what handouts show of the tables: the rows of what is given."""
     shifts = [name for name in SHIFTS if name in scene.givens]
     known = ["m", "alpha", "h_a", "h_l", "c", "z", *shifts, *(["x"] if shifts[:2] == ["x_1", "x_2"] else [])]
-    cells = (named(scene, name, kind) for name, kind in (*PAIR, *OF_WHEELS) if name in known)
-    found = {name: Begun(rows=frozenset()) for name in ("points", "checks")}
-    return found | {"data": Begun(rows=frozenset(("", *cells)), columns=2)}
+    cells = (_named(scene, name) for name in (*PAIR, *OF_WHEELS) if name in known)
+    nothing = Begun(rows=frozenset())
+    return {"points": nothing, "checks": nothing, "data": Begun(rows=frozenset(("", *cells)), columns=2)}
 
 
 def calculations_block(scene: GearScene, name: str, width: float) -> View:
@@ -194,7 +180,7 @@ def _calculations(scene: GearScene, names: Iterable[str], symbol: str = "") -> L
     """Return the calculations of quantities, under one symbol if that is named; without what is undefined."""
     words, lines = scene.words, Lines()
     for step in (scene.solved.program.by_name[name] for name in names if math.isfinite(scene.size(name))):
-        unit, times, decimals = printed(step.name)
+        unit, times, decimals = _printed(step.name)
         if not prints(step.law, len(step.operands)):
             number = words.number(scene.size(step.name) * times, decimals or 0)
             lines.append((f"{words.symbol(symbol or step.name)} = {number}{words.unit(unit) if unit else ''}",))
@@ -207,14 +193,14 @@ def _calculations(scene: GearScene, names: Iterable[str], symbol: str = "") -> L
     return lines
 
 
-def printed(name: str) -> Shown:
+def _printed(name: str) -> Shown:
     """Return how a quantity is printed."""
     return INV if role(name).kind == "inv" else PRINTED[VALUES[name] or "1" if name in VALUES else unit_of(name)]
 
 
 def _input(scene: GearScene, name: str) -> Input:
     """Return a quantity with its number as it is printed; a short one as it is."""
-    unit, times, _ = printed(name)
+    unit, times, _ = _printed(name)
     value = scene.size(name) * times
     short = round(value, SHORT)
     exact = abs(value - short) < NOISE
@@ -243,50 +229,41 @@ def story(scene: GearScene, scales: Mapping[str, Scale], texts: Mapping[str, str
     """
     words, sizes, mu = scene.words, scene.solved.sizes, scales[MESHING].mu if MESHING in scales else 1e-3
     mm = words.unit("mm")
-    found = {name: f"{scene.stated(name)} {mm}" for name in SIZES} | {name: scene.angle(name) for name in ANGLES}
-    for name in RADII:
-        found[f"r_{name}"] = f"{words.number(0.5 * sizes[f'd_{name}'] / mu, PAPER)} {mm}"
-    for name in LAID_OFF:
-        found[f"{name}_drawn"] = f"{words.number(sizes[name] / mu, PAPER)} {mm}"
-    for i, rolled in zip(WHEELS, scene.solved.layout.rollings, strict=True):
-        found[f"parts_{i}"] = str(rolled.parts)
-    found["mu_theta"] = theta_said(words, scales[THETA].mu if THETA in scales else scene.size("mu_theta") * 1e-3)
-    return Story(conclusions=tuple(conclusions(scene, texts)), texts=texts, said=found)
+    said = {name: f"{scene.stated(name)} {mm}" for name in SIZES} | {name: scene.angle(name) for name in ANGLES}
+    on_paper = {f"r_{name}": 0.5 * sizes[f"d_{name}"] for name in RADII}
+    on_paper |= {f"{name}_drawn": sizes[name] for name in LAID_OFF}
+    said |= {name: f"{words.number(length / mu, PAPER)} {mm}" for name, length in on_paper.items()}
+    said |= {f"parts_{i}": str(r.parts) for i, r in zip(WHEELS, scene.solved.layout.rollings, strict=True)}
+    said["mu_theta"] = theta_said(words, scales[THETA].mu if THETA in scales else scene.size("mu_theta") * 1e-3)
+    return Story(conclusions=tuple(_conclusions(scene, texts)), texts=texts, said=said)
 
 
-def conclusions(scene: GearScene, texts: Texts) -> Iterator[str]:
+def _conclusions(scene: GearScene, texts: Mapping[str, str]) -> Iterator[str]:
     """Go through the sentences for the end of the note."""
-    lengths = {name: f"{scene.stated(name)} {scene.words.unit('mm')}" for name in ("a", "a_w")}
+    words = scene.words
+    lengths = {name: f"{scene.stated(name)} {words.unit('mm')}" for name in ("a", "a_w")}
     numbers = {name: scene.shift(name) for name in ("x_1", "x_2")}
     yield texts["gear.conclusion.shifts"].format(alpha_w=scene.angle("alpha_w"), **lengths, **numbers)
-    for rule in RULES:
-        yield from _judged(scene, texts, rule)
+    for rule in RULES:  # whether it is kept: of all wheels, or of which it is not
+        checks = [check for check in scene.solved.checks if rule_of(check)[0] == rule]
+        broken = [check for check in checks if not check.ok]
+        if checks:
+            said = "; ".join(_compared(scene, check) for check in broken or checks)
+            yield texts[f"gear.conclusion.{rule}_{'broken' if broken else 'kept'}"].format(said=said)
+        if rule == "contact_ratio" and 1.0 < checks[0].value < 2.0:
+            part = words.number(100.0 * (checks[0].value - 1.0), 0)
+            yield texts["gear.conclusion.pairs"].format(part=part)
     values = {name: scene.size(f"{name}_{end}") for name, end in STEEPEST.items()}
     if all(map(math.isfinite, values.values())):
-        words = scene.words
-        said = {name: f"{words.symbol(name)} = {words.number(value, 2)}" for name, value in values.items()}
-        sizes = {round(abs(value), 2) for value in values.values()}
-        worse = "both" if len(sizes) == 1 else max(values, key=lambda name: abs(values[name]))
-        yield texts[f"gear.conclusion.wear_{worse}"].format(**said)
-
-
-def _judged(scene: GearScene, texts: Texts, rule: str) -> Iterator[str]:
-    """Tell whether a rule is kept: of all wheels, or of which it is not."""
-    checks = [check for check in scene.solved.checks if rule_of(check)[0] == rule]
-    broken = [check for check in checks if not check.ok]
-    if not checks:
-        return
-    said = "; ".join(_compared(scene, check) for check in broken or checks)
-    yield texts[f"gear.conclusion.{rule}_{'broken' if broken else 'kept'}"].format(said=said)
-    if rule == "contact_ratio" and 1.0 < checks[0].value < 2.0:
-        part = scene.words.number(100.0 * (checks[0].value - 1.0), 0)
-        yield texts["gear.conclusion.pairs"].format(part=part)
+        most = {name: f"{words.symbol(name)} = {words.number(value, 2)}" for name, value in values.items()}
+        same = len({round(abs(value), 2) for value in values.values()}) == 1
+        worse = "both" if same else max(values, key=lambda name: abs(values[name]))
+        yield texts[f"gear.conclusion.wear_{worse}"].format(**most)
 
 
 def _compared(scene: GearScene, check: Check) -> str:
     """Return a quantity beside its limit, as they stand to one another."""
-    words = scene.words
     sign = check.sign if check.ok else BROKEN[check.relation]
-    value, limit = (number_of(scene, check, side) for side in (check.value, check.limit))
-    of = f"{words.symbol(check.of)} = " if check.of else ""
-    return f"{words.symbol(check.quantity)} = {value} {sign} {of}{limit}"
+    value, limit = (_side(scene, check, side) for side in (check.value, check.limit))
+    of = f"{scene.words.symbol(check.of)} = " if check.of else ""
+    return f"{scene.words.symbol(check.quantity)} = {value} {sign} {of}{limit}"

@@ -11,10 +11,10 @@ Source: Bolotovskaya, Bolotovsky et al., Handbook of gear correction (blocking c
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
-from functools import partial
+from dataclasses import dataclass
+from functools import cached_property, partial
 from itertools import combinations
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -165,22 +165,30 @@ CELLS = 160  # of the grid along either axis
 HIGHEST = 6.0  # shift that no contour reaches
 LEAST_WINDOW = 1.5
 MARGIN = 0.08  # of the window, round the contour
-BLOCKING = ("undercut_1", "undercut_2", "interference_1", "interference_2", "contact_1", "pointed_1", "pointed_2")
-CURVES = (*BLOCKING, "contact_1.2", "thin_1", "thin_2")
-_KINDS = {"undercut": "12", "interference": "12", "contact": ("1", "1.2"), "pointed": "12", "thin": "12"}
-OF_CURVE = {f"{kind}_{of}": (kind, of) for kind, every in _KINDS.items() for of in every}  # kind, wheel or ratio
-RATIOS = {"contact_1": 1.0, "contact_1.2": 1.2}
-# what is compared: the shift with the least one, curvatures, the contact ratio, the thickness of the tip
-COMPARED = {
-    **{f"undercut_{i}": (f"x_{i}", f"x_min{i}") for i in WHEELS},
-    **{f"interference_{i}": (f"rho_p{i}", f"rho_l{i}") for i in WHEELS},
-    **dict.fromkeys(RATIOS, ("epsilon_alpha",)),
-    **{f"{kind}_{i}": (f"s_a{i}",) for kind in ("pointed", "thin") for i in WHEELS},
+
+
+class Limit(NamedTuple):
+    """A curve: where a quantity is no `greater` than another one or a number; of lengths, in modules."""
+
+    greater: str
+    less: str | float  # `LEAST_TIP` is the least thickness of a tooth at its tip
+    length: bool = False
+
+
+LEAST_TIP = "tip"
+OF_CURVE = {
+    **{f"undercut_{i}": Limit(f"x_{i}", f"x_min{i}") for i in WHEELS},
+    **{f"interference_{i}": Limit(f"rho_p{i}", f"rho_l{i}", True) for i in WHEELS},
+    "contact_1": Limit("epsilon_alpha", 1.0),
+    **{f"pointed_{i}": Limit(f"s_a{i}", 0.0, True) for i in WHEELS},
+    "contact_1.2": Limit("epsilon_alpha", 1.2),
+    **{f"thin_{i}": Limit(f"s_a{i}", LEAST_TIP, True) for i in WHEELS},
 }
+CURVES = tuple(OF_CURVE)
+BLOCKING = CURVES[:7]
 
 
-@dataclass(frozen=True, slots=True)
-class Crossing:
+class Crossing(NamedTuple):
     """Where two curves cross."""
 
     first: str
@@ -197,8 +205,6 @@ class Plane:
     low: complex  # corner of the window in which the curves are traced
     high: complex
     cells: int = CELLS
-    _traced: dict[str, list[Places]] = field(default_factory=dict, repr=False)
-    _on_grid: dict[str, Array] = field(default_factory=dict, repr=False)
 
     @property
     def chosen(self) -> complex:
@@ -210,17 +216,13 @@ class Plane:
 
         Shifts are compared in modules, radii of curvature and thicknesses as well.
         """
-        names, places, unit = tuple(wanted), np.asarray(places, complex), 1.0 / self.values["m"]
+        limits, places = {name: OF_CURVE[name] for name in wanted}, np.asarray(places, complex)
+        names = [name for limit in limits.values() for name in limit[:2] if isinstance(name, str) and name != LEAST_TIP]
         shifted = {**self.values, "x_1": places.real, "x_2": places.imag}
-        found, measured = geometry(shifted, [part for name in names for part in COMPARED[name]]), {}
-        for name in names:
-            kind, (value, *limit) = OF_CURVE[name][0], (found[part] for part in COMPARED[name])
-            if kind == "contact":
-                measured[name] = np.asarray(value - RATIOS[name])
-            elif kind in ("pointed", "thin"):
-                measured[name] = np.asarray(value * unit - (self.least_tip if kind == "thin" else 0.0))
-            else:
-                measured[name] = np.asarray((value - limit[0]) * (unit if kind == "interference" else 1.0))
+        sizes, measured = {**geometry(shifted, names), LEAST_TIP: self.least_tip * self.values["m"]}, {}
+        for name, (greater, less, length) in limits.items():
+            over = sizes[greater] - (sizes[less] if isinstance(less, str) else less)
+            measured[name] = np.asarray(over / self.values["m"] if length else over)
         return measured
 
     def permits(self, places: Any, curves: Iterable[str] = BLOCKING, room: float = 0.0) -> NDArray[np.bool_]:
@@ -229,24 +231,23 @@ class Plane:
         inside: NDArray[np.bool_] = np.logical_and.reduce([measure >= -room for measure in found])
         return inside
 
-    def curve(self, name: str) -> list[Places]:
-        """Return a curve inside the window: its pieces, each a run of places on it."""
-        if name not in self._traced:
-            if not self._on_grid:  # of all curves at once: they share most of what is calculated
-                self._on_grid.update(self.measures(grid(self.low, self.high, self.cells)))
+    @cached_property
+    def curves(self) -> dict[str, list[Places]]:
+        """All curves inside the window, by name: their pieces, each a run of places on it."""
+        known = self.measures(grid(self.low, self.high, self.cells))  # of all at once: they share most of it
 
-            def measure(places: Any) -> Array:
-                return self.measures(places, (name,))[name]
+        def measure(places: Any, name: str) -> Array:
+            return self.measures(places, (name,))[name]
 
-            self._traced[name] = traced(measure, self.low, self.high, self.cells, self._on_grid[name])
-        return self._traced[name]
+        window = self.low, self.high, self.cells
+        return {name: traced(partial(measure, name=name), *window, known[name]) for name in CURVES}
 
     def crossings(self) -> list[Crossing]:
         """Return where the curves that block cross each other inside the window."""
         found, reach = [], 2.0 * abs(self.high - self.low) / self.cells
         for pair in combinations(BLOCKING, 2):
             first, second = pair
-            starts = near_crossings(self.curve(first), self.curve(second))
+            starts = near_crossings(self.curves[first], self.curves[second])
             if starts.size:
                 places = crossings(partial(self.measures, wanted=pair), starts, reach)
                 found += [Crossing(first, second, place) for place in places.tolist()]
@@ -254,12 +255,8 @@ class Plane:
 
     def corners(self) -> list[Crossing]:
         """Return the corners of the contour: crossings that all other curves permit."""
-        found = []
-        for corner in self.crossings():
-            others = [name for name in BLOCKING if name not in (corner.first, corner.second)]
-            if bool(self.permits(corner.place, others, SAME)):
-                found.append(corner)
-        return found
+        others = {corner: [name for name in BLOCKING if name not in corner] for corner in self.crossings()}
+        return [corner for corner, names in others.items() if bool(self.permits(corner.place, names, SAME))]
 
     def contour(self) -> list[tuple[str, Places]]:
         """Return the pieces of curves that all others permit: the sides of the contour, from corner to corner.
@@ -270,7 +267,7 @@ class Plane:
         for name in BLOCKING:
             own = np.array([corner.place for corner in corners if name in (corner.first, corner.second)], complex)
             others = [other for other in BLOCKING if other != name]
-            for run in self.curve(name):
+            for run in self.curves[name]:
                 changes = np.diff(np.concatenate(([0], self.permits(run, others).astype(int), [0])))
                 ends = (np.flatnonzero(side * changes > 0).tolist() for side in (1, -1))  # of stretches inside
                 found += [(name, _to_corners(run, begin, end, own)) for begin, end in zip(*ends, strict=True)]

@@ -77,23 +77,23 @@ def mark(letters: str, i: int | str = "", number: int | str = "") -> str:
     return f"{MESHING}.{letters}{i}" + (f"_{number}" if number != "" else "")
 
 
-def meshing(board: Board, rollings: tuple[Rolling, Rolling], sense: int) -> None:
+def _meshing(board: Board, rollings: tuple[Rolling, Rolling], sense: int) -> None:
     """Draw the meshing and measure it."""
-    centres(board)
-    line_of_action(board)
-    active_line(board)
+    _centres(board)
+    _line_of_action(board)
+    _active_line(board)
     for i, rolled in zip(WHEELS, rollings, strict=True):
-        lower_point(board, i)
-        involute_by_rolling(board, i, rolled)
-        teeth(board, i)
+        _lower_point(board, i)
+        _involute_by_rolling(board, i, rolled)
+        _teeth(board, i)
     for i in WHEELS:
-        engagement(board, i, sense if i == 1 else -sense)
+        _engagement(board, i, sense if i == 1 else -sense)
     board.calc("epsilon_alpha_drawn", "ratio_of", "g_alpha_drawn", "p_b")
     for i in WHEELS:  # once more, from the angles of action
         board.calc(f"epsilon_alpha_arc{i}", "ratio_of", f"phi_alpha{i}_drawn", f"tau_{i}")
 
 
-def centres(board: Board) -> None:
+def _centres(board: Board) -> None:
     """Draw the line of centres with both centres, tip and root circles on it; measure the clearances."""
     board.pole(mark("P"))
     board.turn(TANGENT, "zero")
@@ -111,7 +111,7 @@ def centres(board: Board) -> None:
     board.distance("c_2", mark("C", "", "f2"), mark("C", "", "a1"))
 
 
-def line_of_action(board: Board) -> None:
+def _line_of_action(board: Board) -> None:
     """Lay off the angle of action at the pole, and draw the radii at right angles to the line."""
     board.calc("_angle_of_action", "angle_of_action", "alpha_w", "_sense")
     board.turn(ACTION, "_angle_of_action")
@@ -121,7 +121,7 @@ def line_of_action(board: Board) -> None:
     board.distance("l_N1N2_drawn", mark("N1"), mark("N2"))
 
 
-def active_line(board: Board) -> None:
+def _active_line(board: Board) -> None:
     """Mark the active line by arcs of the tip circles, the ends of the double contacts, the boundary points."""
     board.arc(mark("A1"), mark("O2"), "_r_a2", mark("P"), ACTION, "_minus_one")
     board.arc(mark("A2"), mark("O1"), "_r_a1", mark("P"), ACTION, "one")
@@ -132,7 +132,7 @@ def active_line(board: Board) -> None:
     board.distance("g_alpha_drawn", mark("A1"), mark("A2"))
 
 
-def lower_point(board: Board, i: int) -> None:
+def _lower_point(board: Board, i: int) -> None:
     """Carry the end of the active line to the flank in P by an arc about the wheel's centre."""
     board.calc(f"_inv_p{i}", "unrolled_involute", f"nu_p{i}")
     board.calc(f"_inv_a{i}", "involute", f"alpha_a{i}")
@@ -143,7 +143,7 @@ def lower_point(board: Board, i: int) -> None:
     board.lay(mark("L", i), mark("O", i), f"_to_L{i}", f"r_p{i}")
 
 
-def involute_by_rolling(board: Board, i: int, rolled: Rolling) -> None:
+def _involute_by_rolling(board: Board, i: int, rolled: Rolling) -> None:
     """Divide P N, lay the parts off on the base circle, and from there along the tangents what has been unrolled."""
     n = f"_number{rolled.parts}"
     board.measure(f"_l_PN{i}", mark("P"), mark("N", i))
@@ -171,7 +171,7 @@ def _unrolled(board: Board, i: int, k: int | str, length: str) -> None:
     board.lay(mark("E", i, k), mark("T", i, k), f"_tangent{end}", f"_laid{end}")
 
 
-def teeth(board: Board, i: int) -> None:
+def _teeth(board: Board, i: int) -> None:
     """Lay off the angular pitch and the thickness on the reference circle, from the flank in P."""
     board.calc(f"_half_w{i}", "angle_of_thickness", f"s_w{i}", f"d_w{i}")
     board.calc(f"_half{i}", "angle_of_thickness", f"s_{i}", f"d_{i}")
@@ -185,7 +185,7 @@ def teeth(board: Board, i: int) -> None:
             board.lay(mark(letter, i, j), mark("O", i), f"_to_{letter}{i}_{j}", f"_r_{i}")
 
 
-def engagement(board: Board, i: int, sense: int) -> None:
+def _engagement(board: Board, i: int, sense: int) -> None:
     """Turn the flank so that it touches in A1 and in A2, and read the angle of action of a wheel that turns so."""
     for end, ahead in (("start", "A1"), ("end", "A2")):
         at = f"_inv_p{i}" if ahead == f"A{i}" else f"_inv_a{i}"
@@ -208,19 +208,19 @@ FIRST = {1: POINTS[0], 2: POINTS[-1]}  # the point of a wheel's own base circle
 ENDLESS = {f"theta_{i}{3 - i}_{point}": f"theta_{3 - i}{i}_{point}" for i, point in FIRST.items()}
 
 
-def sliding(board: Board, pole: str) -> None:
+def _sliding(board: Board, pole: str) -> None:
     """Draw both plans; `pole` is the point of the table that stands in P."""
     sliding_places(board)
-    velocity_lines(board)
+    _velocity_lines(board)
     for point in POINTS:
-        ordinates(board, point, pole)
+        _ordinates(board, point, pole)
     for point in POINTS:
         for i in (i for i in WHEELS if FIRST[i] != point):
             sliding_at(board, point, i)
-    theta_diagram(board)
+    _theta_diagram(board)
 
 
-def velocity_lines(board: Board) -> None:
+def _velocity_lines(board: Board) -> None:
     """Draw N1N2 with the pole, and the velocity over it, to whose tip the lines from both ends run."""
     board.turn(RIGHT, "zero")
     board.normal(UP, RIGHT)
@@ -231,7 +231,7 @@ def velocity_lines(board: Board) -> None:
     board.lay(f"{SLIDING}.W", f"{SLIDING}.P", UP, "PW")
 
 
-def ordinates(board: Board, point: str, pole: str) -> None:
+def _ordinates(board: Board, point: str, pole: str) -> None:
     """Read both velocities at a point of the table: at N1 and N2 one of them is nothing, at the pole they are one.
 
     The lines are straight, so that their points divide them as the feet divide N1P and N2P.
@@ -256,7 +256,7 @@ def ordinates(board: Board, point: str, pole: str) -> None:
         board.distance(ordinate(i, point), foot, tip)
 
 
-def theta_diagram(board: Board) -> None:
+def _theta_diagram(board: Board) -> None:
     """Lay off specific sliding over the points of the table."""
     board.pole(f"{THETA}.N1")
     for point in POINTS:
@@ -292,7 +292,7 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
         for part in SIZES:
             part(board)
     if MESHING_PART in wanted:
-        meshing(board, layout.rollings, layout.sense)
+        _meshing(board, layout.rollings, layout.sense)
     if SLIDING_PART in wanted:
-        sliding(board, layout.pole)
+        _sliding(board, layout.pole)
     return Program(board.steps)

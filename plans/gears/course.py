@@ -10,8 +10,8 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,94 +24,12 @@ from .teeth import Array
 NEAR = 1e-9  # part of the base pitch within which a contact begins or ends
 
 
-@dataclass(frozen=True, slots=True)
-class Zone:
+class Zone(NamedTuple):
     """A part of the line of action, from `first` to `last`, rho_1 in m, on which so many `pairs` of teeth touch."""
 
     first: float
     last: float
     pairs: int
-
-    @property
-    def length(self) -> float:
-        """Its length, m."""
-        return self.last - self.first
-
-
-def columns(solved: SolvedGear, rho_1: Any) -> list[Columned]:
-    """Return the columns at places of the line of action, m: `phi` is zero where the teeth touch in the pole.
-
-    `rho_i` and `r_i` are radii of curvature and distances from the centres, `v_ki` velocities along the profiles, `v_s`
-    that of sliding, `theta_..` specific sliding, `pairs` how many pairs of teeth touch.
-    """
-    sizes, rho_1 = solved.sizes, np.asarray(rho_1, float)
-    u, r_b1 = sizes["u"], 0.5 * sizes["d_b1"]
-    rho_2 = LAWS["excess"](sizes["l_N1N2"], rho_1)
-    v_k2 = LAWS["at_ratio"](rho_2, u)
-    r_1, r_2 = (
-        LAWS["half_of"](LAWS["diameter_of_curvature"](rho, sizes[name]))
-        for rho, name in ((rho_1, "d_b1"), (rho_2, "d_b2"))
-    )
-    lengths = {"rho_1": rho_1, "rho_2": rho_2, "r_1": r_1, "r_2": r_2, "v_k1": rho_1, "v_k2": v_k2}
-    lengths["v_s"] = LAWS["excess"](rho_1, v_k2)
-    return [
-        Columned("phi", "rad", LAWS["contact_angle"](rho_1, sizes["rho_w1"], r_b1)),
-        *(Columned(name, "m", length) for name, length in lengths.items()),
-        Columned("theta_12", "1", LAWS["sliding_of_pinion"](rho_1, rho_2, u)),
-        Columned("theta_21", "1", LAWS["sliding_of_wheel"](rho_2, rho_1, u)),
-        Columned("pairs", "1", pairs(solved, rho_1)),
-    ]
-
-
-def pairs(solved: SolvedGear, rho_1: Array) -> Array:
-    """Return how many pairs of teeth touch when one of them does so at these places."""
-    first, last = solved.meshing.touching
-    pitch = solved.sizes["p_b"]
-    after, before = (np.floor(way / pitch + NEAR) for way in (last - rho_1, rho_1 - first))
-    return np.asarray(after + before + 1.0)
-
-
-def zones(solved: SolvedGear) -> list[Zone]:
-    """Return the parts of the line of action by how many pairs touch, from start to end."""
-    first, last = solved.meshing.touching
-    pitch = solved.sizes["p_b"]
-    most = math.floor((last - first) / pitch + NEAR)
-    ends = [first + k * pitch for k in range(most + 1)] + [last - k * pitch for k in range(most + 1)]
-    places = [first]
-    for place in sorted(ends):
-        if place - places[-1] > NEAR * pitch:
-            places.append(place)
-    middles = 0.5 * (np.array(places[:-1]) + np.array(places[1:]))
-    counts = pairs(solved, middles).astype(int).tolist()
-    return [Zone(a, b, n) for a, b, n in zip(places, places[1:], counts, strict=False)]
-
-
-def marks(solved: SolvedGear) -> dict[str, float]:
-    """Return places on the line of action by their letters, in order: ends, the pole, where one pair alone touches.
-
-    Teeth that are undercut or pointed touch from `start` to `end`, inside of A1A2.
-    """
-    first, last = solved.meshing.touching
-    sizes, pitch = solved.sizes, solved.sizes["p_b"]
-    found = {"P": sizes["rho_w1"]}
-    for letter, other, place, tip in (("A1", "start", first, sizes["rho_p1"]), ("A2", "end", last, sizes["rho_a1"])):
-        found[letter if abs(place - tip) <= NEAR * pitch else other] = place
-    if last - first > pitch:
-        found |= {"K1": first + pitch, "K2": last - pitch}
-    return dict(sorted(found.items(), key=lambda item: item[1]))
-
-
-def extremes(solved: SolvedGear) -> list[Ends]:
-    """Return the extremes of sliding over the contact: it changes in one sense, so that they are at the ends."""
-    at = np.array(solved.meshing.touching)
-    by_name = {column.name: column for column in columns(solved, at)}
-    phi, found = by_name["phi"].values, []
-    for name in ("theta_12", "theta_21", "v_s"):
-        values = by_name[name].values
-        places = (int(np.argmax(values)), int(np.argmin(values)))
-        most, most_at, least, least_at = (float(of[at]) for at in places for of in (values, phi))
-        found.append(Ends(name, by_name[name].unit, most, most_at, least, least_at))
-    return found
 
 
 class GearCourse(Course):
@@ -120,35 +38,94 @@ class GearCourse(Course):
     usual = 101  # every hundredth of the active line
 
     def __init__(self, solved: SolvedGear) -> None:
-        self.solved = solved
+        self.solved, self.sizes, self.pitch = solved, solved.sizes, solved.sizes["p_b"]
+        self.first, self.last = solved.meshing.touching
 
     def places(self, count: int) -> Array:
         """Return so many places on the line of action."""
-        return np.linspace(*self.solved.meshing.touching, count)
+        return np.linspace(self.first, self.last, count)
 
     def columns(self, places: Any) -> list[Columned]:
-        """Return the columns at places of the line of action."""
-        return columns(self.solved, places)
+        """Return the columns at places of the line of action, m: `phi` is zero where the teeth touch in the pole.
+
+        `rho_i` and `r_i` are radii of curvature and distances from the centres, `v_ki` velocities along the profiles,
+        `v_s` that of sliding, `theta_..` specific sliding, `pairs` how many pairs of teeth touch.
+        """
+        sizes, rho_1 = self.sizes, np.asarray(places, float)
+        u, rho_2 = sizes["u"], LAWS["excess"](sizes["l_N1N2"], rho_1)
+        v_k2 = LAWS["at_ratio"](rho_2, u)
+        r_1, r_2 = (
+            LAWS["half_of"](LAWS["diameter_of_curvature"](rho, sizes[name]))
+            for rho, name in ((rho_1, "d_b1"), (rho_2, "d_b2"))
+        )
+        lengths = {"rho_1": rho_1, "rho_2": rho_2, "r_1": r_1, "r_2": r_2, "v_k1": rho_1, "v_k2": v_k2}
+        lengths["v_s"] = LAWS["excess"](rho_1, v_k2)
+        return [
+            Columned("phi", "rad", LAWS["contact_angle"](rho_1, sizes["rho_w1"], 0.5 * sizes["d_b1"])),
+            *(Columned(name, "m", length) for name, length in lengths.items()),
+            Columned("theta_12", "1", LAWS["sliding_of_pinion"](rho_1, rho_2, u)),
+            Columned("theta_21", "1", LAWS["sliding_of_wheel"](rho_2, rho_1, u)),
+            Columned("pairs", "1", self.pairs(rho_1)),
+        ]
+
+    def pairs(self, rho_1: Array) -> Array:
+        """Return how many pairs of teeth touch when one of them does so at these places."""
+        ways = (self.last - rho_1, rho_1 - self.first)
+        return np.asarray(sum(np.floor(way / self.pitch + NEAR) for way in ways) + 1.0)
+
+    @property
+    def zones(self) -> list[Zone]:
+        """The parts of the line of action by how many pairs touch, from start to end."""
+        first, last, pitch = self.first, self.last, self.pitch
+        steps = pitch * np.arange(math.floor((last - first) / pitch + NEAR) + 1)
+        places = [first]
+        for place in sorted((first + steps).tolist() + (last - steps).tolist()):
+            if place - places[-1] > NEAR * pitch:
+                places.append(place)
+        middles = 0.5 * (np.array(places[:-1]) + np.array(places[1:]))
+        return [Zone(a, b, int(n)) for (a, b), n in zip(pairwise(places), self.pairs(middles), strict=True)]
+
+    @property
+    def marks(self) -> dict[str, float]:
+        """Places on the line of action by their letters, in order: ends, the pole, where one pair alone touches.
+
+        Teeth that are undercut or pointed touch from `start` to `end`, inside of A1A2.
+        """
+        first, last, sizes = self.first, self.last, self.sizes
+        found = {"P": sizes["rho_w1"]}
+        for letter, other, place, tip in (("A1", "start", first, "rho_p1"), ("A2", "end", last, "rho_a1")):
+            found[letter if abs(place - sizes[tip]) <= NEAR * self.pitch else other] = place
+        if last - first > self.pitch:
+            found |= {"K1": first + self.pitch, "K2": last - self.pitch}
+        return dict(sorted(found.items(), key=lambda item: item[1]))
 
     def rows(self, count: int | None) -> Rows:
         """Return so many places, without a number the marks of the meshing."""
-        known = marks(self.solved)
+        known = self.marks
         return super().rows(count) if count is not None else (list(known), self.columns(list(known.values())))
 
     def extremes(self) -> list[Ends]:
-        """Return the extremes of sliding."""
-        return extremes(self.solved)
+        """Return the extremes of sliding: it changes in one sense, so that they are at the ends of the contact."""
+        by_name = {column.name: column for column in self.columns([self.first, self.last])}
+        phi, found = by_name["phi"].values, []
+        for name in ("theta_12", "theta_21", "v_s"):
+            values = by_name[name].values
+            places = (int(np.argmax(values)), int(np.argmin(values)))
+            most, most_at, least, least_at = (float(of[at]) for at in places for of in (values, phi))
+            found.append(Ends(name, by_name[name].unit, most, most_at, least, least_at))
+        return found
 
     def remarks(self) -> Iterator[tuple[str, Mapping[str, Any]]]:
         """Say on which zones how many pairs of teeth touch."""
-        for zone in zones(self.solved):
-            ends = {name: (getattr(zone, name), "m") for name in ("first", "last", "length")}
-            yield "sweep.zone", {**ends, "pairs": zone.pairs}
+        for first, last, pairs in self.zones:
+            yield (
+                "sweep.zone",
+                {"first": (first, "m"), "last": (last, "m"), "length": (last - first, "m"), "pairs": pairs},
+            )
 
     def data(self, places: Any) -> dict[str, Any]:
         """Return marks of the contact, and where how many pairs touch."""
-        found = [{"from": zone.first, "to": zone.last, "pairs": zone.pairs} for zone in zones(self.solved)]
-        return {"marks": marks(self.solved), "zones": found}
+        return {"marks": self.marks, "zones": [{"from": a, "to": b, "pairs": pairs} for a, b, pairs in self.zones]}
 
 
 Curve = list[tuple[float, float]]

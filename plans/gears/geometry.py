@@ -230,7 +230,7 @@ PARTS = {f"_part_{j}_{n}": j / n for _, n in DIVISIONS for j in range(n)}
 NOTHING = {"_zero": 0.0}
 
 
-def main_sizes(board: Board) -> None:
+def _main_sizes(board: Board) -> None:
     """Sizes of the pair and its wheels: sections 1 to 11 of the note."""
     board.calc("a", "reference_centre", "m", "z_1", "z_2")
     board.calc("x_sum", "sum", "x_1", "x_2")
@@ -251,7 +251,7 @@ def main_sizes(board: Board) -> None:
         board.calc(f"d_f{i}", "root_diameter", f"d_{i}", "h_a", "c", f"x_{i}", "m")
 
 
-def centre_again(board: Board) -> None:
+def _centre_again(board: Board) -> None:
     """The distance of the centres in four other ways: section 12."""
     board.calc("a_w_rolling", "centre_by_rolling", "d_w1", "d_w2")
     board.calc("a_w_shift", "centre_by_shift", "d_1", "d_2", "y", "m")
@@ -259,7 +259,7 @@ def centre_again(board: Board) -> None:
     board.calc("a_w_tip2", "centre_by_clearance", "d_a2", "d_f1", "c", "m")
 
 
-def auxiliary_sizes(board: Board) -> None:
+def _auxiliary_sizes(board: Board) -> None:
     """Pitches, thicknesses, angles and curvatures: sections 13 to 21."""
     for i in WHEELS:
         board.calc(f"d_b{i}", "base_diameter", f"d_{i}", "alpha")
@@ -280,7 +280,7 @@ def auxiliary_sizes(board: Board) -> None:
     board.calc("p_b", "base_pitch", "p", "alpha")
 
 
-def quality(board: Board) -> None:
+def _quality(board: Board) -> None:
     """What the pair is judged by: sections IV and V."""
     for i in WHEELS:
         board.calc(f"x_min{i}", "least_shift", "h_l", "h_a", f"z_{i}", "alpha")
@@ -294,7 +294,7 @@ def quality(board: Board) -> None:
         board.calc(f"theta_21_{end}", "sliding_of_wheel", second, first, "u")
 
 
-def action(board: Board) -> None:
+def _action(board: Board) -> None:
     """The line of action with its active part, its parts before and after the pole, and the angles of action."""
     board.calc("l_N1N2", "line_of_action", "a_w", "alpha_w")
     for i in WHEELS:
@@ -306,7 +306,7 @@ def action(board: Board) -> None:
         board.calc(f"phi_alpha{i}", "unrolled_angle", "g_alpha", f"d_b{i}")
 
 
-def measures(board: Board) -> None:
+def _measures(board: Board) -> None:
     """What a tooth is measured by: constant chord with its height, common normal; and the corner of the rack."""
     for i in WHEELS:
         board.calc(f"s_c{i}", "constant_chord", "m", f"x_{i}", "alpha")
@@ -337,7 +337,7 @@ def sliding_places(board: Board) -> None:
         board.calc(f"_rho_2_{point}", "excess", "l_N1N2", f"_rho_1_{point}")
 
 
-def calculated_sliding(board: Board) -> None:
+def _calculated_sliding(board: Board) -> None:
     """Ordinates of the velocities along the profiles at the twelve points, by proportion, and specific sliding."""
     for point in POINTS:
         for i in WHEELS:
@@ -353,12 +353,12 @@ def sliding_at(board: Board, point: str, i: int) -> None:
     board.calc(f"theta_{i}{mate}_{point}", "sliding_by_ordinates", f"y_{i}_{point}", f"y_{mate}_{point}")
 
 
-SIZES = (main_sizes, centre_again, auxiliary_sizes, quality, action, measures)
+SIZES = (_main_sizes, _centre_again, _auxiliary_sizes, _quality, _action, _measures)
 
 
 def geometry_program() -> Program:
     """Return all calculations, in order, recorded."""
-    return recorded(*SIZES, sliding_places, calculated_sliding)
+    return recorded(*SIZES, sliding_places, _calculated_sliding)
 
 
 @cache

@@ -63,28 +63,28 @@ def complete(values: Mapping[str, float]) -> dict[str, float]:
     found = {**STANDARD, **values}
     for _, error in impossible(found):
         raise error
-    x_1, x_2 = shifts(found)
+    x_1, x_2 = _shifts(found)
     given = ", ".join(name for name in SHIFTS if name in found)
     found = {name: float(value) for name, value in found.items() if name not in SHIFTS} | {"x_1": x_1, "x_2": x_2}
     _meshes(found, given if given != "x_1, x_2" else "")
     return found
 
 
-def shifts(values: Mapping[str, float]) -> tuple[float, float]:
+def _shifts(values: Mapping[str, float]) -> tuple[float, float]:
     """Return x_1 and x_2 of a pair of which those are given, or one and a_w or x_sum, or one of the latter alone."""
     match given := tuple(name for name in SHIFTS if name in values):
         case ("x_1", "x_2"):
             return float(values["x_1"]), float(values["x_2"])
         case ("x_1", "x_sum" | "a_w"):
-            return float(values["x_1"]), sum_of_shifts(values) - values["x_1"]
+            return float(values["x_1"]), _sum_of_shifts(values) - values["x_1"]
         case ("x_2", "x_sum" | "a_w"):
-            return sum_of_shifts(values) - values["x_2"], float(values["x_2"])
+            return _sum_of_shifts(values) - values["x_2"], float(values["x_2"])
         case ("x_sum" | "a_w",):
-            return balanced(values, sum_of_shifts(values))
+            return _balanced(values, _sum_of_shifts(values))
     raise InputError("gear-shifts", given=", ".join(given) or "-")
 
 
-def sum_of_shifts(values: Mapping[str, float]) -> float:
+def _sum_of_shifts(values: Mapping[str, float]) -> float:
     """Return x_1 + x_2 of a pair with given x_sum, or a_w, for which the base circles must leave room."""
     if "x_sum" in values:
         return float(values["x_sum"])
@@ -97,7 +97,7 @@ def sum_of_shifts(values: Mapping[str, float]) -> float:
     return float(LAWS["sum_of_shifts"](z_1, z_2, alpha, inv, inv_w))
 
 
-def balanced(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
+def _balanced(values: Mapping[str, float], x_sum: float) -> tuple[float, float]:
     """Return x_1 and x_2 with the given sum by which both wheels slide alike.
 
     The larger x_1 is, the nearer A1 is to the pole and the farther A2: theta_12 at A1 only rises, theta_21 at A2 only
@@ -217,7 +217,7 @@ def _roots(found: Mapping[str, float]) -> list[Check]:
     return undercut + interference
 
 
-def cut(found: Mapping[str, float]) -> bool:
+def _cut(found: Mapping[str, float]) -> bool:
     """Tell whether teeth may lack a part of their active flanks: undercut, met at the fillet, or pointed."""
     return not all(check.ok for check in _roots(found)) or any(found[f"s_a{i}"] < 0.0 for i in WHEELS)
 
@@ -254,7 +254,7 @@ class SolvedGear(Solved):
     def checks(self) -> tuple[Check, ...]:
         """What the pair is judged by; the teeth are made where they may have lost a part of their flanks."""
         found, sizes = checks(self.pair, self.sizes), self.sizes
-        if cut(sizes):
+        if _cut(sizes):
             first, last = self.meshing.touching
             length = max(last - first, 0.0)
             if length < sizes["g_alpha"] * (1.0 - SAME):  # the formula of the contact ratio counts what is cut away
@@ -282,7 +282,7 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     """
     found = complete(values)
     sizes = geometry(found)
-    layout = layout_of(pair, sizes)
+    layout = _layout_of(pair, sizes)
     program = construct(layout, plans)
     sense, mu_rho = float(pair.sense), steps(sizes["l_N1N2"] / LONGEST)[0] / PAPER_MM
     givens = {**found, **PARTS, **NOTHING, **NUMBERS, "_sense": sense, "_against": -sense, "mu_rho": mu_rho}
@@ -308,7 +308,7 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     )
 
 
-def layout_of(pair: GearPair, sizes: Mapping[str, float]) -> Layout:
+def _layout_of(pair: GearPair, sizes: Mapping[str, float]) -> Layout:
     """Return what the construction of a pair with these sizes depends on.
 
     Of three points of the table of sliding the second stands in P, unless A1 or A2 is beyond it.

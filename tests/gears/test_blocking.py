@@ -48,10 +48,10 @@ def test_points_of_every_curve_are_on_their_limit(z_1: float, z_2: float) -> Non
     step = abs(of.high - of.low) / of.cells
     for name in CURVES:
         others = [other for other in BLOCKING if other != name]
-        inside = np.concatenate([run[of.permits(run, others)] for run in of.curve(name)] or [np.empty(0)])
+        inside = np.concatenate([run[of.permits(run, others)] for run in of.curves[name]] or [np.empty(0)])
         if inside.size:
             assert np.max(np.abs(by_second_route(of, inside)[name])) < 1e-9, name
-        for run in of.curve(name):
+        for run in of.curves[name]:
             assert np.max(np.abs(np.diff(run)), initial=0.0) < 2.0 * step
 
 

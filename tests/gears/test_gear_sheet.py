@@ -8,7 +8,7 @@ import re
 import pytest
 import shapely
 
-from kulman.drawing.gears.sheet import mu_ladder, near_ladder, rolled_ladder
+from kulman.drawing.gears.scene import mu_ladder, near_ladder, rolled_ladder
 from kulman.plans.gears.gear import GearPair
 from kulman.plans.gears.solve import solve_gear
 from kulman.plans.gears.teeth import meshing_of

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from kulman import cli, sweep
-from kulman.plans.gears.course import columns, extremes, marks, pairs, zones
+from kulman.plans.gears.course import GearCourse
 from kulman.plans.gears.gear import CCW, CW, GearPair
 from kulman.plans.gears.solve import SolvedGear, solve_gear
 from kulman.scales.errors import InputError
@@ -38,7 +38,7 @@ def test_columns_are_what_turned_wheels_show(others: dict[str, float], rotation:
     meshing, sense = solved.meshing, solved.pair.sense
     rho_1 = np.linspace(*meshing.touching, 7)
 
-    found = {column.name: column.values for column in columns(solved, rho_1)}
+    found = {column.name: column.values for column in GearCourse(solved).columns(rho_1)}
 
     for k, rho in enumerate(rho_1.tolist()):
         place = meshing.place(rho)
@@ -66,34 +66,36 @@ def test_zones_follow_one_another_and_hold_as_many_pairs_as_touch(others: dict[s
     solved = solved_for(others, rotation)
     first, last = solved.meshing.touching
 
-    found = zones(solved)
+    found = GearCourse(solved).zones
 
     assert (found[0].first, found[-1].last) == (first, pytest.approx(last, rel=1e-14))
     assert all(a.last == b.first and a.pairs != b.pairs for a, b in pairwise(found))
     for zone in found:
         for part in (0.01, 0.5, 0.99):
-            rho = zone.first + part * zone.length
+            rho = zone.first + part * (zone.last - zone.first)
             assert (
-                len(contacts(solved.meshing, solved.meshing.angle(rho))) == zone.pairs == pairs(solved, np.array(rho))
+                len(contacts(solved.meshing, solved.meshing.angle(rho)))
+                == zone.pairs
+                == GearCourse(solved).pairs(np.array(rho))
             )
     # as many pairs as touch on average over a pitch
-    mean = sum(zone.length for zone in found) / solved.sizes["p_b"]
+    mean = sum(zone.last - zone.first for zone in found) / solved.sizes["p_b"]
     assert mean == pytest.approx(counted_ratio(solved.meshing, 4000), abs=2e-3)
 
 
 def test_ends_of_an_undercut_contact_are_not_called_those_of_the_active_line() -> None:
-    assert list(marks(solved_for({}, CCW))) == ["A1", "K2", "P", "K1", "A2"]
-    assert next(iter(marks(solved_for({"z_1": 10.0, "x_1": -0.2}, CCW)))) == "start"
+    assert list(GearCourse(solved_for({}, CCW)).marks) == ["A1", "K2", "P", "K1", "A2"]
+    assert next(iter(GearCourse(solved_for({"z_1": 10.0, "x_1": -0.2}, CCW)).marks)) == "start"
 
 
 def test_extremes_are_at_the_ends_of_the_contact() -> None:
     solved = solved_for({}, CCW)
     rho_1 = np.linspace(*solved.meshing.touching, 1001)
-    fine = {column.name: column.values for column in columns(solved, rho_1)}
+    fine = {column.name: column.values for column in GearCourse(solved).columns(rho_1)}
 
-    for one in extremes(solved):
+    for one in GearCourse(solved).extremes():
         assert (one.most, one.least) == (np.max(fine[one.name]), np.min(fine[one.name]))
-    assert {one.name: one.least for one in extremes(solved)}["theta_12"] == solved.sizes["theta_12_A1"]
+    assert {one.name: one.least for one in GearCourse(solved).extremes()}["theta_12"] == solved.sizes["theta_12_A1"]
 
 
 def test_table_csv_and_json_tell_the_same(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
