@@ -91,28 +91,25 @@ class StudentBoard(ExactBoard):
             return
         steps = self._steps[self._done : end]
         self._done += len(steps)
-        moved = self._moved
         with np.errstate(all="ignore"):  # a student's numbers may be any
-            self._do(steps, moved)
+            for step in steps:
+                if self._moved is None or not self._moved.isdisjoint(step.operands):
+                    self._again(step)
+                if step.verb in LAID and role(step.operands[2]).hidden:
+                    self._lay_off(step.name, step.operands[0], role(step.operands[2]).shown)
+                elif step.verb in TAKEN and not role(step.name).hidden:
+                    self._replace(step)
 
-    def _do(self, steps: Iterable[Step], moved: set[str] | None) -> None:
-        operations = self._operations
-        for step in steps:
-            verb, name, operands = step.verb, step.name, step.operands
-            if moved is None or not moved.isdisjoint(operands):
-                done = verb, step.law
-                if done not in operations:
-                    operations[done] = self.operation(*done)
-                try:
-                    self.perform(operations[done], name, operands)
-                except (ZeroDivisionError, OverflowError):  # what a student says is zero
-                    self.values[name] = NAN
-                if moved is not None:
-                    moved.add(name)
-            if verb in LAID and role(operands[2]).hidden:
-                self._lay_off(name, operands[0], role(operands[2]).shown)
-            elif verb in TAKEN and not role(name).hidden:
-                self._replace(verb, name, operands)
+    def _again(self, step: Step) -> None:
+        done = step.verb, step.law
+        if done not in self._operations:
+            self._operations[done] = self.operation(*done)
+        try:
+            self.perform(self._operations[done], step.name, step.operands)
+        except (ZeroDivisionError, OverflowError):  # what a student says is zero
+            self.values[step.name] = NAN
+        if self._moved is not None:
+            self._moved.add(step.name)
 
     def _put(self, name: str, value: Any) -> None:
         self.values[name] = value
@@ -131,8 +128,10 @@ class StudentBoard(ExactBoard):
             turned = -1.0 if dot(taken, vector) < 0.0 else 1.0
             self._put(f"_{quantity}", math.copysign(abs(taken), values[f"_{quantity}"] * turned))
 
-    def _replace(self, verb: str, name: str, operands: tuple[str, ...]) -> None:
-        value = self.values[name]
+    def _replace(self, step: Step) -> None:
+        """Put what the student says in the place of what a step makes, and of what it was made of."""
+        values, (verb, name, operands, _) = self.values, step
+        value = values[name]
         self.follows.setdefault(name, value)
         said, moves = self._take(name, value)
         if said is None:
@@ -141,16 +140,11 @@ class StudentBoard(ExactBoard):
         self._put(name, taken)
         if verb == "arm":  # of the moment before it, which is not asked for
             moment, force = operands
-            self._put(moment, taken * abs(self.values[force]) * (-1.0 if self.values[moment] < 0.0 else 1.0))
-        elif verb == "read" and moves:
-            self._move(operands[0], operands[1], taken)
-
-    def _move(self, tail: str, tip: str, vector: complex) -> None:
-        """Put the mark that was made last where the vector that was read says it is; a pole stays."""
-        if made_last(self._program, tail, tip) == tip:
-            self._put(tip, self.values[tail] + vector)
-        else:
-            self._put(tail, self.values[tip] - vector)
+            self._put(moment, taken * abs(values[force]) * (-1.0 if values[moment] < 0.0 else 1.0))
+        elif verb == "read" and moves:  # the mark that was made last is where the vector says it is; a pole stays
+            tail, tip = operands
+            last = made_last(self._program, tail, tip)
+            self._put(last, values[tail] + taken if last == tip else values[tip] - taken)
 
 
 def made_last(program: Program, tail: str, tip: str) -> str:

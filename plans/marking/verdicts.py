@@ -375,7 +375,8 @@ class Marker:
         answer = self.answers[name]
         held = self._held(self.ways[name], name, value)
         clear = held.miss.off > CLEAR and held.miss.about == SIZE
-        if clear and self._is_unit(name, value):
+        units, values = UNITS.get(self.key.questions[name].unit, ()), self.answers[name].values(self.mus[name])
+        if clear and self._fits(name, value, [x * unit for x in values for unit in units]):  # in another unit
             return held._replace(verdict=Verdict.SCALE)
         instead, written = answer.measured(self.mus[name]), answer.value
         if written is not None and instead and not self._agrees(name, written, instead):
@@ -424,11 +425,6 @@ class Marker:
 
     def _missed(self, way: Said, name: str, value: Any, allowed: float) -> Miss:
         return miss(way, value, allowed, self.key.angles.get(name, math.pi))
-
-    def _is_unit(self, name: str, value: Any) -> bool:
-        """Whether a line is right in another unit that its quantity may have."""
-        units, values = UNITS.get(self.key.questions[name].unit, ()), self.answers[name].values(self.mus[name])
-        return self._fits(name, value, [x * unit for x in values for unit in units])
 
     def _is_scale(self, name: str, value: Any) -> bool:
         """Whether only the convention of the scale factor, or the scale itself, makes a line wrong."""

@@ -48,22 +48,16 @@ def _given_times(scene: Scene, name: str, factor: float, how: str = "") -> Chang
     return Change(name, {}, how, {name: scene.paper.givens[name] * factor})
 
 
-def _speed_times(factor: float, scene: Scene) -> Changes:
+@mistake("M01", 30.0 / math.pi)  # n in rpm is taken for omega
+@mistake("M02", 0.5 / math.pi)  # n / 60
+@mistake("M03", 60.0)  # 2 pi n
+@mistake("M04", 0.5)  # pi n / 60
+@mistake("M05", 180.0 / math.pi)  # 6 n in degrees a second
+def _speed_times(scene: Scene, factor: float) -> Changes:
     """Change the number of revolutions of the crank, where it is that which is given."""
     step = next((s for s in scene.calculated("signed") if role(s.name).kind == "omega"), None)
     if step and step.operands[0].startswith("n") and scene.is_given(step.operands[0]):
         yield _given_times(scene, step.operands[0], factor)
-
-
-# n in rpm is taken for omega; n / 60; 2 pi n; pi n / 60; 6 n in degrees a second
-for _id, _factor in (
-    ("M01", 30.0 / math.pi),
-    ("M02", 0.5 / math.pi),
-    ("M03", 60.0),
-    ("M04", 0.5),
-    ("M05", 180.0 / math.pi),
-):
-    mistake(_id)(partial(_speed_times, _factor))
 
 
 def _lengths(scene: Scene) -> list[str]:
@@ -107,24 +101,20 @@ def angle_of_driver(scene: Scene) -> str:
     return name if name in scene.paper.givens and name != "zero" else ""
 
 
-def _turned(id: str, how: str, turn: Callable[[float], float]) -> None:
-    """Enter a mistake that lays off the crank's angle otherwise."""
-
-    def rule(scene: Scene) -> Changes:
-        if name := angle_of_driver(scene):
-            yield Change(name, {}, how, {name: turn(float(scene.paper.givens[name]))})
-
-    mistake(id)(rule)
+@mistake("M08", "", math.degrees)  # degrees are given to a function of radians
+@mistake("M09", "angle", neg)  # the angle is laid off clockwise
+def _turned(scene: Scene, how: str, turn: Callable[[float], float]) -> Changes:
+    """Lay off the crank's angle otherwise."""
+    if name := angle_of_driver(scene):
+        yield Change(name, {}, how, {name: turn(float(scene.paper.givens[name]))})
 
 
-_turned("M08", "", math.degrees)  # degrees are given to a function of radians
-_turned("M09", "angle", neg)  # the angle is laid off clockwise
 for _how, _shift in (("+180", math.pi), ("+90", 0.5 * math.pi), ("-90", -0.5 * math.pi)):
-    _turned("M10", _how, partial(add, _shift))  # it is counted from the other dead position, or from the other axis
+    mistake("M10", _how, partial(add, _shift))(_turned)  # counted from the other dead position, or from the other axis
 for _number in (1, -1, 2, -2, 4, -4, 5, -5):
     # the positions are numbered from another one: the whole plan is that of another position
-    _turned("M10", f"{30 * _number:+}", partial(add, _number * TWELFTH))
-_turned("M10", "180-", lambda angle: math.pi - angle)  # the angle is laid off from the other end of the axis
+    mistake("M10", f"{30 * _number:+}", partial(add, _number * TWELFTH))(_turned)
+mistake("M10", "180-", lambda angle: math.pi - angle)(_turned)  # laid off from the other end of the axis
 
 
 @mistake("M09")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from functools import partial
 
 from ..board import POSITION, Step
 from ..names import COUPLE, FORCES, MAGNITUDE, rate, role
@@ -259,7 +260,7 @@ mistake("M120")(
     lambda scene: (_to_point(scene, s) for s in _moments(scene, "lever") if role(s.operands[0]).part != COUPLE)
 )
 # the minus of a tangential part is lost: it is drawn the other way
-mistake("M69")(lambda scene: map(opposed, _equations(scene)))
+each("M69", _equations, opposed)
 
 
 # Reactions.
@@ -371,7 +372,7 @@ def _inner(scene: Scene) -> Iterator[tuple[Step, str]]:
 
 
 # a reaction is carried to the next link without being reversed
-mistake("M71")(lambda scene: (otherwise(step, law="given") for step in _passed(scene)))
+each("M71", _passed, partial(otherwise, law="given"))
 
 
 # The lever.
@@ -440,6 +441,6 @@ def _reactions_on_lever(scene: Scene) -> Changes:
 
 
 # the sense of a moment on the lever is not checked against the direction of ab
-mistake("M80")(lambda scene: map(opposed, _couples(scene)))
+each("M80", _couples, opposed)
 # the balancing moment is the force, its arm being lost
 each("M82", "crank_moment", lambda step: otherwise(step, operands=step.operands[:1], law="given"))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from functools import partial
 
 from ..board import Step
@@ -85,19 +84,14 @@ def _height_counted_once(scene: Scene) -> Changes:
         yield from each_and_all({step.name: _halved_sum(step) for step in scene.calculated(law)}, law)
 
 
-def _with_operands(scene: Scene, name: str, places: Iterable[tuple[str, int, str]]) -> Changes:
+# the shortening of the teeth is left out of the tip diameters, or of the depth; the clearance of the root diameters
+@mistake("M104", "zero", ("tip_diameter", 3, "tip"), ("tooth_depth", 2, "depth"))
+@mistake("M105", "zero", ("root_diameter", 2, "root"), ("tooth_depth", 1, "depth"))
+# the base diameter, or the base pitch, is found with the angle of action
+@mistake("M107", "alpha_w", ("base_diameter", 1, "diameter"), ("base_pitch", 1, "pitch"))
+def _with_operands(scene: Scene, name: str, *places: tuple[str, int, str]) -> Changes:
     for law, place, how in places:
         yield from each_and_all(with_operand(scene.calculated(law), place, name), how)
-
-
-for _id, _name, *_places in (
-    # the shortening of the teeth is left out of the tip diameters, or of the depth; the clearance of the root diameters
-    ("M104", "zero", ("tip_diameter", 3, "tip"), ("tooth_depth", 2, "depth")),
-    ("M105", "zero", ("root_diameter", 2, "root"), ("tooth_depth", 1, "depth")),
-    # the base diameter, or the base pitch, is found with the angle of action
-    ("M107", "alpha_w", ("base_diameter", 1, "diameter"), ("base_pitch", 1, "pitch")),
-):
-    mistake(_id)(partial(_with_operands, name=_name, places=_places))
 
 
 @mistake("M108")

@@ -62,6 +62,8 @@ def _lines(scene: Scene, plan: str) -> Iterator[tuple[Step, int, str]]:
     return ((step, place, step.operands[place]) for step in scene.made_by("meet", plan=plan) for place in (1, 3))
 
 
+@mistake("M25", VELOCITY)
+@mistake("M42", ACCELERATION)
 def _along_links(scene: Scene, plan: str) -> Changes:
     """Draw the line of a relative vector along the link instead of normal to it.
 
@@ -92,6 +94,13 @@ def _exchanged(scene: Scene, step: Step) -> Change:
     """Draw each of two lines through the mark of the other."""
     p, u, q, w = step.operands
     return _by_size(scene, otherwise(step, operands=(p, w, q, u)))
+
+
+@mistake("M26", VELOCITY)
+@mistake("M121", ACCELERATION)
+def _through_other_marks(scene: Scene, plan: str) -> Changes:
+    """Each of two lines is drawn through the mark of the other."""
+    return (_exchanged(scene, step) for step in _slotted(scene, plan, False))
 
 
 def _by_size(scene: Scene, change: Change, against: str = "") -> Change:
@@ -154,12 +163,14 @@ def _points_not_distinguished(scene: Scene) -> Changes:
 # Points of links.
 
 
+@mistake("M30", VELOCITY)
 def _other_end(scene: Scene, plan: str) -> Changes:
     """Count a point of a link from the other end of its segment."""
     points = scene.made_by("divide", "similar", plan=plan)
     return (otherwise(s, operands=(s.operands[1], s.operands[0], *s.operands[2:])) for s in points)
 
 
+@mistake("M31", VELOCITY)
 def _middle(scene: Scene, plan: str) -> Changes:
     """Put a point that divides a segment in its middle."""
     for step in scene.made_by("divide", "similar", plan=plan):
@@ -167,6 +178,7 @@ def _middle(scene: Scene, plan: str) -> Changes:
             yield instead(step, Step("divide", step.name, (*step.operands[:2], constant(0.5), "one")))
 
 
+@mistake("M32", VELOCITY)
 def _other_side(scene: Scene, plan: str) -> Changes:
     """Draw a similar figure on the other side: against the order of the letters."""
     return (mirrored(step, 3) for step in scene.made_by("similar", plan=plan))
@@ -246,21 +258,15 @@ def _rate_from_absolute_acceleration(scene: Scene) -> Changes:
             yield rate_from(scene, step, absolute.name)
 
 
+@mistake("M29", VELOCITY)
+@mistake("M45", ACCELERATION)
+def _opposite_rate(scene: Scene, plan: str) -> Changes:
+    """The sense of a rate is wrong: the vector stands at the wrong end of the link."""
+    return (opposed(step) for step, _ in rates(scene, plan))
+
+
 # pa is drawn against the rotation
-mistake("M23")(lambda scene: (otherwise(step, verb="back") for step in _drive(scene, VELOCITY)))
-# the relative vector is drawn along the link
-mistake("M25")(lambda scene: _along_links(scene, VELOCITY))
-mistake("M42")(lambda scene: _along_links(scene, ACCELERATION))
-# each of two lines is drawn through the mark of the other
-mistake("M26")(lambda scene: (_exchanged(scene, step) for step in _slotted(scene, VELOCITY, False)))
-mistake("M121")(lambda scene: (_exchanged(scene, step) for step in _slotted(scene, ACCELERATION, False)))
-# the sense of a rate is wrong: the vector stands at the wrong end of the link
-mistake("M29")(lambda scene: (opposed(step) for step, _ in rates(scene, VELOCITY)))
-mistake("M45")(lambda scene: (opposed(step) for step, _ in rates(scene, ACCELERATION)))
-# a point of a link is counted from the other end of ab, always put in the middle, its triangle is mirrored
-mistake("M30")(lambda scene: _other_end(scene, VELOCITY))
-mistake("M31")(lambda scene: _middle(scene, VELOCITY))
-mistake("M32")(lambda scene: _other_side(scene, VELOCITY))
+each("M23", partial(_drive, plan=VELOCITY), partial(otherwise, verb="back"))
 
 
 # Normal parts of accelerations.
@@ -328,6 +334,8 @@ def _normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...]]]:
         yield step, (Step("calc", f"_omega_of_{step.name}", (sense, step.operands[0]), "along"),)
 
 
+@mistake("M115", "circular_speed")  # omega l
+@mistake("M116", "centripetal", constant(1.0))  # omega^2
 def _normal_by(scene: Scene, law: str, length: str = "") -> Changes:
     """Calculate normal parts from omega and the length, or another number, by another law."""
     for step, omega in _normal_sizes(scene):
@@ -359,11 +367,8 @@ def _crank_tangential_lost(scene: Scene) -> Changes:
 mistake("M37")(lambda scene: (otherwise(s, verb="lay") for s in _drive(scene, ACCELERATION) if s.verb == "back"))
 # the normal part is drawn from A to B; it is forgotten, that of the rocker too
 mistake("M38")(lambda scene: (otherwise(step, verb="lay") for step in _normals(scene, "link", "rocker")))
-mistake("M39")(lambda scene: map(_forgotten, _normals(scene, "link")))
-mistake("M47")(lambda scene: map(_forgotten, _normals(scene, "rocker")))
-# the normal part is omega l; it is omega^2
-mistake("M115")(lambda scene: _normal_by(scene, "circular_speed"))
-mistake("M116")(lambda scene: _normal_by(scene, "centripetal", constant(1.0)))
+each("M39", lambda scene: _normals(scene, "link"), _forgotten)
+each("M47", lambda scene: _normals(scene, "rocker"), _forgotten)
 
 
 # The acceleration of Coriolis, and what is read.

@@ -102,7 +102,7 @@ class Change:
 
 
 Changes = Iterable[Change]
-Rule = Callable[[Scene], Changes]
+Rule = Callable[..., Changes]  # of a scene, and of what else the mistake gives
 MISTAKES: dict[str, list[Rule]] = {}  # by number: a drawing of another kind has rules of its own under the same one
 BY_SCALE: set[str] = set()  # those that hang on the scale factors of the student
 
@@ -137,20 +137,25 @@ class Broken:
         return {**self.paper.givens, **self.change.givens}
 
 
-def mistake(id: str, by_scale: bool = False) -> Callable[[Rule], Rule]:
-    """Enter the function that follows; several may break the rule of one mistake."""
+def mistake(id: str, *given: Any, by_scale: bool = False) -> Callable[[Rule], Rule]:
+    """Enter the function that follows, with what it is given besides the scene; several may break one rule."""
 
     def entered(rule: Rule) -> Rule:
-        MISTAKES.setdefault(id, []).append(rule)
+        MISTAKES.setdefault(id, []).append(lambda scene: rule(scene, *given))
         BY_SCALE.update([id] * by_scale)
         return rule
 
     return entered
 
 
-def each(id: str, law: str, *changes: Callable[[Step], Change]) -> None:
-    """Enter a rule that is broken at each step of a law, in one way after the other."""
-    mistake(id)(lambda scene: (change(step) for step in scene.calculated(law) for change in changes))
+def each(id: str, where: str | Callable[[Scene], Iterable[Step]], *changes: Callable[[Step], Change]) -> None:
+    """Enter a rule that is broken at each step of a law, or of some others, in one way after the other."""
+
+    def rule(scene: Scene) -> Changes:
+        steps = scene.calculated(where) if isinstance(where, str) else where(scene)
+        return (change(step) for step in steps for change in changes)
+
+    mistake(id)(rule)
 
 
 def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> Iterator[Broken]:

@@ -209,31 +209,23 @@ class Result:
         return cls(**{**data, "who": Who(**data["who"]), "segments": segments, **lists})
 
 
-def students_scales(marked: Marked) -> dict[str, float]:
-    """Return the student's scale factors by plan, value in SI per mm; ours where none is written.
-
-    A factor may be meant as value per mm or as mm per unit: whichever is nearer to ours.
-    """
-    key, answers = marked.marking.key, marked.answers
-    found = dict(key.paper.mus)
-    for name, line in answers.lines.items():
-        question, mu = key.questions.get(name), line.factor or answers.scales.get(marked.keyed.scale_of(name))
-        if question is not None and mu is not None and question.plan in found:
-            found[question.plan] = mu.nearest(key.paper.mus[question.plan])
-    return found
-
-
 def result_of(marked: Marked, language: str) -> Result:
     """Return what is kept of a student who was marked."""
     key, first = marked.keyed, marked.marking.first_wrong
     follows = {line.name: abs(line.follows) for line in marked.marking.lines if line.follows == line.follows}
-    segments = measured(marked.answers, marked.marking.key, students_scales(marked), follows)
+    ours, answers = marked.marking.key.paper.mus, marked.answers
+    mus = {**ours}  # the student's scale factors, in whichever convention they are meant; ours where none is written
+    for name, line in answers.lines.items():
+        question, mu = key.key.questions.get(name), line.factor or answers.scales.get(key.scale_of(name))
+        if question is not None and mu is not None and question.plan in ours:
+            mus[question.plan] = mu.nearest(ours[question.plan])
+    segments = measured(answers, marked.marking.key, mus, follows)
     best = marked.candidates[0].mistakes if marked.candidates and not marked.slips else ()
     return Result(
-        marked.answers.source,
-        marked.entry.who if marked.entry else marked.answers.who,
+        answers.source,
+        marked.entry.who if marked.entry else answers.who,
         key.solution.variant,
-        marked.answers.about.get("sheet", ""),
+        answers.about.get("sheet", ""),
         marked.mark,
         {str(verdict): marked.count(verdict) for verdict in Verdict},
         "" if first is None else key.symbol(first),
