@@ -191,13 +191,13 @@ def intersections(program: Program, sines: Mapping[str, float]) -> dict[str, flo
 
 def point_of(program: Program, mark: str) -> str:
     """Return the mark at which a meeting is seen: a tangent finds the direction of a line through its second point."""
-    step = next(step for step in program if step.name == mark)
+    step = program.by_name[mark]
     return step.operands[1] if step.verb == "tangent" else mark
 
 
 def pins_together(program: Program, values: Mapping[str, Any], mark: str) -> tuple[str, str] | None:
     """Return the two joints that settle a direction badly because they nearly coincide, None for lines that do."""
-    step = next(step for step in program if step.name == mark)
+    step = program.by_name[mark]
     if step.verb != "tangent":
         return None
     first, second, *_, size = step.operands

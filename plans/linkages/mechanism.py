@@ -354,9 +354,3 @@ class Mechanism:
     def without_loads(self) -> Mechanism:
         """The mechanism as its geometry alone."""
         return replace(self, loads=(), couples=(), diagrams=(), gravity=None)
-
-    @property
-    def at_unit_speed(self) -> Mechanism:
-        """The mechanism whose driver moves by one radian or metre a second in the positive sense, steadily."""
-        driver = replace(self.driver, speed="one", acceleration=None)
-        return replace(self, driver=replace(driver, sense="one") if isinstance(driver, Driver) else driver)

@@ -50,7 +50,7 @@ class SolvedLinkage(Solved):
 
     def reason(self, trouble: Trouble) -> PositionError:
         """Return why the position has no plan."""
-        step = next(step for step in self.program if step.name == trouble.name)
+        step = self.program.by_name[trouble.name]
         if step.verb == "template":
             return self._template_error(trouble)
         if trouble.status == "no-assembly":
@@ -71,12 +71,12 @@ class SolvedLinkage(Solved):
         from .triads.following import Follower
 
         limits = Follower(self.mechanism, self._numbers).limits()
+        data = {"link": group.central, "gap": f"{trouble.gap * 1e3:.4g}"}
+        if limits is None:
+            return PositionError("start-far", status_word="no-assembly", **data)
         slides = isinstance(self.mechanism.driver, SlidingDriver)
-        key, data = "start-far", {"link": group.central, "gap": f"{trouble.gap * 1e3:.4g}"}
-        if limits is not None:
-            key = "no-way-slide" if slides else "no-way"
-            data["low"], data["high"] = (f"{x * 1e3 if slides else math.degrees(x):.7g}" for x in limits)
-        return PositionError(key, status_word="no-assembly", **data)
+        data["low"], data["high"] = (f"{x * 1e3 if slides else math.degrees(x):.7g}" for x in limits)
+        return PositionError("no-way-slide" if slides else "no-way", status_word="no-assembly", **data)
 
     def _apart(self, trouble: Trouble) -> PositionError:
         """Return by how much the links miss each other, and the places of the driver at which they just meet."""

@@ -22,7 +22,7 @@ from ...boards.arrays import remembering
 from ...laws import TURN, inclination
 from ...zeros import Stretch, zeros
 from ..chain import constructed, moving_bodies
-from ..mechanism import FRAME, ZERO, Mechanism, Prismatic
+from ..mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic
 from ..structure import Structure
 from .limits import Reach, Swept, reach_of, size_of, swept
 
@@ -185,7 +185,10 @@ def output_motions(
 
     Dead positions are zeros of the velocity, refined until they do not change: better than 1e-12 rad.
     """
-    mechanism = drive.mechanism.without_loads.at_unit_speed
+    # at one radian or metre a second, in the positive sense, steadily
+    driver = replace(drive.mechanism.driver, speed="one", acceleration=None)
+    driver = replace(driver, sense="one") if isinstance(driver, Driver) else driver
+    mechanism = replace(drive.mechanism.without_loads, driver=driver)
     structure, program = constructed(mechanism, ("velocity",))
     moved = tuple(output for output in outputs(mechanism, structure) if link in (None, output.link))
     wanted = [name for output in moved for name in (output.place, output.rate) if name]
