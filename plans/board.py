@@ -61,11 +61,18 @@ def _verb(signature: Verb) -> Verb:
 
 
 POINTS: list[str] = []  # verbs that mark points
+LINES: list[str] = []  # verbs that give directions
 
 
 def _point(signature: Verb) -> Verb:
     """Return a verb that marks a point."""
     POINTS.append(signature.__name__)
+    return _verb(signature)
+
+
+def _line(signature: Verb) -> Verb:
+    """Return a verb that gives a direction."""
+    LINES.append(signature.__name__)
     return _verb(signature)
 
 
@@ -84,15 +91,15 @@ class Board:
     def pole(self, name: str) -> None:
         """Choose the pole of a plan: its origin."""
 
-    @_verb
+    @_line
     def turn(self, name: str, angle: str) -> None:
         """Lay off `angle` with the protractor: the unit direction at that angle."""
 
-    @_verb
+    @_line
     def direction(self, name: str, start: str, end: str, length: str) -> None:
         """Take the unit direction from `start` to `end`, which are `length` apart."""
 
-    @_verb
+    @_line
     def normal(self, name: str, vector: str) -> None:
         """Turn a direction or a vector by +90 degrees with the set square."""
 
@@ -120,7 +127,7 @@ class Board:
     def arcs(self, name: str, first: str, radius: str, second: str, other: str, side: str) -> None:
         """Mark where arcs about `first` and `second` cross, to the left (+1) or right (-1) of the way between them."""
 
-    @_verb
+    @_line
     def tangent(self, name: str, centre: str, point: str, offset: str, side: str, size: str) -> None:
         """Take the unit direction of a line through `point` at `offset` to the left of `centre`.
 
@@ -135,11 +142,11 @@ class Board:
         `where` are the operands of `template.lay`: where it lies already, about, and the paths.
         """
 
-    @_verb
+    @_line
     def incline(self, name: str, direction: str, slope: str) -> None:
         """Lay off with the protractor, from `direction`, the angle of the unit direction `slope` of another drawing."""
 
-    @_verb
+    @_line
     def decline(self, name: str, direction: str, slope: str) -> None:
         """Lay off the angle of `slope` the other way: the result makes that angle with `direction`."""
 

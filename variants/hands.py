@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ..drawing.words import Words
-from ..plans.board import Program
+from ..plans.board import LINES, Program
 from ..plans.hands.shaky import PRESETS, Hand, Paper, Tolerance, preset
 from ..plans.hands.spread import DRAWINGS, SEED, Expectation, expectations
 from ..plans.linkages.legs import guide_letters
@@ -30,7 +30,6 @@ STEP = 7  # the column of the worst step
 LETTERED = ("diagram", "sizes", "plate", "rocker", "profile", "meshing", "sliding", "theta")  # as marks are named
 PLANS = ("position", "velocity", "acceleration", "forces", "lever", *LETTERED)  # others are of compound motion
 READINGS = ("read", "measure", "distance", "angle")
-LINES = ("turn", "incline", "decline", "direction", "tangent", "normal")
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +168,7 @@ def _worst(expected: Expectation, program: Program, words: Words) -> str:
     """Say which step errs most: a mark, a line, a reading or an arm, and its part."""
     if expected.step is None:
         return ""
-    step = next(step for step in program if step.name == expected.step)
+    step = program.by_name[expected.step]
     share = "" if expected.share is None else words.number(expected.share, 2)
     if step.verb in READINGS:
         said = words["hand.reading"].format(name=role(step.name).shown)
