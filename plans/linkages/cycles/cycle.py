@@ -175,7 +175,9 @@ def cycle(
     structure, program = constructed(drive.mechanism, plans)
     program = measured(program, outputs(drive.mechanism, structure))
     places = _places(drive, zero if start is None else start, between, positions)
-    wanted, givens = _wanted(mechanism, program, motions), board_givens(drive.mechanism, values, program, follow=False)
+    wanted, here = _wanted(mechanism, program, motions), drive.givens(values, drive.start)
+    here = {name: float(np.ravel(value)[0]) for name, value in here.items()}
+    givens = board_givens(drive.mechanism, here, program, follow=False)
     if positions > FEW:
         results, codes = batch(program, drive.givens(givens, places), wanted)
     else:
