@@ -26,7 +26,7 @@ SIZE = 2048 / 1493  # font size of letters whose capitals are 1 mm high: H has 1
 _WORDS, _SCALE, _MORE, _XY_SCALE, _TWO_BY_TWO, _INSTRUCTIONS = 0x1, 0x8, 0x20, 0x40, 0x80, 0x100
 
 
-class Font:
+class _Font:
     """A TrueType font file, read lazily from its bytes."""
 
     def __init__(self, data: bytes) -> None:
@@ -132,7 +132,7 @@ def _shown(character: str) -> str:
 
 
 @cache
-def font() -> Font:
+def font() -> _Font:
     """Return DejaVu Sans from matplotlib's data, without importing matplotlib."""
     spec = find_spec("matplotlib")
     if spec is None or spec.origin is None:
@@ -140,7 +140,7 @@ def font() -> Font:
     path = Path(spec.origin).parent / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf"
     if not path.is_file():
         raise InputError("font-missing", file=quote(path, SHOWN))
-    return Font(path.read_bytes())
+    return _Font(path.read_bytes())
 
 
 def _parts(outline: bytes) -> tuple[list[tuple[int, int]], int]:
@@ -212,7 +212,7 @@ def _checksum(data: bytes) -> int:
     return int(sum(struct.unpack(f">{len(words) // 4}L", words))) & 0xFFFFFFFF
 
 
-def _closure(source: Font, characters: Iterable[str]) -> tuple[list[tuple[int, int]], dict[int, int]]:
+def _closure(source: _Font, characters: Iterable[str]) -> tuple[list[tuple[int, int]], dict[int, int]]:
     """Return pairs of character code and new glyph number, and the new number of every glyph needed."""
     codes = sorted({ord(character) for character in characters})
     numbers = {0: 0}
@@ -229,7 +229,7 @@ def _closure(source: Font, characters: Iterable[str]) -> tuple[list[tuple[int, i
     return [(code, numbers[source.glyph(chr(code))]) for code in codes], numbers
 
 
-def _subset_tables(source: Font, characters: Iterable[str]) -> dict[str, bytes]:
+def _subset_tables(source: _Font, characters: Iterable[str]) -> dict[str, bytes]:
     pairs, numbers = _closure(source, characters)
     outlines = [_stripped(source.outline(glyph), numbers) for glyph in numbers]
     places = [0]

@@ -126,7 +126,7 @@ def layered(shapes: Iterable[Shape]) -> list[tuple[Layer, list[Shape]]]:
         if isinstance(shape, Group) and shape.role == "view":
             _part(shape, found)
         else:
-            found[Layer.FRAME if getattr(shape, "role", "") == "frame" else layer_of(shape)].append(shape)
+            found[Layer.FRAME if getattr(shape, "role", "") == "frame" else _layer_of(shape)].append(shape)
     return [(layer, own) for layer, own in found.items() if own]
 
 
@@ -136,12 +136,12 @@ def _part(view: Group, found: dict[Layer, list[Shape]]) -> None:
         return
     parts: dict[Layer, list[Shape]] = {}
     for shape in view.shapes:
-        parts.setdefault(layer_of(shape), []).append(shape)
+        parts.setdefault(_layer_of(shape), []).append(shape)
     for layer, own in parts.items():
         found[layer].append(Group(tuple(own), "view", view.name, view.title))
 
 
-def layer_of(shape: Shape) -> Layer:
+def _layer_of(shape: Shape) -> Layer:
     """Return the layer of a part of a view, which is in it as a whole."""
     if isinstance(shape, Group) and shape.layer:
         return Layer(shape.layer)
@@ -157,7 +157,7 @@ def layer_of(shape: Shape) -> Layer:
     if isinstance(shape, Text):
         return Layer.LABELS
     if isinstance(shape, Group):
-        return layer_of(shape.shapes[0]) if shape.shapes else Layer.CONSTRUCTION
+        return _layer_of(shape.shapes[0]) if shape.shapes else Layer.CONSTRUCTION
     if shape.pen is Pen.AXIS:
         return Layer.GIVEN
     return Layer.RESULT if shape.pen is Pen.MAIN else Layer.CONSTRUCTION

@@ -273,14 +273,14 @@ def _curve(centre: complex, radius: float, start: float, sweep: float) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Tile:
+class _Tile:
     """One small sheet: its name (column letter, row number from the top) and the part of the page that it shows."""
 
     name: str
     window: Box
 
 
-def tiles(page: Page, paper: str = "A4") -> list[Tile]:
+def tiles(page: Page, paper: str = "A4") -> list[_Tile]:
     """Return the tiles of a page, row by row from the top left; neighbours share a strip.
 
     Raises InputError: `paper` is not a paper for tiles.
@@ -294,7 +294,7 @@ def tiles(page: Page, paper: str = "A4") -> list[Tile]:
         for column in range(columns):
             x, y = column * (wide - OVERLAP), page.height - row * (high - OVERLAP)
             window = (x, max(0.0, y - high), min(page.width, x + wide), y)
-            found.append(Tile(f"{chr(ord('A') + column)}{row + 1}", window))
+            found.append(_Tile(f"{chr(ord('A') + column)}{row + 1}", window))
     return found
 
 

@@ -35,7 +35,7 @@ POINT = 1e-6  # mm; a shorter segment is a point, and its quantity 0
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Atom:
+class _Atom:
     """A letter, a number or a function: its text; an exponent stands behind `base`, before `rest`."""
 
     text: str
@@ -48,10 +48,10 @@ class Atom:
         return f"({self.text})" if ("·" in self.text and not self.base) or self.text == "2π" else self.text
 
 
-Factor = tuple["Atom | Symbol", float]  # what stands there, and its power
+Factor = tuple["_Atom | Symbol", float]  # what stands there, and its power
 
 
-class Term(NamedTuple):
+class _Term(NamedTuple):
     """A product of factors over a product of others, perhaps negative."""
 
     above: tuple[Factor, ...] = ()
@@ -62,7 +62,7 @@ class Term(NamedTuple):
     def over(self) -> str:
         """What stands below the line, behind a stroke."""
         texts = [*map(_written, self.below)]
-        if len(texts) == 1 and isinstance(self.below[0][0], Atom) and self.below[0][1] == 1:
+        if len(texts) == 1 and isinstance(self.below[0][0], _Atom) and self.below[0][1] == 1:
             texts = [self.below[0][0].within]
         return "/" * bool(texts) + (f"({'·'.join(texts)})" if len(texts) > 1 else "".join(texts))
 
@@ -78,7 +78,7 @@ class Symbol:
     __slots__ = ("terms",)
     __hash__ = None  # type: ignore[assignment]
 
-    def __init__(self, *terms: Term) -> None:
+    def __init__(self, *terms: _Term) -> None:
         self.terms = terms
 
     @classmethod
@@ -89,7 +89,7 @@ class Symbol:
         """
         if text.startswith("−"):
             text = base = f"({text})"
-        return cls(Term(((Atom(text, base, rest), 1),)))
+        return cls(_Term(((_Atom(text, base, rest), 1),)))
 
     @property
     def real(self) -> Symbol:
@@ -109,7 +109,7 @@ class Symbol:
     @property
     def chunks(self) -> list[str]:
         """The terms of the sum with their signs, also those of a sum over something."""
-        first, *rest = self.terms or (Term(((Atom("0"), 1),)),)
+        first, *rest = self.terms or (_Term(((_Atom("0"), 1),)),)
         if not rest and not first.negative and len(first.above) == 1 and isinstance(first.above[0][0], Symbol):
             chunks = first.above[0][0].chunks
             chunks[0], end = f"({chunks[0]}", _written(first.above[0]).rpartition(")")[2]
@@ -124,7 +124,7 @@ class Symbol:
         return isinstance(other, Symbol) and self.terms == other.terms
 
     def __neg__(self) -> Symbol:
-        return Symbol(*(Term(above, below, not negative) for above, below, negative in self.terms))
+        return Symbol(*(_Term(above, below, not negative) for above, below, negative in self.terms))
 
     def __add__(self, other: Any) -> Symbol:
         return Symbol(*self.terms, *_symbol(other).terms)
@@ -144,7 +144,7 @@ class Symbol:
             return Symbol()
         one, two = self._term, other._term
         above, below = _product(one.above, two.above), _product(one.below, two.below)
-        return Symbol(Term(above, below, one.negative != two.negative))
+        return Symbol(_Term(above, below, one.negative != two.negative))
 
     def __rmul__(self, other: Any) -> Symbol:
         if type(other) in (int, float) and other == 1 and len(self.terms) == 1:  # as most products begin
@@ -155,10 +155,10 @@ class Symbol:
         other = _symbol(other)
         one, two = self._term, other._term
         if one.negative or one.below:
-            one = Term(((self, 1),))
+            one = _Term(((self, 1),))
         if two.below or two.negative:
-            two = Term(((other, 1),))
-        return Symbol(Term(one.above, two.above)) if two.above else self
+            two = _Term(((other, 1),))
+        return Symbol(_Term(one.above, two.above)) if two.above else self
 
     def __rtruediv__(self, other: Any) -> Symbol:
         return _symbol(other) / self
@@ -171,12 +171,12 @@ class Symbol:
         if power == HALF:
             return Symbol.of(f"√({self})", f"√({self})")
         base, has = self._alone or (self, 1)
-        return Symbol(Term(((base if has == 1 else self, power),)))
+        return Symbol(_Term(((base if has == 1 else self, power),)))
 
     def function(self, name: str) -> Symbol:
         """Return the function of that name of the expression; brackets alone where the name is empty."""
         argument = f" {self}" if self._alone else f" ({self})"
-        return Symbol(Term(((Atom(name + argument, name, argument) if name else Atom(argument.lstrip()), 1),)))
+        return Symbol(_Term(((_Atom(name + argument, name, argument) if name else _Atom(argument.lstrip()), 1),)))
 
     def __array_ufunc__(self, ufunc: Any, method: str, *operands: Any, **options: Any) -> Any:
         """Do for numbers of numpy and functions of numpy what the operators do."""
@@ -186,9 +186,9 @@ class Symbol:
         return self**HALF if name == "sqrt" else self.function(name) if name in FUNCTIONS else NotImplemented
 
     @property
-    def _term(self) -> Term:
+    def _term(self) -> _Term:
         """The expression as one term: a sum as a factor in brackets."""
-        return self.terms[0] if len(self.terms) == 1 else Term(((self, 1),))
+        return self.terms[0] if len(self.terms) == 1 else _Term(((self, 1),))
 
     @property
     def _alone(self) -> Factor | None:
@@ -212,15 +212,15 @@ def _symbol(value: Any) -> Symbol:
     if isinstance(value, Symbol):
         return value
     if isinstance(value, Sign):
-        return Symbol.of(value.text) if value.text else Symbol(Term())
+        return Symbol.of(value.text) if value.text else Symbol(_Term())
     if getattr(value, "ndim", 0):
         raise TypeError("an array in a formula")
     if value in (1.0, 1j):
-        return Symbol(Term())
+        return Symbol(_Term())
     if value < 0.0:
         return -_symbol(-value)
     if value == HALF:
-        return Symbol(Term(below=((Atom("2"), 1),)))
+        return Symbol(_Term(below=((_Atom("2"), 1),)))
     return Symbol.of(CONSTANTS.get(value, f"{value:g}")) if value else Symbol()
 
 
@@ -239,7 +239,7 @@ def _product(first: tuple[Factor, ...], second: tuple[Factor, ...]) -> tuple[Fac
 def _written(factor: Factor) -> str:
     """Return a factor with its power, a sum in brackets."""
     base, power = factor
-    atom = Atom(f"({base})", f"({base})") if isinstance(base, Symbol) else base
+    atom = _Atom(f"({base})", f"({base})") if isinstance(base, Symbol) else base
     return atom.text if power == 1 else f"{atom.base or atom.within}^{{{POWERS.get(power, f'{power:g}')}}}{atom.rest}"
 
 

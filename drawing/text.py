@@ -41,7 +41,7 @@ class Run:
 
 
 @dataclass(frozen=True, slots=True)
-class TextLayout:
+class _TextLayout:
     """Runs and rules (bars, underlines) of one line of text, from `x = 0` on the baseline `y = 0`, mm."""
 
     runs: tuple[Run, ...]
@@ -107,7 +107,7 @@ def _broken(markup: str, at: int) -> InputError:
 
 
 @lru_cache(maxsize=8192)
-def lay_out(markup: str, height: float) -> TextLayout:
+def lay_out(markup: str, height: float) -> _TextLayout:
     """Lay a line of markup out with capitals of `height` mm.
 
     Raises InputError: the markup is broken, or the font lacks a character.
@@ -116,7 +116,7 @@ def lay_out(markup: str, height: float) -> TextLayout:
     width, top, bottom = pen.line(read(markup), 0.0, 0.0, height, height)
     if top < bottom:
         top = bottom = 0.0
-    return TextLayout(tuple(pen.runs), tuple(pen.rules), width, top, bottom)
+    return _TextLayout(tuple(pen.runs), tuple(pen.rules), width, top, bottom)
 
 
 class _Pen:

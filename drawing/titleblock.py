@@ -98,11 +98,11 @@ def _ruled(lines: Ruling) -> list[Shape]:
 
 
 def _changes(caption: dict[str, str], y: float) -> list[Text]:
-    cells = (fitted(caption[key], (float(x0), y, float(x1), y + 5.0), CAPTION, name=key) for key, x0, x1 in CHANGES)
+    cells = (_fitted(caption[key], (float(x0), y, float(x1), y + 5.0), CAPTION, name=key) for key, x0, x1 in CHANGES)
     return [text for cell in cells for text in cell]
 
 
-def form_1(stamp: Stamp) -> list[Shape]:
+def _form_1(stamp: Stamp) -> list[Shape]:
     """Return form 1, 185 x 55 mm, filled in."""
     caption = words(stamp.language)
     filled: list[Shape] = [*_changes(caption, 30.0), *_people(caption, stamp)]
@@ -121,7 +121,7 @@ def form_1(stamp: Stamp) -> list[Shape]:
         ("sheet", f"{caption['sheet']} {stamp.sheet}", (135.0, 15.0, 155.0, 20.0), CAPTION),
         ("sheets", f"{caption['sheets']} {stamp.sheets}", (155.0, 15.0, 185.0, 20.0), CAPTION),
     ):
-        filled += fitted(plain, cell, heights, name=key)
+        filled += _fitted(plain, cell, heights, name=key)
     return [*_ruled(FORM_1), *filled]
 
 
@@ -129,19 +129,19 @@ def _people(caption: dict[str, str], stamp: Stamp) -> list[Text]:
     """Return the rows of roles, names and the date."""
     texts: list[Text] = []
     for key, y in ROLES:
-        texts += fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
+        texts += _fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
     for key, plain, level in (("student", stamp.student, 25.0), ("teacher", stamp.teacher, 20.0)):
         texts += named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
-    return texts + fitted(stamp.date, (55.0, 25.0, 65.0, 30.0), CAPTION, name="date_value")
+    return texts + _fitted(stamp.date, (55.0, 25.0, 65.0, 30.0), CAPTION, name="date_value")
 
 
-def form_2a(stamp: Stamp) -> list[Shape]:
+def _form_2a(stamp: Stamp) -> list[Shape]:
     """Return form 2a, 185 x 15 mm, for the sheets after the first."""
     caption = words(stamp.language)
     filled: list[Shape] = [*_changes(caption, 0.0)]
-    filled += fitted(stamp.designation, (65.0, 0.0, 175.0, 15.0), (7.0, 5.0, 3.5, 2.5), name="designation")
-    filled += fitted(caption["row_sheet"], (175.0, 8.0, 185.0, 15.0), CAPTION, name="sheet_caption")
-    filled += fitted(str(stamp.sheet), (175.0, 0.0, 185.0, 8.0), (3.5, 2.5), name="sheet")
+    filled += _fitted(stamp.designation, (65.0, 0.0, 175.0, 15.0), (7.0, 5.0, 3.5, 2.5), name="designation")
+    filled += _fitted(caption["row_sheet"], (175.0, 8.0, 185.0, 15.0), CAPTION, name="sheet_caption")
+    filled += _fitted(str(stamp.sheet), (175.0, 0.0, 185.0, 8.0), (3.5, 2.5), name="sheet")
     return [*_ruled(FORM_2A), *filled]
 
 
@@ -158,7 +158,7 @@ ISO_7200: Ruling = (
 )
 
 
-def iso_block(stamp: Stamp) -> list[Shape]:
+def _iso_block(stamp: Stamp) -> list[Shape]:
     """Return the block of ISO 7200, filled in; a caption stands in the top left of each cell."""
     caption = words(stamp.language)
     creator = " ".join(part for part in (stamp.student, stamp.group) if part)
@@ -175,12 +175,12 @@ def iso_block(stamp: Stamp) -> list[Shape]:
         ("revision", "", (140.0, 0.0, 160.0, 12.0)),
         ("sheet", f"{stamp.sheet}/{stamp.sheets}", (160.0, 0.0, 180.0, 12.0)),
     ):
-        parts += fitted(caption[f"iso_{key}"], (x0, y1 - 4.6, x1, y1), CAPTION, "left", f"{key}_caption")
-        parts += fitted(value, (x0, y0, x1, y1 - 3.95), (3.5, 2.5), "left", key)
+        parts += _fitted(caption[f"iso_{key}"], (x0, y1 - 4.6, x1, y1), CAPTION, "left", f"{key}_caption")
+        parts += _fitted(value, (x0, y0, x1, y1 - 3.95), (3.5, 2.5), "left", key)
     return parts
 
 
-def centring_marks(sheet: Format) -> Group:
+def _centring_marks(sheet: Format) -> Group:
     """Return the four marks in the middles of the sides, from 5 mm outside the frame to 5 mm inside it."""
     x0, y0, x1, y1 = drawing_area(sheet, "iso")
     across, up = sheet.width / 2, sheet.height / 2
@@ -205,8 +205,8 @@ def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool =
     x0, y0, _, _ = block_box(sheet, norm, first)
     identity = (_identity(sheet, stamp),) if stamp.identity else ()
     if norm == "iso":
-        return edge, frame, centring_marks(sheet), _at_corner(iso_block(stamp), "iso-7200", x0, y0), *identity
-    parts, name = (form_1(stamp), "form-1") if first else (form_2a(stamp), "form-2a")
+        return edge, frame, _centring_marks(sheet), _at_corner(_iso_block(stamp), "iso-7200", x0, y0), *identity
+    parts, name = (_form_1(stamp), "form-1") if first else (_form_2a(stamp), "form-2a")
     around = [_below(sheet, stamp), _turned(sheet, stamp)] if first else [_below(sheet, stamp)]
     return edge, frame, _at_corner(parts, name, x0, y0), *around, *identity
 
@@ -252,12 +252,12 @@ def _turned(sheet: Format, stamp: Stamp) -> Group:
     bend = complex(near, y0)
     lines = Polyline((complex(far, y0), bend, complex(near, y1)), T, role="cell")
     middle, turn, angle = complex((x0 + x1) / 2, (y0 + y1) / 2), (-1j if tall else -1), (-pi / 2 if tall else pi)
-    texts = fitted(stamp.designation, (-35.0, -7.0, 35.0, 7.0), (7.0, 5.0, 3.5, 2.5), name="designation_turned")
+    texts = _fitted(stamp.designation, (-35.0, -7.0, 35.0, 7.0), (7.0, 5.0, 3.5, 2.5), name="designation_turned")
     turned = (replace(text, at=middle + text.at * turn, angle=angle) for text in texts)
     return Group((lines, *turned), "titleblock", "column-26")
 
 
-def fitted(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor = "middle", name: str = "") -> list[Text]:
+def _fitted(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor = "middle", name: str = "") -> list[Text]:
     """Return the lines of `plain` text that fill `cell`, in the largest of `heights` that fits.
 
     An InputError says that it is too long even for the smallest and narrowest letters.
@@ -334,7 +334,7 @@ def named(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor, name:
     refused: list[InputError] = []
     for way in dict.fromkeys((plain, with_initials(plain), surname(plain))):
         try:
-            found.append(fitted(way, cell, heights, anchor, name))
+            found.append(_fitted(way, cell, heights, anchor, name))
         except InputError as error:
             refused.append(error)
     if not found:

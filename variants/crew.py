@@ -206,7 +206,7 @@ def on_cluster(
     before, pieces = logging.root.manager.disable, _pieces(items, alike)
     try:
         with client:
-            submit = partial(client.get_executor(pure=False, retries=DEATHS).submit, make_piece, work)
+            submit = partial(client.get_executor(pure=False, retries=DEATHS).submit, _make_piece, work)
             rounds = len(pieces), 1  # what else a dying worker has made would be lost with it
             try:
                 first = partial(_some_done, client)
@@ -236,7 +236,7 @@ def _some_done(client: Any, tasks: Tasks) -> Iterable[Task]:
     return ()
 
 
-def make_piece(work: Work[Any, Any], items: list[Any]) -> list[Any]:
+def _make_piece(work: Work[Any, Any], items: list[Any]) -> list[Any]:
     """Do a piece on a worker, which sets itself up once for each work."""
     if _HERE.get("key") != (key := repr(work)):
         _HERE.update(key=key, make=work.begin())

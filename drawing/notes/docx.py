@@ -161,7 +161,7 @@ def _pages(word: Word) -> None:
     section.different_first_page_header_footer = True
     section.footer.is_linked_to_previous = False
     section.footer.part.element[:] = _parsed(
-        paragraph("Footer", f'<w:fldSimple w:instr=" PAGE ">{words("2")}</w:fldSimple>')
+        _paragraph("Footer", f'<w:fldSimple w:instr=" PAGE ">{words("2")}</w:fldSimple>')
     )
 
 
@@ -248,7 +248,7 @@ def _path(string: str) -> str:
     return str(pen.getCommands())
 
 
-def paragraph(style: str, inside: str, properties: str = "") -> str:
+def _paragraph(style: str, inside: str, properties: str = "") -> str:
     """Return a paragraph; its own properties go before those of its style."""
     styled = f'<w:pStyle w:val="{style}"/>' if style else ""
     told = f"<w:pPr>{styled}{properties}</w:pPr>" if styled or properties else ""
@@ -315,31 +315,31 @@ def _mark(number: int) -> str:
 
 def _title(document: Document) -> Iterator[str]:
     said, page = packaged(__package__, "texts", document.language), document.title
-    yield paragraph("TitleLine", words(page.department))
-    yield paragraph("Title", words(said["title.note"]))
-    yield paragraph("Subtitle", words(page.title))
-    yield paragraph("TitleLine", words(said["title.variant"].format(variant=page.variant)))
+    yield _paragraph("TitleLine", words(page.department))
+    yield _paragraph("Title", words(said["title.note"]))
+    yield _paragraph("Subtitle", words(page.title))
+    yield _paragraph("TitleLine", words(said["title.variant"].format(variant=page.variant)))
     names, date = (f'<w:spacing w:before="{round(mm * TWIPS)}"/>' for mm in _BEFORE)
     for name in ("student", "group", "teacher"):
         value = words(getattr(page, name) or "_" * 24)
-        yield paragraph("TitleName", f"{words(said[f'title.{name}'])}<w:r><w:tab/></w:r>{value}", names)
+        yield _paragraph("TitleName", f"{words(said[f'title.{name}'])}<w:r><w:tab/></w:r>{value}", names)
         names = ""
-    yield paragraph("TitleLine", words(page.date), date)
-    yield paragraph("TitleLine", words(page.identity, '<w:sz w:val="18"/><w:szCs w:val="18"/>'))
+    yield _paragraph("TitleLine", words(page.date), date)
+    yield _paragraph("TitleLine", words(page.identity, '<w:sz w:val="18"/><w:szCs w:val="18"/>'))
 
 
 def _contents(document: Document) -> Iterator[str]:
     """Go through the contents, a field with its entries; their pages are known when it is updated."""
-    yield paragraph("TOCHeading", words(packaged(__package__, "texts", document.language)["contents"]))
+    yield _paragraph("TOCHeading", words(packaged(__package__, "texts", document.language)["contents"]))
     before = _begun(r'TOC \o "1-2" \h \z \u')
     entries = [letters(block.text) for block in document.blocks if isinstance(block, Heading)]
     for number, entry in enumerate(entries, 1):
         page = _begun(rf"PAGEREF {_mark(number)} \h") + _END
         shown = f"{words(f'{number} {entry}')}<w:r><w:tab/></w:r>{page}"
         linked = f'<w:hyperlink w:anchor="{_mark(number)}" w:history="1">{shown}</w:hyperlink>'
-        yield paragraph("TOC1", before + linked)
+        yield _paragraph("TOC1", before + linked)
         before = ""
-    yield paragraph("TOC1", f'{before}{_END}<w:r><w:br w:type="page"/></w:r>')
+    yield _paragraph("TOC1", f'{before}{_END}<w:r><w:br w:type="page"/></w:r>')
 
 
 def blocks_in_word(document: Document, pictures: Sequence[Picture]) -> str:
@@ -353,8 +353,8 @@ def folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
     said = packaged(__package__, "texts", document.language)
     figures = ((block, n) for block, n in note.numbered(document.blocks) if isinstance(block, Figure) and block.folded)
     return "".join(
-        paragraph("Figure", _drawing(figure, pictures[n - 1], n), "<w:pageBreakBefore/>" if place else "")
-        + paragraph("Caption", _caption(figure, said, _number_field(rf"REF _Figure{n} \h", n)))
+        _paragraph("Figure", _drawing(figure, pictures[n - 1], n), "<w:pageBreakBefore/>" if place else "")
+        + _paragraph("Caption", _caption(figure, said, _number_field(rf"REF _Figure{n} \h", n)))
         for place, (figure, n) in enumerate(figures)
     )
 
@@ -362,33 +362,33 @@ def folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
 def _block(block: Block, number: int, said: dict[str, str], pictures: Sequence[Picture]) -> Iterator[str]:
     match block:
         case Heading(text=text):
-            yield paragraph("Heading1", _bookmark(line(text), _mark(number), number))  # the contents lead there
+            yield _paragraph("Heading1", _bookmark(line(text), _mark(number), number))  # the contents lead there
         case Sentences(texts=texts):
-            yield paragraph("", words(" ").join(map(line, texts)))
+            yield _paragraph("", words(" ").join(map(line, texts)))
         case Steps(texts=texts):
             one = f'<w:numPr><w:ilvl w:val="0"/><w:numId w:val="{LISTS + number - 1}"/></w:numPr>'
-            yield from (paragraph("ListNumber", line(text), one) for text in texts)
+            yield from (_paragraph("ListNumber", line(text), one) for text in texts)
         case Equations(lines=lines):
             yield from (part for chunks in lines for part in _equation(chunks))
         case Table(rows=rows):
             yield _table(rows)
-            yield paragraph("Cell", "")
+            yield _paragraph("Cell", "")
         case Figure():
             here = _number_field(rf"SEQ {said['figure']} \* ARABIC", number)
             if block.folded:
                 before, _, after = said["figure.folded"].format(number="\0", format=note.FOLDED).partition("\0")
                 marked = _bookmark(here, f"_Figure{number}", FIGURES + number)
-                yield paragraph("", words(before) + marked + words(after))
+                yield _paragraph("", words(before) + marked + words(after))
                 return
-            yield paragraph("Figure", _drawing(block, pictures[number - 1], number))
-            yield paragraph("Caption", _caption(block, said, here))
+            yield _paragraph("Figure", _drawing(block, pictures[number - 1], number))
+            yield _paragraph("Caption", _caption(block, said, here))
 
 
 def _equation(chunks: Sequence[str]) -> Iterator[str]:
     """Go through the lines of an equation, which is broken where it may be; words without one are a line of words."""
     markup = " ".join(chunks)
     if not displayed(markup):
-        yield paragraph("Equation", line(markup))
+        yield _paragraph("Equation", line(markup))
         return
     rows = [""]
     for part in _unbroken(chunks):
@@ -398,7 +398,7 @@ def _equation(chunks: Sequence[str]) -> Iterator[str]:
         further = f'<w:ind w:left="{round(2 * INDENT * TWIPS)}"/>' if place else ""
         left = '<m:oMathParaPr><m:jc m:val="left"/></m:oMathParaPr>'
         inside = f"<m:oMathPara>{left}<m:oMath>{built_up(row)}</m:oMath></m:oMathPara>"
-        yield paragraph("Equation", inside, further)
+        yield _paragraph("Equation", inside, further)
 
 
 def _unbroken(chunks: Sequence[str]) -> Iterator[str]:
@@ -439,7 +439,7 @@ def _row(row: tuple[str | None, ...], number: int) -> str:
     cells = []
     for start, end, cell in cells_of(row):
         joined = f'<w:gridSpan w:val="{end - start}"/>' if end - start > 1 else ""
-        text = paragraph("Cell", line(cell, bold))
+        text = _paragraph("Cell", line(cell, bold))
         cells.append(
             f'<w:tc><w:tcPr><w:tcW w:w="0" w:type="auto"/>{joined}<w:vAlign w:val="center"/></w:tcPr>{text}</w:tc>'
         )

@@ -62,7 +62,7 @@ def node(found: Node, upright: bool = False) -> str:
         inner = "".join(map(node, found.parts)) or run(_EMPTY, "p")
         once = _BAR.format(place="top" if found.kind == "bar" else "bot", inner=inner)
         return _BAR.format(place="bot", inner=once) if found.kind == "uu" else once
-    return scripted(node(found.base, upright), *scripts(found))
+    return _scripted(node(found.base, upright), *scripts(found))
 
 
 def scripts(found: Scripted) -> tuple[str, str]:
@@ -78,13 +78,13 @@ def _script(found: Node) -> str:
     return node(found)
 
 
-def scripted(base: str, above: str, below: str) -> str:
+def _scripted(base: str, above: str, below: str) -> str:
     """Return a formula with what stands above and below behind it."""
     return _SCRIPTS[bool(above), bool(below)].format(base=base, above=above, below=below)
 
 
 @dataclass(frozen=True, slots=True)
-class Atom:
+class _Atom:
     """A part of a line: its kind, its characters, how it is shown, also without its brackets, its scripts."""
 
     kind: str
@@ -99,7 +99,7 @@ class Atom:
         return self.bare or self.shown
 
 
-def atoms_of(markup: str) -> list[Atom]:
+def atoms_of(markup: str) -> list[_Atom]:
     """Return the atoms of a line of markup."""
     return _told(_joined(_units(list(_atoms(whole(parse(markup)))))))
 
@@ -126,23 +126,23 @@ def _split(text: str, base: str) -> tuple[str, str]:
     return (text[: len(text) - len(tail)], tail) if belongs else (text, "")
 
 
-def _atoms(parts: Iterable[Node]) -> Iterator[Atom]:
+def _atoms(parts: Iterable[Node]) -> Iterator[_Atom]:
     for part in parts:
         match part:
             case Plain(text=text):
                 yield from (
-                    Atom(str(found.lastgroup), found.group(), _plain(found)) for found in _TOKENS.finditer(text)
+                    _Atom(str(found.lastgroup), found.group(), _plain(found)) for found in _TOKENS.finditer(text)
                 )
             case Scripted(base=Plain(text=text)) if text in PAIRS.values():
-                yield Atom("close", text, node(part), "", scripts(part))
+                yield _Atom("close", text, node(part), "", scripts(part))
             case Scripted(base=Plain(text=text)) if text in _FUNCTIONS:
-                yield Atom("function", text, scripted(run(text, "p"), *scripts(part)))
+                yield _Atom("function", text, _scripted(run(text, "p"), *scripts(part)))
             case Scripted(base=Plain(text=text)) if text[:1].isdigit():
-                yield Atom("number", text, node(part))
+                yield _Atom("number", text, node(part))
             case Scripted(base=Plain(text=text)):
-                yield Atom("name", text, node(part), "", scripts(part))
+                yield _Atom("name", text, node(part), "", scripts(part))
             case _:
-                yield Atom("name", "", node(part))
+                yield _Atom("name", "", node(part))
 
 
 def _plain(found: re.Match[str]) -> str:
@@ -153,9 +153,9 @@ def _plain(found: re.Match[str]) -> str:
     return run(text, "" if letter or kind == "sign" else "p")
 
 
-def _units(atoms: list[Atom]) -> list[Atom]:
+def _units(atoms: list[_Atom]) -> list[_Atom]:
     """Put what stands behind a number, after a space, into one: its unit."""
-    found: list[Atom] = []
+    found: list[_Atom] = []
     at = 0
     while at < len(atoms):
         found.append(atoms[at])
@@ -163,12 +163,12 @@ def _units(atoms: list[Atom]) -> list[Atom]:
         starts = [atom.kind for atom in atoms[at - 1 : at + 2]]
         if starts[:2] == ["number", "space"] and starts[2:] in (["word"], ["name"], ["open"]):
             end = _unit_end(atoms, at)
-            found.append(Atom("unit", "", "".join(_upright(atom) for atom in atoms[at:end])))
+            found.append(_Atom("unit", "", "".join(_upright(atom) for atom in atoms[at:end])))
             at = end
     return found
 
 
-def _unit_end(atoms: list[Atom], at: int) -> int:
+def _unit_end(atoms: list[_Atom], at: int) -> int:
     depth = 0
     for place in range(at, len(atoms)):
         atom = atoms[place]
@@ -178,25 +178,25 @@ def _unit_end(atoms: list[Atom], at: int) -> int:
     return len(atoms)
 
 
-def _upright(atom: Atom) -> str:
-    return scripted(run(atom.text, "nor"), *atom.scripts) if atom.kind in ("word", "name") else atom.shown
+def _upright(atom: _Atom) -> str:
+    return _scripted(run(atom.text, "nor"), *atom.scripts) if atom.kind in ("word", "name") else atom.shown
 
 
-def _joined(atoms: list[Atom]) -> list[Atom]:
+def _joined(atoms: list[_Atom]) -> list[_Atom]:
     """Set letters upright that stand in one word with others."""
     found = list(atoms)
     for place, (one, other) in enumerate(pairwise(atoms)):
         both = (one, other)
         if {one.kind, other.kind} == {"word", "name"} and not any(atom.text in ("", *_NAMED) for atom in both):
             found[place : place + 2] = [
-                replace(atom, shown=scripted(run(atom.text, "p"), *atom.scripts)) for atom in both
+                replace(atom, shown=_scripted(run(atom.text, "p"), *atom.scripts)) for atom in both
             ]
     return found
 
 
-def _told(atoms: list[Atom]) -> list[Atom]:
+def _told(atoms: list[_Atom]) -> list[_Atom]:
     """Tell symbols from words: what stands between signs is speech if there is a word in it."""
-    found: list[Atom] = []
+    found: list[_Atom] = []
     for apart, group in groupby(atoms, lambda atom: atom.kind in ("sign", "dot", "stroke", "open", "close", "root")):
         some = list(group)
         if apart:
@@ -211,7 +211,7 @@ def _spoken(text: str) -> bool:
     return text not in _FUNCTIONS and (len(text.rstrip("′″")) > _SYMBOL or "а" <= text[0].lower() <= "ґ")
 
 
-def _named(atom: Atom, speech: bool) -> Atom:
+def _named(atom: _Atom, speech: bool) -> _Atom:
     if atom.text in _FUNCTIONS:
         return replace(atom, kind="function")
     return replace(atom, kind="prose", shown=run(atom.text, "nor")) if speech else replace(atom, kind="name")
@@ -228,14 +228,14 @@ def built_up(markup: str) -> str:
     >>> "<m:f>" in built_up("v = s/t"), "<m:f>" in built_up("2 m/s")
     (True, False)
     """
-    found: list[Atom] = []
+    found: list[_Atom] = []
     opened: list[int] = []
     for atom in atoms_of(markup):  # what stands in brackets first
         if atom.kind == "close" and opened and PAIRS[found[opened[-1]].text] == atom.text:
             start = opened.pop()
             inner = _line(found[start + 1 :])
-            shown = scripted(_BRACKETED.format(open=found[start].text, close=atom.text, inner=inner), *atom.scripts)
-            found[start:] = [Atom("name", "", shown, "" if any(atom.scripts) else inner)]
+            shown = _scripted(_BRACKETED.format(open=found[start].text, close=atom.text, inner=inner), *atom.scripts)
+            found[start:] = [_Atom("name", "", shown, "" if any(atom.scripts) else inner)]
             continue
         if atom.kind == "open":
             opened.append(len(found))
@@ -243,16 +243,16 @@ def built_up(markup: str) -> str:
     return _line(found)
 
 
-def _line(atoms: list[Atom]) -> str:
+def _line(atoms: list[_Atom]) -> str:
     """Return atoms without brackets to look for, their quotients built up."""
-    found: list[Atom] = []
-    product: list[Atom] = []
+    found: list[_Atom] = []
+    product: list[_Atom] = []
     factors = _factors(_spaced(atoms))
     for place, atom in enumerate(factors):
         after = factors[place + 1].kind if place + 1 < len(factors) else ""
         if product and product[-1].kind == "stroke" and atom.kind == "factor":
             above = product[0].inside if len(product) == 2 else "".join(part.shown for part in product[:-1])
-            product = [Atom("factor", "", _FRACTION.format(above=above, below=atom.inside))]
+            product = [_Atom("factor", "", _FRACTION.format(above=above, below=atom.inside))]
         elif atom.kind == "factor" or (product and atom.kind in ("dot", "stroke") and after == "factor"):
             product.append(atom)
         else:
@@ -261,7 +261,7 @@ def _line(atoms: list[Atom]) -> str:
     return "".join(atom.shown for atom in (*found, *product))
 
 
-def _spaced(atoms: list[Atom]) -> list[Atom]:
+def _spaced(atoms: list[_Atom]) -> list[_Atom]:
     """Leave out spaces beside signs, which have their own."""
     found = []
     for place, atom in enumerate(atoms):
@@ -272,9 +272,9 @@ def _spaced(atoms: list[Atom]) -> list[Atom]:
     return found
 
 
-def _factors(atoms: list[Atom]) -> list[Atom]:
+def _factors(atoms: list[_Atom]) -> list[_Atom]:
     """Join what is multiplied by standing side by side, functions with their arguments."""
-    found: list[Atom] = []
+    found: list[_Atom] = []
     at = 0
     while at < len(atoms):
         start = at
@@ -289,8 +289,8 @@ def _factors(atoms: list[Atom]) -> list[Atom]:
             at = at if heads else start + 1
             continue
         if heads and heads[-1].kind == "root":
-            body[0] = Atom("name", "", _ROOT.format(inner=body[0].inside))
+            body[0] = _Atom("name", "", _ROOT.format(inner=body[0].inside))
             heads.pop()
         shown = "".join(atom.shown for atom in (*heads, *body))
-        found.append(Atom("factor", "", shown, body[0].bare if len(body) == 1 and not heads else ""))
+        found.append(_Atom("factor", "", shown, body[0].bare if len(body) == 1 and not heads else ""))
     return found

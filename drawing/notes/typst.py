@@ -63,7 +63,7 @@ def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
     except ImportError:
         raise InputError("note-extra") from None
     body = body or Body.of(document.blocks, document.language)
-    files: Any = {"main.typ": source(document, body).encode("utf-8"), **body.figures}
+    files: Any = {"main.typ": _source(document, body).encode("utf-8"), **body.figures}
     return bytes(typst.compile(files, font_paths=_fonts()))
 
 
@@ -79,7 +79,7 @@ def _fonts() -> Any:
     return typst.Fonts(include_system_fonts=False, include_embedded_fonts=True, font_paths=[str(folder)])
 
 
-def source(document: Document, body: Body) -> str:
+def _source(document: Document, body: Body) -> str:
     """Return a note in the language of typst."""
     preamble = PREAMBLE.format(title=_quoted(document.title.title), lang=_quoted(document.language))
     return "\n".join((preamble, _title(document), body.text))

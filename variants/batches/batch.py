@@ -119,7 +119,7 @@ class Batch:
 
 
 @dataclass(frozen=True)
-class Work:
+class _Work:
     """What students with the same data share: all but the names; each part is made when it is first asked for."""
 
     case: Case
@@ -168,7 +168,7 @@ class Making:
 
     asked: Mapping[str, Request]
     kinds: tuple[str, ...]
-    _works: dict[Hashable, Work] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _works: dict[Hashable, _Work] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property
     def afresh(self) -> bool:
@@ -218,7 +218,7 @@ class Making:
         notes = tuple(warning.text(self.language) for warning in drawn.warnings)
         return Made(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
 
-    def _files(self, work: Work, case: Case, drawn: Sheet, kind: str, stem: str) -> Iterator[tuple[str, bytes]]:
+    def _files(self, work: _Work, case: Case, drawn: Sheet, kind: str, stem: str) -> Iterator[tuple[str, bytes]]:
         """Go through the files of one kind: their names and what they hold."""
         if kind in NOTES:
             block = {name: text for name, text in case.block.items() if name != "designation"}
@@ -231,7 +231,7 @@ class Making:
             stem, kind = f"{stem}-handout", "pdf"
         yield from ((path.name, data) for path, data in page_files(drawn.pages, Path(f"{stem}.{kind}")))
 
-    def _work(self, student: Student) -> Work:
+    def _work(self, student: Student) -> _Work:
         """Return what students with the same data share, from the last ones where it is there."""
         entry, data = student.entry, student.data
         if entry.problem is not None:
@@ -242,7 +242,7 @@ class Making:
             asked = self.asked[entry.task]
             settings = {**(asked.settings or {}), **entry.settings}
             case = replace(asked, variant=entry.variant, settings=settings).case()
-            self._works[data] = Work(case, drawing_of(case))
+            self._works[data] = _Work(case, drawing_of(case))
         return self._works[data]
 
 
@@ -377,7 +377,7 @@ def batch(
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
     done = Batch(students, outcomes, (error,) if listed.unread else ())
-    for name, rows in tables(done, once, lang):
+    for name, rows in _tables(done, once, lang):
         put(place / name, csv_table(rows, lang))
     return done
 
@@ -419,7 +419,7 @@ def write_roster(task: Tasks, file: str | os.PathLike[str], lang: str = "uk") ->
     return save_all((file,), SUFFIXES, lambda path: [(path, table_bytes(path, rows, lang, tasks[0].id, [0], 1))])[0]
 
 
-def tables(batch: Batch, tasks: Sequence[Task], language: str) -> Iterator[tuple[str, list[tuple[Cell, ...]]]]:
+def _tables(batch: Batch, tasks: Sequence[Task], language: str) -> Iterator[tuple[str, list[tuple[Cell, ...]]]]:
     """Go through the tables of a class: the names of their files, and their rows.
 
     The manifest lists who has which variant, sheet and files, or what the problem is. The key of a task has every right
