@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import ceil
 
@@ -84,7 +84,9 @@ def _table(shape: Shape, view: View, shown: Shown) -> Shape:
         return shape
     places = [(row, column, end) for row, line in enumerate(view.rows) for column, end, text in cells(line) if text]
     texts = iter(places)
-    width = _width(view.rows[0])
+    head = view.rows[0]
+    half, odd = divmod(len(head), 2)  # of a table whose halves stand side by side under the same head
+    width = half if half and not odd and head[:half] == head[half:] else len(head)
     last = -1 if any(NUMBER.match(row[-1] or "") for row in view.rows[1:]) else width
     kept = []
     for part in shape.shapes:
@@ -97,26 +99,17 @@ def _table(shape: Shape, view: View, shown: Shown) -> Shape:
     return replace(shape, shapes=tuple(kept))
 
 
-def _width(head: Sequence[str | None]) -> int:
-    """Return the columns of a table, or of each half of one whose halves stand side by side under the same head."""
-    half, odd = divmod(len(head), 2)
-    return half if half and not odd and head[:half] == head[half:] else len(head)
-
-
 def gridded(page: Page, sheet: Format, norm: Norm, first: bool) -> Page:
     """Return a page of `sheet` with squares inside its frame, but for the title block and column 26."""
     x0, y0, x1, y1 = drawing_area(sheet, norm)
     boxes = reserved_boxes(sheet, norm, first)
-    ways = [(complex(x, y0), complex(x, y1)) for x in _between(x0, x1)]
-    ways += [(complex(x0, y), complex(x1, y)) for y in _between(y0, y1)]
+    columns, rows = (
+        [low + k * SQUARE for k in range(1, ceil((high - low) / SQUARE - 1e-9))] for low, high in ((x0, x1), (y0, y1))
+    )
+    ways = [(complex(x, y0), complex(x, y1)) for x in columns] + [(complex(x0, y), complex(x1, y)) for y in rows]
     ends = (part for way in ways for part in beside(*way, boxes))
     squares = tuple(Line(*part, Pen.THIN, role="grid", colour=LIGHT) for part in ends)
     return replace(page, shapes=(Group(squares, "grid", layer=Layer.GRID.value), *page.shapes))
-
-
-def _between(low: float, high: float) -> list[float]:
-    """Return the places of the lines of squares between two sides of a frame."""
-    return [low + k * SQUARE for k in range(1, ceil((high - low) / SQUARE - 1e-9))]
 
 
 def keyed(page: Page, whole: Iterable[Group]) -> Page:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from math import pi, tau
 from typing import assert_never
@@ -112,33 +112,23 @@ _LAYERS = {role: layer for layer, roles in _ROLES.items() for role in roles.spli
 
 
 def parts_of(page: Page) -> Sequence[tuple[Layer | None, Sequence[Shape]]]:
-    """Return the shapes of a page by layers, in the order of painting; all as they come where it has none."""
-    return layered(page.shapes) if page.layers else [(None, page.shapes)]
+    """Return the shapes of a page by layers, in the order of painting; all as they come where it has none.
 
-
-def layered(shapes: Iterable[Shape]) -> list[tuple[Layer, list[Shape]]]:
-    """Sort the shapes of a page by layers, in the order of painting; a view is parted into groups of one name.
-
-    Within a layer they keep their order.
+    A view is parted into groups of one name. Within a layer shapes keep their order.
     """
-    found: dict[Layer, list[Shape]] = {layer: [] for layer in Layer}
-    for shape in shapes:
-        if isinstance(shape, Group) and shape.role == "view":
-            _part(shape, found)
+    if not page.layers:
+        return [(None, page.shapes)]
+    layers: dict[Layer, list[Shape]] = {layer: [] for layer in Layer}
+    for shape in page.shapes:
+        if not isinstance(shape, Group) or shape.role != "view":
+            layers[Layer.FRAME if getattr(shape, "role", "") == "frame" else _layer_of(shape)].append(shape)
+        elif shape.layer or shape.name in TASK_VIEWS:
+            layers[Layer(shape.layer or Layer.GIVEN)].append(shape)
         else:
-            found[Layer.FRAME if getattr(shape, "role", "") == "frame" else _layer_of(shape)].append(shape)
-    return [(layer, own) for layer, own in found.items() if own]
-
-
-def _part(view: Group, found: dict[Layer, list[Shape]]) -> None:
-    if view.layer or view.name in TASK_VIEWS:
-        found[Layer(view.layer or Layer.GIVEN)].append(view)
-        return
-    parts: dict[Layer, list[Shape]] = {}
-    for shape in view.shapes:
-        parts.setdefault(_layer_of(shape), []).append(shape)
-    for layer, own in parts.items():
-        found[layer].append(Group(tuple(own), "view", view.name, view.title))
+            for layer in dict.fromkeys(map(_layer_of, shape.shapes)):
+                parts = tuple(part for part in shape.shapes if _layer_of(part) is layer)
+                layers[layer].append(replace(shape, shapes=parts))
+    return [(layer, shapes) for layer, shapes in layers.items() if shapes]
 
 
 def _layer_of(shape: Shape) -> Layer:

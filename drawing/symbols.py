@@ -269,34 +269,20 @@ def shaft_radius(cam: float, style: Style, offset: float = 0.0) -> float:
 def shaft(centre: complex, r: float, style: Style) -> Group:
     """Return the shaft of the cam with its key, on a support of the frame below it."""
     key = KEY * r
+    rim, top, low = math.sqrt(r * r - key * key), r + key, r - key  # of the key above the centre
     width, height, base = style.pivot
     foot = centre - 1j * (r + 0.6 * height)
-    legs = (
-        Line(centre + r * complex(side * 0.5, -math.sqrt(0.75)), foot + side * width / 2, Pen.MAIN)
-        for side in (-1.0, 1.0)
-    )
     ground = foot - base / 2, foot + base / 2
-    slot = (
-        centre + complex(-key, math.sqrt(r * r - key * key)),
-        centre + complex(-key, r + key),
-        centre + complex(key, r + key),
-        centre + complex(key, math.sqrt(r * r - key * key)),
-    )
-    bottom = Line(centre + complex(-key, r - key), centre + complex(key, r - key), Pen.THIN)
-    sides = (Line(centre + complex(s * key, r - key), centre + complex(s * key, r), Pen.THIN) for s in (-1.0, 1.0))
-    return Group(
-        (
-            *legs,
-            Line(*ground, Pen.MAIN),
-            *hatching(*ground, -1j, style),
-            Circle(centre, r, Pen.MAIN),
-            Polyline(slot, Pen.MAIN),
-            bottom,
-            *sides,
-        ),
-        "shaft",
-        "O",
-    )
+    slot = tuple(centre + complex(x, y) for x, y in ((-key, rim), (-key, top), (key, top), (key, rim)))
+    parts: list[Shape] = [
+        Line(centre + r * complex(side * 0.5, -math.sqrt(0.75)), foot + side * width / 2) for side in (-1.0, 1.0)
+    ]
+    parts += [Line(*ground), *hatching(*ground, -1j, style), Circle(centre, r), Polyline(slot)]
+    parts += [
+        Line(centre + complex(x0, low), centre + complex(x1, y), Pen.THIN)
+        for x0, x1, y in ((-key, key, low), (-key, -key, r), (key, key, r))
+    ]
+    return Group(tuple(parts), "shaft", "O")
 
 
 def _box(x0: float, y0: float, x1: float, y1: float) -> Polyline:

@@ -57,12 +57,8 @@ def cells(row: Row) -> Iterator[tuple[int, int, str]]:
 
 def _widths(rows: Sequence[Row], h: float) -> list[float]:
     """Return for every column how wide the widest text is that stands in it alone."""
-    widths = [0.0] * len(rows[0])
-    for row in rows:
-        for i, end, cell in cells(row):
-            if end == i + 1:
-                widths[i] = max(widths[i], lay_out(cell, h).width)
-    return widths
+    alone = [(i, lay_out(cell, h).width) for row in rows for i, end, cell in cells(row) if end == i + 1]
+    return [max((width for i, width in alone if i == column), default=0.0) for column in range(len(rows[0]))]
 
 
 def _ruled(rows: Sequence[Row], edge: int) -> list[tuple[int, int]]:

@@ -10,7 +10,7 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from typing import NamedTuple
 
 from .errors import InputError
@@ -104,21 +104,32 @@ _LONGEST = 40
 Powers = list[tuple[str, int]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Unit:
     """A product of powers of symbols, in the order in which it was written."""
 
     powers: tuple[tuple[str, int], ...]
 
-    @property
+    @cached_property
     def dimension(self) -> Dimension:
         """Powers of length, mass, time and angle."""
-        return _dimension(self.powers)
+        counted = ([power * times for power in SYMBOLS[name].dimension] for name, times in self.powers)
+        return Dimension(*map(sum, zip(*counted, strict=True)))
 
-    @property
+    @cached_property
     def ratio(self) -> tuple[float, float]:
         """Numerator and denominator of the factor to SI; whole numbers wherever the unit has no angle."""
-        return _ratio(self.powers)
+        num: float = 1
+        den: float = 1
+        for name, power in self.powers:
+            symbol = SYMBOLS[name]
+            up, down = (symbol.num, symbol.den) if power > 0 else (symbol.den, symbol.num)
+            num *= up ** abs(power)
+            den *= down ** abs(power)
+        if isinstance(num, int) and isinstance(den, int):
+            common = math.gcd(num, den)
+            return num // common, den // common
+        return num, den
 
     def to_si(self, value: float) -> float:
         """Return `value` of this unit in SI."""
@@ -143,30 +154,6 @@ class Unit:
     def __str__(self) -> str:
         """Return the ASCII name."""
         return self.name
-
-
-@cache
-def _dimension(powers: tuple[tuple[str, int], ...]) -> Dimension:
-    sums = [0, 0, 0, 0]
-    for name, power in powers:
-        for i, exponent in enumerate(SYMBOLS[name].dimension):
-            sums[i] += exponent * power
-    return Dimension(*sums)
-
-
-@cache
-def _ratio(powers: tuple[tuple[str, int], ...]) -> tuple[float, float]:
-    num: float = 1
-    den: float = 1
-    for name, power in powers:
-        symbol = SYMBOLS[name]
-        up, down = (symbol.num, symbol.den) if power > 0 else (symbol.den, symbol.num)
-        num *= up ** abs(power)
-        den *= down ** abs(power)
-    if isinstance(num, int) and isinstance(den, int):
-        common = math.gcd(num, den)
-        return num // common, den // common
-    return num, den
 
 
 ONE = Unit(())

@@ -63,7 +63,9 @@ def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
     except ImportError:
         raise InputError("note-extra") from None
     body = body or Body.of(document.blocks, document.language)
-    files: Any = {"main.typ": _source(document, body).encode("utf-8"), **body.figures}
+    preamble = PREAMBLE.format(title=_quoted(document.title.title), lang=_quoted(document.language))
+    source = "\n".join((preamble, _title(document), body.text))
+    files: Any = {"main.typ": source.encode("utf-8"), **body.figures}
     return bytes(typst.compile(files, font_paths=_fonts()))
 
 
@@ -77,12 +79,6 @@ def _fonts() -> Any:
     assert found.origin is not None
     folder = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf"
     return typst.Fonts(include_system_fonts=False, include_embedded_fonts=True, font_paths=[str(folder)])
-
-
-def _source(document: Document, body: Body) -> str:
-    """Return a note in the language of typst."""
-    preamble = PREAMBLE.format(title=_quoted(document.title.title), lang=_quoted(document.language))
-    return "\n".join((preamble, _title(document), body.text))
 
 
 def _title(document: Document) -> str:

@@ -22,7 +22,7 @@ from pypdfium2 import PdfDocument
 
 from kulman import cli, handout, sheet
 from kulman.drawing.formats import FORMATS, drawing_area, printable, reserved_boxes
-from kulman.drawing.page import Layer, Page, layered
+from kulman.drawing.page import Layer, Page, parts_of
 from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.pdf import write_tiles
 from kulman.drawing.shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
@@ -79,7 +79,7 @@ def shown(data: bytes) -> bytes:
 @pytest.mark.parametrize("task", TASKS)
 def test_each_thing_is_in_one_layer(task: str) -> None:
     for page in printed(task, key=True).pages:
-        parts = layered(page.shapes)
+        parts = parts_of(page)
 
         assert Counter(leaves(shape for _, own in parts for shape in own)) == Counter(leaves(page.shapes))
         assert [layer for layer, _ in parts] == [layer for layer in Layer if layer in dict(parts)]
@@ -109,7 +109,9 @@ def test_each_thing_is_in_one_layer(task: str) -> None:
     ],
 )
 def test_a_shape_tells_its_layer_by_what_it_is(shape: Shape, layer: Layer) -> None:
-    assert [found for found, _ in layered([shape])] == [layer]
+    page = Page(210.0, 297.0, (shape,), "", "uk", layers=True)
+
+    assert [found for found, _ in parts_of(page)] == [layer]
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
