@@ -203,7 +203,11 @@ def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool =
     edge = _rectangle((0.0, 0.0, sheet.width, sheet.height), t, "edge")
     frame = _rectangle(drawing_area(sheet, norm), T, "frame")
     x0, y0, _, _ = block_box(sheet, norm, first)
-    identity = (_identity(sheet, stamp),) if stamp.identity else ()
+    identity: tuple[Shape, ...] = ()
+    if stamp.identity:  # at the left end under the frame, to be copied into a form of answers
+        text = words(stamp.language)["identity"].format(stamp.identity)
+        at = drawing_area(sheet)[0] + 2.0
+        identity = (Group((_under(sheet, at, text, "identity"),), "margin", "identity"),)
     if norm == "iso":
         return edge, frame, _centring_marks(sheet), _at_corner(_iso_block(stamp), "iso-7200", x0, y0), *identity
     parts, name = (_form_1(stamp), "form-1") if first else (_form_2a(stamp), "form-2a")
@@ -228,20 +232,13 @@ def _at_corner(parts: Iterable[Shape], name: str, x0: float, y0: float) -> Group
 
 def _below(sheet: Format, stamp: Stamp) -> Group:
     """Return the words under the frame: who copied it, and the format."""
-    caption = words(stamp.language)
-    _, foot, right, _ = drawing_area(sheet)
-    y = foot - UNDER
-    copied = Text(complex(right - 120, y), caption["copied"], 2.5, role="stamp", name="copied")
-    size = Text(complex(right - 50, y), caption["format"].format(sheet.letters), 2.5, role="stamp", name="format")
-    return Group((copied, size), "margin")
+    caption, right = words(stamp.language), drawing_area(sheet)[2]
+    size = _under(sheet, right - 50, caption["format"].format(sheet.letters), "format")
+    return Group((_under(sheet, right - 120, caption["copied"], "copied"), size), "margin")
 
 
-def _identity(sheet: Format, stamp: Stamp) -> Group:
-    """Return the id of the sheet under the frame, at its left end, to be copied into a form of answers."""
-    left, foot, *_ = drawing_area(sheet)
-    at = complex(left + 2.0, foot - UNDER)
-    text = words(stamp.language)["identity"].format(stamp.identity)
-    return Group((Text(at, text, 2.5, role="stamp", name="identity"),), "margin", "identity")
+def _under(sheet: Format, x: float, text: str, name: str) -> Text:
+    return Text(complex(x, drawing_area(sheet)[1] - UNDER), text, 2.5, role="stamp", name=name)
 
 
 def _turned(sheet: Format, stamp: Stamp) -> Group:
@@ -278,23 +275,21 @@ def _fitted(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor = "m
     raise InputError("stamp-too-long", field=name, text=quote(" ".join(words), SHOWN))
 
 
-def _depth(lines: int, height: float) -> float:
-    """Return the height of a block of lines, from the capitals of the first to the tails of the last."""
-    return ((lines - 1) * PITCH + 1 + FALL) * height
+def _extent(lines: list[str], height: float) -> tuple[float, float, float]:
+    """Return the height of a block of lines, from the capitals of the first to the tails of the last, and its ink.
 
-
-def _ink(lines: list[str], height: float) -> tuple[float, float]:
-    """Return bottom and top of a block's ink, measured from the baseline of its first line."""
+    That is bottom and top of what is seen, measured from the baseline of the first line.
+    """
     layouts = [lay_out(escape(line), height) for line in lines]
-    levels = [-row * PITCH * height for row in range(len(lines))]
-    bottom = min(layout.bottom + level for layout, level in zip(layouts, levels, strict=True))
-    return bottom, max(layout.top + level for layout, level in zip(layouts, levels, strict=True))
+    bottom = min(layout.bottom - row * PITCH * height for row, layout in enumerate(layouts))
+    top = max(layout.top - row * PITCH * height for row, layout in enumerate(layouts))
+    return ((len(lines) - 1) * PITCH + 1 + FALL) * height, bottom, top
 
 
 def _fits(lines: list[str], height: float, high: float) -> bool:
     """Tell whether a block, and what its letters have above capitals, finds room in a cell `high` mm high."""
-    bottom, top = _ink(lines, height)
-    return _depth(len(lines), height) <= high - 2 * EDGE and top - bottom <= high - 2 * CLEAR
+    depth, bottom, top = _extent(lines, height)
+    return depth <= high - 2 * EDGE and top - bottom <= high - 2 * CLEAR
 
 
 def _wrapped(words: list[str], height: float, wide: float) -> list[str]:
@@ -315,8 +310,8 @@ def _placed(lines: list[str], cell: Box, height: float, anchor: Anchor, name: st
     """Return lines centred in the height of the cell, one under the other."""
     x0, y0, x1, y1 = cell
     x = {"left": x0 + SIDE, "middle": (x0 + x1) / 2, "right": x1 - SIDE}[anchor]
-    y = (y0 + y1 + _depth(len(lines), height)) / 2 - height
-    bottom, top = _ink(lines, height)
+    depth, bottom, top = _extent(lines, height)
+    y = (y0 + y1 + depth) / 2 - height
     if y + top > y1 - CLEAR or y + bottom < y0 + CLEAR:  # a capital with a breve, a deep bracket
         y = (y0 + y1 - top - bottom) / 2
     return [

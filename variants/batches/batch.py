@@ -204,7 +204,10 @@ class Making:
         except (KeyboardInterrupt, SystemExit):
             raise
         except BaseException as error:  # what typst panics with is no Exception
-            return Made(entry.variant, problem=f"{entry.place}: {_crash(error).text(self.language)}")
+            source = traceback.extract_tb(error.__traceback__)[-1]
+            name = quote(f"{type(error).__name__}: {error}".rstrip(": "), SHOWN)
+            crash = InputError("student-crash", error=name, source=f"{Path(source.filename).name}:{source.lineno}")
+            return Made(entry.variant, problem=f"{entry.place}: {crash.text(self.language)}")
 
     def _made(self, student: Student) -> Made:
         who, work = student.entry.who, self._work(student)
@@ -244,13 +247,6 @@ class Making:
             case = replace(asked, variant=entry.variant, settings=settings).case()
             self._works[data] = _Work(case, drawing_of(case))
         return self._works[data]
-
-
-def _crash(error: BaseException) -> InputError:
-    """Return what to say of an error of the program, with the place of its source."""
-    last = traceback.extract_tb(error.__traceback__)[-1]
-    said = f"{type(error).__name__}: {error}".rstrip(": ")
-    return InputError("student-crash", error=quote(said, SHOWN), source=f"{Path(last.filename).name}:{last.lineno}")
 
 
 Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
