@@ -167,6 +167,10 @@ class Run:
     F_12: Array
 
 
+# steps in both phases; t_1, F_12_t1, F_12_max, P_12_max; times and forces, and where they end
+_Found = tuple[tuple[Any, Any], tuple[Array, ...], tuple[Array, Array, Array]]
+
+
 class _Hoists:
     """The load's motion in both phases, of many hoists: `m C_01 C_12 V_t a g` as arrays of one shape (N,)."""
 
@@ -232,11 +236,10 @@ def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool =
     z = np.broadcast_to(np.asarray(step, float), hoists.m.shape)
     h = z / hoists.k
     with np.errstate(over="ignore", invalid="ignore"):
-        return (_located if located else _missed)(hoists, method, z, h)
+        return _judged(hoists, method, z, (_located if located else _missed)(hoists, STEPPERS[method], h))
 
 
-def _located(hoists: _Hoists, method: str, z: Array, h: Array) -> Run:
-    take = STEPPERS[method]
+def _located(hoists: _Hoists, take: Stepper, h: Array) -> _Found:
     first, off = _until_lift_off(hoists, take, h)
     last = np.ceil(2.0 * math.pi / (hoists.k_1 * h)).astype(np.int64) + 1
     second = _columns(itertools.islice(_rows(take, hoists.lifted(), off, h), int(last.max()) + 1))
@@ -247,12 +250,12 @@ def _located(hoists: _Hoists, method: str, z: Array, h: Array) -> Run:
     counted = np.ceil(t_1 / h).astype(np.int64)
     t = np.concatenate((first[0], second[0]))
     force = np.concatenate((hoists.force(*first), hoists.force(*second)))
-    return _judged(hoists, method, (z, counted, last), (t_1, F_12_t1, F_12_max, P_12_max), (t, force, end))
+    return (counted, last), (t_1, F_12_t1, F_12_max, P_12_max), (t, force, end)
 
 
-def _missed(hoists: _Hoists, method: str, z: Array, h: Array) -> Run:
+def _missed(hoists: _Hoists, take: Stepper, h: Array) -> _Found:
     until = hoists.latest() + 2.0 * math.pi / hoists.k_1
-    rows = _rows(STEPPERS[method], hoists.one_sided(), _rest(h), h)
+    rows = _rows(take, hoists.one_sided(), _rest(h), h)
     trace = _columns(itertools.islice(rows, int(np.ceil(until / h).max()) + 2))
     t, force = trace[0], hoists.force(*trace)
     off = (hoists.lift(*trace) >= 0.0).argmax(axis=0)
@@ -261,21 +264,18 @@ def _missed(hoists: _Hoists, method: str, z: Array, h: Array) -> Run:
     end = t_1 + 2.0 * math.pi / hoists.k_1
     before, after = t <= t_1, (t >= t_1) & (t <= end + h)
     F_12_max, P_12_max = (np.max(force, axis=0, initial=-np.inf, where=part) for part in (before, after))
-    steps = (z, off, np.ceil((end - t_1) / h).astype(np.int64))
-    return _judged(hoists, method, steps, (t_1, force[off, own], F_12_max, P_12_max), (t, force, end))
+    steps = off, np.ceil((end - t_1) / h).astype(np.int64)
+    return steps, (t_1, force[off, own], F_12_max, P_12_max), (t, force, end)
 
 
-def _judged(
-    hoists: _Hoists, method: str, taken: tuple[Array, Any, Any], found: tuple[Array, ...], trace: tuple[Array, ...]
-) -> Run:
+def _judged(hoists: _Hoists, method: str, z: Array, found: _Found) -> Run:
     """Refuse what the method has made grow."""
-    z, first, last = taken
+    (first, last), ends, (t, force, end) = found
     z_1 = z * (hoists.k_1 / hoists.k)
     grown = np.exp(np.log(growth(method, z)) * first + np.log(growth(method, z_1)) * last)
     limit = stability_limit(method)
-    refused: Flags = ((z > limit) & (limit > 0.0)) | (grown > GROWN) | ~np.isfinite(found[0])
-    t_1, F_12_t1, F_12_max, P_12_max = (np.where(refused, np.nan, value) for value in found)
-    t, force, end = trace
+    refused: Flags = ((z > limit) & (limit > 0.0)) | (grown > GROWN) | ~np.isfinite(ends[0])
+    t_1, F_12_t1, F_12_max, P_12_max = (np.where(refused, np.nan, value) for value in ends)
     over = refused | (t > end)
     masked = (np.where(over, np.nan, column) for column in (t, force))
     return Run(t_1, F_12_t1, F_12_max, P_12_max, np.maximum(F_12_max, P_12_max), grown, refused, *masked)

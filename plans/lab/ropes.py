@@ -291,9 +291,9 @@ def depth(
     simpler[PRINTED] = _changes(full, printed)
     swings = math.isfinite(found["C_01"]) and whole.motion is None
     followed = (_followed(found, n) for n in masses) if swings and values["G_2"] > 0.0 else ()
-    ropes = tuple(rope for rope in followed if rope is not None)
+    ropes = tuple(filter(None, followed))
     compared = (_at_ratio(values, ratio) for ratio in ratios) if swings else ()
-    lighter = tuple(one for one in compared if one is not None)
+    lighter = tuple(filter(None, compared))
     return HoistDepth(full, simpler, ropes, values["G_2"] / values["G_1"], lighter, tolerance)
 
 

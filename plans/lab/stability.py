@@ -205,10 +205,9 @@ class Model:
 
     def __init__(self, cycle: Cycle) -> None:
         self._cycle = cycle
-        found = [name for name in BALANCES if name in cycle.program.names]
-        if not found:
+        self.balance = next((name for name in BALANCES if name in cycle.program.names), "")
+        if not self.balance:
             raise InputError("chart-no-forces")
-        self.balance = found[0]
         self.reactions = tuple(
             name for name in cycle.quantities if role(name).kind == "R" and role(name).part not in ("n", "t")
         )

@@ -139,7 +139,7 @@ def _accuracy(scene: charts.Scene) -> charts.AccuracyChart:
     """Let all ways to the motion of a cam compete."""
     solved = SolvedCam.of(scene.case.solved)
     found = rivals(solved, time.process_time, charts.HANDS[scene.hand], charts.EFFORT)
-    return charts.AccuracyChart(scene, found, "rad", "chart.cam_compared")
+    return charts.AccuracyChart(scene, found, charts.Places("rad"), "chart.cam_compared")
 
 
 def _stability(scene: charts.Scene) -> _CamStabilityChart:

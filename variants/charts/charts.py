@@ -133,20 +133,25 @@ class Chart(ABC, Generic[Found]):
 Gallery = Mapping[str, tuple[Callable[[Scene], Chart[Any]], tuple[str, ...]]]
 
 
-def place_value(of: str, at: float) -> float:
-    """Return a place of the SI unit `of` in that of `place_column`, an angle within a turn."""
-    value = unit(PLACES[of][1]).from_si(at)
-    return float(round(value % 360.0, 9) % 360.0 if of == "rad" else value)
+@dataclass(frozen=True, slots=True)
+class Places:
+    """Places of the driver, or times, by their SI unit: `rad`, `m`, `s`."""
 
+    unit: str
 
-def place_column(of: str) -> str:
-    """Return the head of a CSV's column with places of the SI unit `of`."""
-    return "{} [{}]".format(*PLACES[of])
+    @property
+    def column(self) -> str:
+        """The head of a column of files with them."""
+        return "{} [{}]".format(*PLACES[self.unit])
 
+    def shown(self, at: float) -> float:
+        """Return one in the unit of the column, an angle within a turn."""
+        value = unit(PLACES[self.unit][1]).from_si(at)
+        return float(round(value % 360.0, 9) % 360.0 if self.unit == "rad" else value)
 
-def place_si(of: str, at: float) -> float:
-    """Return a place of the SI unit `of` for JSON, an angle in [0, 2 pi)."""
-    return float(at % TURN % TURN if of == "rad" else at)  # -1e-17 % TURN is TURN
+    def si(self, at: float) -> float:
+        """Return one for JSON, an angle in [0, 2 pi)."""
+        return float(at % TURN % TURN if self.unit == "rad" else at)  # -1e-17 % TURN is TURN
 
 
 def short(words: Words, value: float | None, digits: int = DIGITS) -> str:
@@ -180,11 +185,11 @@ def error_rows(
 class AccuracyChart(Chart[Contest]):
     """Speed against accuracy: an entry for every method, setting and kind of quantities.
 
-    `places` is the SI unit of the places of entries; `compared` is the key of what errors and times are.
+    `places` are those of entries; `compared` is the key of what errors and times are.
     """
 
     heading, page = "chart.accuracy", staticmethod(accuracy_page)
-    places: str
+    places: Places
     compared: str = "chart.compared"
 
     def table(self, words: Words) -> str:
@@ -213,10 +218,10 @@ class AccuracyChart(Chart[Contest]):
         return f"{words[self.compared].format(positions=len(self.found.places), batch=batch)}\n{machine(words)}"
 
     def _rows(self) -> Iterator[tuple[Cell, ...]]:
-        yield (*HEAD, place_column(self.places), *TIMES)
+        yield (*HEAD, self.places.column, *TIMES)
         for entry in self.found.entries:
             item = self._item(entry)
-            item |= {"at": place_value(self.places, entry.place), "front": int(item["front"])}
+            item |= {"at": self.places.shown(entry.place), "front": int(item["front"])}
             yield tuple(item.values())
 
     def _data(self) -> dict[str, Any]:
@@ -224,7 +229,7 @@ class AccuracyChart(Chart[Contest]):
         return {
             "machine": machine(Words.of("en", self.scene.case.task.notation)),
             "hand": self.scene.hand,
-            "places": [place_si(self.places, at) for at in self.found.places],
+            "places": [self.places.si(at) for at in self.found.places],
             "entries": [self._item(entry) for entry in self.found.entries],
         }
 
@@ -232,10 +237,10 @@ class AccuracyChart(Chart[Contest]):
         """Return an entry as data, in the order of the columns of the CSV."""
         front = any(entry is one for one in self.found.front(entry.kind))
         item = dict(zip((*HEAD, "at", "seconds", "at_once", "failed"), astuple(entry), strict=True))
-        return item | {"at": place_si(self.places, entry.place), "front": front}
+        return item | {"at": self.places.si(entry.place), "front": front}
 
     def _shown(self, words: Words) -> tuple[Any, ...]:
-        return self.scene.hand, self.places
+        return self.scene.hand, self.places.unit
 
 
 def machine(words: Words) -> str:

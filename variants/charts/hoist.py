@@ -250,7 +250,9 @@ def _accuracy(scene: Scene) -> AccuracyChart:
     found = rivals(givens, time.process_time, charts.EFFORT)
     mus = {plan: scale.mu for plan, scale in case.kind.first_scales(solved, case.choosers, case.plans)[1].items()}
     drawn = (*by_board(solved, time.process_time), *by_hand(solved, mus, HANDS[scene.hand]))
-    return AccuracyChart(scene, replace(found, entries=(*found.entries, *drawn)), "s", "chart.hoist_compared")
+    return AccuracyChart(
+        scene, replace(found, entries=(*found.entries, *drawn)), charts.Places("s"), "chart.hoist_compared"
+    )
 
 
 def _choice(scene: Scene) -> _HoistChoiceChart:

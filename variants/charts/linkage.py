@@ -67,7 +67,7 @@ def _accuracy(scene: Scene) -> AccuracyChart:
     if not found.kinds:
         raise InputError("chart-no-rivals")
     found = replace(found, entries=(*found.entries, *_hands(scene, whole, found)))
-    return AccuracyChart(scene, found, "rad" if whole.drive.turns else "m")
+    return AccuracyChart(scene, found, charts.Places("rad" if whole.drive.turns else "m"))
 
 
 def _stability(scene: Scene) -> _StabilityChart:
@@ -104,9 +104,9 @@ class _OfCycle(charts.Chart[Found]):
     cycle: Cycle
 
     @property
-    def _places(self) -> str:
-        """The SI unit of places."""
-        return "rad" if self.cycle.drive.turns else "m"
+    def _places(self) -> charts.Places:
+        """Places of the driver."""
+        return charts.Places("rad" if self.cycle.drive.turns else "m")
 
     def _place(self, words: Words, at: float) -> str:
         """Return a place with its unit, an angle within a turn."""
@@ -141,10 +141,10 @@ class _DepthChart(_OfCycle[Depth]):
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         errors = ("balance_max [%]", "balance_rms [%]", "reaction_max [%]", "reaction_rms [%]")
-        yield "without", "parts", *errors, charts.place_column(self._places)
+        yield "without", "parts", *errors, self._places.column
         for c in self.found.costs:
             found = (c.balance, c.balance_rms, c.reaction, c.reaction_rms)
-            yield c.key, " ".join(c.parts), *found, charts.place_value(self._places, c.place)
+            yield c.key, " ".join(c.parts), *found, self._places.shown(c.place)
 
     def _data(self) -> dict[str, Any]:
         found = self.found
@@ -168,7 +168,7 @@ class _DepthChart(_OfCycle[Depth]):
             "parts": list(cost.parts),
             "balance": {"max": cost.balance, "rms": cost.balance_rms},
             "reaction": None if cost.reaction is None else {"max": cost.reaction, "rms": cost.reaction_rms},
-            "at": charts.place_si(self._places, cost.place),
+            "at": self._places.si(cost.place),
         }
 
 
@@ -230,14 +230,14 @@ class _StabilityChart(_OfCycle[Stability]):
     def _rows(self) -> Iterator[Sequence[Cell]]:
         """Go through all positions."""
         found, names = self.found, tuple(self.found.conditions)
-        heads = [charts.place_column(self._places), "status", "sine", "angle [deg]", "worst"]
+        heads = [self._places.column, "status", "sine", "angle [deg]", "worst"]
         columns = []
         for name in names:
             heads += [f"K_{name}", f"digits_{name}", f"miss_{name} [{self._unit(name)}]"]
             columns += [found.conditions[name], found.digits(name), found.misses[name]]
         yield heads
         for i, at in enumerate(found.places):
-            place, status = charts.place_value(self._places, at), found.statuses[i]
+            place, status = self._places.shown(at), found.statuses[i]
             head = place, status, float(found.sines[i]), float(found.angles[i])
             yield *head, found.worst[i], *(float(column[i]) for column in columns)
 
@@ -246,7 +246,7 @@ class _StabilityChart(_OfCycle[Stability]):
         return {
             "hand": self.scene.hand,
             "scales": dict(self.scales),
-            "places": [charts.place_si(self._places, at) for at in found.places],
+            "places": [self._places.si(at) for at in found.places],
             "statuses": list(found.statuses),
             "sines": found.sines,
             "worst": list(found.worst),
@@ -260,8 +260,7 @@ class _StabilityChart(_OfCycle[Stability]):
                 for name in found.conditions
             },
             "spots": [
-                {"kind": spot.kind, "at": charts.place_si(self._places, spot.place), "link": spot.link}
-                for spot in found.spots
+                {"kind": spot.kind, "at": self._places.si(spot.place), "link": spot.link} for spot in found.spots
             ],
         }
 
