@@ -20,7 +20,6 @@ from ..view import View
 from .scene import CamScene, grouped, letter, thin
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles
-Free = tuple[float, float, float]  # radii, mm: text stands between the first two, or beyond the third
 OF_PHASE = (0.5, 0.7, 0.3, 0.8, 0.2)  # of the arc of a phase at which its text may stand
 LOST = 3  # significant digits of a travel that is lost
 TURNS = [0.1 * k - 1.2 for k in range(25)]  # rad from the middle of the dwell, for the letter of the centre
@@ -160,11 +159,11 @@ class Inversion(ABC):
             side = polar(1.0, self.quiet + BESIDE * sense)
             canvas.label("O", size * side, prefer=side, clear=0.8, priority=1)
 
-    def radius_at(self, name: str, angle: float, free: Free) -> None:
+    def radius_at(self, name: str, angle: float, free: tuple[float, float, float]) -> None:
         """Dimension a radius of a circle about the cam's centre along a ray.
 
-        The text runs along the ray: between the first two of the radii `free`, beyond the shaft, if need be without its
-        number, or else beyond the third; that of a cam without room for letters stands where it finds a place.
+        The text runs along the ray: between the first two of the radii `free`, mm, beyond the shaft, if need be without
+        its number, or else beyond the third; that of a cam without room for letters stands where it finds a place.
         """
         canvas, style, (size,) = self.canvas, self.style, self.scene.sizes(name)
         ray, (whole,) = polar(1.0, angle), self.scene.lettered(name)

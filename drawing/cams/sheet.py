@@ -24,7 +24,6 @@ RUNGS = 2  # by how many rungs
 # mm of the least radius and the stroke on a plan, so that it can be read: on S over ds/dphi more numbers stand closely
 LEGIBLE = {"mu_s_ds": 60.0, "mu_s_d2s": 50.0}
 REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the lengths that the task has on the diagrams
-CamFigure = Figure[CamScene]
 NARROW = 0.65  # part of the width of lines that those on the sizes of a cam may have
 LAYOUT = row(
     column(TURNED, "diagrams", "equations_plate"),
@@ -121,7 +120,7 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
             self._scenes[key] = CamScene(solved, self.words, STYLES[sheet.letters], contents.givens, mus, part)
         return self._scenes[key]
 
-    def figures(self, scene: CamScene, width: float) -> Iterator[CamFigure]:
+    def figures(self, scene: CamScene, width: float) -> Iterator[Figure[CamScene]]:
         """Go through the figures of a sheet in the order of the work; lines of text are at most `width` mm long."""
         from . import diagrams_view, profile_view, sizes_view, text
 

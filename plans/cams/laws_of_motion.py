@@ -162,22 +162,11 @@ LOBES: dict[str, tuple[Smooth, ...]] = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class LawOfMotion:
-    """The travel over one phase, from (0, 0) to (1, 1), as smooth pieces one after the other."""
-
-    pieces: tuple[Smooth, ...]  # the travel s; each piece begins where the one before ends
-
-    def mirrored(self) -> tuple[Smooth, ...]:
-        """Return the way back run through backwards in time: s(1 - x)."""
-        return tuple(piece.mirrored() for piece in reversed(self.pieces))
-
-    def turned(self) -> tuple[Smooth, ...]:
-        """Return the way back in the order of the law: 1 - s(x)."""
-        return tuple(piece.less_than_one() for piece in self.pieces)
+# the travel over one phase, from (0, 0) to (1, 1), as smooth pieces: each begins where the one before ends
+Law = tuple[Smooth, ...]
 
 
-def _integrated(pieces: Sequence[Smooth]) -> tuple[Smooth, ...]:
+def _integrated(pieces: Sequence[Smooth]) -> Law:
     """Return the integral of pieces, each with its origin at its low end, that begins with zero."""
     found, start = [], 0.0
     for piece in pieces:
@@ -186,7 +175,7 @@ def _integrated(pieces: Sequence[Smooth]) -> tuple[Smooth, ...]:
     return tuple(found)
 
 
-def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
+def law_of_motion(name: str, u: float = 0.5) -> Law:
     """Return the law of this name, of `cam.LAWS`, whose first lobe takes the part u of the phase; the uniform has none.
 
     Raises
@@ -195,7 +184,7 @@ def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
         When there is no such law, or u is not between 0 and 1.
     """
     if name == UNIFORM:
-        return LawOfMotion((Smooth(0.0, 1.0, 0.0, (0.0, 1.0)),))
+        return (Smooth(0.0, 1.0, 0.0, (0.0, 1.0)),)
     if name not in LOBES:
         raise InputError("choice-unknown", text=quote(name), known=", ".join(LAWS))
     if not 0.0 < u < 1.0:
@@ -205,10 +194,10 @@ def law_of_motion(name: str, u: float = 0.5) -> LawOfMotion:
     first = [piece.times(u / whole).stretched(u, 0.0) for piece in lobe]
     second = [piece.times((1.0 - u) / whole).stretched(1.0 - u, 0.0).mirrored() for piece in reversed(lobe)]
     second[0] = replace(second[0], low=first[-1].high)  # not an ulp beside it
-    return LawOfMotion((*first, *(piece.less_than_one() for piece in second)))
+    return (*first, *(piece.less_than_one() for piece in second))
 
 
-def law_of_pieces(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
+def law_of_pieces(at: Sequence[float], values: Sequence[float]) -> Law:
     """Return the law whose acceleration is made of straight pieces, in any scale, integrated exactly.
 
     `values` are the accelerations at the nodes `at`, from 0 to 1; twice the same place where the acceleration jumps.
@@ -232,10 +221,10 @@ def law_of_pieces(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
     whole = travel[-1].value(1.0)
     if whole <= CLOSED * greatest:
         raise InputError("law-still")
-    return LawOfMotion(tuple(piece.times(1.0 / whole) for piece in travel))
+    return tuple(piece.times(1.0 / whole) for piece in travel)
 
 
-def law_of_points(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
+def law_of_points(at: Sequence[float], values: Sequence[float]) -> Law:
     """Return the law whose travel runs smoothly through points, in any scale, and rests at both ends.
 
     The curve is the cubic spline with s' = 0 at the ends: of all smooth curves through the points that with the least
@@ -258,10 +247,10 @@ def law_of_points(at: Sequence[float], values: Sequence[float]) -> LawOfMotion:
         for place in piece.extreme_places():
             if not -CLOSED <= piece.value(place) <= 1.0 + CLOSED:
                 raise InputError("law-leaves", text=f"{place:.3g}")
-    return LawOfMotion(tuple(piece.times(scale) for piece in travel))
+    return tuple(piece.times(scale) for piece in travel)
 
 
-def law_of_curve(curve: Curve) -> LawOfMotion:
+def law_of_curve(curve: Curve) -> Law:
     """Return the law that a table of one's own gives."""
     return (law_of_pieces if curve.kind == PIECES else law_of_points)(curve.at, curve.values)
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ...scales.errors import InputError
 from .cam import MIRROR, NEAR, Cam
-from .laws_of_motion import SAME, LawOfMotion, Smooth, law_of_curve, law_of_motion
+from .laws_of_motion import SAME, Law, Smooth, law_of_curve, law_of_motion
 
 Array = NDArray[np.float64]
 RISE, UPPER, FALL, LOWER = PHASES = ("rise", "upper", "fall", "lower")
@@ -141,8 +141,8 @@ class Motion:
         phi_rise: float,
         phi_upper: float,
         phi_fall: float,
-        rise: LawOfMotion,
-        fall: LawOfMotion | None = None,
+        rise: Law,
+        fall: Law | None = None,
         order: str = MIRROR,
     ) -> None:
         h, phi_rise, phi_upper, phi_fall = map(float, (h, phi_rise, phi_upper, phi_fall))
@@ -153,9 +153,10 @@ class Motion:
         if last > TURN - NEAR:
             last = TURN
         back = fall or rise
-        falling = back.mirrored() if order == MIRROR else back.turned()
+        mirrored = order == MIRROR  # run through backwards in time, else in the order of the law
+        falling = [p.mirrored() for p in reversed(back)] if mirrored else [p.less_than_one() for p in back]
         self.h = h
-        pieces = [piece.times(h).stretched(phi_rise, 0.0) for piece in rise.pieces]
+        pieces = [piece.times(h).stretched(phi_rise, 0.0) for piece in rise]
         self.rise = Phase(RISE, 0.0, top, tuple(pieces))
         self.upper = Phase(UPPER, top, leave, _dwell(top, leave, h))
         pieces = [piece.times(h).stretched(phi_fall, leave) for piece in falling]
