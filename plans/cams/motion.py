@@ -200,13 +200,13 @@ class Motion:
         starts, origins, rates, tables = self._tables
         which = np.maximum(np.searchsorted(starts, phi + side * NEAR) - 1, 0)
         t = phi - origins[which]
-        angle, curves = rates[which] * t, []
+        curves = []
         for powers, waves in tables:
             value = powers[0, which]
             for row in powers[1:]:
                 value = value * t + row[which]
             if waves.any():
-                wave = waves[which]
+                angle, wave = rates[which] * t, waves[which]
                 value = value + (wave.real * np.cos(angle) - wave.imag * np.sin(angle))
             curves.append(np.asarray(value))
         return curves[0], curves[1], curves[2]
