@@ -98,19 +98,15 @@ class _Font:
             raise InputError("character-missing", character=_shown(character), code=f"U+{ord(character):04X}")
         return glyph
 
-    def advance(self, character: str) -> float:
-        """Return how far `character` moves the pen, in units of the font size."""
-        advances = self._advances
-        return advances[min(2 * self.strict_glyph(character), len(advances) - 2)] / self.units
-
     @cache  # noqa: B019
     def ink(self, character: str) -> tuple[float, float, float]:
         """Return advance, lowest and highest point of a character, in units of the font size."""
-        outline = self.outline(self.strict_glyph(character))
+        glyph = self.strict_glyph(character)
+        outline, advance = self.outline(glyph), self.metric(glyph)[0] / self.units
         if not outline:
-            return self.advance(character), 0.0, 0.0
+            return advance, 0.0, 0.0
         low, high = struct.unpack_from(">h", outline, 4)[0], struct.unpack_from(">h", outline, 8)[0]
-        return self.advance(character), low / self.units, high / self.units
+        return advance, low / self.units, high / self.units
 
     def outline(self, glyph: int) -> bytes:
         """Return the outline of a glyph as it stands in the file; empty for a space."""

@@ -288,7 +288,10 @@ def tiles(page: Page, paper: str = "A4") -> list[_Tile]:
     if paper not in PAPERS:
         raise InputError("tile-unknown", text=quote(paper), known=", ".join(PAPERS))
     wide, high = (side - 2 * MARGIN for side in PAPERS[paper])
-    columns, rows = _count(page.width, wide), _count(page.height, high)
+    columns, rows = (
+        max(1, ceil((length - OVERLAP) / (room - OVERLAP) - 1e-9))
+        for length, room in ((page.width, wide), (page.height, high))
+    )
     found = []
     for row in range(rows):
         for column in range(columns):
@@ -296,10 +299,6 @@ def tiles(page: Page, paper: str = "A4") -> list[_Tile]:
             window = (x, max(0.0, y - high), min(page.width, x + wide), y)
             found.append(_Tile(f"{chr(ord('A') + column)}{row + 1}", window))
     return found
-
-
-def _count(length: float, room: float) -> int:
-    return max(1, ceil((length - OVERLAP) / (room - OVERLAP) - 1e-9))
 
 
 def write_tiles(pages: Sequence[Page], stream: BinaryIO, paper: str = "A4") -> None:

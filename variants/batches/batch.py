@@ -6,7 +6,7 @@ import os
 import re
 import sys
 import traceback
-from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, replace
 from functools import cached_property, partial
@@ -26,6 +26,7 @@ from ...plans.quantities import measured
 from ...scales.arguments import all_known, by_name
 from ...scales.choices import SHEETS
 from ...scales.errors import InputError, KulmanError, Written
+from ...scales.kept import Kept
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit
@@ -168,7 +169,7 @@ class Making:
 
     asked: Mapping[str, Request]
     kinds: tuple[str, ...]
-    _works: dict[Hashable, _Work] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _works: Kept[_Work] = field(default_factory=partial(Kept, KEPT), init=False, repr=False, compare=False)
 
     @property
     def afresh(self) -> bool:
@@ -239,14 +240,14 @@ class Making:
         entry, data = student.entry, student.data
         if entry.problem is not None:
             raise entry.problem
-        if data not in self._works:
-            for oldest in [*self._works][: len(self._works) + 1 - KEPT]:
-                del self._works[oldest]
+
+        def make() -> _Work:
             asked = self.asked[entry.task]
             settings = {**(asked.settings or {}), **entry.settings}
             case = replace(asked, variant=entry.variant, settings=settings).case()
-            self._works[data] = _Work(case, drawing_of(case))
-        return self._works[data]
+            return _Work(case, drawing_of(case))
+
+        return self._works.get(data, make)
 
 
 Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
