@@ -6,9 +6,9 @@ import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
-from xml.sax.saxutils import escape
 
 from ...drawing.words import Words
 from ...drawing.writers import Files
@@ -253,4 +253,4 @@ def _question(asked: _Question) -> str:
 
 def _xml(text: str) -> str:
     """Return a text for XML, without characters that it cannot hold."""
-    return escape("".join(sign if sign.isprintable() else " " for sign in text))
+    return escape("".join(sign if sign.isprintable() else " " for sign in text), quote=False)
