@@ -25,12 +25,6 @@ class Pens:
     dashed: tuple[float, ...]
     axis: tuple[float, ...]
 
-    @property
-    def extreme(self) -> tuple[float, ...]:
-        """The pattern of extreme positions: the axis with two dots (GOST 2.303, line 9)."""
-        dash, gap, dot, _ = self.axis
-        return dash, gap, dot, gap, dot, gap
-
     def width(self, pen: Pen) -> float:
         """Return the width of `pen`."""
         return self.main if pen is Pen.MAIN else self.thin
@@ -40,7 +34,8 @@ class Pens:
 
         An empty tuple means a solid line, which is also right for a line too short for two dashes.
         """
-        pattern = {Pen.DASHED: self.dashed, Pen.AXIS: self.axis, Pen.EXTREME: self.extreme}.get(pen)
+        extreme = (*self.axis, *self.axis[2:])  # the axis with two dots (GOST 2.303, line 9)
+        pattern = {Pen.DASHED: self.dashed, Pen.AXIS: self.axis, Pen.EXTREME: extreme}.get(pen)
         if pattern is None:
             return ()
         period, dash = sum(pattern), pattern[0]

@@ -186,8 +186,6 @@ def placer(text: Text) -> Callable[[float, float], complex]:
     """Return what tells where on the sheet the point (x, y) of the text's layout lies."""
     at, squeeze, turn = text.at, text.squeeze, complex(cos(text.angle), sin(text.angle))
     before = _SHARES[text.anchor] * lay_out(text.markup, text.height).width
-    if not text.angle:
-        return lambda x, y: at + complex((x - before) * squeeze, y)
     return lambda x, y: at + complex((x - before) * squeeze, y) * turn
 
 
