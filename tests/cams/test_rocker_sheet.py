@@ -270,6 +270,18 @@ def test_views_of_a_rocker_stand_apart_within_the_frame(case: CamCase) -> None:
     assert [fault for page in case.sheet.pages for fault in view_faults(page)] == []
 
 
+def test_numbers_of_positions_stand_apart_where_the_phases_of_a_rocker_fill_the_turn() -> None:
+    turn = (("phi_rise", "200 deg"), ("phi_upper", "0 deg"), ("phi_fall", "160 deg"))
+    case = CamCase(turn, "A1", "en", TASK, only="sizes,profile")
+
+    numbers = case.sheet["profile"].of("position")
+
+    boxes = [shapely.box(*text.box) for text in numbers]
+    assert [text.string for text in numbers][:2] == ["0", "1"]
+    assert len(numbers) >= case.solved.layout.division.last
+    assert not any(a.intersects(b) for k, a in enumerate(boxes) for b in boxes[:k])
+
+
 def test_the_example_is_one_a1() -> None:
     assert len(FREE.pages) == 1
 
