@@ -91,10 +91,6 @@ class Book:
         """How many times larger what another way gives is than what the construction does, a mistake in it or none."""
         return np.array([_ratio(self.key, name) for name in self.key.questions])
 
-    def __len__(self) -> int:
-        """Return the number of signatures."""
-        return len(self.signatures)
-
     def drawn_to(self, key: Key, mus: Mapping[str, float]) -> Book:
         """Return the book for a student's own scale factors, by plan: what hangs on them is run again.
 
