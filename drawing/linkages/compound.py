@@ -25,8 +25,7 @@ Line = tuple[str, ...]
 def compound_told(teller: Teller, points: Sequence[At]) -> Iterator[Told]:
     """Go through the steps of one figure: the mechanism once more, then the vectors of every point."""
     scene, made = teller, teller.made
-    marks = tuple(point for link in scene.mechanism.links for point in link.points)
-    yield Told(scene.program.on(points[0].plan)[0], teller.say("compound_mechanism"), others=marks)
+    yield Told(scene.program.on(points[0].plan)[0], teller.say("compound_mechanism"), others=tuple(scene.points))
     for at in points:
         c, letter = at.coupler, scene.letter
         if at.kind == "V":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import combinations
@@ -28,20 +28,46 @@ class Edge:
     at: int = field(default=0, compare=False)
 
 
-@dataclass(frozen=True, slots=True)
 class Reading:
     """A program with what is looked up in it: the step and the number of each name, the vectors of each plan."""
 
-    program: Program
-    made: Mapping[str, Step]
-    number: Mapping[str, int]
-    edges: Mapping[str, tuple[Edge, ...]]
+    def __init__(self, program: Program) -> None:
+        self.program, self._edges = program, dict[str, list[Edge]]()
+        self.made = {step.name: step for step in program}
+        self.number = {step.name: at for at, step in enumerate(program)}
+        for at, step in enumerate(program):
+            if step.verb in ("read", "chain"):
+                tail, last = step.operands
+                name, tip = (step.name, last) if step.verb == "read" else (last, step.name)
+                self._edges.setdefault(step.plan, []).append(Edge(name, tail, tip, at))
 
-    def on(self, plan: str) -> tuple[Edge, ...]:
+    def on(self, plan: str) -> Sequence[Edge]:
         """Return the vectors of a plan in the order in which they are drawn."""
-        return self.edges.get(plan, ())
+        return self._edges.get(plan, ())
 
-    def _beside(self, mark: str) -> tuple[Edge, ...]:
+    def meetings(self, plan: str) -> Iterator[tuple[Step, int, str, str]]:
+        """Go through the lines that meet: the step, which of its two lines, the mark where it begins, its direction."""
+        for step in self.program.on(plan):
+            if step.verb == "meet":
+                p, u, q, w = step.operands
+                yield from ((step, 1, p, u), (step, 2, q, w))
+
+    def triangles(self, plan: str) -> Iterator[Triangle]:
+        """Go through the marks of each triangle of a plan that is similar to one of a link."""
+        similar = (step for step in self.program.on(plan) if step.verb == "similar")
+        return ((step.operands[0], step.operands[1], step.name) for step in similar)
+
+    def on_link(self, triangle: Triangle) -> Triangle:
+        """Return the points of the link to whose triangle that of a plan is similar.
+
+        At the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism.
+        """
+        *ends, point = map(role, triangle)
+        own = self.made[point.of].operands
+        first, second = (own[i] if end.kind == POLE else end.of for i, end in enumerate(ends))
+        return first, second, point.of
+
+    def _beside(self, mark: str) -> Sequence[Edge]:
         """Return the vectors of the plan on which a mark stands; the mechanism itself has none."""
         plan = role(mark).plan
         return () if plan == POSITION else self.on(plan)
@@ -93,32 +119,20 @@ class Reading:
         return (step for step in self.program if name in step.operands)
 
 
-@lru_cache(maxsize=16)
-def read(program: Program) -> Reading:
-    """Look through a program once."""
-    edges: dict[str, list[Edge]] = {}
-    for at, step in enumerate(program):
-        if step.verb in ("read", "chain"):
-            tail, last = step.operands
-            name, tip = (step.name, last) if step.verb == "read" else (last, step.name)
-            edges.setdefault(step.plan, []).append(Edge(name, tail, tip, at))
-    made, number = {step.name: step for step in program}, {step.name: at for at, step in enumerate(program)}
-    return Reading(program, made, number, {plan: tuple(vectors) for plan, vectors in edges.items()})
+read = lru_cache(maxsize=16)(Reading)  # a program is looked through once
 
 
 def lettered(words: Words, solved: SolvedLinkage) -> Words:
     """Return the words for the sheet of one mechanism."""
     reading = read(solved.program)
     frame = str(len(solved.mechanism.links) + 1) if words.notation["frame"] == "last" else "0"
-    letters, seconds, ends = _ends(reading, words), _seconds(reading), _joints(solved)
-    return replace(words, seconds=seconds, letters=letters, frame=frame, ends=ends, parted=solved.mechanism.parted)
-
-
-def _seconds(reading: Reading) -> frozenset[str]:
-    """Return the second force of each couple on the lever, and its arm."""
-    forces = [s.name for s in reading.program if s.law == "opposite" and role(s.name).part == COUPLE]
-    arms = (arm.name for name in forces for moment in reading.users(name) for arm in reading.users(moment.name))
-    return frozenset((*forces, *(name for name in arms if role(name).part == COUPLE or role(name).kind == "h")))
+    letters, ends = _ends(reading, words), _joints(solved)
+    # the second force of each couple on the lever, and its arm
+    seconds = [step.name for step in solved.program if step.law == "opposite" and role(step.name).part == COUPLE]
+    arms = [arm.name for name in seconds for moment in reading.users(name) for arm in reading.users(moment.name)]
+    seconds += [name for name in arms if role(name).part == COUPLE or role(name).kind == "h"]
+    parted = solved.mechanism.parted
+    return replace(words, seconds=frozenset(seconds), letters=letters, frame=frame, ends=ends, parted=parted)
 
 
 def _joints(solved: SolvedLinkage) -> dict[str, str]:
@@ -158,28 +172,3 @@ def _link_of(reading: Reading, mark: str) -> str:
     rates = [name for name in names if role(name).kind == "omega"]
     rates += [user.name for name in names for user in reading.users(name) if user.law == "turning"]
     return role(rates[0]).of if rates else ""
-
-
-def meetings(steps: Iterable[Step]) -> Iterator[tuple[Step, int, str, str]]:
-    """Go through the lines that meet: the step, which of its two lines, the mark where it begins, its direction."""
-    for step in steps:
-        if step.verb == "meet":
-            p, u, q, w = step.operands
-            yield from ((step, 1, p, u), (step, 2, q, w))
-
-
-def triangles(program: Program, plan: str) -> Iterator[Triangle]:
-    """Go through the marks of each triangle of a plan that is similar to one of a link."""
-    similar = (step for step in program.on(plan) if step.verb == "similar")
-    return ((step.operands[0], step.operands[1], step.name) for step in similar)
-
-
-def on_link(program: Program, triangle: Triangle) -> Triangle:
-    """Return the points of the link to whose triangle that of a plan is similar.
-
-    At the pole stands a pivot of the frame: its letter is that of the same step on the plan of the mechanism.
-    """
-    *ends, point = map(role, triangle)
-    own = read(program).made[point.of].operands
-    first, second = (own[i] if end.kind == POLE else end.of for i, end in enumerate(ends))
-    return first, second, point.of

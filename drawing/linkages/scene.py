@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...plans.board import POSITION, Program, Step
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
-from ...plans.linkages.mechanism import Driver, Mechanism, Prismatic
+from ...plans.linkages.mechanism import FRAME, Driver, Mechanism, Prismatic, Revolute
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Structure
 from ...plans.names import FORCES, inertia, rate, role
@@ -79,6 +79,24 @@ class Scene(SubjectScene[SolvedLinkage]):
     def quantities(self) -> Mapping[str, Quantity]:
         """The results."""
         return self.solved.quantities
+
+    @property
+    def points(self) -> dict[str, None]:
+        """The letters of the points of all links, in their order."""
+        return dict.fromkeys(point for link in self.mechanism.links for point in link.points)
+
+    @property
+    def numbers(self) -> list[int]:
+        """The numbers of the moving links."""
+        return [link.number for link in self.mechanism.links]
+
+    def sliding(self, number: int = FRAME) -> list[Prismatic]:
+        """Return the pairs in which a link slides, or the frame."""
+        return [pair for pair in self.mechanism.pairs if isinstance(pair, Prismatic) and number in pair.links]
+
+    def turning(self, number: int = FRAME) -> list[Revolute]:
+        """Return the pairs in which a link turns, or the frame."""
+        return [pair for pair in self.mechanism.pairs if isinstance(pair, Revolute) and number in pair.links]
 
     def canvas(self, parts: Mapping[str, str] | None = None) -> Canvas:
         """Return an empty canvas: what is drawn is an answer until it is a `part`, by the step of the program.

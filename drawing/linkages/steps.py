@@ -102,7 +102,7 @@ def conclusions(teller: Teller) -> Iterator[str]:
     """Go through the sentences for the end of the note: what the plans that are drawn have shown."""
     for plan, (kind, rate) in PLANS.items():
         if plan in teller.scales:
-            absolute = {f"{kind}_{point}" for link in teller.mechanism.links for point in link.points}
+            absolute = {f"{kind}_{point}" for point in teller.points}
             names = [name for name in teller.quantities if name in absolute]
             yield from _extremes(teller, f"conclusion.{plan}", names)
             yield from _fastest(teller, rate)

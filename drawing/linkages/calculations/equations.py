@@ -18,7 +18,7 @@ from ....plans.quantities import unit_of
 from ....scales.scale import Scale
 from ...printed import POINT, Input, Symbol, calculation, ruler_decimals, value_text
 from ...words import Words
-from ..reading import Reading, on_link
+from ..reading import Reading
 from ..scene import Scene
 
 Lines = list[tuple[str, ...]]
@@ -367,8 +367,7 @@ def _turning_alike(scene: Scene, step: Step) -> Lines:
 def _special_point(scene: Scene, step: Step) -> Lines:
     """Say where a point stands that no link has, such as Assur's special point, when it is found for the first time."""
     point, made = role(step.name).of, scene.made.get(role(step.name).of)
-    lettered = {point for link in scene.mechanism.links for point in link.points}
-    if step.plan != "velocity" or made is None or made.verb != "meet" or point in lettered:
+    if step.plan != "velocity" or made is None or made.verb != "meet" or point in scene.points:
         return []
     p, u, q, w = made.operands
     lines = f"{_line_through(scene, p, u)} ∩ {_line_through(scene, q, w)}"
@@ -388,7 +387,7 @@ def _given(scene: Scene, step: Step) -> tuple[str, ...]:
 def triangles(scene: Scene, step: Step) -> tuple[str, str]:
     """Return the triangle on a plan that is similar to one of a link, and that one, by the letters of their corners."""
     words, plan = scene.words, (step.operands[0], step.operands[1], step.name)
-    return "".join(map(words.mark, plan)), "".join(map(words.mark, on_link(scene.program, plan)))
+    return "".join(map(words.mark, plan)), "".join(map(words.mark, scene.reading.on_link(plan)))
 
 
 def _similarity(scene: Scene, step: Step) -> Lines:

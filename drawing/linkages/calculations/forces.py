@@ -260,8 +260,7 @@ def _group_of(scene: Scene, number: int) -> Group | None:
 def _link_of(scene: Scene, name: str) -> int:
     """Return the link on which a reaction or the moment of one acts: 2 of `R_12_t`, 3 of `_M_3`; else the driver."""
     numbers = role(name).links if role(name).kind in ("R", "M") else ()
-    moving = {link.number for link in scene.mechanism.links}
-    return numbers[-1] if moving.intersection(numbers[-1:]) else scene.solved.structure.driver
+    return numbers[-1] if {*scene.numbers} & {*numbers[-1:]} else scene.solved.structure.driver
 
 
 def _closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:

@@ -145,20 +145,26 @@ def results_table(scene: Scene, part: Part) -> View:
         heading = words[key].format(heading=heading, link=part.links, links=part.links)
     head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
     head[1] = head[1].format(unit=words.unit(words.display.paper))
-    angles = [words["table.angle"]] if words.notation["angles"] else []
+    head += [words["table.angle"]] if words.notation["angles"] else []
     quantities = scene.quantities
-    rows = [[*_row(scene, quantities[n]), *(_angle(scene, quantities[n]) for _ in angles)] for n in part.names]
-    return table(part.name, heading, [[*head, *angles], *rows], scene.style)
+    rows = [_row(scene, quantities[name]) for name in part.names]
+    return table(part.name, heading, [head, *rows], scene.style)
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:
     words, kind, value = scene.words, role(q.name).kind, _value(scene, q)
-    symbol, unit = words.symbol(q.name), words.unit(words.display.unit(q.unit))
+    none, printed = words["table.calculated"], list[str]()
     if _plan(scene, q) in scene.scales:
-        return [symbol, *printed_segment(scene, q), unit]
-    # the magnitude of a force; a difference that is rounding noise is 0
-    size = abs(value) if kind == "F" else 0.0 if kind == "delta" and abs(value) < 1e-6 else value
-    return [symbol, words["table.calculated"], words["table.calculated"], value_text(words, size), unit]
+        printed = [*printed_segment(scene, q)]
+    else:  # the magnitude of a force; a difference that is rounding noise is 0
+        size = abs(value) if kind == "F" else 0.0 if kind == "delta" and abs(value) < 1e-6 else value
+        printed = [none, none, value_text(words, size)]
+    row = [words.symbol(q.name), *printed, words.unit(words.display.unit(q.unit))]
+    if not words.notation["angles"]:
+        return row
+    if q.x is None or q.y is None or math.hypot(q.x, q.y) == 0.0:
+        return [*row, none]
+    return [*row, words.number(math.degrees(math.atan2(q.y, q.x)) % 360.0, 1)]
 
 
 def _value(scene: Scene, q: Quantity) -> float:
@@ -180,31 +186,22 @@ def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str
     return words.number(abs(value) / mu, places), words.short(number), words.number(abs(value), decimals)
 
 
-def _angle(scene: Scene, q: Quantity) -> str:
-    if q.x is None or q.y is None or math.hypot(q.x, q.y) == 0.0:
-        return scene.words["table.calculated"]
-    return scene.words.number(math.degrees(math.atan2(q.y, q.x)) % 360.0, 1)
-
-
 def structure_lines(scene: Scene) -> Lines:
     """Return mobility, groups and the formula of structure."""
     words, s = scene.words, scene.solved.structure
     lines: Lines = [
         (words["structure.count"].format(n=s.moving, p1=s.lower, p2=s.higher),),
         ("W = 3n − 2p_{1} − p_{2} =", f"3·{s.moving} − 2·{s.lower} − {s.higher} = {s.mobility}"),
-        *(_group(scene, group) for group in s.groups),
-        (words["structure.driver"].format(frame=words.frame, link=s.driver),),
     ]
+    for group in s.groups:
+        numbers = {"links": _links(group), "group_class": CLASSES[group.group_class], "order": group.order}
+        parts = words["structure.group"].format(**numbers).split(", ")
+        parts += [words[f"kind.{group.kind}"]] if group.kind in GROUPS else []
+        lines.append((*(f"{part}," for part in parts[:-1]), parts[-1]))
+    lines.append((words["structure.driver"].format(frame=words.frame, link=s.driver),))
     text, _, tail = words["structure.formula"].partition("{formula}")
     first, *rest = formula(s, words.frame)
     return [*lines, (text.strip(), first, *rest[:-1], *(f"{last}{tail}" for last in rest[-1:]))]
-
-
-def _group(scene: Scene, group: Group) -> tuple[str, ...]:
-    words, said = scene.words, {"links": _links(group), "group_class": CLASSES[group.group_class], "order": group.order}
-    parts = words["structure.group"].format(**said).split(", ")
-    parts += [words[f"kind.{group.kind}"]] if group.kind in GROUPS else []
-    return (*(f"{part}," for part in parts[:-1]), parts[-1])
 
 
 def formula(structure: Structure, frame: str = "0") -> list[str]:

@@ -81,7 +81,7 @@ def _arcs(canvas: Canvas, scene: Scene, turns: Sequence[_Turn], figure: Skeleton
     rays = [ray for line in figure.strokes for ray in (line, line[::-1])]
     if turns[0].start in scene.mechanism.link(figure.number).points or not rays:
         rays.insert(0, (scene.mm(turns[0].start), scene.mm(turns[0].end)))
-    # centres of mass are drawn with their letters, later
+    # centres of mass are drawn with their letters, later; a joint counts for each of its links
     marks = [scene.mm(point) for link in scene.mechanism.links for point in link.points]
     busy = [*_obstacles(canvas.shapes), *((at, at, scene.style.centre, 2.0) for at in marks)]
     wanted = [PLACES[role(turn.rate).kind] for turn in turns]

@@ -24,7 +24,7 @@ from ...shapes import Arrow, Group, Line, Pen, Shape, Vector
 from ...symbols import clear_ray, turning_arrow, unit
 from ...view import Canvas, View
 from ..calculations.equations import line_of
-from ..reading import Edge, meetings
+from ..reading import Edge
 from ..scene import Scene, is_at_point
 from . import inset
 from .arcs import free_arc
@@ -74,7 +74,7 @@ class At(Plan):
 
     def lines(self) -> Iterator[ConstructionLine]:
         """Go through the construction lines, which are lettered with their directions."""
-        for step, _, start, direction in meetings(self.scene.program.on(self.plan)):
+        for step, _, start, direction in self.scene.reading.meetings(self.plan):
             tail, end = (self.scene.mm(mark) + self.place for mark in (start, step.name))
             e = self.scene.solved.point(direction)
             sense = 1.0 if ((end - tail) / e).real >= 0 else -1.0
@@ -118,7 +118,7 @@ def figures_of(scene: Scene) -> dict[str, list[At]]:
 def velocity_figure(scene: Scene, couplers: Sequence[Coupler]) -> View:
     """Draw v = v^e + v^r at every point of the couplers, instant centres with their rays, and all rates of turning."""
     canvas = scene.canvas()
-    figures = _mechanism(canvas, scene, [link.number for link in scene.mechanism.links])
+    figures = _mechanism(canvas, scene, scene.numbers)
     points = [At.of(scene, c, point, "V") for c in couplers for point in c.letters]
     shown = {at.point for at in points}  # a hinge may be a point of another coupler, which shows its velocity
     for hinge in dict.fromkeys(c.hinge for c in couplers if c.hinge not in shown):

@@ -14,7 +14,7 @@ from ....plans.board import POSITION
 from ....plans.laws import dot
 from ....plans.linkages.cycles.cycle import MARGIN, Cycle, Diagrams, diagrams, pole_distance, velocity_field
 from ....plans.linkages.cycles.strokes import OutputMotion
-from ....plans.linkages.mechanism import ANGLE, BOTH, FRAME, WORKING, Couple, Diagram, Driver, Load, Prismatic
+from ....plans.linkages.mechanism import ANGLE, BOTH, FRAME, WORKING, Couple, Diagram, Driver, Load
 from ....plans.linkages.solved import SolvedLinkage, solve_linkage
 from ....plans.names import role
 from ....scales.scale import Scale, rounded, steps
@@ -55,20 +55,19 @@ def main_output(cycle: Cycle) -> OutputMotion | None:
 def positions_view(scene: Scene, cycle: Cycle) -> View:
     """Draw N positions thin, the calculated one in main lines, dead positions dash-two-dot, and all paths."""
     canvas = scene.canvas()
-    numbers = [link.number for link in scene.mechanism.links]
     for name, path in _paths(scene, cycle):
         canvas.add(Polyline(path, Pen.AXIS, role="curve", name=name))
     stands = dict(_stands(scene, cycle, cycle.angles.tolist()))
     motion = main_output(cycle)
     dead = sorted({spot.angle for spot in motion.dead}) if motion else []
     for number, stand in stands.items():
-        _lay_down(canvas, stand, numbers, Pen.THIN, f"position_{number}")
+        _lay_down(canvas, stand, Pen.THIN, f"position_{number}")
     for _, stand in _stands(scene, cycle, dead):
-        _lay_down(canvas, stand, numbers, Pen.EXTREME, "dead-position")
+        _lay_down(canvas, stand, Pen.EXTREME, "dead-position")
     _number(canvas, scene, stands, cycle.mechanism.driver.point)
     _number(canvas, scene, stands, _output_point(cycle))
     scene = replace(scene, runs={**scene.runs, **_ways(scene, stands.values())})
-    figures = draw_links(canvas, scene, numbers, whole=True)
+    figures = draw_links(canvas, scene, scene.numbers, whole=True)
     driver = scene.mechanism.driver
     if isinstance(driver, Driver):  # the sense in which the crank turns, outside of its circle
         radius = abs(scene.mm(driver.point) - scene.mm(driver.pivot)) + 2.0 * scene.style.label
@@ -93,9 +92,9 @@ def _stands(scene: Scene, cycle: Cycle, places: Iterable[float]) -> Iterator[tup
             yield number, replace(scene, solved=solved, runs={})
 
 
-def _lay_down(canvas: Canvas, scene: Scene, numbers: list[int], pen: Pen, role: str) -> None:
+def _lay_down(canvas: Canvas, scene: Scene, pen: Pen, role: str) -> None:
     pins: dict[complex, None] = {}
-    for number in numbers:
+    for number in scene.numbers:
         figure = skeleton(scene, number)
         canvas.add(*(Line(a, b, pen, role=role, name=str(number)) for a, b in figure.strokes))
         pins |= dict.fromkeys(complex(round(at.real, 4), round(at.imag, 4)) for at in figure.nodes)
@@ -106,8 +105,7 @@ def _paths(scene: Scene, cycle: Cycle) -> Iterator[tuple[str, tuple[complex, ...
     """Go through the paths of all lettered points, mm, each in pieces where it breaks; straight ones left out."""
     span = cycle.range
     places = np.linspace(span.low, span.high, DENSE + 1)
-    names = dict.fromkeys(name for link in cycle.mechanism.links for name in link.points)
-    points = [name for name in names if name in cycle.program.names and name not in cycle.mechanism.frame_points]
+    points = [name for name in scene.points if name in cycle.program.names and name not in cycle.mechanism.frame_points]
     seen: list[complex] = []
     for name, values in cycle.at(places, points).items():
         path = values * (1.0 / scene.scales[POSITION].mu)
@@ -152,14 +150,13 @@ def _number(canvas: Canvas, scene: Scene, stands: Mapping[int, Scene], point: st
 
 def _ways(scene: Scene, stands: Iterable[Scene]) -> dict[str, tuple[float, float]]:
     """Return by guide of the frame how far its slider stands back and forth of its calculated place, metres."""
-    found = {}
-    for pair in scene.mechanism.pairs:
-        if isinstance(pair, Prismatic) and FRAME in pair.links:
-            name, at = scene.solved.guide_name(pair), scene.solved.point(pair.point)
-            ways = [dot(stand.solved.point(pair.point) - at, scene.solved.point(name)) for stand in stands]
-            low, high = scene.runs.get(name, (0.0, 0.0))
-            found[name] = min([low, *ways]), max([high, *ways])
-    return found
+    ends = {}
+    for pair in scene.sliding():
+        name, at = scene.solved.guide_name(pair), scene.solved.point(pair.point)
+        ways = [dot(stand.solved.point(pair.point) - at, scene.solved.point(name)) for stand in stands]
+        low, high = scene.runs.get(name, (0.0, 0.0))
+        ends[name] = min([low, *ways]), max([high, *ways])
+    return ends
 
 
 def coupler(solved: SolvedLinkage) -> int | None:
@@ -357,8 +354,7 @@ def _span(scene: Scene, diagram: Diagram) -> tuple[float, str]:
     if diagram.over == ANGLE:
         return 1.0, "rad"
     assert mechanism.stroke is not None
-    ends = {mechanism.stroke.link, FRAME}
-    slides = any(isinstance(pair, Prismatic) and ends <= {*pair.links} for pair in mechanism.pairs)
+    slides = any(mechanism.stroke.link in pair.links for pair in scene.sliding())
     return abs(float(values["_stroke_end"]) - float(values["_stroke_begin"])), "m" if slides else "rad"
 
 

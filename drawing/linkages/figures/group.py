@@ -154,7 +154,7 @@ def driver_view(scene: Scene) -> View:
         else:
             sketch.hang("_F_bal", scene.mm(driver.point))
     else:
-        pair = next(p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and number in p.links)
+        pair = scene.sliding(number)[0]
         sketch.hang("_F_bal", scene.mm(pair.point))
         _react(sketch, pair.point, pair, number, [frame])
     for name in _couples(scene, number):

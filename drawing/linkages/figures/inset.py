@@ -14,7 +14,6 @@ from ...page import extent
 from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
 from ...text import Box
 from ...view import Canvas, View, write_above
-from ..reading import meetings
 from ..scene import Scene
 
 READABLE = 1.7  # arrowheads: the least length of a vector in an inset
@@ -90,7 +89,7 @@ class Plan:
 
     def lines(self) -> Iterable[ConstructionLine]:
         """Go through the construction lines."""
-        for step, _, start, along in meetings(self.scene.program.on(self.plan)):
+        for step, _, start, along in self.scene.reading.meetings(self.plan):
             yield (*construction_line(self.scene, step, start, along), "")
 
     def marks(self) -> Mapping[str, complex]:

@@ -78,13 +78,12 @@ class Skeleton:
 
 def pins_of(scene: Scene, number: int) -> tuple[str, ...]:
     """Return the letters of the revolute pairs of a link, each once."""
-    pairs = (pair for pair in scene.mechanism.pairs if isinstance(pair, Revolute) and number in pair.links)
-    return tuple(dict.fromkeys(pair.point for pair in pairs))
+    return tuple(dict.fromkeys(pair.point for pair in scene.turning(number)))
 
 
 def _sliding(scene: Scene, number: int, guide: bool = False) -> list[Prismatic]:
     """Return the pairs whose block is that of a link, or whose `guide` is."""
-    return [pair for pair in scene.mechanism.pairs if isinstance(pair, Prismatic) and pair.links[guide] == number]
+    return [pair for pair in scene.sliding(number) if pair.links[guide] == number]
 
 
 def guide_of(scene: Scene, pair: Prismatic) -> complex:
@@ -260,8 +259,7 @@ def draw_links(
         canvas.add(revolute(scene.mm(point), point, scene.style))
     if framed:
         before = canvas.part(GIVEN)
-        pairs = [p for p in scene.mechanism.pairs if isinstance(p, Revolute) and FRAME in p.links]
-        for point in dict.fromkeys(pair.point for pair in pairs if {*numbers} & {*pair.links}):
+        for point in dict.fromkeys(pair.point for pair in scene.turning() if {*numbers} & {*pair.links}):
             at, down, (_, height, base) = scene.mm(point), foot_of(scene, point, figures), scene.style.pivot
             canvas.add(fixed_pivot(at, point, scene.style, down))
             far = at + down * (height + scene.style.pair + scene.style.hatch[0])
@@ -311,10 +309,9 @@ def foot_of(scene: Scene, point: str, figures: Sequence[Skeleton]) -> complex:
 def _coincident(scene: Scene) -> dict[str, list[int]]:
     """Return the joints at which points of several links have marks of their own, `velocity.A3`, with these links."""
     mechanism, joints = scene.mechanism, dict[str, set[int]]()
-    letters = {point for link in mechanism.links for point in link.points}
     for step in scene.program.on("velocity"):
         under = role(role(step.name).of)
-        if step.verb != "read" and under.links and under.of in letters and under not in letters:
+        if step.verb != "read" and under.links and under.of in scene.points and under not in scene.points:
             joints.setdefault(under.of, set()).update(under.links)
     for pair in mechanism.pairs:
         if isinstance(pair, Revolute) and pair.point in joints:

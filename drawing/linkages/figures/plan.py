@@ -11,7 +11,7 @@ from ....plans.names import role
 from ....plans.quantities import intersections, pins_together, point_of
 from ...shapes import Line, Pen
 from ...view import Canvas, View
-from ..reading import Edge, meetings, on_link, triangles
+from ..reading import Edge
 from ..scene import Scene, plan_heading
 from .inset import NUMERALS, Plan, construction_line, headed, in_inset, length_of, letter_marks, with_insets
 from .links import NEAR, Stroke
@@ -26,7 +26,7 @@ def plan_view(scene: Scene, plan: str) -> View:
     vectors, forces = scene.reading.on(plan), Plan(scene, plan)
     shown = forces.windows()
     left = [edge for edge in vectors if not in_inset(scene, shown, scene.ends(edge))]
-    for step, number, start, direction in meetings(scene.program.on(plan)):
+    for step, number, start, direction in scene.reading.meetings(plan):
         begin, _, end = construction_line(scene, step, start, direction)
         canvas.part(step.name)
         canvas.add(Line(begin, end, Pen.DASHED, role="construction", name=f"{step.name}_{number}"))
@@ -72,12 +72,12 @@ def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke])
 
     On the plan of the mechanism the triangles are those of its links.
     """
-    program, lines = scene.program, list(drawn)
+    reading, lines = scene.reading, list(drawn)
     if plan == POSITION:
-        figures: list[tuple[str, ...]] = [on_link(program, triangle) for triangle in triangles(program, "velocity")]
+        figures: list[tuple[str, ...]] = [*map(reading.on_link, reading.triangles("velocity"))]
     else:
-        divided = (step.operands[:2] for step in program.on(plan) if step.verb == "divide")
-        figures = [*triangles(program, plan), *divided]
+        divided = (step.operands[:2] for step in scene.program.on(plan) if step.verb == "divide")
+        figures = [*reading.triangles(plan), *divided]
     for first, second in ((a, b) for marks in figures for i, a in enumerate(marks) for b in marks[:i]):
         side = scene.mm(second), scene.mm(first)
         if abs(side[1] - side[0]) > NEAR and not any(_covers(line, side) for line in lines):

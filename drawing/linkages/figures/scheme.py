@@ -28,22 +28,20 @@ CROSS = 8.0  # mm by which arcs and lines run past the joint that they find
 def scheme(scene: Scene) -> View:
     """Draw the plan of the mechanism in the given position."""
     canvas, driver = scene.canvas(), scene.mechanism.driver
-    numbers = [link.number for link in scene.mechanism.links]
     canvas.part(GIVEN)
     _axes(canvas, scene)
-    points = {point for link in scene.mechanism.links for point in link.points}
     for step in scene.program.on(POSITION):
-        if step.name in points or step.verb == "tangent":
+        if step.name in scene.points or step.verb == "tangent":
             _found_by(canvas, scene, step)
     special_points(canvas, scene)
-    draw_sides(canvas, scene, POSITION, [stroke for n in numbers for stroke in skeleton(scene, n).strokes])
-    figures = draw_links(canvas, scene, numbers)
+    draw_sides(canvas, scene, POSITION, [stroke for n in scene.numbers for stroke in skeleton(scene, n).strokes])
+    figures = draw_links(canvas, scene, scene.numbers)
     canvas.part(driver.point)
     if isinstance(driver, Driver):
         _angle(canvas, scene, driver)
     elif speed := scene.values[driver.speed]:
         canvas.part(ANSWERS)
-        pair = next(p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and driver.link in p.links)
+        pair = scene.sliding(driver.link)[0]
         up, e = guide_up(scene, pair), guide_of(scene, pair) * math.copysign(1.0, speed)
         tail = scene.mm(pair.point) + up * (scene.style.slider[1] / 2 + 3.0) - e * (0.3 * scene.style.force)
         tip = tail + e * 0.6 * scene.style.force
@@ -85,7 +83,7 @@ def _letter_frame(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> 
     """
     mechanism, style, zero = scene.mechanism, scene.style, scene.words.frame
     driver, letters = mechanism.driver, guide_letters(scene.program)
-    for pair in (pair for pair in mechanism.pairs if isinstance(pair, Prismatic) and FRAME in pair.links):
+    for pair in scene.sliding():
         u, (length, height) = guide_of(scene, pair), style.slider
         edge = scene.mm(pair.point) - guide_up(scene, pair) * (height / 2 + style.hatch[0])
         at = scene.mm(pair.point)
@@ -108,7 +106,7 @@ def _letter_frame(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> 
 
 def _axes(canvas: Canvas, scene: Scene) -> None:
     """Draw the axes of the frame's guides: past the slider, and past a pivot that is near the same line."""
-    pairs = [p for p in scene.mechanism.pairs if isinstance(p, Prismatic) and FRAME in p.links]
+    pairs = scene.sliding()
     joints = {scene.mm(pair.point) for pair in scene.mechanism.pairs}  # near them is the less room for a letter
     letters = guide_letters(scene.program)
     for pair in pairs:
@@ -171,8 +169,7 @@ def special_points(canvas: Canvas, scene: Scene, wanted: Iterable[str] | None = 
 
     Such is the special point of a group of class III; without `wanted` all of them.
     """
-    mechanism = scene.mechanism
-    lettered = {point for link in mechanism.links for point in link.points} | {*mechanism.frame_points}
+    lettered = {*scene.points, *scene.mechanism.frame_points}
     for step in (step for step in scene.program.on(POSITION) if step.verb == "meet" and step.name not in lettered):
         if not role(step.name).hidden and (wanted is None or step.name in wanted):
             _found_by(canvas, scene, step)
