@@ -159,8 +159,7 @@ def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> tuple[float, float]:
 
 def _mechanism(solved: SolvedLinkage) -> Size:
     places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
-    driver = solved.mechanism.driver
-    if isinstance(driver, Driver):
+    if isinstance(driver := solved.mechanism.driver, Driver):
         pivot = solved.point(driver.pivot)
         radius = abs(solved.point(driver.point) - pivot)
         places += [pivot + ARROW * radius * way for way in (1, 1j, -1, -1j)]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 from ....plans.board import POSITION, Step
 from ....plans.laws import form_of
@@ -183,38 +183,24 @@ def stated(words: Words, symbol: str, value: float, unit: str) -> str:
     return f"{symbol} = {value_text(words, words.display.value(value, unit))} {words.unit(shown)}"
 
 
-class _Side(NamedTuple):
-    """One way from the pole to a point: vectors known in full, then one along the line `direction`."""
-
-    knowns: tuple[str, ...]
-    unknown: str
-    direction: str
-
-
 def _meeting(scene: Scene, step: Step) -> tuple[str, ...]:
     """Return the equation that two lines of a plan solve, and along which lines its unknown vectors lie.
 
     Both sides lead from the pole to the point where the lines meet; its absolute vector stands before them unless it is
     itself the unknown of one side.
     """
-    reading = scene.reading
-    p, u, q, w = step.operands
-    sides = sorted((_side(reading, step, p, u), _side(reading, step, q, w)), key=lambda side: len(side.knowns))
+    reading, (p, u, q, w), sides = scene.reading, step.operands, list[tuple[list[str], str, str]]()
+    for start, direction in ((p, u), (q, w)):
+        edge = reading.between(start, step.name)
+        knowns = [before.name for before in reading.way(start, reading.number[step.name])]
+        sides.append((knowns, edge.name if edge is not None else _named(reading, start, step.name), direction))
+    sides.sort(key=lambda side: len(side[0]))
     whole = reading.absolute(step.name)
-    texts = [
-        " + ".join((*(scene.letter(name, 2) for name in side.knowns), scene.letter(side.unknown, 1))) for side in sides
-    ]
-    if whole is not None and all(side.knowns or side.unknown != whole.name for side in sides):
+    texts = [" + ".join((*(scene.letter(k, 2) for k in knowns), scene.letter(last, 1))) for knowns, last, _ in sides]
+    if whole is not None and all(knowns or last != whole.name for knowns, last, _ in sides):
         texts.insert(0, scene.letter(whole.name))
-    notes = (line_note(scene, side.unknown, side.direction) for side in sides)
+    notes = (line_note(scene, last, direction) for _, last, direction in sides)
     return noted((texts[0], *(f"= {text}" for text in texts[1:])), *notes)
-
-
-def _side(reading: Reading, step: Step, start: str, direction: str) -> _Side:
-    before = reading.number[step.name]
-    edge = reading.between(start, step.name)
-    name = edge.name if edge is not None else _named(reading, start, step.name)
-    return _Side(tuple(edge.name for edge in reading.way(start, before)), name, direction)
 
 
 def _named(reading: Reading, start: str, tip: str) -> str:

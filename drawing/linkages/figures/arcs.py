@@ -70,8 +70,8 @@ def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
         key = complex(round(end.real, 3), round(end.imag, 3)), complex(round(e.real, 6), round(e.imag, 6))
         length = 0.62 * force + taken.get(key, 0.0)
         taken[key] = length + 0.2 * force
-        canvas.add(Arrow(end, end + e * length, Pen.THIN, name=vector))
-        canvas.label(scene.letter(vector), (end + e * (length * 0.6), end + e * length), clear=1.0)
+        canvas.add(Arrow(end, end + e * length, name=vector))
+        canvas.label(scene.letter(vector), (end + e * (length * 0.6), end + e * length))
     for figure in figures:
         if figure.number in turns:
             _arcs(canvas, scene, turns[figure.number], figure)
