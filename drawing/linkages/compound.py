@@ -24,20 +24,20 @@ Line = tuple[str, ...]
 
 def compound_told(teller: Teller, points: Sequence[At]) -> Iterator[Told]:
     """Go through the steps of one figure: the mechanism once more, then the vectors of every point."""
-    scene, made = teller, teller.made
-    yield Told(scene.program.on(points[0].plan)[0], teller.say("compound_mechanism"), others=tuple(scene.points))
+    made, letter = teller.made, teller.letter
+    yield Told(teller.program.on(points[0].plan)[0], teller.say("compound_mechanism"), others=tuple(teller.points))
     for at in points:
-        c, letter = at.coupler, scene.letter
+        c = at.coupler
         if at.kind == "V":
             ends = {"start": teller.mark(c.pivot), "end": teller.mark(at.point)}
             distance = made[between("l", c.pivot, at.point)]
-            length = " ".join(_segment(scene, distance.name, POSITION))
+            length = " ".join(_segment(teller, distance.name, POSITION))
             yield Told(distance, teller.say("compound_distance", sum=length, **ends))
-        for step in scene.program.on(at.plan):
+        for step in teller.program.on(at.plan):
             if step.verb == "chain":
                 start, vector = step.operands
                 parts = {"start": _start(teller, at, start), "line": teller.along(vector)}
-                key = "compound_zero" if scene.vanishes(vector) else "compound_vector"
+                key = "compound_zero" if teller.vanishes(vector) else "compound_vector"
                 yield Told(step, teller.say(key, vector=letter(vector), mm=teller.drawn(vector, at.plan), **parts))
             elif step.verb == "meet":
                 p, u, q, w = step.operands
@@ -51,10 +51,10 @@ def compound_told(teller: Teller, points: Sequence[At]) -> Iterator[Told]:
                 if closing is not None and closing.normal is not None:
                     yield _measured(teller, at, step, "read", _tangential(closing.normal))
                 yield _measured(teller, at, step, "whole", f"{at.kind}_{at.point}")
-        if at.kind == "V" and at.point == [*c.letters][-1] and scene.defined(c.centre):
+        if at.kind == "V" and at.point == [*c.letters][-1] and teller.defined(c.centre):
             line = f"{teller.mark(c.pivot)}{teller.mark(c.hinge)}"
-            length = " ".join(_segment(scene, f"l_{c.hinge}P{c.number}", POSITION))
-            text = teller.say("compound_centre", line=line, point=scene.words.symbol(c.centre), sum=length)
+            length = " ".join(_segment(teller, f"l_{c.hinge}P{c.number}", POSITION))
+            text = teller.say("compound_centre", line=line, point=teller.words.symbol(c.centre), sum=length)
             yield Told(made[c.centre], text)
 
 

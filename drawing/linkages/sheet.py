@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -45,8 +45,7 @@ LinkageFigure = Figure[Scene]
 # views with which the part of the forces begins
 OF_FORCES = ("load_", "equations_forces_loads", "group_", "driver", "lever")
 
-Fitted = tuple[list[View], Mapping[str, Scale]]
-Found = tuple[*Fitted, list[Placement]]
+Found = tuple[list[View], Rungs, list[Placement]]
 # mm from the left bottom corner of the trimmed sheet
 ZONES: dict[str, Box] = {
     "positions": (25.0, 330.0, 355.0, 572.0),
@@ -232,14 +231,14 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     found = found or _on_pages(fitting, candidate, rungs)
     if found is None:
         raise InputError("sheet-too-small", format=candidate.name)
-    views, scales, places = found
-    return compose(views, places, scales, candidate, contents.norm)
+    views, rungs, places = found
+    return compose(views, places, fitting.scales(rungs), candidate, contents.norm)
 
 
 def _single(fitting: Fitting, sheet: Format, rungs: Rungs, last: bool) -> Found | None:
     """Try one page: in reading order, with kinematics on the left and forces on the right, at last in any order."""
     try:
-        (views, scales), taken = fitting.fitted(sheet, rungs)
+        views, taken = fitting.fitted(sheet, rungs)
     except InputError:
         if last:
             raise
@@ -249,7 +248,7 @@ def _single(fitting: Fitting, sheet: Format, rungs: Rungs, last: bool) -> Found 
     sizes, norm = [view.size for view in views], fitting.contents.norm
     places = arrange(sizes, sheet, norm, 1) or arrange_halves(sizes, _forces_begin(views), sheet, norm)
     places = places or arrange(sizes, sheet, norm, 1, any_order=True)
-    return None if places is None else (views, scales, places)
+    return None if places is None else (views, taken, places)
 
 
 def _forces_begin(views: Sequence[View]) -> int:
@@ -271,7 +270,7 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
 
     for first in (False, True):
         try:
-            (views, scales), taken = fitting.fitted(sheet, rungs, first)
+            views, taken = fitting.fitted(sheet, rungs, first)
         except InputError:
             if not first:
                 raise
@@ -279,26 +278,35 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
         if first and any(taken[symbol] > rung for symbol, rung in rungs.items() if fitting.is_fixed(symbol)):
             break
         if (places := placed(views)) is not None:
-            return views, scales, places
-    (views, scales), _ = fitting.fitted(sheet, rungs)
+            return views, taken, places
+    views, taken = fitting.fitted(sheet, rungs)
     wide, high = room(sheet, norm, first=True)
     begin = next((view for view in views if view.size[0] <= wide and view.size[1] <= high), None)
     views = [begin, *(view for view in views if view is not begin)] if begin is not None else []
     places = placed(views) if views else None
-    return None if places is None else (views, scales, places)
+    return None if places is None else (views, taken, places)
 
 
 def _zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
-    """Return views, scale factors and places in zones, or None where the plan of positions has no room in its own."""
+    """Return views, rungs and places in zones, or None where the plan of positions has no room in its own.
+
+    The zones of the groups are one where there is one group.
+    """
     structure = fitting.contents.solved.structure
+    boxes = ZONES if len(structure.groups) > 1 else {**ZONES, "first": BOTH, "last": BOTH}
     crowded, rungs = set[str](), dict(first)
     while True:
-        built, scales = fitting.build(sheet, rungs)
-        views = [view for view, _ in built]
-        zones = [_zone_of(view.name, structure) for view in views]
-        placed, tight = _place(views, zones, structure)
-        own = ((s, zone) for (_, s), zone in zip(built, zones, strict=True) if s and zone in tight - crowded)
-        coarser = {s: zone for s, zone in own if role(s).of == OWN[zone] and not fitting.is_fixed(s)}
+        built = fitting.build(sheet, rungs)
+        zones, placed, tight = [_zone_of(view.name, structure) for view, _ in built], dict[int, Placement](), set[str]()
+        for zone, box in boxes.items():  # as many views as go in, from the first on
+            own = [i for i, name in enumerate(zones) if name == zone]
+            for count in range(len(own), 0, -1):
+                if (packed := pack([built[i][0].size for i in own[:count]], box, gap=GAP)) is not None:
+                    placed |= dict(zip(own, packed, strict=False))
+                    break
+                tight.add(zone)
+        sizing = ((s, zone) for (_, s), zone in zip(built, zones, strict=True) if s and zone in tight - crowded)
+        coarser = {s: zone for s, zone in sizing if role(s).of == OWN[zone] and not fitting.is_fixed(s)}
         if not coarser:
             break
         for symbol, zone in coarser.items():
@@ -306,13 +314,13 @@ def _zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
             if rungs[symbol] > min(first[symbol] + PATIENCE, len(fitting.extents.ladders[symbol].values) - 1):
                 rungs[symbol] = first[symbol]
                 crowded.add(zone)
-    rest = [i for i in range(len(views)) if i not in placed]  # what has no zone is put on the pages that follow
-    sizes, norm = [views[i].size for i in rest], fitting.contents.norm
+    rest = [i for i in range(len(built)) if i not in placed]  # what has no zone is put on the pages that follow
+    sizes, norm = [built[i][0].size for i in rest], fitting.contents.norm
     places = None if "positions" in tight else arrange(sizes, sheet, norm, None, first=False)
     if places is None:
         return None
     placed |= {i: Placement(p.page + 1, p.x, p.y) for i, p in zip(rest, places, strict=True)}
-    return views, scales, [placed[i] for i in range(len(views))]
+    return [view for view, _ in built], rungs, [placed[i] for i in range(len(built))]
 
 
 def _zone_of(name: str, structure: Structure) -> str:
@@ -327,25 +335,6 @@ def _zone_of(name: str, structure: Structure) -> str:
     return ""
 
 
-def _place(views: Sequence[View], zones: Sequence[str], structure: Structure) -> tuple[dict[int, Placement], set[str]]:
-    """Pack each zone; tell which zones cannot take all of theirs, and take as many as go in from the first on.
-
-    The zones of the groups are one where there is one group.
-    """
-    placed: dict[int, Placement] = {}
-    tight = set()
-    boxes = ZONES if len(structure.groups) > 1 else {**ZONES, "first": BOTH, "last": BOTH}
-    for zone, box in boxes.items():
-        own = [i for i, name in enumerate(zones) if name == zone]
-        for count in range(len(own), 0, -1):
-            places = pack([views[i].size for i in own[:count]], box, gap=GAP)
-            if places is not None:
-                placed |= dict(zip(own, places, strict=False))
-                break
-            tight.add(zone)
-    return placed, tight
-
-
 class Fitting:
     """Builds the views of `contents` for any format, each only once; `extents` is what figures take up."""
 
@@ -358,8 +347,8 @@ class Fitting:
         """Whether the task or the user has fixed a scale factor."""
         return self.extents.ladders[symbol].fixed
 
-    def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> tuple[Fitted, Rungs]:
-        """Return views, scale factors and rungs for pages of `sheet`: these rungs, coarser ones where they must be.
+    def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> tuple[list[View], Rungs]:
+        """Return views and rungs for pages of `sheet`: these rungs, coarser ones where they must be.
 
         What is fixed, too, becomes coarser only where a page cannot hold it alone. With `first` all have room even on
         the first page.
@@ -377,11 +366,11 @@ class Fitting:
         }
         rungs = dict(rungs)
         while True:
-            built, scales = self.build(sheet, rungs)
+            built = self.build(sheet, rungs)
             sized = [(s, view, max(view.size[0] / rooms[s][0], view.size[1] / rooms[s][1])) for view, s in built if s]
             too_large = {symbol: (view, excess) for symbol, view, excess in sized if excess > 1.0}
             if not too_large:
-                return ([view for view, _ in built], scales), rungs
+                return [view for view, _ in built], rungs
             for symbol, (view, excess) in too_large.items():
                 rungs[symbol] = self._next(symbol, rungs[symbol], excess)
                 if rungs[symbol] >= len(self.extents.ladders[symbol].values):
@@ -397,18 +386,22 @@ class Fitting:
         wanted = ladder[rung] * excess * SURELY
         return next((k for k in range(rung + 1, len(ladder)) if ladder[k] >= wanted), max(rung + 1, len(ladder) - 1))
 
-    def build(self, sheet: Format, rungs: Rungs) -> tuple[list[tuple[View, str]], Mapping[str, Scale]]:
+    def scales(self, rungs: Rungs) -> dict[str, Scale]:
+        """Return the scale factors on these rungs, by plan."""
+        return by_plan(self.contents.solved, mus_of(self.extents, rungs))
+
+    def build(self, sheet: Format, rungs: Rungs) -> list[tuple[View, str]]:
         """Draw all figures with the scale factors on these rungs; each with the ladder that sizes it, or ""."""
         contents, solved, mus = self.contents, self.contents.solved, mus_of(self.extents, rungs)
         text_width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
         words, style = lettered(contents.words, solved), STYLES[sheet.letters]
-        scene = Scene(solved, words, style, contents.givens, by_plan(solved, mus), self.runs)
+        scene = Scene(solved, words, style, contents.givens, self.scales(rungs), self.runs)
         built = []
         for figure in figures(contents, text_width):
             # of two scale factors the one with the longer lines makes the figure as large as it is
             symbol = max(figure.ladders, key=lambda s: _reach(solved, s) / mus[s], default="")
             built.append((self._drawn(sheet, figure, scene), self.extents.root(symbol)))
-        return built, scene.scales
+        return built
 
     def _drawn(self, sheet: Format, figure: LinkageFigure, scene: Scene) -> View:
         """Draw a figure, unless it has been drawn for this format at the same of the scale factors that it used."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from ...plans.board import POSITION
 from ...plans.boards.exact import SMALL
@@ -56,10 +56,9 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
 
 def drawn_views(teller: Teller) -> list[str]:
     """Return the views whose drawing is told step by step, in order: the plans, the figures of compound motion."""
-    scene = teller
-    plans = [plan for plan in scene.program.plans if plan in scene.scales and not is_at_point(plan)]
+    plans = [plan for plan in teller.program.plans if plan in teller.scales and not is_at_point(plan)]
     forces = next((at for at, plan in enumerate(plans) if role(plan).kind == FORCES), len(plans))
-    return [*plans[:forces], *figures_of(scene), *plans[forces:]]
+    return [*plans[:forces], *figures_of(teller), *plans[forces:]]
 
 
 def told_of(teller: Teller, view: str) -> Iterator[Told]:
@@ -119,16 +118,15 @@ def conclusions(teller: Teller) -> Iterator[str]:
     yield from _angles(teller)
 
 
-def _extremes(teller: Teller, key: str, names: Iterable[str]) -> Iterator[str]:
+def _extremes(teller: Teller, key: str, names: Sequence[str]) -> Iterator[str]:
     """Tell the largest and the smallest of some vectors; of forces on one another only one."""
-    scene, listed = teller, tuple(names)
-    pairs = filter(None, map(_pair, listed))
-    twice = {scene.mechanism.pair("R", pair[1], pair[0]) for pair in pairs}  # both are as large
-    found = {n: size_of(scene, n) for n in listed if not (n in twice and _pair(n)[0] > _pair(n)[1])}
-    moving = sorted((name for name in found if found[name] > 0.0), key=lambda name: found[name])
+    pairs = filter(None, map(_pair, names))
+    twice = {teller.mechanism.pair("R", pair[1], pair[0]) for pair in pairs}  # both are as large
+    sizes = {n: size_of(teller, n) for n in names if not (n in twice and _pair(n)[0] > _pair(n)[1])}
+    moving = sorted((name for name in sizes if sizes[name] > 0.0), key=lambda name: sizes[name])
     if moving:
-        low, high = (_alike(teller, found, name) for name in (moving[0], moving[-1]))
-        one = math.isclose(found[moving[0]], found[moving[-1]], rel_tol=SAME)
+        low, high = (_alike(teller, sizes, name) for name in (moving[0], moving[-1]))
+        one = math.isclose(sizes[moving[0]], sizes[moving[-1]], rel_tol=SAME)
         yield teller.texts[f"{key}_one" if one else key].format(value=low, high=high, low=low)
 
 
@@ -140,34 +138,32 @@ def _pair(name: str) -> tuple[int, ...]:
 
 def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:
     """Return the symbols of all quantities that are as large as one, with its value as the tables print it."""
-    scene, item = teller, teller.quantities[name]
+    item = teller.quantities[name]
     alike = [other for other in found if math.isclose(abs(found[other]), abs(found[name]), rel_tol=SAME)]
-    symbol = " = ".join(dict.fromkeys(scene.words.symbol(other) for other in alike))
-    if not scene.figure_of(name):
-        return stated(scene.words, symbol, abs(found[name]), item.unit)
-    return f"{symbol} = {printed_segment(scene, item)[2]} {scene.words.unit(scene.words.display.unit(item.unit))}"
+    symbol = " = ".join(dict.fromkeys(teller.words.symbol(other) for other in alike))
+    if not teller.figure_of(name):
+        return stated(teller.words, symbol, abs(found[name]), item.unit)
+    return f"{symbol} = {printed_segment(teller, item)[2]} {teller.words.unit(teller.words.display.unit(item.unit))}"
 
 
 def _fastest(teller: Teller, rate: str) -> Iterator[str]:
-    scene = teller
-    driver = str(scene.solved.structure.driver)
-    names = [f"{rate}_{link.number}" for link in scene.mechanism.links if str(link.number) != driver]
-    values = {name: rate_of(scene, name) for name in names if name in scene.quantities}
+    names = [f"{rate}_{number}" for number in teller.numbers if number != teller.solved.structure.driver]
+    values = {name: rate_of(teller, name) for name in names if name in teller.quantities}
     fastest = max(values, key=lambda name: abs(values[name]), default="")
     if values.get(fastest):
-        value, sense = _alike(teller, values, fastest), sensed(scene.words, values[fastest])
+        value, sense = _alike(teller, values, fastest), sensed(teller.words, values[fastest])
         yield teller.texts[f"conclusion.{rate}"].format(value=value, sense=sense)
 
 
 def _balance(teller: Teller, name: str) -> Iterator[str]:
-    scene, words = teller, teller.words
-    item, driver = scene.quantities.get(name), scene.mechanism.driver
+    words = teller.words
+    item, driver = teller.quantities.get(name), teller.mechanism.driver
     by_moment = isinstance(driver, Driver) and driver.balance == MOMENT
     if item is None or not item.value or by_moment != (name == "M_bal"):
         return
     speed = f"omega_{driver.link}" if by_moment else f"V_{driver.point}"
-    force = item.value if by_moment else scene.values["_F_bal"]
-    power = dot(complex(force), complex(scene.values[speed]))
+    force = item.value if by_moment else teller.values["_F_bal"]
+    power = dot(complex(force), complex(teller.values[speed]))
     yield teller.texts[f"conclusion.{name}_{'drives' if power > 0.0 else 'brakes'}"].format(
         value=stated(words, words.symbol(name), abs(item.value), item.unit),
         sense=sensed(words, item.value),
