@@ -145,14 +145,15 @@ def rack_view(overall: GearScene) -> View:
 
 def _wheel(canvas: Canvas, scene: GearScene, rack: Rack) -> None:
     """Draw two teeth beside the space, the reference and the base circle."""
-    line = Polyline(rack.teeth(), Pen.MAIN, role="profile", name="pinion")
+    pinion = rack.pinion
+    line = Polyline(pinion.placed(pinion.tooth.teeth(2), -0.5), Pen.MAIN, role="profile", name="pinion")
     canvas.add(Group((line,), "wheel", "1"))
-    half = min(SPACES * rack.pitch, WIDEST)
+    half = min(SPACES * pinion.pitch, WIDEST)
     for name in ("", "b"):
-        arc = Arc(rack.centre, rack.radius(name), 0.5 * HALF_TURN - half, 2.0 * half, PENS[name])
+        arc = Arc(pinion.centre, pinion.radius(name), 0.5 * HALF_TURN - half, 2.0 * half, PENS[name])
         canvas.add(Group((arc,), "circle", f"d_{name}1"))
         symbol = scene.words.symbol(f"d_{name}1")
-        canvas.label(symbol, rack.on(name, -half), prefer=1 + 0j, clear=1.0, height=scene.style.text)
+        canvas.label(symbol, pinion.on(pinion.radius(name), -half), prefer=1 + 0j, clear=1.0, height=scene.style.text)
 
 
 def _lines(canvas: Canvas, scene: GearScene, rack: Rack, left: float, right: float) -> None:
@@ -171,7 +172,7 @@ def _line_of_action(canvas: Canvas, scene: GearScene, rack: Rack) -> None:
     style, touch = scene.style, rack.touch
     far = max(touch, rack.edge, key=abs)
     canvas.add(Line(-far, far + RACK_PAST * unit(far), Pen.THIN, role="line-of-action", name="PN"))
-    inward = unit(rack.centre - touch)
+    inward = unit(rack.pinion.centre - touch)
     canvas.add(Line(touch, touch + 3.0 * style.label * inward, Pen.THIN, role="radius", name="N"))
     canvas.add(right_angle(touch, inward, -rack.down, 0.6 * style.label))
     places = (("N", touch, inward), ("B", rack.edge, rack.down), ("P", 0j, -1 + 1j))

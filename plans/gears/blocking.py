@@ -206,11 +206,6 @@ class Plane:
     high: complex
     cells: int = CELLS
 
-    @property
-    def chosen(self) -> complex:
-        """The point of the pair's own shifts."""
-        return complex(self.values["x_1"], self.values["x_2"])
-
     def measures(self, places: Any, wanted: Iterable[str] = CURVES) -> dict[str, Array]:
         """Return the functions whose zeros are the curves, at places, by name; NaN where no pair can mesh.
 

@@ -14,12 +14,11 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..laws import LAWS
 from ..solved import Columned, Course, Ends, Rows
 from .solve import SolvedGear
-from .teeth import Array
+from .teeth import Array, Wheel
 
 NEAR = 1e-9  # part of the base pitch within which a contact begins or ends
 
@@ -166,38 +165,22 @@ class Rack:
     """
 
     def __init__(self, solved: SolvedGear, k: float) -> None:
-        tooth, m = solved.meshing.teeth[0], solved.sizes["m"]
-        self.tooth, self.k, self._sizes = tooth, k, solved.sizes
-        self.shift = solved.sizes["x_1"] * m * k  # how far the middle line lies above the pitch line
-        self.centre = complex(0.0, -tooth.r * k)  # of the pinion
-        self.pitch = 2.0 * math.pi / tooth.z  # of the pinion, rad
+        self._sizes, tooth = solved.sizes, solved.meshing.teeth[0]
+        self.pinion = Wheel(1, tooth, complex(0.0, -tooth.r * k), 1j, TO_POLE, 1, k, solved.sizes)
+        self.shift = self._sizes["x_1"] * self._sizes["m"] * k  # how far the middle line lies above the pitch line
         self.down = cmath.rect(1.0, -tooth.alpha)  # the direction of the line of action of cutting
         self.touch = self.down * (tooth.r * math.sin(tooth.alpha) * k)  # N, where that touches the base circle
-        self.edge = self.touch - self.down * (solved.sizes["rho_l1"] * k)  # B, where the straight edge ends on it
+        self.edge = self.touch - self.down * (self._sizes["rho_l1"] * k)  # B, where the straight edge ends on it
         # the centre of the corner of the last tooth on the left, on its right side
-        self.corner = complex(-math.pi * m - tooth.e_f, -tooth.h_0) * k
-
-    def radius(self, circle: str) -> float:
-        """Return the radius of the pinion's reference circle or, `b`, of its base circle."""
-        return (self.tooth.r_b if circle == "b" else self.tooth.r) * self.k
-
-    def on(self, circle: str, angle: float) -> complex:
-        """Return the point of a circle of the pinion at an angle from the direction to the pole."""
-        return self.centre + self.radius(circle) * cmath.rect(1.0, 0.5 * math.pi + angle)
+        self.corner = complex(-math.pi * self._sizes["m"] - tooth.e_f, -tooth.h_0) * k
 
     def outline(self) -> list[complex]:
         """Return the outline of the rack: flanks from its spaces to the round corners of its tips."""
-        m, tooth, sizes = self._sizes["m"], self.tooth, self._sizes
+        m, tooth, sizes = self._sizes["m"], self.pinion.tooth, self._sizes
         depth, middle = (sizes["h_a"] + sizes["c"]) * m, sizes["x_1"] * m
         turns = np.linspace(tooth.alpha, 0.5 * math.pi, CORNER)
         corner = complex(tooth.e_f, middle - depth + tooth.rho_f) + tooth.rho_f * (np.cos(turns) - 1j * np.sin(turns))
         top = complex(0.25 * math.pi * m + depth * math.tan(tooth.alpha), middle + depth)
         half = np.concatenate(([top], corner))  # to the right of the centre line, from the root to the tip
         one = np.concatenate((-half.conj(), half[::-1]))
-        return [point * self.k for n in NEIGHBOURS for point in (one + math.pi * m * n).tolist()]
-
-    def teeth(self) -> tuple[complex, ...]:
-        """Return the outline of the two teeth beside the space."""
-        turned = TO_POLE * cmath.rect(self.k, -0.5 * self.pitch)
-        points: NDArray[np.complex128] = self.centre + self.tooth.teeth(2) * turned
-        return tuple(points.tolist())
+        return [point * self.pinion.k for n in NEIGHBOURS for point in (one + math.pi * m * n).tolist()]

@@ -172,18 +172,20 @@ ROUNDING = 1e-12  # part of a length by which two ways to it may differ, and a l
 SAME = 1e-9  # part of the active line: flanks that touch along all of it
 
 
-def judged(name: str, quantity: str, value: float, limit: float, relation: str, of: str = "") -> Check:
-    """Return the check of a quantity, SI, against its limit, rounding apart; `of` is the quantity that the limit is.
+def judged(name: str, quantity: str, sizes: Mapping[str, float], limit: float | str, relation: str) -> Check:
+    """Return the check of a quantity against its limit, SI, another one by name or a number, rounding apart.
 
     Names are `undercut_1`, `interference_1`, `contact_ratio`, `contact_flanks`, `tip_1`, `centre_a_w_shift`, ...
     """
-    room = ROUNDING * max(abs(value), abs(limit))
+    of = limit if isinstance(limit, str) else ""
+    value, bound = sizes[quantity], sizes[limit] if isinstance(limit, str) else limit
+    room = ROUNDING * max(abs(value), abs(bound))
     if relation == EQUAL:
-        ok = math.isclose(value, limit, rel_tol=ROUNDING)
+        ok = math.isclose(value, bound, rel_tol=ROUNDING)
     else:
-        ok = value >= limit - room if relation == AT_LEAST else value <= limit + room
+        ok = value >= bound - room if relation == AT_LEAST else value <= bound + room
     return Check(
-        name=name, ok=ok, value=value, unit=unit_of(quantity), limit=limit, relation=relation, quantity=quantity, of=of
+        name=name, ok=ok, value=value, unit=unit_of(quantity), limit=bound, relation=relation, quantity=quantity, of=of
     )
 
 
@@ -193,28 +195,26 @@ def rule_of(check: Check) -> tuple[str, str]:
     return (name.kind, name.of) if name.of.isdigit() else (check.name, "")
 
 
-def checks(pair: GearPair, found: Mapping[str, float]) -> list[Check]:
+def checks(pair: GearPair, sizes: Mapping[str, float]) -> list[Check]:
     """Return the checks of a pair with its quantities by name, in the order of the note.
 
     Interference is looked for where the rack has cut: the curvature at the lower point of contact must not be less than
     at the boundary point. Of an undercut tooth that is negative, and the check of undercutting tells it.
     """
-    least_tip = pair.least_tip * found["m"]
+    least_tip = pair.least_tip * sizes["m"]
     return [
-        *(judged(f"centre_{name}", name, found[name], found["a_w"], EQUAL, "a_w") for name in SAME_CENTRES),
-        *_roots(found),
-        judged("contact_ratio", "epsilon_alpha", found["epsilon_alpha"], EPSILON, AT_LEAST),
-        *(judged(f"tip_{i}", f"s_a{i}", found[f"s_a{i}"], least_tip, AT_LEAST) for i in WHEELS),
+        *(judged(f"centre_{name}", name, sizes, "a_w", EQUAL) for name in SAME_CENTRES),
+        *_roots(sizes),
+        judged("contact_ratio", "epsilon_alpha", sizes, EPSILON, AT_LEAST),
+        *(judged(f"tip_{i}", f"s_a{i}", sizes, least_tip, AT_LEAST) for i in WHEELS),
     ]
 
 
-def _roots(found: Mapping[str, float]) -> list[Check]:
-    undercut, interference = [], []
-    for i in WHEELS:
-        x, least, rho_l, rho_p = (f"{name}{i}" for name in ("x_", "x_min", "rho_l", "rho_p"))
-        undercut.append(judged(f"undercut_{i}", x, found[x], found[least], AT_LEAST, least))
-        interference.append(judged(f"interference_{i}", rho_l, found[rho_l], found[rho_p], AT_MOST, rho_p))
-    return undercut + interference
+def _roots(sizes: Mapping[str, float]) -> list[Check]:
+    return [
+        *(judged(f"undercut_{i}", f"x_{i}", sizes, f"x_min{i}", AT_LEAST) for i in WHEELS),
+        *(judged(f"interference_{i}", f"rho_l{i}", sizes, f"rho_p{i}", AT_MOST) for i in WHEELS),
+    ]
 
 
 def _cut(found: Mapping[str, float]) -> bool:
@@ -259,8 +259,8 @@ class SolvedGear(Solved):
             length = max(last - first, 0.0)
             if length < sizes["g_alpha"] * (1.0 - SAME):  # the formula of the contact ratio counts what is cut away
                 place = 1 + [check.name for check in found].index("contact_ratio")
-                ratio_left = length / sizes["p_b"]
-                found.insert(place, judged("contact_flanks", "epsilon_flanks", ratio_left, EPSILON, AT_LEAST))
+                left = {"epsilon_flanks": length / sizes["p_b"]}
+                found.insert(place, judged("contact_flanks", "epsilon_flanks", left, EPSILON, AT_LEAST))
         return tuple(found)
 
     @property

@@ -149,11 +149,6 @@ class Tooth:
         points: Points = corner * np.exp(1j * ((beside - self.e_f) / self.r + math.pi / self.z))
         return points
 
-    @cached_property
-    def root_angle(self) -> float:
-        """The angle of the fillet's end on the root circle, rad: pi/z where the rack's tip is round."""
-        return math.pi / self.z - self.e_f / self.r
-
     def half(self, points: int = POINTS, arc: float = ARC) -> Points:
         """Return points of the upper half, from the middle of the tip to the middle of the space.
 
@@ -163,7 +158,8 @@ class Tooth:
         top = self.tip * np.exp(1j * _steps(0.0, end, arc))
         flank = self.flank(np.linspace(self.rho_end, self.rho_start, points))
         fillet = self.fillet(np.linspace(self.beta_start, RIGHT_ANGLE, points))
-        root = self.r_f * np.exp(1j * _steps(self.root_angle, math.pi / self.z, arc))
+        # the fillet ends on the root circle: in the middle of the space where the rack's tip is round
+        root = self.r_f * np.exp(1j * _steps(math.pi / self.z - self.e_f / self.r, math.pi / self.z, arc))
         return np.concatenate((top[:-1], flank[:-1], fillet[:-1], root))
 
     def outline(self, points: int = POINTS, arc: float = ARC) -> Points:
@@ -249,14 +245,6 @@ class Meshing:
             turned = self.sense * (ratio * angle - half)
             found.append(side * complex(math.cos(turned), math.sin(turned)))
         return found[0], found[1]
-
-    def outlines(self, angle: float, points: int = POINTS, arc: float = ARC) -> tuple[Points, Points]:
-        """Return the outlines of both wheels at an angle of the pinion, closed without a repeated point."""
-        first, second = (
-            centre + tooth.teeth(round(tooth.z), points, arc)[:-1] * direction
-            for tooth, centre, direction in zip(self.teeth, self.centres, self.directions(angle), strict=True)
-        )
-        return first, second
 
 
 def meshing_of(values: Mapping[str, float], sense: int = 1) -> Meshing:

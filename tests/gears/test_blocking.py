@@ -117,9 +117,10 @@ def test_undercut_lines_of_the_project_cross_in_the_least_shifts() -> None:
     place = next(c.place for c in plane(15.0, 20.0).crossings() if (c.first, c.second) == ("undercut_1", "undercut_2"))
 
     assert place == pytest.approx(complex(0.1226666617, -0.1697777844), abs=1e-9)
-    assert of.chosen == complex(0.2, 0.85)
-    assert bool(of.permits(of.chosen))
-    assert bool(of.permits(of.chosen, CURVES))
+    chosen = complex(of.values["x_1"], of.values["x_2"])
+    assert chosen == complex(0.2, 0.85)
+    assert bool(of.permits(chosen))
+    assert bool(of.permits(chosen, CURVES))
     assert not bool(of.permits(complex(0.2, 1.0), CURVES))  # the contact ratio
 
 

@@ -11,7 +11,7 @@ from kulman.plans.gears.geometry import geometry
 from kulman.plans.gears.solve import complete
 from kulman.plans.gears.teeth import Meshing, meshing_of
 from kulman.tests.support.gear_polygons import flanks_touch, line, polygon
-from kulman.tests.support.gears import SEED, contacts, counted_ratio, madi, random_pairs
+from kulman.tests.support.gears import SEED, contacts, counted_ratio, madi, outlines, random_pairs
 
 STEPS = 25  # of a pitch, in which contacts are counted by polygons
 TOUCHING = 5e-6  # mm: less apart, two chords of flanks touch
@@ -31,7 +31,7 @@ def mesh(others: dict[str, float], sense: int = 1) -> Meshing:
 
 def overlap(meshing: Meshing, angle: float) -> float:
     """Return the area common to both wheels, mm2."""
-    first, second = (polygon(outline) for outline in meshing.outlines(angle, 300, math.radians(0.1)))
+    first, second = (polygon(outline) for outline in outlines(meshing, angle, 300, math.radians(0.1)))
     return float(first.intersection(second).area)
 
 
@@ -46,7 +46,7 @@ def test_wheels_roll_through_a_pitch_without_overlap(others: dict[str, float], s
 def test_wheels_of_which_one_is_turned_by_a_thousandth_overlap() -> None:
     meshing = mesh({})
 
-    first, second = meshing.outlines(0.0, 100)
+    first, second = outlines(meshing, 0.0, 100)
 
     for turn in (1e-3, -1e-3):  # there is no backlash
         turned = meshing.centres[0] + (first - meshing.centres[0]) * np.exp(1j * turn)
@@ -115,7 +115,7 @@ def test_flanks_touch_on_the_line_of_action_where_the_contact_is_said_to_be(
         angle = meshing.angle(float(rho_1))
         place = meshing.place(float(rho_1))
         assert np.min(np.abs(contacts(meshing, angle) - rho_1)) < 1e-15
-        lines = [line(np.append(outline, outline[0])) for outline in meshing.outlines(angle, 400)]
+        lines = [line(np.append(outline, outline[0])) for outline in outlines(meshing, angle, 400)]
         point = line(np.array([place, place + 1e-12]))
         assert all(outline.distance(point) < 1e-4 for outline in lines)
 

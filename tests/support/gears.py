@@ -246,3 +246,11 @@ def _table(n: Mapping[int, Array], ends: Mapping[str, Array]) -> list[Array]:
         for j in range(parts)
     ]
     return [*found, n[2]]
+
+
+def outlines(meshing: Meshing, angle: float, points: int, arc: float = math.radians(1.0)) -> list[np.ndarray]:
+    """Return the outlines of both wheels at an angle of the pinion, closed without a repeated point."""
+    return [
+        centre + tooth.teeth(round(tooth.z), points, arc)[:-1] * direction
+        for tooth, centre, direction in zip(meshing.teeth, meshing.centres, meshing.directions(angle), strict=True)
+    ]
