@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import reduce
+from functools import lru_cache, reduce
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -89,8 +89,19 @@ def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
 
 def beside(a: complex, b: complex, boxes: Sequence[Box]) -> list[tuple[complex, complex]]:
     """Return the pieces of a line from `a` to `b` that lie outside of all boxes, or on their sides."""
-    inside = [shapely.box(x0 + SLACK, y0 + SLACK, x1 - SLACK, y1 - SLACK) for x0, y0, x1, y1 in boxes]
-    return _pieces(shapely.difference(lines([a], [b]), shapely.union_all(inside)), b - a, 2 * SLACK)
+    whole, area = lines([a], [b]), _inside(tuple(boxes))
+    if not shapely.intersects(area, whole[0]):  # by far faster than what is left of it
+        return [(a, b)] if abs(b - a) > SLACK else []
+    return _pieces(shapely.difference(whole, area), b - a, SLACK)
+
+
+@lru_cache(maxsize=8)  # many lines are broken at the same boxes
+def _inside(boxes: tuple[Box, ...]) -> shapely.Geometry:
+    """Return the area of boxes without their sides."""
+    x0, y0, x1, y1 = np.array(boxes, dtype=float).reshape(-1, 4).T
+    area = shapely.union_all(shapely.box(x0 + SLACK, y0 + SLACK, x1 - SLACK, y1 - SLACK))
+    shapely.prepare(area)
+    return area
 
 
 def coarser(shape: Shape, within: float) -> Shape:

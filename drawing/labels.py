@@ -232,12 +232,8 @@ class _Board:
 
     def _led(self, i: int, one: Wanted, grid: Grid, limit: float) -> bool:
         leads, cost = self._leads(i, one, grid, limit)
-        for price in (self._on_labels, self._on_leaders, self._on_things):
-            cost = cost + price(i, leads)
-            few = cost < limit  # what follows only adds to the cost
-            if not few.any():
-                return False
-            leads, cost = leads[:, few], cost[few]
+        if not cost.size or (cost := cost + self._in_the_way(i, leads)).min() >= limit:
+            return False
         at, head, start, way = leads[:, int(cost.argmin())].tolist()
         self.now_x[i], self.now_y[i], self.now[i] = at.real, at.imag, 0.0
         self.down[i], self.leaders[i] = True, (head - way * self.gap / 2, start)
@@ -266,25 +262,18 @@ class _Board:
         leads, few = np.array([x + 1j * y, head, foot + way * one.rim[0], way]), cost < limit
         return leads[:, few], cost[few]
 
-    def _on_labels(self, i: int, leads: Points) -> Reals:
-        """Return what it costs that leaders of label i run through other labels: none may."""
-        (_, head, start, way), w = leads, self.wanted
+    def _in_the_way(self, i: int, leads: Points) -> Reals:
+        """Return what it costs that leaders of label i run through other labels, cross what is drawn or run along it.
+
+        None may run through a label, and label i not stand on older leaders.
+        """
+        (at, head, start, way), w = leads, self.wanted
+        start = start + TOUCH * way
         others = self.now_x[:, None], self.now_y[:, None], w.hw[:, None], w.hh[:, None]
-        touched = Convex.of(start + TOUCH * way, head).distance(*others) < self.gap / 2
-        touched &= self.down[:, None]
+        touched = (Convex.of(start, head).distance(*others) < self.gap / 2) & self.down[:, None]
         touched[i] = False
-        cost: Reals = COVER * touched.sum(axis=0)
-        return cost
-
-    def _on_leaders(self, i: int, leads: Points) -> Reals:
-        """Return what it costs that label i stands on older leaders, or its own crosses them."""
-        older, w = np.array(list(self.leaders.values()), dtype=complex).reshape(-1, 2).T, self.wanted
-        at, head, start, way = leads
+        older = np.array(list(self.leaders.values()), dtype=complex).reshape(-1, 2).T
         on = Convex.of(*older).distance(at.real[:, None], at.imag[:, None], w.hw[i], w.hh[i]) < self.gap
-        crossed = shapely.crosses(lines(start + TOUCH * way, head)[:, None], lines(*older))
-        return np.asarray(COVER * on.sum(axis=1) + CROSSING * crossed.sum(axis=1))
-
-    def _on_things(self, i: int, leads: Points) -> Reals:
-        """Return what it costs that leaders of label i cross what is drawn, or run along it."""
-        _, head, start, way = leads
-        return np.asarray(CROSSING * self.scene.around.crossed(head, start + TOUCH * way))
+        crossed = shapely.crosses(lines(start, head)[:, None], lines(*older)).sum(axis=1)
+        crossed = crossed + self.scene.around.crossed(head, start)
+        return np.asarray(COVER * (touched.sum(axis=0) + on.sum(axis=1)) + CROSSING * crossed)

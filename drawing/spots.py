@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from .areas import lines, pairs
+from .areas import Shapes, lines, pairs
 from .text import Box
 
 Segment: TypeAlias = tuple[complex, complex]
@@ -233,13 +234,17 @@ class Surroundings:
         self.things.radius[kind == CIRCLE] = radii.real
         self.hard = (kind != FINE) & (kind != NAMED)
         self.rival = (kind != FINE) & (kind != BOX)  # something with a name of its own
-        self.middles = shapely.points(pairs(self.things.middle))
-        self.strokes = np.where(self.things.along == 0, self.middles, lines(a, b))
-        self.shapes = self.strokes.copy()
+        self.shapes = lines(a, b)
+        self.shapes[a == b] = shapely.points(pairs(a[a == b]))
         self.shapes[kind == BOX] = shapely.box(low_x, low_y, high_x, high_y)
         rims = centres[:, None] + radii[:, None] * np.exp(2j * np.pi / ROUND * np.arange(ROUND))
         self.shapes[kind == CIRCLE] = shapely.polygons(pairs(rims))
         self.tree = shapely.STRtree(self.shapes)
+
+    @cached_property
+    def middles(self) -> Shapes:
+        """The middles of all things."""
+        return np.asarray(shapely.points(pairs(self.things.middle)))
 
     def grid(self, wanted: Wanted, steps: Sequence[float], led: bool = False) -> Grid:
         """Weigh all places of labels at the given steps, or all round (`steps` empty): these may leave the bounds.
@@ -281,7 +286,9 @@ class Surroundings:
         """Tell which things j are part of what labels i name: they end in the node, or lie along the segment."""
         half = (wanted.b[i] - wanted.a[i]) / 2
         is_node, is_stroke = half == 0, self.things.along[j] != 0
-        reach = shapely.distance(shapely.points(pairs((wanted.a + wanted.b) / 2))[i], self.strokes[j])
+        reach = shapely.distance(
+            shapely.points(pairs((wanted.a + wanted.b) / 2))[i], np.where(is_stroke, self.shapes[j], self.middles[j])
+        )
         n = (~is_node).nonzero()[0]
         reach[n] = np.minimum(reach[n], shapely.distance(self.middles[j[n]], lines(wanted.a, wanted.b)[i[n]]))
         slope = abs((half * self.things.normal[j].conj()).real)
