@@ -98,21 +98,21 @@ class Inversion(ABC):
 
     def numbers(self, radius: float) -> None:
         """Write the number of each position on its line, at `radius`; that of position 0 beside the rod."""
-        label, e = self.style.label, self.e
+        label, height, e = self.style.label, self.style.text, self.e
         for i in self.lines:
             at = course.on_circle(e, radius, course.up_at(self.scene.solved, i))
             if i == 0:  # beyond the cam's axis from there
                 at = complex(-label if e >= 0.0 else label, at.imag)
-            if i == 0 or at.imag <= 0.0 or abs(at.real - e) >= label:  # not on the rod
+            needed = lay_out(str(i), height).width + 0.3 * height
+            on_rod = i > 0 and at.imag > 0.0 and abs(at.real - e) < label
+            if not on_rod and all(abs(at - other) > needed for other in self.numbered_at):  # of many, some have none
                 self.number(at, i)
 
     def number(self, at: complex, i: int) -> None:
-        """Write the number of a position about a place that is clear of other numbers: of many, some have none."""
+        """Write the number of a position about a place."""
         height = self.style.text
-        needed = lay_out(str(i), height).width + 0.3 * height
-        if all(abs(at - other) > needed for other in self.numbered_at):
-            self.canvas.add(Text(at - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
-            self.numbered_at.append(at)
+        self.canvas.add(Text(at - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
+        self.numbered_at.append(at)
 
     def _phases(self) -> None:
         """Dimension the phases in degrees, from the lowest position on, outside of all positions."""

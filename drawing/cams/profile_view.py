@@ -118,7 +118,10 @@ class _Rocker(RollerInversion):
             pivot = self.mark("A", i)
             tick = pivot, unit(pivot) * (radius - 0.9 * self.style.label)
             thin(self.canvas, "position", str(i), *tick)
-            self.number(unit(pivot) * radius, i)
+            at, wide = unit(pivot) * radius, lay_out(str(i), self.style.text).width
+            gaps = (at - other for other in self.numbered_at)
+            if all(abs(gap.real) > wide or abs(gap.imag) > self.style.text for gap in gaps):  # clear of all before
+                self.number(at, i)
 
     def rising(self, i: int) -> tuple[complex, complex]:
         """Return the instant centre, on the line of both pivots, and the direction across the rocker."""
