@@ -234,12 +234,23 @@ class Surroundings:
         self.things.radius[kind == CIRCLE] = radii.real
         self.hard = (kind != FINE) & (kind != NAMED)
         self.rival = (kind != FINE) & (kind != BOX)  # something with a name of its own
-        self.shapes = lines(a, b)
-        self.shapes[a == b] = shapely.points(pairs(a[a == b]))
-        self.shapes[kind == BOX] = shapely.box(low_x, low_y, high_x, high_y)
+        self._drawn = a, b, np.array(obstacles.boxes, dtype=float).reshape(-1, 4).T, centres, radii
+
+    @cached_property
+    def shapes(self) -> Shapes:
+        """All things as areas, lines and points of shapely: made when first asked for."""
+        a, b, corners, centres, radii = self._drawn
+        shapes = lines(a, b)
+        shapes[a == b] = shapely.points(pairs(a[a == b]))
+        shapes[self.kind == BOX] = shapely.box(*corners)
         rims = centres[:, None] + radii[:, None] * np.exp(2j * np.pi / ROUND * np.arange(ROUND))
-        self.shapes[kind == CIRCLE] = shapely.polygons(pairs(rims))
-        self.tree = shapely.STRtree(self.shapes)
+        shapes[self.kind == CIRCLE] = shapely.polygons(pairs(rims))
+        return shapes
+
+    @cached_property
+    def tree(self) -> shapely.STRtree:
+        """The tree of the shapes, to be asked what is near."""
+        return shapely.STRtree(self.shapes)
 
     @cached_property
     def middles(self) -> Shapes:
@@ -335,7 +346,7 @@ def first_clear(
 ) -> complex | None:
     """Return the first place about which a box of this width and height is at least `gap` from everything, mm."""
     at, (wide, high) = np.array(places, dtype=complex), 0.5 * np.array(size)
-    around = shapely.box(at.real - wide, at.imag - high, at.real + wide, at.imag + high)
-    covered, _ = Surroundings(obstacles, gap).tree.query(around, predicate="dwithin", distance=gap)
-    clear = np.setdiff1d(np.arange(len(places)), covered)
-    return places[clear[0]] if clear.size else None
+    # a few places once: the tree of all that is drawn would take three times as long
+    away = Surroundings(obstacles, gap).things.distance(at.real[:, None], at.imag[:, None], wide, high)
+    clear = (away >= gap).all(axis=1)
+    return complex(at[int(np.argmax(clear))]) if clear.any() else None
