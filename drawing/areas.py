@@ -92,7 +92,7 @@ def beside(a: complex, b: complex, boxes: Sequence[Box]) -> list[tuple[complex, 
     whole, area = lines([a], [b]), _inside(tuple(boxes))
     if not shapely.intersects(area, whole[0]):  # by far faster than what is left of it
         return [(a, b)] if abs(b - a) > SLACK else []
-    return _pieces(shapely.difference(whole, area), b - a, SLACK)
+    return _pieces(shapely.difference(whole, area), b - a, 2 * SLACK)
 
 
 @lru_cache(maxsize=8)  # many lines are broken at the same boxes

@@ -22,8 +22,11 @@ def packaged(package: str, folder: str, name: str) -> dict[str, Any]:
     import tomllib
 
     files = (home(place) / folder / f"{name}.toml" for place in (package, *_ADDED))
-    texts = (file.read_text(encoding="utf-8") for n, file in enumerate(files) if n == 0 or file.exists())
-    return {key: value for text in texts for key, value in tomllib.loads(text).items()}
+    tables = [tomllib.loads(file.read_text("utf-8")) for n, file in enumerate(files) if n == 0 or file.exists()]
+    whole = {key: value for table in tables for key, value in table.items()}
+    if package not in _ADDED and len(whole) != sum(map(len, tables)):
+        raise ValueError(f"{folder}/{name}.toml: what a subject adds has a key that there is")
+    return whole
 
 
 _ADDED: list[str] = []

@@ -306,7 +306,7 @@ def roots_page(found: Mapping[str, Ways], words: Words, title: str, note: str) -
     with page(title, note) as figure:
         for left, corner, (name, ways) in zip((LEFT, APART), ("right", "lower left"), found.items(), strict=True):
             axes = box(figure, (left, 30.0, 116.0, 152.0), xlabel=words["chart.hoist.evaluations"])
-            head = words[f"chart.hoist.{name}_root"].format(x=words.short(ways.root, 5))
+            head = words[f"chart.hoist.root.{name}"].format(x=words.short(ways.root, 5))
             axes.set(title=head, ylabel=words["chart.error.lift_off"])
             for k, (method, root) in enumerate(ways.found.items()):
                 error = np.maximum(ways.errors[method][: min(root.evaluations + 1, SHOWN)], FLOOR)

@@ -298,11 +298,16 @@ def _active_flank(canvas: Canvas, scene: GearScene, wheel: Wheel) -> float:
     flank = wheel.flank(low, high)
     strip = [point + STRIP * label * wheel.inward(point) for point in flank]
     length = sum(abs(b - a) for a, b in pairwise(flank))
-    count = min(max(3, round(length / (STROKES * label))), len(flank) - 1)
-    picked = (round(k * (len(flank) - 1) / count) for k in range(count + 1))
+    picked = _spread(len(flank) - 1, round(length / (STROKES * label)))
     strokes = (Line(flank[i], strip[i], Pen.THIN, role="hatch") for i in picked)
     canvas.add(Group((Polyline(tuple(strip), Pen.THIN), *strokes), "active", f"flank_{wheel.number}"))
     return low
+
+
+def _spread(last: int, steps: int) -> list[int]:
+    """Return places from 0 to the `last`, evenly spread in so many steps, three or more where there are so many."""
+    steps = min(max(3, steps), last)
+    return [round(k * last / steps) for k in range(steps + 1)]
 
 
 STAGES = stages(

@@ -89,10 +89,10 @@ def compound_lines(scene: Scene, c: Coupler, kind: str, only: str = "") -> Itera
             continue
         if i == 0 and kind == "V":
             links = {"link": scene.link_name(c.number), "carrier": scene.link_name(c.carrier.number)}
-            split = scene.words["said.split"].format(
+            sentence = scene.words["said.split"].format(
                 pivot=scene.words.mark(c.pivot), hinge=scene.words.mark(c.hinge), **links
             )
-            yield tuple(split.split("|"))
+            yield tuple(sentence.split("|"))
         if i == 0 and c.closing is None:
             yield _sum_of_rates(scene, rate(turning[0], c.number, "r"), rate(turning[0], c.number), turning[1], -1.0)
             yield from _centre(scene, c) if kind == "V" else ()

@@ -246,6 +246,14 @@ class Meshing:
             found.append(side * complex(math.cos(turned), math.sin(turned)))
         return found[0], found[1]
 
+    def outlines(self, angle: float, points: int = POINTS, arc: float = ARC) -> tuple[Points, Points]:
+        """Return the outlines of both wheels at an angle of the pinion, closed without a repeated point."""
+        first, second = (
+            centre + tooth.teeth(round(tooth.z), points, arc)[:-1] * direction
+            for tooth, centre, direction in zip(self.teeth, self.centres, self.directions(angle), strict=True)
+        )
+        return first, second
+
 
 def meshing_of(values: Mapping[str, float], sense: int = 1) -> Meshing:
     """Return a pair in mesh with its complete givens by name."""

@@ -20,7 +20,7 @@ from kulman.variants.making.starter import start
 from kulman.variants.reader import check_file, read_text
 from kulman.variants.tables import csv_text
 
-FILE = "lever.toml"
+FILE = "seesaw.toml"
 
 
 @pytest.fixture(autouse=True)
@@ -36,11 +36,11 @@ def test_the_template_made_of_its_givens_is_a_task_that_is_in_order() -> None:
     task = load_task(FILE)
 
     assert check_file(FILE) == ((), ())
-    assert (task.id, task.kind, tuple(task.givens)) == ("lever", "lever", ("l_1", "l_2", "F_1"))
+    assert (task.id, task.kind, tuple(task.givens)) == ("seesaw", "seesaw", ("l_1", "l_2", "F_1"))
     assert task.values() == pytest.approx({"l_1": 0.2, "l_2": 0.4, "F_1": 100.0, "zero": 0.0}, rel=1e-12)
 
 
-def test_what_no_lever_has_is_a_fault_with_its_line() -> None:
+def test_what_no_seesaw_has_is_a_fault_with_its_line() -> None:
     text = Path(FILE).read_text(encoding="utf-8")
 
     for old, new, said in (
@@ -64,7 +64,7 @@ def test_solution_and_its_condition_are_those_of_the_balance_of_moments() -> Non
     assert (solution["Q_O"].y, solution["Q_O"].mm) == pytest.approx((140.0, 70.0), rel=1e-14)
     assert solution.scales["mu_F"] == Scale("mu_F", 2.0, "N")
     assert solution.conditions["F_2"].value == pytest.approx(3.0, rel=1e-6)
-    assert "Scheme of the lever" in solution.table("en")
+    assert "Scheme of the seesaw" in solution.table("en")
     with pytest.raises(InputError, match="more than 100 times as long"):
         solve(FILE, set={"l_2": "21 m"})
 
@@ -77,7 +77,7 @@ def test_sheet_note_and_handout_are_in_its_own_words(language: str) -> None:
     told.save("note.md")
     text = Path("note.md").read_text(encoding="utf-8")
     assert {view.name for view in drawn.views} == {"givens", "scheme", "balance"}
-    for key in ("heading.lever_scheme", "lever.scheme.load"):
+    for key in ("heading.seesaw_scheme", "seesaw.scheme.load"):
         assert packaged(toy.__name__, "texts", language)[key] in text
     assert begun[0].count('class="link"') < begun[1].count('class="link"') < drawn.svg().count('class="link"')
 

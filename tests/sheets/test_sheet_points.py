@@ -84,11 +84,11 @@ def moved(case: Case, old: str, new: str, count: int = 1) -> Sheet:
 A1 = Case(format="A1")
 SPOILED = {
     "L1": (r'(data-name="S2">\n<circle class="main" cx=")\d+', r"\g<1>300"),
-    "L3": (r'(data-quantity="V_A".*?x2=")(\d+)', r"\g<1>1\g<2>"),
-    "L4": (r'(data-name="velocity.B_2" x1="[\d.]+" y1=")(\d+)', r"\g<1>9\g<2>"),
-    "L6": (r'(data-quantity="a_BA_n".*?y2=")(\d)', r"\g<1>9\g<2>"),
-    "L9": (r'("h_2">\n<line class="thin" x1="[\d.]+" y1="[\d.]+" x2=")(\d+)', r"\g<1>1\g<2>"),
-    "L10": (r'(data-quantity="F_i2".*?y1=")(\d)', r"\g<1>9\g<2>"),
+    "L3": (r'(?s)(data-quantity="V_A".*?x2=")(\d+)', r"\g<1>1\g<2>"),
+    "L4": (r'(data-name="velocity.B_2" [^>]*?y1=")(\d+)', r"\g<1>9\g<2>"),
+    "L6": (r'(?s)(data-quantity="a_BA_n".*?y2=")(\d)', r"\g<1>9\g<2>"),
+    "L9": (r'("h_2">\n<line class="thin" [^>]*?x2=")(\d+)', r"\g<1>1\g<2>"),
+    "L10": (r'(?s)(data-quantity="F_i2".*?y1=")(\d)', r"\g<1>9\g<2>"),
     "L11": (r'(?s)(data-name="driver">.*?= 0,001)( м/мм)', r"\g<1>01\g<2>"),
     "L12": (r"·pa − F", "·pa + F"),
     "L12, arms": (r"(?s)= 18,36(.*?)= 60,76", r"= 60,76\g<1>= 18,36"),

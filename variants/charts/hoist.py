@@ -99,7 +99,7 @@ class _HoistRootsChart(Chart[Mapping[str, Ways]]):
                 if math.isnan(found.root):
                     cells = [words["chart.hoist.fails"].format(method=cells[0]), "–", "–"]
                 rows.append(cells)
-            head = words[f"chart.hoist.{name}_root"].format(x=words.short(ways.root, 7))
+            head = words[f"chart.hoist.root.{name}"].format(x=words.short(ways.root, 7))
             yield f"{head}\n{aligned(rows)}"
 
     def _rows(self) -> Iterator[Sequence[Cell]]:

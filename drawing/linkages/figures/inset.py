@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import cycle
 from typing import NamedTuple
 
 from ....plans.board import Step
@@ -165,16 +166,17 @@ def with_insets(
     if not shown:
         return canvas.finish(name, heading, notes)
     frames: dict[Window | None, list[tuple[Box, str]]] = {}  # by the inset in which they stand, else in the figure
-    for i, (_, window) in enumerate(shown):
+    for (_, window), numeral in zip(shown, cycle(NUMERALS), strict=False):
         x0, y0, x1, y1 = window.box
         around = [w for _, w in shown if w.times < window.times and w.shows(complex(x0 + x1, y0 + y1) / 2)]
         host = max(around, key=lambda other: other.times, default=None)  # the finest of the coarser ones
-        frames.setdefault(host, []).append((window.box, f"{name}_{NUMERALS[i % len(NUMERALS)]}"))
-    insets = []
-    for i, (plan, window) in enumerate(shown):
-        insets.append(_inset(plan, window, f"{name}_{NUMERALS[i % len(NUMERALS)]}", frames.get(window, ())))
+        frames.setdefault(host, []).append((window.box, numeral))
+    insets = [
+        _inset(plan, window, name, numeral, frames.get(window, ()))
+        for (plan, window), numeral in zip(shown, cycle(NUMERALS), strict=False)
+    ]
     canvas.part(ENLARGED)
-    _framed(canvas, frames.get(None, ()), 1.0)
+    _framed(canvas, name, frames.get(None, ()), 1.0)
     figure = canvas.finish(name)
     ways = []
     for right in (True, False):
@@ -194,14 +196,14 @@ def with_insets(
     return View(name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes, parts=parts)
 
 
-def _framed(canvas: Canvas, frames: Iterable[tuple[Box, str]], times: float) -> None:
-    """Draw the frames of what insets show, with their numerals."""
-    for box, name in frames:
+def _framed(canvas: Canvas, name: str, frames: Iterable[tuple[Box, str]], times: float) -> None:
+    """Draw the frames of what the insets of a figure show, with their numerals."""
+    for box, numeral in frames:
         x0, y0, x1, y1 = (side * times for side in box)
         wide, high = (max(0.0, LEAST_FRAME - size) / 2 for size in (x1 - x0, y1 - y0))
         corners = _corners((x0 - wide, y0 - high, x1 + wide, y1 + high))
-        canvas.add(Polyline(corners, Pen.THIN, closed=True, role="window", name=name))
-        canvas.label(name.rpartition("_")[2], corners[2:], prefer=1j, clear=0.8)
+        canvas.add(Polyline(corners, Pen.THIN, closed=True, role="window", name=f"{name}_{numeral}"))
+        canvas.label(numeral, corners[2:], prefer=1j, clear=0.8)
 
 
 def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
@@ -210,8 +212,9 @@ def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
     return complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
 
 
-def _inset(plan: Plan, window: Window, name: str, framed: Iterable[tuple[Box, str]]) -> View:
+def _inset(plan: Plan, window: Window, figure: str, numeral: str, framed: Iterable[tuple[Box, str]]) -> View:
     """Draw what stands in the window, enlarged: vectors to a scale factor of their own, those that leave it cut off."""
+    name = f"{figure}_{numeral}"
     scene, times, (x0, y0, x1, y1) = plan.scene, window.times, window.box
     bounds: Box = (x0 * times, y0 * times, x1 * times, y1 * times)
     canvas, scale = Canvas(scene.style, bounds=bounds), scene.scales[plan.plan]
@@ -238,14 +241,14 @@ def _inset(plan: Plan, window: Window, name: str, framed: Iterable[tuple[Box, st
             canvas.add(Group(tuple(parts), "cut", vector.quantity))
         if names:
             canvas.label(" = ".join(names), cut, clear=0.9, strict=True)
-    _framed(canvas, framed, times)
+    _framed(canvas, figure, framed, times)
     places = {mark: place * times for mark, place in plan.marks().items()}
     seen = {mark: place for mark, place in places.items() if clipped(place, place, bounds) is not None}
     letter_marks(
         canvas, scene, {mark: scene.words.mark(mark) for mark in seen}, seen, [p for p in plan.poles() if p in seen]
     )
     canvas.add(Polyline(_corners(bounds), Pen.THIN, closed=True, role="inset", name=name))
-    return canvas.finish(name, (f"{name.rpartition('_')[2]}:  {scene.words.scale(own)}",))
+    return canvas.finish(name, (f"{numeral}:  {scene.words.scale(own)}",))
 
 
 def construction_line(scene: Scene, step: Step, start: str, direction: str) -> tuple[complex, complex, complex]:

@@ -1,4 +1,4 @@
-"""A lever as data: a load on one arm, what balances it on the other."""
+"""A seesaw as data: a load on one arm, what balances it on the other."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ GIVENS: Givens = {
 
 
 @dataclass(frozen=True, slots=True)
-class Lever(Described):
-    """A lever on a pivot between its ends."""
+class Seesaw(Described):
+    """A seesaw on a pivot between its ends."""
 
     givens = GIVENS
     near: str = "left"

@@ -1,4 +1,4 @@
-"""Tasks about levers: a table `[lever]` with the side on which the load is."""
+"""Tasks about seesaws: a table `[seesaw]` with the side on which the load is."""
 
 from __future__ import annotations
 
@@ -6,24 +6,24 @@ from collections.abc import Iterator
 from typing import Any
 
 from kulman.scales.errors import InputError
-from kulman.tests.support.toy.plans.lever.lever import GIVENS, PLANS, Lever
+from kulman.tests.support.toy.plans.seesaw.seesaw import GIVENS, PLANS, Seesaw
 from kulman.variants.case import Numbers
 from kulman.variants.kinds.sized import Sized
 
 LONGEST = 100.0  # times the arm of the load
 
 
-class Levers(Sized[Lever, Any]):
-    """Levers of two arms."""
+class Seesaws(Sized[Seesaw, Any]):
+    """Seesaws of two arms."""
 
-    home, room, table, plans = "kulman.tests.support.toy", "lever", "lever", PLANS
-    made, givens, symbols, stranger = Lever, GIVENS, ("mu_l", "mu_F"), "value-unknown"
+    home, room, table, plans = "kulman.tests.support.toy", "seesaw", "seesaw", PLANS
+    made, givens, symbols, stranger = Seesaw, GIVENS, ("mu_l", "mu_F"), "value-unknown"
     moves = False
 
     def impossible(self, values: Numbers) -> Iterator[tuple[str, InputError]]:
         """Refuse an arm that no sheet shows beside the other."""
         if values["l_2"] > LONGEST * values["l_1"]:
-            yield "l_2", InputError("lever-long", most=f"{LONGEST:g}")
+            yield "l_2", InputError("seesaw-long", most=f"{LONGEST:g}")
 
 
-KIND = Levers()
+KIND = Seesaws()

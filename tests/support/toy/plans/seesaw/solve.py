@@ -1,4 +1,4 @@
-"""A lever drawn and solved: the balance of moments, the reaction of the pivot as the closing side of the forces."""
+"""A seesaw drawn and solved: the balance of moments, the reaction of the pivot as the closing side of the forces."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from kulman.plans.hands.shaky import Paper, Tolerance
 from kulman.plans.names import role
 from kulman.plans.quantities import quantities, shown_on
 from kulman.plans.solved import Solved
-from kulman.tests.support.toy.plans.lever.lever import BALANCE, PLANS, SCHEME, Lever
+from kulman.tests.support.toy.plans.seesaw.seesaw import BALANCE, PLANS, SCHEME, Seesaw
 
 SCALES = {SCHEME: "mu_l", BALANCE: "mu_F"}
 
@@ -43,10 +43,10 @@ PARTS = {SCHEME: (scheme,), BALANCE: (forces,)}
 
 
 @dataclass(frozen=True, kw_only=True)
-class SolvedLever(Solved):
-    """A lever solved."""
+class SolvedSeesaw(Solved):
+    """A seesaw solved."""
 
-    lever: Lever
+    seesaw: Seesaw
     plans: tuple[str, ...]
 
 
@@ -55,14 +55,14 @@ def unit_of(name: str) -> str:
     return {"M": "N*m", "l": "m"}.get(role(name).kind, "N")
 
 
-def solve_lever(lever: Lever, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedLever:
-    """Solve a lever, whose side is chosen."""
+def solve_seesaw(seesaw: Seesaw, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedSeesaw:
+    """Solve a seesaw, whose side is chosen."""
     wanted = tuple(plan for plan in PLANS if plan in {*plans})
     program = recorded(balanced, *(part for plan in wanted for part in PARTS[plan]))
     numbers = {name: float(values[name]) for name in ("l_1", "l_2", "F_1")}
-    givens = {**numbers, "_side": -1 + 0j if lever.near == "left" else 1 + 0j, "_down": -1j}
+    givens = {**numbers, "_side": -1 + 0j if seesaw.near == "left" else 1 + 0j, "_down": -1j}
     board = run(program, givens)
-    return SolvedLever(
+    return SolvedSeesaw(
         program=program,
         values=board.values,
         quantities=quantities(program, board.values, {}, unit_of),
@@ -72,7 +72,7 @@ def solve_lever(lever: Lever, values: Mapping[str, float], plans: Iterable[str] 
         shown_on=shown_on(program) | ({"l_AB": SCHEME} if SCHEME in wanted else {}),
         scale_of_plan={plan: SCALES[plan] for plan in wanted},
         givens=givens,
-        lever=lever,
+        seesaw=seesaw,
         plans=wanted,
     )
 
@@ -82,12 +82,12 @@ def section_of(name: str) -> str:
     return SCHEME if name == "l_AB" else BALANCE
 
 
-def conditions_of(solved: SolvedLever) -> dict[str, Condition]:
+def conditions_of(solved: SolvedSeesaw) -> dict[str, Condition]:
     """Return the condition of every quantity."""
     numbers = {name: solved.givens[name] for name in ("l_1", "l_2", "F_1")}
-    return conditions_again(solved, lambda others: solve_lever(solved.lever, others, solved.plans), numbers)
+    return conditions_again(solved, lambda others: solve_seesaw(solved.seesaw, others, solved.plans), numbers)
 
 
-def tolerances_of(solved: SolvedLever, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
+def tolerances_of(solved: SolvedSeesaw, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
     """Return nothing: the usual rule holds for all quantities."""
     return {}
