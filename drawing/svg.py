@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from base64 import b64encode
 from cmath import rect
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from math import cos, degrees, isfinite, pi, sin
 from typing import Any, BinaryIO, assert_never
@@ -91,25 +91,24 @@ class _Walk(Walk):
 
     def stroke(self, shape: Stroke, dashes: tuple[float, ...]) -> None:
         """Add an element with the attributes by which it is read back."""
-        looks = {
-            "class_": shape.role or shape.pen.value,
-            "data_name": shape.name,
-            "stroke": shape.colour or BLACK,
-            "stroke_width": _number(self.pens.width(shape.pen)),
-            "stroke_dasharray": " ".join(map(_number, dashes)),
-        }
         match shape:
             case Line(a=a, b=b):
-                element = self.new.line(*self.places(a, b), **looks)
+                element, area = self.new.line(*self.places(a, b)), None
             case Polyline(points=points, closed=closed):
                 make = self.new.polygon if closed else self.new.polyline
-                element = make(self.places(*points), **looks, fill=filled(shape) or "none")
+                element, area = make(self.places(*points)), filled(shape) or "none"
             case Circle(centre=centre, radius=radius):
-                fill = filled(shape) or "none"
-                element = self.new.circle(*self.places(centre), _number(radius), **looks, fill=fill)
+                element, area = self.new.circle(*self.places(centre), _number(radius)), filled(shape) or "none"
             case Arc():
-                element = self.new.path(self.arc(shape), **looks, fill="none")
-        self.groups[-1].add(element)
+                element, area = self.new.path(self.arc(shape)), "none"
+        looks = {"stroke": shape.colour or BLACK, "stroke-width": _number(self.pens.width(shape.pen)), "fill": area}
+        identity = {"class": shape.role or shape.pen.value, "data-name": shape.name}
+        self.add(element, identity | looks | {"stroke-dasharray": " ".join(map(_number, dashes))})
+
+    def add(self, element: Any, attributes: Mapping[str, str | None]) -> Any:
+        """Add an element with attributes as they are written: by keywords svgwrite takes twice the time."""
+        element.attribs |= attributes
+        return self.groups[-1].add(element)
 
     def arc(self, arc: Arc) -> str:
         """Return the path of an arc, in two halves if it is more than half a circle: one command would be ambiguous."""
@@ -121,15 +120,16 @@ class _Walk(Walk):
 
     def head(self, corners: tuple[complex, complex, complex], colour: str) -> None:
         """Add a triangle."""
-        self.groups[-1].add(self.new.polygon(self.places(*corners), class_="head", fill=colour))
+        self.add(self.new.polygon(self.places(*corners)), {"class": "head", "fill": colour})
 
     def letters(self, text: Text, runs: Sequence[tuple[Run, complex]], alone: bool) -> None:
         """Add a `text` element for each run; one that is alone carries what a group would."""
-        identity = {"class_": text.role, "data_name": text.name} if alone else {}
+        identity = {"class": text.role, "data-name": text.name} if alone else {}
         for run, at in runs:
             self.characters.update(run.string)
-            looks = {"font_size": _number(run.size), "fill": text.colour, "transform": self.turn(text, at)}
-            self.groups[-1].add(self.new.text(run.string, *self.places(at), **identity, **looks))
+            ((x, y),) = self.places(at)
+            looks = {"font-size": _number(run.size), "fill": text.colour, "transform": self.turn(text, at)}
+            self.add(self.new.text(run.string), {**identity, **looks, "x": x, "y": y})
 
     def turn(self, text: Text, at: complex) -> str | None:
         """Return the transform of a turned or squeezed text, which keeps the point `at` in its place."""
@@ -149,22 +149,22 @@ class _Walk(Walk):
             case Layer():
                 shown = {"inkscape:groupmode": "layer", "inkscape:label": part.title(self.page.language)}
                 hidden = "none" if part.hidden else None
-                identity = {"id": f"layer-{part.value}", "class_": "layer", "display": hidden, **shown}
+                identity = {"id": f"layer-{part.value}", "class": "layer", "display": hidden, **shown}
             case Vector(quantity=quantity, unit=unit):
-                values = {"data_value": _exact(part.value), "data_mu": _exact(part.mu)}
-                identity = {"class_": "vector", "data_quantity": quantity, "data_unit": unit, **values}
+                values = {"data-value": _exact(part.value), "data-mu": _exact(part.mu)}
+                identity = {"class": "vector", "data-quantity": quantity, "data-unit": unit, **values}
             case Arrow(name=name):
-                identity = {"class_": "arrow", "data_name": name}
+                identity = {"class": "arrow", "data-name": name}
             case Group(role=role, name=name) | Text(role=role, name=name):
-                identity = {"class_": role, "data_name": name}
+                identity = {"class": role, "data-name": name}
             case _:
                 assert_never(part)
-        group = self.groups[-1].add(self.new.g(**identity))
+        group = self.add(self.new.g(), identity)
         self.groups.append(group)
         if isinstance(part, Vector | Arrow | Group) and part.title:
             group.set_desc(title=part.title)
         if isinstance(part, Vector | Arrow):
-            group.add(self.new.line(*self.places(part.tail, part.tip), class_="span", stroke="none"))
+            self.add(self.new.line(*self.places(part.tail, part.tip)), {"class": "span", "stroke": "none"})
 
     def end(self, part: Part) -> None:
         """Go on with the group before."""
