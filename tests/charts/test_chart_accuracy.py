@@ -1,4 +1,4 @@
-"""Speed against accuracy: errors beside fifty digits come out as the methods' own laws say; times are not tested."""
+"""Speed against accuracy: errors beside fifty digits come out as the methods' laws say, Newton's beside plans."""
 
 from __future__ import annotations
 
@@ -6,24 +6,40 @@ import math
 import time
 from dataclasses import replace
 from functools import cache, partial
+from typing import Any
 
 import numpy as np
 import pytest
 
 from kulman.drawing.charts.race import accuracy_page
 from kulman.drawing.words import Words
+from kulman.plans.boards.exact import run
 from kulman.plans.hands.shaky import preset
 from kulman.plans.lab import race as contests
+from kulman.plans.lab.contours import Contours
 from kulman.plans.lab.linkages import DrawnSheet, Rivals, by_hand, contest, kinds_of, places_of, truth
 from kulman.plans.lab.race import Contest, Effort, Entry
+from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.cycles.cycle import Cycle, cycle
-from kulman.plans.linkages.solved import solve_linkage
+from kulman.plans.linkages.mechanism import Mechanism
+from kulman.plans.linkages.solved import board_givens, solve_linkage
 from kulman.plans.quantities import references
+from kulman.tests.support.dyads import random_dyads
+from kulman.tests.support.linkages import (
+    four_bar,
+    piston_engine,
+    random_crank_rockers,
+    random_slider_cranks,
+    slider_crank,
+)
 from kulman.variants.reader import load_task
+from kulman.variants.shelf import bundled
 
 LITTLE = Effort((1, 10), 20)
-KINDS = ("velocity", "acceleration", "forces")
 EPS = 2.0**-52
+MOTION = ("velocity", "acceleration")
+PLANS = ("position", *MOTION)
+KINDS = (*MOTION, "forces")
 
 
 @cache
@@ -46,53 +62,35 @@ def errors(race: Contest, method: str, kind: str) -> dict[float | str, float]:
 @pytest.mark.parametrize("kind", KINDS)
 def test_more_digits_err_less(race: Contest, kind: str) -> None:
     (single,) = errors(race, "plan-single", kind).values()
-    double = set(errors(race, "plan", kind).values())
-    extended = errors(race, "plan-extended", kind).values()
+    (double,) = set(errors(race, "plan", kind).values())  # however many positions at once
 
-    assert len(double) == 1  # however many positions at once
     assert 1e-9 < single < 1e-3
-    assert EPS * 0.01 < max(double) < 1e-13
-    assert all(value < max(double) * 1e-2 for value in extended)
+    assert EPS * 0.01 < double < 1e-13
+    assert all(value < double * 1e-2 for value in errors(race, "plan-extended", kind).values())
+    assert kind != "forces" or {e.method for e in race.of(kind)} == {"plan", "plan-single", "plan-extended"}
 
 
-@pytest.mark.parametrize("kind", KINDS[:2])
-def test_chords_err_as_the_square_of_a_section(race: Contest, kind: str) -> None:
-    found = errors(race, "chords", kind)
-
-    assert found[96] / found[192] == pytest.approx(4.0, rel=0.05)
-    assert found[192] / found[384] == pytest.approx(4.0, rel=0.02)
-
-
-@pytest.mark.parametrize(("kind", "best"), [("velocity", 1e-5), ("acceleration", 1e-4)])
-def test_differences_err_by_the_step_and_then_by_rounding(race: Contest, kind: str, best: float) -> None:
-    found = errors(race, "differences", kind)
-
-    assert found[1e-1] / found[1e-2] == pytest.approx(100.0, rel=0.1)
-    assert min(found, key=lambda step: found[step]) in (best, best * 10.0)
-    order = 1 if kind == "velocity" else 2
-    assert math.log(found[1e-8] / found[1e-6], 100.0) == pytest.approx(order, abs=0.2)
-
-
-def test_newton_errs_less_with_every_tolerance(race: Contest) -> None:
-    found = list(errors(race, "newton", "velocity").values())
-
-    assert found == sorted(found, reverse=True)
-    assert found[0] > 1e-6
-    assert found[-1] < 1e-13
-
-
-def test_forces_are_known_by_plans_alone(race: Contest) -> None:
-    assert {e.method for e in race.of("forces")} == {"plan", "plan-single", "plan-extended"}
+def test_chords_differences_and_newton_err_by_their_steps_and_tolerances(race: Contest) -> None:
+    for kind, order, best in (("velocity", 1, 1e-5), ("acceleration", 2, 1e-4)):
+        chords, differences = (errors(race, method, kind) for method in ("chords", "differences"))
+        assert chords[96] / chords[192] == pytest.approx(4.0, rel=0.05)
+        assert chords[192] / chords[384] == pytest.approx(4.0, rel=0.02)
+        assert differences[1e-1] / differences[1e-2] == pytest.approx(100.0, rel=0.1)
+        assert min(differences, key=lambda step: differences[step]) in (best, best * 10.0)
+        assert math.log(differences[1e-8] / differences[1e-6], 100.0) == pytest.approx(order, abs=0.2)  # rounding
+    newton = list(errors(race, "newton", "velocity").values())
+    assert newton == sorted(newton, reverse=True)
+    assert newton[0] > 1e-6
+    assert newton[-1] < 1e-13
 
 
 def test_the_front_is_beaten_by_nobody(race: Contest) -> None:
     for kind in KINDS:
         front = race.front(kind)
         timed = [e for e in race.of(kind) if e.seconds is not None]
-        beaten = [e for e in front if any(o.seconds < e.seconds and o.error < e.error for o in timed)]  # type: ignore[operator]
 
         assert front
-        assert beaten == []
+        assert not [e for e in front if any(o.seconds < e.seconds and o.error < e.error for o in timed)]
         assert min(timed, key=lambda e: e.seconds or 0.0) in front
         assert min(timed, key=lambda e: e.error or 0.0).error == front[0].error
 
@@ -109,17 +107,17 @@ def test_the_front_of_a_made_up_contest() -> None:
 MUS = {"position": 0.0025, "velocity": 0.2, "acceleration": 20.0, "lever": 0.2, "forces_1": 50.0, "forces_23": 50.0}
 
 
-def drawn(hand: str, factor: float = 1.0, name: str = "madi-four-bar") -> list[Entry]:
+def drawn(hand: str, factor: float = 1.0) -> list[float]:
     """Return what a hand misses, with scale factors `factor` times as coarse."""
-    task, whole = load_task(name), of_task(name)
+    task, whole = load_task("madi-four-bar"), of_task("madi-four-bar")
     solved = solve_linkage(task.mechanism, task.values(None, {}), task.plans)
     scales = {plan: MUS.get(plan, 50.0) * factor for plan in solved.scale_of_plan}
-    return list(by_hand(whole, DrawnSheet("A1", solved, scales), preset(hand).hand, kinds_of(whole)))
+    entries = by_hand(whole, DrawnSheet("A1", solved, scales), preset(hand).hand, kinds_of(whole))
+    return [entry.error or math.inf for entry in entries]
 
 
 def test_a_hand_errs_in_per_cents_and_a_computer_less() -> None:
-    ways = (("normal", 1.0), ("cad", 1.0), ("normal", 2.0))
-    normal, cad, small = ([entry.error or math.inf for entry in drawn(*way)] for way in ways)
+    normal, cad, small = drawn("normal"), drawn("cad"), drawn("normal", 2.0)
 
     assert all(1e-3 < error < 1.0 for error in normal)
     assert all(fine < coarse / 5.0 for fine, coarse in zip(cad, normal, strict=True))
@@ -129,18 +127,16 @@ def test_a_hand_errs_in_per_cents_and_a_computer_less() -> None:
 def test_a_hand_draws_the_plans_of_every_position_as_long() -> None:
     task, whole = load_task("scheme-09-shaper"), of_task("scheme-09-shaper")
     places = places_of(whole, 12)
-    elsewhere = {**task.values(None, {}), "phi": float(places[7] % math.tau)}
-    mus: list[list[Entry]] = []
-    for values in (task.values(None, {}), elsewhere):
-        solved = solve_linkage(task.mechanism, values, task.plans)
+    found = []
+    for changed in ({}, {"phi": float(places[7] % math.tau)}):
+        solved = solve_linkage(task.mechanism, {**task.values(None, {}), **changed}, task.plans)
         sizes = references(solved.program, solved.values)
         paper = dict.fromkeys(solved.scale_of_plan, 0.005)
         paper |= {"acceleration": sizes["a_A"] / 100.0, "velocity": sizes["V_A"] / 100.0}  # longest vectors 100 mm long
-        mus.append(
-            list(by_hand(whole, DrawnSheet("A1", solved, paper), preset("normal").hand, kinds_of(whole, ["a_E"])))
-        )
+        drawing = DrawnSheet("A1", solved, paper)
+        found.append([e.error for e in by_hand(whole, drawing, preset("normal").hand, kinds_of(whole, ["a_E"]))])
 
-    assert [e.error for e in mus[0]] == pytest.approx([e.error for e in mus[1]], rel=1e-6)
+    assert found[0] == pytest.approx(found[1], rel=1e-6)
 
 
 def test_places_of_a_cycle_are_off_its_ends() -> None:
@@ -188,3 +184,103 @@ def test_a_clock_too_coarse_for_every_method_leaves_the_field_empty() -> None:
     assert {entry.seconds for entry in race.entries} == {0.0}
     drawn = accuracy_page(race, Words.of("en", "madi"), "", "", "normal", "rad")  # warnings are errors
     assert not drawn.axes[0].lines[-1].get_xdata().size
+
+
+def differences(found: Any, exact: Any) -> float:
+    """Return the largest difference of quantities, in parts of the largest value of each kind."""
+    sizes: dict[str, float] = {}
+    for name, values in exact.items():
+        kind = name.partition("_")[0]
+        sizes[kind] = max(sizes.get(kind, 0.0), float(np.nanmax(np.abs(values))))
+    return max(float(np.nanmax(np.abs(found[n] - x))) / (sizes[n.partition("_")[0]] or 1.0) for n, x in exact.items())
+
+
+def both(whole: Cycle, tolerance: float) -> tuple[Any, Any]:
+    """Return motion by Newton's method and by plans, half a step off the ends of the cycle."""
+    rivals, places = Rivals(whole), places_of(whole, 24)
+    names = [name for kind in kinds_of(whole) if kind.name in MOTION for name in kind.names]
+    return rivals.newton(tolerance, places, names), rivals.plan(places, names)
+
+
+FEW = (  # every kind of dyad, and a slide that drives
+    *("madi-four-bar", "nau-slider-crank", "scheme-09-shaper", "scheme-10-shaper-two-blocks"),
+    *("scheme-18-hydraulic-drive", "scheme-19-scotch-yoke"),
+)
+
+
+@pytest.mark.parametrize(
+    "name", [name if name in FEW else pytest.param(name, marks=[pytest.mark.soak]) for name in bundled("mechanism")]
+)
+def test_newton_agrees_with_plans(name: str) -> None:
+    found, exact = both(of_task(name), 1e-9)
+
+    assert any(name.startswith("a_") for name in exact)
+    assert differences(found, exact) < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("mechanism", "values"),
+    [
+        *((four_bar(), values) for values in random_crank_rockers(11, 8)),
+        *((slider_crank(), values) for values in random_slider_cranks(12, 8)),
+    ],
+)
+def test_newton_agrees_with_plans_of_random_mechanisms(mechanism: Mechanism, values: dict[str, float]) -> None:
+    found, exact = both(cycle(mechanism, values, PLANS), 1e-9)
+
+    assert differences(found, exact) < 1e-9
+
+
+@pytest.mark.parametrize(
+    ("kind", "carries"),
+    [
+        *(("RRR", ()), ("RRP", (False,)), ("RRP", (True,)), ("RPR", (False,)), ("RPR", (True,))),
+        *(("PRP", (False, True)), ("PRP", (True, True)), ("RPP", (True, False)), ("RPP", (True, True))),
+    ],
+)
+def test_newton_agrees_with_plans_of_dyads_on_links_that_move(kind: str, carries: tuple[bool, ...]) -> None:
+    mechanism, values, places = random_dyads(kind, (2, 3), carries, seed=5, count=4)
+    _, program = construct(mechanism, PLANS)
+    for i in range(len(places)):
+        own = {name: float(np.broadcast_to(value, len(places))[i]) for name, value in values.items()}
+        exact = run(program, board_givens(mechanism, own)).values
+        contours = Contours(mechanism, own)
+        at = np.array([own[mechanism.driver.coordinate]])
+        points = {point: np.array([exact[point]]) for link in mechanism.links for point in link.points}
+        turns = {link.number: np.exp(1j * places[i, k, 2:]) for k, link in enumerate(mechanism.links)}
+        near = contours.pose(turns)
+        near[: contours.count] += 1e-3
+        pose = contours.solve(near, at, 1e-6)
+        speed = exact[f"omega_{mechanism.driver.link}"]
+        rates = contours.rates(pose, speed)
+        epsilon = exact.get(f"epsilon_{mechanism.driver.link}", 0.0)
+        changes = contours.changes(pose, rates, epsilon)
+
+        moving = [point for point in points if f"a_{point}" in exact]
+        most = max(abs(exact[f"a_{point}"]) for point in moving)
+        for point in moving:
+            form = contours.point(point)
+            assert abs(contours.value(form, pose)[0] - exact[point]) < 1e-8
+            assert abs(contours.change(form, pose, rates, changes)[0] - exact[f"a_{point}"]) < 1e-6 * most
+
+
+def test_newton_takes_a_driver_that_slides_and_speeds_up() -> None:
+    driven = piston_engine()
+    driven = replace(driven, driver=replace(driven.driver, acceleration="a"))
+    values = {"gamma": 0.3, "l_AB": 0.5, "l_OA": 0.2, "side": 1.0, "travel": 0.55, "speed": 2.0, "a": 3.0}
+    found, exact = both(cycle(driven, values, PLANS, start=0.45, end=0.6), 1e-9)
+
+    assert differences(found, exact) < 1e-10
+
+
+def test_what_newton_does_not_find_is_not_a_number() -> None:
+    whole = of_task("madi-four-bar")
+
+    assert np.isnan(Rivals(whole).newton(0.0, places_of(whole, 24), ("V_C",))["V_C"]).all()
+
+
+def test_contours_are_no_more_than_loops() -> None:
+    contours = Rivals(of_task("scheme-09-shaper")).contours
+
+    assert len(contours.closed) == 2
+    assert contours.count == 4  # frame and slide, crank, lever and block, rod

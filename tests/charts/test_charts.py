@@ -1,4 +1,4 @@
-"""The command `chart` and the same from Python: tables, pictures, CSV, JSON, wrong arguments."""
+"""The command `chart` and the same from Python, of every subject: tables, pictures, CSV, JSON, wrong arguments."""
 
 from __future__ import annotations
 
@@ -9,59 +9,68 @@ import re
 import subprocess
 import sys
 import time
-from functools import cache
+from dataclasses import replace
+from functools import cache, partial
+from itertools import pairwise
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
+import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
-from kulman import KulmanError, cli
+from kulman import KulmanError, cli, solve
 from kulman.docs import refresh
 from kulman.drawing.charts.cycle import _log, _lost, _widen
 from kulman.drawing.charts.depth import equal
-from kulman.drawing.words import Words
-from kulman.plans.lab import race as contests
+from kulman.plans.cams.chords import NODES, S_MAX, convergence, robustness
+from kulman.plans.gears.solve import RATIOS, USUAL, ScaleErrors, SolvedGear, compared, scale_errors
+from kulman.plans.hands.shaky import PRESETS, Hand
+from kulman.plans.hoist.forces import choose
+from kulman.plans.lab.hoists import step_limits
+from kulman.plans.lab.integrators import STEPPERS
 from kulman.plans.lab.race import Effort
+from kulman.plans.lab.ropes import depth
 from kulman.scales.errors import LANGUAGES, PositionError
 from kulman.tests.support.documents import run_here
 from kulman.variants.charts.charts import Charts, chart
 
-TASK = "nau-slider-crank"
+TASK, CAM, GEAR, HOIST = "nau-slider-crank", "madi-cam", "madi-gear", "karpenko-hoist"
+SHAPER = "scheme-09-shaper"
 BOTH = ("stability", "depth")
+# times measured on little work, drawn by hand on one format only, few places looked at
+LITTLE = {
+    "kulman.variants.charts.charts.EFFORT": Effort((1, 10), 20),
+    "kulman.plans.lab.race.ROUNDS": 1,
+    "kulman.variants.charts.linkage.SIZES": ("A4",),
+    "kulman.plans.lab.cams.BY_HAND": (12,),
+    "kulman.plans.lab.cams.AT_ONCE": (),
+    "kulman.variants.charts.cam.robustness": partial(robustness, sections=(12,)),
+    "kulman.variants.charts.cam.convergence": partial(convergence, sections=(12, 24, 48, 96), drawn=(6, 18)),
+    "kulman.plans.lab.hoists.STEPS": (0.4, 0.2),
+    "kulman.plans.lab.hoists.TINY": (),
+    "kulman.variants.charts.hoist.step_limits": partial(
+        step_limits, steps=(4.0, 2.4, 0.32, 0.16, 0.08), tiny=(0.01, 0.005)
+    ),
+    "kulman.variants.charts.hoist.depth": partial(depth, masses=(1, 4), ratios=(1e-3, 1e-2, 1e-1)),
+    "kulman.variants.charts.hoist.choose": partial(choose, places=16),
+}
 
 
 @pytest.fixture(autouse=True)
-def english(monkeypatch: pytest.MonkeyPatch) -> None:
+def little(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
-
-
-def quickened(patch: pytest.MonkeyPatch) -> None:
-    """Measure times on little work, draw by hand on one format only."""
-    patch.setattr("kulman.variants.charts.charts.EFFORT", Effort((1, 10), 20))
-    patch.setattr(contests, "ROUNDS", 1)
-    patch.setattr("kulman.variants.charts.linkage.SIZES", ("A4",))
-
-
-@pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    quickened(monkeypatch)
-
-
-@pytest.fixture(scope="module")
-def all_three() -> Charts:
-    """Charts of six positions, measured on little work."""
-    with pytest.MonkeyPatch.context() as patch:
-        quickened(patch)
-        return chart(TASK, positions=6, lang="en")
+    for place, value in LITTLE.items():
+        monkeypatch.setattr(place, value)
 
 
 @cache
-def pictures(language: str) -> dict[str, str]:
-    """Return the charts of stability and depth as SVG, by their files."""
-    with TemporaryDirectory() as folder:
-        files = chart(TASK, chart=BOTH, positions=24, lang=language).save(Path(folder) / "a.svg")
-        return {path.name: path.read_text(encoding="utf-8") for path in files}
+def made(task: str) -> Charts:
+    return chart(task, "V03" if task == HOIST else None, positions=6 if task == TASK else None, lang="en")
+
+
+def only(task: str, *names: str) -> Charts:
+    return replace(made(task), charts={name: made(task)[name] for name in names})
 
 
 def run(arguments: list[str], capsys: pytest.CaptureFixture[str], task: str = TASK) -> tuple[int, str, str]:
@@ -71,85 +80,89 @@ def run(arguments: list[str], capsys: pytest.CaptureFixture[str], task: str = TA
     return stopped.value.code, *capsys.readouterr()
 
 
-@pytest.mark.usefixtures("quick")
-def test_without_files_all_three_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = run(["--positions", "6"], capsys)
-
-    assert (status, err) == (0, "")
-    assert [
-        head for head in ("Speed against accuracy", "Stability over the cycle", "Depth of the model") if head not in out
-    ] == []
-    assert re.search(r"plans, float32 +20", out)
-    assert re.search(r"^hand +A4 ", out, re.MULTILINE)
-    assert re.search(r"without F_i2 +\d", out)
-    assert re.search(r"needed at 1 %: F_i2, M_i2, F_i3", out)
-    assert "Python 3" in out
+def rows_of(path: Path) -> list[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
 
 
-@pytest.mark.usefixtures("quick")
-def test_the_picture_of_accuracy_names_what_it_shows(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = run(["--chart", "accuracy", "--positions", "6", "-o", str(tmp_path / "x.svg")], capsys)
+@pytest.mark.parametrize(
+    ("task", "told"),
+    [
+        (
+            TASK,
+            [r"^Speed against accuracy", r"^Stability over the cycle", r"^Depth of the model", r"plans, float32 +20"],
+        ),
+        (TASK, [r"^hand +A4 ", r"without F_i2 +\d", r"needed at 1 %: F_i2, M_i2, F_i3", r"Python 3"]),
+        (CAM, [r"^Error against the number of sections", r"^Speed against accuracy", r"^Stability of the diagrams"]),
+        (CAM, [r"on section lines", r"both closed, %"]),
+        (HOIST, [r"orders and limits of stability", r"0: always grows", r"Nearly triple root", r"rigid bridge"]),
+        (HOIST, [r"loop tries"]),
+    ],
+)
+def test_tables_tell_what_they_show(task: str, told: list[str]) -> None:
+    table = made(task).table()
 
-    assert (status, out.split()) == (0, [str(tmp_path / "x.svg")])
-    text = (tmp_path / "x.svg").read_text(encoding="utf-8")
-    assert [label for label in ("Velocities", "Forces", "float32", "hand: A4", "Python 3") if label not in text] == []
+    assert [words for words in told if not re.search(words, table, re.MULTILINE)] == []
 
 
-def test_a_hand_stands_above_the_times_of_the_others(all_three: Charts) -> None:
-    entries = all_three["accuracy"].found.entries  # type: ignore[union-attr]
+SAID = {
+    (TASK, "en"): ("condition K", "without $F", "tolerance 1 %", "dead position of link 3", "0.01", "Velocities"),
+    (TASK, "uk"): ("обумовленість K", "без $F", "допуск 1 %", "мертве положення ланки 3", "0,01", "розширена"),
+    (TASK, "ru"): ("обусловленность K", "без $F", "допуск 1 %", "мёртвое положение звена 3", "0,01"),
+    (CAM, "en"): ("order", "on section lines", "both closed", "mean ordinates", "careful"),
+    (CAM, "uk"): ("порядок", "на лініях поділу", "замкнено обидва", "похибка, частин ходу", "ретельна"),
+    (CAM, "ru"): ("порядок", "на линиях деления", "замкнуты оба", "средние ординаты", "тщательная"),
+    (HOIST, "en"): ("relative error of t₁", "RK4: order", "Illinois", "at the drum", "place of the drum"),
+    (HOIST, "uk"): ("відносна похибка t₁", "РК4: порядок", "Іллінойс", "біля барабана", "місце барабана"),
+    (HOIST, "ru"): ("относительная погрешность t₁", "РК4: порядок", "Иллинойс", "у барабана", "место барабана"),
+}
+DEFAULT = ((TASK, "uk"), (CAM, "ru"), (HOIST, "en"))
 
-    axes = all_three["accuracy"].figure(all_three.words.speaking("uk")).axes
+
+@pytest.mark.parametrize(
+    ("task", "language"), [pytest.param(*key, marks=() if key in DEFAULT else pytest.mark.soak) for key in SAID]
+)
+def test_pictures_and_tables_speak_every_language(task: str, language: str) -> None:
+    spoken = made(task).words.speaking(language)
+
+    figures = [one.figure(spoken) for one in made(task).charts.values()]
+    for figure in figures:
+        figure.draw_without_rendering()  # now axes have their numbers
+    said = " ".join(text.get_text() for figure in figures for text in figure.findobj(match=Text))
+
+    assert [word for word in SAID[task, language] if word not in said + made(task).table(language)] == []
+    assert "normal" not in said or language == "en"
+
+
+def test_a_hand_stands_above_the_times_of_the_others() -> None:
+    accuracy = made(TASK)["accuracy"]
+
+    axes = accuracy.figure(made(TASK).words.speaking("uk")).axes
 
     bands = [one for one in axes if [text for text in one.texts if text.get_text() == "рука: A4"]]
     times = [one for one in axes if one.get_ylabel() == "час на положення, с"]
-    assert len(bands) == len(times) == len({entry.kind for entry in entries})
+    assert len(bands) == len(times) == len({entry.kind for entry in accuracy.found.entries})
     for band, field in zip(bands, times, strict=True):
         assert not [*band.get_yticks()]
         assert band.get_position().y0 == pytest.approx(field.get_position().y1)
         assert band.get_xlim() == field.get_xlim()
-        assert "розширена" in [text.get_text() for text in field.texts]
     assert any("«звичайна»" in text.get_text().replace("\n", " ") for one in axes for text in one.texts)
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_pictures_speak_every_language(language: str) -> None:
-    words = {
-        "en": ("condition K", "without $F", "tolerance 1 %", "dead position of link 3", "0.01"),
-        "uk": ("обумовленість K", "без $F", "допуск 1 %", "мертве положення ланки 3", "0,01"),
-        "ru": ("обусловленность K", "без $F", "допуск 1 %", "мёртвое положение звена 3", "0,01"),
-    }[language]
-
-    files = pictures(language)
-
-    text = "".join(files.values())
-    assert [*files] == ["a-stability.svg", "a-depth.svg"]
-    assert [word for word in words if word not in text] == []
-    if language != "en":
-        assert "normal" not in chart(TASK, chart="stability", positions=6, lang=language).table()
-
-
 def test_a_picture_of_depth_is_as_tall_as_its_rows_and_its_numbers_equally_precise() -> None:
-    heights = {}
-    for task in (TASK, "scheme-09-shaper"):
-        found = chart(task, chart="depth", positions=12, lang="en")
-        heights[task] = found["depth"].figure(found.words).get_figheight()
-    words = Words.of("en", "nau")
+    shaper, words = chart(SHAPER, chart="depth", positions=12, lang="en"), made(TASK).words
 
-    assert heights[TASK] < 0.75 * heights["scheme-09-shaper"]
-    assert [equal(value, words) for value in (20.0, 2.6, 0.0409, 9.999, 345.0)] == [
-        "20.0",
-        "2.60",
-        "0.0409",
-        "10.0",
-        "345",
-    ]
+    heights = [found["depth"].figure(words).get_figheight() for found in (made(TASK), shaper)]
+
+    assert heights[0] < 0.75 * heights[1]
+    shown = [equal(value, words) for value in (20.0, 2.6, 0.0409, 9.999, 345.0)]
+    assert shown == ["20.0", "2.60", "0.0409", "10.0", "345"]
 
 
 @pytest.mark.parametrize(("low", "high"), [(2.1, 4.5), (0.5, 9.0), (1.2, 400.0)])
 def test_short_logarithmic_axes_name_enough_numbers(low: float, high: float) -> None:
     axes = Figure().add_subplot()
-    axes.set_yscale("log")
-    axes.set_ylim(low, high)
+    axes.set(yscale="log", ylim=(low, high))
     _widen(axes)
     _log(axes, "K")
 
@@ -158,110 +171,123 @@ def test_short_logarithmic_axes_name_enough_numbers(low: float, high: float) -> 
     assert len(_lost(math.log10(least), math.log10(most))) >= 2
 
 
-def test_pictures_are_the_same_twice(tmp_path: Path) -> None:
-    def drawn(name: str, *suffixes: str) -> dict[str, bytes]:
-        files = chart(TASK, chart=name, positions=24, lang="en").save(*(tmp_path / f"a-{name}{s}" for s in suffixes))
-        return {path.name: path.read_bytes() for path in files}
+@pytest.mark.parametrize(
+    ("task", "name"), [(TASK, "depth"), (TASK, "stability"), (CAM, "stability"), (HOIST, "choice"), (GEAR, "scale")]
+)
+def test_pictures_are_the_same_twice_and_have_no_colour(task: str, name: str, tmp_path: Path) -> None:
+    one, suffixes = only(task, name), (".svg", ".pdf", ".png") if name == "depth" else (".svg",)
 
-    first = drawn("depth", ".pdf", ".png")
-    svg = pictures("en")["a-stability.svg"]
-    time.sleep(1.1)
+    first = one.save(*(tmp_path / f"a{suffix}" for suffix in suffixes))
+    if name == "depth":
+        time.sleep(1.1)
+    second = one.save(*(tmp_path / f"b{suffix}" for suffix in suffixes))
 
-    assert drawn("depth", ".pdf", ".png") == first
-    assert drawn("stability", ".svg") == {"a-stability.svg": svg.encode("utf-8")}
-
-
-def test_a_pdf_has_a_page_for_each_chart(tmp_path: Path) -> None:
-    (path,) = chart(TASK, chart=BOTH, positions=12).save(tmp_path / "a.pdf")
-
-    assert len(re.findall(rb"/Type /Page\b", path.read_bytes())) == 2
-
-
-def test_a_picture_has_no_colour() -> None:
-    colours = {colour for text in pictures("en").values() for colour in re.findall(r"#([0-9a-f]{6})\b", text)}
-
+    assert [path.read_bytes() for path in second] == [path.read_bytes() for path in first]
+    text = first[0].read_text(encoding="utf-8")
+    assert "<dc:date>" not in text  # by which pictures of another second would differ
+    colours = set(re.findall(r"#([0-9a-f]{6})\b", text))
     assert colours > {"000000"}
     assert [colour for colour in colours if len({colour[:2], colour[2:4], colour[4:]}) > 1] == []
 
 
+@pytest.mark.parametrize("task", ["few", *(pytest.param(task, marks=pytest.mark.soak) for task in (TASK, CAM))])
+def test_a_pdf_has_a_page_for_each_chart(
+    task: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, pages = tmp_path / "a.pdf", 2 if task == "few" else 3
+    if task == "few":
+        only(TASK, *BOTH).save(path)
+    else:  # with their full effort
+        monkeypatch.undo()
+        assert run(["--lang", "en", "-o", str(path)], capsys, task) == (0, f"{path}\n", "")
+
+    assert len(re.findall(rb"/Type /Page\b", path.read_bytes())) == pages
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_csv_is_read_back(language: str, tmp_path: Path) -> None:
-    found = chart(TASK, chart="stability", positions=12, quantities="V_B,M_bal", lang=language)
+    found = replace(only(TASK, "stability"), words=made(TASK).words.speaking(language))
+
     (path,) = found.save(tmp_path / "a.csv")
+
     with path.open(encoding="utf-8-sig", newline="") as stream:
         head, *rows = csv.reader(stream, delimiter="," if language == "en" else ";")
-
-    expected = found["stability"].found.conditions["V_B"]  # type: ignore[union-attr]
-    column = head.index("K_V_B")
-    assert len(rows) == 12
-    assert [float(row[column].replace(",", ".")) for row in rows] == expected.tolist()
+    expected = found["stability"].found.conditions["V_B"]
+    assert [float(row[head.index("K_V_B")].replace(",", ".")) for row in rows] == expected.tolist()
 
 
-def test_json_names_every_special_place_once(all_three: Charts) -> None:
-    found = all_three["stability"].found.spots  # type: ignore[attr-defined]
+def test_rows_are_written_for_every_chart_and_read_back(tmp_path: Path) -> None:
+    for task in (TASK, CAM, HOIST):
+        written = made(task).save(tmp_path / f"{task}.csv")
+        assert [path.name for path in written] == [f"{task}-{name}.csv" for name in made(task).charts]
+    rows = {path.stem.rpartition("-")[::2]: rows_of(path) for path in tmp_path.iterdir()}
 
-    spots = all_three["stability"].to_json()["spots"]
-
-    assert len(found) > 1
-    assert [(spot["kind"], spot["link"]) for spot in spots] == [(spot.kind, spot.link) for spot in found]
-
-
-def test_all_rows_of_accuracy_are_in_the_csv(all_three: Charts, tmp_path: Path) -> None:
-    path, *_ = all_three.save(tmp_path / "a.csv")
-    with path.open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
-
-    entries = all_three["accuracy"].found.entries  # type: ignore[union-attr]
-    assert path.name == "a-accuracy.csv"
-    assert [(row["method"], row["kind"], float(row["error"])) for row in rows] == [
-        (e.method, e.kind, e.error) for e in entries
+    accuracy = rows[TASK, "accuracy"]
+    entries = made(TASK)["accuracy"].found.entries
+    assert [(row["method"], row["kind"], float(row["error"])) for row in accuracy] == [
+        (entry.method, entry.kind, entry.error) for entry in entries
     ]
-    assert {row["method"] for row in rows} >= {"plan", "plan-single", "newton", "differences", "chords", "hand"}
-    assert all(row["seconds [s]"] == "" for row in rows if row["method"] == "hand")
+    assert {row["method"] for row in accuracy} >= {"plan", "plan-single", "newton", "differences", "chords", "hand"}
+    assert all(row["seconds [s]"] == "" for row in accuracy if row["method"] == "hand")
+    assert all("place [deg]" in rows[TASK, name][0] for name in made(TASK).charts)
+    assert "balance_max [%]" in rows[TASK, "depth"][0]
+    sections = rows[CAM, "sections"]
+    chosen = [row for row in sections if (row["drawn_by"], row["jumps"], row["quantity"]) == ("exact", NODES, S_MAX)]
+    errors = made(CAM)["sections"].found.errors[NODES, S_MAX]
+    assert [float(row["error [%]"]) for row in chosen] == pytest.approx(100.0 * errors)
+    assert {row["drawn_by"] for row in sections} == {"exact", *PRESETS}
+    refused = [row for row in rows[HOIST, "stability"] if row["refused"] == "1"]
+    assert {float(row["step [rad]"]) for row in refused if row["method"] == "verlet"} == {4.0, 2.4}
+    assert all(row["error"] == "" for row in refused)
+    assert all(float(row["t [s]"]) > 0.0 for row in rows[HOIST, "accuracy"])
+    assert len(rows[HOIST, "choice"]) == 16 * 16
+    assert {row["kind"] for row in rows[HOIST, "depth"]} == {"simpler", "rope", "one_mass"}
 
 
-@pytest.mark.soak
-def test_all_charts_are_measured_with_their_full_effort(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = run(["-v", "3", "-o", str(tmp_path / "charts.pdf")], capsys)
+def test_json_holds_everything_in_si(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = run(["--chart", "stability,depth", "--positions", "8", "--json"], capsys)
+    printed = json.loads(out)
+    linkage, cam, hoist = (json.loads(json.dumps(made(task).to_json(), allow_nan=False)) for task in (TASK, CAM, HOIST))
 
-    assert (status, out, err) == (0, f"{tmp_path / 'charts.pdf'}\n", "")
-    assert len(re.findall(rb"/Type /Page\b", (tmp_path / "charts.pdf").read_bytes())) == 3
+    assert (status, list(printed), printed["task"]) == (0, ["task", "variant", "stability", "depth"], TASK)
+    velocity = printed["stability"]["quantities"]["V_B"]
+    assert (len(velocity["condition"]), velocity["unit"]) == (8, "mm")
+    assert printed["depth"]["needed"] == ["F_i2", "M_i2", "F_i3"]
+    assert {cost["without"] for cost in printed["depth"]["costs"]} >= {"F_i2", "inertia"}
+    spots = made(TASK)["stability"].found.spots
+    assert len(spots) > 1
+    told = [(spot["kind"], spot["link"]) for spot in linkage["stability"]["spots"]]
+    assert told == [(spot.kind, spot.link) for spot in spots]  # each once
+    places = linkage["accuracy"]["places"] + linkage["stability"]["places"]
+    items = (*linkage["accuracy"]["entries"], *linkage["stability"]["spots"], *linkage["depth"]["costs"])
+    assert all(0.0 <= place < math.tau for place in (*places, *(item["at"] for item in items)))
+    assert cam["sections"]["orders"][NODES][S_MAX] == pytest.approx(2.0, abs=0.01)
+    assert cam["stability"]["hands"]["normal"]["travel_error"]["both"] < 0.1
+    assert {entry["kind"] for entry in cam["accuracy"]["entries"]} == {"travel", "speed"}
+    methods = hoist["stability"]["methods"]
+    orders = {"rk4": 4, "verlet": 2, "trapezoid": 2, "symplectic": 2, "euler": 1}
+    assert {name: round(methods[name]["order"]) for name in STEPPERS} == orders
+    assert hoist["roots"]["triple"]["methods"]["secant"]["error"] is None
+    assert hoist["depth"]["enough_to"] > hoist["depth"]["ratio"]
+    assert hoist["choice"]["trials"][-1]["safety"] >= hoist["choice"]["safety_required"]
+    assert {entry["kind"] for entry in hoist["accuracy"]["entries"]} == {"lift_off", "course", "peak"}
 
 
-def test_json_holds_the_charts_in_si(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = run(["-v", "3", "--chart", "stability,depth", "--positions", "8", "--json"], capsys)
+def test_one_quantity_may_be_asked_for() -> None:
+    table = chart(CAM, chart="sections", quantities="r_0_tangents", lang="en").table()
 
-    data = json.loads(out)
-    assert status == 0
-    assert (data["task"], data["variant"]) == (TASK, "3")
-    assert set(data) == {"task", "variant", "stability", "depth"}
-    assert len(data["stability"]["quantities"]["V_B"]["condition"]) == 8
-    assert data["stability"]["quantities"]["V_B"]["unit"] == "mm"
-    assert data["depth"]["needed"] == ["F_i2", "M_i2", "F_i3"]
-    assert {cost["without"] for cost in data["depth"]["costs"]} >= {"F_i2", "inertia"}
-
-
-def test_places_have_units_in_csv_and_lie_within_a_turn_in_json(all_three: Charts) -> None:
-    files = [one.data(all_three.words).csv() for one in all_three.charts.values()]
-    heads = [file.split("\r\n")[0].split(",") for file in files]
-    data = all_three.to_json()
-
-    places = data["accuracy"]["places"] + data["stability"]["places"]
-    places += [
-        item["at"] for item in (*data["accuracy"]["entries"], *data["stability"]["spots"], *data["depth"]["costs"])
-    ]
-    assert all("place [deg]" in head for head in heads)
-    assert "seconds [s]" in heads[0]
-    assert "balance_max [%]" in heads[2]
-    assert all(0.0 <= place < math.tau for place in places)
+    assert "r_0_tangents" in table
+    assert "S_max_chord" not in table
 
 
 def test_a_chart_that_the_task_cannot_have_is_left_out_with_a_word(capsys: pytest.CaptureFixture[str]) -> None:
-    arguments = ["--only", "velocity", "--positions", "6"]
+    said = "the chart of the model's depth needs the plan of forces or the lever\n"
+    assert run(["--only", "velocity", "--positions", "6", "--chart", "depth"], capsys) == (2, "", said)
 
-    status, out, err = run([*arguments, "--chart", "depth"], capsys)
-    assert (status, out) == (2, "")
-    assert err == "the chart of the model's depth needs the plan of forces or the lever\n"
+    rigid = chart(HOIST, set={"I_0": "inf"}, lang="en")  # without phase 1
+
+    assert [*rigid.charts] == ["depth", "choice"]
+    assert {warning.key for warning in rigid.warnings} == {"chart-hoist-rigid"}
 
 
 @pytest.mark.parametrize("plans", ["structure", "position", "velocity"])
@@ -273,49 +299,64 @@ def test_few_plans_have_their_stability(plans: str, capsys: pytest.CaptureFixtur
 
 
 @pytest.mark.parametrize(
-    "arguments",
+    ("task", "arguments", "told"),
     [
-        pytest.param(["--chart", "speed"], id="chart"),
-        pytest.param(["--quantities", "V_X"], id="quantity"),
-        pytest.param(["--quantities", "B"], id="point"),
-        pytest.param(["--chart", "accuracy", "--quantities", "V_BA", "--positions", "4"], id="no rivals"),
-        pytest.param(["--positions", "2"], id="two positions"),
-        pytest.param(["--positions", "many"], id="no number"),
-        pytest.param(["--tolerance", "little"], id="tolerance"),
-        pytest.param(["--tolerance", "-1"], id="negative"),
-        pytest.param(["--hand", "shaky"], id="hand"),
-        pytest.param(["-o", "chart.doc"], id="suffix"),
-        pytest.param(["-o", "missing/chart.svg"], id="folder"),
-        pytest.param(["--set", "l_XY=5"], id="given"),
-        pytest.param(["--lang", "de"], id="language"),
+        pytest.param(TASK, ["--chart", "speed"], "accuracy", id="chart"),
+        pytest.param(CAM, ["--chart", "depth"], "sections", id="chart of another subject"),
+        pytest.param(TASK, ["--quantities", "V_X"], "V_X", id="quantity"),
+        pytest.param(TASK, ["--quantities", "B"], "B", id="point"),
+        pytest.param(CAM, ["--chart", "sections", "--quantities", "V_B"], "V_B", id="quantity of a cam"),
+        pytest.param(CAM, ["--set", "law=uniform", "--chart", "sections"], "", id="exact chords"),
+        pytest.param(TASK, ["--chart", "accuracy", "--quantities", "V_BA", "--positions", "4"], "none", id="no rivals"),
+        pytest.param(TASK, ["--positions", "2"], "2", id="two positions"),
+        pytest.param(TASK, ["--positions", "many"], "many", id="no number"),
+        pytest.param(TASK, ["--tolerance", "little"], "little", id="tolerance"),
+        pytest.param(TASK, ["--tolerance", "-1"], "-1", id="negative"),
+        pytest.param(TASK, ["--hand", "shaky"], "careful", id="hand"),
+        pytest.param(TASK, ["-o", "chart.doc"], ".svg", id="suffix"),
+        pytest.param(TASK, ["-o", "missing/chart.svg"], "missing", id="folder"),
+        pytest.param(TASK, ["--set", "l_XY=5"], "l_XY", id="given"),
+        pytest.param(TASK, ["--lang", "de"], "de", id="language"),
     ],
 )
 def test_wrong_arguments_are_answered_in_one_line(
-    arguments: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    task: str,
+    arguments: list[str],
+    told: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     monkeypatch.chdir(tmp_path)
 
-    status, out, err = run(arguments, capsys)
+    status, out, err = run(arguments, capsys, task)
 
     assert (status, out, err.count("\n")) == (2, "", 1)
+    assert told in err
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
-    ("arguments", "key"),
+    ("task", "arguments", "key"),
     [
-        ({"chart": 3}, "argument-type"),
-        ({"positions": "9"}, "argument-type"),
-        ({"positions": 100_001}, "positions-number"),
-        ({"tolerance": None}, "argument-type"),
-        ({"tolerance": float("nan")}, "negative"),
-        ({"hand": 1}, "argument-type"),
-        ({"quantities": [1]}, "argument-type"),
+        (TASK, {"chart": 3}, "argument-type"),
+        (TASK, {"positions": "9"}, "argument-type"),
+        (TASK, {"positions": 100_001}, "positions-number"),
+        (TASK, {"tolerance": None}, "argument-type"),
+        (TASK, {"tolerance": float("nan")}, "negative"),
+        (TASK, {"hand": 1}, "argument-type"),
+        (TASK, {"quantities": [1]}, "argument-type"),
+        (GEAR, {"quantities": "g_alpha"}, "quantity-unknown-like"),  # calculated, not drawn
+        (GEAR, {"only": "sliding"}, "chart-no-meshing"),
+        (HOIST, {"set": {"I_0": "inf"}, "chart": "stability"}, "chart-hoist-rigid"),
+        (HOIST, {"variant": "V10", "set": {"I_0": 1e-6, "V_0": 0.5}, "chart": "accuracy"}, "chart-hoist-one-sided"),
     ],
 )
-def test_wrong_arguments_from_python_are_answered_in_one_line(arguments: dict[str, object], key: str) -> None:
+def test_what_python_asks_for_in_vain_is_answered_in_one_line(
+    task: str, arguments: dict[str, object], key: str
+) -> None:
     with pytest.raises(KulmanError) as problem:
-        chart(TASK, **arguments)  # type: ignore[arg-type]
+        chart(task, **arguments)  # type: ignore[arg-type]
 
     assert problem.value.key == key
 
@@ -327,31 +368,19 @@ def test_a_mechanism_that_never_assembles_has_status_3(capsys: pytest.CaptureFix
     assert "any position of the crank" in err
 
 
-def test_a_crank_that_cannot_turn_round_has_its_charts(tmp_path: Path) -> None:
-    found = chart(TASK, set={"l_AB": "20 mm"}, chart=BOTH, positions=24)
-
-    assert "limit" in found.table()
-    assert "cannot be assembled" in found.table()
-    (svg, _) = found.save(tmp_path / "a.svg")
-    assert "limit" in svg.read_text(encoding="utf-8")
-
-
-def test_a_crank_that_hardly_moves_has_its_stability() -> None:
+def test_a_crank_that_cannot_turn_round_or_hardly_moves_has_its_charts() -> None:
+    bound = chart(TASK, set={"l_AB": "20 mm"}, chart=BOTH, positions=24, lang="en")
+    texts = [text.get_text() for text in bound["stability"].figure(bound.words).findobj(match=Text)]
     task, moving, still = "scheme-03-crank-rocker", "10 mm", "0.2 mm"  # couplers: it moves by some degrees, by none
+    hardly = chart(task, "0", set={"l_AB": moving}, chart=("stability",)).charts["stability"].to_json()
 
-    found = chart(task, "0", set={"l_AB": moving}, chart=("stability",)).charts["stability"].to_json()
-
-    assert 0 < found["statuses"].count("ok") < 60
-    assert any(mm is not None for item in found["quantities"].values() for mm in item["miss"])
+    assert "limit" in bound.table()
+    assert "cannot be assembled" in bound.table()
+    assert any("limit" in text for text in texts)
+    assert 0 < hardly["statuses"].count("ok") < 60
+    assert any(mm is not None for item in hardly["quantities"].values() for mm in item["miss"])
     with pytest.raises(PositionError, match="cannot be assembled"):
         chart(task, "0", set={"l_AB": still}, chart=("stability",))
-
-
-def test_a_slider_that_drives_has_its_charts(tmp_path: Path) -> None:
-    found = chart("scheme-18-hydraulic-drive", chart=BOTH, positions=24)
-
-    assert all(path.stat().st_size > 10_000 for path in found.save(tmp_path / "a.svg"))
-    assert "mm" in found.table().split("\n")[2]
 
 
 def test_what_the_document_shows_is_what_is_printed(
@@ -379,35 +408,99 @@ def test_tables_need_no_picture() -> None:
 
 
 def test_charts_show_themselves_in_a_notebook() -> None:
-    found = chart(TASK, chart="depth", positions=12)
+    found = only(TASK, "depth")
 
     assert found._repr_html_().startswith("<pre>Depth of the model")
-    assert repr(found) == "<Charts nau-slider-crank 0: depth>"
+    assert repr(found) == f"<Charts {TASK} {made(TASK).case.variant}: depth>"
 
 
 def test_no_file_is_written_when_one_cannot_be(tmp_path: Path) -> None:
-    found = chart(TASK, chart=BOTH, positions=12)
     (tmp_path / "b-depth.csv").mkdir()
 
     with pytest.raises(KulmanError):
-        found.save(tmp_path / "a.csv", tmp_path / "b.csv")
+        only(TASK, *BOTH).save(tmp_path / "a.csv", tmp_path / "b.csv")
 
     assert [path.name for path in tmp_path.iterdir()] == ["b-depth.csv"]
 
 
 @pytest.mark.parametrize(
-    ("asked", "unused"),
+    ("task", "asked", "unused"),
     [
-        (["--chart", "depth", "--quantities", "V_B", "--hand", "cad"], ["quantities", "hand"]),
-        (["--chart", "depth", "--tolerance", "5"], []),
-        (["--chart", "stability", "--quantities", "V_B", "--tolerance", "5"], ["tolerance"]),
-        (["--chart", "stability,depth", "--quantities", "V_B", "--tolerance", "5"], []),
+        (TASK, ["--chart", "depth", "--quantities", "V_B", "--hand", "cad"], ["quantities", "hand"]),
+        (TASK, ["--chart", "depth", "--tolerance", "5"], []),
+        (TASK, ["--chart", "stability", "--quantities", "V_B", "--tolerance", "5"], ["tolerance"]),
+        (TASK, ["--chart", "stability,depth", "--quantities", "V_B", "--tolerance", "5"], []),
+        (CAM, ["--chart", "stability", "--tolerance", "5"], ["tolerance", "positions"]),
     ],
 )
 def test_what_changes_nothing_on_a_chart_is_said(
-    asked: list[str], unused: list[str], capsys: pytest.CaptureFixture[str]
+    task: str, asked: list[str], unused: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    status, _, said = run([*asked, "--positions", "12", "--lang", "en"], capsys)
+    status, _, said = run([*asked, "--positions", "12", "--lang", "en"], capsys, task)
 
     assert status == 0
     assert [line.split("'")[1] for line in said.splitlines() if "changes nothing" in line] == unused
+
+
+def test_tolerance_says_which_ropes_are_light_enough() -> None:
+    fine, coarse = (chart(HOIST, "V09", chart="depth", tolerance=part)["depth"].found for part in (0.5, 2.0))
+
+    assert fine.enough_to < coarse.enough_to
+    assert set(fine.spare) <= set(coarse.spare)
+
+
+@pytest.fixture(scope="module")
+def gear() -> SolvedGear:
+    return SolvedGear.of(solve(GEAR).solved)
+
+
+@pytest.fixture(scope="module")
+def errors(gear: SolvedGear) -> ScaleErrors:
+    return scale_errors(gear, {name: preset.hand for name, preset in PRESETS.items()})
+
+
+def test_errors_of_marks_fall_as_the_drawing_grows_and_those_of_directions_stay(gear: SolvedGear) -> None:
+    hands, names = (
+        {"marks": Hand(0.2, 0.0, 0.2), "directions": Hand(0.0, 0.5, 0.0)},
+        ("g_alpha_drawn", "phi_alpha1_drawn"),
+    )
+
+    found = scale_errors(gear, hands, names).errors
+
+    for name in names:
+        # the same errors at every scale: in millimetres of paper they are worth less the larger the drawing
+        assert np.allclose(found["marks", name] * RATIOS, found["marks", name][-1] * RATIOS[-1], rtol=0.06)
+        assert np.allclose(found["directions", name], found["directions", name][0], rtol=1e-9)
+    assert "g_alpha_drawn" in compared(gear)
+    assert "g_alpha" not in compared(gear)
+
+
+def test_better_hands_err_less_at_every_scale_and_the_smallest_that_is_enough_is_named(errors: ScaleErrors) -> None:
+    name = "epsilon_alpha_drawn"
+
+    enough = errors.enough("normal", name, 0.05)
+
+    assert errors.quantities == USUAL
+    for quantity in USUAL:
+        columns = [errors.errors[hand, quantity] for hand in ("cad", "careful", "normal", "lenient")]
+        assert all(np.all(a < b) for a, b in pairwise(columns))
+        assert all(np.all(np.diff(column) < 0.0) for column in columns)
+    kept = [ratio for ratio, error in zip(RATIOS, errors.errors["normal", name].tolist(), strict=True) if error <= 0.05]
+    assert enough == kept[0]
+    assert errors.enough("normal", name, 0.0) is None
+
+
+def test_table_csv_and_json_of_gears_tell_the_same(tmp_path: Path) -> None:
+    charts = chart(GEAR, lang="en", quantities="r_p1")
+
+    (path,) = charts.save(tmp_path / "a.csv")
+    data = json.loads(json.dumps(charts.to_json()))["scale"]
+
+    rows = rows_of(path)
+    assert len(rows) == len(PRESETS) * len(RATIOS) == len(data["errors"])
+    for row, item in zip(rows, data["errors"], strict=True):
+        assert (row["drawn_by"], float(row["scale"])) == (item["drawn_by"], item["scale"])
+        assert float(row["error [%]"]) == pytest.approx(100.0 * item["error"], rel=1e-12)
+    for language in LANGUAGES:
+        shown = [f"{ratio:g}:1".replace(".", "," if language != "en" else ".") for ratio in RATIOS]
+        assert [ratio for ratio in shown if ratio not in charts.table(language)] == []

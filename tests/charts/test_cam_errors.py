@@ -1,7 +1,8 @@
-"""Errors of the diagrams of cams: orders of chords, hands, lines beside jumps, closing."""
+"""Errors of the diagrams of cams: orders of chords, hands, lines beside jumps, closing; ways to the motion."""
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 from functools import cache
 
@@ -21,18 +22,21 @@ from kulman.plans.cams.chords import (
     convergence,
     drawn_on,
     drift,
+    exact_values,
     late,
     robustness,
     stroke_closed,
 )
-from kulman.plans.cams.motion import Division
+from kulman.plans.cams.motion import Division, Motion
 from kulman.plans.cams.solve import SolvedCam
 from kulman.plans.hands.shaky import Hand, draw, preset
+from kulman.plans.lab import cams as races
+from kulman.plans.lab import race as contests
+from kulman.plans.lab.cams import errors, in_extended, midpoint, rivals, simpson
+from kulman.plans.lab.race import Contest, Effort
 from kulman.scales.errors import InputError
 
 TASK = "madi-cam"
-SOAKED = [pytest.param(law, marks=pytest.mark.soak) for law in ("sine", "modified-trapezoid")]
-STEADY = Hand(0.0, 0.0, 0.0)
 
 
 @cache
@@ -63,7 +67,14 @@ def test_chords_are_of_second_order_with_jumps_on_lines_and_of_first_between(law
     assert found.order(BETWEEN, V_MAX) == pytest.approx(1.0, abs=0.15)
 
 
-@pytest.mark.parametrize("law", ["cosine", "polynomial-345", *SOAKED])
+@pytest.mark.parametrize(
+    "law",
+    [
+        "cosine",
+        "polynomial-345",
+        *(pytest.param(law, marks=pytest.mark.soak) for law in ("sine", "modified-trapezoid")),
+    ],
+)
 def test_laws_that_jump_at_the_ends_of_a_phase_only_are_of_second_order(law: str) -> None:
     found = chords(law)
 
@@ -73,16 +84,42 @@ def test_laws_that_jump_at_the_ends_of_a_phase_only_are_of_second_order(law: str
     assert found.order(NODES, CLOSED) is None or found.order(NODES, CLOSED) > 1.9
 
 
+def test_straight_accelerations_give_the_velocity_without_error_and_constant_velocities_the_travel() -> None:
+    assert np.abs(chords("sawtooth").errors[NODES, V_MAX]).max() < 1e-14
+    assert chords("sawtooth").order(NODES, V_MAX) is None
+    with pytest.raises(InputError) as problem:
+        convergence(cam("uniform"), {}, sections=(12, 24), drawn=())
+    assert problem.value.key == "chart-exact-chords"
+
+
 def test_straight_accelerations_give_the_velocity_without_error() -> None:
     assert np.abs(chords("sawtooth").errors[NODES, V_MAX]).max() < 1e-14
     assert chords("sawtooth").order(NODES, V_MAX) is None
 
 
 def test_a_hand_without_errors_draws_the_chords() -> None:
-    found = convergence(cam(), {"steady": STEADY}, sections=(12, 24), drawn=(12, 24))
+    found = convergence(cam(), {"steady": Hand(0.0, 0.0, 0.0)}, sections=(12, 24), drawn=(12, 24))
 
     for quantity in found.quantities:
         assert found.hands["steady", quantity] == pytest.approx(np.abs(found.errors[NODES, quantity]), abs=1e-12)
+
+
+def test_sums_boards_and_closed_forms_err_as_they_should() -> None:
+    errors_of = {(e.method, e.kind, e.setting): e.error for e in race().entries}
+    board = {key[1:]: error for key, error in errors_of.items() if key[0] == races.BOARD}
+    [many] = [e for e in race().of("travel") if e.method == races.BOARDS]
+    [hand] = [e for e in race().of("travel") if e.method == races.HAND]
+    missed = {e.setting: e.error for e in race().of("speed") if e.method == races.MISSED}
+
+    assert len(board) == 2 * len(races.ON_BOARD)  # chords are sums of mean ordinates
+    assert {key: errors_of[races.MIDPOINT, *key] for key in board} == pytest.approx(board, rel=1e-9)
+    assert (many.at_once, many.error) == (races.CAMS, board["travel", 12])
+    assert many.seconds is not None
+    assert errors_of["simpson", "travel", 12] < 1e-13  # parabolas are exact for straight accelerations
+    assert max(errors_of["closed", kind, 10] for kind in ("travel", "speed")) < 1e-15
+    assert missed[3073] / missed[12289] == pytest.approx(4.0, rel=0.02)  # of first order
+    assert (hand.seconds, hand.setting) == (None, "n = 12")
+    assert 0.1 < hand.error < 1.0
 
 
 def test_a_better_hand_errs_less_and_takes_more_sections() -> None:
@@ -97,13 +134,6 @@ def test_a_better_hand_errs_less_and_takes_more_sections() -> None:
     assert cad[1] < cad[2]
     assert lenient[2] > 1.2 * lenient.min()
     assert found.best("cad", S_MAX) == (18, cad[1])
-
-
-def test_chords_of_a_constant_velocity_have_no_error() -> None:
-    with pytest.raises(InputError) as problem:
-        convergence(cam("uniform"), {}, sections=(12, 24), drawn=())
-
-    assert problem.value.key == "chart-exact-chords"
 
 
 def test_a_drafting_machine_draws_along_the_edges_without_an_error_of_direction() -> None:
@@ -182,3 +212,40 @@ def test_cams_without_inner_jumps_have_no_line_to_miss() -> None:
     assert found.beside == ()
     assert found.missed == {}
     assert found.closings["cad"].errors[BOTH] < 0.05
+
+
+@cache
+def race() -> Contest:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(contests, "ROUNDS", 1)
+        patch.setattr(races, "BY_HAND", (12,))
+        patch.setattr(races, "AT_ONCE", (12,))
+        return rivals(cam(), time.process_time, preset("normal").hand, Effort((1, 10), 20))
+
+
+def motion_errors(motion: Motion, way: object, sections: int) -> dict[str, float]:
+    division = motion.division(sections)
+    course = way(motion, "diagram_a", division)  # type: ignore[operator]
+    return {
+        kind: float(e.max())
+        for kind, e in errors(motion, division, course, in_extended(motion, division.angles)).items()
+    }
+
+
+@pytest.mark.parametrize(("way", "order"), [(midpoint, 2.0), (simpson, 4.0)])
+def test_sums_have_their_orders_where_the_law_bends(way: object, order: float) -> None:
+    motion = cam("polynomial-345", u="1/2").motion
+
+    coarse, fine = (motion_errors(motion, way, n) for n in (12, 24))
+
+    for kind in coarse:
+        assert np.log2(coarse[kind] / fine[kind]) == pytest.approx(order, abs=0.2)
+
+
+def test_construction_of_some_values_needs_few_steps() -> None:
+    solved = cam()
+    division = solved.motion.division(12)
+
+    whole, part = (drawn_on(solved, division, names).program for names in (tuple(exact_values(solved)), (V_MAX,)))
+
+    assert len(part.names) < 0.5 * len(whole.names)
