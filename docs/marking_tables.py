@@ -1,7 +1,7 @@
 """Fill in the tables of docs/marking.md from simulated students: `.venv/bin/python docs/marking_tables.py [count]`.
 
 `count` students a mistake, 40 when left out, on two processes. What is counted is told in
-tests/support/students_marked.py; the same seeds draw the same students.
+tests/support/students.py; the same seeds draw the same students.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from kulman.tests.support.students import SEED, SLIPS
-from kulman.tests.support.students_marked import Outcome, marked, population, share
+from kulman.tests.support.students import SEED, SLIPS, Outcome, marked, population, share
 from kulman.variants.marking.wording import mistake_texts
 
 DOCUMENT = Path(__file__).resolve().parent / "marking.md"

@@ -1,12 +1,18 @@
-"""`kulman check`: one student's answers marked, told to the student and to the teacher; rosters, rubrics, sheet ids."""
+"""`kulman check`: one student's answers marked, told to student and teacher; rubrics, sheet ids, oddities."""
 
 from __future__ import annotations
 
 import json
+import math
 import re
+from dataclasses import replace
 from functools import cache
+from itertools import combinations
 from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -14,20 +20,28 @@ from hypothesis import strategies as st
 from kulman import check, cli, load_task, sheet, solve
 from kulman.plans.hands.shaky import PRESETS
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.answer_files import ASKED, messages
+from kulman.tests.support.answer_files import HEAD as COLUMNS
+from kulman.tests.support.marking_cases import key, right_answers
+from kulman.tests.support.mechanisms import SEED
+from kulman.variants import sheets
+from kulman.variants.case import Case
 from kulman.variants.marking.checks import Check
-from kulman.variants.marking.keyed import asked_of
-from kulman.variants.marking.reading import read_answers
+from kulman.variants.marking.figures import Box, boxes, plan_figures
+from kulman.variants.marking.reading import Answers, read_answers
 from kulman.variants.marking.report import report_html, report_text, to_json
+from kulman.variants.marking.result import result_of
 from kulman.variants.marking.rubric import read_rubric
 from kulman.variants.roster import read_roster, variant_of_book
-from kulman.variants.sheets import same_id, sheet_id, variant_of_id
+from kulman.variants.sheets import drawing_of, same_id, sheet_id, variant_of_id
 
 TASK = "nau-slider-crank"
 HEAD = "task;nau-slider-crank\nvariant;example\n{about}quantity;mm;mu;value;unit;direction\n"
 RIGHT = {"V_A": 4.006, "V_BA": 2.124, "V_B": 2.761, "omega_2": -16.34, "a_BA_n": 34.7, "a_B": 221.8, "epsilon_2": -2173}
+Printed = pytest.CaptureFixture[str]
 
 
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+def run(capsys: Printed, *arguments: str) -> tuple[int, str, str]:
     """Run a command; return its status and what it prints."""
     with pytest.raises(SystemExit) as left:
         cli.main(["check", *arguments])
@@ -43,7 +57,7 @@ def answers(tmp_path: Path, changed: dict[str, float] | None = None, about: str 
     return str(file)
 
 
-def marked(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, object]:
+def marked(capsys: Printed, *arguments: str) -> dict[str, Any]:
     """Return the JSON of a check."""
     status, out, err = run(capsys, TASK, *arguments, "--json")
     assert (status, err) == (0, "")
@@ -51,36 +65,49 @@ def marked(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, obj
     return {**found, "verdicts": {line["quantity"]: line["verdict"] for line in found["lines"]}}
 
 
-def test_right_answers_are_right(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    found = marked(capsys, answers(tmp_path))
-
-    assert found["first_wrong"] is None
-    assert [found["verdicts"][name] for name in RIGHT] == ["right"] * len(RIGHT)
-    assert found["counts"]["missing"] == len(found["lines"]) - len(RIGHT)
+def rubric(tmp_path: Path, text: str) -> str:
+    file = tmp_path / "rubric.toml"
+    file.write_text(text, encoding="utf-8")
+    return str(file)
 
 
-def test_an_error_counts_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    wrong = {"V_BA": 1.35, "omega_2": -10.4, "a_BA_n": 14.0}
-
-    found = marked(capsys, answers(tmp_path, wrong))
-
-    assert found["first_wrong"] == "V_BA"
-    assert found["verdicts"]["V_BA"] == "wrong"
-    assert found["verdicts"]["omega_2"] == found["verdicts"]["a_BA_n"] == "carried"
+def read(tmp_path: Path, rows: str, variant: str | None = "example", task: str = TASK) -> Answers:
+    """Return the answers of a form with these rows."""
+    file = tmp_path / "answers.csv"
+    file.write_text(COLUMNS + rows, encoding="utf-8")
+    return check(task, variant).read(str(file))[0]
 
 
-def test_a_turned_normal_acceleration_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    wrong = {"a_B": 295.3}  # with a_BA_n laid off from A to B
+def rows_of(variant: str) -> str:
+    """Return the right answers to a variant, as rows of a form; a vector's sense is not said."""
+    right = right_answers(key(TASK, variant), directions=False)
+    return "".join(f"{one.name};;;{abs(one.value or 0.0):.4g};;\n" for one in right)
 
-    found = marked(capsys, answers(tmp_path, wrong))
 
-    ids = [mistake["id"] for candidate in found["mistakes"] for mistake in candidate["mistakes"]]
-    assert found["first_wrong"] == "a_B"
-    assert "M38" in ids
+# --- reports ----------------------------------------------------------------------------------------------------------
+
+
+def test_right_answers_are_right_an_error_counts_once_and_a_mistake_is_named(tmp_path: Path, capsys: Printed) -> None:
+    right = marked(capsys, answers(tmp_path))
+    assert right["first_wrong"] is None
+    assert [right["verdicts"][name] for name in RIGHT] == ["right"] * len(RIGHT)
+    assert right["counts"]["missing"] == len(right["lines"]) - len(RIGHT)
+
+    once = marked(capsys, answers(tmp_path, {"V_BA": 1.35, "omega_2": -10.4, "a_BA_n": 14.0}))
+    assert once["first_wrong"] == "V_BA"
+    assert [once["verdicts"][name] for name in ("V_BA", "omega_2", "a_BA_n")] == ["wrong", "carried", "carried"]
+
+    turned = marked(capsys, answers(tmp_path, {"a_B": 295.3}))  # with a_BA_n laid off from A to B
+    assert turned["first_wrong"] == "a_B"
+    assert "M38" in [mistake["id"] for candidate in turned["mistakes"] for mistake in candidate["mistakes"]]
+
+    own = marked(capsys, answers(tmp_path, {"V_BA": 1.3}), "--verdict-only")  # what a student is told
+    assert "mistakes" not in own
+    assert {key for line in own["lines"] for key in line} == {"quantity", "verdict", "about", "answer"}
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_a_report_is_in_one_language(tmp_path: Path, capsys: pytest.CaptureFixture[str], language: str) -> None:
+def test_a_report_is_in_one_language(tmp_path: Path, capsys: Printed, language: str) -> None:
     file = answers(tmp_path, {"a_B": 295.3})
 
     status, out, err = run(capsys, TASK, file, "--lang", language)
@@ -90,59 +117,134 @@ def test_a_report_is_in_one_language(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert not re.search(r"\d\.\d", out.replace(file, "")) or language == "en"
 
 
-def numbers_of_the_key() -> set[str]:
-    """Return how right values might stand in a report, of those that the student has not written."""
-    solution = solve(TASK, "example", lang="en")
-    words = solution.words
-    return {words.short(abs(q.value), 4) for q in solution.quantities.values() if q.value and len(f"{q.value:.4g}") > 3}
-
-
 @pytest.mark.parametrize("suffix", [".txt", ".html"])
-def test_a_student_sees_no_right_number_and_no_right_vector(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], suffix: str
-) -> None:
+def test_a_student_sees_no_right_number_and_no_right_vector(tmp_path: Path, capsys: Printed, suffix: str) -> None:
     file, report = answers(tmp_path, {"V_BA": 1.3, "a_B": 300.0, "omega_2": 9.0}), tmp_path / f"report{suffix}"
     written = {f"{abs(value):.4g}" for value in (*RIGHT.values(), 1.3, 300.0, 9.0)}
+    solution = solve(TASK, "example", lang="en")
+    sizes = [abs(q.value) for q in solution.quantities.values() if q.value and len(f"{q.value:.4g}") > 3]
 
     run(capsys, TASK, file, "--verdict-only", "--lang", "en", "-o", str(report))
     own = report.read_text(encoding="utf-8")
     run(capsys, TASK, file, "--lang", "en", "-o", str(report))
     teachers = report.read_text(encoding="utf-8")
 
-    hidden = numbers_of_the_key() - written
-    shown = {number for number in hidden if re.search(rf"(?<![\d.]){re.escape(number)}(?![\d.])", own)}
-    assert shown == set()
+    hidden = {solution.words.short(size, 4) for size in sizes} - written
+    assert [number for number in hidden if re.search(rf"(?<![\d.]){re.escape(number)}(?![\d.])", own)] == []
     assert len([number for number in hidden if number in teachers]) > 10
     assert "<svg" not in own
     assert ("<svg" in teachers) is (suffix == ".html")
     assert "First wrong step" in own
 
 
-def test_json_for_a_student_has_verdicts_alone(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    found = marked(capsys, answers(tmp_path, {"V_BA": 1.3}), "--verdict-only")
-
-    assert "mistakes" not in found
-    assert {key for line in found["lines"] for key in line} == {"quantity", "verdict", "about", "answer"}
-
-
-def test_a_page_escapes_what_students_write_and_loads_nothing(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+def test_a_page_escapes_what_students_write_loads_nothing_and_writes_numbers_in_full(
+    tmp_path: Path, capsys: Printed
 ) -> None:
     file = answers(tmp_path, about="student;<script>alert(1)</script>\n")
-
     run(capsys, TASK, file, "-o", str(tmp_path / "r.html"))
-
     page = (tmp_path / "r.html").read_text(encoding="utf-8")
     assert "<script" not in page
     assert "&lt;script&gt;" in page
     assert not re.search(r"(?:src|href)=|@import|url\(", page)
 
+    rows = "V_B;;;5,6;;359,98\na_BA_n;;;9;;\nF_3;;;78612;;0\n"
+    page = report_html(check(TASK, "3", lang="en").mark(read(tmp_path, rows, "3")))
+    assert "<td>a<sup>n</sup><sub>BA</sub></td>" in page
+    assert "78612 N; 0°" in page
+    assert not re.search(r"a\^n_BA|360°|e\+", page)
 
-def test_another_variant_and_a_wrong_sheet_id_are_told_of(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+
+def test_answers_are_marked_from_python_without_a_word(tmp_path: Path, capsys: Printed) -> None:
+    asked, done, told = check(TASK, "example", own=True, lang="en"), list[int](), list[str]()
+    files = [answers(tmp_path), answers(tmp_path, {"a_B": 295.3}, name="b.csv")]
+
+    report = asked.mark(asked.read(files[0])[0])
+    results = asked.mark_all(asked.read(*files), tmp_path / "reports", lambda more, whole: done.append(more), jobs=1)
+    unread = asked.read(files[0], str(tmp_path / "none.csv"), warn=lambda error: told.append(error.key))
+
+    assert report.own
+    assert report.marked.marking.first_wrong is None
+    assert results[0].mark == report.marked.mark > (results[1].mark or 0.0)
+    assert sum(done) == len(list((tmp_path / "reports").glob("*.html"))) == 2
+    assert [one.unread is None for one in unread] == [True, False]
+    assert told == ["file-missing"]
+    with pytest.raises(InputError):
+        asked.read(files[0], str(tmp_path / "none.csv"))
+    assert capsys.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("task", ["nau-slider-crank", "madi-four-bar", "bertyaev-six-bar"])
+def test_printed_answers_are_marked(capsys: Printed, task: str) -> None:
+    status, out, err = run(capsys, task, "printed", "--json")
+
+    found = json.loads(out)
+    assert (status, err) == (0, "")
+    odd = [note for note in found["notes"] if "no direction" not in note]  # sources print sizes alone
+    assert [note for note in odd if " makes " not in note] == []  # and slips of the pen
+    assert found["counts"]["right"] + found["counts"]["carried"] > 20
+
+
+@pytest.mark.parametrize(
+    ("arguments", "what"),
+    [
+        ((TASK,), "nothing to do"),
+        ((TASK, "missing.csv"), "there is no such file"),
+        ((TASK, "--form", "x.docx"), "ends in one of: .csv, .xlsx"),
+        ((TASK, "printed", "-v", "99"), "'99'"),
+        ((TASK, "printed", "-o", "x.docx"), "unknown kind of file"),
+        ((TASK, "printed", "--preset", "best"), ", ".join(PRESETS)),
+        (("scheme-01-compressor", "printed"), "the source of scheme-01-compressor prints no answers"),
+        ((TASK, "."), "no files with answers"),
+    ],
+)
+def test_what_cannot_be_checked_is_answered_in_one_line(
+    tmp_path: Path, capsys: Printed, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], what: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("LC_ALL", "C")
+
+    status, out, err = run(capsys, *arguments)
+
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert what in err
+    assert list(tmp_path.iterdir()) == []
+
+
+NUMBERS = st.sampled_from(("", "0", "-1", "3", "1e30", "1e-30", "0,05", "80", "сто"))
+CELLS = st.tuples(NUMBERS, NUMBERS, NUMBERS, st.sampled_from(("", "+", "-", "90", "?")))
+
+
+@cache
+def prepared(task: str) -> Check:
+    return check(task)
+
+
+@pytest.mark.parametrize("task", ["nau-slider-crank", "scheme-19-scotch-yoke"])
+@settings(max_examples=4, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.data())
+def test_whatever_numbers_come_they_are_marked(tmp_path: Path, task: str, data: st.DataObject) -> None:
+    """Zeros, nonsense, and values that make the construction impossible."""
+    asked = prepared(task)
+    names = data.draw(st.lists(st.sampled_from(sorted(asked.asked.quantities)), min_size=3, unique=True))
+    rows = [f"{name};{';'.join(data.draw(CELLS))}\n" for name in names]
+    file = tmp_path / "any.csv"
+    file.write_text(f"quantity;mm;mu;value;direction\nV_A;;;4;\n{''.join(rows)}", encoding="utf-8")
+
+    found = asked.mark(read_answers(file, asked.asked)[0])
+
+    assert 0.0 <= found.marked.mark <= 100.0
+    assert report_html(found).endswith("</html>\n")
+    assert report_text(found)
+    json.dumps(to_json(found), allow_nan=False)
+
+
+# --- which variant it is ----------------------------------------------------------------------------------------------
+
+
+def test_another_variant_and_a_wrong_sheet_id_are_told_of(tmp_path: Path, capsys: Printed) -> None:
     other = sheet_id(load_task(TASK), "5")
-    file = answers(tmp_path, about=f"sheet id;{other}\n")
 
-    status, out, _ = run(capsys, TASK, file, "-v", "3", "--lang", "en")
+    status, out, _ = run(capsys, TASK, answers(tmp_path, about=f"sheet id;{other}\n"), "-v", "3", "--lang", "en")
 
     assert status == 0
     assert f"the sheet id '{other}' is that of variant 5, not of variant 3" in out
@@ -150,7 +252,7 @@ def test_another_variant_and_a_wrong_sheet_id_are_told_of(tmp_path: Path, capsys
     assert "the form says variant 'example'; it is marked as variant 3" in out
 
 
-def test_a_sheet_id_belongs_to_task_variant_and_data() -> None:
+def test_a_sheet_id_belongs_to_task_variant_and_data_and_stands_on_the_sheet(tmp_path: Path) -> None:
     task = load_task(TASK)
     ids = {sheet_id(task, name) for name in task.variants}
 
@@ -159,27 +261,34 @@ def test_a_sheet_id_belongs_to_task_variant_and_data() -> None:
     assert sheet_id(task, "3", {"phi": "120 deg"}) == sheet_id(task, "3")
     assert variant_of_id(task, sheet_id(task, "7")) == "7"
     assert all(re.fullmatch(r"[0-9A-HJKMNP-TV-Z]{3}-[0-9A-HJKMNP-TV-Z]{3}", one) for one in ids)
-
-
-@pytest.mark.parametrize("written", ["T3K12J", "t3k-12j", " Т3К 12J", "T3K-I2J", "T3K-l2j"])
-def test_a_sheet_id_may_be_copied_as_people_copy(written: str) -> None:
-    assert same_id(written, "T3K-12J")
+    for norm in ("gost", "iso"):
+        sheet(TASK, "3", only="velocity", norm=norm, lang="en").save(tmp_path / "sheet.svg")
+        assert f"Sheet id: {sheet_id(task, '3')}" in (tmp_path / "sheet.svg").read_text(encoding="utf-8")
+    for written in ("T3K12J", "t3k-12j", " Т3К 12J", "T3K-I2J", "T3K-l2j"):  # as people copy
+        assert same_id(written, "T3K-12J")
     assert not same_id("T3K-12H", "T3K-12J")
 
 
-@pytest.mark.parametrize(
-    ("book", "digits", "variant"), [("АТ-2023/417", 1, "7"), ("20230000", 1, "0"), ("123", 2, "3"), ("115", 2, "5")]
-)
-def test_a_record_book_gives_the_variant(book: str, digits: int, variant: str) -> None:
-    assert variant_of_book(load_task(TASK), book, digits) == variant
+@pytest.mark.parametrize(("number", "variant", "told"), [("", "0", True), (sheet_id(load_task(TASK), "5"), "5", False)])
+def test_a_form_without_a_variant_has_that_of_its_sheet_id(
+    tmp_path: Path, number: str, variant: str, told: bool
+) -> None:
+    found = replace(read(tmp_path, rows_of("5"), None), about={"sheet": number} if number else {})
+
+    marked = check(TASK, lang="en").mark(found).marked
+
+    assert marked.keyed.solution.variant == variant
+    assert ["nowhere said" in note.text("en") for note in marked.notes if "nowhere" in note.text("en")] == [True] * told
 
 
-def test_a_record_book_without_digits_gives_none() -> None:
+def test_a_record_book_gives_the_variant() -> None:
+    for book, digits, variant in (("АТ-2023/417", 1, "7"), ("20230000", 1, "0"), ("123", 2, "3"), ("115", 2, "5")):
+        assert variant_of_book(load_task(TASK), book, digits) == variant
     with pytest.raises(InputError, match="at least so many digits: 1"):
         variant_of_book(load_task(TASK), "АТ")
 
 
-def test_a_roster_gives_variants_and_own_data(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_roster_gives_variants_and_own_data(tmp_path: Path, capsys: Printed) -> None:
     roster = tmp_path / "class.csv"
     roster.write_text(
         "student;record book;variant;phi [deg]\nА. Перша;11;example;60\nБ. Другий;12;;\n", encoding="utf-8"
@@ -188,9 +297,7 @@ def test_a_roster_gives_variants_and_own_data(tmp_path: Path, capsys: pytest.Cap
     same = marked(capsys, answers(tmp_path, about="student;А.Перша\n"), "--roster", str(roster))
     other = marked(capsys, answers(tmp_path, about="student;Б. Другий\n"), "--roster", str(roster))
 
-    assert same["variant"] == "example"
-    assert same["verdicts"]["V_B"] == "right"
-    assert other["variant"] == "2"
+    assert (same["variant"], same["verdicts"]["V_B"], other["variant"]) == ("example", "right", "2")
     assert any("variant 'example'" in note or "варіант «example»" in note for note in other["notes"])
 
 
@@ -213,48 +320,66 @@ def test_a_wrong_roster_is_refused_with_its_cell(tmp_path: Path, text: str, what
     assert what in caught.value.text("en")
 
 
-def rubric(tmp_path: Path, text: str) -> str:
-    file = tmp_path / "rubric.toml"
-    file.write_text(text, encoding="utf-8")
-    return str(file)
+@pytest.mark.parametrize(("rows", "another"), [("5", True), ("3", False)])
+def test_answers_to_another_variant_are_told(tmp_path: Path, rows: str, another: bool) -> None:
+    found = read(tmp_path, rows_of(rows), "3")
+
+    report = check(TASK, "3", lang="en").mark(found)
+    own = check(TASK, "3", lang="en", own=True).mark(found)
+
+    assert [flag.startswith("the answers fit variant 5") for flag in report.lists["flags"]] == [True] * another
+    assert "flags" not in own.lists
+    assert [line.startswith("the variant:") for line in own.lists["again"][:1]] == [True] * another
+    assert not any("5" in line.partition(":")[0] for line in own.lists["again"])
 
 
-def test_a_rubric_weighs_and_asks(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_another_variant_is_recognised_on_any_format_without_a_sheet_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drawn = set[str]()
+
+    def noted(case: Case) -> Any:
+        drawn.add(case.variant)
+        return drawing_of(case)
+
+    monkeypatch.setattr(sheets, "drawing_of", noted)
+    asked = check(TASK, "3", lang="en", format="A3")
+    at_five = solve(TASK, "5", format="A4")  # other scale factors than those of the format that is asked for
+    segments = [(name, at_five[name].mm) for name in key(TASK, "5").questions]
+    rows = "".join(f"{name};{mm:.1f};;;\n" for name, mm in segments if mm is not None)
+    drawn.clear()
+
+    report = asked.mark(read(tmp_path, rows, "3"))
+
+    assert report.marked.fits == "5"
+    assert drawn == {"3"}
+
+
+# --- rubrics ----------------------------------------------------------------------------------------------------------
+
+
+def test_a_rubric_weighs_asks_and_requires_directions(tmp_path: Path, capsys: Printed) -> None:
     asked = rubric(tmp_path, 'out_of = 10\nasked = ["V_B", "V_BA", "a_B"]\n[weights]\nV_B = 2\n')
-
     found = marked(capsys, answers(tmp_path, {"V_BA": 1.0}), "--rubric", asked)
-
-    assert [line["quantity"] for line in found["lines"]] == ["V_BA", "V_B", "a_B"]
     verdicts = found["verdicts"]
     worth = 2.0 * (verdicts["V_B"] in ("right", "carried")) + (verdicts["a_B"] in ("right", "carried"))
+    assert [line["quantity"] for line in found["lines"]] == ["V_BA", "V_B", "a_B"]
     assert found["mark"] == pytest.approx(10.0 * worth / 4.0)
 
-
-def test_a_rubric_sets_tolerances(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    close = rubric(tmp_path, "[tolerance]\nmm = 0.1\npercent = 0.1\ndegrees = 0.05\n")
-    file = answers(tmp_path, {"V_B": 2.80})
-
-    assert marked(capsys, file)["verdicts"]["V_B"] == "right"
-    assert marked(capsys, file, "--rubric", close)["verdicts"]["V_B"] == "wrong"
+    for directions, mark in (("required", 50.0), ("optional", 100.0)):
+        asked = rubric(tmp_path, f'asked = ["V_BA", "V_B"]\ndirections = "{directions}"\n')
+        found = marked(capsys, answers(tmp_path), "--rubric", asked)
+        assert found["mark"] == mark
+        assert any("no direction" in note for note in found["notes"])
 
 
-def test_a_rubric_may_require_directions(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    asked = 'asked = ["V_BA", "V_B"]\ndirections = "{}"\n'
-
-    half = marked(capsys, answers(tmp_path), "--rubric", rubric(tmp_path, asked.format("required")))
-
-    assert half["mark"] == 50.0
-    assert any("no direction" in note for note in half["notes"])
-    optional = rubric(tmp_path, asked.format("optional"))
-    assert marked(capsys, answers(tmp_path), "--rubric", optional)["mark"] == 100.0
-
-
-def test_a_rubric_limits_single_quantities(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    wide = rubric(tmp_path, '[limits]\nV_BA = "50 cm/s"\n')
-    file = answers(tmp_path, {"V_BA": 2.5})
-
-    assert marked(capsys, file)["verdicts"]["V_BA"] == "wrong"
-    assert marked(capsys, file, "--rubric", wide)["verdicts"]["V_BA"] == "right"
+def test_a_rubric_sets_tolerances_and_limits_single_quantities(tmp_path: Path, capsys: Printed) -> None:
+    for name, value, text, verdicts in (
+        ("V_B", 2.80, "[tolerance]\nmm = 0.1\npercent = 0.1\ndegrees = 0.05\n", ["right", "wrong"]),
+        ("V_BA", 2.5, '[limits]\nV_BA = "50 cm/s"\n', ["wrong", "right"]),
+    ):
+        file, own = answers(tmp_path, {name: value}), ("--rubric", rubric(tmp_path, text))
+        assert [marked(capsys, file, *how)["verdicts"][name] for how in ((), own)] == verdicts
 
 
 @pytest.mark.parametrize(
@@ -272,119 +397,128 @@ def test_a_rubric_limits_single_quantities(tmp_path: Path, capsys: pytest.Captur
     ],
 )
 def test_a_wrong_rubric_is_refused_with_its_key(tmp_path: Path, text: str, what: str) -> None:
-    asked = asked_of(solve(TASK, "example"))
-
     with pytest.raises(InputError) as caught:
-        read_rubric(rubric(tmp_path, text), "normal", asked)
+        read_rubric(rubric(tmp_path, text), "normal", ASKED)
 
     assert what in caught.value.text("en")
 
 
-@pytest.mark.parametrize("task", ["nau-slider-crank", "madi-four-bar", "bertyaev-six-bar"])
-def test_printed_answers_are_marked(capsys: pytest.CaptureFixture[str], task: str) -> None:
-    status, out, err = run(capsys, task, "printed", "--json")
-
-    found = json.loads(out)
-    assert (status, err) == (0, "")
-    odd = [note for note in found["notes"] if "no direction" not in note]  # sources print sizes alone
-    assert [note for note in odd if " makes " not in note] == []  # and slips of the pen
-    assert found["counts"]["right"] + found["counts"]["carried"] > 20
+# --- answers that are odd as a whole ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
-    ("arguments", "what"),
+    ("task", "rows", "verdict"),
     [
-        ((TASK,), "nothing to do"),
-        ((TASK, "missing.csv"), "there is no such file"),
-        ((TASK, "--form", "x.docx"), "ends in one of: .csv, .xlsx"),
-        ((TASK, "printed", "-v", "99"), "'99'"),
-        ((TASK, "printed", "-o", "x.docx"), "unknown kind of file"),
-        ((TASK, "printed", "--preset", "best"), "cad, careful, normal, lenient"),
-        (("scheme-01-compressor", "printed"), "the source of scheme-01-compressor prints no answers"),
-        ((TASK, "."), "no files with answers"),
+        ("madi-cam", "mu_s_d2s;;0,0005987 м/мм;;;\nr_0_flat;38,6;;38,6 мм;;\n", "right"),
+        ("madi-cam", "mu_s_d2s;;0,0005987 м/мм;;;\nr_0_flat;48,6;;38,6 мм;;\n", "arithmetic"),
+        ("karpenko-hoist", "mu_F_circle;;200 Н/мм;;;\nP_st;50;;50053 Н;;\n", "right"),
+        ("karpenko-hoist", "P_st;50;;50053 Н;;\nb_0;15;;3 м;;\n", "right"),
     ],
 )
-def test_what_cannot_be_checked_is_answered_in_one_line(
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-    arguments: tuple[str, ...],
-    what: str,
+def test_a_segment_may_be_that_of_the_drawing_on_which_the_sheet_shows_it(
+    tmp_path: Path, task: str, rows: str, verdict: str
 ) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("LC_ALL", "C")
+    marking = check(task, lang="en").mark(read(tmp_path, rows, None, task)).marked.marking
 
-    status, out, err = run(capsys, *arguments)
-
-    assert (status, out, err.count("\n")) == (2, "", 1)
-    assert what in err
-    assert list(tmp_path.iterdir()) == []
+    assert {str(line.verdict) for line in marking.lines if line.answer is not None} == {verdict}
 
 
-def test_the_command_knows_all_presets() -> None:
-    option = next(param for param in cli.check.params if param.name == "preset")
+def test_a_single_slip_of_the_hand_is_called_one(tmp_path: Path) -> None:
+    right, allowed = abs(key(TASK, "3")["V_BA"]), key(TASK, "3").allowed["V_BA"]
+    for times, slip in ((1.5, True), (4.0, False)):
+        rows = f"V_BA;;;{right + times * allowed:.5g};;\n"
+        report = check(TASK, "3", lang="en").mark(read(tmp_path, rows, "3"))
 
-    assert option.type.words == tuple(PRESETS)
-
-
-@pytest.mark.parametrize("norm", ["gost", "iso"])
-def test_a_sheet_bears_the_id_that_its_form_asks_for(tmp_path: Path, norm: str) -> None:
-    sheet(TASK, "3", only="velocity", norm=norm, lang="en").save(tmp_path / "sheet.svg")
-
-    assert f"Sheet id: {sheet_id(load_task(TASK), '3')}" in (tmp_path / "sheet.svg").read_text(encoding="utf-8")
+        assert report.marked.slips is slip
+        assert ("inaccurate" in "".join(report.lists["candidates"][:1])) is slip
+        assert not slip or result_of(report.marked, "en").mistakes == ()
 
 
-def test_answers_are_marked_from_python_without_a_word(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    asked, done = check(TASK, "example", own=True, lang="en"), list[int]()
-    files = [answers(tmp_path), answers(tmp_path, {"a_B": 295.3}, name="b.csv")]
+def test_a_student_is_told_how_to_go_on_where_something_is_wrong(tmp_path: Path) -> None:
+    own = check(TASK, "3", lang="en", own=True)
 
-    report = asked.mark(asked.read(files[0])[0])
-    results = asked.mark_all(asked.read(*files), tmp_path / "reports", lambda more, whole: done.append(more), jobs=1)
+    wrong, right = (own.mark(read(tmp_path, rows, "3")) for rows in ("V_B;;;9;;\n", rows_of("3")))
 
-    assert report.own
-    assert report.marked.marking.first_wrong is None
-    assert results[0].mark == report.marked.mark
-    assert (results[1].mark or 0.0) < report.marked.mark
-    assert sum(done) == len(list((tmp_path / "reports").glob("*.html"))) == 2
-    assert capsys.readouterr() == ("", "")
+    assert wrong.lists["again"][-1].startswith("then: begin with the first wrong step")
+    assert right.lists["again"] == ()
 
 
-def test_only_a_file_among_others_may_be_unreadable(tmp_path: Path) -> None:
-    asked, told = check(TASK, "example"), list[str]()
-    files = [answers(tmp_path), str(tmp_path / "none.csv")]
+def test_the_force_of_a_couple_and_each_of_the_two_have_symbols_of_their_own() -> None:
+    asked = check(TASK, "3", lang="en")
 
-    found = asked.read(*files, warn=lambda error: told.append(error.key))
+    symbols = asked.mark(asked.read("printed")[0]).marked.keyed.symbols
 
-    assert [one.unread is None for one in found] == [True, False]
-    assert told == ["file-missing"]
-    with pytest.raises(InputError):
-        asked.read(*files)
+    couple = [symbol for name, symbol in symbols.items() if "i2_couple" in name]
+    assert sorted(couple) == ["F′_i2", "F′_i2 = F″_i2", "F″_i2"]
 
 
-NUMBERS = st.sampled_from(("", "0", "-1", "3", "1e30", "1e-30", "0,05", "80", "сто"))
-CELLS = st.tuples(NUMBERS, NUMBERS, NUMBERS, st.sampled_from(("", "+", "-", "90", "?")))
+SCALED = "mu_a;;1,07;;;\na_A;80;;856;;\na_BA_n;4,4;;47,4;;\na_BA_t;69,9;;748;;\na_BA;70,1;;750;;\na_S2;59;;631;;\n"
 
 
-@pytest.mark.parametrize("task", ["nau-slider-crank", "scheme-19-scotch-yoke"])
-@settings(max_examples=8, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(st.data())
-def test_whatever_numbers_come_they_are_marked(tmp_path: Path, task: str, data: st.DataObject) -> None:
-    """Zeros, nonsense, and values that make the construction impossible."""
-    asked = prepared(task)
-    names = data.draw(st.lists(st.sampled_from(sorted(asked.asked.quantities)), min_size=3, unique=True))
-    rows = [f"{name};{';'.join(data.draw(CELLS))}\n" for name in names]
-    file = tmp_path / "any.csv"
-    file.write_text(f"quantity;mm;mu;value;direction\nV_A;;;4;\n{''.join(rows)}", encoding="utf-8")
+def test_a_scale_factor_written_wrongly_in_its_row_counts_once(tmp_path: Path) -> None:
+    found = read(tmp_path, SCALED, "3")
+    for asked in ((), ("a_BA", "a_S2")):
+        report = check(TASK, "3", lang="en", rubric=rubric(tmp_path, f"asked = {[*asked]}\n")).mark(found)
 
-    found = asked.mark(read_answers(file, asked.asked)[0])
+        faulty = [(line.name, str(line.verdict)) for line in report.marked.marking.lines if line.verdict.faulty]
+        assert faulty == [((*asked, "a_A")[0], "scale")]
+        assert report.lists["again"] == (
+            "μ_a: too small by the factor 10; your segments and values fit 10.7 (m/s²)/mm",
+        )
+        assert report.lists["candidates"] == ()
 
-    assert 0.0 <= found.marked.mark <= 100.0
-    assert report_html(found).endswith("</html>\n")
-    assert report_text(found)
-    json.dumps(to_json(found), allow_nan=False)
+    right_scale = SCALED.replace("1,07", "10,7").replace("856", "85,6").replace("47,4", "4,74")
+    tenths = right_scale.replace("748", "74,8").replace("750", "75").replace("631", "63,1")  # not from segments
+    assert check(TASK, "3", lang="en").mark(read(tmp_path, tenths, "3")).marked.misfits == {}
 
 
-@cache
-def prepared(task: str) -> Check:
-    """Return a task about to be marked."""
-    return check(task)
+def test_a_scale_factor_beside_which_a_mistake_is_beyond_all_floats_is_marked(tmp_path: Path) -> None:
+    checked = check("madi-cam", set={"mu_phi": "7e-9 deg/mm"})
+    (tmp_path / "answers.csv").write_text(COLUMNS + "mu_a;;;180;;\n", encoding="utf-8")
+
+    found = checked.mark(checked.read(str(tmp_path / "answers.csv"))[0])
+
+    assert messages(found.marked.answers) == []
+    assert "mu_a" in {row.line.name for _, rows in found.parts for row in rows if row.answer}
+
+
+# --- the plans of a student over the right ones -----------------------------------------------------------------------
+
+
+def test_letters_lie_on_no_others_and_beside_their_vector() -> None:
+    random, corner = np.random.default_rng(SEED), complex(150.0, 150.0)
+    ends = [complex(*xy) for xy in random.uniform(0.0, 150.0, (24, 2))]
+    vectors = [(tail, tip, 4) for tail, tip in zip(ends[::2], ends[1::2], strict=True)]
+
+    placed = list(boxes(vectors, corner))
+
+    assert len(placed) == len(vectors)
+    assert all(box.lies_in(corner) for box in placed)
+    assert not any(one.meets(other) for one, other in combinations(placed, 2))
+    assert Box(0j, 2.0).meets(Box(3.9 + 3.5j, 2.0))
+    assert not Box(0j, 2.0).meets(Box(4.1, 2.0))
+    for tail, tip in ((20 + 20j, 120 + 20j), (20 + 20j, 20 + 120j), (20 + 20j, 80 + 100j), (70 + 20j, 20 + 20j)):
+        (box,) = boxes([(tail, tip, 3)], complex(140.0, 140.0))
+        along = np.linspace(0.0, 1.0, 400) * (tip - tail) + tail - box.middle
+        assert not np.any((np.abs(along.real) < box.half) & (np.abs(along.imag) < 1.8))
+
+
+def test_figures_are_well_formed_and_scripts_go_back_to_their_line() -> None:
+    asked = check("madi-four-bar", lang="en")
+    marked = asked.mark(asked.read("printed")[0]).marked
+    figures = [ElementTree.fromstring(svg) for _, svg in plan_figures(marked, "en")]
+
+    texts = [text for figure in figures for text in figure.iter("text")]
+    right = [text for text in texts if "".join(text.itertext()).endswith("✓")]
+    assert len(texts) > 20
+    assert right
+    for text in texts:
+        levels = np.cumsum([float(piece.attrib["dy"]) for piece in text])
+        assert levels[0] == 0.0
+        assert [bool(abs(level) > 0.5) for level in levels] == ["font-size" in piece.attrib for piece in text]
+        assert not any("baseline-shift" in piece.attrib for piece in text)
+        assert text not in right or math.isclose(levels[-1], 0.0, abs_tol=1e-9)
+    for figure in figures:
+        width, height = map(float, figure.attrib["viewBox"].split()[2:])
+        numbers = [float(n) for path in figure.iter("path") for n in re.findall(r"-?\d+\.\d+", path.attrib["d"])]
+        assert 0.0 <= min(numbers) < max(numbers) <= max(width, height)

@@ -18,12 +18,16 @@ from kulman.tests.support.students import (
     exact,
     honest,
     kinds,
+    marked,
     misread,
+    one_mistake,
     pool,
+    population,
+    printed,
     random_data,
+    share,
     written_value,
 )
-from kulman.tests.support.students_marked import marked, one_mistake, population, printed, share
 
 UNITY = 1e-9  # part by which the simulation may differ from the package
 LEAST = 1e-3  # SI, of what is nothing

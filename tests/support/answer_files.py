@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import csv
+import io
+from collections.abc import Sequence
 from pathlib import Path
+
+import openpyxl
 
 from kulman.variants.marking.cells import Asked
 from kulman.variants.marking.keyed import asked_of
@@ -22,10 +27,30 @@ def read(tmp_path: Path, text: str | bytes, name: str = "answers.csv", asked: As
 
 
 def one(tmp_path: Path, text: str | bytes, name: str = "answers.csv") -> Answers:
-    found = read(tmp_path, text, name)
-    assert len(found) == 1
-    return found[0]
+    (answers,) = read(tmp_path, text, name)
+    return answers
 
 
 def messages(answers: Answers) -> list[str]:
     return [problem.text("en") for problem in answers.problems]
+
+
+def table(rows: Sequence[Sequence[object]], separator: str = ";") -> str:
+    """Return cells as CSV."""
+    stream = io.StringIO()
+    csv.writer(stream, delimiter=separator).writerows(rows)
+    return stream.getvalue()
+
+
+def write(tmp_path: Path, rows: Sequence[Sequence[object]], suffix: str = ".csv", name: str = "answers") -> Path:
+    """Write rows of cells as CSV or as a workbook."""
+    file = tmp_path / f"{name}{suffix}"
+    if suffix == ".csv":
+        file.write_text(table(rows), encoding="utf-8", newline="")
+        return file
+    book = openpyxl.Workbook()
+    assert book.active is not None
+    for row in rows:
+        book.active.append(row)
+    book.save(file)
+    return file

@@ -35,8 +35,8 @@ from types import FrameType
 
 from kulman import cli
 from kulman.plans.lab.race import FULL
-from kulman.tests.support import mutated_classes
-from kulman.tests.support.mutated import Case, lay_out, made
+from kulman.tests.support import mutated
+from kulman.tests.support.mutated import Case, lay_out, made, made_of_class
 from kulman.variants.making import new_variants
 
 SECONDS = 5.0  # of processor time
@@ -51,7 +51,7 @@ class TooLongError(BaseException):
 
 
 FAMILIES: dict[str, Callable[[int], Case]] = {
-    **{"solved": made, "drawn": partial(made, drawn=True), "classes": mutated_classes.made}
+    **{"solved": made, "drawn": partial(made, drawn=True), "classes": made_of_class}
 }
 
 
@@ -155,9 +155,7 @@ def faults(
     A plain fork of a process that has written a note waits for ever: the threads of typst are not in the copy.
     """
     context = multiprocessing.get_context(method)
-    context.set_forkserver_preload(
-        ["kulman.cli", mutated_classes.__name__, new_variants.__name__]
-    )  # not this: it may be run
+    context.set_forkserver_preload(["kulman.cli", mutated.__name__, new_variants.__name__])  # not this: it may be run
     size = CHUNK if family == "solved" else CHUNK // 5
     for start in range(numbers.start, numbers.stop, size):
         with ProcessPoolExecutor(1, mp_context=context) as pool:

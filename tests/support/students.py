@@ -1,14 +1,40 @@
-"""A class of simulated students: random variants, honest hands, and hands that make mistakes on purpose."""
+"""A class of simulated students: honest hands and hands that make mistakes on purpose, drawn and marked.
+
+A roster and a table of the class go in, as a teacher does it; marks and mistakes come out.
+What is counted, of the lines that a student has written and of the first explanation that the report gives:
+
+right lines
+    Lines of honest students that pass.
+first wrong step
+    The line named first is one that the mistake moves (by half a tolerance or more), and stands no later than the
+    first line that it moves clearly (by two). Tolerances are those of the simulation (`moved`).
+named
+    The number of the mistake is that of the first explanation, or of one reported with it as not to be told apart.
+    Of two mistakes both are.
+wrong name
+    There is an explanation, and the first one does not have the number.
+unnoticed
+    No line at all is wrong.
+
+A mistake is planted only where it moves a line clearly: one within the tolerances cannot be seen.
+"""
 
 from __future__ import annotations
 
+import csv
 import math
 import random
-from collections.abc import Callable, Iterator, Sequence
+import tempfile
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
+from pathlib import Path
 
-from .drawn_by_hand import Hand, Line, Sheet, Slip
+from kulman import check, load_task
+from kulman.variants.marking.marked import Desk, Marked
+
+from .drawn_by_hand import Hand, Line, Sheet, Slip, named_value
 from .drawn_mechanisms import MECHANISMS, Givens
 
 SEED = 9
@@ -20,163 +46,66 @@ LEAST_MM = 12.0  # of the vectors of the crank pin: who has shorter ones takes a
 CLEAR = 2.0  # tolerances by which a mistake moves at least one line, or it is not planted
 NOTHING = Line(0.0)
 TRIES, FEW = 300, 40  # at variants on which mistakes show; at those that are wanted first
+TOUCHED = 0.5  # tolerances by which a line is moved at all
+SYMBOLS = {"velocity": "mu_V", "acceleration": "mu_a"}
 SCALE_SLIPS = {"M14", "M15", "M16", "M17", "M20", "M56", "M68", "M74"}
 
 
-def ways(id: str, *places: str) -> list[Slip]:
-    """Return the mistakes of one number: `place` or `place=way` each."""
-    return [Slip(id, at, way) for at, _, way in (place.partition("=") for place in places)]
+# the mistakes that are made: a number of the list, and places where it is made, each with one of several ways
+COMMON = """
+    M01; M02; M03; M04; M05; M06; M08; M09; M11; M23; M37; M61; M77; M07: =2, =0.5; M10: =30, =-30; M14: velocity,
+    acceleration; M15: velocity=acceleration, acceleration=velocity; M24: =out, =in
+"""
+MADE = {
+    "nau-slider-crank": """
+    M16: a_BA_n; M17: omega_2, epsilon_2; M20: V_B, V_BA, a_B, a_S2, R_12; M21; M22: V_B, V_BA, V_S2, a_B, a_BA_t,
+    a_S2; M25: V_BA; M26: V_BA; M27: velocity V_BA; M28: omega_2=V_B; M29: omega_2; M30: V_S2; M31: velocity V_S2;
+    M38: a_BA_n; M39: a_BA_n; M40: a_BA_n=V_B, a_BA_n=omega_1; M41: a_BA_n=v/l, a_BA_n=v*l; M42: a_BA_t; M43:
+    epsilon_2=a_BA; M44: epsilon_2=a_B; M45: epsilon_2; M53; M55: a_S2; M56: a_B; M57: F_i2, F_i3; M58: F_i2, F_i3,
+    F_3; M59: F_i2, F_i3, F_3; M60: M_i2=none, M_i2=sign; M62: F_i2=first, F_i2=middle; M63: F_i2, F_i3; M65; M66:
+    h_2, h_21; M67: h_2; M68: R_12_t; M69: R_12_t; M70: R_12=R_12_n; M73; M74: mu_F_1=mu_F_23; M75: R_12, R_03,
+    R_32; M76; M78: F_i2=B, F_i2=A; M79: M_i2=none, M_i2=whole; M80: M_i2; M82; M115: a_A, a_BA_n; M116: a_A,
+    a_BA_n; M117: omega_2=crank, omega_2=l_AS2, epsilon_2=crank, epsilon_2=l_AS2; M118: R_12_t F_i2, lever F_i2,
+    lever F_i3; M120: h_lever_F_i2; M121: a_BA_t; M122: F_i2=a_B, F_i2=a_A, F_i3=a_S2; M123: V_B, V_BA, omega_2,
+    a_BA_n, a_B, a_S2, F_i2, R_12, M_bal, epsilon_2; M124
+""",
+    "madi-four-bar": """
+    M13: l_BC=l_DC; M16: a_CB_n, a_C_n; M17: omega_2, omega_3, epsilon_3; M20: V_C, V_CB, a_C, a_S2, R_12; M21; M22:
+    V_C, V_CB, V_S2, a_C, a_CB_t, a_S2; M25: V_CB, V_C; M26: V_CB; M28: omega_2=V_C; M29: omega_2, omega_3; M38:
+    a_CB_n, a_C_n; M39: a_CB_n, a_C_n; M40: a_CB_n=V_C, a_CB_n=omega_1, a_C_n=V_CB; M41: a_CB_n=v/l, a_C_n=v*l; M42:
+    a_CB_t; M43: epsilon_2=a_CB, epsilon_3=a_C; M44: epsilon_2=a_C; M45: epsilon_2, epsilon_3; M47: a_C_n; M56: a_C;
+    M57: F_i2, F_i3; M58: F_i2, F_i3; M59: F_i2, F_i3; M60: M_i2=none, M_i2=sign; M62: F_i2=first, F_i2=second,
+    F_i3=first, F_i3=second; M63: F_i2, F_i3; M65; M66: h_2, h_3, h_21; M67: h_2, h_3; M68: R_12_t, R_03_t; M69:
+    R_12_t, R_03_t; M70: R_12=R_12_n, R_03=R_03_n; M74: mu_F_1=mu_F_23; M75: R_12, R_03, R_32; M76; M78: F_i2=C,
+    F_i2=B, F_i3=C; M79: M_i2=none, M_sum=none, M_i2=whole; M80: M_i2, M_sum; M115: a_B, a_CB_n, a_C_n; M116: a_B,
+    a_CB_n, a_C_n; M117: omega_2=l_DC, omega_3=l_BC, epsilon_2=l_DC, epsilon_3=crank; M118: R_12_t F_i2, R_03_t
+    F_i3, lever F_i2, lever F_i3; M119: =M_i3, =M_3; M120: h_lever_F_i2, h_lever_F_i3; M121: a_CB_t; M122: F_i2=a_C,
+    F_i2=a_B, F_i3=a_C; M123: V_C, V_CB, omega_3, a_C_n, a_C, a_S2, F_i2, R_12, F_bal, epsilon_3
+""",
+    "scheme-09-shaper": """
+    M12; M21; M33; M34; M35; M48; M49; M50; M52; M72; M73; M82; M124; M16: a_A3C_n; M17: omega_3, omega_4,
+    epsilon_3; M20: V_A3A2, V_E, a_A3, a_E, R_34; M22: V_E, V_A3C, V_A3A2, a_E, a_A3A2_r; M28: omega_3=V_A,
+    omega_4=V_E; M29: omega_3, omega_4; M38: a_ED_n; M39: a_ED_n; M40: a_A3C_n=V_A, a_A3C_n=omega_1; M43:
+    epsilon_4=a_ED; M44: epsilon_3=a_A3, epsilon_4=a_E; M45: epsilon_3, epsilon_4; M51: =omega, =V_A; M54:
+    a_A3C_n=none, a_A3C_n=away; M56: a_E; M58: F_5, G_5, R_43; M59: F_5, G_5, R_43; M63: G_3, G_4, G_5, F_i5; M65;
+    M66: h_43, h_G_3, h_21; M69: R_12_t, R_34_t; M70: R_34=R_34_t; M71: R_43; M74: mu_F_23=mu_F_45, mu_F_1=mu_F_23;
+    M75: R_05, R_34, R_03; M76; M115: a_A, a_A3C_n, a_ED_n; M116: a_A, a_A3C_n; M117: omega_3=l_CD, omega_3=l_OC,
+    epsilon_3=l_CD, omega_4=l_CD; M118: R_12_t R_43, R_12_t G_3; M123: V_A3C, V_A3A2, omega_3, a_A3A2_k, a_E, R_34,
+    R_12_t, M_bal
+""",
+}
 
 
-COMMON = [
-    *(Slip(id) for id in ("M01", "M02", "M03", "M04", "M05", "M06", "M08", "M09", "M11", "M23", "M37", "M61", "M77")),
-    *ways("M07", "=2", "=0.5"),
-    *ways("M10", "=30", "=-30"),
-    *ways("M14", "velocity", "acceleration"),
-    *ways("M15", "velocity=acceleration", "acceleration=velocity"),
-    *ways("M24", "=out", "=in"),
-]
-SLIDER = [
-    *COMMON,
-    *ways("M16", "a_BA_n"),
-    *ways("M17", "omega_2", "epsilon_2"),
-    *ways("M20", "V_B", "V_BA", "a_B", "a_S2", "R_12"),
-    *ways("M21", ""),
-    *ways("M22", "V_B", "V_BA", "V_S2", "a_B", "a_BA_t", "a_S2"),
-    *ways("M25", "V_BA"),
-    *ways("M26", "V_BA"),
-    *ways("M27", "velocity V_BA"),
-    *ways("M28", "omega_2=V_B"),
-    *ways("M29", "omega_2"),
-    *ways("M30", "V_S2"),
-    *ways("M31", "velocity V_S2"),
-    *ways("M38", "a_BA_n"),
-    *ways("M39", "a_BA_n"),
-    *ways("M40", "a_BA_n=V_B", "a_BA_n=omega_1"),
-    *ways("M41", "a_BA_n=v/l", "a_BA_n=v*l"),
-    *ways("M42", "a_BA_t"),
-    *ways("M43", "epsilon_2=a_BA"),
-    *ways("M44", "epsilon_2=a_B"),
-    *ways("M45", "epsilon_2"),
-    *ways("M53", ""),
-    *ways("M55", "a_S2"),
-    *ways("M56", "a_B"),
-    *ways("M57", "F_i2", "F_i3"),
-    *ways("M58", "F_i2", "F_i3", "F_3"),
-    *ways("M59", "F_i2", "F_i3", "F_3"),
-    *ways("M60", "M_i2=none", "M_i2=sign"),
-    *ways("M62", "F_i2=first", "F_i2=middle"),
-    *ways("M63", "F_i2", "F_i3"),
-    *ways("M65", ""),
-    *ways("M66", "h_2", "h_21"),
-    *ways("M67", "h_2"),
-    *ways("M68", "R_12_t"),
-    *ways("M69", "R_12_t"),
-    *ways("M70", "R_12=R_12_n"),
-    *ways("M73", ""),
-    *ways("M74", "mu_F_1=mu_F_23"),
-    *ways("M75", "R_12", "R_03", "R_32"),
-    *ways("M76", ""),
-    *ways("M78", "F_i2=B", "F_i2=A"),
-    *ways("M79", "M_i2=none", "M_i2=whole"),
-    *ways("M80", "M_i2"),
-    *ways("M82", ""),
-    *ways("M115", "a_A", "a_BA_n"),
-    *ways("M116", "a_A", "a_BA_n"),
-    *ways("M117", "omega_2=crank", "omega_2=l_AS2", "epsilon_2=crank", "epsilon_2=l_AS2"),
-    *ways("M118", "R_12_t F_i2", "lever F_i2", "lever F_i3"),
-    *ways("M120", "h_lever_F_i2"),
-    *ways("M121", "a_BA_t"),
-    *ways("M122", "F_i2=a_B", "F_i2=a_A", "F_i3=a_S2"),
-    *ways("M123", "V_B", "V_BA", "omega_2", "a_BA_n", "a_B", "a_S2", "F_i2", "R_12", "M_bal", "epsilon_2"),
-    *ways("M124", ""),
-]
-FOUR_BAR = [
-    *COMMON,
-    *ways("M13", "l_BC=l_DC"),
-    *ways("M16", "a_CB_n", "a_C_n"),
-    *ways("M17", "omega_2", "omega_3", "epsilon_3"),
-    *ways("M20", "V_C", "V_CB", "a_C", "a_S2", "R_12"),
-    *ways("M21", ""),
-    *ways("M22", "V_C", "V_CB", "V_S2", "a_C", "a_CB_t", "a_S2"),
-    *ways("M25", "V_CB", "V_C"),
-    *ways("M26", "V_CB"),
-    *ways("M28", "omega_2=V_C"),
-    *ways("M29", "omega_2", "omega_3"),
-    *ways("M38", "a_CB_n", "a_C_n"),
-    *ways("M39", "a_CB_n", "a_C_n"),
-    *ways("M40", "a_CB_n=V_C", "a_CB_n=omega_1", "a_C_n=V_CB"),
-    *ways("M41", "a_CB_n=v/l", "a_C_n=v*l"),
-    *ways("M42", "a_CB_t"),
-    *ways("M43", "epsilon_2=a_CB", "epsilon_3=a_C"),
-    *ways("M44", "epsilon_2=a_C"),
-    *ways("M45", "epsilon_2", "epsilon_3"),
-    *ways("M47", "a_C_n"),
-    *ways("M56", "a_C"),
-    *ways("M57", "F_i2", "F_i3"),
-    *ways("M58", "F_i2", "F_i3"),
-    *ways("M59", "F_i2", "F_i3"),
-    *ways("M60", "M_i2=none", "M_i2=sign"),
-    *ways("M62", "F_i2=first", "F_i2=second", "F_i3=first", "F_i3=second"),
-    *ways("M63", "F_i2", "F_i3"),
-    *ways("M65", ""),
-    *ways("M66", "h_2", "h_3", "h_21"),
-    *ways("M67", "h_2", "h_3"),
-    *ways("M68", "R_12_t", "R_03_t"),
-    *ways("M69", "R_12_t", "R_03_t"),
-    *ways("M70", "R_12=R_12_n", "R_03=R_03_n"),
-    *ways("M74", "mu_F_1=mu_F_23"),
-    *ways("M75", "R_12", "R_03", "R_32"),
-    *ways("M76", ""),
-    *ways("M78", "F_i2=C", "F_i2=B", "F_i3=C"),
-    *ways("M79", "M_i2=none", "M_sum=none", "M_i2=whole"),
-    *ways("M80", "M_i2", "M_sum"),
-    *ways("M115", "a_B", "a_CB_n", "a_C_n"),
-    *ways("M116", "a_B", "a_CB_n", "a_C_n"),
-    *ways("M117", "omega_2=l_DC", "omega_3=l_BC", "epsilon_2=l_DC", "epsilon_3=crank"),
-    *ways("M118", "R_12_t F_i2", "R_03_t F_i3", "lever F_i2", "lever F_i3"),
-    *ways("M119", "=M_i3", "=M_3"),
-    *ways("M120", "h_lever_F_i2", "h_lever_F_i3"),
-    *ways("M121", "a_CB_t"),
-    *ways("M122", "F_i2=a_C", "F_i2=a_B", "F_i3=a_C"),
-    *ways("M123", "V_C", "V_CB", "omega_3", "a_C_n", "a_C", "a_S2", "F_i2", "R_12", "F_bal", "epsilon_3"),
-]
-SHAPER = [
-    *COMMON,
-    *(Slip(id) for id in ("M12", "M21", "M33", "M34", "M35", "M48", "M49", "M50", "M52", "M72", "M73", "M82", "M124")),
-    *ways("M16", "a_A3C_n"),
-    *ways("M17", "omega_3", "omega_4", "epsilon_3"),
-    *ways("M20", "V_A3A2", "V_E", "a_A3", "a_E", "R_34"),
-    *ways("M22", "V_E", "V_A3C", "V_A3A2", "a_E", "a_A3A2_r"),
-    *ways("M28", "omega_3=V_A", "omega_4=V_E"),
-    *ways("M29", "omega_3", "omega_4"),
-    *ways("M38", "a_ED_n"),
-    *ways("M39", "a_ED_n"),
-    *ways("M40", "a_A3C_n=V_A", "a_A3C_n=omega_1"),
-    *ways("M43", "epsilon_4=a_ED"),
-    *ways("M44", "epsilon_3=a_A3", "epsilon_4=a_E"),
-    *ways("M45", "epsilon_3", "epsilon_4"),
-    *ways("M51", "=omega", "=V_A"),
-    *ways("M54", "a_A3C_n=none", "a_A3C_n=away"),
-    *ways("M56", "a_E"),
-    *ways("M58", "F_5", "G_5", "R_43"),
-    *ways("M59", "F_5", "G_5", "R_43"),
-    *ways("M63", "G_3", "G_4", "G_5", "F_i5"),
-    *ways("M65", ""),
-    *ways("M66", "h_43", "h_G_3", "h_21"),
-    *ways("M69", "R_12_t", "R_34_t"),
-    *ways("M70", "R_34=R_34_t"),
-    *ways("M71", "R_43"),
-    *ways("M74", "mu_F_23=mu_F_45", "mu_F_1=mu_F_23"),
-    *ways("M75", "R_05", "R_34", "R_03"),
-    *ways("M76", ""),
-    *ways("M115", "a_A", "a_A3C_n", "a_ED_n"),
-    *ways("M116", "a_A", "a_A3C_n"),
-    *ways("M117", "omega_3=l_CD", "omega_3=l_OC", "epsilon_3=l_CD", "omega_4=l_CD"),
-    *ways("M118", "R_12_t R_43", "R_12_t G_3"),
-    *ways("M123", "V_A3C", "V_A3A2", "omega_3", "a_A3A2_k", "a_E", "R_34", "R_12_t", "M_bal"),
-]
-SLIPS = {"nau-slider-crank": SLIDER, "madi-four-bar": FOUR_BAR, "scheme-09-shaper": SHAPER}
+def planned(text: str) -> list[Slip]:
+    """Return the mistakes of a text such as `M07: =2, =0.5; M16: a_BA_n; M21`."""
+    found = []
+    for entry in " ".join(text.split()).split(";"):
+        id, _, places = entry.partition(":")
+        found += [Slip(id.strip(), *place.strip().partition("=")[::2]) for place in places.split(",")]
+    return found
+
+
+SLIPS = {task: planned(f"{COMMON};{text}") for task, text in MADE.items()}
 ALIKE = {  # other names of the same mistake at these places
     "M47": {"M39"},
     "M60": {"M119"},
@@ -398,10 +327,7 @@ class Student:
     variant: str = ""
 
 
-Dice = random.Random
-
-
-def honest(task: str, dice: Dice, among: Sequence[Data] = (), told: bool = True) -> Student:
+def honest(task: str, dice: random.Random, among: Sequence[Data] = (), told: bool = True) -> Student:
     """Draw a variant, one of all where not `among` some, without a mistake."""
     data = dice.choice(among or pool(task))
     sheet = drawn(task, data.givens, Hand(dice), (), scale_factors(task, data.givens, (), dice))
@@ -409,7 +335,11 @@ def honest(task: str, dice: Dice, among: Sequence[Data] = (), told: bool = True)
 
 
 def mistaken(
-    task: str, choose: Callable[[], tuple[Slip, ...]], dice: Dice, among: Sequence[Data] = (), told: bool = True
+    task: str,
+    choose: Callable[[], tuple[Slip, ...]],
+    dice: random.Random,
+    among: Sequence[Data] = (),
+    told: bool = True,
 ) -> Student | None:
     """Draw a variant with mistakes, each of which moves a line clearly, also after the others; None if none does."""
     for attempt in range(TRIES):
@@ -419,7 +349,7 @@ def mistaken(
             moves = moved(task, data, slips, mus, told)
             if not drawable(exact(task, data.givens, slips, mus)):
                 continue
-            if all(map(_clear, _each(task, data, slips, mus, told))):
+            if all(max(each.values()) >= CLEAR for each in _each(task, data, slips, mus, told)):
                 return Student(task, data, slips, drawn(task, data.givens, Hand(dice), slips, mus), told, moves)
         except (ValueError, ZeroDivisionError):
             continue
@@ -430,10 +360,6 @@ def drawable(sheet: Sheet) -> bool:
     """Whether the vectors of the crank pin are not mere dots where the longest one just fits on the sheet."""
     pins = ("V_A", "a_A") if "V_A" in sheet.lines else ("V_B", "a_B")
     return all(sheet.size(name) >= LEAST_MM * sheet.mu(sheet.plans[name]) for name in pins)
-
-
-def _clear(moves: dict[str, float]) -> bool:
-    return max(moves.values()) >= CLEAR
 
 
 def _each(
@@ -447,7 +373,7 @@ def _each(
         yield _apart(without, whole, allowed, told)
 
 
-def at_random(task: str, dice: Dice, among: Sequence[Data] = ()) -> Student:
+def at_random(task: str, dice: random.Random, among: Sequence[Data] = ()) -> Student:
     """Return a sheet of invented numbers: segments of 5 to 150 mm with their values, sizes within a decade."""
     student = honest(task, dice, among)
     sheet = student.sheet
@@ -475,3 +401,172 @@ def kinds(task: str) -> dict[str, list[Slip]]:
 def accepted(id: str) -> set[str]:
     """Return the numbers under which a mistake may be named."""
     return {id, *ALIKE.get(id, ())}
+
+
+# --- marked ----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of one student; shares of lines are those that were written."""
+
+    task: str
+    slips: tuple[str, ...]
+    places: tuple[str, ...]
+    mark: float
+    lines: int
+    passed: int
+    first: str  # wrong step, as named
+    step: bool  # whether it is right
+    names: frozenset[str]  # numbers of the first explanation
+    fits: str  # another variant that the answers are said to fit
+
+    @property
+    def named(self) -> bool:
+        """Whether all mistakes are named first."""
+        return all(self.has(slip) for slip in self.slips)
+
+    def has(self, slip: str) -> bool:
+        """Whether a mistake is named first."""
+        return not accepted(slip).isdisjoint(self.names)
+
+
+def marked(students: Iterable[Student]) -> list[Outcome]:
+    """Mark students, a class for each task."""
+    by_task = defaultdict(list)
+    for number, student in enumerate(students):
+        by_task[student.task].append((number, student))
+    found: dict[int, Outcome] = {}
+    for task, group in by_task.items():
+        ordered = sorted(group, key=lambda one: (one[1].variant, sorted(one[1].data.settings.items())))
+        found |= zip((n for n, _ in ordered), _class(task, [student for _, student in ordered]), strict=True)
+    return [found[number] for number in sorted(found)]
+
+
+def _class(task: str, students: list[Student]) -> Iterator[Outcome]:
+    with tempfile.TemporaryDirectory() as folder:
+        roster, answers = Path(folder) / "roster.csv", Path(folder) / "class.csv"
+        first = next(iter(load_task(task).variants))
+        rows = [{"student": f"S{i}", "variant": s.variant or first} for i, s in enumerate(students)]
+        _write(roster, [row | s.data.settings for row, s in zip(rows, students, strict=True)])
+        _write(answers, [row | dict(cells(s)) for row, s in zip(rows, students, strict=True)])
+        asked = check(task, roster=roster, lang="en")
+        desk, handed_in = Desk(asked), {read.who.student: read for read in asked.read(str(answers))}
+        for i, student in enumerate(students):
+            yield _outcome(student, desk.mark(handed_in[f"S{i}"]))
+
+
+def _outcome(student: Student, result: Marked) -> Outcome:
+    first = result.marking.first_wrong or ""
+    lines = [line for line in result.lines if line.answer is not None]
+    moves = student.moved
+    clearly = next((line.name for line in result.marking.lines if moves.get(line.name, 0.0) >= CLEAR), "")
+    order = [line.name for line in result.marking.lines]
+    step = bool(first and clearly) and moves.get(first, 0.0) >= TOUCHED and order.index(first) <= order.index(clearly)
+    return Outcome(
+        student.task,
+        tuple(slip.id for slip in student.slips),
+        tuple(f"{slip.at} {slip.way}".strip() for slip in student.slips),
+        result.mark,
+        len(lines),
+        sum(line.verdict.passed for line in lines),
+        first,
+        step,
+        frozenset(result.candidates[0].ids) if result.candidates else frozenset(),
+        result.fits,
+    )
+
+
+def cells(student: Student) -> Iterator[tuple[str, str]]:
+    """Go through what a student writes: scale factors, millimetres, values; directions and signs where told."""
+    sheet = student.sheet
+    for plan, mu in sheet.mus.items():
+        yield SYMBOLS.get(plan, plan), f"{mu:.10g}"
+    for name, line in sheet.lines.items():
+        if line.mm is not None:
+            yield f"{name}.mm", f"{line.mm:.10g}"
+        if named_value(name):
+            yield name, _value(line, student.told)
+        if student.told and line.degrees is not None:
+            yield f"{name}.dir", f"{line.degrees:g}"
+
+
+def _value(line: Line, told: bool) -> str:
+    if line.vector is not None or not told or not line.value or line.mm is not None:
+        return f"{abs(line.value):.10g}"
+    return f"{line.value:+.10g}"
+
+
+def _write(file: Path, rows: list[dict[str, str]]) -> None:
+    columns = list(dict.fromkeys(name for row in rows for name in row))
+    with file.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.DictWriter(stream, columns, delimiter=";", restval="")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def swapped_sheets(task: str, count: int, dice: random.Random) -> Iterator[Student]:
+    """Go through students who hand in an honest sheet of another variant of the task."""
+    variants = list(load_task(task).variants)
+    for _ in range(count):
+        own, other = dice.sample(variants, 2)
+        data = printed(task, other)
+        sheet = drawn(task, data.givens, Hand(dice), (), scale_factors(task, data.givens, (), dice))
+        yield Student(task, Data({}, {}), (), sheet, True, {}, own)
+
+
+def printed(task: str, variant: str) -> Data:
+    """Return the data of a bundled variant."""
+    loaded = load_task(task)
+    values, factors = loaded.resolve(variant), {"deg": 180.0 / 3.141592653589793, "rpm": 30.0 / 3.141592653589793}
+    written, turn, side = {}, 1, 1
+    for name, given in loaded.givens.items():
+        if given.unit is None:
+            continue
+        scale = {"mm": 1e3, "kN": 1e-3}.get(given.unit.name) or factors.get(given.unit.name, 1.0)
+        written[name] = float(f"{float(values[name]) * scale:.12g}")
+    if task == "nau-slider-crank":
+        turn, side = (1 if values["rotation"] == "ccw" else -1), (1 if values["side"] == "right" else -1)
+    return data_of(task, written, turn, side)
+
+
+def share(outcomes: Sequence[Outcome], counts: Callable[[Outcome], bool]) -> float:
+    """Return the percentage of students of whom something holds."""
+    return 100.0 * sum(map(counts, outcomes)) / max(len(outcomes), 1)
+
+
+def population(group: str, name: str, count: int, dice: random.Random, part: tuple[int, int] = (0, 1)) -> list[Student]:
+    """Draw one kind of students: `name` is a mistake, of the groups `one` and `sizes`, or a task.
+
+    `part` is which of several parts of all variants they have, and of how many.
+    """
+    tasks = [task for task in SLIPS if name in kinds(task)] if group in ("one", "sizes") else [name]
+    some = {task: pool(task)[part[0] :: part[1]] for task in tasks}
+    if group in ("one", "sizes"):
+        chosen = [tasks[i % len(tasks)] for i in range(count)]
+        found = [one_mistake(task, name, dice, some[task], group == "one") for task in chosen]
+        return [student for student in found if student is not None]
+    if group == "other":
+        return list(swapped_sheets(name, count, dice))
+    draw = {"honest": honest, "two": two_mistakes, "random": at_random}[group]
+    return [draw(name, dice, some[name]) for _ in range(count)]
+
+
+def one_mistake(
+    task: str, id: str, dice: random.Random, among: Sequence[Data] = (), told: bool = True
+) -> Student | None:
+    """Draw a student with one mistake; None where it moves no line clearly, as in sizes one of a sense."""
+    slips = kinds(task)[id]
+    return mistaken(task, lambda: (dice.choice(slips),), dice, among, told)
+
+
+def two_mistakes(task: str, dice: random.Random, among: Sequence[Data] = ()) -> Student:
+    """Draw a student with two mistakes of different numbers."""
+    of_task = kinds(task)
+
+    def choose() -> tuple[Slip, ...]:
+        return tuple(dice.choice(of_task[id]) for id in dice.sample(sorted(of_task), 2))
+
+    student = mistaken(task, choose, dice, among)
+    assert student is not None
+    return student

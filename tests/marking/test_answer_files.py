@@ -1,0 +1,422 @@
+"""Forms, and what comes back: from any spreadsheet; or no file of answers, a bomb, any bytes at all."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+import subprocess
+import sys
+import zipfile
+from contextlib import suppress
+from pathlib import Path
+
+import openpyxl
+import pytest
+import xlsxwriter
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from kulman import check, solve
+from kulman.scales.errors import LANGUAGES, InputError
+from kulman.scales.packaged import packaged
+from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, read, table
+from kulman.tests.support.hostile_workbooks import HOSTILE, SMALL, good, hostile, zipped
+from kulman.variants.marking.reading import read_answers
+from kulman.variants.spreadsheets.files import read_grid
+from kulman.variants.spreadsheets.grid import letters
+from kulman.variants.tables import csv_table, harmless, xlsx_bytes
+
+PACKAGE = "kulman.variants.marking"
+
+
+def form(tmp_path: Path, name: str, language: str, task: str = "nau-slider-crank") -> Path:
+    """Write an empty form."""
+    return check(task, lang=language).write_form(tmp_path / name)
+
+
+def refused(file: Path) -> str:
+    """Return the one line with which a grid is refused; nothing where it is read."""
+    line = ""
+    try:
+        read_grid(file)
+    except InputError as error:
+        line = error.text("en")
+    assert "\n" not in line
+    return line
+
+
+# --- forms ------------------------------------------------------------------------------------------------------------
+
+
+def test_every_language_has_the_same_texts_with_the_same_placeholders_and_every_mistake_has_words() -> None:
+    from kulman.plans.mistakes import book, rules
+
+    for kind in ("", "mistakes."):
+        tables = {language: packaged(PACKAGE, "texts", f"{kind}{language}") for language in LANGUAGES}
+        assert tables["uk"].keys() == tables["ru"].keys() == tables["en"].keys()
+        for key in tables["en"]:
+            assert len({tuple(sorted(re.findall(r"{\w+}", tables[lang][key]))) for lang in LANGUAGES}) == 1, key
+    assert book.__name__  # by which all rules are entered
+    assert list(tables["en"]) == sorted(rules.MISTAKES, key=lambda id: int(id.removeprefix("M")))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", ["form.csv", "form.xlsx"])
+def test_a_form_can_be_read_in_the_language_it_is_written_in(tmp_path: Path, name: str, language: str) -> None:
+    file = form(tmp_path, name, language)
+    rows = read_grid(file).rows
+
+    names = [row[0] for row in rows if row[0] in ASKED.names]
+    assert [len(row) for row in rows if row[0] in ("quantity", "величина")] == [8]
+    assert names.index("V_A") < names.index("V_B") < names.index("omega_2") < names.index("a_B") < names.index("R_12")
+    assert {*names} == {name for name in ASKED.names if "_couple_" not in name}
+    assert form(tmp_path, f"b{file.suffix}", language).read_bytes() == file.read_bytes()
+    with pytest.raises(InputError, match="the form is empty"):
+        read_answers(file, ASKED)
+
+
+@pytest.mark.parametrize(
+    ("task", "told"),
+    [
+        ("bertyaev-six-bar", {"mu_a": "M_a", "mu_a_B": "M_a (B)"}),
+        ("madi-four-bar", {"mu_F_23": "μ_p (2, 3)", "mu_F_1": "μ_p (1)"}),
+        ("scheme-15-lever-shears", {"h_G_4": "h_G4", "h_lever_G_4": "h_G4 (lever)", "F_i4_couple": "F′_i4 = F″_i4"}),
+    ],
+)
+def test_no_two_lines_of_a_form_look_alike(tmp_path: Path, task: str, told: dict[str, str]) -> None:
+    grid = read_grid(form(tmp_path, "form.csv", "en", task))
+    header = next(number for number, row in enumerate(grid.rows) if row[0] == "quantity")
+    rows = [[cell for cell in row if cell] for row in grid.rows[header + 1 :]]
+    headings = [row[0] for row in rows if len(row) == 1]
+    labels = {row[0]: row[1] for row in rows if len(row) > 1}
+
+    assert len(set(headings)) == len(headings) > 1
+    assert len(set(labels.values())) == len(labels) > 20
+    assert told.items() <= labels.items()
+
+
+@pytest.mark.parametrize(("name", "language"), [("form.csv", "uk"), ("form.xlsx", "ru"), ("form.csv", "en")])
+@pytest.mark.parametrize("format", [None, "A4"])
+def test_the_form_of_a_variant_says_the_sheets_scale_factors_and_answers_nothing(
+    tmp_path: Path, name: str, language: str, format: str | None
+) -> None:
+    solution = solve("nau-slider-crank", "7", lang=language, format=format)
+    scales, said = set(solution.to_json()["scales"]), solution.table().splitlines()[-1]
+    own = read_grid(check("nau-slider-crank", "7", lang=language, format=format).write_form(tmp_path / name))
+    blank = read_grid(form(tmp_path, "blank.csv", language))
+
+    [line] = [row[0] for row in own.rows if said in row[0]]
+    factors = {row[0]: row[4] + row[5] for row in own.rows if row[0].startswith("mu_")}
+    assert scales <= set(re.findall(r"mu_\w+", line))
+    assert factors == dict.fromkeys(scales, "")
+    assert not any("mu_l = " in row[0] for row in blank.rows if row)
+    with pytest.raises(InputError, match="the form is empty"):
+        read_answers(tmp_path / name, ASKED)
+
+
+def test_a_filled_workbook_comes_back(tmp_path: Path) -> None:
+    file = form(tmp_path, "form.xlsx", "ru")
+    book = openpyxl.load_workbook(file)
+    sheet = book.active
+    assert sheet is not None
+    for row in sheet.iter_rows():
+        if row[0].value == "V_B":
+            row[3].value, row[5].value, row[7].value = 55.2, 2.76, 180
+        if row[0].value == "mu_V":
+            row[4].value = "0,05"
+        if row[0].value == "студент":
+            row[1].value = "Петренко"
+    book.save(file)
+
+    answers = read_answers(file, ASKED)[0]
+
+    line = answers.lines["V_B"]
+    assert (answers.problems, answers.who.student) == ((), "Петренко")
+    assert (answers.scales["mu_V"].value, line.mm, line.value) == pytest.approx((0.05, 55.2, 2.76))
+    assert line.direction == pytest.approx(3.14159, abs=1e-4)
+
+
+@pytest.mark.parametrize("separator", [";", ",", "\t"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "cp1251", "utf-16"])
+def test_csv_comes_in_any_encoding_with_any_separator(tmp_path: Path, encoding: str, separator: str) -> None:
+    rows = [["студент", "Ґалаґан"], HEAD.strip().split(";"), ROW.strip().split(";")]
+
+    answers = one(tmp_path, table(rows, separator).encode(encoding))
+
+    line = answers.lines["V_B"]
+    assert (answers.who.student, answers.problems) == ("Ґалаґан", ())
+    assert (line.value, line.mm) == pytest.approx((2.76, 55.2))
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_form_saved_by_an_old_spreadsheet_comes_back(tmp_path: Path, language: str) -> None:
+    text = form(tmp_path, "form.csv", language).read_text(encoding="utf-8-sig")
+    separator = "," if language == "en" else ";"
+    rows = list(csv.reader(io.StringIO(text), delimiter=separator))
+    for row in rows:
+        if row[0] in ASKED.quantities:
+            row[3:6] = ["10", "2", "20"]
+
+    answers = one(tmp_path, table(rows, separator).encode("cp1251", "replace"))  # which has no superscripts
+
+    assert answers.problems == ()
+    assert answers.lines["a_B"].value == answers.lines["M_bal"].value == pytest.approx(20.0)
+
+
+def test_a_form_may_have_its_columns_in_any_order_names_alike_and_answers_twice(tmp_path: Path) -> None:
+    ordered = one(tmp_path, "direction,unit,value,Quantity,мм,масштаб\n180,m/s,2.76,V_B,55.2,0.05\n").lines["V_B"]
+    alike = one(tmp_path, f"{HEAD}V_В;55;;2,76;;\n")  # with a Cyrillic letter
+    twice = one(tmp_path, f"{HEAD}{ROW}V_B;1;;2;;\n")
+
+    assert (ordered.value, ordered.mm) == pytest.approx((2.76, 55.2))
+    assert [*alike.lines] == ["V_B"]
+    assert twice.lines["V_B"].value == pytest.approx(2.76)
+    assert ["answered a second time" in text for text in messages(twice)] == [True]
+
+
+def test_columns_that_changed_places_are_put_back_and_others_stay(tmp_path: Path) -> None:
+    own = "V_B;2,76;0,05;55,2;;\nV_A;4;0,05;80;;\nV_BA;2,1;0,05;42;;\na_B;220;4;55;;\n"
+    scales, rows = "mu_V;;0,05;;;\nmu_a;;4;;;\n", "V_B;2,76;;55,2;;\nV_A;4;;80;;\nV_BA;2,1;;42;;\na_B;220;;55;;\n"
+    lone = "omega_1;;;50;;-\na_A;50;;;;\nV_S2;3,26;;;;\n"  # a value, a segment, a value
+    right = "V_B;55,2;0,05;2,76;;\nV_A;80;0,05;4;;\nV_BA;42;0,05;2,1;;\na_B;55;4;220;;\n"
+
+    beside, in_rows, in_place = (one(tmp_path, HEAD + text) for text in (own, scales + rows + lone, right))
+
+    for answers in (beside, in_rows):
+        line = answers.lines["V_B"]
+        assert (line.mm, line.value) == pytest.approx((55.2, 2.76))
+        assert "each other's place" in messages(answers)[0]
+    alone = {name: (line.mm, line.value) for name, line in in_rows.lines.items()}
+    assert (alone["omega_1"], alone["a_A"], alone["V_S2"]) == ((None, 50.0), (50.0, None), (None, 3.26))
+    assert in_place.problems == ()
+    assert in_place.lines["V_B"].mm == pytest.approx(55.2)
+
+
+def test_a_class_is_a_row_for_each_student(tmp_path: Path) -> None:
+    head = "ПІБ;варіант;mu_V;V_B.mm;V_B;V_B.dir;omega_2 [рад/с];a_B, м/с²;V_C\n"
+
+    first, second, third = read(
+        tmp_path, f"{head}Один;3;0,05;55;2,75;180;-16,3;220;1\nДва;4;;;;;;;\nТри;5;;шість;2,8;;;;\n"
+    )
+
+    assert [answers.who.student for answers in (first, second, third)] == ["Один", "Два", "Три"]
+    assert first.lines["V_B"].mm == pytest.approx(55.0)
+    assert first.lines["omega_2"].value == pytest.approx(-16.3)
+    assert first.scales["mu_V"].value == pytest.approx(0.05)
+    assert first.columns == ("V_B", "omega_2", "a_B")
+    assert ["'V_C'" in text for text in messages(first)] == [True]  # told once
+    assert not second.lines
+    assert third.lines["V_B"].value == pytest.approx(2.8)
+    assert ["D4, V_B" in text for text in messages(third)] == [True]
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.lists(st.lists(st.text(max_size=12), min_size=1, max_size=5), min_size=1, max_size=5))
+def test_nothing_written_starts_a_formula(rows: list[list[str]]) -> None:
+    for row in csv.reader(io.StringIO(csv_table(rows, "uk").decode("utf-8-sig"), newline=""), delimiter=";"):
+        assert not any(cell.lstrip(" ").startswith(("=", "+", "-", "@", "\t", "\r")) for cell in row)
+    book = openpyxl.load_workbook(io.BytesIO(xlsx_bytes(rows, "=x")))
+    assert book.active is not None
+    assert all(cell.data_type != "f" for row in book.active.iter_rows() for cell in row)
+
+
+def test_an_apostrophe_keeps_a_text_a_text_and_it_comes_back(tmp_path: Path) -> None:
+    file = tmp_path / "a.csv"
+    file.write_bytes(csv_table([["x", "=1+1", "-5 mm", 1.5], ["V_B", "V_A", "V_BA", 2]], "uk"))
+
+    assert read_grid(file).rows[0] == ("x", "=1+1", "-5 mm", "1,5")
+    assert [harmless(text) for text in ("=A1", "@x", "+1", "V_B", "")] == ["'=A1", "'@x", "'+1", "V_B", ""]
+    assert [letters(column) for column in (0, 25, 26, 701, 702)] == ["A", "Z", "AA", "ZZ", "AAA"]
+
+
+# --- files from elsewhere ---------------------------------------------------------------------------------------------
+
+
+def test_a_formula_is_read_by_its_stored_result_and_a_date_is_told_of(tmp_path: Path) -> None:
+    file = tmp_path / "answers.xlsx"
+    with xlsxwriter.Workbook(str(file)) as book:
+        sheet = book.add_worksheet()
+        sheet.write_row(0, 0, HEAD.strip().split(";"))
+        sheet.write_row(1, 0, ["V_B", 55.2, 0.05])
+        sheet.write_formula("D2", "=B2*C2", None, 2.76)
+        sheet.write_row(2, 0, ["V_A", 80])
+        sheet.write_formula("D3", '=HYPERLINK("http://x","4")', None, "")
+        sheet.write_row(3, 0, ["a_B", None, None, 220])
+        sheet.write("B4", 45789, book.add_format({"num_format": "dd.mm"}))
+
+    answers = read_answers(file, ASKED)[0]
+
+    assert {name: line.value for name, line in answers.lines.items()} == {"V_B": 2.76, "V_A": None, "a_B": 220.0}
+    formula, date = messages(answers)
+    assert "D3, V_A" in formula
+    assert "formula" in formula
+    assert "B4, a_B" in date
+    assert "holds a date" in date
+
+
+def changed(tmp_path: Path, before: bytes, after: bytes, more: bytes = b"") -> Path:
+    """Write a small workbook of another program, its sheet changed and followed by something."""
+    file, name = tmp_path / "answers.xlsx", "xl/worksheets/sheet1.xml"
+    with xlsxwriter.Workbook(str(file)) as book:
+        book.add_worksheet().write_row(0, 0, HEAD.strip().split(";"))
+    with zipfile.ZipFile(file) as old:
+        parts = {name: old.read(name) for name in old.namelist()}
+    parts[name] = parts[name].replace(before, after, 1) + more
+    file.write_bytes(zipped(parts))
+    return file
+
+
+def test_a_zip_bomb_is_refused_entities_are_not_unfolded_and_a_huge_file_is_not_read(tmp_path: Path) -> None:
+    bomb = changed(tmp_path, b"", b"", b" " * 22_000_000)
+    assert bomb.stat().st_size < 200_000
+    assert "unpacked, the file is larger than 20 MB" in refused(bomb)
+
+    evil = b'?>\n<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">]>'
+    assert "not an XLSX file" in refused(changed(tmp_path, b"?>\n", evil))
+
+    with (huge := tmp_path / "answers.csv").open("wb") as stream:
+        stream.truncate(100_000_000)
+    assert "larger than 20 MB" in refused(huge)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "what"),
+    [
+        ("a.csv", b"", "the file is empty"),
+        ("a.csv", b"\0\1\2" * 100, "not a text"),
+        ("a.csv", b"PK\x03\x04abc", "its name end in .xlsx"),
+        ("a.xlsx", b"PK\x03\x04abc", "not an XLSX file"),
+        ("a.xlsx", b"\xd0\xcf\x11\xe0" * 100, "not an XLSX file"),
+        ("a.csv", "щось;інше\n1;2\n".encode(), "no row says what the columns hold"),
+        ("a.ods", b"x", "ends in one of: .csv, .xlsx"),
+        ("a.csv", b'"V_B;' + b"x" * 200_000, "a quotation mark is not closed"),
+    ],
+)
+def test_what_is_no_file_of_answers_is_refused_in_one_line(
+    tmp_path: Path, name: str, content: bytes, what: str
+) -> None:
+    with pytest.raises(InputError) as caught:
+        read(tmp_path, content, name)
+
+    assert what in caught.value.text("en")
+    assert "\n" not in caught.value.text("en")
+
+
+def test_a_folder_or_nothing_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "x.csv").mkdir()
+
+    assert "not a folder" in refused(tmp_path / "x.csv")
+    assert "there is no such file" in refused(tmp_path / "y.csv")
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.binary(max_size=400))
+def test_whatever_bytes_come_they_are_read_or_refused(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
+    folder = tmp_path_factory.mktemp("any")
+    for name in ("a.csv", "a.xlsx"):
+        with suppress(InputError):  # anything else would be our bug
+            read(folder, HEAD.encode() + data if name == "a.csv" else b"PK\x03\x04" + data, name)
+
+
+@pytest.mark.parametrize("name", [*SMALL, "member twice", "password", "packed by LZMA", "size that is too small"])
+def test_a_hostile_workbook_is_refused_in_one_line(tmp_path: Path, name: str) -> None:
+    (file := tmp_path / "answers.xlsx").write_bytes(hostile(name))
+
+    assert HOSTILE[name] in refused(file)
+
+
+READ = """
+import sys, time
+from pathlib import Path
+from kulman.scales.errors import InputError
+from kulman.variants.spreadsheets.files import read_grid
+line = ""
+try:
+    read_grid(sys.argv[1])
+except InputError as error:
+    line = error.text("en")
+peak = next(row for row in Path("/proc/self/status").read_text().splitlines() if row.startswith("VmHWM"))
+print(time.process_time(), int(peak.split()[1]) / 1024, line)
+"""
+
+
+def cost(folder: Path, name: str) -> tuple[float, float, str]:
+    """Return the processor time, s, and the memory, MB, in which a process reads a workbook, and the error it gives."""
+    (file := folder / "answers.xlsx").write_bytes(hostile(name))
+    run = subprocess.run([sys.executable, "-c", READ, str(file)], capture_output=True, encoding="utf-8", check=True)
+    seconds, megabytes, line = run.stdout.split(" ", 2)
+    assert run.stderr == ""
+    return float(seconds), float(megabytes), line
+
+
+@pytest.fixture(scope="module")
+def largest(tmp_path_factory: pytest.TempPathFactory) -> float:
+    """The processor time that this machine takes to read the largest class that is read, s: 1.4 to 1.9."""
+    return cost(tmp_path_factory.mktemp("largest"), "numbers, as many as are read")[0]
+
+
+@pytest.mark.soak
+@pytest.mark.skipif(sys.platform != "linux", reason="the peak of memory is read from /proc")
+@pytest.mark.parametrize("name", sorted(HOSTILE.keys() - set(SMALL)))
+def test_no_workbook_takes_long_or_much_memory(tmp_path: Path, name: str, largest: float) -> None:
+    seconds, megabytes, line = cost(tmp_path, name)
+
+    assert HOSTILE[name] in line
+    assert seconds < 3.0 * largest  # two thirds at the most where nothing else runs
+    assert megabytes < 300
+
+
+def test_a_workbook_of_two_programs_is_read_alike_whatever_looks_it_has(tmp_path: Path) -> None:
+    written = ["ПІБ", "5,5", " a\nb ", "=1", 12, 2.5, 1e-7, True, "q\tr", "🛠"]
+    files = [tmp_path / "a.xlsx", tmp_path / "b.xlsx"]
+    with xlsxwriter.Workbook(str(files[0]), {"strings_to_formulas": False}) as book:
+        sheet = book.add_worksheet()
+        sheet.write_row(0, 0, written, book.add_format({"bold": True, "num_format": "0.00%", "bg_color": "red"}))
+        sheet.write_rich_string(1, 0, "V", book.add_format({"font_script": 2}), "B")
+        sheet.merge_range("C3:D4", "both")
+        sheet.write(5, 0, "_x000D_")
+        sheet.data_validation("A1:B9", {"validate": "list", "source": ["1"]})
+    other = openpyxl.Workbook()
+    other.active.append([value if value != "=1" else "'=1" for value in written])
+    other.active.append(["VB"])
+    other.active["C3"] = "both"
+    other.active.merge_cells("C3:D4")
+    other.active["A6"] = "end"
+    other.save(files[1])
+
+    grids = [read_grid(file) for file in files]
+
+    expected = ("ПІБ", "5,5", "a\nb", "=1", "12", "2.5", "1e-07", "1", "q\tr", "🛠")
+    assert grids[0].rows[5] == ("_x000D_",)
+    for grid in grids:
+        assert tuple(text.lstrip("'") for text in grid.rows[0]) == expected
+        assert grid.rows[1] == ("VB",)
+        assert [grid.shared(row, column) for row in (2, 3) for column in (1, 2, 3, 4)] == ["", "both", "both", ""] * 2
+    (tmp_path / "answers.xlsx").write_bytes(zipped(good()))  # of which the hostile ones are made
+    assert read_answers(tmp_path / "answers.xlsx", ASKED)[0].lines["V_B"].value == pytest.approx(2.76)
+
+
+@pytest.mark.parametrize(
+    ("content", "what"),
+    [
+        (b";" * 2_000_000, "more than 20000 rows or 1000 columns"),
+        (b"a;b;c\n" * 200_000, "more than 20000 rows or 1000 columns"),
+        ((b";" * 900 + b"\n") * 2_000, "than can be read at once"),
+        (b"a" * 9_000_000, "than can be read at once"),
+        (b"a;" + b"b" * 40_000, "B1: the cell is longer than 32767 characters"),
+        (b"a;" + b"b" * 140_000, "a quotation mark is not closed"),
+        *((b"\xff\xfe\0\0a\0\0\0", "not a text"), ("a;\0".encode("utf-16"), "not a text")),
+        *(
+            (b"\xff\xfe\x00\xd8", "not a text"),
+            (b'"' * 300_001, ""),
+            (b'sep="\n1"2', ""),
+            (b"\x98" * 100, "not a text"),
+        ),
+        *((b"\r" * 3_000_000, ""), ("\N{RIGHT-TO-LEFT OVERRIDE};\u200b\n".encode() * 9, "")),
+    ],
+)
+def test_a_hostile_csv_is_refused_in_one_line(tmp_path: Path, content: bytes, what: str) -> None:
+    (file := tmp_path / "a.csv").write_bytes(content)
+
+    assert what in refused(file)
