@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import signal
 import subprocess
@@ -11,31 +10,16 @@ from pathlib import Path
 
 import pytest
 
-from kulman import batch, check, cli
+from kulman import batch, check, load_task
+from kulman.scales.errors import InputError
+from kulman.tests.support.commands import Run, files, roster, table
 from kulman.variants.batches.batch import Made, Making, Student
+from kulman.variants.roster import Digits, Entry, Schemes, Who, read_roster, variant_of_book
+from kulman.variants.task import Task
 
 TASK = "nau-slider-crank"
-
-
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as left:
-        cli.main(arguments)
-    out, err = capsys.readouterr()
-    return int(left.value.code or 0), out, err
-
-
-def roster(folder: Path, *rows: str) -> Path:
-    file = folder / "class.csv"
-    file.write_text("\n".join(("student;group;variant;phi", *rows)) + "\n", encoding="utf-8")
-    return file
-
-
-def files(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in folder.iterdir() if not path.name.startswith(".")}
-
-
-def table(file: Path) -> list[dict[str, str]]:
-    return list(csv.DictReader(file.read_text(encoding="utf-8-sig").splitlines()))
+SCHEMES = ("scheme-01-compressor", "scheme-02-forging-press", "scheme-03-crank-rocker")
+BOOKS = "student;record book"
 
 
 @pytest.fixture
@@ -52,16 +36,17 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return numbers
 
 
-def test_every_student_gets_a_sheet_and_who_does_not_is_named(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+@pytest.fixture(scope="module")
+def tasks() -> tuple[Task, ...]:
+    return tuple(map(load_task, SCHEMES))
+
+
+def test_every_student_gets_a_sheet_and_who_does_not_is_named(tmp_path: Path, run: Run) -> None:
     file = roster(tmp_path, "Ivan Koval;MM-21;3;", "Olha;MM-22;5;45 deg", "Bad;MM-21;77;", "None;MM-21;;", "Far;;1;x")
     out = tmp_path / "out"
 
-    status, printed, err = run(
-        capsys, "batch", TASK, "--roster", str(file), "--out", str(out), "--lang", "en", "--teacher", "O. Lys",
-        "--as", "svg", "--as", "pdf",
-    )  # fmt: skip
+    asked = ("--roster", str(file), "--out", str(out), "--lang", "en", "--teacher", "O. Lys", "--as", "svg")
+    status, printed, err = run("batch", TASK, *asked, "--as", "pdf")
 
     assert status == 2
     assert "students: 5, done: 2" in printed
@@ -91,51 +76,38 @@ def test_a_student_gets_a_note_and_a_handout(tmp_path: Path) -> None:
     assert all(data.startswith(b"%PDF") for name, data in files(out).items() if name.endswith(".pdf"))
 
 
-def test_the_key_is_marked_right(tmp_path: Path) -> None:
-    file = roster(tmp_path, "A;;3;", "B;;5;45 deg", "C;;7;")
-    for lang in ("en", "uk"):
-        out = tmp_path / lang
-        batch(TASK, file, out, kinds=["svg"], lang=lang, jobs=1)
-        asked = check(TASK, roster=file, lang=lang)
+@pytest.mark.parametrize("lang", ["en", "uk"])
+def test_the_key_is_marked_right(lang: str, tmp_path: Path) -> None:
+    file, out = roster(tmp_path, "A;;3;", "B;;5;45 deg", "C;;7;"), tmp_path / lang
+    batch(TASK, file, out, kinds=["svg"], only="velocity,forces", lang=lang, jobs=1)
+    asked = check(TASK, roster=file, only="velocity,forces", lang=lang)
 
-        marks = [asked.mark(answers).marked.mark for answers in asked.read(str(out / "key.csv"))]
+    marks = [asked.mark(answers).marked.mark for answers in asked.read(str(out / "key.csv"))]
 
-        assert marks == [100.0, 100.0, 100.0]
+    assert marks == [100.0, 100.0, 100.0]
 
 
 def test_only_what_is_missing_or_has_changed_is_made_again(tmp_path: Path, made: list[int]) -> None:
     out = tmp_path / "out"
 
-    def run_again(*rows: str) -> None:
+    def made_again(*rows: str) -> list[int]:
+        made.clear()
         batch(TASK, roster(tmp_path, *rows), out, only="structure", kinds=["svg"], jobs=1)
+        return made
 
-    run_again("A;;1;", "B;;2;", "C;;3;")
-    assert made == [1, 2, 3]
+    assert made_again("A;;1;", "B;;2;", "C;;3;") == [1, 2, 3]
     whole = files(out)
-    made.clear()
-
-    run_again("A;;1;", "B;;2;", "C;;3;")
-    assert made == []
+    assert made_again("A;;1;", "B;;2;", "C;;3;") == []
     (out / "001-A-1.svg").unlink()
     (out / "003-C-3.svg").write_bytes(b"torn")
-    run_again("A;;1;", "B;;2;", "C;;3;")
-    assert (made, files(out)) == ([1, 3], whole)
-    made.clear()
-    run_again("A;;1;", "B;;4;", "C;;3;", "D;;5;")
-
-    assert made == [2, 4]
+    assert made_again("A;;1;", "B;;2;", "C;;3;") == [1, 3]
+    assert files(out) == whole
+    assert made_again("A;;1;", "B;;4;", "C;;3;", "D;;5;") == [2, 4]
     assert "002-B-2.svg" not in files(out)  # nobody's any more
-    assert {"002-B-4.svg", "004-D-5.svg"} < set(files(out))
-
-
-def test_a_file_that_somebody_has_changed_is_not_removed(tmp_path: Path) -> None:
-    out = tmp_path / "out"
-    batch(TASK, roster(tmp_path, "A;;1;", "B;;2;"), out, kinds=["svg"], jobs=1)
-    (out / "002-B-2.svg").write_bytes(b"with remarks")
-
-    batch(TASK, roster(tmp_path, "A;;1;"), out, kinds=["svg"], jobs=1)
-
-    assert (out / "002-B-2.svg").read_bytes() == b"with remarks"
+    (out / "004-D-5.svg").write_bytes(b"with remarks")
+    assert made_again("A;;1;", "B;;4;") == []
+    assert {"001-A-1.svg", "002-B-4.svg", "004-D-5.svg"} == {name for name in files(out) if name.endswith(".svg")}
+    assert files(out)["004-D-5.svg"] == b"with remarks"  # somebody has changed it
 
 
 def test_processes_give_the_same_bytes(tmp_path: Path) -> None:
@@ -167,32 +139,6 @@ def test_who_kills_the_process_is_named_and_the_others_are_done(
     assert len([name for name in files(tmp_path / "out") if name.endswith(".svg")]) == 17
 
 
-LIMITED = """
-import resource, sys
-resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]),) * 2)
-from kulman.cli import main
-main(sys.argv[2:])
-"""
-
-
-@pytest.mark.soak
-@pytest.mark.skipif(sys.platform == "win32", reason="no such limit")
-def test_a_full_disk_leaves_nothing_half_written(tmp_path: Path) -> None:
-    file, out = roster(tmp_path, "A;;1;", "B;;2;"), tmp_path / "out"
-    arguments = ["batch", TASK, "--roster", str(file), "--out", str(out), "--only", "structure", "--jobs", "1"]
-    arguments += ["--as", "svg", "--as", "pdf"]
-
-    full = subprocess.run(
-        [sys.executable, "-c", LIMITED, "9000", *arguments], capture_output=True, text=True, check=False
-    )
-
-    assert full.returncode == 2
-    assert full.stderr.count("\n") == 1
-    assert [name for name in files(out) if name.endswith((".svg", ".pdf", ".part"))] == []
-    subprocess.run([sys.executable, "-c", LIMITED, "1000000", *arguments], check=True, capture_output=True)
-    assert len(files(out)) == 6
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
@@ -201,23 +147,27 @@ def test_a_full_disk_leaves_nothing_half_written(tmp_path: Path) -> None:
         (["--only", "velocit"], "velocity"),
         (["--format", "A9"], "A9"),
         (["--digits", "two"], "two"),
+        (["--jobs", "0"], "--jobs: '0' processes; expected a number from 1"),
+        (["--jobs", "-3"], "--jobs: '-3' processes; expected a number from 1"),
+        (["--out", "class.csv"], "class.csv: this is a file, a folder was expected"),
     ],
 )
 def test_what_is_wrong_for_all_is_refused_before_any_work(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], said: str
+    folder: Path, run: Run, arguments: list[str], said: str
 ) -> None:
-    file, out = roster(tmp_path, "A;;1;"), tmp_path / "out"
+    roster(folder, "A;;1;")
+    to = [] if "--out" in arguments else ["--out", "out"]
 
-    status, printed, err = run(capsys, "batch", TASK, "--roster", str(file), "--out", str(out), *arguments)
+    status, printed, err = run("batch", TASK, "--roster", "class.csv", *to, *arguments)
 
     assert (status, printed, err.count("\n")) == (2, "", 1)
     assert said in err
-    assert not out.exists()
+    assert not (folder / "out").exists()
 
 
 def test_a_class_gets_notes_after_one_has_been_written_in_the_same_process(tmp_path: Path) -> None:
     """Threads of typst are not in a copy of the process, which would wait for them for ever."""
-    (tmp_path / "class.csv").write_text("name,variant\nA,1\nB,2\n", encoding="utf-8")
+    roster(tmp_path, "A,1", "B,2", head="name,variant")
     script = tmp_path / "script.py"
     script.write_text(
         "from kulman import batch, note\n"
@@ -232,3 +182,174 @@ def test_a_class_gets_notes_after_one_has_been_written_in_the_same_process(tmp_p
 
     assert (ran.returncode, ran.stdout.split("\n"), ran.stderr) == (0, ["once", "[]", ""], "")
     assert len(list((tmp_path / "out").glob("*-note.pdf"))) == 2
+
+
+# Scheme and column by the last digits of the record book: what departments say, and what rosters say of it.
+@pytest.mark.parametrize(
+    ("digits", "book", "scheme", "variant"),
+    [
+        ("variant,scheme", "КБ-123471", 1, 7),
+        ("scheme,variant", "КБ-1/234 27", 2, 7),
+        ("variant,-,scheme", "593", 3, 5),
+        ("варіант,схема", "593", 3, 9),
+        ("-,variant", "93", None, 3),
+        (" Variant , SCHEME ", "71.0", 1, 7),  # what a table of numbers makes of 71
+        (2, "АТ-2023/417", None, 17),
+        ("3", "АТ-2023/417", None, 417),
+        ("scheme,scheme,variant", "1204", 20, 4),
+    ],
+)
+def test_digits_are_read_from_the_end(digits: int | str, book: str, scheme: int | None, variant: int) -> None:
+    meant = Digits.of(digits)
+
+    assert (meant.number("scheme", book), meant.number("variant", book)) == (scheme, variant)
+
+
+def test_digits_of_no_meaning_and_books_that_have_lost_theirs_are_refused() -> None:
+    for digits in ("0", 0, -1, "", "10", "column", "variant,,scheme", ",".join(["variant"] * 10), "१"):
+        with pytest.raises(InputError, match="--digits"):
+            Digits.of(digits)
+    for book in ("1,2E+11", "1.23e11", "2,E+10", "7", "", "КБ"):
+        with pytest.raises(InputError, match="record book"):
+            Digits.of(2).number("variant", book)
+
+
+@pytest.mark.parametrize(
+    ("task", "book", "digits", "variant"),
+    [
+        ("karpenko-hoist", "11", 1, "V01"),
+        ("karpenko-hoist", "10", 1, "V10"),  # a table that begins at 1 has its tenth column for 0
+        ("karpenko-hoist", "12", 2, "V02"),
+        ("karpenko-hoist", "00", 2, "V10"),
+        ("nau-slider-crank", "10", 1, "0"),
+        ("madi-cam", "5", 1, "17"),
+    ],
+)
+def test_a_digit_is_the_column_of_this_number(task: str, book: str, digits: int, variant: str) -> None:
+    assert variant_of_book(load_task(task), book, digits) == variant
+
+
+def test_the_tenth_task_has_the_digit_0(tasks: tuple[Task, ...]) -> None:
+    ten = (*tasks, *tasks, *tasks, tasks[1])  # the same task for several digits
+
+    found = [Schemes(ten, Digits.of("variant,scheme")).of("", f"5{digit}").id for digit in range(10)]
+
+    assert found == [ten[digit - 1].id for digit in range(10)]
+
+
+def test_scheme_and_variant_are_those_of_the_record_book(tmp_path: Path) -> None:
+    file, out = roster(tmp_path, "A;КБ-471", "B;КБ-482", "C;КБ-403", "D;КБ-404", "E;", head=BOOKS), tmp_path / "out"
+
+    done = batch(SCHEMES, file, out, kinds=["svg"], only="structure", jobs=1, lang="en")
+
+    rows = table(out / "manifest.csv")
+    assert [(row["task"], row["variant"]) for row in rows] == [*zip(SCHEMES, "780", strict=True), ("", ""), ("", "")]
+    assert [row["files"] for row in rows[:2]] == [
+        f"00{n}-{who}-{SCHEMES[n - 1]}-{v}.svg" for n, who, v in ((1, "A", 7), (2, "B", 8))
+    ]
+    assert [problem.split(": ", 1)[1] for problem in done.problems] == [
+        "B5: record book 'КБ-404' gives scheme 4, and only so many tasks are named: 3",
+        "6: neither a task nor a record book that gives one is written for this student; the tasks are: "
+        + ", ".join(SCHEMES),
+    ]
+
+
+def test_each_task_has_a_key_that_is_marked_right(tmp_path: Path) -> None:
+    file, out = roster(tmp_path, "A;71", "B;82", "C;03", "D;51", head=BOOKS), tmp_path / "out"
+    batch(SCHEMES, file, out, kinds=["svg"], only="velocity", jobs=1, lang="en")
+    for task, students in zip(SCHEMES, ("AD", "B", "C"), strict=True):
+        asked = check(task, roster=file, digits="variant,scheme", only="velocity", lang="en")
+
+        results = asked.mark_all(asked.read(str(out / f"key-{task}.csv")), jobs=1)
+
+        assert [(result.who.student, result.mark) for result in results] == [(student, 100.0) for student in students]
+        assert [result.variant for result in results] == [{"A": "7", "D": "5", "B": "8", "C": "0"}[s] for s in students]
+
+
+def test_what_the_roster_says_goes_before_the_record_book(tmp_path: Path, tasks: tuple[Task, ...]) -> None:
+    rows = ("A;71;3;", "B;71;scheme-02-forging-press;4", "C;71;;4", "D;;2;0", "E;71;9;1", "F;71;scheme-03;")
+    file = roster(tmp_path, *rows, head="ПІБ;залікова книжка;Схема;№ варіанта")
+
+    entries = read_roster(file, Schemes(tasks, Digits.of("variant,scheme")), each=True).entries
+
+    said = [(entry.task, entry.variant) for entry in entries[:4]]
+    assert said == [(SCHEMES[2], "7"), (SCHEMES[1], "4"), (SCHEMES[0], "4"), (SCHEMES[1], "0")]
+    assert "C6: no task '9'" in str(entries[4].problem)
+    assert "C7: no task 'scheme-03'" in str(entries[5].problem)
+
+
+def test_data_of_ones_own_are_those_of_ones_own_task(tmp_path: Path, tasks: tuple[Task, ...]) -> None:
+    only_one = next(name for name in tasks[1].givens if name not in tasks[0].givens)
+    file = roster(tmp_path, "A;01;45", "B;02;45", head=f"{BOOKS};{only_one}")
+
+    first, second = read_roster(file, Schemes(tasks, Digits.of("variant,scheme")), each=True).entries
+
+    assert f"C2, {only_one}: {SCHEMES[0]} has no given" in str(first.problem)
+    assert second.settings == {only_one: "45"}
+
+
+def test_marking_takes_only_students_of_its_task(tmp_path: Path, tasks: tuple[Task, ...]) -> None:
+    rows = (f"A;{SCHEMES[0]};1", f"B;{SCHEMES[1]};no such", "C;3;2", "D;;4")
+    file = roster(tmp_path, *rows, head="student;task;variant")
+
+    assert [entry.who.student for entry in read_roster(file, tasks[0]).entries] == ["A", "C", "D"]
+
+
+def test_a_changed_task_changes_only_its_own_students(tmp_path: Path) -> None:
+    own, other = tmp_path / "own.toml", tmp_path / "other.toml"
+    own.write_text((load_task(SCHEMES[0]).text).replace(SCHEMES[0], "own"), encoding="utf-8")
+    other.write_text(own.read_text(encoding="utf-8") + "# other\n", encoding="utf-8")
+    file, out = roster(tmp_path, "A;71", "B;82", head=BOOKS), tmp_path / "out"
+
+    def written() -> dict[str, int]:
+        batch((own, SCHEMES[1]), file, out, kinds=["svg"], only="structure", jobs=1)
+        return {path.name: path.stat().st_ino for path in out.glob("*.svg")}
+
+    before = written()
+    own.write_text(own.read_text(encoding="utf-8") + "\n# a remark\n", encoding="utf-8")
+    (out / "001-A-own-7.svg").write_bytes(b"torn")
+    after = written()
+
+    assert [name for name in after if after[name] != before[name]] == ["001-A-own-7.svg"]
+    with pytest.raises(InputError, match="has the id 'own' already"):
+        batch((own, other), file, out)
+
+
+# Rosters as departments and Moodle keep them: words over columns, symbols of givens, names in two columns.
+def entry_of(folder: Path, head: str, row: str) -> Entry:
+    (entry,) = read_roster(roster(folder, row, head=head), load_task(TASK)).entries
+    return entry
+
+
+@pytest.mark.parametrize(
+    ("head", "row", "who"),
+    [
+        ("№;ПІБ студента;№ зал. кн.;Вар.", "1;Іван П;12343;3", Who("Іван П", book="12343")),
+        ("Прізвище;Ім'я;Група;Варіант", "Петренко;Іван;АТ;3", Who("Петренко Іван", "АТ")),
+        ("Фамилия;Имя;Зачётка;Вариант", "Петренко;Иван;7;3", Who("Петренко Иван", book="7")),
+        ("First name,Last name,ID number,Variant", "Ivan,Petrenko,42,3", Who("Petrenko Ivan", number="42")),
+        ("Ім’я;Варіант", "Іван;3", Who("Іван")),
+        ("Прізвище, ім'я;Варіант", "Петренко Іван;3", Who("Петренко Іван")),
+    ],
+)
+def test_names_are_found_under_the_words_that_people_use(tmp_path: Path, head: str, row: str, who: Who) -> None:
+    entry = entry_of(tmp_path, head, row)
+
+    assert (entry.who, entry.variant) == (who, "3")
+
+
+@pytest.mark.parametrize(
+    ("head", "cell", "given"),
+    [("φ", "45", ("phi", "45")), ("φ, °", "45", ("phi", "45 °")), ("l_{OA} [мм]", "40,5", ("l_OA", "40,5 мм"))],
+)
+def test_data_of_ones_own_stand_under_symbols_too(tmp_path: Path, head: str, cell: str, given: tuple[str, str]) -> None:
+    assert entry_of(tmp_path, f"student;variant;{head}", f"А;5;{cell}").settings == dict([given])
+
+
+def test_columns_that_say_nothing_are_named(tmp_path: Path, run: Run) -> None:
+    file = roster(tmp_path, "1;А;77;45;30;x", head="№;student;variant;phi;Кут;note")
+
+    status, _, err = run("batch", TASK, "--roster", str(file), "--out", str(tmp_path / "out"), "--jobs", "1")
+
+    assert status == 2
+    assert err.splitlines()[0] == "class.csv: columns that are not read: Кут, note"

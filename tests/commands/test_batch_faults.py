@@ -20,9 +20,11 @@ from typing import Any
 
 import pytest
 
-from kulman import batch, cli
+from kulman import batch
 from kulman.drawing import writers
 from kulman.scales.errors import InputError
+from kulman.tests.support import commands
+from kulman.tests.support.commands import Run, files
 from kulman.variants.batches.batch import JOURNAL, Made, Making, Outcome, Student
 from kulman.variants.crew import Journal
 
@@ -32,14 +34,7 @@ posix = pytest.mark.skipif(sys.platform == "win32", reason="processes are killed
 
 
 def roster(folder: Path, count: int) -> Path:
-    file = folder / "class.csv"
-    rows = (f"S{number};{number % 10}" for number in range(1, count + 1))
-    file.write_text("\n".join(("student;variant", *rows)) + "\n", encoding="utf-8")
-    return file
-
-
-def files(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in folder.iterdir() if not path.name.startswith(".")}
+    return commands.roster(folder, *(f"S{n};{n % 10}" for n in range(1, count + 1)), head="student;variant")
 
 
 def parts(folder: Path) -> list[str]:
@@ -117,85 +112,94 @@ def die() -> None:
     os._exit(9)
 
 
-def whole(folder: Path, count: int) -> dict[str, bytes]:
-    out = folder / "whole"
-    batch(TASK, roster(folder, count), out, jobs=1)
-    return files(out)
+@pytest.fixture
+def whole(tmp_path: Path, made: list[int]) -> dict[str, bytes]:
+    """What an undisturbed batch of three has made; its roster is class.csv."""
+    batch(TASK, roster(tmp_path, 3), tmp_path / "whole", jobs=1)
+    return files(tmp_path / "whole")
 
 
-def test_a_disk_that_is_full_at_any_moment_leaves_nothing_half_written(tmp_path: Path, made: list[int]) -> None:
-    right, file = whole(tmp_path, 3), tmp_path / "class.csv"
-    refused = 0
+def goes_on(out: Path, right: dict[str, bytes], made: list[int]) -> None:
+    """What is there is right; a second run makes the rest, and writes nothing again that was there."""
+    there, before = files(out), numbers(out)
+    assert there.items() <= right.items()
+    made.clear()
+
+    batch(TASK, out.parent / "class.csv", out, jobs=1)
+
+    assert (files(out), parts(out)) == (right, [])
+    assert before.items() <= numbers(out).items()
+    assert len(made) <= 3 - len([name for name in there if name.endswith(".pdf")]) + 1
+
+
+MOMENTS = 3 * (2 * 2 + 1) + 2 * 2  # two files and a note for each, two tables
+
+
+def test_a_disk_that_is_full_at_any_moment_leaves_nothing_half_written(
+    tmp_path: Path, made: list[int], whole: dict[str, bytes]
+) -> None:
     for until in range(100):
         out = tmp_path / f"full-{until}"
         with pytest.MonkeyPatch.context() as patched:
             Disk(patched, until, full)
             try:
-                batch(TASK, file, out, jobs=1)
+                batch(TASK, tmp_path / "class.csv", out, jobs=1)
             except InputError as error:
-                refused += 1
                 told = error.text("en")
                 assert re.fullmatch(re.escape(str(out)) + r"/\S+: cannot be written \(No space left on device\)", told)
             else:
                 break
-        there = files(out)
-        assert there.items() <= right.items()
         assert parts(out) == []
-        before = numbers(out)
-        made.clear()
-        batch(TASK, file, out, jobs=1)
-
-        assert (files(out), parts(out)) == (right, [])
-        assert before.items() <= numbers(out).items()  # nothing that was there is written again
-        assert len(made) <= 3 - len([name for name in there if name.endswith(".pdf")]) + 1
-    assert refused >= 3 * (2 * 2 + 1) + 2 * 2  # two files and a note for each, two tables
+        goes_on(out, whole, made)
+    assert until >= MOMENTS
 
 
 @posix
 @pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
-def test_a_run_that_is_killed_at_any_moment_is_gone_on_with(tmp_path: Path, made: list[int]) -> None:
-    right, file = whole(tmp_path, 3), tmp_path / "class.csv"
-    fork = multiprocessing.get_context("fork")
-    killed = 0
+def test_a_run_that_is_killed_at_any_moment_is_gone_on_with(
+    tmp_path: Path, made: list[int], whole: dict[str, bytes]
+) -> None:
+    def run(out: Path, until: int) -> None:
+        Disk(pytest.MonkeyPatch(), until, die)
+        batch(TASK, tmp_path / "class.csv", out, jobs=1)
+
     for until in range(100):
         out = tmp_path / f"killed-{until}"
-
-        def run() -> None:
-            Disk(pytest.MonkeyPatch(), until, die)  # noqa: B023
-            batch(TASK, file, out, jobs=1)  # noqa: B023
-
-        child = fork.Process(target=run)
+        child = multiprocessing.get_context("fork").Process(target=run, args=(out, until))
         child.start()
         child.join()
         if child.exitcode == 0:
             break
         assert child.exitcode == 9
-        killed += 1
-        there = files(out)
-        assert there.items() <= right.items()
-        before = numbers(out)
-        made.clear()
-        batch(TASK, file, out, jobs=1)
-
-        assert (files(out), parts(out)) == (right, [])
-        assert before.items() <= numbers(out).items()
-        assert len(made) <= 3 - len([name for name in there if name.endswith(".pdf")]) + 1
-    assert killed >= 3 * (2 * 2 + 1) + 2 * 2
+        goes_on(out, whole, made)
+    assert until >= MOMENTS
 
 
 def test_a_full_disk_is_one_line_with_a_status_of_its_own(
-    tmp_path: Path, made: list[int], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, made: list[int], monkeypatch: pytest.MonkeyPatch, run: Run
 ) -> None:
     out = tmp_path / "out"
     Disk(monkeypatch, 7, full)
 
-    with pytest.raises(SystemExit) as left:
-        cli.main(["batch", TASK, "--roster", str(roster(tmp_path, 3)), "--out", str(out), "--jobs", "1"])
+    status, printed, err = run("batch", TASK, "--roster", str(roster(tmp_path, 3)), "--out", str(out), "--jobs", "1")
 
-    assert left.value.code == 2
-    said = capsys.readouterr()
-    assert (said.out, said.err.count("\n")) == ("", 1)
-    assert str(out / "002-S2.svg") in said.err
+    assert (status, printed, err.count("\n")) == (2, "", 1)
+    assert str(out / "002-S2.svg") in err
+
+
+@pytest.mark.soak
+@posix
+def test_a_disk_with_a_limit_of_the_system_is_one_line(tmp_path: Path) -> None:
+    limited = "import resource, sys\nresource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv.pop(1)),) * 2)\n" + MAIN
+    kinds = ["--only", "structure", "--jobs", "1", "--as", "svg", "--as", "pdf"]
+    arguments = ["batch", TASK, "--roster", str(roster(tmp_path, 2)), "--out", str(tmp_path / "out"), *kinds]
+
+    for limit, status, left in (("9000", 2, 0), ("1000000", 0, 4)):
+        done = subprocess.run([sys.executable, "-c", limited, limit, *arguments], capture_output=True, check=False)
+
+        assert (done.returncode, done.stderr.count(b"\n")) == (status, status // 2)
+        made = [path.name for path in (tmp_path / "out").iterdir() if path.suffix in (".svg", ".pdf", ".part")]
+        assert len(made) == left
 
 
 def test_only_what_a_batch_has_left_half_written_is_swept(tmp_path: Path, made: list[int]) -> None:

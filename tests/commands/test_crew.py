@@ -1,21 +1,31 @@
-"""Work shared out among processes: all is done once, whoever dies."""
+"""Work shared out among processes, here or on a cluster of a real scheduler: all is done once, whoever dies."""
 
 from __future__ import annotations
 
+import json
+import logging
 import multiprocessing
 import os
 import signal
+import subprocess
+import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from pickle import PicklingError
+from threading import Thread
 
 import pytest
 
-from kulman.variants.crew import shared_out
+from kulman import batch
+from kulman.scales.errors import InputError
+from kulman.tests.support.commands import files, roster
+from kulman.variants.crew import on_cluster, shared_out
 
 ITEMS = list(range(60))
+SQUARES = {item: item * item for item in ITEMS}
 
 
 @dataclass(frozen=True)
@@ -40,31 +50,31 @@ class Squares:
         return item * item
 
 
-def made(work: Squares, jobs: int) -> dict[int, int | None]:
-    done = [one for piece in shared_out(work, ITEMS, jobs, str) for one in piece]
+def made(work: Squares, jobs: int, **more: int) -> dict[int, int | None]:
+    done = [one for piece in shared_out(work, ITEMS, jobs, str, **more) for one in piece]
     assert sorted(one.place for one in done) == ITEMS  # nothing lost, nothing twice
     return {one.place: one.made for one in done}
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_everything_is_made(jobs: int) -> None:
-    assert made(Squares(), jobs) == {item: item * item for item in ITEMS}
+    assert made(Squares(), jobs) == SQUARES
 
 
-def test_an_item_that_kills_its_process_is_found_out(tmp_path: Path) -> None:
+@pytest.mark.parametrize("jobs", [-3, 0, 1, 1000])
+def test_any_number_of_processes_makes_everything(jobs: int) -> None:
+    assert made(Squares(), jobs, alone=0) == SQUARES
+
+
+def test_an_item_that_kills_its_process_is_found_out() -> None:
     poison = frozenset({5, 6, 59})
 
-    found = made(Squares(poison), 2)
-
-    assert {place for place, square in found.items() if square is None} == poison
-    assert all(square == place * place for place, square in found.items() if place not in poison)
+    assert made(Squares(poison), 2) == {item: None if item in poison else item * item for item in ITEMS}
 
 
 def test_a_process_that_somebody_kills_costs_nothing(tmp_path: Path) -> None:
-    unlucky = tmp_path / "met"
-
-    assert made(Squares(unlucky=unlucky), 2) == {item: item * item for item in ITEMS}
-    assert unlucky.exists()
+    assert made(Squares(unlucky=tmp_path / "met"), 2) == SQUARES
+    assert (tmp_path / "met").exists()
 
 
 def test_an_error_of_the_work_comes_through() -> None:
@@ -106,12 +116,9 @@ def test_many_that_are_alike_go_to_all_processes() -> None:
 
 
 def test_what_is_large_stops_nobody() -> None:
-    items = ["y" * 300_000] * 40
+    done = [one for piece in shared_out(Place(300_000), ["y" * 300_000] * 40, 2, len) for one in piece]
 
-    done = [one for piece in shared_out(Place(300_000), items, 2, len) for one in piece]
-
-    assert len(done) == 40
-    assert {len(one.made[1]) for one in done if isinstance(one.made, tuple)} == {300_000}
+    assert [len(one.made[1]) for one in done if isinstance(one.made, tuple)] == [300_000] * 40
 
 
 def test_what_cannot_be_sent_is_an_error_and_no_process_stays() -> None:
@@ -119,13 +126,6 @@ def test_what_cannot_be_sent_is_an_error_and_no_process_stays() -> None:
         list(shared_out(Place(odd=31), list(range(60)), 2, str))
 
     assert multiprocessing.active_children() == []
-
-
-@pytest.mark.parametrize("jobs", [-3, 0, 1, 1000])
-def test_any_number_of_processes_makes_everything(jobs: int) -> None:
-    found = [one for piece in shared_out(Squares(), ITEMS[:20], jobs, str, alone=0) for one in piece]
-
-    assert sorted((one.place, one.made) for one in found) == [(item, item * item) for item in ITEMS[:20]]
 
 
 @dataclass(frozen=True)
@@ -150,3 +150,112 @@ def test_a_process_that_is_stopped_leaves_the_rest_of_its_piece(tmp_path: Path) 
 
     assert multiprocessing.active_children() == []
     assert len(list(tmp_path.iterdir())) < 16  # a piece
+
+
+@pytest.mark.soak
+@pytest.mark.filterwarnings("ignore")  # what Dask warns of is not ours
+class TestCluster:
+    """On a cluster."""
+
+    @pytest.fixture(scope="class")
+    def address(self) -> Iterator[str]:
+        from distributed import LocalCluster
+
+        with LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0") as cluster:
+            yield str(cluster.scheduler_address)
+
+    @pytest.fixture
+    def idle(self, tmp_path: Path) -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
+        """A scheduler without workers: its address, its process."""
+        place = tmp_path / "scheduler.json"
+        command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard"]
+        with subprocess.Popen([*command, "--scheduler-file", str(place)], stderr=subprocess.DEVNULL) as going:
+            while not place.exists() or not place.read_text():
+                time.sleep(0.05)
+            yield json.loads(place.read_text())["address"], going
+            going.kill()
+
+    def test_a_cluster_gives_the_same_bytes(self, tmp_path: Path, address: str) -> None:
+        rows = [f"S{number};{number:02d}" for number in range(58)]
+        file = roster(tmp_path, *rows, "Bad;x", "None;", head="student;record book")
+        tasks = ["nau-slider-crank"] * 6 + ["scheme-19-scotch-yoke"] * 4
+
+        there = batch(tasks, file, tmp_path / "there", only="structure,velocity", dask=address, lang="en")
+        here = batch(tasks, file, tmp_path / "here", only="structure,velocity", jobs=2, lang="en")
+
+        assert len(there.problems) == 2
+        assert there.outcomes == here.outcomes
+        assert files(tmp_path / "there") == files(tmp_path / "here")
+
+    def test_an_item_that_kills_workers_is_found_out(self, address: str) -> None:
+        work = Squares(frozenset({13}))
+
+        done = [one for piece in on_cluster(work, list(range(24)), str, address) for one in piece]
+
+        assert {one.place: one.made for one in done} == {n: n * n if n != 13 else None for n in range(24)}
+
+    def test_a_worker_that_cannot_do_the_work_is_told_in_a_line(self, address: str) -> None:
+        with pytest.raises(InputError, match="cannot do the work: No module named 'kulman'"):
+            list(on_cluster(Strange(), [1], str, address))
+
+    def test_a_scheduler_that_goes_is_told_in_a_line(self, idle: tuple[str, subprocess.Popen[bytes]]) -> None:
+        there, going = idle
+        Thread(target=kill_when_reached, args=(going,)).start()
+
+        with pytest.raises(InputError, match=f"{there} no longer answers"):
+            list(on_cluster(Squares(), [1, 2, 3], str, there))
+
+        assert logging.root.manager.disable == logging.NOTSET
+
+    def test_a_scheduler_without_workers_or_none_at_all_is_told_in_a_line(
+        self, idle: tuple[str, subprocess.Popen[bytes]], monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setattr("kulman.variants.crew.ROUND", 0.2)
+        monkeypatch.setattr("kulman.variants.crew.ANSWERS", "1s")
+
+        with pytest.raises(InputError, match=f"{idle[0]} has no workers"):
+            list(on_cluster(Squares(), [1, 2, 3], str, idle[0]))
+        with pytest.raises(InputError, match=r"tcp://127\.0\.0\.1:9"):
+            next(on_cluster(Squares(), [1], str, "tcp://127.0.0.1:9"))
+
+    def test_a_cluster_with_tls_lets_in_who_has_a_certificate(self, tmp_path: Path) -> None:
+        import dask
+        from distributed import LocalCluster, Security
+
+        keys = Security.temporary()
+        named = {"ca-file": keys.tls_ca_file, "client.key": keys.tls_client_key, "client.cert": keys.tls_client_cert}
+        for name, text in named.items():
+            (tmp_path / name).write_text(text, encoding="ascii")
+        config = {f"distributed.comm.tls.{name}": str(tmp_path / name) for name in named}
+        with LocalCluster(1, processes=True, dashboard_address=":0", security=keys, protocol="tls://") as cluster:
+            address = str(cluster.scheduler_address)
+
+            with dask.config.set(config):
+                done = [made for piece in on_cluster(Squares(), [2, 3], str, address) for made in piece]
+            with pytest.raises(InputError, match="no certificates for TLS"):
+                list(on_cluster(Squares(), [2, 3], str, address))
+
+        assert [one.made for one in done] == [4, 9]
+
+
+@dataclass(frozen=True)
+class Strange(Squares):
+    """What a worker without the module cannot unpack."""
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return missing, ()
+
+
+def missing() -> None:
+    raise ModuleNotFoundError("No module named 'kulman'")
+
+
+def kill_when_reached(scheduler: subprocess.Popen[bytes]) -> None:
+    from distributed import default_client
+
+    for _ in range(1200):
+        with suppress(ValueError):
+            if default_client().futures:
+                break
+        time.sleep(0.05)
+    scheduler.kill()

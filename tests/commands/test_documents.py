@@ -1,53 +1,148 @@
-"""The documents show what commands print today; those about cams, gears, hoists the pictures that these draw."""
+"""The documents cannot rot: commands print what they show, Python runs, links lead somewhere, all is installed."""
 
 from __future__ import annotations
 
+import doctest
 import re
+import tomllib
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
-import kulman
+from kulman.cli import commands
 from kulman.docs import refresh
 from kulman.tests.support.documents import blocks, run_here
+from kulman.tests.support.sources import ROOT, files
+from kulman.variants.making.starter import template
+from kulman.variants.reader import read_text
+from kulman.variants.shelf import bundled_text
 
-DOCS = Path(kulman.__file__).parent / "docs"
+TEXTS = {path.stem: path.read_text(encoding="utf-8") for path in refresh.DOCUMENTS}
+README = refresh.BLOCK.findall(TEXTS["README"])
+# blocks whose commands start Python, as a user does: the first of some; in the long run all do
+STARTED = [
+    next(block for block in README if block.startswith(f"$ kulman {name}")) for name in ("solve", "sheet", "new")
+]
 BLOCKS = {"cams": (8, 3), "gears": (4, 2), "hoist": (1, 4)}  # of commands, quick and slow ones
+FIRST, OTHERS = TEXTS["own-mechanism"].split("# Other parts\n")
+TOML = re.compile(r"```toml\n(.*?)```", re.DOTALL)
+WITH_EXAMPLES = sorted(
+    ".".join(("kulman", *path.relative_to(ROOT).with_suffix("").parts)).removesuffix(".__init__")
+    for path in files()
+    if ">>> " in path.read_text(encoding="utf-8")
+)
+SETUPTOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]
 
 
-def text(name: str) -> str:
-    return (DOCS / f"{name}.md").read_text(encoding="utf-8")
+@pytest.mark.parametrize("block", README, ids=lambda block: refresh.commands(block)[0][:40])
+def test_commands_print_what_the_readme_shows(
+    block: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    if block not in STARTED:
+        run_here(monkeypatch, capsys)
+
+    assert refresh.filled(block, str(folder)) == block
+
+
+@pytest.mark.parametrize("name", ["own-mechanism", "cycle"])
+def test_commands_one_after_the_other_print_what_a_document_shows(
+    name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run_here(monkeypatch, capsys)
+
+    assert refresh.BLOCK.search(TEXTS[name])
+    assert refresh.refreshed(TEXTS[name], str(folder)) == TEXTS[name]
 
 
 @pytest.mark.parametrize("name", BLOCKS)
-def test_what_a_document_shows_is_what_is_printed(
-    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+def test_a_document_of_a_subject_shows_what_is_printed_and_drawn(
+    name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.chdir(tmp_path)
     run_here(monkeypatch, capsys)
-    quick, slow = (blocks(text(name), slow=slow) for slow in (False, True))
+    quick, slow = (blocks(TEXTS[name], slow=slow) for slow in (False, True))
+    pictures = re.findall(r"pictures/([\w-]+)\.png", TEXTS[name])
 
     assert (len(quick), len(slow)) == BLOCKS[name]
-    for block in quick:
-        assert refresh.filled(block, str(tmp_path)) == block
+    assert [block for block in quick if refresh.filled(block, str(folder)) != block] == []
+    assert pictures
+    assert {*pictures} <= {*refresh.SHEETS, *(f"chart-{chart}" for chart in refresh.CHARTS)}
+    assert all((refresh.PICTURES / f"{picture}.png").exists() for picture in pictures)
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("document", refresh.DOCUMENTS, ids=lambda path: path.stem)
-def test_every_command_started_by_itself_prints_what_its_document_shows(document: Path, tmp_path: Path) -> None:
-    shown = document.read_text(encoding="utf-8")
-
-    assert refresh.BLOCK.search(shown)
-    assert refresh.refreshed(shown, str(tmp_path)) == shown
+@pytest.mark.parametrize("name", TEXTS)
+def test_every_command_started_by_itself_prints_what_its_document_shows(name: str, folder: Path) -> None:
+    assert refresh.BLOCK.search(TEXTS[name])
+    assert refresh.refreshed(TEXTS[name], str(folder)) == TEXTS[name]
 
 
-@pytest.mark.parametrize("name", BLOCKS)
-def test_pictures_of_a_document_are_drawn_by_its_commands(name: str) -> None:
-    drawn = {*refresh.SHEETS, *(f"chart-{chart}" for chart in refresh.CHARTS)}
-    shown = re.findall(r"pictures/([\w-]+)\.png", text(name))
+@pytest.mark.parametrize("name", ["README", "cycle"])
+def test_python_of_a_document_runs(name: str, folder: Path) -> None:
+    code = "\n".join(re.findall(r"```python\n(.*?)```", TEXTS[name], re.DOTALL)).replace("1_000_000", "1_000")
+    names: dict[str, object] = {}
 
-    assert name in refresh.NAMES
-    assert shown
-    for picture in shown:
-        assert picture in drawn
-        assert (DOCS / "pictures" / f"{picture}.png").exists()
+    exec(compile(code, name, "exec"), names)
+
+    assert name == "cycle" or [*folder.glob("sheet*.svg")]
+    assert {"README": "codes", "cycle": "swept"}[name] in names
+
+
+def test_the_readme_names_every_command_and_its_links_lead_somewhere() -> None:
+    assert [name for name in commands.commands if f"kulman {name}" not in TEXTS["README"]] == []
+    links = re.findall(r"\]\(([^)#:]+)\)", TEXTS["README"])
+    assert [target for target in links if not (refresh.ROOT / target).exists()] == []
+    assert "docs/own-mechanism.md" in links
+    assert "own-mechanism.md" in (ROOT / "docs" / "task-file.md").read_text(encoding="utf-8")
+
+
+def test_steps_to_an_own_mechanism_quote_the_file_to_begin_with() -> None:
+    quoted = TOML.findall(FIRST)
+
+    assert len(quoted) >= 9
+    assert all(block in template("en") for block in quoted)
+    parts = {line for block in quoted for line in block.splitlines() if line.startswith("[")}
+    assert parts >= {"[givens]", "[[mechanism.link]]", "[[mechanism.pair]]", "[mechanism.driver]", "[[variant]]"}
+
+
+def test_lines_of_other_parts_stand_in_the_task_that_is_named_last_before_them() -> None:
+    for section in re.split(r"^## ", OTHERS, flags=re.MULTILINE)[1:]:
+        assert TOML.findall(section)
+        for block in TOML.findall(section):
+            named = re.findall(r"tasks/([\w-]+)\.toml\)", section[: section.index(block)])
+            assert block in bundled_text(named[-1]), block
+
+
+def test_fault_that_the_document_shows_is_the_one_of_the_program() -> None:
+    (shown,) = re.findall(r"```text\n(my-mechanism.*?)\n```", FIRST)
+    pivot = '[[mechanism.pair]]\nkind = "revolute"\npoint = "C"\nlinks = [3, 0]\nat = ["280 mm", "0 mm"]\n'
+    assert pivot in template("en")
+
+    _, faults = read_text(template("en").replace(pivot, ""), "my-mechanism.toml")
+
+    assert [str(fault) for fault in faults] == [shown]
+
+
+@pytest.mark.parametrize("module", WITH_EXAMPLES)
+def test_examples_in_docstrings_say_what_comes_out(module: str) -> None:
+    found = doctest.testmod(import_module(module))
+
+    assert found.attempted > 0
+    assert found.failed == 0
+
+
+def test_every_module_and_every_file_of_words_tasks_and_looks_beside_it_is_installed() -> None:
+    packages = {".".join(("kulman", *file.parent.relative_to(ROOT).parts)) for file in files()}
+    folders = {file.relative_to(ROOT).parts[0] for file in files() if file.parent != ROOT}
+    inside = (file for name in folders for file in (ROOT / name).rglob("*") if file.is_file())
+    beside = {file for file in inside if file.suffix != ".py" and "__pycache__" not in file.parts}
+    installed = {
+        file
+        for name, patterns in SETUPTOOLS["package-data"].items()
+        for pattern in patterns
+        for file in ROOT.joinpath(*name.split(".")[1:]).glob(pattern)
+    }
+
+    assert set(SETUPTOOLS["packages"]) == packages
+    assert beside
+    assert beside - installed == set()

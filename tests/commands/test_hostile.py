@@ -1,10 +1,15 @@
-"""Names and cells of a roster that somebody has chosen to do harm: they are texts everywhere, and nothing else."""
+"""Names, cells and texts that somebody has chosen to do harm: they are texts everywhere, read in time, and no more."""
 
 from __future__ import annotations
 
 import csv
+import os
 import re
+import sys
+import time
 import unicodedata
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from xml.dom import minidom
 
@@ -12,8 +17,32 @@ import openpyxl
 import pypdfium2
 import pytest
 
-from kulman import all_variants, batch, check, cli, load_task
+from kulman import all_variants, batch, check, load_task, note, sheet
+from kulman.drawing.notes.markup import letters
+from kulman.drawing.notes.omml import atoms_of
+from kulman.drawing.text import escape, lay_out
+from kulman.drawing.titleblock import surname, with_initials
+from kulman.drawing.writers import slug
+from kulman.scales.choose import chooser
+from kulman.scales.errors import InputError, KulmanError
+from kulman.scales.names import unknown
+from kulman.scales.numbers import quote, split_number
+from kulman.scales.units import parse as value_in
+from kulman.scales.units import unit
+from kulman.tests.support import commands
+from kulman.tests.support.answer_files import ASKED, HEAD, ROW
+from kulman.tests.support.commands import Run, table
+from kulman.variants.checks.basics import Places
+from kulman.variants.hands import hand_of
 from kulman.variants.making.all_variants import _gift_bytes, _Question, _xml_bytes
+from kulman.variants.making.new_variants import _ranges_of, _with_variants
+from kulman.variants.making.starter import _label
+from kulman.variants.marking import cells
+from kulman.variants.marking.wording import plain
+from kulman.variants.roster import _folded, read_roster, variant_of_book
+from kulman.variants.sheets import BLOCK, variant_of_id
+from kulman.variants.shelf import bundled_text
+from kulman.variants.spreadsheets import grid as headers
 from kulman.variants.spreadsheets.files import read_grid
 from kulman.variants.tables import csv_text, harmless, xlsx_bytes
 
@@ -67,11 +96,6 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("hostile")
     batch(TASK, roster(folder), folder / "deep" / "out", only="structure", kinds=["svg"], lang="en", jobs=1)
     return folder
-
-
-def table(file: Path) -> list[dict[str, str]]:
-    with file.open(encoding="utf-8-sig", newline="") as stream:
-        return list(csv.DictReader(stream))
 
 
 def test_hostile_names_stay_in_the_folder_and_are_texts(place: Path) -> None:
@@ -210,11 +234,10 @@ def test_hostile_names_are_texts_in_every_kind_of_file(tmp_path: Path) -> None:
     assert len(done.problems) <= 14
 
 
-def test_hostile_names_go_through_marking(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_hostile_names_go_through_marking(tmp_path: Path, run: Run) -> None:
     file, out = roster(tmp_path), tmp_path / "reports"
     form = tmp_path / "form.csv"
-    with pytest.raises(SystemExit):
-        cli.main(["check", TASK, "--form", str(form), "--roster", str(file), "--lang", "en"])
+    run("check", TASK, "--form", str(form), "--roster", str(file), "--lang", "en")
     asked = check(TASK, roster=file, lang="en")
     assert len(asked.read(str(form))) >= 1
 
@@ -223,3 +246,166 @@ def test_hostile_names_go_through_marking(tmp_path: Path, capsys: pytest.Capture
     assert {path.name for path in tmp_path.iterdir()} == {"class.csv", "form.csv", "reports"}
     assert all(re.fullmatch(r"[\w.-]+", path.name) for path in out.iterdir())
     assert not any("<script" in path.read_text(encoding="utf-8") for path in out.glob("*.html"))
+
+
+TURNED = "\u202eІ\u200b. Пе\u2066тре\ufeffнко\u00ad\x07\x00"
+NAME = "І. Петренко"
+BYTES = os.fsdecode(b"x\xff")
+
+
+# Signs that nobody sees, and bytes that are no text, in what people are called and where files stand.
+@pytest.mark.parametrize("command", ["sheet", "handout", "note", "batch"])
+@pytest.mark.parametrize("option", BLOCK)
+def test_bytes_that_are_no_text_are_refused(command: str, option: str, folder: Path, run: Run) -> None:
+    commands.roster(folder, "А;1", head="student;variant")
+    where = ["--roster", "class.csv", "--out", "out"] if command == "batch" else ["-o", "x.pdf"]
+
+    status, _, err = run(command, TASK, *where, f"--{option}", BYTES)
+
+    assert (status, err.count("\n")) == (2, 1)
+    assert option in err
+    assert [path.name for path in folder.iterdir()] == ["class.csv"]
+
+
+def test_signs_that_nobody_sees_are_left_out_of_names(tmp_path: Path) -> None:
+    file = commands.roster(tmp_path, f"{TURNED.replace(chr(0), '')};1;\u202e", head="stu\u200bdent;variant;group")
+
+    svg = sheet(TASK, student=TURNED, group="А\t\nБ", only="structure").svg()
+    [entry] = read_roster(file, load_task(TASK)).entries
+    made = batch(TASK, roster=file, folder=tmp_path / "out", kinds=("svg",), only="structure", jobs=1)
+
+    assert NAME in svg
+    assert "А Б" in svg
+    assert note(TASK, student=TURNED, only="structure").document.title.student == NAME
+    assert (entry.who.student, entry.who.group) == (NAME, "")
+    assert [*made.outcomes[0].files] == ["001-І-Петренко-1.svg"]
+    for file in (tmp_path / "out").iterdir():
+        assert not {*"\u202e\u200b\u2066\u00ad\x07"} & {*file.read_text("utf-8-sig"), *file.name}
+
+
+def test_signs_that_nobody_sees_are_left_out_of_titles(tmp_path: Path) -> None:
+    file = tmp_path / "own.toml"
+    text = bundled_text(TASK)
+    title = load_task(TASK).title["uk"]
+    file.write_text(text.replace(f'"{title}"', f'"\\u202e{title}\\u200b"', 1), encoding="utf-8")
+
+    assert load_task(file).title["uk"] == title
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems have no such names")
+def test_files_whose_names_are_bytes_are_read_and_written(tmp_path: Path, run: Run) -> None:
+    folder, reports = tmp_path / "answers", tmp_path / "reports"
+    folder.mkdir()
+    (folder / f"{BYTES}.csv").write_text(HEAD + ROW, encoding="utf-8")
+    own = tmp_path / f"{BYTES}.md"
+
+    note(TASK, only="structure").save(own)
+    files = [str(tmp_path / name) for name in ("t.csv", "t.xlsx", "m.csv")]
+    to = ["--out", str(reports), "-o", files[0], "-o", files[1], "--moodle", files[2]]
+    status, _, _ = run("check", TASK, "-v", "example", str(folder), "--jobs", "1", *to)
+
+    assert status == 0
+    assert all(Path(file).exists() for file in files)
+    assert len([*reports.glob("*.html")]) == 1
+    assert b"x\xff-" in own.read_bytes()
+
+
+def test_an_error_of_the_system_is_not_one_of_the_output(monkeypatch: pytest.MonkeyPatch, run: Run) -> None:
+    def no_memory(*_: object, **__: object) -> None:
+        raise OSError(12, "Cannot allocate memory")
+
+    monkeypatch.setattr("kulman.variants.solution.solve", no_memory)
+
+    status, _, err = run("solve", TASK)
+
+    assert (status, err.count("\n")) == (2, 1)
+    assert "Cannot allocate memory" in err
+    assert "output" not in err
+
+
+def test_a_name_of_bytes_is_refused_from_python() -> None:
+    with pytest.raises(InputError, match="teacher"):
+        sheet(TASK, teacher="\ud800")
+
+
+_OF_LINE = dict.fromkeys(map(ord, "'\n"))
+SLIDER = load_task(TASK)
+PIECES = (
+    " ", "\t", "a", "A_", "1", "1 ", "1,", ".", "..", "-", "–", "…", "/", ",", ", ", ";", "; ", ":", "(", ")", "[",
+    "]", "{", "}", "\\", '"', "'", "′", "_{", "^{", "\\u{", "=", "+-", "e", "1e", "м", "м5", "№", "°", "1°", "\u00a0",
+    "\n", "#", "×", "|", "a-", "10..20", "<", "$", "\u202e", "ё", "Ἀ", "ﷺ",
+)  # fmt: skip
+ROUND = (("1", "x"), ("5 ", "мм"), ("V_B [", "x"))  # before and behind
+# Long texts of users, made to be looked through again and again: whoever reads them takes time in proportion.
+READERS: dict[str, Callable[[str], object]] = {
+    "tidy": headers.tidy,
+    "unit over a column": headers.split_unit,
+    "kind of a column": headers.column_kind,
+    "kind of a cell": headers.about_kind,
+    "quantity": headers.quantity_part,
+    "symbol": headers.symbol,
+    "variant": headers.variant_said,
+    "recognised": lambda text: headers.recognised([[text]]),
+    "number": split_number,
+    "unit": unit,
+    "value": lambda text: value_in(text, unit("mm")),
+    "angle": lambda text: value_in(text, unit("deg")),
+    "segment": lambda text: cells.segment(text, ""),
+    "scale factor": lambda text: cells.scale_factor(text, "", "(m/s)/mm", "(m/s)/mm"),
+    "answer": lambda text: cells.value(text, "", "V_B", ASKED),
+    "direction": cells.direction,
+    "paper": cells.of_paper,
+    "hand": hand_of,
+    "range": lambda text: _ranges_of(SLIDER, {"l_OA": text}),
+    "record book": lambda text: variant_of_book(SLIDER, text),
+    "digits": lambda text: variant_of_book(SLIDER, "12", text),
+    "scale": lambda text: chooser("mu_V", text),
+    "name": lambda text: unknown("given-unknown", text, SLIDER.givens, task="x"),
+    "quoted": quote,
+    "slug": slug,
+    "label": _label,
+    "folded": _folded,
+    "surname": surname,
+    "initials": with_initials,
+    "escaped": escape,
+    "markup": lambda text: letters(escape(text)),
+    "laid out": lambda text: lay_out(escape(text), 3.5),
+    "atoms": lambda text: atoms_of(escape(text)),
+    "wording": plain,
+    "cell of CSV": harmless,
+    "sheet": lambda text: variant_of_id(SLIDER, text),
+    "places of TOML": lambda text: Places(f"x = '{text.translate(_OF_LINE)}' # {text.translate(_OF_LINE)}"),
+    "task file": lambda text: _with_variants(bundled_text(TASK) + text, ()),
+}
+
+
+def seconds(reader: Callable[[str], object], text: str) -> float:
+    begin = time.process_time()
+    with suppress(KulmanError):
+        reader(text)
+    return time.process_time() - begin
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("name", READERS)
+def test_no_text_takes_more_time_than_its_length(name: str) -> None:
+    reader = READERS[name]
+    for piece in PIECES:
+        for before, behind in ROUND:
+            texts = [before + piece * (n // len(piece)) + behind for n in (800, 8_000)]
+            short, long = (seconds(reader, text) for text in texts)
+
+            assert long < max(30.0 * short, 0.3), (piece, before, behind)  # a hundred times if it were the square
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [("--set", "l_OA=" + " " * 20_000), ("--student", "а" * 20_000), ("--scale", "mu_V=" + "1" * 20_000)],
+)
+def test_an_option_longer_than_any_is_refused(option: str, value: str, folder: Path, run: Run) -> None:
+    status, _, err = run("sheet", TASK, option, value, "-o", "x.svg")
+
+    assert status == 2
+    assert len(err) < 200
+    assert "10000" in err
+    assert not list(folder.iterdir())
