@@ -5,37 +5,32 @@ from __future__ import annotations
 import csv
 import json
 import math
-import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 import kulman
-from kulman import KulmanError, cli
-from kulman.docs import refresh
+from kulman import KulmanError
 from kulman.scales.errors import LANGUAGES
-from kulman.tests.support.documents import run_here
-from kulman.variants.sweeps.linkage import Sweep
+from kulman.tests.support.commands import Run
 
 TASK = "nau-slider-crank"
 SHORT_ROD = ["--set", "l_AB=20"]  # cannot reach the guide all round
 
 
-@pytest.fixture(autouse=True)
-def english(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
+@pytest.fixture
+def swept(run: Run) -> Run:
+    """Runs `kulman sweep` with the arguments behind the task."""
+
+    def sweeping(*arguments: str) -> tuple[int, str, str]:
+        return run("sweep", TASK, *arguments)
+
+    return sweeping
 
 
-def run(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as stopped:
-        cli.main(["sweep", TASK, *arguments])
-    assert isinstance(stopped.value.code, int)
-    return stopped.value.code, *capsys.readouterr()
-
-
-def test_the_table_shows_positions_and_the_whole_cycle(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = run(["-v", "3", "--positions", "8"], capsys)
+def test_the_table_shows_positions_and_the_whole_cycle(swept: Run) -> None:
+    status, out, err = swept("-v", "3", "--positions", "8")
 
     rows, slider, extremes = out.split("\n\n")
     assert (status, err) == (0, "")
@@ -54,40 +49,32 @@ def test_a_velocity_at_a_dead_position_is_shown_as_zero() -> None:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_the_table_speaks_every_language(language: str, capsys: pytest.CaptureFixture[str]) -> None:
-    out = run(["--lang", language, "--only", "velocity", *SHORT_ROD], capsys)[1]
+def test_the_table_speaks_every_language(language: str, swept: Run) -> None:
+    out = swept("--lang", language, "--only", "velocity", *SHORT_ROD)[1]
 
     assert ("." in out.splitlines()[3]) is (language == "en")
     assert {"en": "cannot be assembled", "uk": "не складається", "ru": "не собирается"}[language] in out
 
 
-def test_a_cycle_has_positions_whatever_plans_are_wanted(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = run(["--only", "structure"], capsys)
+def test_arcs_that_cannot_be_reached_are_said_and_no_error(swept: Run) -> None:
+    status, out, err = swept(*SHORT_ROD, "--only", "velocity")
 
     assert (status, err) == (0, "")
-    assert "stroke 0.05 m" in out
-
-
-def test_arcs_that_cannot_be_reached_are_said_and_no_error(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, err = run([*SHORT_ROD, "--only", "velocity"], capsys)
-
-    assert (status, err) == (0, "")
+    assert "stroke 0.05 m" in swept("--only", "structure")[1]  # the cycle has positions whatever plans are wanted
     low = math.degrees(math.asin(20 / 25))
     assert f"cannot be assembled from phi = {low:.7f}° to phi = {180 - low:.7f}°" in out
 
 
-def test_a_mechanism_that_never_assembles_has_status_3(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as stopped:
-        cli.main(["sweep", "scheme-03-crank-rocker", "--set", "l_AB=9000", "--json"])
-    out, err = capsys.readouterr()
+def test_a_mechanism_that_never_assembles_has_status_3(run: Run) -> None:
+    status, out, err = run("sweep", "scheme-03-crank-rocker", "--set", "l_AB=9000", "--json")
 
-    assert stopped.value.code == 3
+    assert status == 3
     assert json.loads(out)["status"] == "no-assembly"
     assert "any position of the crank" in err
 
 
-def test_json_holds_the_cycle_in_si(capsys: pytest.CaptureFixture[str]) -> None:
-    status, out, _ = run(["-v", "example", "--json", "--positions", "24"], capsys)
+def test_json_holds_the_cycle_in_si(swept: Run) -> None:
+    status, out, _ = swept("-v", "example", "--json", "--positions", "24")
 
     data = json.loads(out)
     assert status == 0
@@ -98,17 +85,17 @@ def test_json_holds_the_cycle_in_si(capsys: pytest.CaptureFixture[str]) -> None:
     k = next(k for k, place in enumerate(data["places"]) if abs(place % (2 * math.pi) - math.pi / 3) < 1e-9)
     for name, quantity in one.quantities.items():
         if quantity.kind != "point" and name in data["quantities"]:
-            swept = data["quantities"][name]
-            assert swept["unit"] == quantity.unit
-            assert swept["value"][k] == pytest.approx(quantity.value, rel=1e-9, abs=1e-9), name
+            all_round = data["quantities"][name]
+            assert all_round["unit"] == quantity.unit
+            assert all_round["value"][k] == pytest.approx(quantity.value, rel=1e-9, abs=1e-9), name
     output = data["outputs"][0]
     assert (output["link"], output["kind"], output["stroke"]) == (3, "slider", pytest.approx(0.1))
     assert [spot["end"] for spot in output["dead"]] == ["high", "low"]
     assert data["extremes"]["V_B"]["max"]["value"] == pytest.approx(max(data["quantities"]["V_B"]["value"]), rel=0.01)
 
 
-def test_json_has_null_where_a_position_fails(capsys: pytest.CaptureFixture[str]) -> None:
-    data = json.loads(run([*SHORT_ROD, "--json", "--only", "velocity"], capsys)[1])
+def test_json_has_null_where_a_position_fails(swept: Run) -> None:
+    data = json.loads(swept(*SHORT_ROD, "--json", "--only", "velocity")[1])
 
     failed = [k for k, status in enumerate(data["statuses"]) if status == "no-assembly"]
     assert failed
@@ -118,10 +105,10 @@ def test_json_has_null_where_a_position_fails(capsys: pytest.CaptureFixture[str]
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-def test_a_csv_is_what_spreadsheets_read(language: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_csv_is_what_spreadsheets_read(language: str, tmp_path: Path, swept: Run) -> None:
     file = tmp_path / "cycle.csv"
 
-    status, out, _ = run(["--lang", language, "-o", str(file), "--positions", "24"], capsys)
+    status, out, _ = swept("--lang", language, "-o", str(file), "--positions", "24")
 
     assert (status, out) == (0, f"{file}\n")
     data = file.read_bytes()
@@ -131,55 +118,50 @@ def test_a_csv_is_what_spreadsheets_read(language: str, tmp_path: Path, capsys: 
     assert len(rows) == 25
     assert {len(row) for row in rows} == {len(rows[0])}
     column = next(i for i, name in enumerate(rows[0]) if name.startswith("V_B ["))
-    swept = kulman.sweep(TASK, positions=24)
+    cycle = kulman.sweep(TASK, positions=24).cycle
     values = [float(row[column].replace(",", ".")) for row in rows[1:]]
-    assert values == np.abs(swept.cycle.values["V_B"]).tolist()
+    assert values == np.abs(cycle.values["V_B"]).tolist()
     assert rows[0][:2] == ["k", "phi [°]"]
 
 
-def test_only_chosen_points_and_links_are_shown(capsys: pytest.CaptureFixture[str]) -> None:
-    out = run(["--points", "S2,3", "--points", "2", "--only", "velocity"], capsys)[1]
+def test_only_chosen_points_and_links_are_shown(swept: Run) -> None:
+    out = swept("--points", "S2,3", "--points", "2", "--only", "velocity")[1]
 
-    head = out.splitlines()[0]
-    assert [cell.split(",")[0] for cell in head.split("  ") if cell.strip()] == [
-        *("phi", " t", "S2.x", "S2.y", "V_S2", "V_S2.x", "V_S2.y", "s_3", "V_3", "omega_2"),
-    ] or {"S2.x,", "V_S2,", "s_3,", "omega_2,"} <= set(head.split())
+    assert {"S2.x,", "V_S2,", "s_3,", "omega_2,"} <= set(out.splitlines()[0].split())
     assert "V_B," not in out
 
 
-def test_chords_stand_beside_plans(capsys: pytest.CaptureFixture[str]) -> None:
-    out = run(["--chords", "B", "--positions", "24", "--lang", "en"], capsys)[1]
+def test_chords_stand_beside_plans(swept: Run) -> None:
+    out = swept("--chords", "B", "--positions", "24", "--lang", "en")[1]
 
     velocity, acceleration = out.split("\n\n")
     assert len(velocity.splitlines()) == len(acceleration.splitlines()) == 25
     assert all(float(line.split()[-1]) < 2.0 for line in velocity.splitlines()[1:])
 
 
-def test_the_cycle_may_begin_elsewhere(capsys: pytest.CaptureFixture[str]) -> None:
-    data = json.loads(run(["--from", "90 deg", "--json", "--only", "position"], capsys)[1])
-    plain = json.loads(run(["--from", "90", "--json", "--only", "position"], capsys)[1])
+def test_the_cycle_may_begin_elsewhere(swept: Run) -> None:
+    data = json.loads(swept("--from", "90 deg", "--json", "--only", "position")[1])
+    plain = json.loads(swept("--from", "90", "--json", "--only", "position")[1])
 
     assert data["places"][0] == plain["places"][0] == pytest.approx(math.pi / 2)
 
 
 WRONG = {
     "no cycle": (["--positions", "2"], "3 to 100000"),
-    "no number": (["--positions", "ten"], "not a whole number"),
     "unknown point": (["--points", "Q"], "neither a point nor a link"),
     "unknown point of chords": (["--chords", "Q"], "neither a point nor a link"),
     "unknown suffix": (["-o", "cycle.xyz"], ".csv"),
     "a crank that stops": (["--to", "90"], "sliding drivers"),
     "a place of another kind": (["--from", "3 mm"], "start: "),
     "no place": (["--from", "x"], "start: "),
-    "unknown plan": (["--only", "velocities"], "velocity"),
 }
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_wrong_arguments_are_answered_in_one_line(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_wrong_arguments_are_answered_in_one_line(name: str, swept: Run) -> None:
     arguments, said = WRONG[name]
 
-    status, out, err = run(arguments, capsys)
+    status, out, err = swept(*arguments)
 
     assert (status, out) == (2, "")
     assert err.count("\n") == 1
@@ -190,14 +172,11 @@ def test_wrong_arguments_are_answered_in_one_line(name: str, capsys: pytest.Capt
     ("arguments", "key"),
     [
         ({"positions": "12"}, "argument-type"),
-        ({"positions": 1.5}, "argument-type"),
         ({"positions": 10**9}, "positions-number"),
         ({"points": 3}, "argument-type"),
         ({"points": ["B", None]}, "argument-type"),
         ({"start": [3]}, "argument-type"),
         ({"start": math.nan}, "number-bad"),
-        ({"lang": "de"}, "language"),
-        ({"variant": "none"}, "variant-unknown"),
     ],
 )
 def test_wrong_arguments_from_python_are_answered_in_one_line(arguments: dict[str, object], key: str) -> None:
@@ -211,9 +190,7 @@ def test_wrong_arguments_from_python_are_answered_in_one_line(arguments: dict[st
 def test_a_sweep_can_be_asked_from_python(tmp_path: Path) -> None:
     swept = kulman.sweep(TASK, "example", only="acceleration", positions=36)
 
-    assert isinstance(swept, Sweep)
     assert repr(swept) == "<Sweep nau-slider-crank example: ok, 36 positions>"
-    assert "<pre>" in swept._repr_html_()
     assert swept.diagrams("B").unit == "m"
     assert swept.save(tmp_path / "a.csv") == [tmp_path / "a.csv"]
     assert swept.cycle.extremes(["V_B"])["V_B"][1].value == 0.0
@@ -229,18 +206,3 @@ def test_no_file_of_a_sweep_is_written_when_one_cannot_be(tmp_path: Path) -> Non
 
     assert caught.value.key == "output-refused"
     assert list(tmp_path.iterdir()) == []
-
-
-def test_what_the_document_shows_is_what_is_printed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    text = (refresh.ROOT / "docs" / "cycle.md").read_text(encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    run_here(monkeypatch, capsys)
-
-    assert refresh.BLOCK.search(text)
-    assert refresh.refreshed(text, str(tmp_path)) == text
-    names: dict[str, object] = {}
-    exec(compile("\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL)), "cycle.md", "exec"), names)
-
-    assert isinstance(names["swept"], Sweep)

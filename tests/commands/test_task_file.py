@@ -1,20 +1,27 @@
-"""Task files: where keys stand, what a good file gives, and the bundled tasks against their sources."""
+"""Task files: where keys stand, what a good file gives, the bundled tasks against their sources; new files."""
+
+from __future__ import annotations
 
 import math
+import re
 import string
 import tomllib
-from importlib.resources import files
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from kulman.plans.linkages.mechanism import ZERO, Prismatic
-from kulman.scales.errors import InputError
+from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.commands import Run
+from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.checks.basics import Places
+from kulman.variants.kinds import KINDS, MODULES
+from kulman.variants.making.starter import start, template
 from kulman.variants.reader import load_task, read_text
 from kulman.variants.shelf import bundled, bundled_text, summary
+from kulman.variants.solution import solve
 
 PLACED = '''\
 # a comment [not a table]
@@ -89,6 +96,7 @@ VALUES = st.recursive(
 )
 
 
+@settings(suppress_health_check=[HealthCheck.too_slow], max_examples=50, deadline=None)
 @given(st.dictionaries(KEYS, st.dictionaries(KEYS, VALUES, max_size=4), max_size=4))
 def test_places_point_at_the_keys_of_any_file(tables: dict[str, dict[str, str]]) -> None:
     text = "".join(f"[{table}]\n" + "".join(f"{k} = {v}\n" for k, v in rows.items()) for table, rows in tables.items())
@@ -116,12 +124,6 @@ def test_every_bundled_task_is_without_fault(task: str) -> None:
     for variant in found.variants:
         assert all(math.isfinite(value) for value in found.values(variant).values())
     assert summary(task)["variants"] == list(found.variants)
-
-
-def test_every_bundled_task_comes_with_the_package() -> None:
-    assert {f"{task}.toml" for task in bundled()} == {
-        entry.name for entry in (files("kulman.variants") / "tasks").iterdir() if entry.name.endswith(".toml")
-    }
 
 
 def test_the_slider_crank_has_the_numbers_of_its_table() -> None:
@@ -155,58 +157,14 @@ def test_the_slider_is_on_the_left_unless_it_is_said_to_be_on_the_right() -> Non
 
 def test_settings_take_any_unit_of_the_kind_and_the_tasks_own_without_one() -> None:
     task = load_task("nau-slider-crank")
-    settings: dict[str, str | float] = {
-        "l_OA": "5,5 см",
-        "l_AB": "140",
-        "n_1": "80 рад/с",
-        "F_3": 2,
-        "phi": 90.0,
-        "rotation": "ccw",
-    }
+    asked = {"l_OA": "5,5 см", "l_AB": "140", "n_1": "80 рад/с", "F_3": 2, "phi": 90.0, "rotation": "ccw"}
+    wanted = {"l_OA": 0.055, "l_AB": 0.14, "n_1": 80.0, "F_3": 2000.0, "phi": math.pi / 2, "sense_1": 1.0}
 
-    values = task.values(None, settings)
+    values = task.values(None, asked)
 
-    assert values["l_OA"] == 0.055
-    assert values["l_AB"] == 0.14
-    assert values["n_1"] == 80.0
-    assert values["F_3"] == 2000.0
-    assert values["phi"] == math.pi / 2
-    assert values["sense_1"] == 1.0
-    assert task.resolve(None, settings)["rotation"] == "ccw"
+    assert {name: values[name] for name in wanted} == wanted
+    assert task.resolve(None, asked)["rotation"] == "ccw"
     assert values["m_2"] == 0.8  # the first variant
-
-
-@pytest.mark.parametrize(
-    ("variant", "settings", "key"),
-    [
-        ("11", {}, "variant-unknown"),
-        ("exmple", {}, "variant-unknown-like"),
-        ("0", {"l_0A": "5 mm"}, "given-unknown-like"),
-        ("0", {"zzz": 5}, "given-unknown"),
-        ("0", {"l_OA": "5 kg"}, "unit-wrong"),
-        ("0", {"l_OA": "0 mm"}, "not-positive"),
-        ("0", {"l_OA": -5}, "not-positive"),
-        ("0", {"m_2": "-1 kg"}, "negative"),
-        ("0", {"n_1": "-1"}, "not-positive"),
-        ("0", {"n_1": 0}, "not-positive"),
-        ("0", {"l_OA": math.nan}, "number-bad"),
-        ("0", {"l_OA": 10**400}, "number-infinite"),
-        ("0", {"l_OA": "1e13"}, "number-infinite"),
-        ("0", {"l_OA": True}, "type-quantity"),
-        ("0", {"side": "top"}, "choice-unknown"),
-        ("0", {"side": 1}, "choice-unknown"),
-    ],
-)
-def test_a_setting_that_cannot_be_used_is_refused(variant: str, settings: dict[str, float | str], key: str) -> None:
-    with pytest.raises(InputError) as caught:
-        load_task("nau-slider-crank").values(variant, settings)
-
-    assert caught.value.key == key
-
-
-def test_a_message_about_a_setting_names_it() -> None:
-    with pytest.raises(InputError, match=r"^l_OA: the unit kg does not fit"):
-        load_task("nau-slider-crank").values("0", {"l_OA": "5 kg"})
 
 
 def test_a_file_of_ones_own_is_read_like_a_bundled_task(tmp_path: Path) -> None:
@@ -221,12 +179,10 @@ def test_a_file_of_ones_own_is_read_like_a_bundled_task(tmp_path: Path) -> None:
 
 
 def test_literals_of_the_mechanism_become_constants() -> None:
-    text = bundled_text("nau-slider-crank").replace('offset = "0 mm"', 'offset = "5 mm"')
-    text = text.replace('direction = "0 deg"', 'direction = "90 deg"')
+    changes = ('offset = "0 mm"', 'offset = "5 mm"'), ('direction = "0 deg"', 'direction = "90 deg"')
 
-    task, _ = read_text(text, "x.toml")
+    task = task_of(with_changes(bundled_text("nau-slider-crank"), *changes))
 
-    assert task is not None
     guide = task.mechanism.pairs[3]
     assert isinstance(guide, Prismatic)
     values = task.values("0")
@@ -235,36 +191,99 @@ def test_literals_of_the_mechanism_become_constants() -> None:
 
 
 def test_a_length_that_is_no_distance_may_be_negative_or_zero() -> None:
-    text = bundled_text("nau-slider-crank").replace('offset = "0 mm"', 'offset = "e"')
-    text = text.replace("[givens]\n", '[givens]\ne = { unit = "mm", default = 0 }\n')
+    changes = ('offset = "0 mm"', 'offset = "e"'), ("[givens]\n", '[givens]\ne = { unit = "mm", default = 0 }\n')
 
-    task, faults = read_text(text, "x.toml")
+    task = task_of(with_changes(bundled_text("nau-slider-crank"), *changes))
 
-    assert faults == ()
-    assert task is not None
     assert task.values("0")["e"] == 0.0
     assert task.values("0", {"e": -12})["e"] == -0.012
 
 
-def test_all_faults_are_found_at_once_in_the_order_of_their_lines(tmp_path: Path) -> None:
-    text = bundled_text("nau-slider-crank")
-    for old, new in (
+def test_all_faults_are_found_at_once_in_the_order_of_their_lines(folder: Path) -> None:
+    text = with_changes(
+        bundled_text("nau-slider-crank"),
         ('unit = "kg*m^2"', 'unit = "kg*mm^2x"'),
         ('centre = "S2"', 'centre = "S3"'),
         ('speed = "n_1"', 'speed = "n1"'),
         ('phi = "30 deg"', 'phi = "30 mm"'),
         ('l_OA = "28 mm"', 'l_OA = "-28 mm"'),
-    ):
-        assert old in text
-        text = text.replace(old, new)
-    file = tmp_path / "t.toml"
-    file.write_text(text, encoding="utf-8")
+    )
+    Path("t.toml").write_text(text, encoding="utf-8")
 
-    _, faults = read_text(file.read_text(encoding="utf-8-sig"), str(file))
+    _, faults = read_text(text, "t.toml")
 
-    lines = [int(str(fault).removeprefix(str(file)).split(":")[1]) for fault in faults]
+    lines = [int(str(fault).split(":")[1]) for fault in faults]
     assert len(faults) >= 5
     assert lines == sorted(lines)
     with pytest.raises(InputError) as caught:
-        load_task(file)
-    assert str(caught.value) == f"{faults[0]} (and {len(faults) - 1} more: kulman list --check {file})"
+        load_task("t.toml")
+    assert str(caught.value) == f"{faults[0]} (and {len(faults) - 1} more: kulman list --check t.toml)"
+
+
+# `kulman new`: a file with comments in each language, never in place of another file.
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_new_file_is_valid_at_once_in_every_language(language: str, kind: str, folder: Path) -> None:
+    path = start("own-task.toml", language, kind)
+
+    task = load_task(path)
+
+    assert (task.id, MODULES[task.kind]) == ("own-task", kind)
+    assert "own-task.toml" in path.read_text(encoding="utf-8")
+    assert not re.search("my-(mechanism|cam|gear|hoist)", path.read_text(encoding="utf-8"))
+    for variant in task.variants:
+        solution = solve(path, variant)
+        assert (solution.status, solution.warnings) == ("ok", ())
+        assert all(check["ok"] for check in solution.checks.values())
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_templates_differ_in_words_alone(kind: str) -> None:
+    def plain(language: str) -> str:
+        lines = (line.partition("#")[0].rstrip() for line in template(language, kind).splitlines())
+        return re.sub('source = ".*"', "", "\n".join(line for line in lines if line))
+
+    assert plain("uk") == plain("ru") == plain("en")
+    assert all(len(line) <= 120 for language in LANGUAGES for line in template(language, kind).splitlines())
+
+
+def test_new_file_is_easy_to_change() -> None:
+    changes = ("l_OA = 100", "l_OA = 95"), ('at = ["280 mm"', 'at = ["300 mm"'), ("sense = 1\n", "sense = -1\n")
+
+    assert task_of(with_changes(template("en"), *changes)).values()["l_OA"] == 0.095
+
+
+def test_command_writes_the_file_in_the_language_asked_for_and_shows_its_name(folder: Path, run: Run) -> None:
+    for arguments, words in ((["new", "a.toml"], "The links."), (["new", "b.toml", "--lang", "uk"], "Ланки.")):
+        assert run(*arguments) == (0, f"{arguments[1]}\n", "")
+        assert words in Path(arguments[1]).read_text(encoding="utf-8")
+
+
+def test_name_without_a_suffix_gets_one_and_any_name_makes_an_id(folder: Path) -> None:
+    assert start("press", "en") == Path("press.toml")
+    assert load_task(start("мій механізм (2).toml", "uk")).id == "мій-механізм-2"
+    assert 'kulman sheet "мій механізм (2).toml"' in Path("мій механізм (2).toml").read_text(encoding="utf-8")
+    assert load_task(start("---.toml", "en")).id == "my-mechanism"
+
+
+@pytest.mark.parametrize(
+    ("name", "key"),
+    [
+        ("there.toml", "output-exists"),
+        ("x.svg", "output-suffix"),
+        ("none/x.toml", "output-folder-missing"),
+        ("folder.toml", "output-exists"),
+        ("a\0.toml", "output-name"),
+        ("", "output-name"),
+    ],
+)
+def test_place_where_no_file_can_be_written_is_refused(name: str, key: str, folder: Path) -> None:
+    Path("there.toml").write_text("mine", encoding="utf-8")
+    Path("folder.toml").mkdir()
+
+    with pytest.raises(InputError) as refused:
+        start(name, "en")
+
+    assert refused.value.key == key
+    assert Path("there.toml").read_text(encoding="utf-8") == "mine"
+    assert sorted(path.name for path in Path().iterdir()) == ["folder.toml", "there.toml"]
