@@ -47,12 +47,14 @@ def case() -> Case:
 
 
 @pytest.fixture
-def seesaw(folder: Path) -> Iterator[str]:
-    """The name of a file of a subject that the package does not know, as it is begun."""
+def seesaw(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """The name of a file of a subject that the package does not know, as it is begun; later nobody knows it again."""
+    monkeypatch.setattr("kulman.scales.packaged._ADDED", [])
     toy.register()
     start(FILE, "en", toy.NAME)
     yield FILE
     del MODULES[toy.TABLE]
+    packaged.cache_clear()
 
 
 @pytest.mark.parametrize(
