@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 from .scales.version import __version__ as __version__
 
 if TYPE_CHECKING:
-    from .scales import KulmanError as KulmanError
+    from .scales.errors import KulmanError as KulmanError
     from .variants.batches.batch import batch as batch
     from .variants.charts.charts import chart as chart
     from .variants.making.all_variants import all_variants as all_variants
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from .variants.sweeps.sweeps import sweep as sweep
 
 _HOMES = {
-    "KulmanError": "scales",
+    "KulmanError": "scales.errors",
     "all_variants": "variants.making.all_variants",
     "batch": "variants.batches.batch",
     "chart": "variants.charts.charts",

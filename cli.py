@@ -10,36 +10,12 @@ from typing import Any
 
 import click
 
-from .scales.choices import HANDS, SIZES
+from .scales.choices import HANDS
 from .scales.errors import LANGUAGES, InputError, KulmanError, messages
 from .scales.language import VARIABLE, of_environment, speaking, system_language
 from .scales.numbers import SHOWN, quote
 from .scales.version import __version__
-from .variants.commands.console import (
-    BLOCK,
-    LONGEST,
-    Group,
-    Word,
-    count,
-    example,
-    flush,
-    given,
-    hand_over,
-    lost_output,
-    note_of,
-    of_language,
-    of_norm,
-    of_task,
-    output,
-    print_json,
-    refuse,
-    say_written,
-    tiled,
-    titled,
-    usage_error,
-    warn,
-    without_none,
-)
+from .variants.commands import console
 from .variants.commands.teaching import all_variants, batch, check, handout
 from .variants.kinds import KINDS
 
@@ -60,26 +36,28 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def _run(words: Sequence[str]) -> int:
     """Run a command and return its status."""
     try:
-        if too_long := [word for word in words if len(word) > LONGEST]:
-            raise InputError("cli-long", text=quote(too_long[0]), n=LONGEST)
+        if too_long := [word for word in words if len(word) > console.LONGEST]:
+            raise InputError("cli-long", text=quote(too_long[0]), n=console.LONGEST)
         status = commands.main(list(words), prog_name="kulman", standalone_mode=False)
-        flush()
+        console.flush()
     except click.UsageError as error:
-        status = refuse(usage_error(error, words, commands))
+        status = console.refuse(console.usage_error(error, words, commands))
     except KulmanError as error:
-        status = refuse(error)
+        status = console.refuse(error)
     except (KeyboardInterrupt, click.Abort):
         status = INTERRUPTED
     except OSError as problem:
         if problem.filename is not None:  # not what a stream of ours raises
             raise
-        status = lost_output(problem)
+        status = console.lost_output(problem)
     return status if isinstance(status, int) else 0
 
 
-@click.group(cls=Group, invoke_without_command=True, epilog=example("kulman solve nau-slider-crank -v 3"))
+@click.group(
+    cls=console.Group, invoke_without_command=True, epilog=console.example("kulman solve nau-slider-crank -v 3")
+)
 @click.version_option(__version__, message="%(version)s")
-@of_language
+@console.of_language
 @click.pass_context
 def commands(ctx: click.Context, lang: str | None) -> None:
     """Solve and draw problems of the theory of mechanisms and machines, to scale."""
@@ -91,10 +69,10 @@ def commands(ctx: click.Context, lang: str | None) -> None:
         click.echo(ctx.get_help())
 
 
-@commands.command("list", epilog=example("kulman list", "kulman list --json"))
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@console.command("kulman list", "kulman list --json", name="list")
+@console.as_json
 @click.option("--check", "file", metavar="FILE", help="Show every fault of a task file instead.")
-@of_language
+@console.of_language
 def list_tasks(as_json: bool, file: str | None, lang: str | None) -> int:
     """Show the tasks, their variants, and what each draws."""
     from .variants.shelf import bundled, summary
@@ -104,7 +82,7 @@ def list_tasks(as_json: bool, file: str | None, lang: str | None) -> int:
     tasks = [summary(task) for task in bundled()]
     language = system_language()
     if as_json:
-        print_json({"tasks": tasks})
+        console.print_json({"tasks": tasks})
         return 0
     words = messages(language)
     for task in tasks:
@@ -125,28 +103,26 @@ def _check(file: str, as_json: bool) -> int:
     words = messages(language)
     if as_json:
         errors, told = ([{"key": e.key, "message": e.text(language)} for e in listed] for listed in (faults, remarks))
-        print_json({"file": file, "ok": not faults, "errors": errors, "remarks": told})
+        console.print_json({"file": file, "ok": not faults, "errors": errors, "remarks": told})
     else:
         for fault in faults:
             click.echo(fault.text(language))
         for remark in remarks:
             click.echo(words["check-remark"].format(text=remark.text(language)))
     if faults:
-        return refuse(InputError("check-bad", file=quote(file, SHOWN), n=len(faults)))
+        return console.refuse(InputError("check-bad", file=quote(file, SHOWN), n=len(faults)))
     if not as_json:
         click.echo(words["check-remarks" if remarks else "check-ok"].format(file=file, n=len(remarks)))
     return 0
 
 
-@commands.command(
-    epilog=example(
-        "kulman solve nau-slider-crank -v 3",
-        "kulman solve nau-slider-crank --set l_OA=30 --json",
-        "kulman solve nau-slider-crank -v 3 --only velocity --condition",
-        "kulman solve nau-slider-crank -v 3 --hand normal --format A3",
-    )
+@console.command(
+    "kulman solve nau-slider-crank -v 3",
+    "kulman solve nau-slider-crank --set l_OA=30 --json",
+    "kulman solve nau-slider-crank -v 3 --only velocity --condition",
+    "kulman solve nau-slider-crank -v 3 --hand normal --format A3",
 )
-@of_task
+@console.of_task
 @click.option(
     "--condition",
     is_flag=True,
@@ -160,143 +136,134 @@ def _check(file: str, as_json: bool) -> int:
     "directions, readings): '0.2 mm, 0.5 deg, 0.2 mm'. For each quantity where 95 % of drawings lie, half of that in "
     "mm and per cent, what a teacher should let pass, and the step that errs most.",
 )
-@click.option("--format", type=Word(*SIZES), help="Take the scale factors of the sheet of this format.")
-@output(".solution", "Where to: all quantities to .csv, .xlsx, .json, .html.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@console.sized("Take the scale factors of the sheet of this format.")
+@console.output(".solution", "Where to: all quantities to .csv, .xlsx, .json, .html.")
+@console.as_json
 def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) and show all quantities."""
     from .variants.solution import solve as solve_task
 
     solution, language = solve_task(task, set=settings, **options), options["lang"] or system_language()
-    say_written(solution.save(*files), as_json)
+    console.say_written(solution.save(*files), as_json)
     if as_json:
-        print_json(solution.to_json())
+        console.print_json(solution.to_json())
     elif solution.reason is None:
         if not files:
             click.echo(solution.table(language) if solution.drawing is None else solution.drawn(language))
-        note_of(solution.task)
-        warn(solution.warnings)
-    return refuse(solution.reason) if solution.reason is not None else 0
+        if note := solution.task.note_in(system_language()):
+            click.echo(f"{messages(system_language())['list-note']}: {note}", err=True)
+        console.warn(solution.warnings)
+    return console.refuse(solution.reason) if solution.reason is not None else 0
 
 
-@commands.command(
-    epilog=example(
-        "kulman sheet nau-slider-crank -v 3 -o sheet.svg -o sheet.pdf",
-        "kulman sheet nau-slider-crank -o sheet.pdf --format A3 --student 'І. Петренко'",
-    )
+@console.command(
+    "kulman sheet nau-slider-crank -v 3 -o sheet.svg -o sheet.pdf",
+    "kulman sheet nau-slider-crank -o sheet.pdf --format A3 --student 'І. Петренко'",
 )
-@of_task
-@output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
-@click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything.")
-@of_norm
-@tiled
-@titled("student", *BLOCK)
+@console.of_task
+@console.output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
+@console.sized("Without it the smallest one that holds everything.")
+@console.of_norm
+@console.tiled
+@console.titled("student", *console.BLOCK)
 def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
     """Draw the sheet of TASK (an id, or a TOML file) to scale."""
     from .variants.sheets import sheet as sheet_task
 
-    drawn = sheet_task(task, set=settings, **without_none(options))
-    say_written(drawn.save(*files, tile=tile), False)
-    warn(drawn.warnings)
+    drawn = sheet_task(task, set=settings, **console.without_none(options))
+    console.say_written(drawn.save(*files, tile=tile), False)
+    console.warn(drawn.warnings)
 
 
-@commands.command(
-    epilog=example(
-        "kulman note nau-slider-crank -v 3 -o note.pdf -o note.md --student 'І. Петренко'",
-        "kulman note madi-four-bar --figure velocity -o velocity.svg",
-    )
+@console.command(
+    "kulman note nau-slider-crank -v 3 -o note.pdf -o note.md --student 'І. Петренко'",
+    "kulman note madi-four-bar --figure velocity -o velocity.svg",
 )
-@of_task
-@output(".notes", "Where to: .pdf, .docx, .md with its figures beside it; of one figure .svg, .png.", required=True)
+@console.of_task
+@console.output(
+    ".notes", "Where to: .pdf, .docx, .md with its figures beside it; of one figure .svg, .png.", required=True
+)
 @click.option("--figure", metavar="NAME", help="One figure of the note alone: position, velocity, forces_23.")
-@click.option("--format", type=Word(*SIZES), help="That of the sheet whose figures and numbers the note has.")
-@titled("student", "group", "teacher", "department", "date")
+@console.sized("That of the sheet whose figures and numbers the note has.")
+@console.titled("student", "group", "teacher", "department", "date")
 def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str | None, **options: Any) -> None:
     """Write the explanatory note of TASK: the work step by step, with equations, figures, tables."""
     from .variants.notes import note as note_task
 
-    written = note_task(task, set=settings, lang=lang or "uk", **without_none(options))
-    say_written(written.save(*files), False)
-    warn(written.sheet.warnings)
+    written = note_task(task, set=settings, lang=lang or "uk", **console.without_none(options))
+    console.say_written(written.save(*files), False)
+    console.warn(written.sheet.warnings)
 
 
-@commands.command(
-    epilog=example(
-        "kulman sweep nau-slider-crank -v 3 --only velocity",
-        "kulman sweep nau-slider-crank -v 3 --positions 24 -o cycle.csv -o cycle.pdf",
-        "kulman sweep nau-slider-crank --points B,S2 --chords B --from '30 deg'",
-        "kulman sweep madi-cam -o profile.csv",
-    )
+@console.command(
+    "kulman sweep nau-slider-crank -v 3 --only velocity",
+    "kulman sweep nau-slider-crank -v 3 --positions 24 -o cycle.csv -o cycle.pdf",
+    "kulman sweep nau-slider-crank --points B,S2 --chords B --from '30 deg'",
+    "kulman sweep madi-cam -o profile.csv",
 )
-@of_task
-@click.option(
+@console.of_task
+@console.counted(
     "--positions",
-    metavar="N",
-    callback=count,
-    help="How many positions: 8, 12, 24, ...; without it 12, of a cam its section lines, and in files of cams 360, "
+    "How many positions: 8, 12, 24, ...; without it 12, of a cam its section lines, and in files of cams 360, "
     "of gears 101, of hoists 361.",
 )
-@click.option(
-    "--points", metavar="POINT,...", multiple=True, callback=given, help="Only these points, or numbered links."
-)
+@console.listed("--points", "POINT,...", "Only these points, or numbered links.")
 @click.option("--from", "start", metavar="PLACE", help="Where the driver begins; without it at the zero position.")
 @click.option("--to", "end", metavar="PLACE", help="Where a sliding driver stops.")
 @click.option(
     "--chords", metavar="POINT", help="Velocities and accelerations of a point or link by plans and by chords."
 )
-@output(".sweeps.sweeps", "Where to: all columns to .csv, .xlsx, .json, .html; the drawing to .svg, .pdf, .png.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@console.output(
+    ".sweeps.sweeps", "Where to: all columns to .csv, .xlsx, .json, .html; the drawing to .svg, .pdf, .png."
+)
+@console.as_json
 def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) over its whole cycle: positions, dead positions, strokes, extremes."""
     from .variants.sweeps.sweeps import sweep as sweep_task
 
     language = options.pop("lang") or system_language()
     swept = sweep_task(task, set=settings, lang=language, **options)
-    hand_over(swept, files, as_json, tabled=swept.reason is None)
-    return refuse(swept.reason) if swept.reason is not None else 0
+    console.hand_over(swept, files, as_json, tabled=swept.reason is None)
+    return console.refuse(swept.reason) if swept.reason is not None else 0
 
 
-@commands.command(
-    epilog=example(
-        "kulman chart nau-slider-crank -v 3 --chart depth -o depth.pdf",
-        "kulman chart nau-slider-crank --chart stability --quantities V_B,a_B,M_bal -o stability.csv",
-        "kulman chart nau-slider-crank --chart stability,depth --positions 24 --tolerance 0.5",
-        "kulman chart madi-cam --chart sections -o sections.csv",
-    )
+@console.command(
+    "kulman chart nau-slider-crank -v 3 --chart depth -o depth.pdf",
+    "kulman chart nau-slider-crank --chart stability --quantities V_B,a_B,M_bal -o stability.csv",
+    "kulman chart nau-slider-crank --chart stability,depth --positions 24 --tolerance 0.5",
+    "kulman chart madi-cam --chart sections -o sections.csv",
 )
-@of_task
-@click.option(
+@console.of_task
+@console.listed(
     "--chart",
-    metavar="CHART,...",
-    multiple=True,
-    callback=given,
-    help="Of accuracy, stability, depth; of a cam sections, accuracy, stability; of gears scale; of a hoist accuracy, "
+    "CHART,...",
+    "Of accuracy, stability, depth; of a cam sections, accuracy, stability; of gears scale; of a hoist accuracy, "
     "stability, roots, depth, choice; else all.",
 )
-@click.option("--quantities", metavar="NAME,...", multiple=True, callback=given, help="Only these: V_B,a_B,M_bal.")
-@click.option("--positions", metavar="N", callback=count, help="Positions of the cycle: 36 for accuracy, else 360.")
+@console.listed("--quantities", "NAME,...", "Only these: V_B,a_B,M_bal.")
+@console.counted("--positions", "Positions of the cycle: 36 for accuracy, else 360.")
 @click.option("--tolerance", metavar="%", default="1", show_default=True, help="By how much a simpler model may miss.")
 @click.option("--hand", default="normal", show_default=True, help=f"Who draws: {', '.join(HANDS)}.")
-@output(".charts.charts", "Where to: pictures to .svg, .pdf, .png, rows to .csv, .xlsx; of several x-accuracy.svg, ...")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@console.output(
+    ".charts.charts", "Where to: pictures to .svg, .pdf, .png, rows to .csv, .xlsx; of several x-accuracy.svg, ..."
+)
+@console.as_json
 def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
     """Measure TASK: speed against accuracy, stability, which parts of the model it needs, or how many sections."""
     from .variants.charts.charts import chart as measured
 
     language = options.pop("lang") or system_language()
     found = measured(task, set=settings, lang=language, **options)
-    hand_over(found, files, as_json)
-    warn(found.warnings)
+    console.hand_over(found, files, as_json)
+    console.warn(found.warnings)
 
 
-@commands.command(
-    epilog=example(
-        "kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk", "kulman new my-cam.toml --kind cam"
-    )
+@console.command(
+    "kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk", "kulman new my-cam.toml --kind cam"
 )
 @click.argument("file")
-@click.option("--kind", type=Word(*KINDS), default=KINDS[0], show_default=True, help="What the task is about.")
-@of_language
+@click.option("--kind", type=console.Word(*KINDS), default=KINDS[0], show_default=True, help="What the task is about.")
+@console.of_language
 def new(file: str, kind: str, lang: str | None) -> None:
     """Write FILE, a task file with comments, ready to solve: a four-bar linkage, a cam, a gear pair or a hoist."""
     from .variants.making.starter import start
@@ -304,5 +271,5 @@ def new(file: str, kind: str, lang: str | None) -> None:
     click.echo(str(start(file, lang or system_language(), kind)))
 
 
-for command in (handout, all_variants, batch, check):
+for command in (list_tasks, solve, sheet, note, sweep, chart, new, handout, all_variants, batch, check):
     commands.add_command(command)

@@ -15,9 +15,8 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from ..scales.choices import SIZES
-from ..scales.choose import Chooser
 from ..scales.errors import InputError
-from ..scales.scale import Scale
+from ..scales.scale import Chooser, Scale
 from .formats import FORMATS, GAPS, Format, printable, room, usable
 from .pens import Norm
 

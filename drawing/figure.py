@@ -17,9 +17,8 @@ from ..plans.board import Program
 from ..plans.names import is_shown, role
 from ..plans.solved import Solved
 from ..scales.choices import SIZES
-from ..scales.choose import Choosers
 from ..scales.errors import InputError
-from ..scales.scale import Scale
+from ..scales.scale import Choosers, Scale
 from .compose import Drawn, Nest, arrange, arrange_closely, compose, zoned
 from .extents import Rungs, from_format
 from .formats import Format, Style, room

@@ -10,11 +10,10 @@ from string import ascii_lowercase
 from typing import Any
 
 from ..plans.names import CORIOLIS, COUPLE, FORCES, LEVER, NORMAL, PARTS, POLE, POSITION, Name, couple, role, spelled
-from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.names import unknown
 from ..scales.packaged import home, packaged
-from ..scales.scale import Scale
+from ..scales.scale import AS_INSIDE, Display, Scale
 from ..scales.units import format_unit
 
 GREEK = {

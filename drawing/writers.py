@@ -14,9 +14,9 @@ from io import BytesIO
 from pathlib import Path
 from typing import BinaryIO, TypeAlias
 
-from ..scales.arguments import of_kind
 from ..scales.choices import SHEETS
 from ..scales.errors import InputError
+from ..scales.names import of_kind
 from ..scales.numbers import SHOWN, quote
 from .page import Page
 

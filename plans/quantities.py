@@ -11,8 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..scales.display import Display
-from ..scales.scale import Scale
+from ..scales.scale import Display, Scale
 from .board import POINTS, POSITION, Program, Step
 from .boards.exact import ILL
 from .names import LEVER, by_lever, is_shown, role, spelled

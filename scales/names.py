@@ -1,11 +1,11 @@
-"""Names that are asked for: one that does not exist is refused with the one that was meant."""
+"""What is asked for: names that exist, else refused with the one that was meant; arguments of the right kind."""
 
 from __future__ import annotations
 
 import difflib
 import textwrap
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from .errors import InputError, Written
@@ -32,18 +32,12 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Input
     data = {name: Written(value) if isinstance(value, str) else value for name, value in data.items()}
     if text != latin(text) in names:
         return cyrillic(text)
-    if like := _meant(text, names):
-        return InputError(f"{key}-like", text=quote(text), like=Written(like[0]), **data)
+    if 2 < len(text) < 100:
+        turned = [name for name in names if sorted(name) == sorted(text)]  # l_BA for l_AB
+        for meant in turned or difflib.get_close_matches(text, names, n=1, cutoff=0.6):
+            return InputError(f"{key}-like", text=quote(text), like=Written(meant), **data)
     shown = textwrap.shorten(", ".join(names), LONGEST, placeholder=" …")
     return InputError(key, text=quote(text), known=Written(shown or "—"), **data)
-
-
-def _meant(text: str, names: list[str]) -> list[str]:
-    """Return the names that were most likely meant, the best one first."""
-    if not 2 < len(text) < 100:
-        return []
-    turned = [name for name in names if sorted(name) == sorted(text)]  # l_BA for l_AB
-    return turned or difflib.get_close_matches(text, names, n=1, cutoff=0.6)
 
 
 def latin(text: str) -> str:
@@ -81,3 +75,48 @@ def legible(name: str, text: str) -> str:
     if any("\ud800" <= sign <= "\udfff" for sign in text):
         raise InputError("text-bytes", name=name, text=quote(text))
     return " ".join(seen(text).split())
+
+
+# What callers of the Python API hand over.
+
+
+def of_kind(name: str, value: object, kinds: tuple[type, ...], expected: str) -> None:
+    """Refuse the argument `name` unless its value is of one of `kinds`; `expected` says so in Python's words.
+
+    Raises
+    ------
+    InputError
+        The value is of another kind.
+    """
+    if not isinstance(value, kinds):
+        raise InputError("argument-type", name=name, expected=expected, text=quote(type(value).__name__))
+
+
+def by_name(name: str, value: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Return the argument `name`, a mapping from names, as a dict; nothing for None."""
+    if value is None:
+        return {}
+    of_kind(name, value, (Mapping,), "dict[str, ...]")
+    for key in value:
+        of_kind(name, key, (str,), "dict[str, ...]")
+    return dict(value)
+
+
+def names_of(
+    argument: str, value: str | Iterable[str | int] | None, kinds: tuple[type, ...] = (str,)
+) -> tuple[str, ...]:
+    """Return names that are given each alone or several with commas between, each of these `kinds`; none for None."""
+    if value is None:
+        return ()
+    of_kind(argument, value, (str, Iterable), "list[str]")
+    items = (value,) if isinstance(value, str) else tuple(value)
+    for item in items:
+        of_kind(argument, item, kinds, "list[str]")
+    return tuple(dict.fromkeys(one.strip() for item in items for one in str(item).split(",") if one.strip()))
+
+
+def all_known(key: str, names: Iterable[str], known: Collection[str]) -> None:
+    """Refuse, with the message `key`, the first of the names that is not known."""
+    for name in names:
+        if name not in known:
+            raise unknown(key, name, known)

@@ -16,14 +16,11 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
 from ..drawing.words import Given, Words
 from ..plans.names import role
 from ..plans.solved import Check, Course, Solved
-from ..scales.arguments import all_known, by_name, names_of, of_kind
-from ..scales.choose import Chooser, Choosers, Segment, chooser, segment_symbol
-from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import InputError
 from ..scales.givens import Givens
-from ..scales.names import unknown
+from ..scales.names import all_known, by_name, names_of, of_kind, unknown
 from ..scales.numbers import quote
-from ..scales.scale import Scale
+from ..scales.scale import AS_INSIDE, Chooser, Choosers, Display, Scale, Segment, chooser, segment_symbol
 from .checks.basics import Checker
 from .checks.names import Names
 from .kinds import MODULES

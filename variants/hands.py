@@ -16,8 +16,8 @@ from ..plans.hands.spread import DRAWINGS, SEED, Expectation, expectations
 from ..plans.linkages.legs import guide_letters
 from ..plans.names import role
 from ..plans.quantities import Quantity
-from ..scales.arguments import of_kind
 from ..scales.errors import InputError
+from ..scales.names import of_kind
 from ..scales.numbers import quote
 from ..scales.units import format_unit, parse, unit
 from .tables import aligned

@@ -14,12 +14,10 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from ..drawing.words import notations
-from ..scales.arguments import of_kind
-from ..scales.choose import chooser
-from ..scales.display import ANGLES, LENGTHS, METRE, PAPER
 from ..scales.errors import LANGUAGES, InputError, messages
-from ..scales.names import cyrillic, latin, unknown
+from ..scales.names import cyrillic, latin, of_kind, unknown
 from ..scales.numbers import quote
+from ..scales.scale import ANGLES, LENGTHS, METRE, PAPER, chooser
 from .case import Kind, kind_of
 from .checks.basics import Checker, EnoughError, Field, Path, Places, array_of, as_is, label, one_of, record, text
 from .checks.names import Names, Settings, read_choices, read_givens, read_variants

@@ -9,9 +9,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from ..scales.arguments import of_kind
 from ..scales.errors import InputError
-from ..scales.names import latin, unknown
+from ..scales.names import latin, of_kind, unknown
 from ..scales.numbers import SHOWN, quote
 from .spreadsheets.files import read_grid
 from .spreadsheets.grid import LOOKED_AT, Grid, about_kind, quantity_part, split_unit, symbol

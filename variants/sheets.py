@@ -19,12 +19,10 @@ from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
 from ..drawing.view import View
 from ..drawing.writers import write_pages
-from ..scales.arguments import of_kind
-from ..scales.choose import Fixed
 from ..scales.errors import InputError
-from ..scales.names import latin, legible, unknown
+from ..scales.names import latin, legible, of_kind, unknown
 from ..scales.numbers import quote
-from ..scales.scale import Scale
+from ..scales.scale import Fixed, Scale
 from .case import Case, Request, Settings
 from .reader import load_task
 from .task import Task

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, SupportsFloat
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
-from ..scales.display import AS_INSIDE, Display
 from ..scales.errors import InputError, KulmanError
 from ..scales.givens import Bound, Described
 from ..scales.names import unknown
 from ..scales.numbers import quote
+from ..scales.scale import AS_INSIDE, Display
 from ..scales.units import Unit, bounded, parse
 from .shelf import bundled_text
 

@@ -9,8 +9,7 @@ from itertools import product
 
 from ...plans.cams.cam import DIAGRAMS_PART, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
 from ...plans.cams.solve import EQUAL, SolvedCam, reduced
-from ...scales.choose import Choosers, Fixed, From
-from ...scales.scale import Scale, rounded, steps
+from ...scales.scale import Choosers, Fixed, From, Scale, rounded, steps
 from ..compose import BLOCK, TURNED, column, row
 from ..extents import Rungs, not_a_point, smallest, visible
 from ..figure import Figure, Fitting, Found, SheetContents, may_fit

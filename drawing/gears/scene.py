@@ -12,8 +12,7 @@ from ...plans.gears.geometry import POINTS
 from ...plans.gears.solve import SAME, SCALES, SolvedGear
 from ...plans.gears.teeth import Meshing, Wheel, wheels
 from ...plans.solved import PAPER_MM
-from ...scales.choose import Choosers, From
-from ...scales.scale import Scale, steps
+from ...scales.scale import Choosers, From, Scale, steps
 from ..extents import not_a_point, smallest, visible
 from ..figure import SubjectScene
 from ..formats import STYLES, Format

@@ -14,8 +14,7 @@ from ...plans.hoist.model import CIRCLE
 from ...plans.hoist.solve import ON_PAPER, SCALED, SCALES, SolvedHoist
 from ...plans.names import role
 from ...plans.solved import PAPER_MM
-from ...scales.choose import Choosers, From
-from ...scales.scale import Scale, steps
+from ...scales.scale import Choosers, From, Scale, steps
 from ..extents import smallest, visible
 from ..figure import SubjectScene
 from ..formats import Format

@@ -12,9 +12,8 @@ from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import TRIAD, Group
 from ...plans.names import FORCES, role
 from ...scales.choices import SIZES
-from ...scales.choose import UNITS, Choosers, CrankScale, Fixed, From, Round
 from ...scales.errors import InputError
-from ...scales.scale import Scale, steps
+from ...scales.scale import UNITS, Choosers, CrankScale, Fixed, From, Round, Scale, steps
 from ..extents import Extent, Extents, Ladder, Rungs, Size, choose, visible
 from ..formats import FORMATS, Format
 

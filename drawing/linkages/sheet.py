@@ -14,9 +14,8 @@ from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group, Structure
 from ...plans.names import role, scale_factor
 from ...scales.choices import SIZES
-from ...scales.choose import UNITS
 from ...scales.errors import InputError
-from ...scales.scale import Scale, steps
+from ...scales.scale import UNITS, Scale, steps
 from ..compose import Drawn, arrange, arrange_halves, arrange_parts, compose
 from ..extents import Rungs, from_format
 from ..figure import Figure, SheetContents

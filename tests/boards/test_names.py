@@ -26,7 +26,7 @@ APART |= {"lstrip", "rstrip", "strip"}  # `removeprefix` under another name
 READERS = (
     "drawing/formats.py", "drawing/titleblock.py", "drawing/writers.py", "variants/case.py", "variants/checks/",
     "variants/commands/", "variants/making/", "variants/marking/calculations.py", "variants/marking/cells.py",
-     "variants/marking/reading.py", "variants/reader.py", "variants/roster.py", "scales/arguments.py",
+     "variants/marking/reading.py", "variants/reader.py", "variants/roster.py", "scales/names.py",
     "variants/shelf.py", "variants/spreadsheets/", "variants/task.py",
 )  # fmt: skip
 # Variables that hold a text, a line of a table, a law, a number as it is written; never a name of a step.

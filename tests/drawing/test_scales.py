@@ -8,9 +8,8 @@ import pytest
 
 import kulman
 from kulman.drawing.words import Words
-from kulman.scales import InputError, Scale
-from kulman.scales.choose import Fixed, From, Segment, chooser
-from kulman.scales.scale import SERIES, rounded, steps
+from kulman.scales.errors import InputError
+from kulman.scales.scale import SERIES, Fixed, From, Scale, Segment, chooser, rounded, steps
 
 
 def test_both_conventions_name_the_same_scale() -> None:

@@ -13,8 +13,7 @@ import math
 import pytest
 
 from kulman import solve
-from kulman.scales.display import Display
-from kulman.scales.scale import Scale
+from kulman.scales.scale import Display, Scale
 from kulman.variants.solution import Solution
 
 RULER = 0.1  # cm

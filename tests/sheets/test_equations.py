@@ -21,8 +21,8 @@ from kulman.plans import names
 from kulman.plans.linkages.chain import PLANS, construct
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import solve_linkage
-from kulman.scales.display import Display
 from kulman.scales.errors import LANGUAGES
+from kulman.scales.scale import Display
 from kulman.tests.linkages.test_loads import VALUES as LOADED
 from kulman.tests.linkages.test_loads import piston
 from kulman.tests.support.dyads import random_dyads, random_trains

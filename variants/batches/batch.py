@@ -23,10 +23,10 @@ from ...drawing.pens import Norm
 from ...drawing.words import Words
 from ...drawing.writers import WRITERS, folder_for, page_files, save_all, slug, sweep_parts, write_whole
 from ...plans.quantities import measured
-from ...scales.arguments import all_known, by_name
 from ...scales.choices import SHEETS
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.kept import Kept
+from ...scales.names import all_known, by_name
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit

@@ -11,7 +11,7 @@ from ...drawing.words import Words
 from ...plans.cams.chords import DRAWINGS, ROUNDING, WAYS, Convergence, Robustness, compared, convergence, robustness
 from ...plans.cams.solve import SolvedCam, unit_of
 from ...plans.lab.cams import rivals
-from ...scales.arguments import all_known
+from ...scales.names import all_known
 from ..tables import Cell, aligned
 from . import charts
 

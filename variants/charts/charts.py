@@ -23,8 +23,8 @@ from ...plans.hands.shaky import PRESETS, Hand, preset
 from ...plans.lab.race import FULL, Contest, Entry
 from ...plans.laws import TURN
 from ...plans.linkages.cycles.cycle import Cycle
-from ...scales.arguments import all_known, names_of, of_kind
 from ...scales.errors import InputError, KulmanError
+from ...scales.names import all_known, names_of, of_kind
 from ...scales.numbers import quote
 from ...scales.units import parse, unit
 from ...scales.version import __version__

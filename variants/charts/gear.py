@@ -10,7 +10,7 @@ from ...drawing.words import Words
 from ...plans.gears.gear import unit_of
 from ...plans.gears.solve import DRAWINGS, MILLI, ScaleErrors, SolvedGear, compared, scale_errors
 from ...plans.hands.shaky import PRESETS
-from ...scales.arguments import all_known
+from ...scales.names import all_known
 from ..tables import Cell, aligned
 from .charts import HANDS, PERCENT, Chart, Gallery, Scene, error_rows
 

@@ -26,9 +26,9 @@ from ...plans.linkages.cycles.cycle import Cycle, cycle
 from ...plans.linkages.solved import SolvedLinkage, solve_linkage
 from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
-from ...scales.arguments import all_known
 from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
+from ...scales.names import all_known
 from ...scales.units import format_unit
 from ..case import Case
 from ..sweeps.linkage import driver_name

@@ -14,14 +14,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ...scales.errors import LANGUAGES, InputError, KulmanError, messages
+from ...scales.choices import SIZES
+from ...scales.errors import LANGUAGES, InputError, KulmanError
 from ...scales.language import system_language
 from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
 
 if TYPE_CHECKING:
     from ..tables import Result
-    from ..task import Task
 
 CLOSED = 1
 LONGEST = 10_000  # characters of a word of the command line: longer is no name, number or path
@@ -48,21 +48,16 @@ def flush() -> None:
         sys.stdout.flush()
 
 
-def _printing(problem: OSError) -> bool:
-    """Whether an error was raised in printing: by click, which alone prints, or by `flush`."""
-    trace = problem.__traceback__
-    while trace is not None and trace.tb_next is not None:
-        trace = trace.tb_next
-    module = trace.tb_frame.f_globals.get("__name__", "") if trace is not None else ""
-    return module == __name__ or module.partition(".")[0] == "click"
-
-
 def lost_output(problem: OSError) -> int:
     """Say why the output cannot be written, unless its reader has closed it; return the exit status.
 
     An error without the name of a file that was not raised in printing is the system's: it is said as that.
     """
-    if not _printing(problem):
+    trace = problem.__traceback__
+    while trace is not None and trace.tb_next is not None:
+        trace = trace.tb_next
+    module = trace.tb_frame.f_globals.get("__name__", "") if trace is not None else ""
+    if module != __name__ and module.partition(".")[0] != "click":  # which alone prints, but for what `flush` does
         return refuse(InputError("system-refused", reason=quote(problem.strerror or problem, SHOWN)))
     # without this Python would complain once more when it flushes at exit
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -75,13 +70,6 @@ def warn(warnings: Sequence[KulmanError]) -> None:
     """Show what a user should know, a line each, on stderr."""
     for warning in warnings:
         click.echo(warning.text(system_language()), err=True)
-
-
-def note_of(task: Task) -> None:
-    """Show on stderr what a task says of its data."""
-    language = system_language()
-    if note := task.note_in(language):
-        click.echo(f"{messages(language)['list-note']}: {note}", err=True)
 
 
 def print_json(data: Mapping[str, Any]) -> None:
@@ -261,6 +249,29 @@ tiled = click.option("--tile", type=Word("A4", "A3"), help="Cut a PDF into pages
 def example(*lines: str) -> str:
     """Return the end of a help text that shows how the command is used."""
     return "\b\nExample:\n" + "\n".join(f"  {line}" for line in lines)
+
+
+def command(*examples: str, name: str | None = None) -> Callable[[Callable[..., Any]], click.Command]:
+    """Return what makes a command whose help ends with examples; it is called like its function without a `name`."""
+    return click.command(name, epilog=example(*examples))
+
+
+def listed(name: str, metavar: str, help: str) -> Callable[[Command], Command]:
+    """Return an option for names, each alone or several with commas between."""
+    return click.option(name, metavar=metavar, multiple=True, callback=given, help=help)
+
+
+def counted(name: str, help: str) -> Callable[[Command], Command]:
+    """Return an option for a whole number."""
+    return click.option(name, metavar="N", callback=count, help=help)
+
+
+def sized(help: str, **more: Any) -> Callable[[Command], Command]:
+    """Return the option for the format of a sheet."""
+    return click.option("--format", type=Word(*SIZES), help=help, **more)
+
+
+as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
 
 
 def count(ctx: click.Context, param: click.Parameter, value: str | None) -> int | None:

@@ -7,55 +7,32 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ...scales.choices import HANDS, SHEETS, SIZES
+from ...scales.choices import HANDS, SHEETS
 from ...scales.errors import InputError, messages
 from ...scales.language import system_language
 from ...scales.numbers import SHOWN, quote
-from .console import (
-    BLOCK,
-    Word,
-    count,
-    example,
-    given,
-    hand_over,
-    of_norm,
-    of_task,
-    of_tasks,
-    output,
-    pairs,
-    print_json,
-    processes,
-    progress,
-    refuse,
-    say_written,
-    tiled,
-    titled,
-    warn,
-    without_none,
-)
+from . import console
 
 if TYPE_CHECKING:
     from ..marking.checks import Check
     from ..marking.reading import Answers
 
 
-@click.command(
-    epilog=example(
-        "kulman handout nau-slider-crank -v 3 -o blank.pdf",
-        "kulman handout nau-slider-crank -v 3 --steps 3 --format A3 -o begun.pdf",
-        "kulman handout nau-slider-crank -v 3 --key -o key.pdf",
-        "kulman handout nau-slider-crank -v 3 --grid --hidden-key -o teacher.svg",
-        "kulman handout nau-slider-crank -v 3 --over velocity -o transparency.pdf",
-    )
+@console.command(
+    "kulman handout nau-slider-crank -v 3 -o blank.pdf",
+    "kulman handout nau-slider-crank -v 3 --steps 3 --format A3 -o begun.pdf",
+    "kulman handout nau-slider-crank -v 3 --key -o key.pdf",
+    "kulman handout nau-slider-crank -v 3 --grid --hidden-key -o teacher.svg",
+    "kulman handout nau-slider-crank -v 3 --over velocity -o transparency.pdf",
 )
-@of_task
-@output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
+@console.of_task
+@console.output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
 @click.option(
     "--steps",
     metavar="K",
     default="0",
     show_default=True,
-    callback=count,
+    callback=console.count,
     help="So many steps of each plan, as the note numbers them.",
 )
 @click.option("--key", is_flag=True, help="The whole work, at the same places.")
@@ -66,10 +43,10 @@ if TYPE_CHECKING:
 )
 @click.option("--over", metavar="PLAN", help="One plan alone, for a transparency to lay over a student's drawing.")
 @click.option("--grid", is_flag=True, help="A light grid of 5 mm under the drawing.")
-@click.option("--format", type=Word(*SIZES), default="A4", show_default=True, help="The paper that is printed on.")
-@of_norm
-@tiled
-@titled("student", *BLOCK)
+@console.sized("The paper that is printed on.", default="A4", show_default=True)
+@console.of_norm
+@console.tiled
+@console.titled("student", *console.BLOCK)
 def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
     """Draw a handout of TASK: givens, scales and poles, no answers; with rulers that prove the print."""
     from ..sheets import handout as handout_task
@@ -77,44 +54,44 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     flat = [file for file in files if file.suffix.lower() == ".png"]
     if flat and options["hidden_key"]:  # a picture has no layers
         raise InputError("handout-apart", first="--hidden-key", second=quote(f"-o {flat[0]}", SHOWN))
-    block = without_none({name: options.pop(name) for name in (*BLOCK, "student")})
+    block = console.without_none({name: options.pop(name) for name in (*console.BLOCK, "student")})
     drawn = handout_task(task, set=settings, block=block, **{**options, "lang": options["lang"] or "uk"})
-    say_written(drawn.save(*files, tile=tile), False)
-    warn(drawn.warnings)
+    console.say_written(drawn.save(*files, tile=tile), False)
+    console.warn(drawn.warnings)
 
 
-@click.command(
-    "variants",
-    epilog=example(
-        "kulman variants nau-slider-crank --quantities V_B,a_B,M_bal",
-        "kulman variants nau-slider-crank --make 3 --range 'l_OA=25..45/5 mm' -o my-class.toml -o key.xlsx",
-        "kulman variants my-class.toml --quantities V_B -o questions.xml -o questions.gift",
-    ),
+@console.command(
+    "kulman variants nau-slider-crank --quantities V_B,a_B,M_bal",
+    "kulman variants nau-slider-crank --make 3 --range 'l_OA=25..45/5 mm' -o my-class.toml -o key.xlsx",
+    "kulman variants my-class.toml --quantities V_B -o questions.xml -o questions.gift",
+    name="variants",
 )
-@of_task
-@click.option("--quantities", metavar="NAME,...", multiple=True, callback=given, help="Only these: V_B,a_B,M_bal.")
-@click.option("--make", metavar="N", callback=count, help="Make N new variants, each a good exercise.")
+@console.of_task
+@console.listed("--quantities", "NAME,...", "Only these: V_B,a_B,M_bal.")
+@console.counted("--make", "Make N new variants, each a good exercise.")
 @click.option(
     "--range",
     "ranges",
     metavar="NAME=RANGE",
     multiple=True,
-    callback=pairs,
+    callback=console.pairs,
     help="From, to and step of a given of new variants: 'l_OA=25..60/5 mm'; without it what the task's variants span.",
 )
-@click.option("--seed", metavar="N", callback=count, help="Another number makes other variants; else 1.")
+@console.counted("--seed", "Another number makes other variants; else 1.")
 @click.option(
     "--from",
     "table",
     metavar="FILE",
     help="Read new variants from a spreadsheet, .csv or .xlsx: parameters in rows and variants in columns, or turned.",
 )
-@click.option("--preset", type=Word(*HANDS), default="normal", show_default=True, help="What a question lets pass.")
-@output(
+@click.option(
+    "--preset", type=console.Word(*HANDS), default="normal", show_default=True, help="What a question lets pass."
+)
+@console.output(
     ".making.all_variants",
     "Where to: all values to .csv or .xlsx, questions for Moodle to .xml or .gift, new variants to a task file, .toml.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+@console.as_json
 def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Show the answers of all variants of TASK beside one another; make new variants, or read them from a spreadsheet.
 
@@ -127,21 +104,19 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     if options.pop("variant") is not None:
         raise InputError("variants-one")
     language = options.pop("lang") or "uk"
-    with progress() as advance:
+    with console.progress() as advance:
         found = solve_all(task, set=settings, lang=language, advance=advance, **options)
-    hand_over(found, files, as_json)
-    warn(found.warnings)
-    return refuse(InputError("variants-problems", n=len(found.left_out))) if found.left_out else 0
+    console.hand_over(found, files, as_json)
+    console.warn(found.warnings)
+    return console.refuse(InputError("variants-problems", n=len(found.left_out))) if found.left_out else 0
 
 
-@click.command(
-    epilog=example(
-        "kulman batch nau-slider-crank --form class.xlsx",
-        "kulman batch nau-slider-crank --roster class.xlsx --out sheets --as pdf --teacher 'О. Коваль'",
-        "kulman batch scheme-08-planer scheme-09-shaper --form schemes.xlsx",
-    )
+@console.command(
+    "kulman batch nau-slider-crank --form class.xlsx",
+    "kulman batch nau-slider-crank --roster class.xlsx --out sheets --as pdf --teacher 'О. Коваль'",
+    "kulman batch scheme-08-planer scheme-09-shaper --form schemes.xlsx",
 )
-@of_tasks
+@console.of_tasks
 @click.option(
     "--roster",
     metavar="FILE",
@@ -152,7 +127,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 @click.option(
     "--as",
     "kinds",
-    type=Word(*SHEETS, "note", "docx", "handout"),
+    type=console.Word(*SHEETS, "note", "docx", "handout"),
     multiple=True,
     default=("svg", "pdf", "note"),
     show_default=True,
@@ -164,10 +139,10 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     help="How many last digits of the record book give the variant, where the roster has none; or what each is for: "
     "variant, scheme, - for nothing. Without it the last one: variant; of several tasks the last two: variant,scheme.",
 )
-@click.option("--format", type=Word(*SIZES), help="Without it the smallest one that holds everything.")
-@of_norm
-@titled(*BLOCK)
-@click.option("--jobs", metavar="N", callback=processes, help="Processes; as many as cores when left out.")
+@console.sized("Without it the smallest one that holds everything.")
+@console.of_norm
+@console.titled(*console.BLOCK)
+@click.option("--jobs", metavar="N", callback=console.processes, help="Processes; as many as cores when left out.")
 @click.option(
     "--dask", metavar="ADDRESS", help="Work on a Dask cluster: the address of its scheduler, tcp://host:8786."
 )
@@ -199,44 +174,38 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     from ..batches.batch import MANIFEST
     from ..batches.batch import batch as draw_class
 
-    block = without_none({name: options.pop(name) for name in BLOCK})
-    with progress() as advance:
+    block = console.without_none({name: options.pop(name) for name in console.BLOCK})
+    with console.progress() as advance:
         made = draw_class(tasks, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
-    warn(made.warnings)
+    console.warn(made.warnings)
     n, bad = len(made.students), made.problems
     click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
     for problem in bad:
         click.echo(problem, err=True)
-    return refuse(InputError("batch-problems", n=len(bad), file=quote(Path(folder) / MANIFEST, SHOWN))) if bad else 0
-
-
-def _moodle(ctx: click.Context, param: click.Parameter, value: str | None) -> Path | None:
-    """Refuse, before any work, a file that Moodle would not read, or that cannot be written."""
-    from ...drawing.writers import check_outputs
-
-    if value is None:
-        return None
-    check_outputs(Path(value), known=(".csv",))
-    return Path(value)
-
-
-@click.command(
-    epilog=example(
-        "kulman check nau-slider-crank -v 3 --form answers.xlsx",
-        "kulman check nau-slider-crank printed --verdict-only",
-        "kulman check nau-slider-crank printed --preset lenient -o report.html",
+    return (
+        console.refuse(InputError("batch-problems", n=len(bad), file=quote(Path(folder) / MANIFEST, SHOWN)))
+        if bad
+        else 0
     )
+
+
+@console.command(
+    "kulman check nau-slider-crank -v 3 --form answers.xlsx",
+    "kulman check nau-slider-crank printed --verdict-only",
+    "kulman check nau-slider-crank printed --preset lenient -o report.html",
 )
-@of_task
+@console.of_task
 @click.argument("answers", nargs=-1)
 @click.option("--form", metavar="FILE", help="Write an empty form, .csv or .xlsx; with --roster that of a class.")
-@click.option("--preset", type=Word(*HANDS), default="normal", show_default=True, help="What may be missed by hand.")
+@click.option(
+    "--preset", type=console.Word(*HANDS), default="normal", show_default=True, help="What may be missed by hand."
+)
 @click.option("--verdict-only", "own", is_flag=True, help="For the student: right or wrong, and no right numbers.")
-@click.option("--format", type=Word(*SIZES), help="Mark what is drawn on the sheet of this format.")
+@console.sized("Mark what is drawn on the sheet of this format.")
 @click.option("--rubric", metavar="FILE", help="Weights, worths, tolerances: a small TOML file.")
 @click.option(
     "--directions",
-    type=Word("required", "optional", "ignored"),
+    type=console.Word("required", "optional", "ignored"),
     help="Directions of vectors, senses of what turns: a line without is worth half; what is said is compared; "
     "or sizes alone are. In the place of what the rubric says; else optional.",
 )
@@ -250,9 +219,9 @@ def _moodle(ctx: click.Context, param: click.Parameter, value: str | None) -> Pa
     "for: variant, scheme, - for nothing.",
 )
 @click.option("--out", "folder", metavar="FOLDER", help="Reports on every student, .html and .txt.")
-@click.option("--moodle", metavar="FILE", callback=_moodle, help="Grades for Moodle, .csv.")
-@click.option("--jobs", metavar="N", callback=processes, help="Processes; as many as cores when left out.")
-@output(
+@click.option("--moodle", metavar="FILE", type=Path, help="Grades for Moodle, .csv.")
+@click.option("--jobs", metavar="N", callback=console.processes, help="Processes; as many as cores when left out.")
+@console.output(
     ".marking.report",
     "Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx.",
 )
@@ -263,17 +232,20 @@ def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[
     The variant is that of the roster, of -v, or what the file says. The word `printed` stands for the answers that the
     source of a bundled task prints.
     """
+    from ...drawing.writers import check_outputs
     from ..marking.checks import check as ready
 
+    if options["moodle"] is not None:  # before any work
+        check_outputs(options["moodle"], known=(".csv",))
     shown = {name: options.pop(name) for name in ("files", "folder", "moodle", "jobs", "as_json")}
     form = options.pop("form")
     if form is None and not answers:
         raise InputError("check-nothing")
     asked = ready(task, set=settings, lang=lang or system_language(), **options)
     if form is not None:
-        say_written([asked.write_form(form)], shown["as_json"])
+        console.say_written([asked.write_form(form)], shown["as_json"])
     if answers:
-        _mark(asked, asked.read(*answers, warn=lambda error: warn([error])), **shown)
+        _mark(asked, asked.read(*answers, warn=lambda error: console.warn([error])), **shown)
 
 
 def _mark(
@@ -291,14 +263,14 @@ def _mark(
     if alone:
         told = asked.mark(found[0])
         if how["as_json"]:
-            print_json(to_json(told))
+            console.print_json(to_json(told))
         elif not files:
             click.echo(report_text(told), nl=False)
         write_reports(told, files)
     else:
-        with progress() as advance:
+        with console.progress() as advance:
             results = asked.mark_all(found, folder, advance, how["jobs"] or None)
         write_tables(asked, results, found, files, moodle)
         for line in class_lines(results, asked.absent(found), asked.request.language):
             click.echo(line)
-    say_written((*files, *filter(None, (folder, moodle))), how["as_json"])
+    console.say_written((*files, *filter(None, (folder, moodle))), how["as_json"])

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from ...plans.cams import cam as cams
 from ...plans.solved import AT_LEAST, AT_MOST, Check
-from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
+from ...scales.scale import Display
 from ...scales.units import unit
 from ..case import Case, Choices, Numbers, Plans, Scales
 from ..checks.basics import Checker, Field, Path, array_of, one_of, record, rows, word

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 from ...plans.gears.gear import GIVENS, PLANS, SHIFTS, GearPair, impossible
 from ...plans.solved import Check
-from ...scales.display import Display
 from ...scales.errors import InputError
+from ...scales.scale import Display
 from ..checks.basics import Checker
 from ..checks.names import Names
 from ..task import Given

@@ -18,10 +18,10 @@ from ...plans.linkages.structure import analyse
 from ...plans.names import COUPLE, FORCES, Name, role, spelled
 from ...plans.quantities import pins_together, point_of
 from ...plans.solved import WITHIN, Check
-from ...scales.choose import Choosers, Segment, chooser
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
+from ...scales.scale import Choosers, Segment, chooser
 from ..case import Case, Choices, Kind, Numbers, Plans, Request, Scales
 from ..checks.mechanism import branched, place_of, read_mechanism, started
 from ..marking.wording import letter, texts

@@ -8,10 +8,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 from ...plans.solved import Course
-from ...scales.choose import Choosers
 from ...scales.errors import InputError
 from ...scales.givens import Described
 from ...scales.names import unknown
+from ...scales.scale import Choosers
 from ..case import Answer, Case, Choices, Kind, Numbers, Plans, Scales, Subject
 from ..checks.basics import Checker, Field, record
 from ..checks.names import Names, check_numbers, word_or_choice

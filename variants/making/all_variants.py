@@ -13,8 +13,8 @@ from typing import Any
 from ...drawing.words import Words
 from ...drawing.writers import Files
 from ...plans.quantities import unit_of
-from ...scales.arguments import all_known, names_of
 from ...scales.errors import InputError, KulmanError
+from ...scales.names import all_known, names_of
 from ...scales.numbers import quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit

@@ -14,8 +14,8 @@ from functools import cache
 from itertools import starmap
 
 from ...drawing.writers import slug
-from ...scales.arguments import by_name, of_kind
 from ...scales.errors import InputError, KulmanError
+from ...scales.names import by_name, of_kind
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import parse
 from ..case import Request, Settings, kind_of

@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 from ...plans.marking.answers import nearest
 from ...plans.quantities import Quantity
-from ...scales.display import Display
 from ...scales.errors import InputError
 from ...scales.numbers import quote, split_number
+from ...scales.scale import Display
 from ...scales.units import Unit, bounded, converted, unit
 from ..spreadsheets.grid import UNDERSTOOD, Grid, tidy
 

@@ -15,8 +15,8 @@ from pathlib import Path
 
 from ...drawing.formats import format_named
 from ...drawing.writers import Files, folder_for, save_all, slug, write_whole
-from ...scales.arguments import by_name
 from ...scales.errors import InputError, KulmanError
+from ...scales.names import by_name
 from ...scales.version import __version__
 from ..case import Request, Settings, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out

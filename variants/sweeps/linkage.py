@@ -21,8 +21,8 @@ from ...plans.linkages.mechanism import Driver, Mechanism
 from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
 from ...plans.solved import Columned
-from ...scales.arguments import all_known, names_of, of_kind
 from ...scales.errors import InputError, PositionError
+from ...scales.names import all_known, names_of, of_kind
 from ...scales.units import format_unit, parse, unit
 from ..case import Case, positions_of
 from ..kinds.linkage import placed

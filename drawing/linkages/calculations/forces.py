@@ -12,7 +12,7 @@ from ....plans.linkages.mechanism import ZERO, Driver, Revolute
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.structure import Group
 from ....plans.names import FORCES, role
-from ....scales.display import AS_INSIDE
+from ....scales.scale import AS_INSIDE
 from ...printed import POINT, Symbol, value_text
 from ...words import Words
 from ..reading import Edge

@@ -12,8 +12,7 @@ from kulman.drawing.shapes import Line, Pen
 from kulman.drawing.table import givens_view
 from kulman.drawing.view import View
 from kulman.drawing.words import Words
-from kulman.scales.choose import Choosers, From
-from kulman.scales.scale import Scale, steps
+from kulman.scales.scale import Choosers, From, Scale, steps
 from kulman.tests.support.toy.plans.seesaw.solve import BALANCE, SCALES, SCHEME, SolvedSeesaw
 
 LONGEST = {"mu_l": 120.0, "mu_F": 80.0}  # mm of paper
