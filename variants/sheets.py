@@ -6,7 +6,7 @@ import hashlib
 import io
 import json
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import get_args
@@ -165,13 +165,13 @@ def stamp_of(case: Case) -> Stamp:
     """Return what the title block of a case says."""
     said = dict.fromkeys(BLOCK, "") | said_of(case.block)
     return Stamp(
-        title=case.task.title[case.language],
         designation=said["designation"],
         organisation=said["department"],
         group=said["group"],
         student=said["student"],
         teacher=said["teacher"],
         date=said["date"],
+        title=case.task.title[case.language],
         document_type=case.words()["sheet.document"],
         language=case.language,
         identity=sheet_id(case.task, case.variant, case.settings),
@@ -180,22 +180,13 @@ def stamp_of(case: Case) -> Stamp:
 
 def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
     """Return the sheet of a case that has been drawn, with what a user should know of it."""
-    _, fitted = case.kind.fitted(case.solved, drawn)
-    warnings = (*case.warnings, *fitted, *_coarser(case, drawn), *_others(case, drawn))
-    return Sheet(drawn.pages(stamp), drawn.scales, drawn.format, warnings, drawn.views)
-
-
-def _coarser(case: Case, drawn: Drawn) -> Iterator[InputError]:
-    """Say of each scale factor that the task fixes, but whose plan has no room on the format, how it is drawn."""
-    for scale in dict.fromkeys(drawn.scales.values()):
+    warnings = [*case.warnings, *case.kind.fitted(case.solved, drawn)[1]]
+    for scale in dict.fromkeys(drawn.scales.values()):  # fixed by the task, but the plan has no room on the format
         chosen = case.choosers.get(scale.symbol)
         if isinstance(chosen, Fixed) and scale.mu != chosen.mu:
             said = {"mu": f"{chosen.mu:g}", "drawn": f"{scale.mu:g}", "unit": scale.per_mm_unit}
-            yield InputError("scale-coarser", symbol=scale.symbol, format=drawn.format, **said)
-
-
-def _others(case: Case, drawn: Drawn) -> Iterator[InputError]:
-    """Say where format or scale factors are others than `solve` shows, which follow from the extents alone."""
+            warnings.append(InputError("scale-coarser", symbol=scale.symbol, format=drawn.format, **said))
+    # others than `solve` shows, which follow from the extents alone
     paper, scales = case.kind.first_scales(case.solved, case.choosers, case.plans)
     changed = dict[str, str]()
     for plan in case.solved.scale_of_plan:
@@ -203,9 +194,10 @@ def _others(case: Case, drawn: Drawn) -> Iterator[InputError]:
         if scale.mu != usual.mu and not isinstance(case.choosers.get(scale.symbol), Fixed):
             before, now = (case.display.scale(one) for one in (usual, scale))
             changed[scale.symbol] = f"{scale.symbol} {before.mu:g} -> {now.mu:g} {now.per_mm_unit}"
-    said = {"format": drawn.sheet.letters, "usual": paper.name}
     if changed:
-        yield InputError("scales-changed", changes=", ".join(changed.values()), **said)
+        said = {"format": drawn.sheet.letters, "usual": paper.name}
+        warnings.append(InputError("scales-changed", changes=", ".join(changed.values()), **said))
+    return Sheet(drawn.pages(stamp), drawn.scales, drawn.format, tuple(warnings), drawn.views)
 
 
 def sheet_id(task: Task, variant: str, settings: Mapping[str, str | float] | None = None) -> str:

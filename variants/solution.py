@@ -16,9 +16,9 @@ from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.scale import Scale
 from ..scales.units import format_unit
-from .case import Case, Kind, Request, Settings, kind_of
+from .case import Case, Kind, Request, Settings
 from .reader import load_task
-from .tables import FILES, Result, Table, aligned
+from .tables import FILES, OfCase, Table, aligned
 from .task import Task
 
 if TYPE_CHECKING:
@@ -31,30 +31,26 @@ ROUNDING = 1e-14  # part of the largest quantity of a unit
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Solution(Result):
+class Solution(OfCase):
     """The answer to one variant of a task.
 
     `solution["V_B"]` is a `Quantity`; `reason` says why a position has no plan; `conditions`, and the `drawing` of a
     hand, are there when asked for.
     """
 
-    task: Task
-    variant: str
     solved: Solved
     quantities: Mapping[str, Quantity]
     scales: Mapping[str, Scale]
     reason: PositionError | None
     warnings: tuple[InputError, ...]
-    words: Words
     conditions: Mapping[str, Condition] = field(default_factory=dict)
     drawing: Drawing | None = None
-    plans: tuple[str, ...] = ()
     format: str = ""
 
     @property
     def listed(self) -> dict[str, Quantity]:
         """The quantities of the plans wanted, as a list shows them."""
-        return {name: self.quantities[name] for name in self.kind.listed(self.solved, self.plans) if name in self}
+        return {name: self.quantities[name] for name in self.kind.listed(self.solved, self.case.plans) if name in self}
 
     @property
     def status(self) -> str:
@@ -69,7 +65,7 @@ class Solution(Result):
     @property
     def kind(self) -> Kind[Any, Any]:
         """Of which kind the task is."""
-        return kind_of(self.task.kind)
+        return self.case.kind
 
     @property
     def drawn_by_students(self) -> Solved:
@@ -155,8 +151,15 @@ class Solution(Result):
         # scale factors may be listed, too; what is undefined here is left out
         known = {name: Quantity(name, scale.mu, scale.per_mm_unit) for name, scale in self.scales.items()}
         known |= self.quantities
-        listed = (known[name] for name in self.kind.listed(self.solved, self.plans) if name in known)
-        return [_without_rounding(quantity, largest.get(quantity.unit, 0.0)) for quantity in listed]
+        listed = (known[name] for name in self.kind.listed(self.solved, self.case.plans) if name in known)
+        tidied = []
+        for (
+            q
+        ) in listed:  # what is nothing but rounding beside the largest of the unit, of per cents beside 100, is zero
+            noise = ROUNDING * (largest.get(q.unit, 0.0) if q.unit != "%" else 100.0)
+            value, x, y = (None if part is None else part if abs(part) > noise else 0.0 for part in (q.value, q.x, q.y))
+            tidied.append(q if q.kind == "point" else replace(q, value=value, x=x, y=y))
+        return tidied
 
     def table(self, language: str | None = None) -> str:
         """Return the quantities as a readable table: name, value, unit, components, segment in mm.
@@ -206,13 +209,6 @@ def _judged(checks: Iterable[Check], words: Words) -> list[list[str]]:
         for one in checks
         for verdict in ("said.ok" if one.ok else "said.fails",)
     ]
-
-
-def _without_rounding(q: Quantity, largest: float) -> Quantity:
-    """Show as zero what is nothing but rounding beside the largest quantity of the unit, and per cents of that size."""
-    noise = ROUNDING * (largest if q.unit != "%" else 100.0)
-    value, x, y = (None if part is None else part if abs(part) > noise else 0.0 for part in (q.value, q.x, q.y))
-    return q if q.kind == "point" else replace(q, value=value, x=x, y=y)
 
 
 def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
@@ -302,10 +298,9 @@ def solution_of(asked: Request, condition: bool = False, hand: str | Hand | None
     solved, paper, by_plan, warnings = _on_paper(case)
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
-    found = case.kind.conditions(case.solved) if condition else {}
+    conditions = case.kind.conditions(case.solved) if condition else {}
     drawn = None if hand is None else _drawing(case.kind, solved, by_plan, hand)
-    said = solved.error(), warnings, words
-    return Solution(case.task, case.variant, solved, items, used, *said, found, drawn, case.plans, paper)
+    return Solution(case, words, solved, items, used, solved.error(), warnings, conditions, drawn, paper)
 
 
 def _on_paper(case: Case) -> tuple[Solved, str, Mapping[str, Scale], tuple[InputError, ...]]:

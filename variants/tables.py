@@ -21,6 +21,8 @@ from ..drawing.writers import Files, save_all
 
 if TYPE_CHECKING:
     from ..drawing.words import Words
+    from .case import Case
+    from .task import Task
 
 Cell: TypeAlias = str | float | int | None
 Rows: TypeAlias = Sequence[Sequence[Cell]]
@@ -157,6 +159,24 @@ class Result(Saved):
 
     def _words(self, language: str | None) -> Words:
         return self.words if language is None else self.words.speaking(language)
+
+
+@dataclass(frozen=True, slots=True)
+class OfCase(Result):
+    """What has been found of a case; `words` are those of its tables and files."""
+
+    case: Case
+    words: Words
+
+    @property
+    def task(self) -> Task:
+        """The task."""
+        return self.case.task
+
+    @property
+    def variant(self) -> str:
+        """The variant."""
+        return self.case.variant
 
 
 def aligned(rows: Sequence[Sequence[str]], left: Container[int] = (0,)) -> str:

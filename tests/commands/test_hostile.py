@@ -23,10 +23,10 @@ from kulman.drawing.notes.omml import atoms_of
 from kulman.drawing.text import escape, lay_out
 from kulman.drawing.titleblock import surname, with_initials
 from kulman.drawing.writers import slug
-from kulman.scales.choose import chooser
 from kulman.scales.errors import InputError, KulmanError
 from kulman.scales.names import unknown
 from kulman.scales.numbers import quote, split_number
+from kulman.scales.scale import chooser
 from kulman.scales.units import parse as value_in
 from kulman.scales.units import unit
 from kulman.tests.support import commands

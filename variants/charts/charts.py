@@ -31,7 +31,7 @@ from ...scales.version import __version__
 from ..case import Case, Request, Settings, beside, positions_of
 from ..hands import is_own
 from ..reader import load_task
-from ..tables import FILES, Cell, Result, Table, aligned, plain
+from ..tables import FILES, Cell, OfCase, Result, Table, aligned, plain
 from ..task import LocatedError, Task
 
 if TYPE_CHECKING:
@@ -255,7 +255,7 @@ def machine(words: Words) -> str:
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Charts(Result):
+class Charts(OfCase):
     """Charts of one variant of a task, by name: of a linkage `accuracy`, `stability`, `depth`.
 
     A PDF of them has a page for each; of other kinds there is a file for each, `x-accuracy.svg`, `x-stability.svg`, or
@@ -264,8 +264,6 @@ class Charts(Result):
     """
 
     suffixes = SUFFIXES
-    case: Case
-    words: Words
     charts: dict[str, Chart[Any]]
     warnings: tuple[KulmanError, ...] = ()
 
@@ -281,7 +279,7 @@ class Charts(Result):
 
     def to_json(self) -> dict[str, Any]:
         """Return what `kulman chart --json` prints: everything in SI."""
-        head = {"task": self.case.task.id, "variant": self.case.variant}
+        head = {"task": self.task.id, "variant": self.variant}
         return head | {name: chart.to_json() for name, chart in self.charts.items()}
 
     def drawn(self) -> list[Figure]:
@@ -310,7 +308,7 @@ class Charts(Result):
 
     def __repr__(self) -> str:
         """Return task, variant and the names of the charts."""
-        return f"<Charts {self.case.task.id} {self.case.variant}: {', '.join(self.charts)}>"
+        return f"<Charts {self.task.id} {self.variant}: {', '.join(self.charts)}>"
 
 
 def chart(

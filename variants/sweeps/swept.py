@@ -17,8 +17,7 @@ from ...scales.errors import InputError, PositionError
 from ...scales.numbers import quote
 from ...scales.units import format_unit, unit
 from ..case import Case
-from ..tables import FILES, Result, Table, aligned, plain
-from ..task import Task
+from ..tables import FILES, OfCase, Result, Table, aligned, plain
 
 SUFFIXES = (*FILES, *WRITERS)
 SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
@@ -39,22 +38,10 @@ class SweepRequest:
 
 
 @dataclass(frozen=True, slots=True)
-class Swept(Result):
-    """A variant of a task over its whole cycle; `words` are those of the table and the CSV."""
+class Swept(OfCase):
+    """A variant of a task over its whole cycle."""
 
     suffixes = SUFFIXES
-    case: Case
-    words: Words
-
-    @property
-    def task(self) -> Task:
-        """The task."""
-        return self.case.task
-
-    @property
-    def variant(self) -> str:
-        """The variant."""
-        return self.case.variant
 
     @property
     def status(self) -> str:
