@@ -1,4 +1,4 @@
-"""Simulated students, who share nothing with the package, are marked as docs/marking.md says."""
+"""Simulated students, drawn by a hand that shares nothing with the package, are marked as docs/marking.md says."""
 
 from __future__ import annotations
 
@@ -7,27 +7,9 @@ import random
 import pytest
 
 from kulman import load_task, solve
+from kulman.tests.support import students as simulated
 from kulman.tests.support.drawn_by_hand import Hand, transposed
-from kulman.tests.support.students import (
-    CLEAR,
-    SEED,
-    SLIPS,
-    Data,
-    Student,
-    at_random,
-    exact,
-    honest,
-    kinds,
-    marked,
-    misread,
-    one_mistake,
-    pool,
-    population,
-    printed,
-    random_data,
-    share,
-    written_value,
-)
+from kulman.tests.support.students import SEED, SLIPS, Data, Student, marked, population, share
 
 UNITY = 1e-9  # part by which the simulation may differ from the package
 LEAST = 1e-3  # SI, of what is nothing
@@ -36,37 +18,30 @@ LEAST = 1e-3  # SI, of what is nothing
 @pytest.mark.parametrize("task", SLIPS)
 def test_the_simulation_without_errors_of_the_hand_agrees_with_the_program(task: str) -> None:
     dice = random.Random(SEED)
-    cases = [(variant, printed(task, variant)) for variant in load_task(task).variants]
-    cases += [(cases[0][0], random_data(task, dice)) for _ in range(4)]
+    cases = [(variant, simulated.printed(task, variant)) for variant in load_task(task).variants]
+    cases += [(cases[0][0], simulated.random_data(task, dice)) for _ in range(4)]
 
     for variant, data in cases:
         quantities = solve(task, variant, set=data.settings).quantities
-        lines = exact(task, data.givens).lines
+        lines = simulated.exact(task, data.givens).lines
 
         for name, line in lines.items():
             ours = quantities[name]
             value = complex(ours.x or 0.0, ours.y or 0.0) if ours.kind == "vector" else complex(ours.value)
-            assert abs(written_value(line) - value) <= UNITY * max(abs(value), LEAST), (variant, name)
+            assert abs(simulated.written_value(line) - value) <= UNITY * max(abs(value), LEAST), (variant, name)
         drawn = {name for name, q in quantities.items() if q.scale and q.kind == "vector"}
         assert drawn - {"h_lever_F_5"} <= set(lines)
 
 
-def test_a_usual_hand_errs_as_it_says() -> None:
+def test_a_usual_hand_errs_as_it_says_and_transposes_digits() -> None:
     hand = Hand(random.Random(SEED))
     spots = [hand.spot(0j) for _ in range(4000)]
     lengths = [hand.length(0j, 40.2 + 0j) for _ in range(4000)]
 
-    rms = (sum(abs(z) ** 2 for z in spots) / len(spots)) ** 0.5
-    assert rms == pytest.approx(0.25 * 2**0.5, rel=0.05)
+    assert (sum(abs(z) ** 2 for z in spots) / len(spots)) ** 0.5 == pytest.approx(0.25 * 2**0.5, rel=0.05)
     assert all(mm * 2.0 == round(mm * 2.0) for mm in lengths)
     assert 0.2 <= (sum((mm - 40.2) ** 2 for mm in lengths) / len(lengths)) ** 0.5 <= 0.4
-
-
-def test_digits_are_transposed() -> None:
-    assert transposed(2.38) == 3.28
-    assert transposed(-11.57) == -15.17
-    assert transposed(2200.0) == 2020.0
-    assert transposed(2222.0) == 2222.0
+    assert [transposed(x) for x in (2.38, -11.57, 2200.0, 2222.0)] == [3.28, -15.17, 2020.0, 2222.0]
 
 
 @pytest.mark.soak
@@ -74,22 +49,22 @@ def test_digits_are_transposed() -> None:
 def test_every_planted_mistake_moves_a_line(task: str) -> None:
     dice = random.Random(SEED)
 
-    students = {id: one_mistake(task, id, dice) for id in kinds(task)}
+    students = [simulated.one_mistake(task, id, dice) for id in simulated.kinds(task)]
 
-    shown = {id: student for id, student in students.items() if student is not None}
+    shown = [student for student in students if student is not None]
     assert len(shown) >= len(students) - 1  # of one a rate hardly changes in any of the variants
-    assert all(max(student.moved.values()) >= CLEAR for student in shown.values())
-    assert all(misread(student.data.givens, ()) == student.data.givens for student in shown.values())
+    assert all(max(student.moved.values()) >= simulated.CLEAR for student in shown)
+    assert all(simulated.misread(student.data.givens, ()) == student.data.givens for student in shown)
 
 
 def first_two(task: str) -> tuple[Data, ...]:
     """Return a few of the variants: their answer keys are made once."""
-    return pool(task)[:2]
+    return simulated.pool(task)[:2]
 
 
 def test_honest_students_are_right() -> None:
     dice = random.Random(SEED)
-    outcomes = marked(honest(task, dice, first_two(task)) for task in SLIPS for _ in range(12))
+    outcomes = marked(simulated.honest(task, dice, first_two(task)) for task in SLIPS for _ in range(6))
 
     assert 100.0 * sum(x.passed for x in outcomes) / sum(x.lines for x in outcomes) >= 99.0
 
@@ -106,16 +81,6 @@ def test_mistakes_of_simulated_students_are_found(every: int) -> None:
     assert share(outcomes, lambda x: x.named) >= 85.0
     assert share(outcomes, lambda x: bool(x.names) and not x.named) <= 6.0
     assert share(outcomes, lambda x: not x.first) <= 2.0
-
-
-def test_who_invents_numbers_or_copies_another_variant_earns_little() -> None:
-    dice = random.Random(SEED)
-    invented = marked(at_random(task, dice, first_two(task)) for task in SLIPS for _ in range(2))
-    others = marked(population("other", "nau-slider-crank", 4, dice))
-
-    assert sum(x.mark for x in invented) / len(invented) <= 10.0
-    assert sum(x.mark for x in others) / len(others) <= 20.0
-    assert all(x.fits for x in others)
 
 
 @pytest.mark.soak
