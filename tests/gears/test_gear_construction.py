@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
 from itertools import pairwise
 
 import numpy as np
@@ -21,26 +20,18 @@ from kulman.plans.hands.shaky import Hand, draw, paper_of, preset
 from kulman.plans.marking.student import StudentBoard
 from kulman.tests.support.gears import SEED, Flank, madi, random_pairs, second_route
 
-MUS = {"mu_l": 0.0002, "mu_rho": 0.0002, "mu_theta": 0.05}
-
-
-def one_of(pairs: Mapping[str, np.ndarray], k: int) -> dict[str, float]:
-    """Return one of many pairs, with what is standard."""
-    return {**STANDARD, **{name: float(column[k]) for name, column in pairs.items()}}
+Drawn = list[tuple[SolvedGear, dict[str, float]]]
 
 
 @pytest.fixture(scope="module", params=[pytest.param(10, id="10"), pytest.param(300, id="300", marks=pytest.mark.soak)])
-def drawn(request: pytest.FixtureRequest) -> list[tuple[SolvedGear, dict[str, float]]]:
+def drawn(request: pytest.FixtureRequest) -> Drawn:
     """Return pairs that are drawn, every other one with a pinion that turns clockwise, with their second routes."""
     pairs = random_pairs(np.random.default_rng(SEED), request.param)
-    other = second_route(pairs)
-    return [
-        (
-            solve_gear(GearPair((CCW, CW)[k % 2]), one_of(pairs, k)),
-            {name: float(column[k]) for name, column in other.items()},
-        )
+    both = [
+        [{name: float(column[k]) for name, column in columns.items()} for columns in (pairs, second_route(pairs))]
         for k in range(request.param)
     ]
+    return [(solve_gear(GearPair((CCW, CW)[k % 2]), {**STANDARD, **one}), other) for k, (one, other) in enumerate(both)]
 
 
 def seen(solved: SolvedGear, i: int, name: str) -> complex:
@@ -56,12 +47,11 @@ def flank_of(solved: SolvedGear, i: int) -> tuple[Flank, float]:
     return Flank(0.5 * z * m, alpha, s), abs(solved.point(mark("O", i)))
 
 
-def test_what_is_measured_is_found_by_a_second_route(drawn: list[tuple[SolvedGear, dict[str, float]]]) -> None:
+def test_what_is_measured_is_found_by_a_second_route(drawn: Drawn) -> None:
     for solved, other in drawn:
         measured = {f"{name}_drawn": other[name] for name in ("g_alpha", "l_N1N2", "phi_alpha1", "phi_alpha2")}
-        measured |= dict.fromkeys(
-            ("epsilon_alpha_drawn", "epsilon_alpha_arc1", "epsilon_alpha_arc2"), other["epsilon_alpha"]
-        )
+        ratios = ("epsilon_alpha_drawn", "epsilon_alpha_arc1", "epsilon_alpha_arc2")
+        measured |= dict.fromkeys(ratios, other["epsilon_alpha"])
         measured |= {f"r_p{i}": 0.5 * other[f"d_p{i}"] for i in (1, 2)}
         measured |= {f"c_{i}": solved.givens["c"] * solved.givens["m"] for i in (1, 2)}
         measured |= {f"y_{i}_{point}": other[f"y_{i}_{point}"] for i in (1, 2) for point in POINTS}
@@ -73,9 +63,7 @@ def test_what_is_measured_is_found_by_a_second_route(drawn: list[tuple[SolvedGea
             assert abs((slopes + 0.5 * math.pi) % math.pi - 0.5 * math.pi) < 1e-10, name
 
 
-def test_line_of_action_touches_both_base_circles_and_is_cut_by_the_tip_circles(
-    drawn: list[tuple[SolvedGear, dict[str, float]]],
-) -> None:
+def test_line_of_action_touches_both_base_circles_and_is_cut_by_the_tip_circles(drawn: Drawn) -> None:
     for solved, other in drawn:
         size, sense = other["a_w"], solved.pair.sense
         n_1, n_2 = (solved.point(mark(f"N{i}")) for i in (1, 2))
@@ -90,13 +78,46 @@ def test_line_of_action_touches_both_base_circles_and_is_cut_by_the_tip_circles(
         assert abs(solved.point(mark("O2")) - solved.point(mark("O1")) - 1j * other["a_w"]) < 1e-13 * size
         places = [(along.conjugate() * (solved.point(mark(name)) - n_1)).real for name in ("A1", "K1", "K2", "A2")]
         assert places[0] == pytest.approx(other["rho_p1"], rel=1e-9)
-        assert places[1] - places[0] == pytest.approx(other["p_b"], rel=1e-12)
-        assert places[3] - places[2] == pytest.approx(other["p_b"], rel=1e-12)
+        for first, last in ((0, 1), (2, 3)):
+            assert places[last] - places[first] == pytest.approx(other["p_b"], rel=1e-12)
 
 
-def test_involutes_by_rolling_lie_on_the_flanks_that_a_string_makes(
-    drawn: list[tuple[SolvedGear, dict[str, float]]],
+def test_teeth_have_pitch_and_thickness_and_their_flanks_pass_the_pole_the_lower_points_and_the_ends(
+    drawn: Drawn,
 ) -> None:
+    for solved, other in drawn:
+        for i in (1, 2):
+            flank, r_w = flank_of(solved, i)
+            r = 0.5 * other[f"d_{i}"]
+            ahead = other[f"tau_{i}"] if i == 1 else -other[f"tau_{i}"]
+            active, resting, middle = ([seen(solved, i, mark(letter, i, j)) for j in TEETH] for letter in "SRM")
+            for points in (active, resting, middle):
+                assert np.allclose(np.abs(points), r, rtol=1e-12)
+                assert np.allclose(np.angle(np.array(points[1:]) / points[:-1]), ahead, rtol=1e-10)
+            thick = [np.angle(a / b) * r for a, b in zip(active, resting, strict=True)]
+            assert np.allclose(thick, other[f"s_{i}"], rtol=1e-10)
+            assert np.angle(active[1]) == pytest.approx(between(flank, r_w, r), abs=1e-12)
+            lower = seen(solved, i, mark("L", i))
+            assert abs(lower) == pytest.approx(0.5 * other[f"d_p{i}"], rel=1e-12)
+            assert np.angle(lower) == pytest.approx(between(flank, r_w, abs(lower)), abs=1e-11)
+            for end, at in (("start", "A1"), ("end", "A2")):  # of engagement
+                place, rolls = seen(solved, i, mark(at)), seen(solved, i, mark("B", i, end))
+                assert abs(rolls) == pytest.approx(r_w, rel=1e-12)
+                assert np.angle(rolls / place) == pytest.approx(between(flank, abs(place), r_w), abs=1e-11)
+
+
+def test_every_mark_is_explained() -> None:
+    program = solve_gear(GearPair(), madi()).program
+    said = construction.__doc__ or ""
+    known = set(re.findall(r"`(\w+?)(?:_\d+|_start|_end|_a)?`", said)) | set(re.findall(r"`(\w+)`", said))
+
+    for name in (step.name.partition(".")[2] for step in program if "." in step.name):
+        letters = name.rpartition("_")[0]
+        first = letters if letters in known else letters.replace("2", "1")  # what is said of one wheel goes for both
+        assert {name, letters, first} & known or name in POINTS, name
+
+
+def test_involutes_by_rolling_lie_on_the_flanks_that_a_string_makes(drawn: Drawn) -> None:
     for solved, other in drawn:
         for i, rolled in zip((1, 2), solved.layout.rollings, strict=True):
             flank, r_w = flank_of(solved, i)
@@ -116,42 +137,9 @@ def test_involutes_by_rolling_lie_on_the_flanks_that_a_string_makes(
             assert np.allclose(np.abs(arcs) * flank.r_b, other[f"rho_w{i}"] / rolled.parts, rtol=1e-10)
 
 
-def test_teeth_have_pitch_and_thickness_and_their_flanks_pass_the_pole_and_the_lower_points(
-    drawn: list[tuple[SolvedGear, dict[str, float]]],
-) -> None:
-    for solved, other in drawn:
-        for i in (1, 2):
-            flank, r_w = flank_of(solved, i)
-            r = 0.5 * other[f"d_{i}"]
-            ahead = other[f"tau_{i}"] if i == 1 else -other[f"tau_{i}"]
-            active, resting, middle = ([seen(solved, i, mark(letter, i, j)) for j in TEETH] for letter in "SRM")
-            for points in (active, resting, middle):
-                assert np.allclose(np.abs(points), r, rtol=1e-12)
-                assert np.allclose(np.angle(points[1] / points[0]), ahead, rtol=1e-10)
-                assert np.allclose(np.angle(points[2] / points[1]), ahead, rtol=1e-10)
-            thick = [np.angle(a / b) * r for a, b in zip(active, resting, strict=True)]
-            assert np.allclose(thick, other[f"s_{i}"], rtol=1e-10)
-            assert np.angle(active[1]) == pytest.approx(between(flank, r_w, r), abs=1e-12)
-            lower = seen(solved, i, mark("L", i))
-            assert abs(lower) == pytest.approx(0.5 * other[f"d_p{i}"], rel=1e-12)
-            assert np.angle(lower) == pytest.approx(between(flank, r_w, abs(lower)), abs=1e-11)
-
-
 def between(flank: Flank, first: float, second: float) -> float:
     """Return the angle at the centre from a point of the upper flank to another one, by their radii."""
     return float(flank.half(np.array(second)) - flank.half(np.array(first)))
-
-
-def test_flanks_at_start_and_end_of_engagement_pass_the_ends_of_the_active_line(
-    drawn: list[tuple[SolvedGear, dict[str, float]]],
-) -> None:
-    for solved, _ in drawn:
-        for i in (1, 2):
-            flank, r_w = flank_of(solved, i)
-            for end, at in (("start", "A1"), ("end", "A2")):
-                place, rolls = seen(solved, i, mark(at)), seen(solved, i, mark("B", i, end))
-                assert abs(rolls) == pytest.approx(r_w, rel=1e-12)
-                assert np.angle(rolls / place) == pytest.approx(between(flank, abs(place), r_w), abs=1e-11)
 
 
 def test_pinion_that_turns_the_other_way_is_drawn_in_a_mirror() -> None:
@@ -221,23 +209,17 @@ def test_involutes_far_out_are_divided_into_no_more_parts_than_can_be_told_apart
         )
 
 
-# other boards
-
-
 def test_hand_that_never_errs_draws_what_is_exact_and_a_shaky_one_errs_as_it_should() -> None:
     solved = solve_gear(GearPair(), madi())
-    paper = paper_of(solved, MUS)
+    paper = paper_of(solved, {"mu_l": 0.0002, "mu_rho": 0.0002, "mu_theta": 0.05})
 
     exact = draw(paper, Hand(0.0, 0.0, 0.0), np.random.default_rng(1), 3)
     shaky = draw(paper, preset("normal").hand, np.random.default_rng(1), 2000)
 
     for name in solved.program.names:
         assert np.allclose(exact.values[name], solved.values[name], rtol=1e-12, atol=1e-15), name
-    for name, least, most in (
-        ("g_alpha_drawn", 0.1e-3, 1e-3),
-        ("y_1_03", 0.2e-3, 1e-3),
-        ("phi_alpha1_drawn", 5e-3, 0.04),
-    ):
+    spreads = {"g_alpha_drawn": (0.1e-3, 1e-3), "y_1_03": (0.2e-3, 1e-3), "phi_alpha1_drawn": (5e-3, 0.04)}
+    for name, (least, most) in spreads.items():
         assert least < np.std(shaky.values[name]) < most
         assert abs(np.mean(shaky.values[name]) - solved.values[name]) < 0.2 * np.std(shaky.values[name])
     assert "d_a1" not in shaky.missed  # what is calculated does not err
@@ -261,14 +243,3 @@ def test_what_follows_from_a_students_value_follows_from_it_on_the_drawing() -> 
     assert board.values["g_alpha_drawn"] == pytest.approx(g_alpha, rel=1e-12)
     assert board.values["epsilon_alpha_drawn"] == pytest.approx(g_alpha / solved.values["p_b"], rel=1e-12)
     assert board.values["c_1"] == pytest.approx(1.25e-3 - 0.5e-3, rel=1e-9)
-
-
-def test_every_mark_is_explained() -> None:
-    program = solve_gear(GearPair(), madi()).program
-    said = construction.__doc__ or ""
-    known = set(re.findall(r"`(\w+?)(?:_\d+|_start|_end|_a)?`", said)) | set(re.findall(r"`(\w+)`", said))
-
-    for name in (step.name.partition(".")[2] for step in program if "." in step.name):
-        letters = name.rpartition("_")[0]
-        first = letters if letters in known else letters.replace("2", "1")  # what is said of one wheel goes for both
-        assert {name, letters, first} & known or name in POINTS, name

@@ -1,4 +1,4 @@
-"""Every quantity of a pair against points of flanks, a line cut by circles, turned teeth: a route without formulas."""
+"""Quantities of a pair by a route without formulas, shifts that follow, data of which no pair can be made, verdicts."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from kulman.plans.gears.gear import STANDARD
+from kulman.plans.gears.gear import HARDENED, STANDARD, GearPair
 from kulman.plans.gears.geometry import (
     POINTS,
     angle_of_involute,
@@ -16,22 +16,24 @@ from kulman.plans.gears.geometry import (
     involute,
     tangent_of_involute,
 )
-from kulman.plans.gears.solve import SAME_CENTRES
+from kulman.plans.gears.solve import SAME_CENTRES, checks, complete, judged
+from kulman.plans.gears.teeth import meshing_of, tooth_of
+from kulman.plans.solved import Check
+from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.fifty_digits import mp
-from kulman.tests.support.gears import SEED, Flank, madi, random_pairs, second_route
+from kulman.tests.support.gears import SEED, Flank, madi, outlines, polygon, random_pairs, second_route
 
-MEASURED = (
-    "z_W1",
-    "z_W2",
-    "W_1",
-    "W_2",
-    "rho_f",
-    "inv_alpha",
-    "inv_alpha_w",
-    *SAME_CENTRES,
-)  # in tests of their own
+FAULTS = [
+    ({"x_1": 0.12}, {"undercut_1"}),
+    ({"z_1": 30.0, "z_2": 12.0, "x_1": 0.8, "x_2": 0.1}, {"undercut_2"}),
+    ({"x_1": 0.5, "x_2": 1.0}, {"contact_ratio"}),
+    ({"z_1": 12.0, "x_1": 0.8, "x_2": -0.1}, {"tip_1"}),
+    ({"z_1": 25.0, "z_2": 90.0, "x_1": -0.1, "x_2": -0.6}, {"interference_1"}),
+]
+MEASURED = {"z_W1", "z_W2", "W_1", "W_2", "rho_f", "inv_alpha", "inv_alpha_w", *SAME_CENTRES}  # in tests of their own
 LENGTHS = {"a", "d", "p", "P", "s", "e", "h", "rho", "l", "g", "y"}
 NUMBERS = {"y", "delta_y"}
+BASIC = {"m": 5e-3, "z_1": 15.0, "z_2": 20.0}
 
 
 @pytest.fixture(
@@ -45,7 +47,7 @@ def test_every_quantity_is_found_by_a_second_route(pairs: dict[str, np.ndarray])
     found, other = geometry(pairs), second_route(pairs)
 
     named = {name for name in geometry_program().names if not name.startswith("_")}
-    assert named - set(MEASURED) == set(other) & named
+    assert named - MEASURED == set(other) & named
     for name in sorted(set(other) & named):
         error = found[name] - other[name]
         if name.startswith("theta"):  # as large as the places are near to N: compared as slopes of a line
@@ -54,6 +56,9 @@ def test_every_quantity_is_found_by_a_second_route(pairs: dict[str, np.ndarray])
         elif name in LENGTHS or (name.partition("_")[0] in LENGTHS and name not in NUMBERS):
             error = error / (40.0 * pairs["m"])
         assert np.max(np.abs(error)) < 1e-10, name
+    for k in (0, 7, len(pairs["m"]) - 1):  # of many pairs as of each
+        alone = geometry({name: float(values[k]) for name, values in pairs.items()})
+        assert [name for name, value in alone.items() if value != found[name][k]] == []
 
 
 def test_ends_of_the_line_have_infinite_sliding_and_the_pole_none(pairs: dict[str, np.ndarray]) -> None:
@@ -101,24 +106,20 @@ def test_common_normal_is_the_distance_of_jaws_that_touch_two_flanks(pairs: dict
         assert np.all((found[f"d_p{i}"][some] <= radius) & (radius <= found[f"d_a{i}"][some]))
         short = 2.0 * (found[f"rho_a{i}"] - found[f"rho_p{i}"]) < found["p_b"]
         assert np.all(some | short)
+    z = np.arange(12.0, 100.0)  # as many teeth as tables say: z * 20 / 180 + 0.5, rounded
+    assert np.all(np.abs(geometry({**madi(x_1=0.0, x_2=0.0, z_2=1000.0), "z_1": z})["z_W1"] - (z / 9.0 + 0.5)) <= 0.53)
 
 
-def test_teeth_for_the_common_normal_are_as_many_as_tables_say() -> None:
-    z = np.arange(12.0, 100.0)
-    pair = {**madi(x_1=0.0, x_2=0.0, z_2=1000.0), "z_1": z}
+def test_corner_of_the_rack_is_the_printed_one_and_fills_a_narrow_tip() -> None:
+    found, steep = geometry(madi()), madi(alpha=math.radians(26.0))
+    narrow = geometry(steep)["rho_f"] / steep["m"]
 
-    found = geometry(pair)["z_W1"]
-
-    assert np.all(np.abs(found - (z / 9.0 + 0.5)) <= 0.53)  # z * 20 / 180 + 0.5, rounded
-
-
-def test_quantities_of_many_pairs_are_those_of_each(pairs: dict[str, np.ndarray]) -> None:
-    found = geometry(pairs)
-
-    for k in (0, 7, len(pairs["m"]) - 1):
-        alone = geometry({name: float(values[k]) for name, values in pairs.items()})
-        for name, value in alone.items():
-            assert value == found[name][k], name
+    assert found["rho_f"] / found["m"] == pytest.approx(0.38, abs=1e-4)  # GOST 13755-81 rounds 0.379951
+    assert found["rho_f"] * (1.0 - math.sin(STANDARD["alpha"])) == pytest.approx(0.25 * found["m"], rel=1e-14)
+    tip = 0.25 * math.pi - 1.25 * math.tan(steep["alpha"])  # half the tip without the corner, in modules
+    rounded = tip / math.tan(0.5 * (0.5 * math.pi - steep["alpha"]))  # of the circle that touches flank and tip there
+    assert narrow == pytest.approx(rounded, rel=1e-13)
+    assert narrow < 0.25 / (1.0 - math.sin(steep["alpha"]))
 
 
 @pytest.mark.parametrize("alpha", [1e-8, 1e-4, 0.05, 0.3, 0.463, 0.4637, 0.7, 1.2, 1.57])
@@ -144,19 +145,177 @@ def test_inverse_of_the_involute_never_fails() -> None:
     assert np.isnan(tangent_of_involute(-1e-9))
 
 
-def test_corner_of_the_standard_rack_is_the_printed_one() -> None:
-    found = geometry(madi())
+def test_standard_rack_is_taken_where_no_other_is_given() -> None:
+    found = complete({**BASIC, "x_1": 0.2, "x_2": 0.85})
 
-    assert found["rho_f"] / found["m"] == pytest.approx(0.38, abs=1e-4)  # GOST 13755-81 rounds 0.379951
-    assert found["rho_f"] * (1.0 - math.sin(STANDARD["alpha"])) == pytest.approx(0.25 * found["m"], rel=1e-14)
+    assert found == madi()
+    assert complete({**BASIC, "x_1": 0.2, "x_2": 0.85, "c": 0.3})["c"] == 0.3
 
 
-def test_corner_of_a_narrow_rack_fills_its_tip() -> None:
-    steep = madi(alpha=math.radians(26.0))
+@pytest.mark.parametrize("count", [pytest.param(4, id="4"), pytest.param(40, id="40", marks=pytest.mark.soak)])
+def test_shifts_follow_from_the_centre_distance(count: int) -> None:
+    pairs = random_pairs(np.random.default_rng(SEED), count)
+    a_w, x_sum = geometry(pairs)["a_w"], pairs["x_1"] + pairs["x_2"]
+    for k in range(count):
+        values = {name: float(column[k]) for name, column in pairs.items()}
+        rest = {name: value for name, value in values.items() if name not in ("x_1", "x_2")}
+        for given in ({"a_w": float(a_w[k])}, {"x_sum": float(x_sum[k])}):
+            for kept, other in (("x_1", "x_2"), ("x_2", "x_1")):
+                found = complete({**rest, **given, kept: values[kept]})
+                assert found[other] == pytest.approx(values[other], abs=1e-11)
+                assert "a_w" not in found
 
-    found = geometry(steep)
 
-    tip = 0.25 * math.pi - 1.25 * math.tan(steep["alpha"])  # half the tip without the corner, in modules
-    rounded = tip / math.tan(0.5 * (0.5 * math.pi - steep["alpha"]))  # of the circle that touches flank and tip there
-    assert found["rho_f"] / found["m"] == pytest.approx(rounded, rel=1e-13)
-    assert found["rho_f"] / found["m"] < 0.25 / (1.0 - math.sin(steep["alpha"]))
+@pytest.mark.parametrize("count", [pytest.param(5, id="5"), pytest.param(30, id="30", marks=pytest.mark.soak)])
+def test_shifts_for_equal_sliding_give_the_same_sliding_at_both_roots_and_no_less_is_had(count: int) -> None:
+    random = np.random.default_rng(SEED)
+    for _ in range(count):
+        z_1, z_2 = (float(z) for z in random.integers(14, 70, 2))
+        values = {"m": 3e-3, "z_1": z_1, "z_2": z_2, "x_sum": random.uniform(0.0, 1.0)}
+
+        found = complete(values)
+
+        at = geometry(found)
+        assert at["theta_12_A1"] == pytest.approx(at["theta_21_A2"], rel=1e-9)
+        assert min(at["rho_p1"], at["rho_p2"]) > 0.0
+        for aside in (-0.01, 0.01):  # of two shifts with this sum no others have a lesser greatest sliding
+            worse = geometry({**found, "x_1": found["x_1"] + aside, "x_2": found["x_2"] - aside})
+            assert min(worse["theta_12_A1"], worse["theta_21_A2"]) < at["theta_12_A1"]
+        again = complete({name: values[name] for name in ("m", "z_1", "z_2")} | {"a_w": at["a_w"]})
+        assert again["x_1"] == pytest.approx(found["x_1"], abs=1e-8)  # from the centre distance, too
+
+
+@pytest.mark.parametrize(
+    ("given", "key"),
+    [
+        (madi(z_2=math.nan), "gear-teeth"),
+        (madi(m=math.inf), "gear-module"),
+        (madi(alpha=math.radians(9.9)), "gear-alpha"),
+        (madi(alpha=math.radians(35.1)), "gear-alpha"),
+        (madi(alpha=math.radians(35.0)), "gear-rack"),  # without a tip
+        (madi(h_a=0.0, h_l=0.2), "gear-rack"),
+        (madi(h_l=1.0), "gear-rack"),  # an edge that does not pass the pitch line
+        (madi(h_l=2.3), "gear-rack"),  # and one longer than the tooth
+        (madi(c=-0.1), "gear-rack"),
+        (madi(z_1=6.0, x_1=-0.9), "gear-no-tooth"),  # cut through
+        (madi(x_1=math.nan), "gear-shifts"),
+        (madi(z_1=22.0, z_2=39.0, h_a=0.3, h_l=0.6, x_1=1.3, x_2=-1.1), "gear-no-contact"),  # tips apart
+        ({**BASIC}, "gear-shifts"),
+        ({**BASIC, "x_1": 0.2, "x_2": 0.1, "a_w": 90e-3}, "gear-shifts"),
+        ({**BASIC, "x_sum": 0.2, "a_w": 90e-3}, "gear-shifts"),  # the same twice
+        ({**BASIC, "a_w": 82e-3}, "gear-centre"),  # base circles overlap
+        ({**BASIC, "x_sum": -0.9}, "gear-no-mesh"),
+        ({**BASIC, "a_w": 110e-3, "x_1": 0.2}, "gear-no-tooth-found"),
+        ({**BASIC, "z_1": 8.0, "z_2": 8.0, "x_sum": -0.05}, "gear-no-balance"),  # interference in any case
+    ],
+)
+def test_bad_data_are_explained(given: dict[str, float], key: str) -> None:
+    with pytest.raises(InputError) as caught:
+        complete(given)
+
+    assert caught.value.key == key
+    assert not [language for language in LANGUAGES if "{" in caught.value.text(language)]
+
+
+def test_limits_of_the_rack_and_of_teeth_are_allowed_themselves() -> None:
+    for others in (
+        {"alpha": math.radians(10.0)},
+        {"alpha": math.radians(35.0), "h_a": 0.8, "h_l": 1.6},
+        {"c": 0.0},
+        {"h_l": 2.25},
+        {"h_a": 0.25 * math.pi / math.tan(math.radians(20.0)) - 0.25},  # the tip of the rack has no width
+        {"z_1": 3.0, "x_1": 1.0},
+        {"z_2": 10000.0},
+    ):
+        assert complete(madi(**others)) == madi(**others)
+
+
+def verdicts(values: dict[str, float], pair: GearPair | None = None) -> dict[str, Check]:
+    return {check.name: check for check in checks(pair or GearPair(), geometry(values))}
+
+
+def test_pair_of_the_project_passes_all_checks_and_each_fault_is_told_by_its_own() -> None:
+    found = verdicts(madi())
+
+    assert all(check.ok for check in found.values())
+    assert list(found) == [
+        *(f"centre_{name}" for name in SAME_CENTRES),
+        *("undercut_1", "undercut_2", "interference_1", "interference_2", "contact_ratio", "tip_1", "tip_2"),
+    ]
+    check = found["interference_1"]
+    assert (check.quantity, check.of, check.relation) == ("rho_l1", "rho_p1", "at-most")
+    assert (check.value, check.limit) == pytest.approx((1.1305e-3, 6.4192e-3), abs=1e-7)
+    assert found["contact_ratio"].limit == 1.2
+    for others, failing in FAULTS:
+        assert {name for name, check in verdicts(madi(**others)).items() if not check.ok} == failing
+
+
+def test_hardened_teeth_have_to_be_thicker_at_the_tip() -> None:
+    values = madi(z_1=12.0, x_1=0.6, x_2=0.2)
+
+    soft, hard = (verdicts(values, pair)["tip_1"] for pair in (GearPair(), GearPair(material=HARDENED)))
+
+    assert (soft.ok, hard.ok) == (True, False)
+    assert (soft.limit, hard.limit) == pytest.approx((0.3 * values["m"], 0.4 * values["m"]))
+    assert soft.limit < geometry(values)["s_a1"] < hard.limit
+
+
+def test_value_on_its_limit_is_in_order_and_what_is_undefined_is_not() -> None:
+    assert verdicts(madi(x_1=geometry(madi())["x_min1"]))["undercut_1"].ok
+    assert judged("contact_ratio", "e", {"e": 1.2}, 1.2, "at-least").ok
+    assert judged("interference_1", "e", {"e": 1.2}, 1.2, "at-most").ok
+    assert not judged("tip_1", "s_a1", {"s_a1": math.nan}, 1e-3, "at-least").ok
+    assert not judged("interference_1", "rho_l1", {"rho_l1": math.nan}, 1e-3, "at-most").ok
+    assert not judged("centre_a_w_shift", "a_w_shift", {"a_w_shift": 92e-3, "a_w": 92.1e-3}, "a_w", "equal").ok
+
+
+def test_limit_that_an_error_names_is_the_limit() -> None:
+    least = 87.5e-3 * math.cos(STANDARD["alpha"])
+    with pytest.raises(InputError) as caught:
+        complete({**BASIC, "a_w": least * 0.999, "x_1": 0.2})
+    assert caught.value.data["least"] == f"{least * 1e3:.7g}"
+
+    with pytest.raises(InputError) as caught:
+        complete({**BASIC, "x_1": 0.0, "x_2": -2.0})
+    x_sum = float(caught.value.data["least"])
+
+    assert geometry(madi(x_1=0.0, x_2=x_sum + 1e-4), ("alpha_w",))["alpha_w"] > 0.0
+    assert not geometry(madi(x_1=0.0, x_2=x_sum - 1e-4), ("alpha_w",))["alpha_w"] >= 0.0
+
+
+@pytest.mark.parametrize(
+    ("z_1", "z_2", "x_1", "x_2", "roots"),
+    [
+        pytest.param(20.0, 40.0, 0.2, 0.0, set(), id="neither", marks=pytest.mark.soak),
+        pytest.param(15.0, 20.0, 0.2, 0.85, set(), id="the project's pair"),
+        pytest.param(20.0, 40.0, 0.3, -1.0, {1}, id="root of the pinion", marks=pytest.mark.soak),
+        pytest.param(25.0, 90.0, -0.1, -0.6, {1}, id="pinion and large wheel", marks=pytest.mark.soak),
+        pytest.param(20.0, 40.0, 0.0, 1.65, {2}, id="root of the wheel"),
+        pytest.param(30.0, 30.0, -0.6, -0.6, {1, 2}, id="both"),
+    ],
+)
+def test_interference_is_where_wheels_overlap_when_they_roll(
+    z_1: float, z_2: float, x_1: float, x_2: float, roots: set[int]
+) -> None:
+    values = complete(madi(z_1=z_1, z_2=z_2, x_1=x_1, x_2=x_2))
+    meshing = meshing_of(values)
+    angles = np.linspace(-math.pi / z_1, math.pi / z_1, 16, endpoint=False)
+    pairs = (outlines(meshing, float(angle), 100, math.radians(0.3)) for angle in angles)
+
+    worst = max(polygon(first).intersection(polygon(second)).area for first, second in pairs)
+
+    own = verdicts(values)
+    assert {i for i in (1, 2) if not own[f"interference_{i}"].ok} == roots
+    assert (worst > 1e-4) == bool(roots)
+
+
+@pytest.mark.parametrize("count", [pytest.param(20, id="20"), pytest.param(60, id="60", marks=pytest.mark.soak)])
+def test_undercut_and_thickness_are_those_of_the_teeth(count: int) -> None:
+    random = np.random.default_rng(SEED)
+    for _ in range(count):
+        values = madi(z_1=float(random.integers(8, 30)), x_1=random.uniform(-0.3, 0.9), x_2=0.3)
+        own, tooth = verdicts(values), tooth_of(values, 1)
+
+        assert own["undercut_1"].ok != tooth.undercut
+        thickness = 2.0 * tooth.r_a * float(tooth.half_angle(tooth.r_a))
+        assert own["tip_1"].ok == (thickness >= 0.3 * values["m"])

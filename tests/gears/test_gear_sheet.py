@@ -1,8 +1,9 @@
-"""Points Z1 to Z5 of the examiner's list on sheets of gear pairs that were drawn and read back."""
+"""Points Z1 to Z7 of the examiner's list on sheets of gear pairs that were drawn and read back."""
 
 from __future__ import annotations
 
 import math
+import random
 import re
 
 import pytest
@@ -12,90 +13,108 @@ from kulman.drawing.gears.scene import mu_ladder, near_ladder, rolled_ladder
 from kulman.plans.gears.gear import GearPair
 from kulman.plans.gears.solve import solve_gear
 from kulman.plans.gears.teeth import meshing_of
-from kulman.tests.support.gear_cases import GearCase, arc_of, crossings, mu, outline
-from kulman.tests.support.gear_points import POINTS
+from kulman.tests.support.gear_points import (
+    POINTS,
+    SLIDING_POINTS,
+    GearCase,
+    arc_of,
+    crossings,
+    faults,
+    mu,
+    number,
+    outline,
+    rows,
+    scale,
+)
 from kulman.tests.support.overlaps import overlaps, view_faults
-from kulman.tests.support.readback import Sheet, polygon, read
+from kulman.tests.support.readback import polygon, read
 
-MADI = GearCase(only=None)
+SEED = 1532
+PARTS = "geometry,sliding"
+WHOLE, SLIDING = GearCase(only=None), GearCase(only=PARTS)
 PLAIN = (("x_1", 0.0), ("x_2", 0.0))
-CASES = (
-    MADI,
-    *(
-        pytest.param(case, marks=pytest.mark.soak)
-        for case in (
-            GearCase(rotation="cw", lang="en"),
-            GearCase(format="A3", lang="ru"),
-            GearCase(format="A4"),
-            GearCase((("z_1", 60.0), ("z_2", 60.0), *PLAIN)),
-            GearCase((("z_1", 17.0), ("z_2", 45.0), ("x_1", 0.3), ("x_2", -0.3)), rotation="cw"),
-            GearCase((("z_1", 12.0), ("z_2", 60.0), ("x_1", 0.5), ("x_2", 0.2)), "A2", "en"),
-        )
-    ),
+BOTH_SHIFTED = (("z_1", 17.0), ("z_2", 45.0), ("x_1", 0.3), ("x_2", -0.3))
+LARGE_WHEEL = (("z_1", 12.0), ("z_2", 60.0), ("x_1", 0.5), ("x_2", 0.2))
+MESHING_CASES = (
+    GearCase(rotation="cw", lang="en"),
+    GearCase(format="A3", lang="ru"),
+    GearCase(format="A4"),
+    GearCase((("z_1", 60.0), ("z_2", 60.0), *PLAIN)),
+    GearCase(BOTH_SHIFTED, rotation="cw"),
+    GearCase(LARGE_WHEEL, "A2", "en"),
 )
 ODD = (  # undercut; pointed; few teeth, with an active line that ends beyond N1
     GearCase((("z_1", 8.0), ("z_2", 30.0), *PLAIN)),
     GearCase((("z_1", 10.0), ("z_2", 12.0), ("x_1", 0.8), ("x_2", 0.3)), lang="ru"),
     GearCase((("z_1", 5.0), ("z_2", 7.0), ("x_1", 0.8), ("x_2", 0.6)), rotation="cw", lang="en"),
 )
+SLIDING_CASES = (
+    GearCase(format="A3", lang="ru", only=PARTS),
+    GearCase(format="A4", lang="en", only=PARTS),
+    GearCase(BOTH_SHIFTED, rotation="cw", only=PARTS),
+    GearCase((("z_1", 40.0), ("z_2", 25.0), ("x_1", 0.1), ("x_2", 0.2)), "A3", "en", only=PARTS),
+    GearCase(LARGE_WHEEL, "A1", "ru", only=PARTS),
+)
+FORMATS = (("A1", "ru"), ("A2", "en"), ("A3", "uk"), ("A3-portrait", "en"), ("A4", "ru"))
+ASKED = [
+    *((WHOLE, point) for point in (*POINTS, *SLIDING_POINTS)),
+    *(pytest.param(case, point, marks=pytest.mark.soak) for case in MESHING_CASES for point in POINTS),
+    *(pytest.param(case, point, marks=pytest.mark.soak) for case in SLIDING_CASES for point in SLIDING_POINTS),
+    *(pytest.param(case, point, marks=pytest.mark.soak) for case in ODD[1:] for point in ("Z2", "Z3", "Z4")),
+]
 
 
-def faults(case: GearCase, sheet: Sheet, point: str) -> list[str]:
-    return list(POINTS[point](case, sheet))
-
-
-@pytest.mark.parametrize("point", POINTS)
-@pytest.mark.parametrize("case", CASES, ids=str)
+@pytest.mark.parametrize(("case", "point"), ASKED, ids=str)
 def test_sheet_of_a_pair_satisfies_the_points(case: GearCase, point: str) -> None:
     assert faults(case, case.sheet, point) == []
-
-
-@pytest.mark.parametrize("case", [*CASES, *(pytest.param(case, marks=pytest.mark.soak) for case in ODD)], ids=str)
-def test_letters_of_a_meshing_touch_nothing(case: GearCase) -> None:
-    assert overlaps(case.sheet) == []
 
 
 @pytest.mark.parametrize(
     "case",
     [
-        MADI,
+        WHOLE,
+        SLIDING,
+        *(pytest.param(case, marks=pytest.mark.soak) for case in (*MESHING_CASES, *SLIDING_CASES, *ODD)),
         *(
             pytest.param(GearCase(format=paper, lang=lang, only=None), marks=pytest.mark.soak)
-            for paper, lang in (("A1", "ru"), ("A2", "en"), ("A3", "uk"), ("A3-portrait", "en"), ("A4", "ru"))
+            for paper, lang in FORMATS
         ),
     ],
     ids=str,
 )
-def test_views_of_a_whole_sheet_stand_apart(case: GearCase) -> None:
-    assert [fault for page in case.sheet.pages for fault in view_faults(page)] == []
+def test_letters_touch_nothing_and_views_stand_apart(case: GearCase) -> None:
     assert overlaps(case.sheet) == []
+    assert [fault for page in case.sheet.pages for fault in view_faults(page)] == []
 
 
-def test_a_sheet_has_the_scale_factors_that_it_prints() -> None:
-    scales = {name: scale.mu for name, scale in MADI.drawn.scales.items()}
+@pytest.mark.soak
+def test_sheets_of_random_pairs_satisfy_the_points() -> None:
+    choose, judged = random.Random(SEED), 0
+    while judged < 8:
+        teeth = {"z_1": float(choose.randint(8, 40)), "z_2": float(choose.randint(10, 90))}
+        shifts = {"x_1": round(choose.uniform(-0.1, 0.9), 2), "x_2": round(choose.uniform(-0.3, 0.9), 2)}
+        formats, languages = choose.choice(("A1", "A3", "A4")), choose.choice(("uk", "ru", "en"))
+        case = GearCase((*teeth.items(), *shifts.items()), formats, languages, choose.choice(("ccw", "cw")), PARTS)
+        if min(case.sizes[name] for name in ("rho_p1", "rho_p2", "g_alpha")) > 0.0:  # without interference
+            judged += 1
+            assert {point: faults(case, case.sheet, point) for point in SLIDING_POINTS} == {"Z6": [], "Z7": []}, case
+            assert overlaps(case.sheet) == [], case
 
-    assert scales["meshing"] == mu(MADI.sheet["meshing"])
-    (heading,) = (t.string for t in MADI.sheet["sliding"].of("heading") if "μ" in t.string)
+
+def test_all_that_is_drawn_of_madi_is_on_one_a1_with_the_scale_factors_that_it_prints() -> None:
+    drawn = {"meshing", "rolling", "action", "sliding", "data", "checks", "points"}
+    scales = {name: scale.mu for name, scale in WHOLE.drawn.scales.items()}
+
+    assert {view.name for view in WHOLE.sheet.pages[0].views} >= drawn
+    assert scales["meshing"] == mu(WHOLE.sheet["meshing"])
+    (heading,) = (t.string for t in WHOLE.sheet["sliding"].of("heading") if "μ" in t.string)
     printed = [float(number.replace(",", ".")) for number in re.findall(r" = (\d+,\d+)", heading)]
     assert printed == [scales["sliding"], scales["theta"]]
 
 
-def test_all_that_is_drawn_of_madi_is_on_one_a1() -> None:
-    drawn = {"meshing", "rolling", "action", "sliding", "data", "checks", "points"}
-
-    assert {view.name for view in MADI.sheet.pages[0].views} >= drawn
-
-
-@pytest.mark.soak
-@pytest.mark.parametrize("point", ["Z2", "Z3", "Z4"])
-@pytest.mark.parametrize("case", ODD[1:], ids=str)
-def test_odd_teeth_are_drawn_as_they_are(case: GearCase, point: str) -> None:
-    assert faults(case, case.sheet, point) == []
-
-
 def test_involutes_are_constructed_by_rolling() -> None:
     """T1_k is on the base circle, T1_k E1_k touches it and is as long as P D1_k, and E1_k lies on the curve."""
-    view = MADI.sheet["rolling"]
+    view = WHOLE.sheet["rolling"]
 
     for i in (1, 2):
         centre, base = arc_of(view, f"d_b{i}")
@@ -128,7 +147,7 @@ def test_meshings_are_drawn_to_scales_of_the_standard(m: float) -> None:
 @pytest.mark.parametrize(
     "case",
     [
-        MADI,
+        WHOLE,
         pytest.param(GearCase((("z_1", 8.0), ("z_2", 30.0), *PLAIN), only="geometry"), marks=pytest.mark.soak),
         pytest.param(GearCase((("h_a", 0.8), ("h_l", 1.6)), "A4", "en", only="geometry"), marks=pytest.mark.soak),
     ],
@@ -166,24 +185,56 @@ def test_only_what_is_left_of_undercut_flanks_is_thick_on_the_line_of_action() -
         assert high - low < case.sizes["g_alpha"] - 1e-3
 
 
-SPOILED = {  # one piece of the file of the sheet changed
-    "Z1": (r'("pivot" data-name="O2">.*?)(<circle[^>]*cy=")(\d)', r"\g<1>\g<2>1\g<3>"),
-    "Z2": (r'("circle" data-name="d_w1">\n<path class="extreme" d="M[\d.]+ [\d.]+A)(\d+)', r"\g<1>2\g<2>"),
-    "Z3": (r'("line-of-action" data-name="N1N2"[^>]* y1=")(\d)', r"\g<1>1\g<2>"),
-    "Z4": (r'("profile" data-name="teeth_1"[^>]*points="(?:[\d.]+,[\d.]+ ){300})([\d.]+),', r"\g<1>200,"),
-    "Z5": (r'("active" data-name="A1A2"[^>]* x1=")(\d)', r"\g<1>1\g<2>"),
-}
+def test_broken_limits_and_the_contact_ratio_of_cut_flanks_are_told_in_the_table_of_checks() -> None:
+    undercut = GearCase((("x_1", 0.1), ("x_2", 0.2)), lang="en", only=PARTS)
+    cut = GearCase((("z_1", 8), ("z_2", 25), ("x_1", 0), ("x_2", 0)), lang="en", only=PARTS)
+    broken, lacking = ({tuple(row[:2]): row[2:] for row in rows(case.sheet["checks"])[1:]} for case in (undercut, cut))
+
+    assert faults(undercut, undercut.sheet, "Z7") == faults(cut, cut.sheet, "Z7") == []
+    assert broken["Undercutting, z_{1}", "x_{1} ≥ x_{min 1}"][-1] == "not satisfied"
+    assert broken["Undercutting, z_{2}", "x_{2} ≥ x_{min 2}"][-1] == "satisfied"
+    letters = [row[1] for row in rows(cut.sheet["points"])[1:] if row[1][0].isalpha()]
+    assert letters == ["N_{1}", "P", "A_{2}", "N_{2}"]  # A_1 is beyond N_1
+    assert lacking["Contact ratio", "ε_{α} ≥ 1.2"] == ["1.4593", "1.2000", "satisfied"]
+    assert lacking["Contact ratio", "ε'_{α} ≥ 1.2"] == ["0.9127", "1.2000", "not satisfied"]
 
 
-@pytest.mark.parametrize("point", POINTS)
-def test_the_examiner_sees_a_spoiled_sheet_of_a_pair(point: str) -> None:
-    page = MADI.pages[0]
-    spoiled = re.sub(*SPOILED[point], page, count=1, flags=re.DOTALL)
-    assert spoiled != page
+def test_the_contour_holds_the_chosen_shifts_where_the_axes_say() -> None:
+    view = SLIDING.sheet["contour"]
+    mu = scale(view, "μ_{x}")
 
-    try:
-        found = faults(MADI, read(spoiled), point)
-    except (AssertionError, ValueError, KeyError) as stumbled:
-        found = [str(stumbled)]
+    (window,) = view.lines("window")
+    left, low = min(p.real for p in window.points), min(p.imag for p in window.points)
+    feet = [s.points for s in view.lines("division")]
+    upright = sorted({a.real for a, _ in feet if abs(a.imag - low) < 0.01})
+    level = sorted({a.imag for a, _ in feet if abs(a.real - left) < 0.01})
 
-    assert found
+    at = view.point("chosen")
+    assert 0.0 in {number(t.string) for t in view.of("number")}
+    assert (at.real - upright[0]) * mu == pytest.approx(0.2, abs=0.01 * mu)  # the lowest division of x_1 is 0
+    zero = next(y for y in level if abs(y - next(s.points[0].imag for s in view.lines("axis") if s.dashed)) < 0.01)
+    assert (at.imag - zero) * mu == pytest.approx(0.85, abs=0.01 * mu)
+    sides = {name for s in view.strokes for role, name in s.path if role == "contour"}
+    assert sides == {"undercut_1", "undercut_2", "interference_1", "interference_2", "contact_1"}
+
+
+SPOILED = [  # one piece of the file of a sheet changed
+    ("Z1", r'("pivot" data-name="O2">.*?)(<circle[^>]*cy=")(\d)', r"\g<1>\g<2>1\g<3>"),
+    ("Z2", r'("circle" data-name="d_w1">\n<path class="extreme" d="M[\d.]+ [\d.]+A)(\d+)', r"\g<1>2\g<2>"),
+    ("Z3", r'("line-of-action" data-name="N1N2"[^>]* y1=")(\d)', r"\g<1>1\g<2>"),
+    ("Z4", r'("profile" data-name="teeth_1"[^>]*points="(?:[\d.]+,[\d.]+ ){300})([\d.]+),', r"\g<1>200,"),
+    ("Z5", r'("active" data-name="A1A2"[^>]* x1=")(\d)', r"\g<1>1\g<2>"),
+    ("Z6", r'("curve" data-name="V_k1">\n<line class="main"[^>]* y1=")(\d)', r"\g<1>7"),
+    ("Z6", r'("node" data-name="theta_12_04">\n<circle class="thin"[^>]* cy=")(\d)', r"\g<1>7"),
+    ("Z7", r"(>)(92),000 мм", r"\g<1>7"),
+    ("Z7", r"(>)(1),2048", r"\g<1>7"),
+]
+
+
+@pytest.mark.parametrize(("point", "piece", "other"), SPOILED, ids=lambda text: text[:2])
+def test_the_examiner_sees_a_spoiled_sheet_of_a_pair(point: str, piece: str, other: str) -> None:
+    case = WHOLE if point in POINTS else SLIDING
+    spoiled = [re.sub(piece, other, page, count=1, flags=re.DOTALL) for page in case.pages]
+
+    assert spoiled != [*case.pages]
+    assert faults(case, read(*spoiled), point)

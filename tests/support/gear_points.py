@@ -1,37 +1,181 @@
-"""Points Z1 to Z5 of the examiner's list for the sheet of a gear pair, judged on a sheet that was read back."""
+"""Points Z1 to Z7 of the examiner's list for sheets of gear pairs that were read back; sizes by the second route."""
 
 from __future__ import annotations
 
+import cmath
 import math
 import re
-from collections.abc import Callable, Iterator
-from functools import partial
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 
+import numpy as np
 import shapely
 
+from kulman import sheet
+from kulman.plans.gears.teeth import meshing_of
 from kulman.scales.scale import SERIES
-from kulman.tests.support.gear_cases import (
-    CIRCLES,
-    NEAR,
-    STEEP,
-    WHEELS,
-    Faults,
-    GearCase,
-    arc_of,
-    centres,
-    crossings,
-    mu,
-    one,
-    outline,
-    printed,
-    tips,
-    turned,
-    unless,
-)
-from kulman.tests.support.readback import Sheet, View, angle, cross, polygon
+from kulman.tests.support.gears import madi, second_route
+from kulman.tests.support.readback import Sheet, Stroke, Text, View, angle, cross, polygon, read
+from kulman.tests.support.sheet_geometry import NEAR, unless
+from kulman.variants.sheets import Sheet as Drawing
 
+STEEP = 0.01  # degrees
+Faults = Iterator[str]
+CIRCLES = ("a", "w", "", "b", "f")
+WHEELS = (1, 2)
+NUMBER = r"[−-]?\d+(?:[.,]\d+)?"
+LEVEL = 0.8  # mm by which baselines of one row may differ
+FUNCTIONS = {"sin": "sin", "cos": "cos", "tg": "tan", "tan": "tan"}
 TOOTH = 50.0  # mm
+CURVES = {1: "theta_12", 2: "theta_21"}
+ENDS = ("A1", "A2")
+
+
+@dataclass(frozen=True)
+class GearCase:
+    """One pair as a task with changes, on a format, in a language."""
+
+    changes: tuple[tuple[str, float], ...] = ()
+    format: str = "A1"
+    lang: str = "uk"
+    rotation: str = "ccw"
+    only: str | None = "meshing"
+
+    def __str__(self) -> str:
+        changed = ",".join(f"{name}={value}" for name, value in self.changes)
+        return f"{self.format}-{self.lang}-{self.rotation}-{changed}"
+
+    @cached_property
+    def drawn(self) -> Drawing:
+        changes = {**{name: repr(value) for name, value in self.changes}, "rotation": self.rotation}
+        return sheet("madi-gear", set=changes, only=self.only, format=self.format, lang=self.lang)
+
+    @cached_property
+    def pages(self) -> tuple[str, ...]:
+        return tuple(self.drawn.svg(number) for number in range(1, len(self.drawn.pages) + 1))
+
+    @cached_property
+    def sheet(self) -> Sheet:
+        return read(*self.pages)
+
+    @cached_property
+    def given(self) -> dict[str, float]:
+        return madi(**dict(self.changes))
+
+    @cached_property
+    def sizes(self) -> dict[str, float]:
+        """Quantities by the second route, SI."""
+        found = second_route({name: np.array([value]) for name, value in self.given.items()})
+        return {name: float(np.ravel(value)[0]) for name, value in found.items()}
+
+    @property
+    def side(self) -> int:
+        """+1 when the pinion turns counter-clockwise: contacts go to the left."""
+        return 1 if self.rotation == "ccw" else -1
+
+
+# What is drawn in a view.
+
+
+def mu(view: View) -> float:
+    """The printed scale factor, m a mm; it must be that of the printed ratio."""
+    heading = " ".join(t.string for t in view.of("heading"))
+    number = re.search(r"μ_\{l\} = (\d+[.,]?\d*)", heading)
+    ratio = re.search(r"[MМ] (\d+(?:[.,]\d+)?):(\d+)", heading)
+    assert number is not None, heading
+    assert ratio is not None, heading
+    up, down = (float(part.replace(",", ".")) for part in ratio.groups())
+    found = float(number[1].replace(",", "."))
+    assert abs(found - 1e-3 * down / up) < 1e-9, heading
+    return found
+
+
+def printed(view: View, symbol: str) -> float:
+    """The number printed after `symbol =`, as it stands; those of both wheels must agree."""
+    found = {
+        float(number.replace(",", "."))
+        for text in view.texts
+        for number in re.findall(rf"(?<!\w){re.escape(symbol)} ?= (-?\d+(?:[.,]\d+)?)", _line(text))
+    }
+    assert len(found) == 1, f"{symbol}: {found}"
+    return found.pop()
+
+
+def _line(text: Text) -> str:
+    """A text as a line; the scripts of one that is turned are below."""
+    if not text.turned:
+        return text.string
+    main = max(run.size for run in text.runs)
+    return "".join(run.string if run.size > 0.9 * main else f"_{{{run.string}}}" for run in text.runs)
+
+
+def arc_of(view: View, name: str) -> tuple[complex, float]:
+    """Centre and radius of the arc of a circle."""
+    (arc,) = [s.arc for s in view.inside("circle", name) if s.arc is not None]
+    return arc[0], arc[1]
+
+
+def tips(view: View, name: str) -> list[complex]:
+    """Tips of the arrowheads of a dimension."""
+    return [t.corners[0] for t in view.tips if ("dimension", name) in t.path]
+
+
+def centres(view: View) -> tuple[complex, complex]:
+    return view.point("O1"), view.point("O2")
+
+
+def outline(view: View, name: str) -> list[complex]:
+    """A drawn profile."""
+    (line,) = view.lines("profile", name)
+    return list(line.points)
+
+
+def crossings(points: Sequence[complex], centre: complex, radius: float) -> list[complex]:
+    """Where a broken line crosses a circle, one after the other."""
+    found = []
+    for a, b in pairwise(points):
+        low, high = abs(a - centre) - radius, abs(b - centre) - radius
+        if (low < 0.0) != (high < 0.0):
+            found.append(a + (b - a) * (low / (low - high)))
+    return found
+
+
+def turned(centre: complex, a: complex, b: complex) -> float:
+    """The angle from a to b about a centre, rad."""
+    return cmath.phase((b - centre) / (a - centre))
+
+
+def one(strokes: Sequence[Stroke]) -> tuple[complex, complex]:
+    """The ends of the only stroke."""
+    (stroke,) = strokes
+    return stroke.points[0], stroke.points[-1]
+
+
+def number(text: str) -> float:
+    """A printed number; the first one of a text."""
+    if text == "−∞":
+        return -math.inf
+    found = re.search(NUMBER, text)
+    assert found, text
+    return float(found[0].replace("−", "-").replace(",", "."))
+
+
+def last_digit(text: str) -> float:
+    """Half of the last digit of a printed number."""
+    found = re.search(NUMBER, text)
+    assert found, text
+    return 0.5 * 10.0 ** -len(re.split("[.,]", found[0])[1] if re.search("[.,]", found[0]) else "")
+
+
+def rows(view: View) -> list[list[str]]:
+    """The rows of a table from the top, each from the left; cells without text are left out."""
+    levels: dict[float, list[tuple[float, str]]] = {}
+    for text in view.of("cell"):
+        at = next((level for level in levels if abs(level - text.baseline) < LEVEL), text.baseline)
+        levels.setdefault(at, []).append((text.box[0], text.string))
+    return [[string for _, string in sorted(levels[level])] for level in sorted(levels, reverse=True)]
 
 
 def detailed(sheet: Sheet) -> View:
@@ -166,7 +310,8 @@ def _pitched(case: GearCase, view: View, i: int) -> Faults:
 def _involute(case: GearCase, view: View, i: int) -> Faults:
     """Normals of the flanks touch the base circle."""
     centre, base = arc_of(view, f"d_b{i}")
-    tip, low = arc_of(view, f"d_a{i}")[1], _lowest(case, view, i)
+    tip = arc_of(view, f"d_a{i}")[1]
+    low = math.hypot(case.sizes[f"d_b{i}"] / 2, max(case.sizes[f"rho_l{i}"], 0.0)) / mu(view)  # unless it is undercut
     worst, seen = 0.0, 0
     for a, b in pairwise(outline(view, f"teeth_{i}")):
         if min(abs(a - centre), abs(b - centre)) > low + NEAR and max(abs(a - centre), abs(b - centre)) < tip - NEAR:
@@ -174,12 +319,6 @@ def _involute(case: GearCase, view: View, i: int) -> Faults:
             worst = max(worst, abs(abs(cross(normal, centre - 0.5 * (a + b))) - base))
             seen += 1
     yield from unless(seen > 60 and worst < NEAR, f"a normal of wheel {i} misses the base circle by {worst} mm")
-
-
-def _lowest(case: GearCase, view: View, i: int) -> float:
-    """How far from the centre the involute begins, mm, where it is not undercut."""
-    rho = max(case.sizes[f"rho_l{i}"], 0.0)
-    return math.hypot(case.sizes[f"d_b{i}"] / 2, rho) / mu(view)
 
 
 def z5_active(case: GearCase, sheet: Sheet) -> Faults:
@@ -201,17 +340,13 @@ def z5_active(case: GearCase, sheet: Sheet) -> Faults:
             line = shapely.LineString([(p.real, p.imag) for p in outline(view, f"{end_name}_{i}")])
             gap = line.distance(shapely.Point(at.real, at.imag))
             yield from unless(gap < NEAR, f"the tooth of wheel {i} misses the {end_name} by {gap} mm")
-    yield from _between(sheet["meshing"])
-    yield from _ratios(case, sheet)
-    yield from _zones(case, sheet["action"])
-
-
-def _between(view: View) -> Faults:
-    """The ends of the active line are between N1 and N2, in this order."""
-    n, a = [view.point(f"N{i}") for i in WHEELS], [view.point(f"A{i}") for i in WHEELS]
+    whole = sheet["meshing"]
+    n, a = ([whole.point(f"{letter}{i}") for i in WHEELS] for letter in "NA")
     along = (n[1] - n[0]) / abs(n[1] - n[0])
     places = [((p - n[0]) * along.conjugate()).real for p in (*a, n[1])]
     yield from unless(0.0 < places[0] < places[1] < places[2], "A1, A2 are not between N1 and N2")
+    yield from _ratios(case, sheet)
+    yield from _zones(case, sheet["action"])
 
 
 def _ratios(case: GearCase, sheet: Sheet) -> Iterator[str]:
@@ -220,21 +355,16 @@ def _ratios(case: GearCase, sheet: Sheet) -> Iterator[str]:
     words = [t.string for t in sheet["action"].texts if t.string.startswith("ε_{α} = ")]
     yield from unless(len(words) == 3, "the contact ratio is not printed three times")
     for text in words:
-        number = float(text.rpartition("= ")[2].replace(",", "."))
-        yield from unless(abs(number - epsilon) < 0.0006, f"the contact ratio is printed as {number}")
+        yield from unless(abs(number(text.rpartition("= ")[2]) - epsilon) < 0.0006, f"printed is {text}")
     for i, centre in zip(WHEELS, centres(view), strict=True):
         rays = [s.points for s in view.lines("ray", f"phi_alpha{i}")]
-        a, b = (max(points, key=partial(_far, centre)) for points in rays)
+        a, b = (points[int(np.argmax(np.abs(np.array(points) - centre)))] for points in rays)
         phi = abs(turned(centre, a, b))
         yield from unless(abs(math.degrees(phi) - printed(view, f"φ_{{α{i}}}")) < 0.006, f"phi_alpha{i} is {phi}")
         tau = math.radians(printed(view, f"τ_{{{i}}}"))
         yield from unless(abs(phi / tau - epsilon) < 0.002, f"phi/tau of wheel {i} is {phi / tau}")
         on = abs(a - centre) - arc_of(view, f"d_w{i}")[1]
         yield from unless(abs(on) < NEAR, f"the arc of action of wheel {i} is {on} mm off its rolling circle")
-
-
-def _far(centre: complex, point: complex) -> float:
-    return abs(point - centre)
 
 
 def _zones(case: GearCase, view: View) -> Faults:
@@ -256,6 +386,193 @@ def _zones(case: GearCase, view: View) -> Faults:
     yield from unless(abs(abs(a - b) - pitch) < NEAR, "p_b is dimensioned otherwise")
 
 
+def heading(view: View) -> str:
+    return "; ".join(t.string for t in view.of("heading"))
+
+
+def scale(view: View, symbol: str) -> float:
+    found = re.search(rf"{re.escape(symbol)} = ({NUMBER})", heading(view))
+    assert found, symbol
+    return number(found[1])
+
+
+def nodes(view: View, role: str, name: str) -> dict[str, complex]:
+    """Circles of a role whose names begin so, by what follows."""
+    return {n.removeprefix(name): r.centre for r in view.rings for k, n in r.path if k == role and n.startswith(name)}
+
+
+def z6_sliding(case: GearCase, sheet: Sheet) -> Faults:
+    """Lines of V_k from N1 and N2 over P, steady ordinates, curves of theta with their limits, the active part."""
+    view = sheet["sliding"]
+    yield from _velocities(case, view)
+    yield from _table(case, view, rows(sheet["points"])[1:])
+    for i in WHEELS:
+        yield from _curve(case, view, i)
+    yield from _active(case, view)
+
+
+def _velocities(case: GearCase, view: View) -> Faults:
+    first, last, pole, w = (view.point(name) for name in ("N1", "N2", "P", "W"))
+    mu, sizes = scale(view, "μ_{ρ}"), case.sizes
+    for name, rho in (("A1", "rho_p1"), ("P", "rho_w1"), ("A2", "rho_a1"), ("N2", "l_N1N2")):
+        off = abs(view.point(name) - first - sizes[rho] / mu)
+        yield from unless(off < NEAR, f"{name} is {off} mm beside its place")
+    yield from unless(abs((w - pole).real) < NEAR, "W is not over the pole")
+    for i, foot in zip(WHEELS, (first, last), strict=True):
+        ends = one(view.inside("curve", f"V_k{i}"))
+        yield from unless(min(abs(end - foot) for end in ends) < NEAR, f"V_k{i} does not begin in N{i}")
+        sine = ((ends[1] - ends[0]).conjugate() * (w - ends[0])).imag / abs(ends[1] - ends[0])
+        yield from unless(abs(sine) < NEAR, f"V_k{i} misses W by {sine} mm")
+    a, b = tips(view, "PW")
+    yield from unless(abs(abs(a - b) - abs(w - pole)) < NEAR, "PW is dimensioned otherwise")
+
+
+def _table(case: GearCase, view: View, table: list[list[str]]) -> Faults:
+    """The table has the ordinates that are drawn, steady ones, and sliding that comes out of them."""
+    axis = view.point("N1").imag
+    reduced = re.search(r"\d+:(\d+(?:[.,]\d+)?)", heading(view).split("μ")[0])
+    times = number(reduced[1]) if reduced else 1.0
+    yield from unless(len(table) == 12, f"the table has {len(table)} points")
+    y: dict[int, list[float]] = {1: [], 2: []}
+    for k, row in enumerate(table, start=1):
+        cells = row[-6:]
+        for i in WHEELS:
+            y[i].append(number(cells[i - 1]))
+            drawn = (nodes(view, "ordinate", f"y_{i}_")[f"{k:02d}"].imag - axis) * times
+            off = abs(drawn - y[i][-1])
+            yield from unless(off < NEAR * times + last_digit(cells[i - 1]), f"y_{i} of point {k} is drawn {drawn}")
+        for own, mate, difference, theta in ((0, 1, 2, 3), (1, 0, 4, 5)):
+            ys = number(cells[own]), number(cells[mate])
+            yield from unless(abs(number(cells[difference]) - ys[0] + ys[1]) < 1e-9, f"the difference of point {k}")
+            if ys[0] == 0.0:
+                yield from unless(cells[theta] == "−∞", f"sliding of point {k} is {cells[theta]}")
+                continue
+            for right in ((ys[0] - ys[1]) / ys[0], case.sizes[f"{CURVES[own + 1]}_{k:02d}"]):
+                off = abs(right - number(cells[theta]))
+                yield from unless(off <= last_digit(cells[theta]) + 1e-9, f"sliding of point {k} is {right}")
+    yield from unless(all(b > a for a, b in pairwise(y[1])), "y_1 does not grow")
+    yield from unless(all(b < a for a, b in pairwise(y[2])), "y_2 does not fall")
+
+
+def _curve(case: GearCase, view: View, i: int) -> Faults:
+    """A curve keeps its law, is 1 at the other wheel's N, 0 in the pole, and goes down to the stated value."""
+    (line,) = view.inside("curve", CURVES[i])
+    first, mu, mu_theta = view.point("N1"), scale(view, "μ_{ρ}"), scale(view, "μ_{θ}")
+    ends_of = [(s.points[0], s.points[-1]) for s in view.lines("axis")]
+    level = [a.imag for a, b in ends_of if abs(a.imag - b.imag) < NEAR < abs(a.real - b.real)]
+    axis = next(y for y in level if y < first.imag - 1.0)
+    whole, u = case.sizes["l_N1N2"], case.sizes["u"]
+    for p in line.points:
+        rho_1, theta = (p.real - first.real) * mu, (p.imag - axis) * mu_theta
+        own, mate, ratio = (rho_1, whole - rho_1, u) if i == 1 else (whole - rho_1, rho_1, 1.0 / u)
+        slope = whole * mu / (ratio * own**2) / mu_theta  # as a distance from the curve: it is steep near its own end
+        off = (theta - 1.0 + mate / (ratio * own)) / mu_theta / math.hypot(1.0, slope)
+        yield from unless(abs(off) < NEAR, f"{CURVES[i]} is {off} mm beside its law at rho_1 = {rho_1}")
+    ends = sorted(line.points, key=lambda p: p.imag)
+    yield from unless(abs((ends[-1].imag - axis) * mu_theta - 1.0) < NEAR * mu_theta, "the highest sliding is not 1")
+    cut = number(heading(view).split("θ = ")[1])
+    yield from unless(abs((ends[0].imag - axis) * mu_theta - cut) < NEAR * mu_theta, f"not cut off at {cut}")
+    pole = min(line.points, key=lambda p: abs(p.imag - axis))
+    yield from unless(abs(pole.real - view.point("P").real) < 2.0, "sliding is not 0 in the pole")
+    for point, at in nodes(view, "node", f"{CURVES[i]}_").items():
+        off = (at.imag - axis) * mu_theta - case.sizes[f"{CURVES[i]}_{point}"]
+        yield from unless(abs(off) < NEAR * mu_theta, f"{CURVES[i]} of point {point}")
+
+
+def _active(case: GearCase, view: View) -> Faults:
+    """The part between A1 and A2 is hatched, under both curves; both extremes of both wheels are printed there."""
+    left, right = (view.point(end).real for end in ENDS)
+    texts = [t.string for t in view.of("extreme")]
+    for name in CURVES.values():
+        strokes = view.inside("active", name)
+        xs = [p.real for s in strokes for p in s.points]
+        yield from unless(len(strokes) > 5, f"the active part of {name} is not hatched")
+        yield from unless(min(xs) > left - NEAR and max(xs) < right + NEAR, f"{name} is hatched beyond A1A2")
+        yield from unless(min(xs) < left + 4.0 and max(xs) > right - 4.0, f"{name} is hatched in part")
+        for end in ENDS:
+            exact = case.sizes[f"{name}_{end}"]
+            said = f"θ_{{{name[-2:]}}}(A_{{{end[1]}}})"
+            found = [text for text in texts if text.startswith(said)]
+            good = len(found) == 1 and abs(number(found[0].split("= ")[1]) - exact) <= 0.00501
+            yield from unless(good, f"{said} is {exact}, printed: {found}")
+
+
+def z7_checks(case: GearCase, sheet: Sheet) -> Faults:
+    """Every check has its number, its limit and the verdict; angles are in degrees; calculations come out again."""
+    sizes, given = case.sizes, case.given
+    table = rows(sheet["checks"])[1:]
+    first, last = meshing_of(given).touching
+    lacking = last - first < sizes["g_alpha"] * (1.0 - 1e-9)
+    yield from unless(len(table) == 11 + lacking, f"there are {len(table)} checks")
+    for row in table[:4]:
+        yield from unless(row[2] == row[3] and abs(number(row[2]) - sizes["a_w"] * 1e3) < 0.000501, f"a_w: {row}")
+    expected = [
+        *((given[f"x_{i}"], sizes[f"x_min{i}"], 1.0, 1.0) for i in WHEELS),
+        *((sizes[f"rho_l{i}"], sizes[f"rho_p{i}"], -1.0, 1e3) for i in WHEELS),
+        (sizes["epsilon_alpha"], 1.2, 1.0, 1.0),
+        *((((last - first) / sizes["p_b"], 1.2, 1.0, 1.0),) if lacking else ()),
+        *((sizes[f"s_a{i}"], 0.3 * given["m"], 1.0, 1e3) for i in WHEELS),
+    ]
+    kept = {table[0][4]}
+    for row, (value, limit, way, times) in zip(table[4:], expected, strict=True):
+        good = all(
+            abs(number(cell) - exact * times) <= last_digit(cell) + 1e-9
+            for cell, exact in zip(row[2:4], (value, limit), strict=True)
+        )
+        yield from unless(good, f"{row} is {value}, {limit}")
+        yield from unless((row[4] in kept) == (way * (value - limit) >= 0.0), f"the verdict of {row}")
+        yield from unless(("≥" if way > 0 else "≤") in row[1], f"the condition of {row}")
+    yield from unless(not any("°" in cell or "рад" in cell for row in table for cell in row), "angles among checks")
+    yield from _calculations(sheet)
+
+
+def _calculations(sheet: Sheet) -> Faults:
+    count = 0
+    for name in ("sizes", "auxiliary", "quality"):
+        for expression, result in calculations(sheet[f"equations_{name}"]):
+            yield from unless("рад" not in result and "rad" not in result, f"{result} is in radians")
+            if expression:
+                count += 1
+                again = evaluated(expression)
+                good = abs(again - number(result)) <= last_digit(result) * (1.0 + 1e-9)
+                yield from unless(good, f"{expression} = {result} comes out {again}")
+    yield from unless(count > 40, f"only {count} calculations have numbers")
+
+
+def calculations(view: View) -> Iterator[tuple[str, str]]:
+    """Go through the calculations of a block of text, lines that are broken joined again: expression, result."""
+    lines: list[str] = []
+    for text in sorted(view.of("line"), key=lambda text: -text.baseline):
+        if lines and text.string.strip().startswith("="):
+            lines[-1] += " " + text.string.strip()
+        else:
+            lines.append(text.string.strip())
+    for line in lines:
+        parts = line.split(" = ")
+        if re.match(NUMBER, parts[-1]):
+            yield parts[-2] if len(parts) > 3 else "", parts[-1]
+
+
+def evaluated(expression: str) -> float:
+    """The value of a printed expression; angles in degrees."""
+    text = expression.replace(",", ".").replace("−", "-").replace("π", "pi").replace("·", "*")
+    text = re.sub(r"(\d)pi", r"\1*pi", text)
+
+    def call(found: re.Match[str]) -> str:
+        return f"{found[1]}({found[3].strip('()')})" + ("**2" if found[2] else "")
+
+    def of_degrees(function: Callable[[float], float]) -> Callable[[float], float]:
+        return lambda degrees: function(math.radians(degrees))
+
+    known: dict[str, object] = {
+        **{name: of_degrees(getattr(math, function)) for name, function in FUNCTIONS.items()},
+        "inv": of_degrees(lambda angle: math.tan(angle) - angle),
+        "arccos": lambda value: math.degrees(math.acos(value)),
+    }
+    text = re.sub(rf"({'|'.join(known)})(\^\{{2\}})? (\(.*?\)|[\d.]+°)", call, text)
+    return float(eval(text.replace("°", ""), {"__builtins__": {}}, known | {"pi": math.pi}))
+
+
 POINTS: dict[str, Callable[[GearCase, Sheet], Faults]] = {
     "Z1": z1_scale,
     "Z2": z2_circles,
@@ -263,3 +580,12 @@ POINTS: dict[str, Callable[[GearCase, Sheet], Faults]] = {
     "Z4": z4_teeth,
     "Z5": z5_active,
 }
+SLIDING_POINTS: dict[str, Callable[[GearCase, Sheet], Faults]] = {"Z6": z6_sliding, "Z7": z7_checks}
+
+
+def faults(case: GearCase, sheet: Sheet, point: str) -> list[str]:
+    """What a point finds on a sheet; a judge that stumbles has found something, too."""
+    try:
+        return list((POINTS | SLIDING_POINTS)[point](case, sheet))
+    except (AssertionError, ValueError, KeyError) as stumbled:
+        return [repr(stumbled)]
