@@ -210,10 +210,7 @@ class RecordingBoard(Board):
     def step(self, verb: str, name: str, *operands: str, law: str = "") -> None:
         """Note the step, once where two dyads need it.
 
-        Raises
-        ------
-        InputError
-            When a name is made in two ways, such as two points with one letter.
+        Raises InputError: when a name is made in two ways, such as two points with one letter.
         """
         own = name if type(name) is Name else role(name)
         step = tuple.__new__(Step, (verb, own, tuple(map(self._named, operands)), law))

@@ -240,10 +240,7 @@ def define(**laws: Law | tuple[Law, Law]) -> None:
     A law prints itself when it is called with symbols. One that is computed in another form than textbooks have it, or
     by a procedure, is followed by that form, which is only printed.
 
-    Raises
-    ------
-    ValueError
-        A law of this name is there already.
+    Raises ValueError: a law of this name is there already.
     """
     twice = LAWS.keys() & laws.keys()
     if twice:

@@ -243,13 +243,14 @@ class RollerInversion(Inversion):
         sharpest = course.sharpest_place(scene.solved)
         if sharpest is None:
             return
-        place, core, normal = scene.drawn(sharpest.place), scene.drawn(sharpest.core), sharpest.normal
+        at, normal, centre, is_arc = sharpest
+        place, core = scene.drawn(at), scene.drawn(centre)
         grouped(canvas, "dimension", "rho_min", Line(core, place, Pen.THIN), Head(place, normal))
         size = 0.8 * self.style.arrow / 2
         cross = (Line(core - size * d, core + size * d, Pen.THIN) for d in (1 + 0j, 1j))
         grouped(canvas, "point", "curvature", *cross)
         canvas.add(scene.node(place, "rho_min", "sharpest", filled=True, pen=Pen.MAIN))
-        anchor = (core, place) if sharpest.arc else core  # about the cam's centre stands enough
+        anchor = (core, place) if is_arc else core  # about the cam's centre stands enough
         letter(canvas, scene.symbol("rho_min"), anchor, -normal)
 
     def normal_end(self, i: int) -> complex:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...plans.cams.construction import PLATE_PROFILE, PROFILE
-from ...plans.cams.course import on_circle, pole_share, rests, up_at
+from ...plans.cams.course import on_circle, rests, turning, up_at
 from ..figure import Figure, Stage
 from ..page import extent
 from ..shapes import Arc, Group, Line, Pen, Polyline, Text
@@ -125,8 +125,8 @@ class _Rocker(RollerInversion):
 
     def rising(self, i: int) -> tuple[complex, complex]:
         """Return the instant centre, on the line of both pivots, and the direction across the rocker."""
-        pivot = self.mark("A", i)
-        return pivot * pole_share(self.scene.solved, i), 1j * unit(self.mark("B", i) - pivot)
+        pivot, dpsi = self.mark("A", i), turning(self.scene.solved, i)  # where the roller moves as the cam does
+        return pivot * (dpsi / (dpsi - 1.0)), 1j * unit(self.mark("B", i) - pivot)
 
     def follower(self) -> list[str]:
         """Draw one position with its normal, the rocker in position 0; dimension sizes and swing."""

@@ -52,10 +52,7 @@ def batch(
     codes : int8 array of shape (N,)
         Index into `STATUSES`.
 
-    Raises
-    ------
-    InputError
-        A loop is asked for, and the extra `fast` is not installed.
+    Raises InputError: a loop is asked for, and the extra `fast` is not installed.
     """
     return traced(program, givens, wanted, (TracingBoard, ArrayBoard({}, 0)), chunk, loop=loop)
 
@@ -279,10 +276,7 @@ def values_of(
     They are those of the exact board to the last bit, in a quarter of the time from the second position on; which lines
     meet flatly, and which step fails, it does not say. Steps that the wanted names do not need are not done.
 
-    Raises
-    ------
-    TypeError
-        The program has steps that are more than arithmetic.
+    Raises TypeError: the program has steps that are more than arithmetic.
     """
     key = program, tuple([name for name, value in givens.items() if value == 0.0]), len(givens), wanted
     code, values = _ALONE.get(key, lambda: _write_one(program, givens, wanted))(givens)
@@ -303,10 +297,7 @@ def script_of(program: Program, givens: Mapping[str, float], wanted: Sequence[st
     givens : mapping of str to float
         Of these the zeros stay zeros: what lies in the origin is no point of the drawing.
 
-    Raises
-    ------
-    TypeError
-        The program has steps that are more than arithmetic.
+    Raises TypeError: the program has steps that are more than arithmetic.
     """
     script, results, code = _printed(_Script, program, givens, wanted, "[{}, {}]")
     return script.source("solve", ", ".join(results), code)

@@ -36,15 +36,6 @@ THIRD, ROUNDED = 1.0 / 3.0, 9  # of a section; decimals
 MU_L = 1e-3  # m/mm, of plans that the sizes do not depend on
 
 
-@dataclass(frozen=True, slots=True)
-class Sectioned:
-    """The diagrams of a cam on a division: the construction as it is drawn, and its values."""
-
-    division: Division
-    paper: Paper
-    values: Mapping[str, Any]
-
-
 def exact_values(solved: SolvedCam) -> dict[str, float]:
     """Return what the exact curves give for the quantities that the chords of a cam have."""
     found = {name: float(solved.values[of]) for name, of in EXACT.items()}
@@ -208,10 +199,7 @@ def convergence(
 
     The `quantities` are of `compared`, all when empty.
 
-    Raises
-    ------
-    InputError
-        With the key `chart-exact-chords`: chords make no error, because the velocity is constant.
+    Raises InputError: with the key `chart-exact-chords`: chords make no error, because the velocity is constant.
     """
     chosen = tuple(name for name in compared(solved) if not quantities or name in quantities)
     exact = {name: value for name, value in exact_values(solved).items() if name in chosen}
@@ -232,16 +220,19 @@ def convergence(
     for name, hand in hands.items():
         kept_by_hand = [_by_hand(solved, drawing, hand, chosen, exact) for drawing in papers]
         by_hand |= {(name, chosen[k]): np.array(errors) for k, errors in enumerate(zip(*kept_by_hand, strict=True))}
-    counts = {where: tuple(drawing.division.top for drawing in every) for where, every in found.items()}
-    return Convergence(exact, chosen, counts, errors, tuple(drawing.division.top for drawing in papers), by_hand)
+    counts = {where: tuple(division.top for division, *_ in every) for where, every in found.items()}
+    return Convergence(exact, chosen, counts, errors, tuple(division.top for division, *_ in papers), by_hand)
 
 
-def _drawings(solved: SolvedCam, divisions: Iterable[Division], names: Iterable[str]) -> list[Sectioned]:
+Drawing = tuple[Division, Paper, Mapping[str, Any]]  # the construction on a division as it is drawn, and its values
+
+
+def _drawings(solved: SolvedCam, divisions: Iterable[Division], names: Iterable[str]) -> list[Drawing]:
     """Draw the diagrams on divisions, with each number of sections once."""
-    found = []
+    found: list[Drawing] = []
     for division in {division.top: division for division in divisions}.values():
         paper = drawn_on(solved, division, (*names, *nodes(solved, division)))
-        found.append(Sectioned(division, paper, run(paper.program, paper.givens).values))
+        found.append((division, paper, run(paper.program, paper.givens).values))
     return found
 
 
@@ -250,24 +241,26 @@ def compared(solved: SolvedCam) -> tuple[str, ...]:
     return (*exact_values(solved), CLOSED)
 
 
-def _error(solved: SolvedCam, drawing: Sectioned, name: str, exact: Mapping[str, float]) -> float:
+def _error(solved: SolvedCam, drawing: Drawing, name: str, exact: Mapping[str, float]) -> float:
     """Return the error of chords alone."""
+    division, _, values = drawing
     if name in exact:
-        return float(drawing.values[name] / exact[name] - 1.0)
-    found = travel_errors(solved, drawing.division, drawing.values)
+        return float(values[name] / exact[name] - 1.0)
+    found = travel_errors(solved, division, values)
     return float(found.get(BOTH, found[STROKE]))
 
 
 def _by_hand(
-    solved: SolvedCam, drawing: Sectioned, hand: Hand, names: Iterable[str], exact: Mapping[str, float]
+    solved: SolvedCam, drawing: Drawing, hand: Hand, names: Iterable[str], exact: Mapping[str, float]
 ) -> Iterator[float]:
     """Go through what most drawings of a hand keep."""
-    values = draw(drawing.paper, hand, np.random.default_rng(SEED), DRAWINGS).values
+    division, paper, _ = drawing
+    values = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS).values
     for name in names:
         if name in exact:
             yield float(kept(np.broadcast_to(values[name], DRAWINGS), exact[name])) / exact[name]
         else:
-            found = travel_errors(solved, drawing.division, values, DRAWINGS)
+            found = travel_errors(solved, division, values, DRAWINGS)
             yield float(kept(found.get(BOTH, found[STROKE]), 0.0))
 
 

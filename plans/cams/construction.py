@@ -63,11 +63,6 @@ ARC = "arc_length"  # the law of the stroke of a rocker
 SHARPEST = "sharpest"  # the law of the least radius of curvature
 
 
-def _angle_of_triangle(a: Any, b: Any, opposite: Any) -> Any:
-    cosine = (a * a + b * b - opposite * opposite) / (2.0 * a * b)
-    return as_number(np.arccos(np.clip(cosine, -1.0, 1.0)))  # sides in one line may be off by rounding
-
-
 def _touching(slope: Any, side: Any, *coordinates: Any) -> Any:
     """Return where a line that touches a smooth curve from the side +1 or -1 of the abscissas meets their axis.
 
@@ -102,11 +97,6 @@ def _sharpest(stroke: Any, e: Any, s_0: Any, *parts: Any) -> Any:
     return as_number(np.min(radii, axis=0))
 
 
-def _outermost(side: Any, *places: Any) -> Any:
-    most = np.max(np.stack(np.broadcast_arrays(*(side * place for place in places))), axis=0)
-    return as_number(most) * side
-
-
 define(
     # the travel of a rocker's roller
     arc_length=(
@@ -135,13 +125,17 @@ define(
     part_of_travel=lambda travel, part: travel * part,
     # where a tangent of a given direction meets the axis: of every smooth piece, and of the whole curve
     touching=_touching,
-    outermost=_outermost,
+    outermost=lambda side, *places: (
+        as_number(np.max(np.stack(np.broadcast_arrays(*(side * place for place in places))), axis=0)) * side
+    ),
     # the abscissa of the S-ds/dphi diagram points to where the instant centre lies
     turned_with=lambda analogue, sense: analogue * sense,
     negative=lambda value: -value,
-    # the angle between the sides a and b
+    # the angle between the sides a and b; sides in one line may be off by rounding
     angle_of_triangle=(
-        _angle_of_triangle,
+        lambda a, b, opposite: as_number(
+            np.arccos(np.clip((a * a + b * b - opposite * opposite) / (2.0 * a * b), -1.0, 1.0))
+        ),
         lambda a, b, opposite: np.arccos((a * a + b * b - opposite * opposite) / (2.0 * a * b)),
     ),
     # rho_min = |v|^3 / (v x v'), v and v' being the derivatives of the roller's centre by the angle of the cam
@@ -263,15 +257,6 @@ def _height(board: Board, name: str, plan: str, line: int) -> None:
 
 
 PROFILE, PLATE_PROFILE = "profile", "plate_profile"
-
-
-def _positions(board: Board, division: Division) -> None:
-    """Lay off the phase angles against the sense of the cam; the travels and the analogues of velocity go with them."""
-    for i in division.lines:
-        board.turn(f"_axis{i}", f"_axis_angle{i}")
-        board.normal(f"_left{i}", f"_axis{i}")
-        board.calc(f"_s{i}", "part_of_travel", "h", f"_s_part{i}")
-        board.calc(f"_x{i}_exact", "part_of_travel", "h", f"_x_part{i}")
 
 
 def _rolling_profile(board: Board, division: Division, rocks: bool) -> None:
@@ -450,7 +435,11 @@ def construct(layout: Layout, plans: Iterable[str] = PLANS) -> Program:
         if plate is not None:
             _plate_sizes(board, division, plate.given)
     if PROFILE_PART in wanted:
-        _positions(board, division)
+        for i in division.lines:  # phase angles against the sense of the cam, travels, analogues of velocity
+            board.turn(f"_axis{i}", f"_axis_angle{i}")
+            board.normal(f"_left{i}", f"_axis{i}")
+            board.calc(f"_s{i}", "part_of_travel", "h", f"_s_part{i}")
+            board.calc(f"_x{i}_exact", "part_of_travel", "h", f"_x_part{i}")
         if rolling is not None:
             _rolling_profile(board, division, layout.rocks)
         if plate is not None:

@@ -12,7 +12,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 from typing import Any
@@ -23,7 +22,7 @@ from numpy.typing import NDArray
 from ..solved import Columned, Course, Ends, Rows
 from .followers import RIGHT_ANGLE, Limit, Range, Rocker, RollerCam
 from .motion import FALL, RISE, TURN, Array, Motion, Phase, least
-from .sizes import HalfPlane, tightest
+from .sizes import HalfPlane, slacks
 from .solve import SolvedCam
 
 NEAR = 1e-9  # rad, from a section line, where a jump is on it
@@ -254,7 +253,7 @@ def bounds(solved: SolvedCam) -> Iterator[tuple[Limit, complex, complex, complex
     """
     rocker, cam = _rocker(solved), _rolling(solved)
     for limit in cam.limits.each:
-        at = tightest(rocker, limit, complex(cam.sizes.e, cam.sizes.s_0))
+        at = min(slacks(rocker, limit, complex(cam.sizes.e, cam.sizes.s_0)), key=lambda slack: slack.value).phi
         side = 1 if at < rocker.motion.phase(limit.phase).end else -1
         arm = cmath.rect(1.0, float(rocker.motion.at(at, side)[0]))
         yield limit, complex(rocker.analogue(at, side)), arm, _limit_along(arm, limit, rocker.sense)
@@ -278,12 +277,6 @@ def half_planes(solved: SolvedCam) -> Iterator[tuple[complex, float]]:
 def turning(solved: SolvedCam, line: int) -> float:
     """Return how fast a rocker turns on a section line beside the cam, dpsi/dphi, with the sense of the cam."""
     return float(_rocker(solved).motion.at(float(solved.angles[line]))[1]) * solved.cam.sense
-
-
-def pole_share(solved: SolvedCam, line: int) -> float:
-    """Return which part of the way from the centre to the pivot the instant centre of cam and rocker is at."""
-    dpsi = turning(solved, line)
-    return dpsi / (dpsi - 1.0)  # the roller's velocity is that of the cam there
 
 
 # The cam that stands still.
@@ -326,21 +319,11 @@ def offset_places(solved: SolvedCam) -> tuple[complex, ...]:
     return tuple(cmath.rect(radius, angle) for angle in angles)
 
 
-@dataclass(frozen=True, slots=True)
-class SharpestPlace:
-    """Where a pitch curve is curved most: the place, the outward normal, the centre of curvature.
+def sharpest_place(solved: SolvedCam) -> tuple[complex, complex, complex, bool] | None:
+    """Return where a pitch curve is curved most, None where it is convex nowhere.
 
-    On an arc about the cam's centre, `arc`, every place is as sharp.
+    Those are the place, the outward normal, the centre of curvature, and whether every place of an arc is as sharp.
     """
-
-    place: complex
-    normal: complex
-    core: complex
-    arc: bool
-
-
-def sharpest_place(solved: SolvedCam) -> SharpestPlace | None:
-    """Return the place of the least radius of curvature of the pitch curve, where it is convex anywhere."""
     profile, lower = _rolling(solved).profile, solved.motion.lower
     rho, at = profile.sharpest.value, profile.sharpest.phi
     if not 0.0 < rho < math.inf:
@@ -350,4 +333,4 @@ def sharpest_place(solved: SolvedCam) -> SharpestPlace | None:
     kappa = [float(profile.curvature(phi, side)) for side in (1, -1)]
     side = 1 if kappa[0] >= kappa[1] else -1
     place, normal = complex(profile.pitch(phi, side)), complex(profile.normal(phi, side))
-    return SharpestPlace(place, normal, place - normal * rho, phi != at)
+    return place, normal, place - normal * rho, phi != at

@@ -178,10 +178,7 @@ def _integrated(pieces: Sequence[Smooth]) -> Law:
 def law_of_motion(name: str, u: float = 0.5) -> Law:
     """Return the law of this name, of `cam.LAWS`, whose first lobe takes the part u of the phase; the uniform has none.
 
-    Raises
-    ------
-    InputError
-        When there is no such law, or u is not between 0 and 1.
+    Raises InputError: when there is no such law, or u is not between 0 and 1.
     """
     if name == UNIFORM:
         return (Smooth(0.0, 1.0, 0.0, (0.0, 1.0)),)
@@ -202,10 +199,8 @@ def law_of_pieces(at: Sequence[float], values: Sequence[float]) -> Law:
 
     `values` are the accelerations at the nodes `at`, from 0 to 1; twice the same place where the acceleration jumps.
 
-    Raises
-    ------
-    InputError
-        When the places do not run from 0 to 1, the velocity does not return to zero, or nothing is travelled.
+    Raises InputError: when the places do not run from 0 to 1, the velocity does not return to zero, or nothing is
+    travelled.
     """
     _rising(at, values, strict=False)
     nodes = list(zip(at, values, strict=True))
@@ -231,10 +226,7 @@ def law_of_points(at: Sequence[float], values: Sequence[float]) -> Law:
     mean square of acceleration; the acceleration is a chain of straight pieces without jumps between the ends. `values`
     are the travels `at` places that rise from 0 to 1: the first is where the follower rests, the last the whole stroke.
 
-    Raises
-    ------
-    InputError
-        When the places do not rise from 0 to 1, nothing is travelled, or the curve leaves the stroke.
+    Raises InputError: when the places do not rise from 0 to 1, nothing is travelled, or the curve leaves the stroke.
     """
     _rising(at, values, strict=True)
     x = np.asarray(at, float)

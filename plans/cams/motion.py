@@ -129,10 +129,7 @@ class Motion:
     The phases have lengths in rad; the lower dwell is the rest of the turn. The fall has by default the law of the
     rise, and runs through its law backwards in time, `mirror`, or in the `same` order.
 
-    Raises
-    ------
-    InputError
-        When the phases are more than a turn.
+    Raises InputError: when the phases are more than a turn.
     """
 
     def __init__(
@@ -330,10 +327,7 @@ class Motion:
 def motion_of(cam: Cam, values: Mapping[str, float]) -> Motion:
     """Return the motion of a cam with its numbers: h, phi_rise, phi_upper, phi_fall, u, u_fall.
 
-    Raises
-    ------
-    InputError
-        When a law cannot be had with these numbers.
+    Raises InputError: when a law cannot be had with these numbers.
     """
     u = values.get("u", 0.5)
     rise, fall = (

@@ -213,14 +213,14 @@ def _opposed(planes: list[HalfPlane]) -> Names:
 
 def _outside(rocker: Rocker, limit: Limit, place: complex) -> Iterator[HalfPlane]:
     """Go through the positions that most lack their limit."""
-    for worst in _slacks(rocker, limit, place):
+    for worst in slacks(rocker, limit, place):
         if worst.value < -REACHED * rocker.l:
             side = 1 if worst.phi < rocker.motion.phase(limit.phase).end else -1
             normal, lowest = rocker.half_planes(limit, worst.phi, side)
             yield HalfPlane(limit.name, complex(normal), float(lowest), worst.phi)
 
 
-def _slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Extreme]:
+def slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Extreme]:
     """Return the least distances of a place from the limit, m, negative outside of it, and where they are."""
 
     def slack(phi: Any, side: int) -> Any:
@@ -228,11 +228,6 @@ def _slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Extreme]:
         return normal.real * place.real + normal.imag * place.imag - lowest
 
     return minima(slack, rocker.motion.phase(limit.phase).corners)
-
-
-def tightest(rocker: Rocker, limit: Limit, place: complex) -> float:
-    """Return the angle of the cam at which a place e + i s_0 comes nearest to a limit, rad."""
-    return min(_slacks(rocker, limit, place), key=lambda slack: slack.value).phi
 
 
 def smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> Sizes | Names:

@@ -73,16 +73,6 @@ def diagram_givens(motion: Motion, division: Division, given: str) -> dict[str, 
     return numbers | {"_part_a": motion.d2s_max.value / amplitude}
 
 
-def _profile_givens(motion: Motion, division: Division, sense: int) -> dict[str, float]:
-    """Return the follower's axes in the inverted motion, and travels as parts of the stroke."""
-    s, ds, _ = motion.at(division.angles, -1)
-    numbers = {"_sense": float(sense)}
-    for i in division.lines:
-        numbers[f"_axis_angle{i}"] = RIGHT_ANGLE - sense * float(division.angles[i])
-        numbers |= {f"_s_part{i}": float(s[i]) / motion.h, f"_x_part{i}": sense * float(ds[i]) / motion.h}
-    return numbers
-
-
 CHORDS = "chords"
 SECTIONS = (DIAGRAMS_PART, CHORDS, ROLLER, PLATE, PROFILE)
 PRESSURES = ("gamma_rise_min", "gamma_fall_min")  # also what the plan of pressure angles shows
@@ -225,10 +215,7 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     plans : iterable of str
         Plans wanted, of `cam.PLANS`; those they need are built too, no others.
 
-    Raises
-    ------
-    InputError
-        A law that cannot be had with these numbers, or a size that the limits do not permit.
+    Raises InputError: a law that cannot be had with these numbers, or a size that the limits do not permit.
     """
     if cam.followers == (PLATE,) and "r_0" in values:
         if "r_0_flat" in values:
@@ -296,8 +283,12 @@ def _cams(cam: Cam, motion: Motion, values: Mapping[str, float]) -> tuple[Roller
 
 def _givens(cam: Cam, motion: Motion, layout: Layout) -> dict[str, Any]:
     """Return what the board begins with beside the numbers of the cam."""
-    division = layout.division
-    numbers = diagram_givens(motion, division, layout.given) | _profile_givens(motion, division, cam.sense)
+    division, sense = layout.division, cam.sense
+    numbers = diagram_givens(motion, division, layout.given) | {"_sense": float(sense)}
+    s, ds, _ = motion.at(division.angles, -1)
+    for i in division.lines:  # the follower's axes in the inverted motion, and travels as parts of the stroke
+        numbers[f"_axis_angle{i}"] = RIGHT_ANGLE - sense * float(division.angles[i])
+        numbers |= {f"_s_part{i}": float(s[i]) / motion.h, f"_x_part{i}": sense * float(ds[i]) / motion.h}
     for follower in (layout.rolling, layout.plate):
         numbers |= follower.givens(division) if follower is not None else {}
     return numbers

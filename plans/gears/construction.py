@@ -211,24 +211,19 @@ ENDLESS = {f"theta_{i}{3 - i}_{point}": f"theta_{3 - i}{i}_{point}" for i, point
 def _sliding(board: Board, pole: str) -> None:
     """Draw both plans; `pole` is the point of the table that stands in P."""
     sliding_places(board)
-    _velocity_lines(board)
-    for point in POINTS:
-        _ordinates(board, point, pole)
-    for point in POINTS:
-        for i in (i for i in WHEELS if FIRST[i] != point):
-            sliding_at(board, point, i)
-    _theta_diagram(board)
-
-
-def _velocity_lines(board: Board) -> None:
-    """Draw N1N2 with the pole, and the velocity over it, to whose tip the lines from both ends run."""
-    board.turn(RIGHT, "zero")
+    board.turn(RIGHT, "zero")  # N1N2 with the pole, and the velocity over it, to whose tip the lines of both ends run
     board.normal(UP, RIGHT)
     board.pole(f"{SLIDING}.N1")
     for name, rho in (("P", "_rho_at_P1"), ("N2", "l_N1N2")):
         board.calc(f"_paper_{name}", "on_paper", rho, "mu_rho")
         board.lay(f"{SLIDING}.{name}", f"{SLIDING}.N1", RIGHT, f"_paper_{name}")
     board.lay(f"{SLIDING}.W", f"{SLIDING}.P", UP, "PW")
+    for point in POINTS:
+        _ordinates(board, point, pole)
+    for point in POINTS:
+        for i in (i for i in WHEELS if FIRST[i] != point):
+            sliding_at(board, point, i)
+    _theta_diagram(board)
 
 
 def _ordinates(board: Board, point: str, pole: str) -> None:

@@ -91,10 +91,7 @@ PRESETS: Mapping[str, Preset] = {
 def preset(name: str) -> Preset:
     """Return a preset by its name.
 
-    Raises
-    ------
-    InputError
-        With the key `hand-unknown`.
+    Raises InputError: with the key `hand-unknown`.
     """
     if name not in PRESETS:
         raise unknown("hand-unknown", name, PRESETS)

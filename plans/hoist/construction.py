@@ -46,12 +46,6 @@ SECTIONS = 12  # of either phase, at least
 RESTING, HANGING = "f", "g"  # section lines of the phases
 
 
-def _axes(board: Board) -> None:
-    """Take the directions of the axes of all diagrams."""
-    board.turn(HORIZONTAL, "zero")
-    board.normal(UP, HORIZONTAL)
-
-
 def points(board: Board, plan: str, foot: str, at: str, **values: str) -> None:
     """Mark where a section line stands on the axis, and on it values by their marks, to the scales of the plan."""
     along, upwards = AXES[plan]
@@ -223,7 +217,6 @@ ENDS = {0: ("O1", "O2"), 2: ("B1", "B2")}
 
 def _scheme(board: Board, near: dict[int, str]) -> None:
     """Draw beams and rope; `near` says of either beam whether its left or its right end is the nearer one."""
-    _axes(board)
     board.pole(f"{SCHEME}.A0")
     board.lay(f"{SCHEME}.A2", f"{SCHEME}.A0", UP, "L")
     for i, (left, right) in ENDS.items():
@@ -245,19 +238,13 @@ def _beam(board: Board, i: int) -> None:
         points(board, plan, mark, place)
     for letter, force in zip(LETTERS, FORCE[i], strict=False):
         for n, place in places.items():
-            _bent(board, i, f"{letter}{n}", (place, f"f{n}"), force)
-    _bent(board, i, "A", (f"b_{i}", "fA"), FORCE[i][0])
+            bent_point(board, i, f"{letter}{n}", (place, f"f{n}"), force)
+    bent_point(board, i, "A", (f"b_{i}", "fA"), FORCE[i][0])
     board.calc(f"w_{i}", "given", f"_w_A_{i}")
-    _bent(board, i, "M", (f"_x_M_{i}", "fM"), FORCE[i][0])
+    bent_point(board, i, "M", (f"_x_M_{i}", "fM"), FORCE[i][0])
 
 
-def bent_beam(board: Board, i: int, letter: str, force: str) -> None:
-    """Draw a beam bent by a force: its point at the place `_x`."""
-    points(board, BENT[i], "f", "_x")
-    _bent(board, i, letter, ("_x", "f"), force)
-
-
-def _bent(board: Board, i: int, mark: str, place: tuple[str, str], force: str) -> None:
+def bent_point(board: Board, i: int, mark: str, place: tuple[str, str], force: str) -> None:
     """Mark a point of the bent beam at a place, under its foot."""
     at, foot = place
     plan, name = BENT[i], f"_w_{mark}_{i}"
@@ -355,7 +342,8 @@ def _constructed(layout: Layout, wanted: frozenset[str]) -> Program:
     board = RecordingBoard()
     for part in ONE_SIDED if layout.moved else TWO_SIDED:
         part(board)
-    _axes(board)
+    board.turn(HORIZONTAL, "zero")  # the axes of all diagrams
+    board.normal(UP, HORIZONTAL)
     if SCHEME_PART in wanted:
         _scheme(board, dict(zip(BENT, layout.near, strict=True)))
     if CIRCLE_PART in wanted:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..board import Board, recorded
 from ..boards.exact import ExactBoard
-from ..laws import LAWS, TURN
+from ..laws import TURN
 from ..solved import AT_LEAST, MORE, Check, Columned
 from .hoist import VALUES, Numbers, complete, in_range
 from .model import model, motion_given, rope_force
@@ -228,15 +228,6 @@ def course(forces: Forces, t: Array) -> Course:
     values = {**board.values, **better}
     columned = (Columned(name, of, np.asarray(values[name], float)) for name, of in COLUMN_UNITS.items())
     return Course(tuple(columned), states)
-
-
-def article_force(found: Numbers, T: Any) -> Any:
-    """Return the force of the rope at times T after the lift-off as the article has it, N.
-
-    Needed are the quantities `m g a V_0 slack P_st C_12 k_1`, SI.
-    """
-    V = LAWS["article_speed"](*(found[name] for name in ("V_0", "a", "slack", "P_st", "C_12")))
-    return LAWS["article_force"](*(found[name] for name in ("m", "g", "a")), V, found["C_12"], found["k_1"], T)
 
 
 LEAST, MOST = 0.05, 0.5  # of beta: nearer to its end a beam is rigid

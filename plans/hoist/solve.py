@@ -21,7 +21,7 @@ from ..board import Board
 from ..boards.exact import run
 from ..condition import Condition, conditions_again
 from ..hands.shaky import Paper, Tolerance
-from ..laws import TURN
+from ..laws import LAWS, TURN
 from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, shown_on
@@ -36,7 +36,7 @@ from .construction import (
     SCHEME,
     UP,
     Layout,
-    bent_beam,
+    bent_point,
     construct,
     drawn_name,
     extremes_point,
@@ -47,7 +47,7 @@ from .construction import (
     seen,
 )
 from .construction import SECTIONS as BEAM_SECTIONS
-from .forces import Forces, article_force, course, forces, motion_givens
+from .forces import Forces, course, forces, motion_givens
 from .hoist import PLANS, VALUES, Hoist, Numbers, complete
 from .model import CIRCLE, HORIZONTAL, SECTIONS, motion_given, rest_of_root, section_of
 
@@ -256,7 +256,12 @@ def bent(solved: SolvedHoist, i: int, letter: str, force: str) -> Places:
     """Return a beam bent by a force, the load's place among the points."""
     found = solved.forces.found
     x = np.unique(np.append(np.linspace(0.0, found[f"l_{i}"], OF_BEAM), found[f"b_{i}"]))
-    return solved.dense(lambda board: bent_beam(board, i, letter, force), f"{BENT[i]}.{letter}", _x=x)
+
+    def draw(board: Board) -> None:
+        points(board, BENT[i], "f", "_x")
+        bent_point(board, i, letter, ("_x", "f"), force)
+
+    return solved.dense(draw, f"{BENT[i]}.{letter}", _x=x)
 
 
 def equation(solved: SolvedHoist, curve: str, about: float | None = None, half: float = 0.0) -> Places:
@@ -283,7 +288,9 @@ def forces_over(solved: SolvedHoist) -> dict[str, Places]:
     first, second = (course(forces, t).columns for t in (before, after))
     swing = after[after <= t_1 + TURN / found["k_1"]]
     curves = {"F_01": (before, first["F_01"]), "F_12": (before, first["F_12"]), "P_12": (after, second["F_12"])}
-    curves["printed"] = swing, np.asarray(article_force(found, swing - t_1))
+    V = LAWS["article_speed"](*(found[name] for name in ("V_0", "a", "slack", "P_st", "C_12")))
+    article = LAWS["article_force"](found["m"], found["g"], found["a"], V, found["C_12"], found["k_1"], swing - t_1)
+    curves["printed"] = swing, np.asarray(article)
 
     def draw(board: Board) -> None:
         points(board, FORCES, "fx", "_t", x="_F")

@@ -23,7 +23,7 @@ from ..cams.motion import TURN, Array, Division, Motion
 from ..cams.solve import SolvedCam
 from ..hands.shaky import Hand, draw
 from ..hands.spread import kept
-from .race import FULL, SEED, Clock, Contest, Effort, Kind, Way, timed
+from .race import FULL, SEED, Clock, Contest, Discipline, Effort, Way, timed
 
 Course = tuple[NDArray[Any], NDArray[Any]]  # travel and its derivative on section lines, in any scale
 CLOSED, BOARD, BOARDS = "closed", "board", "boards"
@@ -167,7 +167,7 @@ def _errors_drawn(solved: SolvedCam, division: Division, values: Any, *shape: in
 def rivals(solved: SolvedCam, clock: Clock, hand: Hand, effort: Effort = FULL) -> Contest:
     """Let closed forms, chords, sums and a hand compete by a clock in seconds, best of the processor."""
     own = 2 if solved.layout.given == ACCELERATION else 1  # a velocity that is given has no error
-    kinds = (Kind(TRAVELS, ("s",)), Kind(VELOCITIES, ("ds",)))[:own]
+    kinds = (Discipline(TRAVELS, ("s",)), Discipline(VELOCITIES, ("ds",)))[:own]
     computed = (_closed(solved, clock, effort), _board(solved, clock), _numerical(solved, clock))
     entries = [
         way.entry(kind.name, division.angles, {kind.names[0]: found[kind.name]})

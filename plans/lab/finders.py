@@ -153,11 +153,6 @@ FINDERS: Mapping[str, Callable[[Equation], Iterator[Guess]]] = {
 }
 
 
-def approximations(finder: str, equation: Equation, count: int) -> list[float]:
-    """Return what a finder has after each of `count` evaluations of f or f'."""
-    return [guess for guess, _ in islice(FINDERS[finder](equation), count)]
-
-
 def find(finder: str, equation: Equation, tolerance: float) -> Found:
     """Return the root in the bracket, believed to be right to a part `tolerance` of itself.
 

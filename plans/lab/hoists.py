@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache, partial
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -33,13 +34,13 @@ from ..hoist.model import model, model_program
 from ..hoist.roots import sine_rest
 from ..hoist.solve import SolvedHoist, board_givens
 from ..laws import LAWS, TURN
-from .finders import FINDERS, Equation, Found, approximations, find, lift_off_equation
+from .finders import FINDERS, Equation, Found, find, lift_off_equation
 from .integrators import EXPLICIT, RK4, STEPPERS, integrate, stability_limit
-from .race import FULL, SEED, Clock, Contest, Effort, Entry, Kind, Way, timed
+from .race import FULL, SEED, Clock, Contest, Discipline, Effort, Entry, Way, timed
 
 Array = NDArray[np.float64]
 LIFT_OFF, COURSE, PEAK = "lift_off", "course", "peak"
-KINDS = (Kind(LIFT_OFF, ("t_1",)), Kind(COURSE, ("F_12", "P_12")), Kind(PEAK, ("F_max",)))
+KINDS = (Discipline(LIFT_OFF, ("t_1",)), Discipline(COURSE, ("F_12", "P_12")), Discipline(PEAK, ("F_max",)))
 FORMULAS, MISSED, DRAWN, HAND = "hoist-closed", "rk4-missed", "hoist-drawn", "hand"
 TOLERANCES = (1e-2, 1e-4, 1e-8, 1e-15)
 STEPS = (1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01)  # k h, rad
@@ -202,7 +203,7 @@ def _ways(equation: Equation, root: float) -> Ways:
     errors = {}
     for method in FINDERS:
         with np.errstate(invalid="ignore", over="ignore"):
-            guesses = np.array(approximations(method, equation, EVALUATIONS))
+            guesses = np.array([guess for guess, _ in islice(FINDERS[method](equation), EVALUATIONS)])
             away = np.abs(guesses / root - 1.0)
         errors[method] = np.where(np.isfinite(away), np.maximum(away, LEAST), np.nan)
     return Ways(root, errors, {method: find(method, equation, TOLERANCE) for method in FINDERS})

@@ -33,7 +33,7 @@ from ..linkages.solved import SolvedLinkage
 from ..names import LEVER, role
 from ..quantities import BALANCES, plans_of, references
 from .contours import Contours
-from .race import FULL, SEED, Clock, Contest, Effort, Entry, Kind, Way, timed
+from .race import FULL, SEED, Clock, Contest, Discipline, Effort, Entry, Way, timed
 
 Array = NDArray[Any]
 Values = dict[str, Array]
@@ -51,7 +51,7 @@ GRID = 72  # places round the cycle at which Newton's method knows where the lin
 ORDERS = {"V": 1, "omega": 1, "a": 2, "epsilon": 2}  # how many times a quantity is a derivative of a place
 
 
-def kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Kind, ...]:
+def kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Discipline, ...]:
     """Return the quantities of a cycle that are compared, kind by kind.
 
     Those are velocities and accelerations of points, angular ones of links, reactions and what balances the driver;
@@ -69,7 +69,7 @@ def kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Kind, ...]:
             found["velocity" if _order(name) == 1 else "acceleration"] += (name,)
     planned = [name for name in BALANCES if name.part != LEVER]
     found["forces"] = tuple(name for name in known if role(name).kind == "R" or name in planned)
-    return tuple(Kind(kind, names) for kind, names in found.items() if names)
+    return tuple(Discipline(kind, names) for kind, names in found.items() if names)
 
 
 class Rivals:
@@ -83,7 +83,18 @@ class Rivals:
         sense = float(given[driver.sense]) if isinstance(driver, Driver) else 1.0  # of both rates, rad/s or m/s
         self.speed, self.acceleration = (float(given[x or ZERO]) * sense for x in (driver.speed, driver.acceleration))
         self.contours = Contours(cycle.mechanism, cycle.givens)
-        self._grid, self._whole = self._at_grid(), abs(cycle.range.high - cycle.range.low)
+        self._whole = abs(cycle.range.high - cycle.range.low)
+        # how the links lie at places round the cycle
+        known = {mark for body in self._bodies.values() for mark in (body.direction, body.local)}
+        there = cycle.at(places_of(cycle, GRID), [name for name in cycle.program.names if name in known])
+        self._grid = self.contours.pose({
+            number: there[body.direction] * (np.conj(there[body.local]) if body.local else 1.0)
+            for number, body in self._bodies.items()
+        })  # fmt: skip
+
+    def time(self, method: Method, size: int, names: Sequence[str], clock: Clock) -> float:
+        """Return what a method takes for a position of so many at once, seconds."""
+        return timed(partial(method, places_of(self.cycle, size), names), clock)[1] / size
 
     def plan(self, places: Array, names: Sequence[str], precision: str = "double") -> Values:
         """Return quantities by plans in a precision, many positions at once."""
@@ -150,19 +161,6 @@ class Rivals:
         if any(_order(name) == 2 for name in names):
             changes = contours.changes(pose, rates, self.acceleration)
         return {name: self._of_pose(name, pose, rates, changes) for name in names}
-
-    def _at_grid(self) -> Array:
-        """Return how the links lie at places round the cycle."""
-        cycle = self.cycle
-        names = [mark for body in self._bodies.values() for mark in (body.direction, body.local) if mark]
-        found = cycle.at(
-            places_of(cycle, GRID), tuple(name for name in dict.fromkeys(names) if name in cycle.program.names)
-        )
-        directions = {
-            number: found[body.direction] * (np.conj(found[body.local]) if body.local else 1.0)
-            for number, body in self._bodies.items()
-        }
-        return self.contours.pose(directions)
 
     def _of_pose(self, name: str, pose: Array, rates: Array, changes: Array | None) -> Array:
         contours, of = self.contours, role(name).of
@@ -239,59 +237,51 @@ def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (
     rivals, places, kinds = Rivals(cycle), places_of(cycle, positions), kinds_of(cycle, names)
     entries: list[Entry] = []
     for kind in kinds:
-        exact, race = truth(cycle, places, kind.names), _Race(rivals, kind, places, effort, clock)
-        for way, values in (*race.plans(), *(race.others() if kind.name != "forces" else ())):
+        exact, run_of = truth(cycle, places, kind.names), (rivals, kind.names, places, effort, clock)
+        for way, values in (*_by_plans(*run_of), *(_by_others(*run_of) if kind.name != "forces" else ())):
             entries.append(way.entry(kind.name, places, exact.errors(values)))
     return Contest(kinds, places, tuple(entries), effort)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Race:
-    """The methods on quantities of one kind."""
+def _by_plans(
+    rivals: Rivals, names: Sequence[str], places: Array, effort: Effort, clock: Clock
+) -> Iterator[tuple[Way, Values]]:
+    """Go through plans: in batches of all sizes, then in other precisions."""
+    cycle = rivals.cycle
+    values, program = rivals.plan(places, names), cycle.program.needed_for(names)
+    spent, each = 0.0, cycle.each(places)
+    for size in effort.batches:
+        if spent * size > LONG * 10.0:  # groups of class III are followed at length
+            break
+        if size == 1:  # on Python numbers
+            spent = timed(lambda: [run(program, here) for here in each], clock)[1] / len(each)
+        else:
+            spent = rivals.time(rivals.plan, size, names, clock)
+        yield Way(PLAN, size, spent, size), values
+    # a coarse clock may not notice what takes so little
+    size = min(effort.at_once, max(int(LONG / spent), 100)) if spent else effort.at_once
+    precisions = {SINGLE: "single"}
+    if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # not so on every machine
+        precisions[EXTENDED] = "extended"
+    for method, precision in precisions.items():
+        plan = partial(rivals.plan, precision=precision)
+        yield Way(method, size, rivals.time(plan, size, names, clock), size), plan(places, names)
 
-    rivals: Rivals
-    kind: Kind
-    places: Array
-    effort: Effort
-    clock: Clock
 
-    def plans(self) -> Iterator[tuple[Way, Values]]:
-        """Go through plans: in batches of all sizes, then in other precisions."""
-        names, rivals, cycle = self.kind.names, self.rivals, self.rivals.cycle
-        values, program = rivals.plan(self.places, names), cycle.program.needed_for(names)
-        spent, each = 0.0, cycle.each(self.places)
-        for size in self.effort.batches:
-            if spent * size > LONG * 10.0:  # groups of class III are followed at length
-                break
-            if size == 1:  # on Python numbers
-                spent = timed(lambda: [run(program, here) for here in each], self.clock)[1] / len(each)
-            else:
-                spent = self._time(rivals.plan, size)
-            yield Way(PLAN, size, spent, size), values
-        # a coarse clock may not notice what takes so little
-        size = min(self.effort.at_once, max(int(LONG / spent), 100)) if spent else self.effort.at_once
-        precisions = {SINGLE: "single"}
-        if np.finfo(np.longdouble).eps < np.finfo(float).eps:  # not so on every machine
-            precisions[EXTENDED] = "extended"
-        for method, precision in precisions.items():
-            plan = partial(rivals.plan, precision=precision)
-            yield Way(method, size, self._time(plan, size), size), plan(self.places, names)
-
-    def others(self) -> Iterator[tuple[Way, Values]]:
-        """Go through the methods that are no plans."""
-        names, rivals = self.kind.names, self.rivals
-        for name, method, settings in ((NEWTON, rivals.newton, TOLERANCES), (DIFFERENCES, rivals.differences, STEPS)):
-            spent = self._time(partial(method, settings[0]), FEW)  # it may not be bearable at more positions at once
-            size = self.effort.at_once if spent * self.effort.at_once < LONG * 10.0 else FEW
-            for setting in settings:
-                spent = self._time(partial(method, setting), size)
-                yield Way(name, setting, spent, size), method(setting, self.places, names)
-        for sections in SECTIONS:
-            _, spent = timed(partial(rivals.chords_of_cycle, sections, names), self.clock)
-            yield Way(CHORDS, sections, spent / sections, sections), rivals.chords(sections, self.places, names)
-
-    def _time(self, method: Method, size: int) -> float:
-        return timed(partial(method, places_of(self.rivals.cycle, size), self.kind.names), self.clock)[1] / size
+def _by_others(
+    rivals: Rivals, names: Sequence[str], places: Array, effort: Effort, clock: Clock
+) -> Iterator[tuple[Way, Values]]:
+    """Go through the methods that are no plans."""
+    for name, method, settings in ((NEWTON, rivals.newton, TOLERANCES), (DIFFERENCES, rivals.differences, STEPS)):
+        # it may not be bearable at more positions at once
+        spent = rivals.time(partial(method, settings[0]), FEW, names, clock)
+        size = effort.at_once if spent * effort.at_once < LONG * 10.0 else FEW
+        for setting in settings:
+            spent = rivals.time(partial(method, setting), size, names, clock)
+            yield Way(name, setting, spent, size), method(setting, places, names)
+    for sections in SECTIONS:
+        _, spent = timed(partial(rivals.chords_of_cycle, sections, names), clock)
+        yield Way(CHORDS, sections, spent / sections, sections), rivals.chords(sections, places, names)
 
 
 @dataclass(frozen=True, slots=True)
@@ -303,7 +293,7 @@ class DrawnSheet:
     mus: Mapping[str, float]
 
 
-def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Kind]) -> Iterator[Entry]:
+def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Discipline]) -> Iterator[Entry]:
     """Go through the errors that most drawings of a hand keep, kind by kind.
 
     The plans of every position are drawn as long as a sheet draws those of one.

@@ -21,7 +21,7 @@ SEED = 1  # the same hand on every paper
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class Discipline:
     """Quantities of one kind: `velocity`, `acceleration` or `forces` of a linkage, `travel` or `velocity` of a cam."""
 
     name: str
@@ -79,7 +79,7 @@ class Way:
 class Contest:
     """Speed against accuracy of all methods: `places` of the driver at which they were compared."""
 
-    kinds: tuple[Kind, ...]
+    kinds: tuple[Discipline, ...]
     places: Array
     entries: tuple[Entry, ...]
     effort: Effort = FULL

@@ -197,10 +197,7 @@ def without(program: Program, parts: Collection[str]) -> Program:
 class Model:
     """A mechanism's forces over its cycle, with all parts of the model or without some.
 
-    Raises
-    ------
-    InputError
-        With the key `chart-no-forces`: the task has no plan of forces and no lever.
+    Raises InputError: with the key `chart-no-forces`: the task has no plan of forces and no lever.
     """
 
     def __init__(self, cycle: Cycle) -> None:

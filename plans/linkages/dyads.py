@@ -307,10 +307,7 @@ class RPP(AssurGroup):
 
     All three turn alike. `inner` is the pair of link 2 with 3, `outer` that of link 3 with the last.
 
-    Raises
-    ------
-    InputError
-        When link 3 slides in both pairs: its x axis cannot point along both.
+    Raises InputError: when link 3 slides in both pairs: its x axis cannot point along both.
     """
 
     def __init__(self, mechanism: Mechanism, group: Group, bodies: Bodies) -> None:

@@ -97,10 +97,7 @@ class Slide(_Held):
 
     The reaction of the guide is moved to the pin, with a couple.
 
-    Raises
-    ------
-    InputError
-        When the frame is said to be the slider.
+    Raises InputError: when the frame is said to be the slider.
     """
 
     def __init__(self, mechanism: Mechanism, pair: Prismatic, number: int, pin: str, bodies: Bodies) -> None:

@@ -55,11 +55,8 @@ class Moving:
 def lay_loads(board: Board, moving: Moving) -> None:
     """Lay down outer loads, weights, the inertia force and moment of every link that has a mass, and sums of couples.
 
-    Raises
-    ------
-    InputError
-        When a mass is to follow from the length of a link that has none, a load resists the motion of a pivot, or the
-        mechanism has no output that moves to and fro on the frame.
+    Raises InputError: when a mass is to follow from the length of a link that has none, a load resists the motion of a
+    pivot, or the mechanism has no output that moves to and fro on the frame.
     """
     mechanism = moving.mechanism
     for link in mechanism.links:  # mass and moment of inertia may follow from the distance of its two joints
@@ -260,10 +257,7 @@ def _lay_stroke(board: Board, moving: Moving) -> None:
 def output_pair(mechanism: Mechanism) -> Revolute | Prismatic:
     """Return the pair of the output link with the frame.
 
-    Raises
-    ------
-    InputError
-        When no output is named, or it is the driver, or has no such pair.
+    Raises InputError: when no output is named, or it is the driver, or has no such pair.
     """
     if mechanism.stroke is None:
         raise InputError("stroke-missing")

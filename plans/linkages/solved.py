@@ -208,10 +208,7 @@ def board_givens(
     Sizes of loads have names of their own there. Groups of class III are followed from their starts, unless the
     `values` say already where they lie. Where `program` needs the ends of the working stroke, these are found first.
 
-    Raises
-    ------
-    InputError
-        A load diagram whose places decrease, or an output without a stroke.
+    Raises InputError: a load diagram whose places decrease, or an output without a stroke.
     """
     if mechanism.starts and follow:
         from .triads.following import followed  # which needs numpy, and few mechanisms need it

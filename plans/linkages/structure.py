@@ -140,10 +140,7 @@ class _Joint:
 def _joints_of(pairs: Iterable[Pair]) -> tuple[_Joint | Prismatic, ...]:
     """Collect revolute pairs with one letter that have links in common; prismatic pairs stay among them.
 
-    Raises
-    ------
-    InputError
-        When a joint of three links or more is given a pair too many.
+    Raises InputError: when a joint of three links or more is given a pair too many.
     """
     joints: list[_Joint | Prismatic] = []
     for pair in pairs:
@@ -184,10 +181,7 @@ def _pairs_of(
 def analyse(mechanism: Mechanism) -> Structure:
     """Count the mobility and split the mechanism into its Assur groups.
 
-    Raises
-    ------
-    InputError
-        When W is not 1, links are left that form no group, or a joint has a pair too many.
+    Raises InputError: when W is not 1, links are left that form no group, or a joint has a pair too many.
     """
     joints = _joints_of(mechanism.pairs)
     moving, lower = len(mechanism.links), len(mechanism.pairs)

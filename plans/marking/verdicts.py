@@ -73,10 +73,7 @@ class Marking:
 def mark(key: Key, answers: Iterable[Answer]) -> Marking:
     """Mark the answers of one student.
 
-    Raises
-    ------
-    InputError
-        A quantity that is not asked.
+    Raises InputError: a quantity that is not asked.
     """
     marker = Marker.begun(key, answers)
     lines = tuple(marker.lines())

@@ -18,7 +18,6 @@ from kulman.plans.lab.finders import (
     NEWTON,
     SECANT,
     Equation,
-    approximations,
     find,
     lift_off_equation,
 )
@@ -77,9 +76,9 @@ def test_newton_slows_down_to_thirds_at_a_triple_root() -> None:
     equation, right = near_triple(0.0)
     equation = Equation(equation.value, equation.slope, equation.low, right + 0.1)
     start = 2.0 * right - equation.high  # the other side: tangents come down to the root
-    steps = approximations(NEWTON, Equation(equation.value, equation.slope, start, start), 17)[1::2]
+    guesses = FINDERS[NEWTON](Equation(equation.value, equation.slope, start, start))
 
-    errors = np.abs(np.array(steps) - right)
+    errors = np.abs(np.array([guess for guess, _ in islice(guesses, 17)][1::2]) - right)
 
     assert errors[1:6] / errors[:5] == pytest.approx(np.full(5, 2.0 / 3.0), abs=0.01)
 

@@ -161,10 +161,7 @@ def cycle(
     end : float, optional
         Where a sliding driver stops; without it at the other end of its reach.
 
-    Raises
-    ------
-    InputError
-        Too few or too many positions; the output has no stroke; a sliding driver's reach has no end.
+    Raises InputError: too few or too many positions; the output has no stroke; a sliding driver's reach has no end.
     """
     if not FEWEST <= positions <= MOST:
         raise InputError("positions-number", n=positions, least=FEWEST, most=MOST)
@@ -342,10 +339,7 @@ def diagrams(cycle: Cycle, of: str, sections: int = 12) -> Diagrams:
     sections : int
         Sections of the cycle.
 
-    Raises
-    ------
-    InputError
-        No such point or link; the cycle was computed without velocities or accelerations.
+    Raises InputError: no such point or link; the cycle was computed without velocities or accelerations.
     """
     names, turns = _named(cycle, of)
     if not set(filter(None, names)) <= set(cycle.program.names):

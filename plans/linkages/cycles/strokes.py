@@ -145,10 +145,7 @@ def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
     Masses and loads are not needed. NaN all through where the mechanism cannot be assembled in any position: its plan
     of positions says why.
 
-    Raises
-    ------
-    InputError
-        When the link does not move to and fro on the frame.
+    Raises InputError: when the link does not move to and fro on the frame.
     """
     drive = swept(mechanism, values)
     found = reach_of(drive, values)

@@ -32,11 +32,8 @@ class Triad(AssurGroup):
 
     `legs` are in the order of construction: the lines of the first two meet in the special point, then the third.
 
-    Raises
-    ------
-    InputError
-        When a leg slides on the central link, when the task does not say where that link starts, or names other links
-        than two of the legs.
+    Raises InputError: when a leg slides on the central link, when the task does not say where that link starts, or
+    names other links than two of the legs.
     """
 
     legs: tuple[Leg, Leg, Leg]
