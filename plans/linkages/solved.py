@@ -138,7 +138,8 @@ def moment_points(mechanism: Mechanism, structure: Structure) -> dict[str, str]:
     """Return the points about which the moments of prismatic pairs are taken, by the moments' names."""
     pairs = [(pair, group.pin(pair)) for group in structure.groups for pair in (*group.inner, *group.outer)]
     if isinstance(mechanism.driver, SlidingDriver):
-        pairs += [(pair, pair.point) for pair in mechanism.pairs if {*pair.links} == {FRAME, mechanism.driver.link}]
+        driver = mechanism.driver
+        pairs += [(pair, driver.point) for pair in mechanism.pairs if {*pair.links} == {FRAME, driver.link}]
     sliding = [(pair.links, point) for pair, point in pairs if isinstance(pair, Prismatic)]
     return {mechanism.pair("M", *links): point for both, point in sliding for links in (both, both[::-1])}
 

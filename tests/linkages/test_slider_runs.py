@@ -6,7 +6,7 @@ import pytest
 
 from kulman.plans.linkages.cycles.cycle import cycle, slider_runs
 from kulman.plans.linkages.solved import solve_linkage
-from kulman.tests.support.presses import RAM, RAM_VALUES
+from kulman.tests.support.linkages import RAM, RAM_VALUES
 from kulman.variants.solution import solve
 
 

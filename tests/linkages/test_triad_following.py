@@ -17,8 +17,9 @@ from kulman.plans.linkages.mechanism import ZERO, Mechanism, Prismatic, Revolute
 from kulman.plans.linkages.solved import SolvedLinkage, board_givens, solve_linkage
 from kulman.plans.linkages.triads.following import Follower, followed, with_special_points
 from kulman.scales.errors import LANGUAGES, InputError
-from kulman.tests.support.mechanisms import one_of
-from kulman.tests.support.presses import ORIGIN, PRESS, RAM, RAM_VALUES, VALUES, press, two_presses
+from kulman.tests.support.linkages import BENT, DEAD, PARALLELOGRAM, PRESS, RAM, RAM_VALUES, SHIFTS, two_presses
+from kulman.tests.support.linkages import PRESS_VALUES as VALUES
+from kulman.tests.support.mechanisms import ORIGIN, one_of
 from kulman.tests.support.printed_numbers import decimal
 from kulman.tests.support.triads import random_triads
 
@@ -128,18 +129,6 @@ def test_crank_that_goes_a_little_more_than_a_turn_jumps_nowhere() -> None:
     assert degrees[stands].tolist() == list(range(-64, 368))
     assert abs(results["D"][460] - results["D"][100]) > 0.2  # at 360 and at 0 degrees
     assert np.max(abs(np.diff(results["D"][stands]))) < 0.03
-
-
-# A parallelogram: the central link does not turn, B runs on a circle about a place G, as in a four-bar O A B G. Its
-# crank goes as far as A B G come in line, at cos(phi) = (OA^2 + OG^2 - (AB + BG)^2) / (2 OA OG).
-SHIFTS = {"C": 0.05 + 0.1j, "D": 0.15 + 0.28j}
-PARALLELOGRAM = {
-    **{"l_OA": 0.1, "l_AB": 0.3, "l_EC": 0.25, "l_FD": 0.25, "x_0": 0.33, "y_0": 0.19, "angle_0": 0.0, "phi_0": 0.0},
-    **{"x_C": SHIFTS["C"].real, "y_C": SHIFTS["C"].imag, "x_D": SHIFTS["D"].real, "y_D": SHIFTS["D"].imag},
-    **{"x_E": 0.5 + SHIFTS["C"].real, "y_E": SHIFTS["C"].imag, "x_F": 0.5 + SHIFTS["D"].real, "y_F": SHIFTS["D"].imag},
-}
-DEAD = math.acos((0.01 + 0.25 - 0.55**2) / 0.1)
-BENT = press(("x_C", "y_C"))
 
 
 def test_limits_are_the_dead_positions() -> None:

@@ -1,9 +1,10 @@
-"""Small mechanisms whose motion is known in closed form: four-bars and slider-cranks in any place and orientation."""
+"""Mechanisms for many tests: four-bars, slider-cranks (motion in closed form), presses with a group of class III."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,34 +13,22 @@ from kulman.plans.linkages.mechanism import (
     ZERO,
     Driver,
     Link,
+    Load,
     Mechanism,
     Prismatic,
-    Revolute,
     SlidingDriver,
+    Start,
     Stroke,
 )
+from kulman.tests.support.mechanisms import ORIGIN, bodies, pins
 
-ORIGIN = (ZERO, ZERO)
 CRANK = Driver(1, "O", "A", "phi", "speed", "sense")
 
 
 def four_bar(stroke: Stroke | None = None) -> Mechanism:
     """Crank OA, coupler AB, rocker CB, pivots O and C on the frame."""
-    return Mechanism(
-        links=(
-            Link(1, {"O": ORIGIN, "A": ("l_OA", ZERO)}),
-            Link(2, {"A": ORIGIN, "B": ("l_AB", ZERO), "E": ("x_E", "y_E")}),
-            Link(3, {"C": ORIGIN, "B": ("l_CB", ZERO)}),
-        ),
-        pairs=(
-            Revolute("O", (0, 1), ("x_O", "y_O")),
-            Revolute("A", (1, 2)),
-            Revolute("B", (2, 3), branch="side"),
-            Revolute("C", (0, 3), ("x_C", "y_C")),
-        ),
-        driver=CRANK,
-        stroke=stroke,
-    )
+    links = bodies("O A:l_OA", "A B:l_AB E:x_E,y_E", "C B:l_CB")
+    return Mechanism(links, pins("O01@x_O,y_O A12 B23:side C03@x_C,y_C"), CRANK, stroke=stroke)
 
 
 def four_bar_values(
@@ -58,21 +47,8 @@ def four_bar_values(
 
 def slider_crank(stroke: Stroke | None = None) -> Mechanism:
     """Crank OA about the origin, rod AB, slider on a guide at the distance `e` to the left of O."""
-    return Mechanism(
-        links=(
-            Link(1, {"O": ORIGIN, "A": ("l_OA", ZERO)}),
-            Link(2, {"A": ORIGIN, "B": ("l_AB", ZERO), "E": ("x_E", "y_E")}),
-            Link(3, {"B": ORIGIN}),
-        ),
-        pairs=(
-            Revolute("O", (0, 1), ORIGIN),
-            Revolute("A", (1, 2)),
-            Revolute("B", (2, 3)),
-            Prismatic("B", (3, 0), ORIGIN, "gamma", "e", "side"),
-        ),
-        driver=CRANK,
-        stroke=stroke,
-    )
+    guide = Prismatic("B", (3, 0), ORIGIN, "gamma", "e", "side")
+    return Mechanism(bodies("O A:l_OA", "A B:l_AB E:x_E,y_E", "B"), (*pins("O01 A12 B23"), guide), CRANK, stroke=stroke)
 
 
 def slider_crank_values(
@@ -85,20 +61,65 @@ def slider_crank_values(
 
 def piston_engine() -> Mechanism:
     """The slider-crank driven by its piston: slider 1 on a guide through O, rod 2, crank 3."""
+    guide = Prismatic("B", (1, 0), ORIGIN, "gamma")
+    driver = SlidingDriver(1, "B", "travel", "speed")
+    return Mechanism(bodies("B", "B A:l_AB", "O A:l_OA"), (guide, *pins("B12 A23:side O03")), driver)
+
+
+def press(C: str = "l_BC") -> Mechanism:
+    """Return a press: crank, rod, a central link 3 with the joint C there, a rocker, and a rocker with a load."""
+    central = f"B C:{C} D:x_D,y_D S3:x_S,y_S / S3 m_3 J_S3"
     return Mechanism(
-        links=(
-            Link(1, {"B": ORIGIN}),
-            Link(2, {"B": ORIGIN, "A": ("l_AB", ZERO)}),
-            Link(3, {"O": ORIGIN, "A": ("l_OA", ZERO)}),
-        ),
-        pairs=(
-            Prismatic("B", (1, 0), ORIGIN, "gamma"),
-            Revolute("B", (1, 2)),
-            Revolute("A", (2, 3), branch="side"),
-            Revolute("O", (0, 3), ORIGIN),
-        ),
-        driver=SlidingDriver(1, "B", "travel", "speed"),
+        bodies("O A:l_OA", "A B:l_AB", central, "E C:l_EC", "F D:l_FD / D m_5"),
+        pins("O01 A12 B23 C34 D35 E40@x_E,y_E F50@x_F,y_F"),
+        Driver(1, "O", "A", "phi", "n_1", "sense_1"),
+        (Load("F_5", 5, "D", "F_5", "alpha"),),
+        starts=(Start(3, "x_0", "y_0", "angle_0", "phi_0"),),
     )
+
+
+PRESS = press()
+RAM = replace(  # the second rocker is a slider
+    PRESS,
+    links=(*PRESS.links[:4], Link(5, {"D": ORIGIN}, "D", "m_5")),
+    pairs=(*PRESS.pairs[:6], Prismatic("D", (5, 0), ("x_G", ZERO), "up")),
+)
+PRESS_VALUES = {
+    **{"phi": 0.7, "l_OA": 0.1, "l_AB": 0.4, "l_BC": 0.3, "x_D": 0.12, "y_D": 0.2, "l_EC": 0.35, "l_FD": 0.3},
+    **{"x_E": 0.75, "y_E": -0.2, "x_F": 0.6, "y_F": 0.5, "n_1": 10.0, "sense_1": 1.0, "F_5": 300.0, "alpha": 1.3},
+    **{"x_S": 0.1, "y_S": 0.08, "m_3": 2.0, "J_S3": 0.03, "m_5": 1.5, "x_G": 0.5, "up": math.pi / 2},
+    **{"x_0": 0.46, "y_0": 0.1, "angle_0": 0.2, "phi_0": 0.5},
+}
+
+
+RAM_VALUES = {
+    **PRESS_VALUES,
+    **{"l_AB": 0.57, "l_BC": 0.266, "x_D": 0.084, "y_D": 0.324, "l_EC": 0.404, "x_G": 0.405},
+    **{"x_0": 0.55, "y_0": 0.05, "angle_0": 1.74},
+}
+
+
+def two_presses() -> tuple[Mechanism, dict[str, float]]:
+    """Return a press and a second triad, links 6 to 9, between its links 4 and 5 and the frame."""
+    links = bodies(*[""] * 5, "C H:l_CH", "H I:l_HI K:x_K,y_K / K m_3 J_S3", "M I:l_MI", "N K:l_NK")[5:]
+    pairs = pins("C46 H67 I78 K79 M80@x_M,y_M N90@x_N,y_N")
+    second = Start(7, "x_1", "y_1", "angle_1", "phi_1")
+    of = replace(PRESS, links=(*PRESS.links, *links), pairs=(*PRESS.pairs, *pairs), starts=(*PRESS.starts, second))
+    own = {"l_CH": 0.366, "l_HI": 0.396, "x_K": 0.163, "y_K": 0.252, "l_MI": 0.387, "l_NK": 0.479, "x_M": 1.443}
+    own |= {"y_M": -0.266, "x_N": 1.495, "y_N": 0.352, "x_1": 1.17, "y_1": -0.24, "angle_1": 0.61, "phi_1": 0.9}
+    return of, {**PRESS_VALUES, **own}
+
+
+# A parallelogram: the central link does not turn, B runs on a circle about a place G, as in a four-bar O A B G. Its
+# crank goes as far as A B G come in line, at cos(phi) = (OA^2 + OG^2 - (AB + BG)^2) / (2 OA OG).
+BENT = press("x_C,y_C")
+SHIFTS = {"C": 0.05 + 0.1j, "D": 0.15 + 0.28j}
+PARALLELOGRAM = {
+    **{"l_OA": 0.1, "l_AB": 0.3, "l_EC": 0.25, "l_FD": 0.25, "x_0": 0.33, "y_0": 0.19, "angle_0": 0.0, "phi_0": 0.0},
+    **{"x_C": SHIFTS["C"].real, "y_C": SHIFTS["C"].imag, "x_D": SHIFTS["D"].real, "y_D": SHIFTS["D"].imag},
+    **{"x_E": 0.5 + SHIFTS["C"].real, "y_E": SHIFTS["C"].imag, "x_F": 0.5 + SHIFTS["D"].real, "y_F": SHIFTS["D"].imag},
+}
+DEAD = math.acos((0.01 + 0.25 - 0.55**2) / 0.1)
 
 
 def random_four_bars(seed: int, count: int) -> Iterator[dict[str, float]]:

@@ -19,6 +19,7 @@ from kulman.plans.linkages.solved import board_givens
 
 SEED = 20160101
 ORIGIN = (ZERO, ZERO)
+CRANK = Driver(1, "O", "A", "phi", "n_1", "sense_1")
 GENERAL_LENGTHS = ("x_O", "y_O", "l_OA", "l_AB", "l_AS2", "l_AC", "x_g", "y_g", "e")
 
 # phi deg, l_OA, l_AB, l_AS2 mm, n_1 rpm, m_2, m_3 kg, J_S2 kg m^2, F_3 kN; see the source in the task file
@@ -44,22 +45,36 @@ def nau_cases() -> list[tuple[str, str, str]]:
     return list(product(NAU_VARIANTS, SIDES, ROTATIONS))
 
 
+def place(text: str) -> tuple[str, str]:
+    """Return coordinates from "x,y", from one along the axis, or from nothing: the origin."""
+    x, _, y = text.partition(",")
+    return x or ZERO, y or ZERO
+
+
+def bodies(*texts: str) -> tuple[Link, ...]:
+    """Return links 1, 2 ...: "A B:l_AB D:x,y / S2 m_2 J_S2" says points, centre of mass, mass, moment of inertia."""
+    parts = [text.partition("/") for text in texts]
+    pointed = [{word.partition(":")[0]: place(word.partition(":")[2]) for word in part[0].split()} for part in parts]
+    return tuple(Link(i, pointed[i - 1], *part[2].split()) for i, part in enumerate(parts, 1))
+
+
+def pins(text: str) -> tuple[Pair, ...]:
+    """Return revolute pairs: "O01 A12 B23:side C30@x_C,y_C" says points, links, a branch, a place on the frame."""
+    pairs = []
+    for word in text.split():
+        links, rest = (int(word[1]), int(word[2])), word[3:]
+        at = place(rest.removeprefix("@")) if 0 in links else None
+        pairs.append(Revolute(word[0], links, at, rest[1:] if rest[:1] == ":" else None))
+    return tuple(pairs)
+
+
 def nau_slider_crank() -> Mechanism:
     """Slider-crank with a central guide, the piston loaded."""
     return Mechanism(
-        links=(
-            Link(1, {"O": ORIGIN, "A": ("l_OA", ZERO)}, "O"),
-            Link(2, {"A": ORIGIN, "B": ("l_AB", ZERO), "S2": ("l_AS2", ZERO)}, "S2", "m_2", "J_S2"),
-            Link(3, {"B": ORIGIN}, "B", "m_3"),
-        ),
-        pairs=(
-            Revolute("O", (0, 1), ORIGIN),
-            Revolute("A", (1, 2)),
-            Revolute("B", (2, 3)),
-            Prismatic("B", (3, 0), ORIGIN, ZERO, ZERO, "branch_B"),
-        ),
-        driver=Driver(1, "O", "A", "phi", "n_1", "sense_1"),
-        loads=(Load("F_3", 3, "B", "F_3", "alpha_F3"),),
+        bodies("O A:l_OA / O", "A B:l_AB S2:l_AS2 / S2 m_2 J_S2", "B / B m_3"),
+        (*pins("O01 A12 B23"), Prismatic("B", (3, 0), ORIGIN, ZERO, ZERO, "branch_B")),
+        CRANK,
+        (Load("F_3", 3, "B", "F_3", "alpha_F3"),),
     )
 
 
@@ -69,15 +84,8 @@ def nau_values(
     """Return the values of one variant in SI."""
     phi, l_OA, l_AB, l_AS2, n_1, m_2, m_3, J_S2, F_3 = NAU_VARIANTS[variant]
     return {
-        "phi": math.radians(phi),
-        "l_OA": l_OA / 1000,
-        "l_AB": l_AB / 1000,
-        "l_AS2": l_AS2 / 1000,
-        "n_1": n_1 * math.pi / 30,
-        "m_2": m_2,
-        "m_3": m_3,
-        "J_S2": J_S2,
-        "F_3": F_3 * 1000,
+        **{"phi": math.radians(phi), "l_OA": l_OA / 1000, "l_AB": l_AB / 1000, "l_AS2": l_AS2 / 1000},
+        **{"n_1": n_1 * math.pi / 30, "m_2": m_2, "m_3": m_3, "J_S2": J_S2, "F_3": F_3 * 1000},
         "sense_1": -1.0 if rotation == "cw" else 1.0,
         "branch_B": -1.0 if side == "left" else 1.0,
         "alpha_F3": 0.0 if side == "left" else math.pi,
@@ -87,27 +95,12 @@ def nau_values(
 
 def general_slider_crank() -> Mechanism:
     """Slider-crank with every freedom of its kind: an oblique guide with offset off the pivot, loads on all links."""
+    loads = (("1", 1, "A"), ("C", 2, "C"), ("B", 2, "B"), ("3", 3, "B"))
     return Mechanism(
-        links=(
-            Link(1, {"O": ORIGIN, "A": ("l_OA", ZERO)}, "A", "m_1"),
-            Link(
-                2, {"A": ORIGIN, "B": ("l_AB", ZERO), "S2": ("l_AS2", ZERO), "C": ("l_AC", ZERO)}, "S2", "m_2", "J_S2"
-            ),
-            Link(3, {"B": ORIGIN}, "B", "m_3"),
-        ),
-        pairs=(
-            Revolute("O", (0, 1), ("x_O", "y_O")),
-            Revolute("A", (1, 2)),
-            Revolute("B", (2, 3)),
-            Prismatic("B", (3, 0), ("x_g", "y_g"), "gamma", "e", "branch_B"),
-        ),
-        driver=Driver(1, "O", "A", "phi", "n_1", "sense_1"),
-        loads=(
-            Load("F_1", 1, "A", "F_1", "alpha_F1"),
-            Load("F_C", 2, "C", "F_C", "alpha_FC"),
-            Load("F_B", 2, "B", "F_B", "alpha_FB"),
-            Load("F_3", 3, "B", "F_3", "alpha_F3"),
-        ),
+        bodies("O A:l_OA / A m_1", "A B:l_AB S2:l_AS2 C:l_AC / S2 m_2 J_S2", "B / B m_3"),
+        (*pins("O01@x_O,y_O A12 B23"), Prismatic("B", (3, 0), ("x_g", "y_g"), "gamma", "e", "branch_B")),
+        CRANK,
+        tuple(Load(f"F_{name}", link, point, f"F_{name}", f"alpha_F{name}") for name, link, point in loads),
     )
 
 
@@ -147,15 +140,11 @@ def one_of(values: Mapping[str, Any], index: int) -> dict[str, float]:
     return {name: float(array[index]) for name, array in values.items()}
 
 
-def bare(pairs: tuple[Pair, ...], count: int) -> Mechanism:
-    """Return a mechanism of `count` links about which only the pairs are known, driven at link 1."""
-    links = tuple(Link(number, {}) for number in range(1, count + 1))
-    return Mechanism(links, pairs, Driver(1, "O", "A", "phi", "n_1", "sense_1"))
-
-
-def revolutes(*joints: tuple[str, int, int]) -> tuple[Pair, ...]:
-    """Return revolute pairs from (letter, link, link)."""
-    return tuple(Revolute(point, (i, j), ORIGIN if 0 in (i, j) else None) for point, i, j in joints)
+def bare(text: str, *guides: Pair, more: int = 0) -> Mechanism:
+    """Return a mechanism about which only the pairs are known, driven at link 1; `more` links hang nowhere."""
+    pairs = (*pins(text), *guides)
+    count = max(number for pair in pairs for number in pair.links) + more
+    return Mechanism(bodies(*[""] * count), pairs, CRANK)
 
 
 def slide(point: str, slider: int, guide: int) -> Prismatic:
@@ -165,29 +154,14 @@ def slide(point: str, slider: int, guide: int) -> Prismatic:
 
 def twin(series: bool) -> Mechanism:
     """Two connecting rods: the second one hangs on the crank pin, or (in series) on point C of the first rod."""
-    before, root = (2, "C") if series else (1, "A")
-    return Mechanism(
-        links=(
-            Link(1, {"O": ORIGIN, "A": ("l_OA", ZERO)}, "O"),
-            Link(
-                2, {"A": ORIGIN, "B": ("l_AB", ZERO), "S2": ("l_AS2", ZERO), "C": ("l_AC", ZERO)}, "S2", "m_2", "J_S2"
-            ),
-            Link(3, {"B": ORIGIN}, "B", "m_3"),
-            Link(4, {root: ORIGIN, "D": ("l_4", ZERO), "S4": ("l_S4", ZERO)}, "S4", "m_4", "J_S4"),
-            Link(5, {"D": ORIGIN}, "D", "m_5"),
-        ),
-        pairs=(
-            Revolute("O", (0, 1), ORIGIN),
-            Revolute("A", (1, 2)),
-            Revolute("B", (2, 3)),
-            Prismatic("B", (3, 0), ORIGIN, "gamma", ZERO, "branch_B"),
-            Revolute(root, (before, 4)),
-            Revolute("D", (4, 5)),
-            Prismatic("D", (5, 0), ORIGIN, "gamma_5", "e_5", "branch_D"),
-        ),
-        driver=Driver(1, "O", "A", "phi", "n_1", "sense_1"),
-        loads=(Load("F_3", 3, "B", "F_3", "alpha_F3"), Load("F_5", 5, "D", "F_5", "alpha_F5")),
+    root, second = ("C", "C24") if series else ("A", "A14")
+    rods = ("A B:l_AB S2:l_AS2 C:l_AC / S2 m_2 J_S2", "B / B m_3", f"{root} D:l_4 S4:l_S4 / S4 m_4 J_S4", "D / D m_5")
+    guides = (
+        Prismatic("B", (3, 0), ORIGIN, "gamma", ZERO, "branch_B"),
+        Prismatic("D", (5, 0), ORIGIN, "gamma_5", "e_5", "branch_D"),
     )
+    loads = (Load("F_3", 3, "B", "F_3", "alpha_F3"), Load("F_5", 5, "D", "F_5", "alpha_F5"))
+    return Mechanism(bodies("O A:l_OA / O", *rods), (*pins(f"O01 A12 B23 {second} D45"), *guides), CRANK, loads)
 
 
 def twin_values() -> dict[str, float]:
