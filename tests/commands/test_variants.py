@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Callable
 from decimal import Decimal
 from pathlib import Path
 from xml.dom import minidom
@@ -11,13 +12,23 @@ from xml.dom import minidom
 import openpyxl
 import pytest
 
-from kulman import all_variants, cli, load_task, sheet, solve
+from kulman import all_variants, load_task, sheet, solve
 from kulman.plans.boards.exact import SMALL
+from kulman.scales.errors import InputError
+from kulman.scales.units import format_unit
 from kulman.tests.support.cases import solve_case
+from kulman.tests.support.commands import Run
 from kulman.tests.support.task_files import task_of, with_changes
-from kulman.variants.making.new_variants import _most_pages, _ranges_of, _with_variants
+from kulman.variants.making.new_variants import (
+    _most_pages,
+    _ranges_of,
+    _with_variants,
+    import_variants,
+    read_variants,
+)
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled
+from kulman.variants.task import Task
 
 TASK = "nau-slider-crank"
 ROWS = """\
@@ -31,17 +42,10 @@ half;60;20;;5;100;1;1;0,01;2
 """
 
 
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as left:
-        cli.main(["variants", *arguments])
-    out, err = capsys.readouterr()
-    return int(left.value.code or 0), out, err
-
-
-def test_values_are_those_of_every_variant(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_values_are_those_of_every_variant(tmp_path: Path, run: Run) -> None:
     file = tmp_path / "key.xlsx"
 
-    status, _, err = run(capsys, TASK, "--quantities", "V_B,M_bal", "-o", str(file), "--lang", "en")
+    status, _, err = run("variants", TASK, "--quantities", "V_B,M_bal", "-o", str(file), "--lang", "en")
 
     assert (status, err) == (0, "")
     found = openpyxl.load_workbook(file).active
@@ -57,17 +61,19 @@ def test_values_are_those_of_every_variant(tmp_path: Path, capsys: pytest.Captur
 def test_a_variant_without_a_solution_does_not_hide_the_others() -> None:
     found = all_variants(TASK, quantities=["V_B"], set={"l_AB": "36 mm", "phi": "90 deg"}, lang="en")
 
-    assert set(found.problems) == {"3", "4", "5", "6", "7", "8", "9", "example"}.intersection(found.problems)
+    assert {*found.problems} == {"2", "3", "4", "5", "6", "7", "8", "9", "example"} - {*found.keys}
     assert found.problems
     assert found.keys
     assert len(found.table().splitlines()) == 2
 
 
-def test_a_table_is_said_in_the_language_that_is_asked_for() -> None:
+def test_a_table_is_said_in_the_language_that_is_asked_for(tmp_path: Path) -> None:
     found = all_variants(TASK, quantities=["V_B"], lang="uk")
 
-    assert found.table("en") == all_variants(TASK, quantities=["V_B"], lang="en").table()
-    assert found.table("en") != found.table()
+    rows = list(csv.reader(found.save(tmp_path / "key.csv")[0].read_text("utf-8-sig").splitlines(), delimiter=";"))
+
+    assert found.table("en") == all_variants(TASK, quantities=["V_B"], lang="en").table() != found.table()
+    assert rows[1][:3] == ["V_B", "м/с", "2,16225964"]
 
 
 @pytest.mark.parametrize(
@@ -115,6 +121,9 @@ def test_a_range_is_read_in_every_usual_form(text: str) -> None:
     found = _ranges_of(load_task(TASK), {"l_OA": text})["l_OA"]
 
     assert (found.low, found.high, found.step, found.unit) == (25, 60, 5, "mm")
+    for bad in ("..", "5..", "..5", "5../2", "5..7/", "5", ""):
+        with pytest.raises(InputError):
+            _ranges_of(load_task(TASK), {"l_OA": bad})
 
 
 def test_made_variants_keep_to_ranges_and_steps() -> None:
@@ -131,12 +140,10 @@ def test_made_variants_keep_to_ranges_and_steps() -> None:
 
 
 def test_a_seed_tells_the_variants() -> None:
-    first, again, other = (all_variants(TASK, make=1, seed=seed).new for seed in (3, 3, 4))
+    made = [all_variants(TASK, make=1, seed=seed).new for seed in (3, 3, 4)]
 
-    assert first is not None
-    assert again is not None
-    assert other is not None
-    assert first.text == again.text != other.text
+    first, again, other = (new.text for new in made if new is not None)
+    assert first == again != other
 
 
 @pytest.mark.parametrize("name", bundled())
@@ -172,11 +179,11 @@ def with_units(text: str) -> str:
 
 
 @pytest.mark.parametrize("form", [str, turned, with_units, lambda text: turned(with_units(text))])
-def test_a_spreadsheet_becomes_variants(form: type, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_spreadsheet_becomes_variants(form: type, tmp_path: Path, run: Run) -> None:
     file, out = tmp_path / "variants.csv", tmp_path / "class.toml"
     file.write_text("Курсова робота\n\n" + form(ROWS), encoding="utf-8-sig")
 
-    status, _, err = run(capsys, TASK, "--from", str(file), "-o", str(out))
+    status, _, err = run("variants", TASK, "--from", str(file), "-o", str(out))
 
     assert status == 2
     told = [line.removeprefix(f"{file}: ") for line in err.splitlines()]
@@ -228,24 +235,12 @@ def test_questions_for_moodle_hold_the_right_values(tmp_path: Path) -> None:
         (["-o", "new.toml"], "--make"),
     ],
 )
-def test_what_cannot_be_done_is_said_in_a_line(
-    arguments: list[str], said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-
-    status, out, err = run(capsys, TASK, *arguments)
+def test_what_cannot_be_done_is_said_in_a_line(arguments: list[str], said: str, folder: Path, run: Run) -> None:
+    status, out, err = run("variants", TASK, *arguments)
 
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert said in err
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_table_has_a_decimal_sign_of_its_language(tmp_path: Path) -> None:
-    found = all_variants(TASK, quantities=["V_B"], lang="uk").save(tmp_path / "key.csv")[0]
-
-    rows = list(csv.reader(found.read_text("utf-8-sig").splitlines(), delimiter=";"))
-
-    assert rows[1][:3] == ["V_B", "м/с", "2,16225964"]
+    assert list(folder.iterdir()) == []
 
 
 @pytest.mark.parametrize("x_1", [pytest.param("0.2", id="drawn"), pytest.param("-3", id="refused")])
@@ -253,3 +248,137 @@ def test_pages_are_counted_though_the_first_variant_of_a_task_is_refused(x_1: st
     task = task_of(with_changes(load_task("madi-gear").text, ("x_1 = 0.2", f"x_1 = {x_1}")))
 
     assert _most_pages(task)() == 2
+
+
+# Tables of variants as departments keep them: whatever symbols, units, merged cells and empty rows they have.
+GUIDE = """\
+Параметр;Позначення;Одиниці;Номер варіанта;;
+;;;0;1;2
+Положення механізму;φ;град;30;45;60
+Розмір ланок;;;;;
+;l_{OA};мм;25;30;35
+
+;l_{AB};мм;125;140;170
+;l_{AS_2};мм;42;46;55
+Частота обертання ланки 1;n₁;об/хв;2 000;1800;1600
+Маса ланок;;;;;
+;m2;кг;0,8;1,8;2,5
+;m3;кг;0,6;1,5;2,0
+Момент інерції;JS2;кг·м²;0,005;0,01;0,015
+Сила;F_3;Н;2000;3500;4000
+"""
+
+
+def table(folder: Path, text: str) -> str:
+    file = folder / "table.csv"
+    file.write_text(text, encoding="utf-8-sig")
+    return str(file)
+
+
+def values(task: Task, file: str) -> dict[str, dict[str, float | str]]:
+    read = read_variants(file, task)
+    assert [str(problem) for one in read for problem in one.problems] == []
+    return {one.id: {name: task.givens[name].read(text) for name, text in one.row.items()} for one in read}
+
+
+def latex(name: str) -> str:
+    head, _, rest = name.partition("_")
+    return f"{head}_{{{rest}}}" if rest else head
+
+
+def told(name: str) -> str:
+    return f"Величина {name}" if len(name) > 1 else name
+
+
+@pytest.mark.parametrize("form", [str, latex, lambda name: name.replace("_", ""), told])
+@pytest.mark.parametrize("name", bundled())
+def test_symbols_and_units_are_read_in_every_usual_form(name: str, form: Callable[[str], str], tmp_path: Path) -> None:
+    task = load_task(name)
+    rows_of = {variant: row.values for variant, row in task.variants.items()}
+    variants = {variant: row for variant, row in rows_of.items() if variant.isdigit()} or rows_of
+    givens = [given for given in task.givens if all(isinstance(row.get(given), float) for row in variants.values())]
+    units = [task.givens[given].unit for given in givens]
+    shown = ["" if unit is None or unit.name == "1" else format_unit(unit, "uk") for unit in units]
+    head = ["", *(f"{form(given)}, {unit}" if unit else form(given) for given, unit in zip(givens, shown, strict=True))]
+    asked = [(given, unit) for given, unit in zip(givens, units, strict=True) if unit]
+    rows = [
+        [variant, *(f"{unit.from_si(row[given]):.12g}".replace(".", ",") for given, unit in asked)]
+        for variant, row in variants.items()
+    ]
+    for way, cells in (("rows", [head, *rows]), ("columns", [*zip(head, *rows, strict=True)])):
+        file = tmp_path / f"{way}.csv"
+        with file.open("w", encoding="utf-8-sig", newline="") as stream:
+            csv.writer(stream, delimiter=";").writerows(cells)
+
+        found = values(task, str(file))
+
+        assert list(found) == list(variants)
+        for variant, row in variants.items():
+            assert found[variant] == pytest.approx({given: row[given] for given in givens}, rel=1e-9)
+
+
+def test_the_table_of_a_printed_guide_is_read_as_it_stands(tmp_path: Path) -> None:
+    task = load_task(TASK)
+
+    found = values(task, table(tmp_path, GUIDE))
+
+    for variant in "012":
+        stated = task.variants[variant].values
+        assert found[variant] == pytest.approx({name: stated[name] for name in found[variant]})
+        assert len(found[variant]) == 9
+
+
+def test_merged_cells_say_the_same_of_all(tmp_path: Path) -> None:
+    book = openpyxl.Workbook()
+    sheet = book.active
+    assert sheet is not None
+    rows: list[list[object]] = [["Курсова робота"], [], ["Параметр", "Одиниці", "Варіант"], [None, None, 3, 4, 5]]
+    rows += [[name, unit, *cells] for name, unit, *cells in (
+        ("phi", "град", 30, 45, 60), ("l_OA", "мм", 25), ("l_AB", "мм", 125, 140, 170), ("m_2", None, 0.8, 1.8, 2.5),
+    )]  # fmt: skip
+    for row in rows:
+        sheet.append(row)
+    for cells in ("A1:E1", "A3:A4", "C3:E3", "C6:E6", "Z1:Z300"):
+        sheet.merge_cells(cells)
+    book.save(tmp_path / "table.xlsx")
+
+    found = values(load_task(TASK), str(tmp_path / "table.xlsx"))
+
+    assert list(found) == ["3", "4", "5"]
+    assert [row["l_OA"] for row in found.values()] == [pytest.approx(0.025)] * 3
+    assert [row["m_2"] for row in found.values()] == [0.8, 1.8, 2.5]
+
+
+@pytest.mark.parametrize(
+    ("header", "given", "said"),
+    [
+        ("l_OA [см]", "l_OA", "0.025"),
+        ("F_3, кгс", "F_3", "кгс"),
+        ("Сила F_3 (кгс)", "F_3", "кгс"),
+        ("Сила корисного опору, Н: F_3", "F_3", "2.5"),
+        ("m_2 (маса шатуна), кг", "m_2", "2.5"),
+    ],
+)
+def test_a_unit_of_a_header_is_never_passed_over(header: str, given: str, said: str, tmp_path: Path) -> None:
+    task = load_task(TASK)
+    file = table(tmp_path, f'Варіант;phi, град;"{header}"\n1;30;2,5\n')
+
+    [read] = read_variants(file, task)
+
+    if read.problems:
+        assert re.search(rf"C2, {given}: .*{said}", str(read.problems[0]))
+    else:
+        assert task.givens[given].read(read.row[given]) == pytest.approx(float(said))
+    assert bool(read.problems) == (said == "кгс")
+
+
+def test_numbers_without_ids_are_counted_and_data_that_are_missing_named(tmp_path: Path) -> None:
+    assert list(values(load_task(TASK), table(tmp_path, "phi;l_OA\n\n30;25\n45;30\n\n\n"))) == ["1", "2"]
+    with pytest.raises(InputError, match=r"table\.csv: A2, 1: no value of l_OA is given"):
+        import_variants(TASK, table(tmp_path, "Варіант;phi;l_AB\n1;30;125\n"))
+
+
+def test_two_symbols_of_one_name_are_not_taken_for_a_given(tmp_path: Path) -> None:
+    [read] = read_variants(table(tmp_path, "Варіант;phi;Відношення l_OA до l_AB\n1;30;0,2\n"), load_task(TASK))
+
+    assert set(read.row) == {"phi"}
