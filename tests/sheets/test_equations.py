@@ -91,8 +91,22 @@ def unknown_faults(text: str) -> Iterator[str]:
 
 
 @pytest.mark.parametrize(("kind", "before", "bent"), CASES)
-def test_equations_of_a_random_dyad_recompute_and_can_be_solved(kind: str, before: tuple[int, int], bent: bool) -> None:
-    assert list(text_faults(random_scene(kind, before, bent))) == []
+def test_equations_of_a_random_dyad_recompute_can_be_solved_and_are_told_in_order(
+    kind: str, before: tuple[int, int], bent: bool
+) -> None:
+    scene = random_scene(kind, before, bent)
+    solved = scene.solved
+
+    assert list(text_faults(scene)) == []
+    for plan in ("velocity", "acceleration"):  # points of guides before what slides on them
+        told_of = ""
+        for line in map(plain, kinematics_lines(scene, plan)):
+            guides = re.findall(r"\[\[([Va][A-Z]\d)\]\]", line)
+            assert [name for name in guides if f"{name} =" not in told_of] == [], line
+            told_of += re.sub(r"[\[\]]", "", line)
+    shown = [name for part in results_parts(solved) for name in part.names]  # each result stands in one table
+    wanted = {q.name for q in solved.quantities.values() if q.kind != "point" and "_couple_" not in q.name}
+    assert sorted(shown) == sorted(wanted & {*solved.program.names})
 
 
 @pytest.mark.soak
@@ -127,17 +141,6 @@ def test_equations_of_a_triad(kinds: str, before: tuple[int, int, int], bent: bo
     assert all(len(part.names) <= ROWS for part in parts)
     assert told(scene, "X5 is Assur's special point:").count("∩") == 1
     assert told(scene, "aX5 =").count("[[an") >= 2
-
-
-@pytest.mark.parametrize(("kind", "before", "bent"), CASES[::2])
-def test_each_result_stands_in_one_table(kind: str, before: tuple[int, int], bent: bool) -> None:
-    solved = random_scene(kind, before, bent).solved
-    made = set(solved.program.names)
-
-    shown = [name for part in results_parts(solved) for name in part.names]
-
-    wanted = {q.name for q in solved.quantities.values() if q.kind != "point" and "_couple_" not in q.name}
-    assert sorted(shown) == sorted(wanted & made)
 
 
 def plain(line: tuple[str, ...]) -> str:
@@ -176,23 +179,7 @@ def test_slotted_link_has_coincident_points_and_coriolis() -> None:
     assert told(scene, "aP5 =") == acceleration
     assert told(scene, "akP5P4 = 2·ω5·VP5P4 =").endswith("akP5P4: VP5P4 turned by 90° in the sense of ω5")
     assert told(scene, "ω4 = ω5 =")
-
-
-@pytest.mark.parametrize(("kind", "before", "bent"), CASES)
-def test_points_of_guides_are_told_before_what_slides_on_them(kind: str, before: tuple[int, int], bent: bool) -> None:
-    scene = random_scene(kind, before, bent)
-    for plan in ("velocity", "acceleration"):
-        told_of = ""
-        for line in map(plain, kinematics_lines(scene, plan)):
-            guides = re.findall(r"\[\[([Va][A-Z]\d)\]\]", line)
-            assert [name for name in guides if f"{name} =" not in told_of] == [], line
-            told_of += re.sub(r"[\[\]]", "", line)
-
-
-def test_whole_group_has_no_moment_about_the_pin_of_its_lever() -> None:
-    scene = scene_of(*one("RPR"))
-
-    assert told(scene, "ΣMQ").startswith("ΣMQ(4, 5) = 0:")
+    assert told(scene, "ΣMQ").startswith("ΣMQ(4, 5) = 0:")  # no moment about the pin of the lever
 
 
 def one(kind: str) -> tuple[Mechanism, dict[str, float]]:
@@ -200,28 +187,16 @@ def one(kind: str) -> tuple[Mechanism, dict[str, float]]:
     return mechanism, one_of(values, 0)
 
 
-@pytest.mark.parametrize(
-    ("series", "expected"),
-    [
-        (True, "I(0, 1) → II_{2}(2, 3) → II_{2}(4, 5)"),
-        (False, "I(0, 1) → II_{2}(2, 3) ∥ II_{2}(4, 5)"),
-    ],
-)
-def test_formula_of_structure_shows_which_groups_hang_side_by_side(series: bool, expected: str) -> None:
-    solved = solve_linkage(twin(series), twin_values())
+def test_groups_in_series_and_side_by_side_have_their_formula_and_blocks() -> None:
+    series, parallel = (scene_of(twin(one_after_other), twin_values()) for one_after_other in (True, False))
+    parts = force_parts(series.solved)
 
-    assert " ".join(formula(solved.structure)) == expected
-
-
-def test_equations_of_several_groups_are_cut_into_blocks() -> None:
-    scene = scene_of(twin(True), twin_values())
-
-    parts = force_parts(scene.solved)
-
+    assert " ".join(formula(series.solved.structure)) == "I(0, 1) → II_{2}(2, 3) → II_{2}(4, 5)"
+    assert " ".join(formula(parallel.solved.structure)) == "I(0, 1) → II_{2}(2, 3) ∥ II_{2}(4, 5)"
     assert parts == ("loads", "45", "23", "1")
-    assert [line for part in parts for line in force_lines(scene, part)] == sorted(
-        force_lines(scene), key=lambda line: next(i for i, part in enumerate(parts) if line in force_lines(scene, part))
-    )
+    blocks = [force_lines(series, part) for part in parts]
+    whole = sorted(force_lines(series), key=lambda line: next(i for i, block in enumerate(blocks) if line in block))
+    assert [line for block in blocks for line in block] == whole
 
 
 @pytest.mark.parametrize(
@@ -253,13 +228,9 @@ def test_sliding_driver_is_stated_along_its_guide_and_balanced_by_a_force() -> N
     assert told(scene, "VB = v =").endswith("VB ∥ x–x")
     assert told(scene, "[[R21]]") == "[[R21]] + [[Fi1]] + [Fbal] + [R01] = 0, Fbal ∥ x–x, R01 ⊥ x–x"
     assert told(scene, "ΔFbal = (FLbal − Fbal)/FLbal·100 % =").endswith("0.00 %")
-
-
-def test_link_that_turns_steadily_is_said_to() -> None:
-    scene = scene_of(*piston(LOADED))
-
     assert told(scene, "ε3 = atA/lOA =").endswith("= 0 rad/s2")
     assert "ε3 = 0: at this place link 3 turns steadily" in map(plain, lines_of(scene))
+    assert told(bundled("scheme-19-scotch-yoke"), "R03 = 0") == "R03 = 0: the pair bears the moment M03 alone"
 
 
 def test_crank_is_balanced_by_a_force_at_its_pin() -> None:
@@ -269,12 +240,6 @@ def test_crank_is_balanced_by_a_force_at_its_pin() -> None:
     assert told(scene, "[[R21]]") == "[[R21]] + [[Pи1]] + [[Pур]] + R01 = 0"
     assert told(scene, "Mсумм =").startswith("Mсумм = Mи3 + M3 =")
     assert told(scene, "M3 =") == "M3 = 380,0 Н·м, против ω3"
-
-
-def test_pair_without_a_force_bears_a_moment_alone() -> None:
-    scene = bundled("scheme-19-scotch-yoke")
-
-    assert told(scene, "R03 = 0") == "R03 = 0: the pair bears the moment M03 alone"
 
 
 def test_units_of_display_stand_in_equations() -> None:

@@ -126,7 +126,7 @@ def l6_acceleration_plan(case: Case, sheet: Sheet) -> Faults:
     notes = " ".join(t.string for t in view.of("heading"))
     for vector in view.vectors:
         small = abs(vector.span) < 2.0
-        yield from unless(not small or _symbol(vector.quantity) in notes, f"{vector.quantity} is small but not said")
+        yield from unless(not small or symbol_of(vector.quantity) in notes, f"{vector.quantity} is small but not said")
 
 
 def _loose(vector: Vec) -> float:
@@ -134,9 +134,11 @@ def _loose(vector: Vec) -> float:
     return NEAR + math.degrees(2e-6 / abs(vector.span))
 
 
-def _symbol(name: str) -> str:
+def symbol_of(name: str) -> str:
+    """The symbol of a quantity: its name with scripts, a Greek letter for a turning."""
     letter, _, rest = name.partition("_")
     stem, _, part = rest.partition("_")
+    letter = {"omega": "ω", "epsilon": "ε"}.get(letter, letter)
     return f"{letter}^{{{part}}}_{{{stem}}}" if part else f"{letter}_{{{stem}}}"
 
 

@@ -1,0 +1,467 @@
+"""Sheets of the bundled slider-crank, drawn and read back: what they say, how they look, and what is in their files."""
+
+from __future__ import annotations
+
+import io
+import itertools
+import os
+import random
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from pdfminer.high_level import extract_pages
+from pdfminer.layout import LAParams, LTLine, LTTextContainer
+from pdfminer.pdfdocument import PDFDocument
+from pdfminer.pdfparser import PDFParser
+from pdfminer.pdftypes import resolve1
+
+from kulman import sheet
+from kulman.drawing.pdf import write as write_pdf
+from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.mechanisms import NAU_VARIANTS
+from kulman.tests.support.overlaps import overlaps
+from kulman.tests.support.printed_numbers import decimal, equation_faults, lines_of, numbers_of, table_faults
+from kulman.tests.support.readback import CAP, Sheet, read
+from kulman.tests.support.sheet_cases import FORMATS, TASK, Case, drawn, pages, sheet_of, solved
+from kulman.tests.support.sheet_points import POINTS, mechanism_faults, symbol_of
+
+MM = 25.4 / 72
+LETTERS = LAParams(boxes_flow=None)  # letters as lines of text, which take no order
+SIDES = ("left", "right")
+A1 = Case(format="A1")
+PAGES = {(841.0, 594.0), (594.0, 420.0), (420.0, 297.0), (297.0, 420.0), (210.0, 297.0)}
+THINNEST = {841.0: 0.3, 594.0: 0.25, 420.0: 0.25, 297.0: 0.25, 210.0: 0.2}
+HEIGHTS = (2.5, 3.5, 5.0, 7.0, 10.0)
+FOREIGN = {"uk": "[ыэъёЫЭЪЁ]", "ru": "[іїєґІЇЄҐ]", "en": "[а-яА-ЯіїєґІЇЄҐёЁ]"}
+OTHERS = {  # words of the neighbouring language that pass the alphabet
+    "uk": ("Лист", "Листов", "Подп", "Утв", "Пров", "Изм", "план", "сила", "Разраб"),
+    "ru": ("Аркуш", "Арк", "Затв", "Перев", "Розроб", "швидкостей", "прискорень", "сил групи", "ланки", "ланка"),
+    "en": (),
+}
+SAID = {"uk": "= 0 (точка)", "en": "= 0"}
+
+
+def sample(count: int) -> list[Case]:
+    """A seeded sample: every variant at least once, every format, side, rotation and language."""
+    r, names = random.Random(20160101), list(NAU_VARIANTS)
+    return [
+        Case(names[k % len(names)], FORMATS[k % 5], ("uk", "en", "ru")[k % 3], r.choice(SIDES), r.choice(("cw", "ccw")))
+        for k in range(count)
+    ]
+
+
+SAMPLE = sample(12)
+
+
+def number_faults(case: Case, sheet: Sheet) -> list[str]:
+    """What does not recompute, or is not what `kulman solve` says."""
+    count, faults = equation_faults(sheet)
+    if count < 18 or len(sheet.vectors) < 20:
+        faults.append(f"only {count} calculations, {len(sheet.vectors)} vectors")
+    numbers = solved(case)
+    values = {symbol_of(name): q.value for name, q in numbers.quantities.items() if plain(name)}
+    faults += table_faults(sheet, case.lang, values)
+    for vector in sheet.vectors:
+        expected = numbers[vector.quantity].value
+        if abs(vector.value - expected) > 1e-12 * abs(expected):
+            faults.append(f"data-value of {vector.quantity} is {vector.value}, not {expected}")
+        if abs(abs(vector.span) * vector.mu - vector.value) > 0.01 * vector.mu:
+            faults.append(f"{vector.quantity} has {abs(vector.span)} mm, not {vector.value / vector.mu}")
+    return faults
+
+
+def plain(name: str) -> bool:
+    """Whether a quantity's symbol is its name with scripts, in every language."""
+    return bool(re.fullmatch(r"(V|a|omega|epsilon|R|F|h)_[0-9A-Z]+(_[nt])?|[FM]_i\d|M_i2", name))
+
+
+def page_faults(case: Case, sheet: Sheet) -> list[str]:
+    """G1: one format, millimetres, nothing transformed. G2: the frame."""
+    faults = []
+    left, margin = 20.0, 10.0 if case.norm == "iso" else 5.0
+    for page in sheet.pages:
+        root = page.root
+        size = page.width, page.height
+        if size not in PAGES or (size == (210.0, 297.0) and case.format not in ("A4", None)):
+            faults.append(f"page of {size}")
+        if (root.get("width"), root.get("height")) != (f"{page.width:g}mm", f"{page.height:g}mm"):
+            faults.append("width and height are not the viewBox in mm")
+        vectors = root.xpath("//*[@class='vector' or @class='arrow']")
+        family = (e for v in vectors for e in (v, *v.iterancestors(), *v.iterdescendants()))
+        if any(e.get("transform") for e in family):
+            faults.append("a transformed vector")
+        (frame,) = [s for s in page.rest.strokes if s.role == "frame"]
+        xs, ys = sorted({p.real for p in frame.points}), sorted({p.imag for p in frame.points})
+        wanted = [left, page.width - margin, margin, page.height - margin]
+        if max(abs(a - b) for a, b in zip((*xs, *ys), wanted, strict=True)) > 0.01:
+            faults.append(f"frame {xs} {ys}")
+        if frame.width < 0.5:
+            faults.append("a thin frame")
+    return faults
+
+
+def pen_faults(case: Case, sheet: Sheet) -> list[str]:
+    """G4: stroke weights, cap heights, arrowheads; G7: nothing lighter than 50 % grey."""
+    faults = []
+    for page in sheet.pages:
+        widths = {s.width for v in page.all for s in v.strokes} | {r.width for v in page.all for r in v.rings}
+        main, thin = max(widths), min(widths)
+        if len(widths) > 3 or not main / 3 - 0.02 <= thin <= main / 2 + 1e-9 or thin < THINNEST[page.width] - 0.001:
+            faults.append(f"weights {sorted(widths)}")
+        large = page.width > 800
+        for text in (t for v in page.all for t in v.texts):
+            capitals = {run.size * CAP for run in text.runs}
+            body = max(capitals)
+            if not any(abs(body - h) < 0.01 for h in HEIGHTS):
+                faults.append(f"{text.string!r} is {body:.2f} high")
+            for small in capitals - {body}:
+                if abs(small / body - 5 / 7) > 0.001 or small < (2.5 if large else 1.75) - 0.001:
+                    faults.append(f"a script of {text.string!r} is {small:.2f} high")
+        heads = {round(tip.length, 3) for v in page.all for tip in v.tips}
+        if len(heads) > 1 or min(heads, default=3.0) < 2.499:
+            faults.append(f"arrowheads {heads}")
+        for e in page.root.iter():
+            for key in ("stroke", "fill"):
+                colour = e.get(key, "none")
+                if colour not in ("none", "#000", "#fff") and not dark(colour):
+                    faults.append(f"{key} {colour}")
+                if colour == "#fff" and key == "stroke":
+                    faults.append("a white line")
+    return faults
+
+
+def dark(colour: str) -> bool:
+    digits = colour.lstrip("#")
+    digits = "".join(d * 2 for d in digits) if len(digits) == 3 else digits
+    r, g, b = (int(digits[i : i + 2], 16) for i in (0, 2, 4))
+    return 0.299 * r + 0.587 * g + 0.114 * b <= 128
+
+
+def word_faults(case: Case, sheet: Sheet) -> list[str]:
+    """G3, G6: one language, nothing unfilled, decimal sign of the language, scale factors with number and unit."""
+    faults = []
+    for text in sheet.texts:
+        string = text.string
+        shown = " ".join(run.string for run in text.runs)
+        if re.search(r"None|TODO|nan|inf\b|[{}\\]", shown):
+            faults.append(f"unfilled: {shown!r}")
+        if re.search(FOREIGN[case.lang], shown):
+            faults.append(f"foreign letters: {shown!r}")
+        if case.lang != "en" and re.search(r"\b[A-Za-z]{4,}\b|\bRRP\b", shown):
+            faults.append(f"a Latin word: {shown!r}")
+        if any(re.search(rf"(?<!\w){word}(?!\w)", shown) for word in OTHERS[case.lang] if word != "план"):
+            faults.append(f"a foreign word: {shown!r}")
+        if text.role not in ("label",) and not re.search(r"\d\.\d+\.|\.\d+\.", string) and "ТММ" not in string:
+            try:
+                numbers_of(string, case.lang)
+            except AssertionError:
+                faults.append(f"decimal sign: {string!r}")
+    for view in sheet.views:
+        headings = [t.string for t in view.of("heading")]
+        if not headings:
+            faults.append(f"{view.name} has no heading")
+        if view.vectors and not any(re.match(r"μ_\{\w+\} = [\d,.]+ \(?[^\d\s]", h) for h in headings):
+            faults.append(f"{view.name} has no scale factor: {headings}")
+    return faults
+
+
+def look_faults(case: Case, read: Sheet) -> list[str]:
+    """All faults of page, pens and words, and letters that touch something."""
+    return [*page_faults(case, read), *pen_faults(case, read), *word_faults(case, read), *overlaps(read)]
+
+
+def all_faults(case: Case) -> list[str]:
+    read = drawn(case)
+    faults = [*look_faults(case, read), *mechanism_faults(case, read), *number_faults(case, read)]
+    return [f"{case}: {fault}" for fault in faults]
+
+
+def pdf_faults(case: Case) -> list[str]:
+    """PDF against SVG: size of the pages, every vector's shaft, selectable words, embedded fonts."""
+    read, stream, faults = drawn(case), io.BytesIO(), []
+    write_pdf(sheet_of(case).pages, stream)
+    pages = list(extract_pages(stream, laparams=LETTERS))
+    for page, same in zip(pages, read.pages, strict=True):
+        if abs(page.width * MM - same.width) > 0.01 or abs(page.height * MM - same.height) > 0.01:
+            faults.append(f"page of {page.width * MM} x {page.height * MM}")
+        lines = {tuple(round(v * MM, 1) for p in line.pts for v in p) for line in page if isinstance(line, LTLine)}
+        for view in same.views:
+            for vector in view.vectors:
+                near = any(abs(complex(x, y) - vector.tail) < 0.1 for x, y, *_ in lines)
+                if abs(vector.span) > 5 and not near:
+                    faults.append(f"no {vector.quantity} in the PDF")
+    text = "".join(item.get_text() for page in pages for item in page if isinstance(item, LTTextContainer))
+    for heading in ("План швидкостей", "План прискорень", "Структура механізму", "Вихідні дані"):
+        if heading not in text:
+            faults.append(f"{heading!r} cannot be searched")
+    document = PDFDocument(PDFParser(stream))
+    for number in (number for xref in document.xrefs for number in xref.get_objids()):
+        item = resolve1(document.getobj(number))
+        font = isinstance(item, dict) and getattr(item.get("Type"), "name", "") == "FontDescriptor"
+        if font and "FontFile2" not in item:
+            faults.append(f"a font is not embedded: {item}")
+    return faults
+
+
+def special_faults(case: Case, read: Sheet) -> list[str]:
+    """All faults of a sheet whose plans may have vectors of no length."""
+    faults = [*mechanism_faults(case, read), *look_faults(case, read)]
+    faults += [*equation_faults(read)[1], *table_faults(read, case.lang, {})]
+    for view in read.views:
+        notes = " ".join(text.string for text in view.of("heading"))
+        for vector in view.vectors:
+            short = abs(vector.span) < 2.0
+            if short and symbol_of(vector.quantity) not in notes:
+                faults.append(f"{vector.quantity} is a point and not said to be")
+            if vector.value == 0.0 and SAID[case.lang] not in notes:
+                faults.append(f"{vector.quantity} is zero and not said to be")
+            if short and [tip for tip in view.tips if ("vector", vector.quantity) in tip.path]:
+                faults.append(f"{vector.quantity} is a point with an arrowhead")
+    return [f"{case}: {fault}" for fault in faults]
+
+
+def special_cases(steps: tuple[float, ...], sheets: tuple[tuple[str, str], ...]) -> list[Case]:
+    return [
+        Case(variant, name, lang, side, phi=base + step)
+        for base in (0, 90, 180, 270)
+        for step in steps
+        for name in ("A1", "A4")
+        for side in ("left", "right")
+        for variant, lang in sheets
+    ]
+
+
+def half(cases: list[Case]) -> list[Case]:
+    """Return every other case, so that each position has both formats and both sides; the soak has them all."""
+    return [c for c in cases if ((c.format == "A1") + (c.side == "left") + round(c.phi or 0.0) // 90) % 2 == 0]
+
+
+@pytest.mark.parametrize("case", SAMPLE, ids=str)
+def test_sheet_satisfies_the_points_of_a_linkage_and_looks_like_one(case: Case) -> None:
+    assert all_faults(case) == []
+
+
+@pytest.mark.parametrize(
+    "case",
+    [
+        Case("3", "A1", "en", norm="iso", notation="iso"),
+        Case("5", "A3", "ru", "right", norm="iso", notation="iso"),
+        Case("example", "A4", "uk", norm="iso"),
+    ],
+    ids=str,
+)
+def test_sheet_of_iso_looks_like_one(case: Case) -> None:
+    strings = {text.string for text in drawn(case).texts}
+
+    assert look_faults(case, drawn(case)) == []
+    if case.notation == "iso":
+        assert {"v_{A}", "α_{2}"} <= strings
+        assert "V_{A}" not in strings
+
+
+@pytest.mark.parametrize("case", half(special_cases((0.0, 1e-6), (("example", "uk"),))), ids=str)
+def test_sheet_of_a_special_position_is_drawn_and_said_in_words(case: Case) -> None:
+    assert special_faults(case, drawn(case)) == []
+
+
+def test_a_zero_vector_is_a_point() -> None:
+    view = drawn(Case(format="A1", phi=0.0))["velocity"]
+
+    zero = view.vector("V_B")
+
+    assert abs(zero.span) < 1e-6
+    assert zero.value < 1e-12
+    assert not [tip for tip in view.tips if ("vector", "V_B") in tip.path]
+    assert any(("vector", "V_B") in ring.path for ring in view.rings)
+
+
+@pytest.mark.parametrize(
+    ("only", "there", "missing"),
+    [
+        (("velocity",), {"velocity", "equations_kinematics"}, {"acceleration", "group_23", "forces_23", "lever"}),
+        (("position",), {"position"}, {"velocity", "acceleration", "forces_23", "lever"}),
+        (("forces",), {"group_23", "forces_23", "driver"}, {"lever"}),
+        (("lever",), {"lever", "equations_lever"}, {"group_23", "forces_23"}),
+    ],
+    ids=lambda value: "-".join(value) if isinstance(value, tuple) else "",
+)
+def test_only_the_plans_asked_for_are_drawn(only: tuple[str, ...], there: set[str], missing: set[str]) -> None:
+    case = Case("3", only=only)
+
+    read = drawn(case)
+
+    assert there <= set(read.names)
+    assert not missing & set(read.names)
+    assert not [v.quantity for v in read.vectors if only == ("velocity",) and v.quantity[0] in "aFR"]
+    assert overlaps(read) == []
+    assert equation_faults(read)[1] == []
+    assert list(table_faults(read, "uk", {})) == []
+
+
+def test_the_scale_factor_or_segment_asked_for_is_drawn() -> None:
+    velocity = drawn(Case("3", "A1", scales=(("mu_V", "0.1"),)))["velocity"]
+    pa = drawn(Case("3", "A1", scales=(("pa", "60"),)))["velocity"].vector("V_A")
+
+    assert {vector.mu for vector in velocity.vectors} == {0.1}
+    assert "μ_{V} = 0,1 (м/с)/мм" in [text.string for text in velocity.of("heading")]
+    assert 55 < abs(pa.span) < 65
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_too_fine_a_scale_factor_is_refused_with_what_fits(lang: str) -> None:
+    with pytest.raises(InputError) as refused:
+        sheet(TASK, "3", format="A4", scales={"mu_V": 0.001}, lang=lang)
+
+    text = refused.value.text(lang)
+    assert "A4" in text
+    assert "\n" not in text
+    fits = refused.value.data["fits"]
+    assert decimal(str(fits), lang) in text
+    assert sheet(TASK, "3", format="A4", scales={"mu_V": float(str(fits))}, lang=lang).pages
+
+
+def moved(case: Case, old: str, new: str, count: int = 1) -> Sheet:
+    """The sheet with one piece of its file changed."""
+    (svg,) = pages(case)
+    assert len(re.findall(old, svg)) >= count
+    return read(re.sub(old, new, svg, count=count))
+
+
+SPOILED = {
+    "L1": (r'(data-name="S2">\n<circle class="main" cx=")\d+', r"\g<1>300"),
+    "L3": (r'(?s)(data-quantity="V_A".*?x2=")(\d+)', r"\g<1>1\g<2>"),
+    "L4": (r'(data-name="velocity.B_2" [^>]*?y1=")(\d+)', r"\g<1>9\g<2>"),
+    "L6": (r'(?s)(data-quantity="a_BA_n".*?y2=")(\d)', r"\g<1>9\g<2>"),
+    "L9": (r'("h_2">\n<line class="thin" [^>]*?x2=")(\d+)', r"\g<1>1\g<2>"),
+    "L10": (r'(?s)(data-quantity="F_i2".*?y1=")(\d)', r"\g<1>9\g<2>"),
+    "L11": (r'(?s)(data-name="driver">.*?= 0,001)( м/мм)', r"\g<1>01\g<2>"),
+    "L12": (r"·pa − F", "·pa + F"),
+    "L12, arms": (r"(?s)= 18,36(.*?)= 60,76", r"= 60,76\g<1>= 18,36"),
+}
+
+
+@pytest.mark.parametrize("point", SPOILED)
+def test_the_examiner_sees_a_spoiled_sheet(point: str) -> None:
+    old, new = SPOILED[point]
+    spoiled, judge = moved(A1, old, new), POINTS[point.partition(",")[0]]
+
+    try:
+        faults = list(judge(A1, spoiled))
+    except (AssertionError, ValueError) as stumbled:
+        faults = [str(stumbled)]
+
+    assert list(judge(A1, drawn(A1))) == []
+    assert faults
+
+
+def test_a_wrong_digit_is_seen() -> None:
+    spoiled = moved(A1, r"(= 2,5·240,9 = 602),2", r"\1,4")
+
+    assert len(equation_faults(spoiled)[1]) == 1
+
+
+def test_vector_equations_have_at_most_two_unknowns_and_underline_the_known() -> None:
+    """Two underlines: known in full; one: known by direction; bars stand above the letters."""
+    checked = 0
+    for view in drawn(A1).views:
+        for text in view.of("line"):
+            under = [(a, b) for a, b in text.rules if a.imag < text.baseline]
+            if not under:
+                continue
+            body = text.string.partition(",")[0]
+            spans = {(round(a.real, 2), round(b.real, 2)) for a, b in under}
+            lines = {span: sum((round(a.real, 2), round(b.real, 2)) == span for a, b in under) for span in spans}
+            terms = len(re.findall(r"[A-Za-z][_^]", re.sub(r"\}[_^]", "}", body)))
+            single = sum(count == 1 for count in lines.values())
+            free = terms - len(lines)
+            assert set(lines.values()) <= {1, 2}, text.string
+            assert single + 2 * free <= 2 * body.count("="), text.string
+            checked += 1
+    assert checked == 6
+
+
+def test_both_balancing_moments_and_their_difference_are_printed() -> None:
+    lines = lines_of(drawn(A1)["equations_lever"])
+
+    assert any(line.startswith("M^{Ж}_{зр} = F_{зр}·l_{OA}") for line in lines)
+    assert any(line.startswith("ΔM_{зр}") and line.endswith("%") for line in lines)
+    assert any("M_{зр} = R_{21}·h_{21}·μ_{l}" in line for line in lines_of(drawn(A1)["equations_forces"]))
+
+
+def test_the_judge_sees_a_letter_on_a_letter_and_a_grey_too_light_to_print() -> None:
+    (svg,) = pages(A1)
+    found = re.search(r'<text class="label" [^>]*x="([\d.]+)" y="[\d.]+">p</text>', svg)
+    assert found
+    spoiled = svg.replace(found[0], found[0].replace(found[1], f"{float(found[1]) + 12:.3f}"))
+
+    assert overlaps(read(spoiled))
+    assert dark("#808080")
+    assert not dark("#909090")
+
+
+@pytest.mark.parametrize("case", [Case("3", "A4"), Case("8", "A3")], ids=str)
+def test_the_pdf_is_the_same_sheet_with_letters_that_can_be_searched(case: Case) -> None:
+    assert pdf_faults(case) == []
+
+
+def test_the_same_command_gives_the_same_bytes_later(tmp_path: Path) -> None:
+    made = []
+    for seed in ("1", "2"):
+        folder = tmp_path / seed
+        folder.mkdir()
+        files = [folder / "sheet.svg", folder / "sheet.pdf"]
+        command = [sys.executable, "-m", "kulman", "sheet", TASK, "-v", "3", "--format", "A3", "--lang", "ru"]
+        command += [part for file in files for part in ("-o", str(file))]
+        environment = {**os.environ, "PYTHONHASHSEED": seed}
+        subprocess.run(command, check=True, capture_output=True, env=environment)
+        made.append({file.name: file.read_bytes() for file in sorted(folder.iterdir())})
+        time.sleep(1.1 if seed == "1" else 0.0)
+
+    assert made[0] == made[1]
+    assert any(name.endswith(".pdf") for name in made[0])
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("variant", NAU_VARIANTS)
+@pytest.mark.parametrize("lang", ["uk", "en", "ru"])
+def test_every_sheet_of_a_variant_is_without_fault(variant: str, lang: str) -> None:
+    rotations = ("cw", "ccw") if lang == "uk" else ("cw",)
+
+    for name, side, rotation in itertools.product(FORMATS, SIDES, rotations):
+        case = Case(variant, name, lang, side, rotation)
+        assert all_faults(case) == []
+        assert (lang, rotation) != ("uk", "cw") or pdf_faults(case) == []
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("variant", NAU_VARIANTS)
+def test_every_iso_sheet_of_a_variant_is_without_fault(variant: str) -> None:
+    cases = [Case(variant, name, "en", side, norm="iso") for name in FORMATS for side in SIDES]
+
+    assert [fault for case in cases for fault in all_faults(case)] == []
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("base", [0, 90, 180, 270])
+def test_sheets_near_a_special_position_are_without_fault(base: int) -> None:
+    steps = (0.0, 1e-6, -1e-6, 1e-3, -1e-3)
+    cases = [c for c in special_cases(steps, (("example", "uk"), ("0", "en"))) if abs((c.phi or 0.0) - base) < 1]
+
+    assert [fault for case in cases for fault in special_faults(case, drawn(case))] == []
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("phi", range(0, 360, 15))
+def test_sheets_all_round_the_circle_are_without_fault(phi: int) -> None:
+    cases = [
+        Case(variant, name, "uk", side, rotation, phi=phi + 0.5)
+        for variant, name in (("example", "A1"), ("4", "A3"))
+        for side in SIDES
+        for rotation in ("cw", "ccw")
+    ]
+
+    assert [fault for case in cases for fault in special_faults(case, drawn(case))] == []
