@@ -124,7 +124,7 @@ def test_a_case_is_the_same_every_time_and_no_two_are_alike() -> None:
     ],
 )
 def test_a_crash_a_flood_and_a_hang_are_faults(fault: Any, kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kulman.cli.refuse", fault)
+    monkeypatch.setattr("kulman.cli.console.refuse", fault)
 
     found = list(faults(range(3), method="fork", seconds=0.5))  # with what is planted here
 
