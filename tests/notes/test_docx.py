@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 import zipfile
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -22,23 +23,99 @@ from PIL import Image
 
 from kulman import batch, cli, note
 from kulman.drawing.notes.blocks import Document, Equations, Figure, Heading, Sentences, Steps, Table
-from kulman.drawing.notes.docx import SPACES, Picture, blocks_in_word, docx_bytes, folded_in_word, line
+from kulman.drawing.notes.docx import SPACES, Picture, blocks_in_word, docx_bytes, folded_in_word, line, outlined
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.markup import letters
 from kulman.drawing.notes.omml import built_up, displayed
+from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
-from kulman.tests.support.word import M, W, disordered, part, said
 
-LANGUAGES = ("uk", "ru", "en")
 NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
+ARITHMETIC = re.compile(r"[\d.,()·/+−√^{} ]+")
 EMU = 36000
+W = "{http://schemas.openxmlformats.org/wordprocessingml/2006/main}"
+M = "{http://schemas.openxmlformats.org/officeDocument/2006/math}"
 A = "{http://schemas.openxmlformats.org/drawingml/2006/main}"
-QUICK = "velocity"  # the only plan of the note that is written by default
+R = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}"
+# what ECMA-376 lets stand in these elements, in its order: a word processor refuses a file with another one
+ORDER = {
+    f"{W}pPr": "pStyle keepNext keepLines pageBreakBefore numPr tabs suppressAutoHyphens spacing ind jc "
+    "outlineLvl sectPr",
+    f"{W}rPr": "rStyle rFonts b bCs i iCs sz szCs vertAlign lang",
+    f"{W}tblPr": "tblStyle tblW jc tblInd tblBorders tblLayout tblCellMar tblLook",
+    f"{W}tcPr": "tcW gridSpan shd vAlign",
+    f"{W}trPr": "cantSplit tblHeader",
+    f"{W}tbl": "tblPr tblGrid tr",
+    f"{W}num": "abstractNumId lvlOverride",
+    f"{W}lvl": "start numFmt pStyle suff lvlText lvlJc pPr",
+    f"{W}style": "name basedOn next autoRedefine uiPriority semiHidden unhideWhenUsed qFormat pPr rPr tblPr",
+    f"{W}settings": "zoom defaultTabStop autoHyphenation characterSpacingControl updateFields compat mathPr "
+    "themeFontLang",
+    f"{M}mathPr": "mathFont brkBin smallFrac dispDef lMargin rMargin defJc wrapIndent",
+    f"{M}oMathPara": "oMathParaPr oMath",
+    **{f"{M}r": "rPr t", f"{M}f": "num den", f"{M}rad": "radPr deg e", f"{M}d": "dPr e", f"{M}dPr": "begChr endChr"},
+    **{f"{M}bar": "barPr e", f"{M}sSub": "e sub", f"{M}sSup": "e sup", f"{M}sSubSup": "e sub sup"},
+}
+
+
+def part(data: bytes, name: str) -> Any:
+    """Return a part of a document, read without anything but a parser of XML."""
+    return etree.fromstring(zipfile.ZipFile(BytesIO(data)).read(f"word/{name}.xml"))
+
+
+def disordered(root: Any) -> list[str]:
+    """Return the elements whose parts stand in a wrong order, or are not known."""
+    found = []
+    for element in root.iter(*ORDER):
+        places, names = ORDER[element.tag].split(), [etree.QName(child).localname for child in element]
+        if not set(names) <= set(places) or names != sorted(names, key=places.index):
+            found.append(f"{element.tag}: {names}")
+    return found
+
+
+def said(element: Any) -> str:
+    """Return what is said: `((a)/(b))` for fractions, `√(a)`, `_{...}`, `^{...}`, `\\bar{...}`, `\\u{...}`."""
+    kind = etree.QName(element)
+    if kind.localname in ("t", "br", "tab"):
+        return {"br": "\n", "tab": "\t"}.get(kind.localname, element.text or "")
+    inside = {etree.QName(child).localname: said(child) for child in element} if kind.namespace == M[1:-1] else {}
+    match kind.localname if inside else "":
+        case "f":
+            return f"(({inside['num']})/({inside['den']}))"
+        case "rad":
+            return f"√({inside['e']})"
+        case "d":
+            begin, end = (element.find(f"{M}dPr/{M}{name}Chr").get(f"{M}val") for name in ("beg", "end"))
+            return f"{begin}{inside['e']}{end}"
+        case "bar":
+            over = element.find(f"{M}barPr/{M}pos").get(f"{M}val") == "top"
+            return ("\\bar{" if over else "\\u{") + inside["e"] + "}"
+        case "sSub" | "sSup" | "sSubSup":
+            scripts = (f"{sign}{{{inside[name]}}}" for sign, name in (("^", "sup"), ("_", "sub")) if name in inside)
+            return inside["e"] + "".join(scripts)
+    return "".join(map(said, element))
+
+
+def parsed(xml: str) -> Any:
+    """Return pieces of a document as elements."""
+    names = " ".join(f'xmlns:{short}="{name}"' for short, name in SPACES.items())
+    return etree.fromstring(f"<w:body {names}>{xml}</w:body>")
+
+
+def paragraphs(root: Any) -> list[tuple[str, str]]:
+    """Return the styles and texts of the paragraphs."""
+    styles = ((p, p.find(f"{W}pPr/{W}pStyle")) for p in root.iter(f"{W}p"))
+    return [("" if style is None else style.get(f"{W}val"), said(paragraph)) for paragraph, style in styles]
+
+
+def bare(text: str) -> str:
+    """Return a line without spaces, and without what tells scripts and bars from letters."""
+    return re.sub(r"\\bar|\\u|[\s\u200b{}_^]", "", text)
 
 
 @cache
 def document_of() -> Document:
-    return note("nau-slider-crank", only=QUICK, student="І. Петренко", date="2026").document
+    return note("nau-slider-crank", only="velocity", student="І. Петренко", date="2026").document
 
 
 @cache
@@ -46,27 +123,49 @@ def written() -> bytes:
     return docx_bytes(document_of())
 
 
-def paragraphs(root: Any) -> list[tuple[str, str]]:
-    """The paragraphs with their styles."""
-    found = []
-    for paragraph in root.iter(f"{W}p"):
-        style = paragraph.find(f"{W}pPr/{W}pStyle")
-        found.append(("" if style is None else style.get(f"{W}val"), said(paragraph)))
-    return found
+def word_of(data: bytes) -> Any:
+    """Return a document as the library reads it."""
+    return docx.Document(BytesIO(data))
 
 
-def in_word(document: Document) -> Any:
-    """The blocks of a document as elements, without its pictures."""
-    figures = sum(isinstance(block, Figure) for block in document.blocks)
-    names = " ".join(f'xmlns:{short}="{name}"' for short, name in SPACES.items())
-    pictures = [Picture("rId1", "rId2")] * figures
-    text = blocks_in_word(document, pictures) + folded_in_word(document, pictures)
-    return etree.fromstring(f"<w:body {names}>{text}</w:body>")
+def kinds(kind: type[Any]) -> list[Any]:
+    return [block for block in document_of().blocks if isinstance(block, kind)]
 
 
-def bare(text: str) -> str:
-    """A line without spaces, and without what tells scripts and bars from letters."""
-    return re.sub(r"\\bar|\\u|[\s\u200b{}_^]", "", text)
+# --- the whole document -----------------------------------------------------------------------------------------------
+
+
+def test_a_document_is_read_by_the_library_with_its_looks() -> None:
+    word = word_of(written())
+    section = word.sections[0]
+
+    sizes = (section.page_width, section.page_height, section.left_margin, section.right_margin)
+    assert [round(size.mm) for size in sizes] == [210, 297, 20, 10]
+    assert section.different_first_page_header_footer
+    assert " PAGE " in section.footer.part.blob.decode()
+    assert {"Heading 1", "Title", "toc 1", "Caption", "List Number"} <= {style.name for style in word.styles}
+    assert word.core_properties.title.startswith("Пояснювальна записка. ")
+    assert (word.core_properties.author, word.core_properties.language) == ("І. Петренко", "uk-UA")
+    assert all(table.rows[0]._tr.find(f"{W}trPr/{W}tblHeader") is not None for table in word.tables)
+    for name in ("document", "styles", "numbering", "settings", "footer1"):
+        assert disordered(part(written(), name)) == []
+
+
+def test_what_leads_somewhere_leads_there_and_the_contents_to_every_heading() -> None:
+    body, headings = part(written(), "document"), [letters(block.text) for block in kinds(Heading)]
+    told = paragraphs(body)
+
+    marks = {mark.get(f"{W}name") for mark in body.iter(f"{W}bookmarkStart")}
+    assert {link.get(f"{W}anchor") for link in body.iter(f"{W}hyperlink")} == marks
+    assert len(marks) == len(headings)
+    entries = [line.strip() for style, line in told if style == "TOC1" and line.strip()]
+    assert entries == [f"{number} {heading}" for number, heading in enumerate(headings, 1)]
+    styles = {style.get(f"{W}styleId") for style in part(written(), "styles").iter(f"{W}style")}
+    assert {style for style, _ in told} - {""} <= styles
+    lists = {item.get(f"{W}numId") for item in part(written(), "numbering").iter(f"{W}num")}
+    used = {item.get(f"{W}val") for item in body.iter(f"{W}numId")}
+    assert used <= lists
+    assert len(used) == len(kinds(Steps))
 
 
 def assert_all_blocks(document: Document, body: Any, told: list[tuple[str, str]]) -> None:
@@ -87,47 +186,66 @@ def assert_all_blocks(document: Document, body: Any, told: list[tuple[str, str]]
         assert cells == [bare(line) for _, line in paragraphs(table) if line]
 
 
-def test_a_document_is_read_by_the_library_with_its_looks() -> None:
-    word = docx.Document(BytesIO(written()))
-    section = word.sections[0]
-
-    sizes = (section.page_width, section.page_height, section.left_margin, section.right_margin)
-    assert [round(size.mm) for size in sizes] == [210, 297, 20, 10]
-    assert section.different_first_page_header_footer
-    assert " PAGE " in section.footer.part.blob.decode()
-    assert {"Heading 1", "Heading 2", "Title", "toc 1", "Caption", "List Number"} <= {
-        style.name for style in word.styles
-    }
-    assert word.core_properties.title.startswith("Пояснювальна записка. ")
-    assert (word.core_properties.author, word.core_properties.language) == ("І. Петренко", "uk-UA")
-    assert all(table.rows[0]._tr.find(f"{W}trPr/{W}tblHeader") is not None for table in word.tables)
+def value(text: str) -> float:
+    """Return what arithmetic comes to; a script is a power."""
+    for sign, python in (("√", "sqrt"), ("^{", "**("), ("}", ")"), ("·", "*"), ("−", "-"), (",", "."), ("\u200b", "")):
+        text = text.replace(sign, python)
+    return float(eval(text, {"sqrt": sqrt}))
 
 
-def test_parts_are_in_the_order_that_word_processors_demand() -> None:
-    for name in ("document", "styles", "numbering", "settings", "footer1"):
-        assert list(disordered(part(written(), f"word/{name}.xml"))) == []
+def sides(document: Document) -> Iterator[tuple[str, str]]:
+    """Go through the sides of all equations that are arithmetic: as the note has them, and as they are built up."""
+    for block in document.blocks:
+        for markup in map(" ".join, block.lines if isinstance(block, Equations) else ()):
+            if displayed(markup):
+                built = said(parsed(built_up(markup))).split("=")
+                for plain, side in zip(markup.split("="), built, strict=True):
+                    if ARITHMETIC.fullmatch(plain) and "/" in plain and plain.count("(") == plain.count(")"):
+                        yield plain, side
 
 
-def test_what_leads_somewhere_leads_there() -> None:
-    body = part(written(), "word/document.xml")
+def assert_a_document_says_all(document: Document) -> None:
+    pictures = [Picture("rId1", "rId2")] * sum(isinstance(block, Figure) for block in document.blocks)
+    body = parsed(blocks_in_word(document, pictures) + folded_in_word(document, pictures))
+    told = paragraphs(body)
 
-    marks = {mark.get(f"{W}name") for mark in body.iter(f"{W}bookmarkStart")}
-    assert {link.get(f"{W}anchor") for link in body.iter(f"{W}hyperlink")} == marks
-    assert len(marks) == sum(isinstance(block, Heading) for block in document_of().blocks)
-    styles = {style.get(f"{W}styleId") for style in part(written(), "word/styles.xml").iter(f"{W}style")}
-    assert {style for style, _ in paragraphs(body)} - {""} <= styles
-    lists = {item.get(f"{W}numId") for item in part(written(), "word/numbering.xml").iter(f"{W}num")}
-    used = [item.get(f"{W}val") for item in body.iter(f"{W}numId")]
-    assert set(used) <= lists
-    assert len(set(used)) == sum(isinstance(block, Steps) for block in document_of().blocks)
+    assert disordered(body) == []
+    assert_all_blocks(document, body, told)
+    shown = re.sub(r"^\d+\. |^!\[.*$", "", markdown(document, ["x"] * len(document.blocks)), flags=re.MULTILINE)
+    shown = re.sub(r"</?(?:sup|sub|u)>", " ", shown.partition("\n## ")[2])
+    assert Counter(NUMBER.findall(shown)) - Counter(NUMBER.findall(" ".join(line for _, line in told))) == Counter()
+    pairs = list(sides(document))
+    assert pairs
+    assert [value(built) for _, built in pairs] == pytest.approx([value(plain) for plain, _ in pairs], rel=1e-12)
 
 
-def test_a_contents_has_every_heading_with_its_number() -> None:
-    told = paragraphs(part(written(), "word/document.xml"))
-    headings = [letters(block.text) for block in document_of().blocks if isinstance(block, Heading)]
+def test_the_document_says_what_the_note_says() -> None:
+    assert_a_document_says_all(document_of())
 
-    entries = [line.strip() for style, line in told if style == "TOC1" and line.strip()]
-    assert entries == [f"{number} {heading}" for number, heading in enumerate(headings, 1)]
+
+def assert_it_becomes_a_document(document: Document) -> None:
+    data = docx_bytes(document)
+
+    figures = sum(isinstance(block, Figure) for block in document.blocks)
+    assert len(word_of(data).inline_shapes) == figures
+    assert disordered(part(data, "document")) == []
+
+
+def test_the_same_note_has_the_same_bytes_also_that_of_a_class(tmp_path: Path) -> None:
+    again = docx_bytes(note("nau-slider-crank", only="velocity", student="І. Петренко", date="2026").document)
+    assert again == written()
+    assert {entry.date_time[:3] for entry in zipfile.ZipFile(BytesIO(again)).infolist()} == {(1980, 1, 1)}
+    assert b"created" not in zipfile.ZipFile(BytesIO(again)).read("docProps/core.xml")
+
+    (tmp_path / "class.csv").write_text("student;group;variant\nІ. Петренко;ММ-31;3\n", encoding="utf-8")
+    batch("nau-slider-crank", tmp_path / "class.csv", tmp_path / "out", kinds=["docx"], only="structure", jobs=1)
+    alone = note("nau-slider-crank", "3", only="structure", student="І. Петренко", group="ММ-31").document
+    (file,) = (tmp_path / "out").glob("*.docx")
+    assert file.name == "001-І-Петренко-3-note.docx"
+    assert file.read_bytes() == docx_bytes(alone)
+
+
+# --- formulas ---------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -151,245 +269,24 @@ def test_a_contents_has_every_heading_with_its_number() -> None:
     ],
 )
 def test_an_equation_is_built_up(markup: str, shown: str) -> None:
-    found = etree.fromstring(f'<x xmlns:m="{SPACES["m"]}">{built_up(markup)}</x>')
-
-    assert said(found) == shown
-
-
-ARITHMETIC = re.compile(r"[\d.,()·/+−√^{} ]+")
-
-
-def value(text: str) -> float:
-    """What arithmetic comes to; a script is a power."""
-    for one, other in (("√", "sqrt"), ("^{", "**("), ("}", ")"), ("·", "*"), ("−", "-"), (",", "."), ("\u200b", "")):
-        text = text.replace(one, other)
-    return float(eval(text, {"sqrt": sqrt}))
-
-
-def sides(markup: str) -> Iterator[tuple[str, str]]:
-    """The sides of an equation that are arithmetic: as the note has them, and as they are built up."""
-    found = said(etree.fromstring(f'<x xmlns:m="{SPACES["m"]}">{built_up(markup)}</x>')).split("=")
-    for plain, built in zip(markup.split("="), found, strict=True):
-        if ARITHMETIC.fullmatch(plain) and "/" in plain and plain.count("(") == plain.count(")"):
-            yield plain, built
-
-
-def compared(document: Document) -> Iterator[tuple[str, str]]:
-    """The sides of all equations of a document."""
-    for block in document.blocks:
-        if isinstance(block, Equations):
-            for line in map(" ".join, block.lines):
-                yield from sides(line) if displayed(line) else ()
-
-
-def assert_a_document_says_all(document: Document) -> None:
-    body = in_word(document)
-    told = paragraphs(body)
-
-    assert list(disordered(body)) == []
-    assert_all_blocks(document, body, told)
-    shown = re.sub(r"^\d+\. |^!\[.*$", "", markdown(document, ["x"] * len(document.blocks)), flags=re.MULTILINE)
-    shown = re.sub(r"</?(?:sup|sub|u)>", " ", shown.partition("\n## ")[2])
-    assert Counter(NUMBER.findall(shown)) - Counter(NUMBER.findall(" ".join(line for _, line in told))) == Counter()
-    pairs = list(compared(document))
-    assert pairs
-    assert [value(built) for _, built in pairs] == pytest.approx([value(plain) for plain, _ in pairs], rel=1e-12)
-
-
-def test_the_document_says_what_the_note_says() -> None:
-    assert_a_document_says_all(document_of())
-
-
-def outlines(path: Any) -> tuple[float, float, float, float]:
-    pen = BoundsPen(None)
-    parse_path(path.get("d"), pen)
-    return pen.bounds
-
-
-def test_pictures_are_as_large_as_the_figures() -> None:
-    figures = [block for block in document_of().blocks if isinstance(block, Figure)]
-    shapes = docx.Document(BytesIO(written())).inline_shapes
-    word = docx.Document(BytesIO(written())).part
-
-    assert len(shapes) == len(figures)
-    for figure, shape in zip(figures, shapes, strict=True):
-        size = [mm * figure.share for mm in figure.view.size]
-        assert (shape.width, shape.height) == tuple(round(mm * EMU) for mm in size)
-        assert letters(figure.caption) in shape._inline.docPr.get("descr")
-        blip = next(shape._inline.iter(f"{A}blip"))
-        png = Image.open(BytesIO(word.related_parts[blip.embed].blob))
-        assert [n / 300 * 25.4 for n in png.size] == pytest.approx(size, abs=25.4 / 300)
-        sharp = next(element for element in blip.iter() if element.tag.endswith("svgBlip"))
-        svg = etree.fromstring(word.related_parts[sharp.get(f"{{{SPACES['r']}}}embed")].blob)
-        assert [float(svg.get(name).removesuffix("mm")) for name in ("width", "height")] == pytest.approx(
-            figure.view.size, abs=1e-6
-        )
-        assert {etree.QName(element).localname for element in svg.iter()} & {"text", "style", "image"} == set()
-
-
-def test_a_figure_too_large_for_a_page_stands_on_a_larger_one() -> None:
-    document = document_of()
-    place = next(place for place, block in enumerate(document.blocks) if isinstance(block, Figure))
-    figure = document.blocks[place]
-    large = replace(figure, view=replace(figure.view, box=(-200.0, -250.0, 200.0, 250.0)))
-
-    data = docx_bytes(replace(document, blocks=(large, *document.blocks[place:])))
-
-    word = docx.Document(BytesIO(data))
-    assert [round(section.page_width.mm) for section in word.sections] == [210, 297]
-    assert [section.different_first_page_header_footer for section in word.sections] == [True, False]
-    last = word.inline_shapes[len(word.inline_shapes) - 1]
-    assert (last.width.mm, last.height.mm) == pytest.approx((267.0, 267.0 * 500 / 400), abs=1e-4)
-    told = [line for _, line in paragraphs(part(data, "word/document.xml"))]
-    assert any(line.startswith("Рисунок 1 вміщено на аркуші A3") for line in told)
-    assert told[-1].startswith("Рисунок 1 – ")
-    body = part(data, "word/document.xml")
-    assert list(disordered(body)) == []
-    (mark,) = (m.get(f"{W}name") for m in body.iter(f"{W}bookmarkStart") if m.get(f"{W}name").startswith("_Figure"))
-    assert f" REF {mark} \\h " in [order.text for order in body.iter(f"{W}instrText")]
-
-
-def test_letters_of_a_picture_stand_where_they_were() -> None:
-    from kulman.drawing.notes.docx import outlined
-
-    svg = (
-        b'<svg xmlns="http://www.w3.org/2000/svg"><text x="10" y="20" font-size="4" fill="#123">HH</text>'
-        b'<text x="1" y="2" font-size="2" transform="rotate(30 1 2)">\xd0\xb9</text></svg>'
-    )
-
-    plain, turned = etree.fromstring(outlined(svg))
-
-    assert (plain.get("fill"), turned.get("transform").partition(" translate(1 2)")[0]) == ("#123", "rotate(30 1 2)")
-    assert plain.get("transform") == f"translate(10 20) scale({4 / 2048:.8f} {-4 / 2048:.8f})"
-    assert outlines(plain) == (201, 0, 1540 + 1339, 1493)  # H of DejaVu Sans, which is 1540 wide
-
-
-def test_the_same_note_has_the_same_bytes() -> None:
-    again = docx_bytes(note("nau-slider-crank", only=QUICK, student="І. Петренко", date="2026").document)
-
-    assert again == written()
-    assert {entry.date_time[:3] for entry in zipfile.ZipFile(BytesIO(again)).infolist()} == {(1980, 1, 1)}
-    assert "created" not in part(again, "docProps/core.xml").tag + "".join(map(str, part(again, "docProps/core.xml")))
-
-
-@cache
-def few_words() -> Document:
-    document = document_of()
-    return replace(document, blocks=document.blocks[:2])
-
-
-HOSTILE = (
-    "</w:t><w:br/>",
-    "<!--",
-    "]]>",
-    "&amp;",
-    "\x00\x07\x1b",
-    "\u202eab\u2066",
-    "שלום",
-    "\ufffe",
-    "\ud800",
-    "😀",
-    "a" * 300,
-    "{lang}",
-)
-
-
-@pytest.mark.parametrize("name", HOSTILE)
-def test_a_name_is_never_taken_for_a_sign(name: str) -> None:
-    document = few_words()
-    document = replace(document, title=replace(document.title, student=name, teacher=name, date=name, title=name))
-
-    data = docx_bytes(document)
-
-    word = docx.Document(BytesIO(data))
-    plain = "".join(c if c.isprintable() else " " for c in name)
-    texts = [paragraph.text for paragraph in word.paragraphs]
-    assert texts.count(plain) == 2
-    assert sum(text.endswith(f"\t{plain}") for text in texts) == 2
-    assert word.core_properties.author == plain[:255]
-    assert list(disordered(part(data, "word/document.xml"))) == []
-
-
-@pytest.mark.parametrize("library", ["docx", "fontTools", "pypdfium2"])
-def test_without_the_extra_a_line_says_so_and_nothing_is_written(
-    library: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setitem(__import__("sys").modules, library, None)
-
-    with pytest.raises(SystemExit) as left:
-        cli.main(
-            [
-                "note",
-                "nau-slider-crank",
-                "--only",
-                "structure",
-                "-o",
-                str(tmp_path / "a.md"),
-                "-o",
-                str(tmp_path / "a.docx"),
-            ]
-        )
-
-    out, err = capsys.readouterr()
-    assert (left.value.code, out, err.count("\n")) == (2, "", 1)
-    assert "kulman[docx]" in err
-    assert list(tmp_path.iterdir()) == []
-
-
-@pytest.mark.parametrize("lang", LANGUAGES)
-def test_a_word_processor_is_told_the_language(lang: str) -> None:
-    document = replace(few_words(), language=lang)
-
-    styles = part(docx_bytes(document), "word/styles.xml")
-
-    assert next(styles.iter(f"{W}lang")).get(f"{W}val").startswith(lang)
-    assert packaged("kulman.drawing.notes", "texts", lang)["contents"] in " ".join(
-        paragraph.text for paragraph in docx.Document(BytesIO(docx_bytes(document))).paragraphs
-    )
-
-
-def assert_it_becomes_a_document(document: Document) -> None:
-    data = docx_bytes(document)
-
-    figures = sum(isinstance(block, Figure) for block in document.blocks)
-    assert len(docx.Document(BytesIO(data)).inline_shapes) == figures
-    assert list(disordered(part(data, "word/document.xml"))) == []
-
-
-def test_a_class_may_have_its_notes_so(tmp_path: Path) -> None:
-    (tmp_path / "class.csv").write_text("student;group;variant\nІ. Петренко;ММ-31;3\n", encoding="utf-8")
-
-    batch("nau-slider-crank", tmp_path / "class.csv", tmp_path / "out", kinds=["docx"], only="structure", jobs=1)
-
-    alone = note("nau-slider-crank", "3", only="structure", student="І. Петренко", group="ММ-31").document
-    (file,) = (tmp_path / "out").glob("*.docx")
-    assert file.name == "001-І-Петренко-3-note.docx"
-    assert file.read_bytes() == docx_bytes(alone)
+    assert said(parsed(built_up(markup))) == shown
 
 
 @pytest.mark.parametrize(
     ("markup", "formulas"),
     [
-        ("M_{a} = 0.05 (cm/s^{2})/cm", ["M_{a}"]),
-        ("23,95 (м/с^{2})/мм", []),
-        ("mm^{2}", []),
-        ("m^{4}", []),
-        ("kg·m^{2}", []),
-        ("вектор \\bar{V}_{B}, k^{2}", ["\\bar{V}_{B}", "k^{2}"]),
+        *(("M_{a} = 0.05 (cm/s^{2})/cm", ["M_{a}"]), ("23,95 (м/с^{2})/мм", []), ("mm^{2}", []), ("m^{4}", [])),
+        *(("kg·m^{2}", []), ("вектор \\bar{V}_{B}, k^{2}", ["\\bar{V}_{B}", "k^{2}"])),
         ("O_{1}A_{1}", ["O_{1}A_{1}"]),
     ],
 )
 def test_units_are_words_and_symbols_formulas(markup: str, formulas: list[str]) -> None:
-    found = etree.fromstring(f'<x xmlns:m="{SPACES["m"]}" xmlns:w="{SPACES["w"]}">{line(markup)}</x>')
+    found = parsed(line(markup))
 
     assert [said(formula) for formula in found.iter(f"{M}oMath")] == formulas
     assert bare(said(found)) == bare(letters(markup))
-
-
-def test_no_line_ends_between_a_letter_its_number_and_the_unit() -> None:
-    found = etree.fromstring(f'<x xmlns:m="{SPACES["m"]}" xmlns:w="{SPACES["w"]}">{line("r_{0} = 45.26 mm, more")}</x>')
-
-    assert said(found) == "r_{0}\u00a0= 45.26\u00a0mm, more"
+    tied = parsed(line("r_{0} = 45.26 mm, more"))  # no line ends between a letter, its number and the unit
+    assert said(tied) == "r_{0}\u00a0= 45.26\u00a0mm, more"
 
 
 @pytest.mark.parametrize("write", [line, built_up])
@@ -398,7 +295,114 @@ def test_no_line_ends_between_a_letter_its_number_and_the_unit() -> None:
     [("d^{2}s/dφ^{2}", ""), ("O_{1}B", ""), ("ω^{2}·r_{0}", "ωr"), ("P_{1}B_{1}", "PB"), ("II_{2}(2, 3)", "")],
 )
 def test_letters_of_one_word_are_all_upright(markup: str, slanted: str, write: Callable[[str], str]) -> None:
-    found = etree.fromstring(f'<x xmlns:m="{SPACES["m"]}" xmlns:w="{SPACES["w"]}">{write(markup)}</x>')
+    found = parsed(write(markup))
 
     letter = "".join(said(run) for run in found.iter(f"{M}r") if run.find(f"{M}rPr") is None)
     assert "".join(c for c in letter if c.isalpha()) == slanted
+
+
+# --- pictures ---------------------------------------------------------------------------------------------------------
+
+
+def test_pictures_are_as_large_as_the_figures() -> None:
+    word = word_of(written())
+
+    for figure, shape in zip(kinds(Figure), word.inline_shapes, strict=True):
+        size = [mm * figure.share for mm in figure.view.size]
+        assert (shape.width, shape.height) == tuple(round(mm * EMU) for mm in size)
+        assert letters(figure.caption) in shape._inline.docPr.get("descr")
+        blip = next(shape._inline.iter(f"{A}blip"))
+        png = Image.open(BytesIO(word.part.related_parts[blip.embed].blob))
+        assert [n / 300 * 25.4 for n in png.size] == pytest.approx(size, abs=25.4 / 300)
+        sharp = next(element for element in blip.iter() if element.tag.endswith("svgBlip"))
+        svg = etree.fromstring(word.part.related_parts[sharp.get(f"{R}embed")].blob)
+        sides = [float(svg.get(name).removesuffix("mm")) for name in ("width", "height")]
+        assert sides == pytest.approx(figure.view.size, abs=1e-6)
+        assert {etree.QName(element).localname for element in svg.iter()} & {"text", "style", "image"} == set()
+
+
+def test_a_figure_too_large_for_a_page_stands_on_a_larger_one() -> None:
+    document, figure = document_of(), kinds(Figure)[0]
+    large = replace(figure, view=replace(figure.view, box=(-200.0, -250.0, 200.0, 250.0)))
+    after = document.blocks[document.blocks.index(figure) :]
+
+    data = docx_bytes(replace(document, blocks=(large, *after)))
+
+    word, body = word_of(data), part(data, "document")
+    assert [round(section.page_width.mm) for section in word.sections] == [210, 297]
+    assert [section.different_first_page_header_footer for section in word.sections] == [True, False]
+    last = word.inline_shapes[len(word.inline_shapes) - 1]
+    assert (last.width.mm, last.height.mm) == pytest.approx((267.0, 267.0 * 500 / 400), abs=1e-4)
+    told = [line for _, line in paragraphs(body)]
+    assert any(line.startswith("Рисунок 1 вміщено на аркуші A3") for line in told)
+    assert told[-1].startswith("Рисунок 1 – ")
+    assert disordered(body) == []
+    (mark,) = (m.get(f"{W}name") for m in body.iter(f"{W}bookmarkStart") if m.get(f"{W}name").startswith("_Figure"))
+    assert f" REF {mark} \\h " in [order.text for order in body.iter(f"{W}instrText")]
+
+
+def test_letters_of_a_picture_stand_where_they_were() -> None:
+    svg = (
+        b'<svg xmlns="http://www.w3.org/2000/svg"><text x="10" y="20" font-size="4" fill="#123">HH</text>'
+        b'<text x="1" y="2" font-size="2" transform="rotate(30 1 2)">\xd0\xb9</text></svg>'
+    )
+
+    plain, turned = etree.fromstring(outlined(svg))
+
+    pen = BoundsPen(None)
+    parse_path(plain.get("d"), pen)
+    assert (plain.get("fill"), turned.get("transform").partition(" translate(1 2)")[0]) == ("#123", "rotate(30 1 2)")
+    assert plain.get("transform") == f"translate(10 20) scale({4 / 2048:.8f} {-4 / 2048:.8f})"
+    assert pen.bounds == (201, 0, 1540 + 1339, 1493)  # H of DejaVu Sans, which is 1540 wide
+
+
+# --- any words --------------------------------------------------------------------------------------------------------
+
+
+def few_words(**title: str) -> Document:
+    document = document_of()
+    return replace(document, blocks=document.blocks[:2], title=replace(document.title, **title))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("</w:t><w:br/>", "<!--", "]]>", "&amp;", "\x00\x07\x1b", "\u202eab\u2066", "שלום", "\ufffe", "\ud800", "😀"),
+        *("a" * 300, "{lang}"),
+    ],
+)
+def test_a_name_is_never_taken_for_a_sign(name: str) -> None:
+    data = docx_bytes(few_words(student=name, teacher=name, date=name, title=name))
+
+    word = word_of(data)
+    plain = "".join(c if c.isprintable() else " " for c in name)
+    texts = [paragraph.text for paragraph in word.paragraphs]
+    assert texts.count(plain) == 2
+    assert sum(text.endswith(f"\t{plain}") for text in texts) == 2
+    assert word.core_properties.author == plain[:255]
+    assert disordered(part(data, "document")) == []
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_a_word_processor_is_told_the_language(lang: str) -> None:
+    data = docx_bytes(replace(few_words(), language=lang))
+
+    assert next(part(data, "styles").iter(f"{W}lang")).get(f"{W}val").startswith(lang)
+    texts = " ".join(paragraph.text for paragraph in word_of(data).paragraphs)
+    assert packaged("kulman.drawing.notes", "texts", lang)["contents"] in texts
+
+
+@pytest.mark.parametrize("library", ["docx", "fontTools", "pypdfium2"])
+def test_without_the_extra_a_line_says_so_and_nothing_is_written(
+    library: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, library, None)
+    files = [argument for kind in ("md", "docx") for argument in ("-o", str(tmp_path / f"a.{kind}"))]
+
+    with pytest.raises(SystemExit) as left:
+        cli.main(["note", "nau-slider-crank", "--only", "structure", *files])
+
+    out, err = capsys.readouterr()
+    assert (left.value.code, out, err.count("\n")) == (2, "", 1)
+    assert "kulman[docx]" in err
+    assert list(tmp_path.iterdir()) == []

@@ -1,17 +1,29 @@
-"""Handouts: no answer on the blank, nothing moved against the key, rulers that are as long as they say."""
+"""Handouts: no answer on the blank, nothing moved against the key; prints read back from PDF fit on one another."""
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from functools import lru_cache
+from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
+from numpy.typing import NDArray
+from pdfminer.high_level import extract_pages
+from pdfminer.layout import LAParams, LTCurve
 
 from kulman import cli, handout, note
 from kulman.drawing.compose import Drawn
 from kulman.drawing.formats import BLOCK, FORMATS, drawing_area, printable
 from kulman.drawing.notes.blocks import Figure, Steps
+from kulman.drawing.page import extent
+from kulman.drawing.pdf import MARGIN, tiles, write_tiles
+from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.shapes import Arrow, Group, Line, Shape, Text, Vector
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.shapes import leaves
@@ -19,24 +31,31 @@ from kulman.variants.case import Case
 from kulman.variants.sheets import Sheet, drawing_for_print
 from kulman.variants.shelf import bundled
 
+TASK = "nau-slider-crank"
 GIVEN = ("givens", "data", "choices", "note", "structure", "scales")  # what a blank may show in full
-FEW = ("nau-slider-crank",)
-
-
-def tasks(few: tuple[str, ...] = FEW) -> list[object]:
-    return [name if name in few else pytest.param(name, marks=pytest.mark.soak) for name in bundled()]
-
-
-def drawn(sheet: Sheet) -> list[set[Shape]]:
-    return [set(leaves(page.shapes)) for page in sheet.pages]
+PLANS = ("velocity", "acceleration", "forces_", "lever")
+LINKAGES = ("madi-four-bar", "scheme-09-shaper", "scheme-18-hydraulic-drive", "scheme-20-press-automaton")
+TASKS = [name if name == TASK else pytest.param(name, marks=pytest.mark.soak) for name in bundled()]
 
 
 def vectors(sheet: Sheet) -> list[str]:
     return [shape.quantity for page in sheet.pages for shape in leaves(page.shapes) if isinstance(shape, Vector)]
 
 
-def draw_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let handouts of one case share their drawing from here on."""
+def views_of(sheet: Sheet) -> Iterator[Group]:
+    """Go through the views as they stand on the pages."""
+    for page in sheet.pages:
+        yield from (shape for shape in page.shapes if isinstance(shape, Group) and shape.role == "view")
+
+
+def plans(sheet: Sheet) -> dict[str, set[Shape]]:
+    """Return the shapes of each plan that is told step by step, but for the equations beside it."""
+    return {view.name: set(view.shapes) for view in views_of(sheet) if view.name.startswith(PLANS)}
+
+
+@pytest.fixture
+def drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let handouts of one case share their drawing."""
     kept: dict[object, Drawn] = {}
 
     def drawing(case: Case) -> Drawn:
@@ -48,53 +67,40 @@ def draw_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kulman.variants.sheets.drawing_for_print", drawing)
 
 
-@pytest.mark.parametrize("task", tasks())
-def test_a_handout_grows_step_by_step_into_the_key(task: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    key = drawn(handout(task, key=True))
-    draw_once(monkeypatch)
+@pytest.mark.usefixtures("drawn_once")
+@pytest.mark.parametrize("task", TASKS)
+def test_a_handout_grows_step_by_step_into_the_key(task: str) -> None:
+    def drawn(**how: Any) -> list[set[Shape]]:
+        return [set(leaves(page.shapes)) for page in handout(task, **how).pages]
 
+    key = drawn(key=True)
     before: list[set[Shape]] = [set() for _ in key]
     for steps in (0, 1, 2, 5, 1000):
-        now = drawn(handout(task, steps=steps))
+        now = drawn(steps=steps)
         assert len(now) == len(key)
         for own, earlier, whole in zip(now, before, key, strict=True):
             assert earlier <= own <= whole  # the same places, to the last bit
         before = now
 
 
-@pytest.mark.parametrize("task", tasks())
+@pytest.mark.parametrize("task", TASKS)
 def test_a_blank_has_no_answers(task: str) -> None:
     blank = handout(task)
 
     assert vectors(blank) == []
-    for page in blank.pages:
-        for view in page.shapes:
-            if isinstance(view, Group) and view.role == "view" and view.name not in GIVEN:
-                numbers = [t.markup for t in leaves(view.shapes) if isinstance(t, Text) and t.role in ("cell", "line")]
-                assert not [text for text in numbers if re.search(r"\d[.,]\d", text)]
+    for view in views_of(blank):
+        if view.name not in GIVEN:
+            numbers = [t.markup for t in leaves(view.shapes) if isinstance(t, Text) and t.role in ("cell", "line")]
+            assert not [text for text in numbers if re.search(r"\d[.,]\d", text)]
     said = {text.markup for page in blank.pages for text in leaves(page.shapes) if isinstance(text, Text)}
     notes = {line for view in blank.views if not (view.rows or view.lines) for line in view.notes}
     assert said & {line for view in blank.views for line in view.heading}
     assert not [line for line in said & notes if re.search(r"= ?\d", line)]
 
 
-PLANS = ("velocity", "acceleration", "forces_", "lever")
-LINKAGES = ("madi-four-bar", "scheme-09-shaper", "scheme-18-hydraulic-drive", "scheme-20-press-automaton")
-
-
-def plans(sheet: Sheet) -> dict[str, set[Shape]]:
-    """The shapes of each plan that is told step by step, but for the equations beside it."""
-    views = (view for page in sheet.pages for view in page.shapes if isinstance(view, Group) and view.role == "view")
-    return {view.name: set(view.shapes) for view in views if view.name.startswith(PLANS)}
-
-
-@pytest.mark.parametrize(
-    "task",
-    [name if name == "madi-four-bar" else pytest.param(name, marks=pytest.mark.soak) for name in LINKAGES],
-)
-def test_all_steps_of_plans_draw_all_that_they_show(task: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    draw_once(monkeypatch)
-
+@pytest.mark.usefixtures("drawn_once")
+@pytest.mark.parametrize("task", [LINKAGES[0], *(pytest.param(task, marks=pytest.mark.soak) for task in LINKAGES[1:])])
+def test_all_steps_of_plans_draw_all_that_they_show(task: str) -> None:
     whole, done = (plans(handout(task, format="A1", **how)) for how in ({"key": True}, {"steps": 1000}))
 
     assert {"velocity", "lever"} <= set(whole)
@@ -102,60 +108,31 @@ def test_all_steps_of_plans_draw_all_that_they_show(task: str, monkeypatch: pyte
 
 
 def test_a_lever_begins_with_its_plan_then_forces_hang_on_it() -> None:
-    begun = [plans(handout("nau-slider-crank", "3", steps=steps, only="lever"))["lever"] for steps in (2, 4, 5)]
+    begun = [plans(handout(TASK, "3", steps=steps, only="lever"))["lever"] for steps in (2, 4, 5)]
 
     lines, arrows = (
         [{shape.name for shape in shapes if isinstance(shape, kind)} for shapes in begun] for kind in (Line, Arrow)
     )
-    assert lines[0] == {"V_A"}
-    assert lines[1] == {"V_A", "V_BA", "V_B", "V_S2"}
+    assert lines[:2] == [{"V_A"}, {"V_A", "V_BA", "V_B", "V_S2"}]
     assert arrows == [set(), set(), {"F_i2"}]
 
 
 def test_steps_are_those_that_the_note_numbers() -> None:
-    written = note("nau-slider-crank", "3", lang="en")
-    figures = [block for block in written.document.blocks if isinstance(block, (Steps, Figure))]
-    steps = {
-        figure.view.name: block.texts
-        for block, figure in pairwise(figures)
-        if isinstance(block, Steps) and isinstance(figure, Figure)
-    }
-    number = next(number for number, text in enumerate(steps["velocity"], 1) if "lay off" in text)
-    before, begun = (handout("nau-slider-crank", "3", steps=k, only="velocity") for k in (number - 1, number))
+    blocks = [block for block in note(TASK, "3", lang="en").document.blocks if isinstance(block, (Steps, Figure))]
+    texts = next(
+        steps.texts
+        for steps, figure in pairwise(blocks)
+        if isinstance(steps, Steps) and isinstance(figure, Figure) and figure.view.name == "velocity"
+    )
+    number = next(number for number, text in enumerate(texts, 1) if "lay off" in text)
+    before, begun = (handout(TASK, "3", steps=k, only="velocity") for k in (number - 1, number))
 
     assert number == 2  # after the pole, which a blank has, too
     assert (vectors(before), vectors(begun)) == ([], ["V_A"])
     assert not before.warnings
 
 
-@pytest.mark.parametrize("name", ["A4", "A3", "A1"])
-@pytest.mark.parametrize("norm", ["gost", "iso"])
-def test_a_frame_keeps_clear_of_where_printers_do_not_reach(name: str, norm: str) -> None:
-    sheet = printable(FORMATS[name])
-
-    x0, y0, x1, y1 = drawing_area(sheet, norm)  # type: ignore[arg-type]
-
-    assert min(x0, y0, sheet.width - x1, sheet.height - y1) >= 8.0
-    assert x1 - x0 >= BLOCK[norm][0]  # room for the title block
-    assert drawing_area(FORMATS[name]) == (20.0, 5.0, sheet.width - 5.0, sheet.height - 5.0)
-
-
-def test_rulers_measure_100_mm_and_stand_in_the_margins() -> None:
-    page = handout("nau-slider-crank", only="structure").pages[0]
-    rulers = {shape.name: shape for shape in page.shapes if isinstance(shape, Group) and shape.role == "ruler"}
-
-    for ruler, along in (("across", 1.0), ("up", 1j)):
-        lines = [line for line in rulers[ruler].shapes if isinstance(line, Line)]
-        assert lines[0].b - lines[0].a == 100.0 * along
-        assert len(lines) == 1 + 21
-        places = sorted(((line.a - lines[0].a) / along).real for line in lines[1:])
-        assert places == pytest.approx([5.0 * k for k in range(21)])
-    frame = drawing_area(printable(FORMATS["A4"]))
-    assert max(shape.b.imag for shape in leaves(rulers["across"].shapes) if isinstance(shape, Line)) < frame[1]
-    assert max(max(s.a.real, s.b.real) for s in leaves(rulers["up"].shapes) if isinstance(s, Line)) < frame[0]
-
-
-@pytest.mark.parametrize(("task", "only"), [("nau-slider-crank", "velocity"), ("madi-gear", "geometry")])
+@pytest.mark.parametrize(("task", "only"), [(TASK, "velocity"), ("madi-gear", "geometry")])
 def test_steps_warn_where_nothing_drawn_has_any(task: str, only: str) -> None:
     begun, blank = (handout(task, only=only, steps=steps) for steps in (3, 0))
 
@@ -165,23 +142,15 @@ def test_steps_warn_where_nothing_drawn_has_any(task: str, only: str) -> None:
     assert idle == [warning for warning in begun.warnings if warning not in blank.warnings]
 
 
-def test_a_transparency_has_the_plan_at_its_size() -> None:
-    over, key = (handout("nau-slider-crank", "3", **how) for how in ({"over": "velocity"}, {"key": True}))
+@pytest.mark.parametrize("norm", ["gost", "iso"])
+def test_a_frame_keeps_clear_of_where_printers_do_not_reach(norm: Any) -> None:
+    for name in ("A4", "A3", "A1"):
+        sheet = printable(FORMATS[name])
+        x0, y0, x1, y1 = drawing_area(sheet, norm)
 
-    assert len(over.pages) == 1
-    own = {s.quantity: s.tip - s.tail for s in leaves(over.pages[0].shapes) if isinstance(s, Vector)}
-    assert own.keys() == {"V_A", "V_BA", "V_B", "V_S2"}
-    for page in key.pages:
-        for shape in leaves(page.shapes):
-            if isinstance(shape, Vector) and shape.quantity in own and shape.unit == "m/s":
-                assert own[shape.quantity] == pytest.approx(shape.tip - shape.tail, abs=1e-9)
-
-
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
-    with pytest.raises(SystemExit) as left:
-        cli.main(["handout", *arguments])
-    out, err = capsys.readouterr()
-    return int(left.value.code or 0), out, err
+        assert min(x0, y0, sheet.width - x1, sheet.height - y1) >= 8.0
+        assert x1 - x0 >= BLOCK[norm][0]  # room for the title block
+        assert drawing_area(FORMATS[name]) == (20.0, 5.0, sheet.width - 5.0, sheet.height - 5.0)
 
 
 @pytest.mark.parametrize(
@@ -198,8 +167,173 @@ def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, 
 def test_what_cannot_be_done_is_said_in_a_line(
     arguments: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    status, out, err = run(capsys, "nau-slider-crank", *arguments, "-o", str(tmp_path / "h.pdf"))
+    with pytest.raises(SystemExit) as left:
+        cli.main(["handout", TASK, *arguments, "-o", str(tmp_path / "h.pdf")])
 
-    assert (status, out, err.count("\n")) == (2, "", 1)
+    out, err = capsys.readouterr()
+    assert (left.value.code, out, err.count("\n")) == (2, "", 1)
     assert said in err
     assert list(tmp_path.iterdir()) == []
+
+
+# --- prints, read back from their PDF ---------------------------------------------------------------------------------
+
+COINCIDES = 0.01  # mm
+FIGURES = 3  # of a sheet that are laid over it: each is drawn with its whole sheet
+FEW = {TASK: "velocity", "karpenko-hoist": "scheme"}
+WHOLE = (TASK, "madi-cam", "madi-gear", "karpenko-hoist", "bertyaev-six-bar", "scheme-20-press-automaton")
+MM = 25.4 / 72
+Stroke = NDArray[np.complex128]  # the points of a line or a curve, mm from the lower left corner
+
+
+def printed_tasks(*few: str) -> list[Any]:
+    """Return tasks of some kinds with one plan each; for the soak whole sheets of every kind."""
+    return [*((task, FEW[task]) for task in few), *(pytest.param(task, None, marks=pytest.mark.soak) for task in WHOLE)]
+
+
+@dataclass(frozen=True, slots=True)
+class Print:
+    """A page as a printer gets it: its size in mm and all that is stroked or filled on it."""
+
+    width: float
+    height: float
+    strokes: tuple[Stroke, ...]
+
+    def straight(self, along: complex) -> list[Stroke]:
+        """Return the straight lines in a direction, 1 or 1j, from their lower or left end."""
+        lines = [stroke for stroke in self.strokes if len(stroke) == 2]
+        lines = [line if ((line[1] - line[0]) / along).real > 0.0 else line[::-1] for line in lines]
+        spans = ((line, (line[1] - line[0]) / along) for line in lines)
+        return [line for line, span in spans if span.real > 0.0 and abs(span.imag) < 1e-3]
+
+
+def prints(pdf: bytes) -> list[Print]:
+    """Return the pages of a PDF."""
+
+    def parts(element: Any) -> Iterator[LTCurve]:
+        if isinstance(element, LTCurve):
+            yield element
+        for child in getattr(element, "_objs", ()):
+            yield from parts(child)
+
+    found = []
+    for page in extract_pages(BytesIO(pdf), laparams=LAParams(boxes_flow=None)):
+        strokes = (np.array([complex(*point) * MM for point in part.pts]) for part in parts(page))
+        found.append(Print(page.width * MM, page.height * MM, tuple(stroke for stroke in strokes if len(stroke))))
+    return found
+
+
+def farthest(these: Iterable[Stroke], those: Iterable[Stroke]) -> float:
+    """Return by how many mm the one of `these` that fits worst misses the nearest of `those`; inf without any."""
+    by_count: dict[int, list[Stroke]] = {}
+    for stroke in those:
+        by_count.setdefault(len(stroke), []).append(stroke)
+    tables = {count: np.array(strokes) for count, strokes in by_count.items()}
+    worst = 0.0
+    for stroke in these:
+        if len(stroke) not in tables:
+            return float("inf")
+        worst = max(worst, float(abs(tables[len(stroke)] - stroke).max(axis=1).min()))
+    return worst
+
+
+@lru_cache(maxsize=16)
+def printed(task: str, only: str | None, **how: Any) -> tuple[Sheet, tuple[Print, ...]]:
+    drawn, stream = handout(task, only=only, **how), BytesIO()
+    write_pdf(drawn.pages, stream)
+    return drawn, tuple(prints(stream.getvalue()))
+
+
+def ruler(page: Print, along: complex) -> tuple[Stroke, list[float]]:
+    """Return the ruler of a print, a line of 100 mm in the margin, and where on it the marks stand, mm."""
+    base = next(
+        line
+        for line in page.straight(along)
+        if abs(abs(line[1] - line[0]) - 100.0) < 0.05 and (line[0].imag if along == 1 else line[0].real) < 14.0
+    )
+    ends = [(end - base[0]) / along for line in page.straight(1j if along == 1 else 1) for end in line]
+    places = sorted({round(float(end.real), 3) for end in ends if abs(end.imag) < 1e-3})
+    return base, [place for place in places if -1.0 < place < 101.0]
+
+
+@pytest.mark.parametrize(("task", "only"), printed_tasks(TASK))
+def test_a_print_has_the_size_of_its_paper_and_rulers_of_100_mm(task: str, only: str | None) -> None:
+    drawn, pages = printed(task, only)
+
+    paper = FORMATS[drawn.format]
+    assert len(pages) == len(drawn.pages)
+    for page in pages:
+        assert (page.width, page.height) == pytest.approx((paper.width, paper.height), abs=COINCIDES)
+        for along in (1, 1j):
+            line, marks = ruler(page, along)
+            assert abs(line[1] - line[0]) == pytest.approx(100.0, abs=COINCIDES)
+            assert marks == pytest.approx([5.0 * k for k in range(21)], abs=COINCIDES)
+
+
+@pytest.mark.parametrize("format", ["A4", pytest.param("A3", marks=pytest.mark.soak)])
+def test_the_frame_keeps_the_margin_that_printers_need_and_the_rulers_stand_in_it(format: str) -> None:
+    for page in printed(TASK, "velocity", format=format)[1]:
+        boxes = [(min(s.real), min(s.imag), max(s.real), max(s.imag)) for s in page.strokes if len(s) > 2]
+        large = sorted((box for box in boxes if box[2] - box[0] > 0.8 * page.width), key=lambda box: box[0])
+        edge, (x0, y0, x1, y1), *_ = large  # the paper's own edge, then the frame
+        assert edge == pytest.approx((0.0, 0.0, page.width, page.height), abs=COINCIDES)
+        assert min(x0, y0, page.width - x1, page.height - y1) >= 8.0 - COINCIDES
+        assert max(ruler(page, 1)[0].imag) < y0
+        assert max(ruler(page, 1j)[0].real) < x0
+
+
+@pytest.mark.parametrize(("task", "only"), printed_tasks(TASK, "karpenko-hoist"))
+def test_the_key_on_top_of_a_blank_coincides(task: str, only: str | None) -> None:
+    _, blank = printed(task, only)
+    _, key = printed(task, only, key=True)
+
+    for page, whole in zip(blank, key, strict=True):
+        assert (page.width, page.height) == (whole.width, whole.height)
+        assert farthest(page.strokes, whole.strokes) <= COINCIDES
+    assert sum(len(page.strokes) for page in key) > sum(len(page.strokes) for page in blank)
+
+
+def corner(shapes: Iterable[Shape]) -> complex:
+    x, y, *_ = extent(tuple(shapes))
+    return complex(x, y)
+
+
+@pytest.mark.parametrize(("task", "only"), printed_tasks(TASK))
+def test_a_transparency_coincides_with_the_key(task: str, only: str | None) -> None:
+    drawn, pages = printed(task, only, key=True)
+
+    placed = {
+        shape.name: (shape.shapes, page)
+        for drawing, page in zip(drawn.pages, pages, strict=True)
+        for shape in drawing.shapes
+        if isinstance(shape, Group) and shape.role == "view"
+    }
+    for view in [view for view in drawn.views if not (view.rows or view.lines)][:FIGURES]:
+        over, (alone,) = printed(task, only, over=view.name)
+        shapes, page = placed[view.name]
+        rulers = [shape for shape in over.pages[0].shapes if isinstance(shape, Group) and shape.role == "ruler"]
+        shift = corner(shapes) - corner(shape for shape in over.pages[0].shapes if shape not in rulers)
+        # rulers stand in the margins below and on the left
+        own = [stroke for stroke in alone.strokes if stroke.imag.max() >= 14.0 and stroke.real.max() >= 20.0]
+        assert len(own) > 4
+        assert farthest((stroke + shift for stroke in own), page.strokes) <= COINCIDES
+        assert ruler(alone, 1)[1] == pytest.approx([5.0 * k for k in range(21)], abs=COINCIDES)
+
+
+@pytest.mark.parametrize("format", ["A3", pytest.param("A1", marks=pytest.mark.soak)])
+def test_tiles_join_to_the_sheet(format: str) -> None:
+    drawn, (page,) = printed(TASK, "velocity", format=format)
+    stream = BytesIO()
+    write_tiles(drawn.pages, stream)
+
+    parts = prints(stream.getvalue())
+    windows = [tile.window for tile in tiles(drawn.pages[0])]
+    assert len(parts) == len(windows) > 1
+    for part, (x0, _, x1, y1) in zip(parts, windows, strict=True):
+        assert (part.width, part.height) == pytest.approx((210.0, 297.0), abs=COINCIDES)
+        assert x1 - x0 <= 210.0 - 2 * MARGIN
+        top = complex(x0 - MARGIN, y1 - (part.height - MARGIN))  # tiles hang from their upper left corner
+        assert farthest(page.strokes, [stroke + top for stroke in part.strokes]) <= COINCIDES
+    left, below, right, above = zip(*windows, strict=True)
+    assert (min(left), min(below)) == (0.0, 0.0)
+    assert (max(right), max(above)) == pytest.approx((page.width, page.height))

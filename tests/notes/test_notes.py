@@ -11,16 +11,22 @@ from pathlib import Path
 import pypdfium2
 import pytest
 
-from kulman import cli, note, solve
-from kulman.drawing import notes
-from kulman.drawing.notes.blocks import Document, Equations, Figure, Heading, Sentences, Steps, Table
+from kulman import cli, note, sheet, solve
+from kulman.drawing.notes.blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
 from kulman.drawing.notes.markdown import markdown
-from kulman.drawing.notes.typst import pdf_bytes
+from kulman.drawing.notes.typst import Body, pdf_bytes
+from kulman.drawing.shapes import Line
+from kulman.drawing.view import View
+from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
+from kulman.scales.scale import Scale
+from kulman.tests.notes import test_docx as in_word
+from kulman.tests.support.cases import solve_case
+from kulman.variants.case import Case, Settings
 from kulman.variants.notes import Note
+from kulman.variants.shelf import bundled, bundled_text
 
-LANGUAGES = ("uk", "ru", "en")
-TASK = "nau-slider-crank"
+TASK, GEAR, HOIST = "nau-slider-crank", "madi-gear", "karpenko-hoist"
 MEASURED = re.compile(r"= ([\d.,]+) [^:=]+: ([^=]+) = ([\d.,]+)([·/])([\d.,]+) = ([\d.,]+) (\S+)\.$")
 
 
@@ -46,7 +52,8 @@ def texts(written: Note) -> Iterator[str]:
 
 
 def text_in(pdf: bytes) -> str:
-    return "".join(page.get_textpage().get_text_range() for page in pypdfium2.PdfDocument(pdf))
+    """Return the letters of a PDF, without spaces."""
+    return "".join("".join(page.get_textpage().get_text_range().split()) for page in pypdfium2.PdfDocument(pdf))
 
 
 def number(text: str) -> float:
@@ -55,8 +62,7 @@ def number(text: str) -> float:
 
 def half(text: str) -> float:
     """Half of the last printed digit."""
-    decimals = len(text.replace(",", ".").partition(".")[2])
-    return 0.5 * 10.0**-decimals
+    return 0.5 * 10.0 ** -len(text.replace(",", ".").partition(".")[2])
 
 
 def assert_everything_is_said(written: Note, lang: str) -> None:
@@ -70,11 +76,6 @@ def assert_everything_is_said(written: Note, lang: str) -> None:
     assert bool(re.search("[іїєґ]", words)) == (lang == "uk")
     assert bool(re.search("[ыэъ]", words)) == (lang == "ru")
     assert bool(re.search("[а-яА-Я]{3}", words)) == (lang != "en")
-
-
-@pytest.mark.parametrize("lang", LANGUAGES)
-def test_a_note_says_everything_in_its_language(lang: str) -> None:
-    assert_everything_is_said(note_of(lang), lang)
 
 
 def assert_measured_as_solved(written: Note, task: str) -> None:
@@ -98,88 +99,264 @@ def assert_measured_as_solved(written: Note, task: str) -> None:
             assert number(value) == pytest.approx(near, abs=1.01 * half(value))
 
 
-def test_what_is_measured_recomputes_and_is_what_is_solved() -> None:
-    assert_measured_as_solved(note_of("en"), TASK)
-
-
-def test_steps_and_equations_stand_before_their_figure() -> None:
-    blocks = note("nau-slider-crank", "3").document.blocks
-    places = {block.view.name: place for place, block in enumerate(blocks) if isinstance(block, Figure)}
-
-    for plan in ("velocity", "acceleration"):
-        assert [type(block) for block in blocks[places[plan] - 3 : places[plan]]] == [Heading, Equations, Steps]
-    assert isinstance(blocks[places["forces_23"] - 1], Steps)
-    assert [type(block) for block in blocks[-2:]] == [Heading, Steps]  # the conclusions
-
-
 def assert_it_becomes_a_document(written: Note, folder: Path) -> None:
     pdf, text = written.save(folder / "note.pdf", folder / "note.md")[:2]
 
     read = text_in(pdf.read_bytes())
     for block in written.document.blocks:
         if isinstance(block, Heading) and not re.search(r"[{}\\]", block.text):
-            assert "".join(block.text.split()) in "".join(read.split())
-    said = text.read_text(encoding="utf-8")
-    pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", said)
+            assert "".join(block.text.split()) in read
+    pictures = re.findall(r"!\[[^\]]*\]\(([^)]+)\)", text.read_text(encoding="utf-8"))
     assert len(pictures) == len(written.figures)
     assert all((folder / name).read_text(encoding="utf-8").startswith("<?xml") for name in pictures)
 
 
-def test_a_note_becomes_a_document(tmp_path: Path) -> None:
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_a_note_says_everything_in_its_language(lang: str) -> None:
+    keys = [packaged("kulman.drawing.notes", "texts", lang).keys() for lang in LANGUAGES]
+
+    assert keys[0] == keys[1] == keys[2]
+    assert_everything_is_said(note_of(lang), lang)
+
+
+def test_what_is_measured_recomputes_and_is_what_is_solved() -> None:
+    assert_measured_as_solved(note_of("en"), TASK)
+
+
+def test_a_note_becomes_a_document_of_the_same_bytes_every_time(tmp_path: Path) -> None:
     assert_it_becomes_a_document(note_of(), tmp_path)
-
-
-def test_the_same_note_has_the_same_bytes() -> None:
     assert pdf_bytes(note(TASK, student="І. Петренко").document) == pdf_bytes(note_of().document)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize(("place", "task"), [*enumerate(bundled())])
+def test_a_note_of_every_task_is_complete_and_right(place: int, task: str, lang: str, tmp_path: Path) -> None:
+    written = note(task, lang=lang, student="І. Петренко", date="2026")
+
+    assert_everything_is_said(written, lang)
+    in_word.assert_a_document_says_all(written.document)
+    if lang == "en" and task in bundled("mechanism"):  # whose plans are told mark by mark
+        assert_measured_as_solved(written, task)
+    if lang == LANGUAGES[place % 3]:
+        assert_it_becomes_a_document(written, tmp_path)
+        in_word.assert_it_becomes_a_document(written.document)
+
+
+def test_steps_and_equations_stand_before_their_figure() -> None:
+    blocks = note(TASK, "3").document.blocks
+    places = {block.view.name: place for place, block in enumerate(blocks) if isinstance(block, Figure)}
+
+    for plan in ("velocity", "acceleration", "forces_23"):
+        assert [type(block) for block in blocks[places[plan] - 3 : places[plan]]] == [Heading, Equations, Steps]
+    assert [type(block) for block in blocks[places["group_23"] - 3 : places["group_23"] - 1]] == [Heading, Equations]
+    of_forces = blocks[places["forces_23"] - 2]
+    assert isinstance(of_forces, Equations)
+    assert any("ΣM" in " ".join(line) for line in of_forces.lines)
+    assert [type(block) for block in blocks[-2:]] == [Heading, Steps]  # the conclusions
+
+
+# --- words: of students, of task files, of scale factors --------------------------------------------------------------
 
 
 @cache
 def few_words() -> Document:
-    document = note("nau-slider-crank", only="structure").document
+    document = note(TASK, only="structure").document
     return replace(document, blocks=document.blocks[:2])
 
 
-HOSTILE = ('#panic("x")', "$x$", "]#[", '"\\', "*_`", "<b>", "//", "@a", "= b", "\u202ea", "\x07", "😀")
-
-
-@pytest.mark.parametrize("name", HOSTILE)
+@pytest.mark.parametrize(
+    "name", ['#panic("x")', "$x$", "]#[", '"\\', "*_`", "<b>", "//", "@a", "= b", "\u202ea", "\x07", "😀"]
+)
 def test_a_name_is_never_taken_for_a_sign(name: str) -> None:
     document = few_words()
     document = replace(document, title=replace(document.title, student=name, teacher=name, date=name))
 
-    read = text_in(pdf_bytes(document))
     plain = "".join(c for c in name if c.isprintable() and c.isascii())
-    assert "".join(plain.split()) in "".join(read.split())
     said = markdown(document, ["figure.svg"])
+    assert "".join(plain.split()) in text_in(pdf_bytes(document))
     assert "<b>" not in said
     assert all(word in said for word in re.findall(r"\w+", name, re.ASCII))
 
 
 def test_markdown_tells_one_line_under_a_vector_from_two() -> None:
-    document = few_words()
     lines = Equations(((r"\uu{\bar{V}_{B}} = \u{\bar{V}_{BA}}",),))
 
-    said = markdown(replace(document, blocks=(lines,)), [])
+    said = markdown(replace(few_words(), blocks=(lines,)), [])
+
     assert "V\u0305\u0333<sub>B</sub> = <u>V\u0305<sub>BA</sub></u>" in said
 
 
 @pytest.mark.parametrize(("notation", "by"), [("nau", "times its"), ("bauman", "over its")])
 def test_a_note_says_what_scale_factors_are_for(notation: str, by: str) -> None:
-    about = note("nau-slider-crank", only="structure", notation=notation, lang="en").document.blocks[0]
+    about = note(TASK, only="structure", notation=notation, lang="en").document.blocks[0]
 
     assert isinstance(about, Sentences)
     assert f"segment {by} scale factor is the quantity" in about.texts[0]
 
 
-def test_texts_have_the_same_keys() -> None:
-    keys = [packaged(notes.__name__, "texts", lang).keys() for lang in LANGUAGES]
+OWN = {"uk": "слово про дані", "ru": "слово о данных", "en": "a word on the data"}
 
-    assert keys[0] == keys[1] == keys[2]
+
+@pytest.mark.parametrize("lang", ["uk", *(pytest.param(lang, marks=pytest.mark.soak) for lang in ("ru", "en"))])
+@pytest.mark.parametrize(("task", "only"), [(TASK, "position"), (GEAR, "sliding"), (HOIST, "scheme")])
+def test_a_word_of_the_task_stands_on_the_sheet_and_in_the_note(
+    task: str, only: str, lang: str, tmp_path: Path
+) -> None:
+    head, _, rest = bundled_text(task).partition("\n[givens]")
+    before, _, after = head.partition("\n[note]")
+    words = "".join(f'{language} = "{text}"\n' for language, text in OWN.items())
+    tables = "\n[" + after.partition("\n[")[2] if "\n[" in after else ""
+    own = tmp_path / "own.toml"
+    own.write_text(f"{before}\n[note]\n{words}{tables}\n[givens]{rest}", encoding="utf-8")
+
+    view = next(view for view in sheet(own, only=only, lang=lang).views if view.name == "note")
+    blocks = note(own, only=only, lang=lang).document.blocks
+
+    assert [" ".join(line) for line in view.lines] == [OWN[lang]]
+    (said,) = (
+        n for n, block in enumerate(blocks) if isinstance(block, Equations) and " ".join(block.lines[0]) == OWN[lang]
+    )
+    heading = blocks[said - 1]
+    assert isinstance(heading, Heading)
+    assert heading.text in ("Примітка", "Примечание", "Note", "Примітки", "Примечания")
+
+
+# --- conclusions of gears and hoists: what they say is what is solved -------------------------------------------------
+
+
+def concluded(case: Case, lang: str = "en") -> tuple[str, ...]:
+    words, said = case.words(lang), packaged("kulman.drawing.notes", "texts", lang)
+    return case.kind.story(case, {"meshing": Scale("mu_l", 0.0005, "m")}, words, said).conclusions
+
+
+def solved(task: str, variant: str | None = None, **settings: str) -> Case:
+    return solve_case(task, variant, settings, None, None)
+
+
+@pytest.mark.parametrize(
+    ("task", "settings"),
+    [(GEAR, {}), (GEAR, {"x_1": "-0.3", "x_2": "-0.3"}), (HOIST, {}), (HOIST, {"V_0": "4 m/s"})],
+)
+def test_conclusions_are_whole_sentences_in_every_language(task: str, settings: Settings) -> None:
+    case = solved(task, **settings)
+    for lang in LANGUAGES:
+        said = concluded(case, lang)
+
+        assert len(said) >= 4
+        for text in said:
+            assert text.endswith(".")
+            assert text[0].isupper()
+            assert not re.search(r"\b(nan|inf|None)\b|  ", text)
+            assert not re.search(r"\d,\d" if lang == "en" else r"\d\.\d", text)
+
+
+def test_gears_are_judged_as_their_checks_are() -> None:
+    good, bad, alike = (
+        " ".join(concluded(solved(GEAR, **own))) for own in ({}, {"x_1": "-0.3", "x_2": "-0.3"}, {"x_sum": "1.05"})
+    )
+
+    assert r"x_{1} = 0.2000 ≥ x_{min 1} = 0.1227; x_{2} = 0.8500 ≥ x_{min 2} = −0.1698" in good
+    assert "ε_{α} = 1.2048 ≥ 1.2000. During 20 % of the time two pairs" in good
+    assert "roots of the pinion wear more" in good
+    assert r"Teeth are undercut: x_{1} = −0.3000 < x_{min 1} = 0.1227" in bad
+    assert "No tooth is undercut" not in bad
+    assert "both wheels wear alike" in alike
+
+
+def test_hoists_compare_the_greatest_force_with_the_static_one_and_say_where_formulas_do_not_hold() -> None:
+    for variant in ("V03", "V04"):
+        case = solved(HOIST, variant)
+        said, values = " ".join(concluded(case)), {name: q.value or 0.0 for name, q in case.solved.quantities.items()}
+
+        factor = re.search(r"/mg = ([\d.]+)\.", said)
+        assert factor is not None
+        assert float(factor[1]) == pytest.approx(values["F_max"] / values["P_st"], abs=5e-4)
+        assert f"{values['F_max']:.0f} N, comes" in said
+        assert f"is mg = {values['P_st']:.0f} N: " in said
+        assert ("The rope is strong enough" in said) == (values["safety"] >= case.solved.givens["K"])
+        assert f"l_{{0}}/{round(case.solved.givens['l_0'] / values['w_0_max'])}" in said
+
+    fast = " ".join(concluded(solved(HOIST, "V04", V_0="4 m/s")))
+    assert "the closed formulas do not hold" in fast
+    assert not re.search("the closed formulas hold|article", fast)
+
+
+@pytest.mark.parametrize("format", ["A3", *(pytest.param(f, marks=pytest.mark.soak) for f in ("A1", "A4"))])
+def test_scale_of_specific_sliding_is_that_of_the_figure(format: str) -> None:
+    written = note(GEAR, only="sliding", format=format, lang="en")
+
+    steps = next(block for block in written.document.blocks if isinstance(block, Steps))
+    value = re.search(r"μ_\{θ\} = [\d.]+ mm\^\{−1\}", " ".join(written.figures["sliding"].under))
+    assert value is not None
+    assert value[0] in steps.texts[-1]
+
+
+# --- lines in typst: where they may end, which letters are slanted ----------------------------------------------------
+
+TIE = "\u00a0"
+
+
+def in_typst(*blocks: Block) -> str:
+    return Body.of(blocks, "en").text
+
+
+def test_no_line_ends_between_a_letter_its_number_and_the_unit_but_before_a_sign_of_an_equation() -> None:
+    line = "r_{0} = 45.26 mm and more"
+    for block in (Steps((line,)), Sentences((line,))):
+        assert f"{TIE}= 45.26{TIE}mm and more" in in_typst(block)
+    assert TIE not in in_typst(Equations((("a = 2·3", "= 6 mm"),)))
+
+
+@pytest.mark.parametrize(
+    ("markup", "slanted", "upright"),
+    [
+        *(("d^{2}s/dφ^{2}", "", "dφ"), ("μ_{d^{2}s/dφ^{2}}", "μ", "dφ"), ("ω^{2}·r_{0}", "ωr", "")),
+        *(("P_{1}B_{1}", "PB", ""), ("OP_{1} = 2", "", "P"), ("a_{B} = 2 m/s^{2}", "a", "s")),
+        *(("V_{A}^{2}/l_{OA}", "Vl", ""), ("μ_{s} = h/S_{max}", "μS", ""), ("m/s^{2}", "", "s")),
+    ],
+)
+def test_letters_of_one_word_are_all_upright(markup: str, slanted: str, upright: str) -> None:
+    text = in_typst(Sentences((markup,)))
+
+    assert all(f'attach(italic("{letter}")' in text for letter in slanted)
+    assert all(f'attach("{letter}"' in text for letter in upright)
+    assert text.count("italic") == len(slanted)
+
+
+def test_scripts_of_a_script_stand_close_and_the_head_of_a_table_on_every_page() -> None:
+    assert 't: "2")"s/d"attach(' in in_typst(Sentences(("μ_{d^{2}s/dφ^{2}}",)))
+
+    head, body = in_typst(Table((("i", "φ"), ("0", "0.00"), ("1", None)))).split("\n")[:2]
+    assert ("table.header(" in head, "φ" in head, "0.00" in head) == (True, True, False)
+    assert "0.00" in body
+    assert "colspan: 2" in body
+
+
+def test_a_figure_that_would_be_too_small_stands_on_a_larger_sheet_at_the_end() -> None:
+    figures = (
+        Figure(View("plan", (Line(0j, complex(width, height)),), (0.0, 0.0, width, height)), "Plan", ())
+        for width, height in ((90.0, 90.0), (300.0, 500.0), (200.0, 90.0))
+    )
+
+    body = Body.of((*figures, Heading("End")), "en")
+
+    assert body.figures.keys() == {"1.svg", "2.svg", "3.svg"}
+    shown, folded = body.text.split("= ")[0], body.text.split('#page(paper: "a3")')[1]
+    assert [name in shown for name in ('"1.svg"', '"2.svg"', '"3.svg"')] == [True, False, True]
+    assert "Figure 2 stands on a sheet A3" in shown
+    assert "counter(figure.where(kind: image)).step()" in shown  # so that the next one is the third
+    assert 'image("2.svg", width: 204.0000mm)' in folded
+    assert 'numbering: _ => "2"' in folded
+    assert "reduced to 68 %" in folded
+
+
+# --- the command ------------------------------------------------------------------------------------------------------
 
 
 def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
     with pytest.raises(SystemExit) as left:
-        cli.main(["note", *arguments])
+        cli.main(["note", TASK, *arguments])
     out, err = capsys.readouterr()
     return int(left.value.code or 0), out, err
 
@@ -187,7 +364,7 @@ def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, 
 def test_a_figure_alone_is_a_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     file = tmp_path / "velocity.svg"
 
-    status, out, err = run(capsys, "nau-slider-crank", "-v", "3", "--figure", "velocity", "-o", str(file))
+    status, out, err = run(capsys, "-v", "3", "--figure", "velocity", "-o", str(file))
 
     assert (status, out.strip(), err) == (0, str(file), "")
     assert 'data-quantity="V_B"' in file.read_text(encoding="utf-8")
@@ -208,7 +385,7 @@ def test_what_cannot_be_done_is_said_in_a_line(
 ) -> None:
     monkeypatch.chdir(tmp_path)
 
-    status, out, err = run(capsys, "nau-slider-crank", *arguments)
+    status, out, err = run(capsys, *arguments)
 
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert said in err
@@ -218,7 +395,7 @@ def test_what_cannot_be_done_is_said_in_a_line(
 def test_names_with_spaces_are_targets_of_links(tmp_path: Path) -> None:
     path = tmp_path / "записка (1) x.md"
 
-    note("nau-slider-crank", "3", only="velocity").save(path)
+    note(TASK, "3", only="velocity").save(path)
 
     assert "](<записка (1) x-velocity.svg>)" in path.read_text(encoding="utf-8")
     assert (tmp_path / "записка (1) x-velocity.svg").is_file()
