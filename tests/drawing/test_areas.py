@@ -1,19 +1,25 @@
-"""Hatching, clipping and what leaders cross, beside what many places of a line and determinants tell."""
+"""Hatching, clipping, clear places, what leaders cross, curves of few points, beside what many places tell."""
 
 from __future__ import annotations
 
 import cmath
+import math
 
 import numpy as np
 import pytest
+import shapely
 
-from kulman.drawing.areas import beside, clipped, hatched, strokes
-from kulman.drawing.shapes import Line
-from kulman.drawing.spots import FINE, MAIN, Obstacles, Surroundings
+from kulman.drawing.areas import beside, clipped, coarser, hatched, strokes, thinned
+from kulman.drawing.formats import STYLES
+from kulman.drawing.shapes import Circle, Group, Line, Pen, Polyline, Text
+from kulman.drawing.spots import FINE, MAIN, Obstacles, Surroundings, first_clear
+from kulman.drawing.view import Canvas
 
 STAR = [cmath.rect(40.0, 2.0 * cmath.pi * 2 * k / 5) + 3 - 7j for k in range(5)]  # crosses itself: a hole in the middle
 ALONG = cmath.rect(1.0, 0.7)
 BOXES = [(-4.0, -3.0, 5.0, 2.0), (3.0, 0.0, 9.0, 6.0), (-20.0, 4.0, -10.0, 30.0)]
+SIZE = 6.0, 4.0
+CIRCLE = tuple(cmath.rect(40.0, math.radians(k)) for k in range(0, 271, 1))
 
 
 def places(a: complex, b: complex, count: int = 2000) -> np.ndarray:
@@ -63,9 +69,8 @@ def test_a_box_is_hatched_inside_of_all_sides_only(turn: float) -> None:
         assert u == pytest.approx((1 + 1j) / 2**0.5)
         assert free(places(line.a, line.b)).all()
         assert not free(np.array([line.a - 0.01 * u, line.b + 0.01 * u])).any()
-
-
-def test_an_area_without_a_place_is_not_hatched() -> None:
+    levels = sorted((line.a * (1 - 1j)).imag / 2**0.5 for line in lines)
+    assert np.diff(levels) == pytest.approx(2.5)
     assert hatched([(1 + 0j, 5.0), (-1 + 0j, 5.0)], (-9.0, -9.0, 9.0, 9.0), 2.5, "centre").shapes == ()
 
 
@@ -78,8 +83,7 @@ def test_lines_are_clipped_and_broken_where_boxes_say() -> None:
 
         assert (part is None) == (not inside.any())
         if part is not None:
-            assert part[0] == pytest.approx(at[inside][0], abs=0.05)
-            assert part[1] == pytest.approx(at[inside][-1], abs=0.05)
+            assert part == pytest.approx((at[inside][0], at[inside][-1]), abs=0.05)
         hidden = np.logical_or.reduce([within(at, box) for box in BOXES])
         shown = np.zeros(len(at), dtype=bool)
         share = ((at - a) / (b - a)).real
@@ -88,23 +92,17 @@ def test_lines_are_clipped_and_broken_where_boxes_say() -> None:
             assert low < high
             shown |= (share > low) & (share < high)
         assert np.count_nonzero(shown == hidden) <= 2 * len(BOXES)
+    assert (clipped(1j, 1j, BOXES[0]), clipped(9 + 0j, 9 + 0j, BOXES[0])) == ((1j, 1j), None)  # a place as a line
+    assert beside(-9 + 2j, 9 + 2j, BOXES[:1]) == [(-9 + 2j, 9 + 2j)]  # along the side of a box
 
 
-def test_a_place_is_clipped_as_a_line_is() -> None:
-    assert clipped(1j, 1j, BOXES[0]) == (1j, 1j)
-    assert clipped(9 + 0j, 9 + 0j, BOXES[0]) is None
-
-
-def test_a_line_along_the_side_of_a_box_is_not_broken() -> None:
-    assert beside(-9 + 2j, 9 + 2j, BOXES[:1]) == [(-9 + 2j, 9 + 2j)]
-
-
-def test_leaders_count_what_they_cross() -> None:
+def test_leaders_count_what_they_cross_and_thin_strokes_that_they_run_along() -> None:
     random = np.random.default_rng(5)
     main, thin = (random.uniform(-40, 40, (30, 2)) + 1j * random.uniform(-40, 40, (30, 2)) for _ in range(2))
     starts, heads = (random.uniform(-30, 30, 50) + 1j * random.uniform(-30, 30, 50) for _ in range(2))
     centres, boxes = [3 + 4j, -20 + 5j], [(10.0, 10.0, 16.0, 14.0)]
     around = Surroundings(Obstacles(main, thin, [(c, 4.0) for c in centres], boxes), 0.6)
+    along = Surroundings(Obstacles(thin=[(0j, 20 + 0j)]), 0.6)
 
     found = around.crossed(heads, starts)
 
@@ -121,9 +119,66 @@ def test_leaders_count_what_they_cross() -> None:
         number[k] += bool(within(at, boxes[0]).any()) and not within(np.array([start]), boxes[0])[0]
     assert np.array_equal(found, number)
     assert {MAIN, FINE} <= {*around.kind.tolist()}
+    assert along.crossed(np.array([12 + 0.1j, 12 + 3j]), np.array([5 + 0j, 5 + 0.1j])).tolist() == [5, 0]
 
 
-def test_a_leader_along_a_thin_stroke_counts() -> None:
-    around = Surroundings(Obstacles(thin=[(0j, 20 + 0j)]), 0.6)
+def apart(place: complex, things: np.ndarray) -> float:
+    """How far a box about a place is from the nearest of many places of what is drawn: by formula."""
+    beyond_x = np.maximum(np.abs(things.real - place.real) - 3.0, 0.0)
+    beyond_y = np.maximum(np.abs(things.imag - place.imag) - 2.0, 0.0)
+    return float(np.min(np.hypot(beyond_x, beyond_y)))
 
-    assert around.crossed(np.array([12 + 0.1j, 12 + 3j]), np.array([5 + 0j, 5 + 0.1j])).tolist() == [5, 0]
+
+@pytest.mark.parametrize("kind", ["segments", "thin", "circles", "boxes"])
+def test_the_first_clear_place_is_clear_and_those_before_are_not(kind: str) -> None:
+    random = np.random.default_rng(7)
+    tried = (random.uniform(-30, 30, 200) + 1j * random.uniform(-30, 30, 200)).tolist()
+    ends = random.uniform(-30, 30, (10, 4))
+    discs = np.outer(np.linspace(0.0, 5.0, 40), np.exp(2j * np.pi * np.arange(200) / 200)).ravel()
+    across, up = np.meshgrid(np.linspace(0.0, 9.0, 60), np.linspace(0.0, 7.0, 60))
+    lines = np.concatenate([places(complex(a, b), complex(c, d), 400) for a, b, c, d in ends])
+    firsts = ends[:, 0] + 1j * ends[:, 1]
+    obstacles, things = {
+        "circles": ([(at, 5.0) for at in firsts.tolist()], np.add.outer(firsts, discs).ravel()),
+        "boxes": ([(a, b, a + 9.0, b + 7.0) for a, b, *_ in ends], np.add.outer(firsts, across + 1j * up).ravel()),
+    }.get(kind, (ends[:, ::2] + 1j * ends[:, 1::2], lines))
+
+    found = first_clear(tried, SIZE, Obstacles(**{kind: obstacles}), 1.0)
+
+    assert found is not None
+    first = next(place for place in tried if apart(place, things) > 1.2)
+    assert apart(found, things) > 0.99
+    assert tried.index(found) <= tried.index(first)
+    assert first_clear([0j, 1 + 1j], SIZE, Obstacles(circles=[(0j, 50.0)]), 1.0) is None
+
+
+def test_a_letter_is_written_once_and_keeps_others_away() -> None:
+    canvas = Canvas(STYLES["A3"])
+    canvas.add(Line(-9 + 0j, 9 + 0j, Pen.THIN), Circle(0j, 1.0, Pen.MAIN))
+
+    written = [canvas.write("O", [0j, 4j, 9j, 10 + 10j], 3.5) for _ in range(4)]
+
+    letters = [shape for shape in canvas.shapes if isinstance(shape, Text)]
+    assert written == [True, True, True, False]
+    assert len({letter.at for letter in letters}) == 3
+
+
+@pytest.mark.parametrize("within", [0.02, 0.1, 1.0])
+def test_a_thinned_curve_stays_near_all_its_points(within: float) -> None:
+    found = thinned(CIRCLE, within)
+
+    line = shapely.LineString([(p.real, p.imag) for p in found])
+    assert max(line.distance(shapely.Point(p.real, p.imag)) for p in CIRCLE) <= within + 1e-12
+    assert len(found) < 2.0 + math.radians(270) / math.acos(1.0 - within / 40.0)
+    assert (found[0], found[-1]) == (CIRCLE[0], CIRCLE[-1])
+    assert set(found) <= set(CIRCLE)
+    assert thinned((1j,) * 9, within) == (1j, 1j)  # a closed curve of points in one place
+
+
+def test_only_curves_of_many_points_are_changed() -> None:
+    line, short = Line(0j, 1 + 0j, Pen.THIN), Polyline(CIRCLE[:5], Pen.MAIN)
+
+    group = coarser(Group((line, short, Polyline(CIRCLE, Pen.MAIN)), "curve", "s"), 0.1)
+
+    assert isinstance(group, Group)
+    assert group.shapes == (line, short, Polyline(thinned(CIRCLE, 0.1), Pen.MAIN))

@@ -42,8 +42,8 @@ def random_scene(seed: int, labels: int, strokes: int) -> tuple[list[Request], O
 
 def boxes_of(requests: list[Request], labels: Labels) -> np.ndarray:
     corners = np.array([labels.corners[r.name] for r in requests])
-    sizes = np.array([(r.width, r.height) for r in requests])
-    return shapely.box(corners.real, corners.imag, corners.real + sizes[:, 0], corners.imag + sizes[:, 1])
+    sizes = np.array([complex(r.width, r.height) for r in requests])
+    return shapely.box(corners.real, corners.imag, (corners + sizes).real, (corners + sizes).imag)
 
 
 def strokes_of(strokes: object) -> np.ndarray:
@@ -51,7 +51,7 @@ def strokes_of(strokes: object) -> np.ndarray:
     return shapely.linestrings(np.stack((ends.real, ends.imag), axis=-1))
 
 
-def covered(requests: list[Request], obstacles: Obstacles, labels: Labels, gap: float) -> set[str]:
+def covered(requests: list[Request], obstacles: Obstacles, labels: Labels, gap: float = GAP - 1e-6) -> set[str]:
     """Names of the labels that come nearer than `gap` to anything."""
     boxes = boxes_of(requests, labels)
     rims = [shapely.Point(c.real, c.imag).buffer(r, quad_segs=64) for c, r in obstacles.circles]
@@ -63,26 +63,54 @@ def covered(requests: list[Request], obstacles: Obstacles, labels: Labels, gap: 
     return {r.name for r, bad in zip(requests, near, strict=True) if bad}
 
 
+def stand_clear(requests: list[Request], obstacles: Obstacles) -> Labels:
+    """Place labels, all of which find a place where they cover nothing."""
+    labels = place(requests, obstacles, GAP)
+    assert not labels.failed
+    assert not covered(requests, obstacles, labels)
+    return labels
+
+
 @pytest.mark.parametrize("block", [0, *(pytest.param(k, marks=pytest.mark.soak) for k in range(1, 10))])
-def test_no_label_covers_anything_unless_reported(block):
-    failed = 0
-    for seed in range(block * 200, block * 200 + 200):
-        requests, obstacles = random_scene(seed, labels=1 + seed % 24, strokes=seed % 40)
-
-        labels = place(requests, obstacles, GAP)
-
-        assert covered(requests, obstacles, labels, GAP - 1e-6) <= set(labels.failed), seed
-        failed += len(labels.failed)
-    assert failed == 0
+def test_no_label_covers_anything_unless_reported(block: int) -> None:
+    for seed in range(block * 200, block * 200 + (200 if block else 80)):
+        stand_clear(*random_scene(seed, labels=1 + seed % 24, strokes=seed % 40))
+    seen = covered([Request("A", 4, 4, 0j)], Obstacles(segments=[(-9 + 3j, 9 + 3j)]), Labels({"A": 1 + 1j}))
+    assert seen == {"A"}  # the judge sees a covered label
+    assert place(*random_scene(7, 30, 60)) == place(*random_scene(7, 30, 60))
 
 
-def test_the_judge_sees_a_covered_label():
-    requests, obstacles = [Request("A", 4, 4, 0j)], Obstacles(segments=[(-9 + 3j, 9 + 3j)])
+@pytest.mark.parametrize("side", [1, 1j, -1, -1j])
+def test_a_label_stands_where_it_is_preferred_beside_a_point_and_a_vector(side: complex) -> None:
+    corner = place([Request("A", 4, 4, 10 + 10j, 1.0, prefer=side)], Obstacles()).corners["A"]
+    vector = Request("V", 6, 4, (0j, 50 + 0j), 1.0, prefer=side)
 
-    assert covered(requests, obstacles, Labels({"A": 1 + 1j}), GAP) == {"A"}
+    assert corner + 2 + 2j - (10 + 10j) == pytest.approx(3 * side)
+    if side.imag:
+        assert place([vector], Obstacles([(0j, 50 + 0j)])).corners["V"] + 3 + 2j == pytest.approx(25 + 3 * side)
 
 
-@pytest.mark.parametrize("scenes", [60, pytest.param(300, marks=pytest.mark.soak)])
+def test_letters_at_one_point_and_of_zero_vectors_stand_side_by_side_without_leaders() -> None:
+    four = [Request(name, 4, 4, 5 + 5j) for name in ("b", "s2", "c", "d")]
+    zero = [Request("V_BA", 8, 5, (3j, 3j)), Request("b", 3, 4, 3j)]
+
+    assert not stand_clear(four, Obstacles(segments=[(0j, 5 + 5j)], circles=[(5 + 5j, 1.0)])).leaders
+    assert not stand_clear(zero, Obstacles(segments=[(3j, 3j), (3j, 40 + 3j)], thin=[(1j, 1j)])).leaders
+
+
+def test_a_hemmed_in_node_gets_a_leader_and_a_label_without_any_place_is_reported() -> None:
+    request, ends = [Request("A", 5, 5, 0j)], (-4, -2.5, 2.5, 4)
+    walls = [(complex(x, -4), complex(x, 4)) for x in ends] + [(complex(-4, y), complex(4, y)) for y in ends]
+    full = [(complex(-90, y), complex(90, y)) for y in range(-90, 91, 3)]
+
+    nowhere = place(request, Obstacles(segments=full), GAP)
+
+    assert list(stand_clear(request, Obstacles(segments=walls)).leaders) == ["A"]
+    assert nowhere.failed == ("A",)
+    assert "A" in nowhere.corners
+
+
+@pytest.mark.parametrize("scenes", [30, pytest.param(300, marks=pytest.mark.soak)])
 def test_leaders_cross_no_label_and_end_at_their_anchor(scenes):
     leaders = 0
     for seed in range(scenes):
@@ -117,7 +145,7 @@ def velocity_plan(seed: int) -> tuple[list[Request], Obstacles]:
 
 
 def test_letters_stand_nearer_to_their_own_than_to_any_other():
-    for seed in range(200):
+    for seed in range(80):
         requests, obstacles = velocity_plan(seed)
 
         labels = place(requests, obstacles, GAP)
@@ -144,65 +172,6 @@ def test_thin_strokes_are_avoided_where_there_is_room():
     assert corner.imag + 3 < 2.0
 
 
-@pytest.mark.parametrize("side", [1, 1j, -1, -1j])
-def test_a_label_stands_where_it_is_preferred(side):
-    corner = place([Request("A", 4, 4, 10 + 10j, 1.0, prefer=side)], Obstacles()).corners["A"]
-
-    assert corner + 2 + 2j - (10 + 10j) == pytest.approx(3 * side)
-
-
-@pytest.mark.parametrize("side", [1j, -1j])
-def test_the_side_of_a_vector_can_be_preferred(side):
-    corner = place([Request("V", 6, 4, (0j, 50 + 0j), 1.0, prefer=side)], Obstacles([(0j, 50 + 0j)])).corners["V"]
-
-    assert corner + 3 + 2j == pytest.approx(25 + 3 * side)
-
-
-def test_no_labels():
-    assert place([], Obstacles()) == Labels()
-
-
-def test_two_letters_at_one_point_stand_side_by_side():
-    requests = [Request(name, 4, 4, 5 + 5j) for name in ("b", "s2", "c", "d")]
-    obstacles = Obstacles(segments=[(0j, 5 + 5j)], circles=[(5 + 5j, 1.0)])
-
-    labels = place(requests, obstacles, GAP)
-
-    assert not labels.failed
-    assert not labels.leaders
-    assert not covered(requests, obstacles, labels, GAP - 1e-6)
-
-
-def test_a_zero_vector_is_labelled_like_a_point():
-    obstacles = Obstacles(segments=[(3j, 3j), (3j, 40 + 3j)], thin=[(1j, 1j)])
-    requests = [Request("V_BA", 8, 5, (3j, 3j)), Request("b", 3, 4, 3j)]
-
-    labels = place(requests, obstacles, GAP)
-
-    assert not labels.failed
-    assert not covered(requests, obstacles, labels, GAP - 1e-6)
-
-
-def test_a_hemmed_in_node_gets_a_leader():
-    walls = [(complex(x, -4), complex(x, 4)) for x in (-4, -2.5, 2.5, 4)]
-    walls += [(complex(-4, y), complex(4, y)) for y in (-4, -2.5, 2.5, 4)]
-    requests = [Request("A", 5, 5, 0j)]
-
-    labels = place(requests, Obstacles(segments=walls), GAP)
-
-    assert list(labels.leaders) == ["A"]
-    assert not covered(requests, Obstacles(segments=walls), labels, GAP - 1e-6)
-
-
-def test_a_label_without_any_place_is_reported():
-    walls = [(complex(-90, y), complex(90, y)) for y in range(-90, 91, 3)]
-
-    labels = place([Request("A", 5, 5, 0j)], Obstacles(segments=walls), GAP)
-
-    assert labels.failed == ("A",)
-    assert "A" in labels.corners
-
-
 def knot(seed: int, vectors: int) -> tuple[list[Request], Obstacles]:
     """Vectors from all sides that end within a few millimetres of each other, as on a plan with a crowded end."""
     r = random.Random(seed)
@@ -214,16 +183,29 @@ def knot(seed: int, vectors: int) -> tuple[list[Request], Obstacles]:
     return requests, Obstacles(drawn, boxes=heads)
 
 
-@pytest.mark.parametrize("vectors", [6, 10, 14, *(pytest.param(n, marks=pytest.mark.soak) for n in (8, 12))])
-def test_every_letter_of_a_knot_finds_a_place(vectors):
+@pytest.mark.parametrize("vectors", [6, 14, *(pytest.param(n, marks=pytest.mark.soak) for n in (8, 10, 12))])
+def test_every_letter_of_a_knot_finds_a_place(vectors: int) -> None:
     """Such letters stood on vectors and on each other: the letters that had chosen before them barred every way out."""
     for seed in range(4):
-        requests, obstacles = knot(seed, vectors)
+        stand_clear(*knot(seed, vectors))
 
-        labels = place(requests, obstacles, GAP)
 
-        assert not labels.failed
-        assert not covered(requests, obstacles, labels, GAP - 1e-6)
+def test_labels_stay_inside_the_bounds_and_none_has_the_name_of_another() -> None:
+    requests = [Request("A", 4, 4, 1 + 1j), Request("B", 4, 4, 29 + 19j), Request("V", 6, 4, (1j, 20j))]
+
+    labels = place(requests, Obstacles(), GAP, bounds=(0, 0, 30, 20))
+
+    assert not labels.failed
+    assert all(shapely.box(0, 0, 30, 20).contains(boxes_of(requests, labels)))
+    assert place([], Obstacles()) == Labels()
+    with pytest.raises(ValueError, match="one name"):
+        place([Request("A", 4, 4, 0j), Request("A", 4, 4, 9j)], Obstacles())
+
+
+@pytest.mark.soak
+def test_hundreds_of_labels_find_their_places() -> None:
+    nodes = [complex(12 * (k % 20), 12 * (k // 20)) for k in range(200)]
+    stand_clear([Request(str(k), 4, 4, p) for k, p in enumerate(nodes)], Obstacles(circles=[(p, 1.0) for p in nodes]))
 
 
 @pytest.mark.parametrize(("afield", "failed"), [(True, ()), (False, ("A",))])
@@ -234,54 +216,24 @@ def test_a_label_goes_far_afield_only_where_it_may(afield, failed):
 
     assert labels.failed == failed
     assert ("A" in labels.leaders) is afield
-    assert covered([Request("A", 5, 5, 0j)], Obstacles(segments=walls), labels, GAP - 1e-6) == set(failed)
+    assert covered([Request("A", 5, 5, 0j)], Obstacles(segments=walls), labels) == set(failed)
 
 
-def test_labels_stay_inside_the_bounds():
-    requests = [Request("A", 4, 4, 1 + 1j), Request("B", 4, 4, 29 + 19j), Request("V", 6, 4, (1j, 20j))]
-
-    labels = place(requests, Obstacles(), GAP, bounds=(0, 0, 30, 20))
-
-    assert not labels.failed
-    assert all(shapely.box(0, 0, 30, 20).contains(boxes_of(requests, labels)))
-
-
-def test_same_scene_same_places():
-    assert place(*random_scene(7, 30, 60)) == place(*random_scene(7, 30, 60))
-
-
-def test_one_name_twice_is_refused():
-    with pytest.raises(ValueError, match="one name"):
-        place([Request("A", 4, 4, 0j), Request("A", 4, 4, 9j)], Obstacles())
-
-
-def test_hundreds_of_labels():
-    nodes = [complex(12 * (k % 20), 12 * (k // 20)) for k in range(200)]
-    requests = [Request(str(k), 4, 4, p) for k, p in enumerate(nodes)]
-    obstacles = Obstacles(circles=[(p, 1.0) for p in nodes])
-
-    labels = place(requests, obstacles, GAP)
-
-    assert not labels.failed
-    assert not covered(requests, obstacles, labels, GAP - 1e-6)
-
-
-AXIS, WORD = (-5 + 0j, 5 + 0j), (2.0, -0.4, 3.5, 0.4)
-
-
-@pytest.mark.parametrize(("thin", "boxes"), [([AXIS], []), ([], [WORD])], ids=["an axis", "a word"])
-def test_a_leader_runs_neither_along_an_axis_nor_through_a_word(thin, boxes):
-    corners = [5 * turned(1, 22.5 * k) for k in range(17)]
-    wall = list(itertools.pairwise(corners))
+@pytest.mark.parametrize(
+    ("thin", "boxes", "thing"),
+    [
+        ([(-5 + 0j, 5 + 0j)], [], shapely.LineString([(-5, 0), (5, 0)])),
+        ([], [(2.0, -0.4, 3.5, 0.4)], shapely.box(2.0, -0.4, 3.5, 0.4)),
+    ],
+    ids=["an axis", "a word"],
+)
+def test_a_leader_runs_neither_along_an_axis_nor_through_a_word(thin: list, boxes: list, thing: object) -> None:
+    wall = list(itertools.pairwise(5 * turned(1, 22.5 * k) for k in range(17)))
     request = Request("0, 25", 9, 4, 0j)
 
     def leader(*things: list) -> shapely.LineString:
         head, foot = place([request], Obstacles(wall, things[0], [(0j, 0.6)], things[1]), GAP).leaders["0, 25"]
         return shapely.LineString([(head.real, head.imag), (foot.real, foot.imag)])
 
-    bare = [shapely.LineString([(a.real, a.imag), (b.real, b.imag)]) for a, b in thin] + [
-        shapely.box(*b) for b in boxes
-    ]
-
-    assert leader([], []).intersection(bare[0]).length > 1.0  # where nothing is in its way
-    assert leader(thin, boxes).intersection(bare[0]).length < 0.01
+    assert leader([], []).intersection(thing).length > 1.0  # where nothing is in its way
+    assert leader(thin, boxes).intersection(thing).length < 0.01

@@ -9,9 +9,6 @@ from kulman.drawing.packing import Placement, order_kept, pack
 
 GAP = 8.0
 AREAS = {"A1": (20, 5, 836, 589), "A2": (20, 5, 589, 415), "A3": (20, 5, 415, 292), "A4": (20, 5, 205, 292)}
-SHEET = [(250, 120), (115, 115), (115, 115), (230, 120), (200, 90), (180, 70), (80, 80), (70, 90), (130, 120),
-         (120, 150), (150, 120), (180, 100), (100, 100), (120, 60), (90, 90), (140, 70)]  # fmt: skip
-
 # Givens, structure, position, velocity, acceleration, equations, two tables; group, its forces, forces of the link,
 # slider, driver, its forces, equations; lever, its equations, two tables.
 COURSEWORK = {
@@ -71,13 +68,10 @@ def read_pages(views, layout):
 
 def random_views(seed):
     r = random.Random(seed)
-    views = []
-    for _ in range(r.randint(1, 16)):
-        views.append((r.uniform(30, 180), r.uniform(20, 150)))
-    return views
+    return [(r.uniform(30, 180), r.uniform(20, 150)) for _ in range(r.randint(1, 16))]
 
 
-@pytest.mark.parametrize("count", [60, pytest.param(150, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("count", [30, pytest.param(150, marks=pytest.mark.soak)])
 @pytest.mark.parametrize("paper", AREAS)
 def test_random_views_fit_their_pages(paper, count):
     area = AREAS[paper]
@@ -89,7 +83,6 @@ def test_random_views_fit_their_pages(paper, count):
         one = pack(views, area, reserved, gap=GAP)
         many = pack(views, area, reserved, later=later, gap=GAP, pages=None)
 
-        assert many is not None
         judge(views, many, area, reserved, later)
         assert [p.page for p in many] == sorted(p.page for p in many)
         if one is not None:
@@ -97,6 +90,16 @@ def test_random_views_fit_their_pages(paper, count):
             assert one == many
             packed += 1
     assert packed > count * (2 if paper == "A4" else 4) / 15
+    assert many == pack(views, area, reserved, later=later, gap=GAP, pages=None)
+
+
+def test_views_in_a_row_hang_from_one_line_and_slack_is_spread_evenly():
+    row = pack([(250, 120), (115, 115), (230, 100)], (0, 0, 640, 200), gap=GAP)
+    six = pack([(100, 80)] * 6, (0, 0, 400, 300), gap=GAP)
+
+    assert len({p.y + h for p, h in zip(row, (120, 115, 100), strict=True)}) == 1
+    assert sorted({p.x for p in six}) == pytest.approx([21, 150, 279])
+    assert sorted({p.y for p in six}) == pytest.approx([44, 176], abs=1)
 
 
 @pytest.mark.parametrize("name", COURSEWORK)
@@ -105,7 +108,6 @@ def test_a_sheet_reads_from_left_to_right_and_down(name):
 
     layout = pack(views, AREAS["A1"], corners_of(AREAS["A1"]), gap=7.0)
 
-    assert layout is not None
     judge(views, layout, AREAS["A1"], corners_of(AREAS["A1"]), gap=7.0)
     assert read_pages(views, layout) == list(range(len(views)))
 
@@ -117,7 +119,6 @@ def test_several_pages_read_in_order_and_none_is_nearly_empty(paper, most):
 
     layout = pack(views, area, corners_of(area), later=corners_of(area, block=15), gap=7.0, pages=None)
 
-    assert layout is not None
     judge(views, layout, area, corners_of(area), corners_of(area, block=15), gap=7.0)
     for n, (q, (_, h)) in enumerate(zip(layout, views, strict=True)):
         for p, (w, _) in zip(layout[:n], views[:n], strict=True):
@@ -130,63 +131,26 @@ def test_several_pages_read_in_order_and_none_is_nearly_empty(paper, most):
     assert min(full[:-1]) > 0.3
 
 
-def test_views_in_a_row_hang_from_one_line():
-    layout = pack([(250, 120), (115, 115), (230, 100)], (0, 0, 640, 200), gap=GAP)
-
-    assert layout is not None
-    assert len({p.y + h for p, h in zip(layout, (120, 115, 100), strict=True)}) == 1
-
-
-def test_slack_is_spread_evenly():
-    views = [(100, 80)] * 6
-
-    layout = pack(views, (0, 0, 400, 300), gap=GAP)
-
-    assert layout is not None
-    xs, ys = sorted({p.x for p in layout}), sorted({p.y for p in layout})
-    assert xs == pytest.approx([21, 150, 279])
-    assert ys == pytest.approx([44, 176], abs=1)
-
-
 def test_order_gives_way_only_to_a_fit():
     views = [(60, 40), (100, 100), (60, 40), (100, 100), (60, 10)]
 
     layout = pack(views, (0, 0, 170, 208), gap=GAP)
 
-    assert layout is not None
     judge(views, layout, (0, 0, 170, 208), [])
     assert read_pages(views, layout) != list(range(len(views)))
     assert pack(views, (0, 0, 170, 208), gap=GAP, any_order=False) is None
-
-
-def test_order_kept_sees_disorder():
     assert order_kept([(0, 50), (60, 50), (0, 0)], [(50, 40)] * 3) == 1.0
     assert order_kept([(60, 50), (0, 50), (0, 0)], [(50, 40)] * 3) == pytest.approx(2 / 3)
 
 
-def test_pages_are_as_few_and_as_full_as_possible():
-    views = [(100, 100)] * 8
+def test_pages_are_as_few_and_as_full_as_possible_and_what_fits_nowhere_has_no_place():
+    views, area = [(100, 100)] * 8, (0, 0, 208, 316)
 
-    layout = pack(views, (0, 0, 208, 316), gap=GAP, pages=None)
+    layout = pack(views, area, gap=GAP, pages=None)
 
-    assert layout is not None
     assert [p.page for p in layout] == [0, 0, 0, 0, 1, 1, 1, 1]
-    assert pack(views, (0, 0, 208, 316), gap=GAP) is None
-    assert pack(views * 2, (0, 0, 208, 316), gap=GAP, pages=2) is None
-
-
-def test_a_view_larger_than_the_page_fits_nowhere():
+    assert pack(views, area, gap=GAP) is None
+    assert pack(views * 2, area, gap=GAP, pages=2) is None
     assert pack([(50, 50), (300, 50)], (0, 0, 200, 200), gap=GAP, pages=None) is None
-
-
-def test_no_views_and_one_that_fills_the_page():
     assert pack([], (0, 0, 200, 200)) == []
     assert pack([(200, 200)], (0, 0, 200, 200)) == [Placement(0, 0.0, 0.0)]
-
-
-def test_same_views_same_places():
-    views = random_views(11)
-
-    first = pack(views, AREAS["A3"], corners_of(AREAS["A3"]), pages=None)
-
-    assert first == pack(views, AREAS["A3"], corners_of(AREAS["A3"]), pages=None)

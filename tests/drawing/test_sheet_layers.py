@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 from lxml import etree
 from numpy.typing import NDArray
 from pdfminer.pdfdocument import PDFDocument
@@ -34,7 +35,6 @@ from kulman.variants.sheets import Sheet
 
 INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
 DRAWN = {f"{SVG}{kind}" for kind in ("line", "polyline", "polygon", "circle", "path", "text")}
-PAINTING = re.compile(rb"\b(?:S|s|B|b|f|Tj)$", re.MULTILINE)
 TASK, OTHERS = "nau-slider-crank", ("bertyaev-six-bar", "karpenko-hoist", "madi-cam", "madi-gear")
 TASKS = (TASK, *(pytest.param(task, marks=pytest.mark.soak) for task in OTHERS))
 PLANS = "position,velocity"
@@ -134,7 +134,7 @@ def test_readers_name_the_layers_in_the_language_of_the_sheet(language: str) -> 
 
 
 def test_all_that_a_pdf_paints_is_in_a_layer_that_its_page_knows() -> None:
-    pages = printed(hidden_key=True).pages
+    pages, painting = printed(hidden_key=True).pages, re.compile(rb"\b(?:S|s|B|b|f|Tj)$", re.MULTILINE)
     document = PDFDocument(PDFParser(BytesIO(pdf(*pages))))
     groups = {group.objid for group in document.catalog["OCProperties"]["OCGs"]}
 
@@ -145,8 +145,8 @@ def test_all_that_a_pdf_paints_is_in_a_layer_that_its_page_knows() -> None:
         assert [name.decode() for name, _ in runs] == names(drawn)
         assert set(known) == set(names(drawn))
         assert {reference.objid for reference in known.values()} <= groups
-        assert all(PAINTING.search(inside) and b" BDC" not in inside for _, inside in runs)
-        assert len(PAINTING.findall(stream)) == sum(len(PAINTING.findall(inside)) for _, inside in runs)
+        assert all(painting.search(inside) and b" BDC" not in inside for _, inside in runs)
+        assert len(painting.findall(stream)) == sum(len(painting.findall(inside)) for _, inside in runs)
 
 
 def test_layers_change_nothing_that_is_seen() -> None:
@@ -159,12 +159,14 @@ def test_layers_change_nothing_that_is_seen() -> None:
 
 
 def test_on_a_sheet_each_view_is_one_group() -> None:
-    (page,) = sheet(TASK, only=PLANS).pages
-    root = etree.fromstring(svg_text(page).encode())
+    drawn = sheet(TASK, only=PLANS)
+    [page] = drawn.pages
 
-    groups = [child.get("data-name") for child in root if child.get("class") == "view"]
+    groups = [
+        child.get("data-name") for child in etree.fromstring(svg_text(page).encode()) if child.get("class") == "view"
+    ]
 
-    assert sorted(groups) == sorted({*groups}) == sorted(view.name for view in sheet(TASK, only=PLANS).views)
+    assert sorted(groups) == sorted({*groups}) == sorted(view.name for view in drawn.views)
     assert names(page) == []
     assert "OCProperties" not in PDFDocument(PDFParser(BytesIO(pdf(page)))).catalog
 
@@ -185,47 +187,37 @@ def test_blank_and_hidden_key_are_the_key_to_the_last_bit(task: str) -> None:
     for apart, empty, whole in zip(teacher.pages, blank.pages, key.pages, strict=True):
         answers = [shape for shape in apart.shapes if isinstance(shape, Group) and shape.layer == "key"]
         assert [shape for shape in apart.shapes if shape not in answers] == list(empty.shapes)
-        together = Counter(plain(shape) for shape in leaves(apart.shapes))
-        assert together == Counter(plain(shape) for shape in leaves(whole.shapes))
-
-
-def plain(shape: Shape) -> Shape:
-    return shape if isinstance(shape, Group) else replace(shape, colour=None)
+        together, alone = (Counter(replace(shape, colour=None) for shape in leaves(p.shapes)) for p in (apart, whole))
+        assert together == alone
 
 
 def test_the_key_lies_on_the_blank_to_a_hundredth_of_a_millimetre() -> None:
     blank, key = (read(*map(svg_text, printed(**how).pages)) for how in ({}, {"key": True}))
 
     for empty, whole in zip(blank.pages, key.pages, strict=True):
-        for role in ("strokes", "rings"):
-            drawn = [np.array(marks(one)) for view in whole.all for one in getattr(view, role)]
-            for one in (one for view in empty.all for one in getattr(view, role)):
-                own = np.array(marks(one))
-                assert any(len(own) == len(other) and np.abs(own - other).max() <= 0.01 for other in drawn)
-        texts = {(text.string, text.runs[0].at) for view in whole.all for text in view.texts}
-        assert {(text.string, text.runs[0].at) for view in empty.all for text in view.texts} <= texts
+        own, drawn = (
+            [np.array(stroke.points) for view in page.all for stroke in view.strokes]
+            + [np.array((ring.centre, ring.radius)) for view in page.all for ring in view.rings]
+            for page in (empty, whole)
+        )
+        for one in own:
+            assert any(len(one) == len(other) and np.abs(one - other).max() <= 0.01 for other in drawn)
+        few, texts = (
+            {(text.string, text.runs[0].at) for view in page.all for text in view.texts} for page in (empty, whole)
+        )
+        assert few <= texts
 
 
-def marks(one: object) -> tuple[complex, ...]:
-    return getattr(one, "points", None) or (one.centre, complex(one.radius))  # type: ignore[attr-defined]
-
-
-def test_a_hidden_key_is_not_seen_until_it_is_switched_on() -> None:
-    blank, teacher = (pdf(*sheet.pages) for sheet in (printed(), printed(hidden_key=True)))
-
-    assert np.array_equal(picture(teacher), picture(blank))
-    assert not np.array_equal(picture(shown(teacher)), picture(blank))
-
-
-def test_a_key_stays_hidden_on_tiles() -> None:
-    tiled = []
-    for drawn in (printed(), printed(hidden_key=True)):
-        stream = BytesIO()
-        write_tiles(drawn.pages, stream)
-        tiled.append(stream.getvalue())
-
-    assert np.array_equal(picture(tiled[1]), picture(tiled[0]))
-    assert not np.array_equal(picture(shown(tiled[1])), picture(tiled[0]))
+def test_a_hidden_key_is_not_seen_until_it_is_switched_on_nor_on_tiles() -> None:
+    for write in (write_pdf, write_tiles):
+        written = []
+        for drawn in (printed(), printed(hidden_key=True)):
+            stream = BytesIO()
+            write(drawn.pages, stream)
+            written.append(stream.getvalue())
+        blank, teacher = written
+        assert np.array_equal(picture(teacher), picture(blank))
+        assert not np.array_equal(picture(shown(teacher)), picture(blank))
 
 
 @pytest.mark.parametrize("name", ["A4", "A3", "A1"])
@@ -245,16 +237,15 @@ def test_a_grid_has_squares_of_5_mm_that_keep_clear_of_the_title_block(name: str
         first = 5.0 if along == 1.0 or name != "A4" else 55.0  # there the title block is as wide as the frame
         assert places == [first + 5.0 * k for k in range(len(places))]
         assert 0.0 < end - start - places[-1] <= 5.0
+    blocks = shapely.buffer(
+        shapely.box(*np.array(reserved_boxes(paper)).T), -1e-6
+    )  # files have a millionth of a millimetre
     for line in lines:
         middle = (line.a + line.b) / 2
         assert x0 < middle.real < x1
         assert y0 < middle.imag < y1
-        ends = [line.a.real, line.b.real], [line.a.imag, line.b.imag]
-        for a, b, c, d in reserved_boxes(paper):  # to a millionth of a millimetre, as files have them
-            assert any(
-                max(xs) <= low + 1e-6 or min(xs) >= high - 1e-6
-                for xs, low, high in zip(ends, (a, b), (c, d), strict=True)
-            )
+        drawn = shapely.LineString([(line.a.real, line.a.imag), (line.b.real, line.b.imag)])
+        assert not shapely.intersects(blocks, drawn).any()
 
 
 @pytest.mark.parametrize("clash", [["--hidden-key", "--key"], ["--hidden-key", "--over"], ["--grid", "--over"]])

@@ -1,149 +1,114 @@
-"""Quantities as people write them, in three languages."""
+"""Quantities as people write them, in three languages; scale factors in both conventions."""
+
+from __future__ import annotations
 
 import math
 from contextlib import suppress
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kulman.scales.errors import InputError
+import kulman
+from kulman.drawing.words import Words
+from kulman.scales.errors import LANGUAGES, InputError
 from kulman.scales.numbers import split_number
+from kulman.scales.scale import SERIES, Fixed, From, Scale, Segment, chooser, rounded, steps
 from kulman.scales.units import ONE, SYMBOLS, Unit, format_unit, parse, unit
 
+SPELLED = {  # in Ukrainian and English
+    "m/s": ("м/с", "m/s"),
+    "m/s^2": ("м/с²", "m/s²"),
+    "N*m": ("Н·м", "N·m"),
+    "1/s": ("с⁻¹", "1/s"),
+    "1/s^2": ("с⁻²", "1/s²"),
+    "kg*m^2": ("кг·м²", "kg·m²"),
+    "(m/s)/mm": ("(м/с)/мм", "(m/s)/mm"),
+    "(m/s^2)/mm": ("(м/с²)/мм", "(m/s²)/mm"),
+    "N/mm": ("Н/мм", "N/mm"),
+    "rpm": ("об/хв", "rpm"),
+    "deg": ("°", "°"),
+    "%": ("%", "%"),
+}
+REFUSED = {  # by key and the unit that is expected
+    ("number-empty", "m"): ("", "   "),
+    ("number-bad", "m"): ("mm", "nan", "inf", "-inf mm", "55 5 mm", "1,500.5 mm", "--5 mm", "١٢ mm"),
+    ("number-infinite", "m"): ("1e400", "1e-400 mm", "1e308 km", "1e154 m", "9e-13 m", "5e-324 mm", "9" * 100_000),
+    ("number-infinite", "N"): ("-1.1e9 N",),
+    ("number-infinite", "Pa"): ("1.1e15 Pa",),
+    ("number-infinite", "%"): ("1/" + "9" * 400, "9" * 400 + "/3"),
+    ("unit-unknown", "m"): ("0x10 mm", "5 furlong", "5 m^99", "5 (m", "5 m)", "5 m/", "5 " + "(" * 100_000),
+    ("unit-unknown", "%"): ("1/0", "0.5/3", "1/3.5"),
+    ("unit-unknown-like", "N"): ("5 mN",),
+    ("unit-missing", "m"): ("5",),
+    ("unit-wrong", "m"): ("5 s",),
+    ("unit-wrong", "rad"): ("5 m", "5 %", "5 1/s"),
+    ("unit-wrong", "%"): ("5 deg",),
+    ("unit-wrong", "rad/s^2"): ("5 rad/s",),
+    ("unit-wrong", "rad/s"): ("5 1/m",),
+}
+READ = {  # SI value, by the unit that is expected and the text
+    "m": {"55 mm": 55 / 1000, "55,5 mm": 0.0555, "55.5мм": 0.0555, "12 см": 0.12, "5 мкм": 5e-6, "3 / 4 mm": 0.75e-3}
+    | {".5 m": 0.5, "5. m": 5.0, "0.3 mm": 0.3 / 1000},
+    "mm": {"1e-3 m": 1e-3},
+    "rad/s": {"90 град/с": math.pi / 2}
+    | dict.fromkeys(("765 об/хв", "765 об/мин", "765 rpm", "765 r/min", "765 1/min", "765 хв⁻¹"), 765 * math.pi / 30),
+    "rpm": {"12 с^-1": 12.0, "12 1/s": 12.0, "12 рад/с": 12.0},
+    "rad/s^2": {"3 с⁻²": 3.0},
+    "rad": {"60°": math.pi / 3, "60 град": 60 * math.pi / 180, "30°30′": 30.5 * math.pi / 180},
+    "deg": {"-30°30'": -30.5 * math.pi / 180, "123 deg": 123 * math.pi / 180},
+    "N": {"2 кН": 2000.0, "2 кH": 2000.0, "1 500 Н": 1500.0, "1\u00a0500\u202f000,5 Н": 1500000.5},  # a Latin H
+    "N*m": {"−5 Н·м": -5.0, "70 N*mm": 0.07},
+    "kg*m^2": {"0,015 кг·м²": 0.015, "0,015 кг*м2": 0.015, "0,015 кг м^2": 0.015, "150 g*cm^2": 150 / 1e7},
+    "Pa": {"2 МПа": 2e6, "2 Н/мм²": 2e6},
+    "(m/s)/mm": {"0,05 (м/с)/мм": 50.0, "0.05 m/(s*mm)": 50.0},
+    "m/mm": {"0,001 м/мм": 1.0},
+    "N/mm": {"15 Н/мм": 15000.0},
+    "s": {"250 мс": 0.25},
+    "J": {"3 kN*m": 3000.0},
+    "W": {"2 кВт": 2000.0},
+    "1": {"1/3": 1 / 3},
+    "1/s": {"5 1/s": 5.0},
+}
 # within the bounds of all numbers in whatever unit
 FINITE = st.floats(min_value=1e-5, max_value=1e3) | st.floats(min_value=-1e3, max_value=-1e-5)
 
 
-@pytest.mark.parametrize(
-    ("text", "expected", "value"),
-    [
-        ("55 mm", "m", 0.055),
-        ("55,5 mm", "m", 0.0555),
-        ("55.5мм", "m", 0.0555),
-        ("1e-3 m", "mm", 1e-3),
-        ("12 см", "m", 0.12),
-        ("5 мкм", "m", 5e-6),
-        ("765 об/хв", "rad/s", 765 * math.pi / 30),
-        ("765 об/мин", "rad/s", 765 * math.pi / 30),
-        ("765 rpm", "rad/s", 765 * math.pi / 30),
-        ("765 r/min", "rad/s", 765 * math.pi / 30),
-        ("765 1/min", "rad/s", 765 * math.pi / 30),
-        ("765 хв⁻¹", "rad/s", 765 * math.pi / 30),
-        ("12 с^-1", "rpm", 12.0),
-        ("12 1/s", "rpm", 12.0),
-        ("12 рад/с", "rpm", 12.0),
-        ("90 град/с", "rad/s", math.pi / 2),
-        ("3 с⁻²", "rad/s^2", 3.0),
-        ("60°", "rad", math.pi / 3),
-        ("60 град", "rad", 60 * math.pi / 180),
-        ("30°30′", "rad", 30.5 * math.pi / 180),
-        ("-30°30'", "deg", -30.5 * math.pi / 180),
-        ("2 кН", "N", 2000.0),
-        ("2 кH", "N", 2000.0),  # a Latin H
-        ("1 500 Н", "N", 1500.0),
-        ("1\u00a0500\u202f000,5 Н", "N", 1500000.5),
-        ("−5 Н·м", "N*m", -5.0),
-        ("70 N*mm", "N*m", 0.07),
-        ("0,015 кг·м²", "kg*m^2", 0.015),
-        ("0,015 кг*м2", "kg*m^2", 0.015),
-        ("0,015 кг м^2", "kg*m^2", 0.015),
-        ("150 g*cm^2", "kg*m^2", 150 / 1e7),
-        ("2 МПа", "Pa", 2e6),
-        ("2 Н/мм²", "Pa", 2e6),
-        ("0,05 (м/с)/мм", "(m/s)/mm", 50.0),
-        ("0.05 m/(s*mm)", "(m/s)/mm", 50.0),
-        ("0,001 м/мм", "m/mm", 1.0),
-        ("15 Н/мм", "N/mm", 15000.0),
-        ("250 мс", "s", 0.25),
-        ("3 kN*m", "J", 3000.0),
-        ("2 кВт", "W", 2000.0),
-        (".5 m", "m", 0.5),
-        ("5. m", "m", 5.0),
-        ("1/3", "1", 1 / 3),
-        ("3 / 4 mm", "m", 0.75e-3),
-        ("5 1/s", "1/s", 5.0),
-    ],
-)
-def test_a_quantity_is_read_in_si(text: str, expected: str, value: float) -> None:
-    assert parse(text, unit(expected)) == pytest.approx(value, rel=1e-15)
+@pytest.mark.parametrize("expected", READ)
+def test_a_quantity_is_read_in_si(expected: str) -> None:
+    for text, value in READ[expected].items():
+        assert parse(text, unit(expected)) == pytest.approx(value, rel=1e-15), text
 
 
-@pytest.mark.parametrize(
-    ("text", "expected", "value"),
-    [
-        ("55 mm", "m", 55 / 1000),
-        ("0.3 mm", "m", 0.3 / 1000),
-        ("765 rpm", "rad/s", 765 * math.pi / 30),
-        ("123 deg", "rad", 123 * math.pi / 180),
-    ],
-)
-def test_conversion_rounds_no_more_than_the_textbook_formula(text: str, expected: str, value: float) -> None:
-    assert parse(text, unit(expected)) == value
-
-
-@pytest.mark.parametrize(
-    ("text", "expected", "key"),
-    [
-        ("", "m", "number-empty"),
-        ("   ", "m", "number-empty"),
-        ("mm", "m", "number-bad"),
-        ("nan", "m", "number-bad"),
-        ("inf", "m", "number-bad"),
-        ("-inf mm", "m", "number-bad"),
-        ("1e400", "m", "number-infinite"),
-        ("1e-400 mm", "m", "number-infinite"),
-        ("1e308 km", "m", "number-infinite"),
-        ("1e154 m", "m", "number-infinite"),
-        ("-1.1e9 N", "N", "number-infinite"),
-        ("9e-13 m", "m", "number-infinite"),
-        ("5e-324 mm", "m", "number-infinite"),
-        ("1.1e15 Pa", "Pa", "number-infinite"),
-        ("9" * 100_000, "m", "number-infinite"),
-        ("55 5 mm", "m", "number-bad"),
-        ("1,500.5 mm", "m", "number-bad"),
-        ("--5 mm", "m", "number-bad"),
-        ("١٢ mm", "m", "number-bad"),
-        ("0x10 mm", "m", "unit-unknown"),
-        ("1/0", "%", "unit-unknown"),
-        ("0.5/3", "%", "unit-unknown"),
-        ("1/3.5", "%", "unit-unknown"),
-        ("1/" + "9" * 400, "%", "number-infinite"),
-        ("9" * 400 + "/3", "%", "number-infinite"),
-        ("5 furlong", "m", "unit-unknown"),
-        ("5 m^99", "m", "unit-unknown"),
-        ("5 (m", "m", "unit-unknown"),
-        ("5 m)", "m", "unit-unknown"),
-        ("5 m/", "m", "unit-unknown"),
-        ("5 " + "(" * 100_000, "m", "unit-unknown"),
-        ("5 mN", "N", "unit-unknown-like"),
-        ("5", "m", "unit-missing"),
-        ("5 s", "m", "unit-wrong"),
-        ("5 m", "rad", "unit-wrong"),
-        ("5 %", "rad", "unit-wrong"),
-        ("5 deg", "%", "unit-wrong"),
-        ("5 1/s", "rad", "unit-wrong"),
-        ("5 rad/s", "rad/s^2", "unit-wrong"),
-        ("5 1/m", "rad/s", "unit-wrong"),
-    ],
-)
-def test_what_is_no_quantity_of_the_wanted_kind_is_refused(text: str, expected: str, key: str) -> None:
-    with pytest.raises(InputError) as caught:
-        parse(text, unit(expected))
-
-    assert caught.value.key == key
-    assert all("\n" not in caught.value.text(language) for language in ("uk", "ru", "en"))
-    assert len(caught.value.text()) < 200
-
-
-def test_a_number_without_a_unit_takes_the_default() -> None:
+def test_conversion_rounds_no_more_than_the_textbook_formula_and_numbers_alone_take_the_default() -> None:
+    for text, expected in (("55 mm", "m"), ("0.3 mm", "m"), ("765 rpm", "rad/s"), ("123 deg", "deg")):
+        assert parse(text, unit(expected)) == READ[expected][text]
     assert parse("55,5", unit("m"), unit("mm")) == 0.0555
     assert parse("0,5", ONE) == 0.5
 
 
-@given(
-    FINITE, st.sampled_from(sorted(SYMBOLS)), st.sampled_from(("en", "uk", "ru")), st.sampled_from(("", " ", "\u00a0"))
-)
+@pytest.mark.parametrize(("key", "expected"), REFUSED)
+def test_what_is_no_quantity_of_the_wanted_kind_is_refused(key: str, expected: str) -> None:
+    for text in REFUSED[key, expected]:
+        with pytest.raises(InputError) as caught:
+            parse(text, unit(expected))
+
+        assert caught.value.key == key
+        assert all("\n" not in caught.value.text(language) for language in LANGUAGES)
+        assert len(caught.value.text()) < 200
+
+
+def test_units_are_spelled_as_on_a_sheet_and_no_two_share_a_spelling() -> None:
+    for name, (uk, en) in SPELLED.items():
+        assert (format_unit(name, "uk"), format_unit(name, "en"), unit(name).name) == (uk, en, name)
+    assert format_unit("m/s^2", "uk", raised=True) == "м/с^{2}"
+    assert format_unit("1/s", "ru", raised=True) == "с^{−1}"
+    spellings = [s for name, x in SYMBOLS.items() for s in {name, x.en, x.uk, x.ru, *x.also}]
+    assert len(set(spellings)) == len(spellings)
+
+
+@given(FINITE, st.sampled_from(sorted(SYMBOLS)), st.sampled_from(LANGUAGES), st.sampled_from(("", " ", "\u00a0")))
 def test_every_symbol_is_read_back_in_every_language(value: float, name: str, language: str, space: str) -> None:
     written = unit(name)
     text = f"{value!r}{space}{format_unit(written, language)}".replace(".", "," if language != "en" else ".")
@@ -159,7 +124,7 @@ def test_every_symbol_is_read_back_in_every_language(value: float, name: str, la
         max_size=4,
         unique_by=lambda power: power[0],
     ),
-    st.sampled_from(("en", "uk", "ru")),
+    st.sampled_from(LANGUAGES),
 )
 def test_every_product_of_powers_is_read_back(powers: list[tuple[str, int]], language: str) -> None:
     written = Unit(tuple(powers))
@@ -184,36 +149,59 @@ def test_thousands_may_stand_apart(value: int) -> None:
         assert split_number(f"{value:,}".replace(",", space) + " Н") == (value, "Н")
 
 
+def test_both_conventions_name_the_same_scale() -> None:
+    scale = Scale("mu_V", 0.05, "m/s")
+    words = Words.of("uk", "nau")
+    per_unit = replace(words, notation={**words.notation, "scales": "mm per unit"})
+
+    assert scale.per_unit == 20.0
+    assert words.scale(scale) == "μ_{V} = 0,05 (м/с)/мм"
+    assert per_unit.scale(scale) == "μ_{V} = 20 мм/(м/с)"
+
+
 @pytest.mark.parametrize(
-    ("name", "uk", "en"),
+    ("symbol", "text", "mu"),
     [
-        ("m/s", "м/с", "m/s"),
-        ("m/s^2", "м/с²", "m/s²"),
-        ("N", "Н", "N"),
-        ("N*m", "Н·м", "N·m"),
-        ("rad/s", "рад/с", "rad/s"),
-        ("1/s", "с⁻¹", "1/s"),
-        ("1/s^2", "с⁻²", "1/s²"),
-        ("kg*m^2", "кг·м²", "kg·m²"),
-        ("(m/s)/mm", "(м/с)/мм", "(m/s)/mm"),
-        ("(m/s^2)/mm", "(м/с²)/мм", "(m/s²)/mm"),
-        ("m/mm", "м/мм", "m/mm"),
-        ("N/mm", "Н/мм", "N/mm"),
-        ("rpm", "об/хв", "rpm"),
-        ("deg", "°", "°"),
-        ("%", "%", "%"),
+        ("mu_V", "0.05", 0.05),
+        ("mu_V", "0,05 (м/с)/мм", 0.05),
+        ("mu_V", "20 mm/(m/s)", 0.05),
+        ("mu_l", "500 мм/м", 0.002),
+        ("mu_F_23", "15 Н/мм", 15.0),
+        ("mu_F_23", "0.04 mm/N", 25.0),
     ],
 )
-def test_units_are_spelled_as_on_a_sheet(name: str, uk: str, en: str) -> None:
-    assert (format_unit(name, "uk"), format_unit(name, "en"), unit(name).name) == (uk, en, name)
+def test_a_given_scale_is_read_in_either_convention(symbol: str, text: str, mu: float) -> None:
+    found = chooser(symbol, text, firm=True)
+
+    assert isinstance(found, Fixed)
+    assert found.mu == pytest.approx(mu, rel=1e-15)
+    assert found.ladder(lambda name: 1.0) == (found.mu,)
 
 
-def test_powers_can_be_marked_up() -> None:
-    assert format_unit("m/s^2", "uk", raised=True) == "м/с^{2}"
-    assert format_unit("1/s", "ru", raised=True) == "с^{−1}"
+def test_a_chosen_segment_is_read_by_its_letters_a_scale_to_begin_with_may_be_coarser() -> None:
+    assert chooser("mu_a", "p'a'=80 mm") == Segment("a_A", 80.0)
+    assert chooser("mu_V", "ps2=6 cm") == Segment("V_S2", 60.0)
+    assert chooser("mu_l", "AB=13 cm") == Segment("l_AB", 130.0)
+    assert chooser("mu_F_23", "from 15 N/mm") == From(15.0)
+    assert chooser("mu_V", "from 20 mm/(m/s)").ladder(lambda name: 1.0)[:3] == (0.05, 0.1, 0.2)
+    for text in ("from", "from pa=80", "abc", "-5", "0", "20 mm/s", "pa=0", "qa=5", "1e400", ""):
+        with pytest.raises(InputError):
+            chooser("mu_V", text)
 
 
-def test_no_two_symbols_share_a_spelling() -> None:
-    spellings = [s for name, x in SYMBOLS.items() for s in {name, x.en, x.uk, x.ru, *x.also}]
+def test_scales_of_the_crank_draw_it_as_its_own_velocity_and_round_ones_come_from_the_series() -> None:
+    crank = kulman.solve("nau-slider-crank", "3", scales={"mu_V": "crank", "mu_a": "crank"})
+    rounded = kulman.solve("nau-slider-crank", "3", scales={"mu_V": "round 60 mm"})
 
-    assert len(set(spellings)) == len(spellings)
+    assert (crank["V_A"].mm, crank["a_A"].mm) == pytest.approx((crank["l_OA"].mm,) * 2, abs=1e-3)
+    assert rounded.scales["mu_V"].mu == 0.1
+    assert max(rounded[name].mm for name in ("V_A", "V_B", "V_BA", "V_S2")) <= 60.0
+
+
+def test_ladders_grow_coarser_by_round_steps() -> None:
+    ladder = chooser("mu_F_23", "15 N/mm").ladder(lambda name: 1.0)
+
+    assert ladder[:5] == (15.0, 20.0, 25.0, 40.0, 50.0)
+    assert all(mu / 10.0 ** len(str(int(mu))[1:]) in SERIES for mu in ladder[1:])
+    assert steps(0.003)[:3] == (0.004, 0.005, 0.01)
+    assert rounded(0.0500691) == 0.0501

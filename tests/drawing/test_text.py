@@ -1,0 +1,313 @@
+"""Letters: metrics against another reader of the font, markup, symbols of the schools, words in three languages."""
+
+from __future__ import annotations
+
+import ast
+import math
+import string
+from functools import cache
+from importlib.resources import files
+from io import BytesIO
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from fontTools.pens.recordingPen import DecomposingRecordingPen
+from fontTools.ttLib import TTFont
+from hypothesis import given
+from hypothesis import strategies as st
+
+from kulman.drawing.font import SIZE, font, web_subset
+from kulman.drawing.page import extent
+from kulman.drawing.shapes import Text
+from kulman.drawing.text import DROP, SCRIPT, escape, lay_out
+from kulman.drawing.words import Words, notations
+from kulman.scales.errors import LANGUAGES, InputError, messages
+from kulman.scales.packaged import packaged
+from kulman.scales.scale import Scale
+from kulman.tests.support.printed_numbers import equation_faults, half_digit, table, value
+from kulman.tests.support.sheet_cases import Case, drawn, solved
+from kulman.tests.support.sources import trees
+from kulman.variants.kinds import KINDS
+from kulman.variants.reader import load_task
+from kulman.variants.shelf import bundled
+
+KINDS_OF_WORDS = ("", "titleblock.", "cams.", "gears.", "hoist.")
+LETTERS = string.ascii_letters + string.digits + "абвгґдеєжзиіїйклмнопрстуфхцчшщьюяыэъёЙЇ" + "αβγδεζλμπρστφψωΔΣΦΩ"
+SIGNS = " .,;:=+-()/'′″·⊥∥∠√∑→²°№«»"
+plain = st.text(alphabet=LETTERS + SIGNS + "\\{}_^", max_size=12)
+markups = st.recursive(
+    plain.map(escape),
+    lambda inner: st.one_of(
+        st.tuples(inner, inner).map("".join),
+        st.tuples(st.sampled_from([r"\bar{", r"\u{", r"\uu{", "_{", "^{"]), inner, st.just("}")).map("".join),
+    ),
+    max_leaves=6,
+)
+BAUMAN = Case("5", "A1", "ru", notation="bauman")
+NAMES = """V_B V_BA a_BA_n a_BA_t a_A3A2_k a_A3A2_r omega_2 epsilon_3 G_2 M_sum M_sum_3 P_2 h_2 h_21 h_F_3 h_2_A h_F_3_A
+R_12 R_12_n R_01 M_43 J_S2 m_2 F_i2 M_i2 F_3 F_i2_couple F_i2_couple_B F_3_couple_C F_sum_couple_C F_sum_3_couple_C
+h_lever_F_i2 h_lever_M_i2_B h_lever_M_3_C h_lever_G_2 mu_V mu_a mu_F_23 mu_l F_bal M_bal F_bal_lever
+delta_F_bal l_AP2"""
+PACKAGE = "kulman.drawing"
+
+
+@pytest.fixture(scope="module")
+def oracle():
+    return TTFont(BytesIO(font().data))
+
+
+def test_every_character_of_the_plane_has_the_glyph_that_fonttools_finds(oracle):
+    known = {code: oracle.getGlyphID(name) for code, name in oracle.getBestCmap().items()}
+
+    ours = {code: font().glyph(chr(code)) for code in range(0x10000)}
+
+    assert ours == {code: known.get(code, 0) for code in range(0x10000)}
+
+
+def test_widths_of_text_are_sums_of_fonttools_advances(oracle):
+    names, metrics = oracle.getBestCmap(), oracle["hmtx"]
+
+    for text in (LETTERS, SIGNS.strip(), "План швидкостей", "Vector plan"):
+        expected = sum(metrics[names[ord(letter)]][0] for letter in text) / 2048 * SIZE * 3.5
+        assert lay_out(escape(text), 3.5).width == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(("markup", "rules"), [(r"\bar{V}", 1), (r"\u{V_{B}}", 1), (r"\uu{\bar{a}^{n}_{BA}}", 3)])
+def test_bars_and_underlines_clear_the_ink(markup, rules):
+    layout = lay_out(markup, 3.5)
+
+    ink = [font().ink(letter)[1] * run.size + run.y for run in layout.runs for letter in run.string]
+    tops = [font().ink(letter)[2] * run.size + run.y for run in layout.runs[:1] for letter in run.string]
+    assert len(layout.rules) == rules
+    for _, level, _, _ in layout.rules:
+        assert level > max(tops) if level > 0 else level < min(ink)
+    assert layout.bottom <= min(level for _, level, _, _ in layout.rules) <= layout.top
+
+
+@given(plain)
+def test_escaped_text_shows_as_it_is(text):
+    runs = lay_out(escape(text), 3.5).runs
+
+    assert "".join(run.string for run in runs) == text.strip(" ")
+
+
+@given(markups, markups)
+def test_widths_add_up(left, right):
+    whole = lay_out(left + r"\u{}" + right, 3.5)  # the empty group keeps two scripts from being stacked
+
+    assert whole.width == pytest.approx(lay_out(left, 3.5).width + lay_out(right, 3.5).width, abs=1e-9)
+
+
+@pytest.mark.parametrize("language", ["uk", "ru", "en"])
+def test_a_font_that_is_missing_is_named_by_its_path_as_it_is(language: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    place = SimpleNamespace(origin="/opt/python 3.11/matplotlib/__init__.py")
+    monkeypatch.setattr("kulman.drawing.font.find_spec", lambda name: place)
+    font.cache_clear()
+
+    with pytest.raises(InputError) as refused:
+        font()
+
+    assert "python 3.11/matplotlib" in refused.value.text(language)
+
+
+@pytest.mark.parametrize(
+    ("mu_l", "scale"),
+    [(1e-3, "1:1"), (5e-4, "2:1"), (4e-4, "2.5:1"), (2e-4, "5:1"), (2e-3, "1:2"), (2.5e-3, "1:2.5"), (0.15, "1:150")],
+)
+def test_scale_of_lengths_is_written_as_drawings_have_it(mu_l: float, scale: str) -> None:
+    assert Words.of("en", "iso").drawn_at(mu_l) == f"M {scale}"
+    assert Words.of("uk", "nau").drawn_at(mu_l) == f"М {scale.replace('.', ',')}"  # the Cyrillic letter
+
+
+def tables(kind: str) -> dict[str, dict[str, str]]:
+    """Return the texts of a kind ("" or "titleblock.") by language."""
+    found = {language: packaged(PACKAGE, "texts", f"{kind}{language}") for language in LANGUAGES}
+    return {language: table.get("titleblock", table) for language, table in found.items()}
+
+
+def placeholders(template: str) -> list[str]:
+    return sorted(name for _, name, _, _ in string.Formatter().parse(template) if name is not None)
+
+
+@cache
+def patterns() -> frozenset[str]:
+    """Return the texts in the package's code; what an f-string fills in is a `*`."""
+    nodes = [node for tree in trees().values() for node in ast.walk(tree)]
+    joined = [node.values for node in nodes if isinstance(node, ast.JoinedStr)]
+    filled = ["".join(str(p.value) if isinstance(p, ast.Constant) else "*" for p in values) for values in joined]
+    plain = [node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)]
+    return frozenset((*filled, *plain))
+
+
+@cache
+def words_of(stem: str) -> frozenset[str]:
+    """Return what may stand in place of the `*` of `stem*`: names of the bundled tasks, or any text of the code."""
+    if stem not in ("given.", "choice."):
+        return patterns()
+    givens = [given for task in bundled() for given in load_task(task).givens.values()]
+    if stem == "given.":
+        return frozenset(given.name for given in givens if given.choices)
+    return frozenset(word for given in givens for word in given.choices)
+
+
+def used(key: str) -> bool:
+    """Whether the code names a text, whole or composed of a beginning and a word, or of the name of a subject, too."""
+    if key in patterns() or any(key.replace(table, "*", 1) in patterns() for table in KINDS):
+        return True
+    cuts = [at for at in range(1, len(key)) if key[at - 1] in "._-"]
+    stems = [(key[:at], key[at:]) for at in cuts]
+    return any(
+        word in words_of(stem)
+        and not {f"{stem}*", *(f"{stem.replace(kind, '*')}*" for kind in KINDS)}.isdisjoint(patterns())
+        for stem, word in stems
+    )
+
+
+@pytest.mark.parametrize("kind", KINDS_OF_WORDS)
+def test_every_language_has_the_same_texts_with_the_same_placeholders(kind: str) -> None:
+    texts = tables(kind)
+
+    assert texts["uk"].keys() == texts["ru"].keys() == texts["en"].keys()
+    if kind in ("", "titleblock."):
+        for key in texts["en"]:
+            assert len({tuple(placeholders(texts[language][key])) for language in LANGUAGES}) == 1, key
+
+
+def test_every_text_and_message_is_used_and_every_table_of_words_is_read() -> None:
+    keys = [*tables("")["en"], *tables("titleblock.")["en"], *(key.removesuffix("-like") for key in messages("en"))]
+    names = {path.name for path in files(PACKAGE).joinpath("texts").iterdir()}
+
+    assert [key for key in keys if not used(key)] == []
+    assert [key for key in ("heading.nothing", "given.nothing", "choice.rotation") if used(key)] == []
+    assert names == {f"{kind}{language}.toml" for kind in KINDS_OF_WORDS for language in LANGUAGES}
+
+
+def test_every_choice_of_a_bundled_task_has_words_that_are_looked_up_by_key() -> None:
+    texts: dict[str, Any] = tables("")["en"]
+
+    for task in map(load_task, bundled()):
+        for one in task.givens.values():
+            if one.choices:
+                assert {f"given.{one.name}", *(f"choice.{word}" for word in one.choices)} <= texts.keys()
+    for language in LANGUAGES:
+        assert Words.of(language, "nau")["heading.velocity"] == tables("")[language]["heading.velocity"]
+
+
+def test_every_notation_has_the_same_keys_and_every_task_names_one() -> None:
+    tables_of = {name: packaged(PACKAGE, "notations", name) for name in notations()}
+    first = next(iter(tables_of.values()))
+
+    for school in tables_of.values():
+        assert school.keys() == first.keys()
+        assert school["letters"].keys() == first["letters"].keys()
+        assert school["parts"].keys() == first["parts"].keys()
+        assert school["symbols"].keys() == set(LANGUAGES)
+        assert all(symbols.keys() == first["symbols"]["en"].keys() for symbols in school["symbols"].values())
+    assert {load_task(task).notation for task in bundled()} <= tables_of.keys()
+
+
+def test_the_subset_is_small_and_has_the_same_outlines_and_advances(oracle: TTFont) -> None:
+    data = web_subset(LETTERS + SIGNS)
+    small = TTFont(BytesIO(data), checkChecksums=2)
+
+    assert len(data) < 12_000
+    assert set(small.getBestCmap()) == set(map(ord, LETTERS + SIGNS))
+    whole_set, small_set = oracle.getGlyphSet(), small.getGlyphSet()
+    for code, name in small.getBestCmap().items():
+        pens = DecomposingRecordingPen(whole_set), DecomposingRecordingPen(small_set)
+        whole_set[oracle.getBestCmap()[code]].draw(pens[0])
+        small_set[name].draw(pens[1])
+        assert pens[0].value == pens[1].value
+        assert small["hmtx"][name] == oracle["hmtx"][oracle.getBestCmap()[code]]
+
+
+@pytest.mark.parametrize("markup", ["a{b", "a}b", "a_{b", r"\bar{a", r"\x{a}", "\\", r"\bar", r"\u a", "{}", "速"])
+def test_broken_markup_and_letters_that_the_font_lacks_are_refused(markup: str) -> None:
+    with pytest.raises(InputError) as problem:
+        lay_out(markup, 3.5)
+
+    assert problem.value.key == "markup-broken" or "U+901F" in problem.value.text("en")
+
+
+def test_scripts_stand_one_over_the_other_and_are_no_smaller_in_scripts() -> None:
+    layout, capital, deep = lay_out("a^{n}_{BA}", 5.0), lay_out("H", 3.5), lay_out("V_{S_{2}}", 5.0)
+    _, _, after = lay_out("V_{B} = 5", 3.5).runs
+
+    base, above, below = layout.runs
+    assert above.x == below.x == base.width
+    assert above.y > 0 > below.y == -5.0 * DROP
+    assert above.size == below.size == pytest.approx(SCRIPT * base.size)
+    assert layout.width >= base.width + below.width
+    assert [run.size / deep.runs[0].size for run in deep.runs] == pytest.approx([1, SCRIPT, SCRIPT])
+    assert deep.runs[2].y < deep.runs[1].y
+    assert (capital.bottom, capital.top) == (0, pytest.approx(3.5, abs=1e-12))  # a capital is as high as it says
+    assert after.string == "= 5"  # spaces between runs become distance
+    assert after.x == pytest.approx(lay_out("V_{B} ", 3.5).width, abs=1e-12)
+
+
+@given(markups)
+def test_runs_lie_inside_the_layout_which_grows_with_the_letters(markup: str) -> None:
+    layout, large = lay_out(markup, 3.5), lay_out(markup, 7.0)
+
+    for run in layout.runs:
+        assert -1e-9 <= run.x <= run.x + run.width <= layout.width + 1e-9
+        low = min(font().ink(letter)[1] for letter in run.string) * run.size + run.y
+        high = max(font().ink(letter)[2] for letter in run.string) * run.size + run.y
+        assert layout.bottom - 1e-9 <= low <= high <= layout.top + 1e-9
+    twice = (2 * layout.width, 2 * layout.top, 2 * layout.bottom)
+    assert (large.width, large.top, large.bottom) == pytest.approx(twice, abs=1e-9)
+
+
+@pytest.mark.parametrize(("anchor", "x0"), [("left", 10.0), ("middle", 10 - 7.0), ("right", 10 - 14.0)])
+def test_a_box_follows_the_anchor_and_turns_with_its_text(anchor: str, x0: float) -> None:
+    height = 14.0 / lay_out("Ap", 1.0).width  # 14 mm wide
+    upright, lying = (extent((Text(0j, "Apex", 3.5, anchor, angle=angle),)) for angle in (0.0, math.pi / 2))
+
+    x, y, x1, _ = extent((Text(10 + 20j, "Ap", height, anchor),))
+
+    assert (x, x1) == pytest.approx((x0, x0 + 14))
+    assert y < 20
+    assert lying == pytest.approx((-upright[3], upright[0], -upright[1], upright[2]))
+
+
+@pytest.mark.parametrize("notation", notations())
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_symbols_are_markup_without_names_and_two_quantities_have_two(notation: str, language: str) -> None:
+    words = Words.of(language, notation)
+
+    for name in NAMES.split():
+        symbol = words.symbol(name)
+        assert symbol.count("{") == symbol.count("}") == symbol.count("_{") + symbol.count("^{"), symbol
+        assert "__" not in symbol, symbol
+        assert words.symbol(name, bar=True).startswith("\\bar{"), symbol
+    names = [name for name in NAMES.split() if "couple" not in name]
+    assert len({words.symbol(name) for name in names}) == len(names)
+
+
+def test_letters_of_marks_and_symbols_are_those_of_the_schools() -> None:
+    nau, iso, bauman = Words.of("uk", "nau"), Words.of("en", "iso"), Words.of("ru", "bauman")
+
+    marks = ("velocity.A3", "velocity.S2", "acceleration.A3", "acceleration.n_BA", "acceleration.k_A3A2")
+    assert [nau.mark(mark) for mark in marks] == ["a_{3}", "s_{2}", "a′_{3}", "n", "k"]
+    assert [nau.mark(f"forces_23.{number}") for number in (0, 1, 14, 27)] == ["H", "a", "n", "a_{1}"]
+    assert iso.mark("forces_23.0") == "o"  # the pole, whose letter no other mark has
+    assert "o" not in {iso.mark(f"forces_23.{number}") for number in range(1, 60)}
+    reactions = [bauman.symbol(name) for name in ("R_12", "R_01", "h_21", "M_43")]
+    assert reactions == ["F_{21}", "F_{10}", "h_{12}", "M_{34}"]  # the link on which it acts first
+    assert bauman.scale(Scale("mu_V", 0.05, "m/s")) == "μ_{v} = 20 мм/(м/с)"
+
+
+def test_sheet_of_bauman_has_segments_that_divide_by_its_scale_factors_and_angles_of_vectors() -> None:
+    sheet, velocity = drawn(BAUMAN), solved(BAUMAN)["V_B"]
+    results = {name: table(sheet[name]) for name in sheet.names if name.startswith("results_")}
+
+    shown = [row for rows in results.values() for row in rows if row[1] != "–"]
+    assert len(shown) > 20
+    for symbol, mm, scale, printed, *_ in shown:
+        assert abs(value(mm) / value(scale) - value(printed)) <= half_digit(printed), symbol
+    assert equation_faults(sheet)[1] == []
+    rows = {row[0]: row for row in results["results_velocity"]}
+    assert velocity.x is not None
+    assert rows["v_{B}"][-1] == ("0,0" if velocity.x > 0 else "180,0")
+    assert rows["ω_{2}"][-1] == "–"
