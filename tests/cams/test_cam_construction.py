@@ -8,44 +8,38 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from kulman import load_task
 from kulman.plans.boards.exact import run
-from kulman.plans.cams.cam import LAWS, PLANS, Cam, Curve
+from kulman.plans.cams.cam import LAWS, PLANS, Cam
 from kulman.plans.cams.construction import construct, ray
 from kulman.plans.cams.motion import motion_of
-from kulman.plans.cams.solve import EQUAL, SolvedCam, diagram_givens, solve_cam
+from kulman.plans.cams.solve import EQUAL, diagram_givens, solve_cam
 from kulman.plans.hands.shaky import draw, paper_of, preset
 from kulman.scales.errors import InputError
 
 DEGREE = math.radians(1.0)
-MADI = {
-    "h": 0.013,
-    "phi_rise": 108 * DEGREE,
-    "phi_upper": 15 * DEGREE,
-    "phi_fall": 108 * DEGREE,
-    "u": 1 / 3,
-    "omega": 200.0,
-    "mu_phi": DEGREE,
-    "l_A1": 0.110,
-    "H_a": 0.030,
-    "H_v": 0.030,
-    "gamma_rise": 75 * DEGREE,
-    "gamma_fall": 60 * DEGREE,
-    "R_roller": 0.007,
-    "rho_flat": 0.010,
-    "margin": 0.005,
-}
+MADI = {**load_task("madi-cam").values("17"), "mu_phi": DEGREE}
 FOLLOWERS = ("roller", "plate")
-ACCELERATED = tuple(law for law in LAWS if law != "uniform")
+LAWS_OF_CHORDS = [
+    law if law in ("sawtooth", "modified-sine") else pytest.param(law, marks=pytest.mark.soak)
+    for law in LAWS
+    if law != "uniform"
+]
 
 
-def some_by_default(laws: tuple[str, ...], *some: str) -> list[object]:
-    """Return laws as parameters; all but some are for the soak."""
-    return [law if law in some else pytest.param(law, marks=pytest.mark.soak) for law in laws]
+def test_the_scale_factors_of_the_project_follow_from_its_amplitude() -> None:
+    # by hand: V = A u x / (2 H), S = A x^2 u (u + (1 - u)) / (6 H^2) * ... of a sawtooth, all in mm of paper
+    v_max = 110 * 36 / 2 / 30
+    s_max = (110 * 36**2 / 6 + (110 * 36 / 2) * 72 / 3) / 30**2
+    mu_s = 0.013 / s_max
+    mu_ds = mu_s / (DEGREE * 30)
+    mu_d2s = mu_ds / (DEGREE * 30)
+    by_hand = {"mu_s": mu_s, "mu_ds": mu_ds, "mu_d2s": mu_d2s, "mu_v": 200 * mu_ds, "mu_a": 200**2 * mu_d2s}
+    by_hand |= {"ds_max": v_max * mu_ds, "nu": math.atan(mu_s / mu_ds), "l_A2": 0.055}
 
+    found = solve_cam(Cam(FOLLOWERS, "sawtooth"), MADI).quantities
 
-def madi(law: str = "sawtooth", **fields: object) -> SolvedCam:
-    """Solve the cam of the course project, with another law or sense."""
-    return solve_cam(Cam(FOLLOWERS, law, **fields), MADI)
+    assert {name: found[name].value for name in by_hand} == pytest.approx(by_hand, rel=1e-13)
 
 
 def random_cams(count: int) -> list[tuple[Cam, dict[str, float]]]:
@@ -55,49 +49,21 @@ def random_cams(count: int) -> list[tuple[Cam, dict[str, float]]]:
     for _ in range(count):
         law, law_fall = random.choice(LAWS, 2)
         rise, fall = random.uniform(40, 150, 2)
-        numbers = {
-            "h": random.uniform(0.004, 0.06),
-            "phi_rise": rise * DEGREE,
-            "phi_upper": random.choice([0.0, random.uniform(1, 60)]) * DEGREE,
-            "phi_fall": fall * DEGREE,
-            "u": random.uniform(0.25, 0.75),
-            "l_A1": random.uniform(0.04, 0.2),
-            "H_a": random.uniform(0.02, 0.06),
-            "H_v": random.uniform(0.02, 0.06),
-            "gamma_rise": random.uniform(50, 80) * DEGREE,
-            "gamma_fall": random.uniform(45, 80) * DEGREE,
-        }
-        words = {
-            "fall": str(random.choice(["mirror", "same"])),
-            "rotation": str(random.choice(["ccw", "cw"])),
-            "limits": str(random.choice(["one-sided", "two-sided"])),
-        }
-        cams.append((Cam(FOLLOWERS, str(law), str(law_fall), **words), MADI | numbers))
+        upper = random.choice([0.0, random.uniform(1, 60)])
+        numbers = {"phi_rise": rise * DEGREE, "phi_upper": upper * DEGREE, "phi_fall": fall * DEGREE}
+        numbers |= {"h": random.uniform(0.004, 0.06), "u": random.uniform(0.25, 0.75)}
+        numbers |= {"l_A1": random.uniform(0.04, 0.2), "H_a": random.uniform(0.02, 0.06)}
+        numbers |= {"H_v": random.uniform(0.02, 0.06), "gamma_rise": random.uniform(50, 80) * DEGREE}
+        numbers |= {"gamma_fall": random.uniform(45, 80) * DEGREE}
+        words = (str(random.choice(two)) for two in (("mirror", "same"), ("ccw", "cw"), ("one-sided", "two-sided")))
+        cams.append((Cam(FOLLOWERS, str(law), str(law_fall), *words), MADI | numbers))
     return cams
 
 
-MANY = [pytest.param(5, id="5"), pytest.param(100, id="100", marks=pytest.mark.soak)]
+MANY = pytest.mark.parametrize("count", [pytest.param(5, id="5"), pytest.param(100, id="100", marks=pytest.mark.soak)])
 
 
-def test_the_scale_factors_of_the_project_follow_from_its_amplitude():
-    # by hand: V = A u x / (2 H), S = A x^2 u (u + (1 - u)) / (6 H^2) * ... of a sawtooth, all in mm of paper
-    v_max = 110 * 36 / 2 / 30
-    s_max = (110 * 36**2 / 6 + (110 * 36 / 2) * 72 / 3) / 30**2
-    mu_s = 0.013 / s_max
-    mu_ds = mu_s / (DEGREE * 30)
-    found = madi().quantities
-
-    assert found["mu_s"].value == pytest.approx(mu_s, rel=1e-14)
-    assert found["mu_ds"].value == pytest.approx(mu_ds, rel=1e-14)
-    assert found["mu_d2s"].value == pytest.approx(mu_ds / (DEGREE * 30), rel=1e-14)
-    assert found["mu_v"].value == pytest.approx(200 * mu_ds, rel=1e-14)
-    assert found["mu_a"].value == pytest.approx(200**2 * mu_ds / (DEGREE * 30), rel=1e-14)
-    assert found["ds_max"].value == pytest.approx(v_max * mu_ds, rel=1e-14)
-    assert found["nu"].value == pytest.approx(math.atan(mu_s / mu_ds), rel=1e-14)
-    assert found["l_A2"].value == pytest.approx(0.055, rel=1e-14)
-
-
-@pytest.mark.parametrize("count", MANY)
+@MANY
 def test_scale_factors_show_what_the_motion_has(count: int) -> None:
     for cam, values in random_cams(count):
         solved = solve_cam(cam, values, ("diagrams",))
@@ -113,9 +79,9 @@ def test_scale_factors_show_what_the_motion_has(count: int) -> None:
             assert found["a_max"].value == pytest.approx(values["omega"] ** 2 * motion.d2s_max.value, rel=1e-12)
 
 
-@pytest.mark.parametrize("law", some_by_default(ACCELERATED, "sawtooth", "modified-sine"))
+@pytest.mark.parametrize("law", LAWS_OF_CHORDS)
 def test_chords_run_parallel_to_their_rays(law: str) -> None:
-    solved = madi(law)
+    solved = solve_cam(Cam(FOLLOWERS, law), MADI)
     for plan, onto in (("diagram_a", "diagram_v"), ("diagram_v", "diagram_s")):
         for i in solved.layout.division.sections:
             chord = solved.point(f"{onto}.{i}") - solved.point(f"{onto}.{i - 1}")
@@ -140,7 +106,7 @@ def errors(cam: Cam, sections: int, shift: float = 0.0) -> tuple[float, float]:
     return abs(drawn[0] - 1.0), abs(drawn[1] - 1.0)
 
 
-@pytest.mark.parametrize("law", some_by_default(ACCELERATED, "sawtooth", "modified-sine"))
+@pytest.mark.parametrize("law", LAWS_OF_CHORDS)
 def test_chords_are_of_second_order_when_jumps_lie_on_nodes(law: str) -> None:
     few, many = (errors(Cam(FOLLOWERS, law), sections) for sections in (24, 96))
 
@@ -149,14 +115,14 @@ def test_chords_are_of_second_order_when_jumps_lie_on_nodes(law: str) -> None:
         assert fine < 1e-12 or math.log(coarse / fine, 4.0) > 1.8
 
 
-@pytest.mark.parametrize("law", some_by_default(("constant", "sawtooth"), "sawtooth"))
+@pytest.mark.parametrize("law", ["sawtooth", pytest.param("constant", marks=pytest.mark.soak)])
 def test_chords_are_of_first_order_when_jumps_lie_between_nodes(law: str) -> None:
     coarse, fine = (errors(Cam(FOLLOWERS, law), sections, 0.3)[1] for sections in (24, 192))
 
     assert 0.7 < math.log(coarse / fine, 8.0) < 1.4
 
 
-@pytest.mark.parametrize("count", MANY)
+@MANY
 def test_sizes_by_tangents_come_to_those_of_the_exact_curves(count: int) -> None:
     for cam, values in random_cams(count):
         fine = Cam(cam.followers, cam.law, cam.law_fall, cam.fall, cam.rotation, cam.limits, sections=96)
@@ -174,48 +140,29 @@ def test_sizes_by_tangents_come_to_those_of_the_exact_curves(count: int) -> None
             assert found["r_0_flat_tangent"].value == pytest.approx(solved.plate.sizes.r_0_min, abs=part * size)
 
 
-@pytest.mark.parametrize("count", MANY)
+@MANY
 def test_profiles_by_inversion_are_the_exact_ones(count: int) -> None:
     for cam, values in random_cams(count):
         solved = solve_cam(cam, values)
-        pitch = solved.roller.profile.pitch(solved.angles, -1)
-        practical = solved.roller.profile.practical(solved.angles, -1)
-        for i in solved.layout.division.lines:
-            assert solved.point(f"profile.B{i}") == pytest.approx(complex(pitch[i]), abs=1e-12)
-            assert solved.point(f"profile.K{i}") == pytest.approx(complex(practical[i]), abs=1e-12)
-        if solved.plate is not None:
-            touches = solved.plate.profile.practical(solved.angles, -1)
+        profile, plate = solved.roller.profile, solved.plate
+        exact = {"profile.B": profile.pitch(solved.angles, -1), "profile.K": profile.practical(solved.angles, -1)}
+        if plate is not None:
+            exact["plate_profile.K"] = plate.profile.practical(solved.angles, -1)
+        for mark, places in exact.items():
             for i in solved.layout.division.lines:
-                assert solved.point(f"plate_profile.K{i}") == pytest.approx(complex(touches[i]), abs=1e-12)
+                assert solved.point(f"{mark}{i}") == pytest.approx(complex(places[i]), abs=1e-12)
 
 
-def test_no_more_is_built_than_wanted() -> None:
-    few, all_plans = (solve_cam(Cam(FOLLOWERS, "sine"), MADI, plans) for plans in (("diagrams",), PLANS))
-
-    assert set(few.program.plans) == {"diagram_a", "diagram_v", "diagram_s", "position"}
-    assert few.roller is None
-    assert "r_0" not in few.quantities
-    assert len(few.program.steps) < 0.6 * len(all_plans.program.steps)
-
-
-def test_a_cam_for_one_follower_draws_nothing_of_the_other() -> None:
+def test_a_cam_for_one_follower_draws_nothing_of_the_other_and_profiles_where_they_are_wanted() -> None:
     plans = set(solve_cam(Cam(("plate",), "sine"), MADI).program.plans)
 
     assert "plate_profile" in plans
     assert plans.isdisjoint({"sizes", "profile"})
-
-
-def test_a_law_of_ones_own_is_drawn_like_that_of_the_table() -> None:
-    pieces = Curve("mine", "pieces", (0.0, 1 / 3, 1 / 3, 1.0), (0.0, 2.0, -1.0, 0.0))
-    mine = solve_cam(Cam(FOLLOWERS, "mine", curves=(pieces,)), MADI)
-    bundled = madi("sawtooth")
-
-    for name in ("mu_s", "ds_max", "A_1", "A_2", "r_0", "e", "rho_min", "r_0_flat_min"):
-        assert mine.quantities[name].value == pytest.approx(bundled.quantities[name].value, rel=1e-12), name
+    assert [plan for plan in PLANS if solve_cam(Cam(FOLLOWERS, "sine"), MADI, (plan,)).draws_profiles] == ["profile"]
 
 
 def test_a_hand_draws_the_cam_as_well_as_its_pencil_lets_it() -> None:
-    solved = madi()
+    solved = solve_cam(Cam(FOLLOWERS, "sawtooth"), MADI)
     hand = preset("normal").hand
     chosen = {"mu_l": 1e-3, **{symbol: solved.values[mu] for symbol, mu in EQUAL.items()}}
     board = draw(paper_of(solved, {**solved.values, **chosen}), hand, np.random.default_rng(1), 400)
@@ -229,10 +176,7 @@ def test_a_hand_draws_the_cam_as_well_as_its_pencil_lets_it() -> None:
 
 
 ROCKER = {name: value for name, value in MADI.items() if name != "h"} | {
-    "psi": 25 * DEGREE,
-    "l_rocker": 0.1,
-    "gamma_rise": 50 * DEGREE,
-    "gamma_fall": 45 * DEGREE,
+    **{"psi": 25 * DEGREE, "l_rocker": 0.1, "gamma_rise": 50 * DEGREE, "gamma_fall": 45 * DEGREE}
 }
 
 
@@ -241,8 +185,7 @@ ROCKER = {name: value for name, value in MADI.items() if name != "h"} | {
     [
         ("ccw", {"l_OC": 0.12}),
         ("cw", {}),
-        pytest.param("ccw", {}, marks=pytest.mark.soak),
-        pytest.param("cw", {"l_OC": 0.12}, marks=pytest.mark.soak),
+        *(pytest.param(*both, marks=pytest.mark.soak) for both in (("ccw", {}), ("cw", {"l_OC": 0.12}))),
     ],
 )
 def test_the_profile_under_a_rocker_is_the_exact_one(rotation: str, distance: dict[str, float]) -> None:
@@ -259,15 +202,13 @@ def test_the_profile_under_a_rocker_is_the_exact_one(rotation: str, distance: di
 
 def test_limits_of_a_rocker_do_not_cut_off_the_centre_and_one_runs_through_it() -> None:
     solved = solve_cam(Cam(("rocker",), "sine", sections=48), ROCKER)
-    centre = solved.point("rocker_sizes.C")
-    distances = []
-    for i in solved.layout.division.lines:
-        way = solved.point(f"_limit{i}")
-        across = centre - solved.point(f"rocker_sizes.D{i}")
-        distances.append((way.conjugate() * across).imag)
+    centre, lines = solved.point("rocker_sizes.C"), solved.layout.division.lines
 
-    assert max(distances) < 1e-12  # all on one side, below
-    assert max(distances) > -2e-4
+    away = [
+        (solved.point(f"_limit{i}").conjugate() * (centre - solved.point(f"rocker_sizes.D{i}"))).imag for i in lines
+    ]
+
+    assert -2e-4 < max(away) < 1e-12  # all on one side, below
 
 
 def test_sizes_that_are_given_are_kept() -> None:
@@ -289,11 +230,3 @@ def test_no_offset_and_no_place_are_explained() -> None:
         solve_cam(Cam(("roller",), "sine"), MADI | {"r_0": 0.02})
     with pytest.raises(InputError, match="no place of the cam's centre keeps gamma"):
         solve_cam(Cam(("rocker",), "sine"), ROCKER | {"psi": 80 * DEGREE, "gamma_rise": 85 * DEGREE})
-
-
-def test_profiles_are_drawn_where_they_are_wanted() -> None:
-    cam = Cam(FOLLOWERS, "sine")
-
-    found = {plan: solve_cam(cam, MADI, (plan,)).draws_profiles for plan in PLANS}
-
-    assert found == {"diagrams": False, "sizes": False, "profile": True, "pressure": False}

@@ -1,4 +1,9 @@
-"""The smallest cams: exact optimum against brute force, permitted offsets, flat followers, rockers."""
+"""The smallest cams against brute force, permitted offsets, flat followers, rockers; the printed sizes of a project.
+
+Of the project's cam the figure with the law is lost. Of all laws the sawtooth with u = 1/3 and a fall mirrored in time
+comes nearest to the printed s'_max, r_0 and e; what remains is the accuracy of a drawing. Two printed numbers are not
+of this kind.
+"""
 
 from __future__ import annotations
 
@@ -9,7 +14,7 @@ import numpy as np
 import pytest
 
 from kulman import check, note, sweep
-from kulman.plans.cams.cam import Cam
+from kulman.plans.cams.cam import ORDERS, Cam
 from kulman.plans.cams.followers import Limits, PlateProfile, Rocker, RollerProfile, Sizes, Straight, turned_back
 from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import Motion, motion_of
@@ -25,20 +30,14 @@ from kulman.plans.cams.sizes import (
 )
 from kulman.plans.cams.solve import solve_cam
 from kulman.scales.errors import InputError
-from kulman.tests.support.cam_cases import CamCase
-from kulman.tests.support.cam_points_profile import c8_plate
-from kulman.tests.support.cams import (
-    MADI_LIMITS,
-    SEED,
-    SMOOTH,
-    dense,
-    madi_motion,
-    random_limits,
-    random_motion,
-)
+from kulman.tests.support.cam_points import CamCase, c8_plate
+from kulman.tests.support.cams import MADI_LIMITS, SEED, SMOOTH, dense, madi_motion, random_limits, random_motion
 from kulman.variants.kinds.cam import KIND
 
-COUNTS = [pytest.param(5, id="5"), pytest.param(250, id="250", marks=pytest.mark.soak)]
+COUNTS = pytest.mark.parametrize(
+    "count", [pytest.param(5, id="5"), pytest.param(250, id="250", marks=pytest.mark.soak)]
+)
+LEAST = pytest.mark.parametrize("count", [pytest.param(2, id="2"), pytest.param(100, id="100", marks=pytest.mark.soak)])
 GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 FEW = [pytest.param(2, id="2"), pytest.param(30, id="30", marks=pytest.mark.soak)]
 
@@ -72,9 +71,11 @@ class Positions:
         return min(inner)[0]
 
 
-@pytest.mark.parametrize("count", COUNTS)
+@COUNTS
 @pytest.mark.parametrize("sense", [1, -1])
-def test_smallest_roller_cam_is_that_of_brute_force(count: int, sense: int) -> None:
+def test_smallest_roller_cam_is_that_of_brute_force_and_just_reaches_the_limits_that_bind(
+    count: int, sense: int
+) -> None:
     random = np.random.default_rng([SEED, sense + 1])
 
     for _ in range(count):
@@ -83,32 +84,10 @@ def test_smallest_roller_cam_is_that_of_brute_force(count: int, sense: int) -> N
         brute = Positions(motion, limits, sense).smallest(3.0 * found.r_0)
         assert found.r_0 == pytest.approx(brute, rel=1e-6)
         assert found.r_0 == pytest.approx(math.hypot(found.e, found.s_0), rel=1e-14)
-
-
-@pytest.mark.parametrize("count", COUNTS)
-def test_limits_that_bind_are_just_reached_and_no_other_is_passed(count: int) -> None:
-    random = np.random.default_rng(SEED + 2)
-
-    for _ in range(count):
-        motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
-        sizes = smallest_roller(wedge(motion, limits, sense))
         for phase, gamma in (("rise", limits.gamma_rise), ("fall", limits.gamma_fall)):
-            least = Straight(motion, sense).least_transmission(sizes, phase, limits.two_sided).value
+            least = Straight(motion, sense).least_transmission(found, phase, limits.two_sided).value
             assert least >= gamma - 1e-12
-            if phase in sizes.on:
-                assert least == pytest.approx(gamma, abs=1e-12)
-
-
-def test_pressure_angle_is_that_between_normal_and_line() -> None:
-    random = np.random.default_rng(SEED + 3)
-    phi = np.linspace(0.01, 6.2, 97)
-
-    for sense in (1, -1):
-        motion = random_motion(random)
-        sizes = Sizes(math.hypot(0.01, 0.05), 0.01, 0.05)
-        profile = RollerProfile(Straight(motion, sense), sizes, 0.01)
-        normal = profile.normal(phi) / turned_back(phi, profile.sense)
-        assert profile.pressure(phi) == pytest.approx(np.angle(normal / 1j), abs=1e-13)
+            assert phase not in found.on or least == pytest.approx(gamma, abs=1e-12)
 
 
 @pytest.mark.parametrize("count", [pytest.param(8, id="8"), pytest.param(30, id="30", marks=pytest.mark.soak)])
@@ -150,7 +129,7 @@ def test_cam_turned_the_other_way_is_the_mirror_image() -> None:
     assert (other.r_0, other.e, other.s_0, other.on) == (one.r_0, -one.e, one.s_0, one.on)
 
 
-@pytest.mark.parametrize("count", COUNTS)
+@COUNTS
 def test_permitted_offsets_are_those_of_brute_force(count: int) -> None:
     random = np.random.default_rng(SEED + 5)
 
@@ -170,47 +149,32 @@ def test_permitted_offsets_are_those_of_brute_force(count: int) -> None:
             assert abs(e) > r_0 or positions.s_0(e) > math.sqrt(r_0 * r_0 - e * e)
 
 
-def test_offset_at_either_end_reaches_its_limit() -> None:
-    motion = madi_motion()
+def test_offset_at_either_end_reaches_its_limit_and_too_small_a_cam_has_none() -> None:
+    planes, r_0 = wedge(madi_motion(), MADI_LIMITS), 0.05
 
-    found = offsets(wedge(motion, MADI_LIMITS), 0.05)
+    found = offsets(planes, r_0)
 
     assert found is not None
     for e, phase, gamma in ((found[0], "rise", 75.0), (found[1], "fall", 60.0)):
-        sizes = Sizes(0.05, e, math.sqrt(0.05**2 - e * e))
-        assert math.degrees(Straight(motion).least_transmission(sizes, phase).value) == pytest.approx(gamma, abs=1e-11)
+        least = Straight(madi_motion()).least_transmission(Sizes(r_0, e, math.sqrt(r_0**2 - e * e)), phase).value
+        assert math.degrees(least) == pytest.approx(gamma, abs=1e-11)
+    for part in (0.999999, 0.40):  # both limits together, that of the rise alone
+        assert offsets(planes, part * smallest_roller(planes).r_0) is None
 
 
-@pytest.mark.parametrize(
-    "part", [pytest.param(0.999999, id="both limits together"), pytest.param(0.40, id="that of the rise alone")]
-)
-def test_too_small_a_cam_has_no_offset(part: float) -> None:
-    planes = wedge(madi_motion(), MADI_LIMITS)
-
-    assert offsets(planes, part * smallest_roller(planes).r_0) is None
-
-
-def test_least_r_0_permits_exactly_its_offset() -> None:
+def test_least_r_0_permits_exactly_its_offset_and_a_central_follower_needs_the_least_s_0() -> None:
     random = np.random.default_rng(SEED + 6)
 
-    for _ in range(40):
-        planes = wedge(random_motion(random), random_limits(random), int(random.choice((-1, 1))))
-        sizes = smallest_roller(planes)
-        found = offsets(planes, sizes.r_0)
-        assert found == pytest.approx((sizes.e, sizes.e), abs=1e-5 * sizes.r_0)
-
-
-def test_central_follower_needs_the_least_s_0_of_its_positions() -> None:
-    random = np.random.default_rng(SEED + 7)
-
     for _ in range(20):
-        motion, limits = random_motion(random), random_limits(random)
-        sizes = central(wedge(motion, limits), e := random.uniform(-0.01, 0.01))
-        assert sizes.e == e
-        assert sizes.s_0 == pytest.approx(max(0.0, Positions(motion, limits, 1).s_0(e)), rel=1e-6)
+        motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
+        planes = wedge(motion, limits, sense)
+        sizes, e = smallest_roller(planes), random.uniform(-0.01, 0.01)
+        assert offsets(planes, sizes.r_0) == pytest.approx((sizes.e, sizes.e), abs=1e-5 * sizes.r_0)
+        assert central(planes, e).e == e
+        assert central(planes, e).s_0 == pytest.approx(max(0.0, Positions(motion, limits, sense).s_0(e)), rel=1e-6)
 
 
-@pytest.mark.parametrize("count", COUNTS)
+@COUNTS
 def test_flat_followers_cam_is_just_convex(count: int) -> None:
     random = np.random.default_rng(SEED + 8)
 
@@ -224,18 +188,11 @@ def test_flat_followers_cam_is_just_convex(count: int) -> None:
         assert PlateProfile(motion, found.r_0).rho_min >= 0.01 - 1e-15
 
 
-def test_geronimus_counts_both_limits_of_a_jump() -> None:
+def test_geronimus_counts_both_limits_of_a_jump_and_no_plate_stands_a_velocity_that_drops() -> None:
     amplitude = 9.0 * 13e-3 / math.radians(108.0) ** 2
 
-    found = madi_motion().maximum(-1.0, 0.0, -1.0)
-
-    assert found.value == pytest.approx(amplitude - 13e-3 / 3.0, rel=1e-13)
-
-
-def test_no_flat_follower_stands_a_velocity_that_drops() -> None:
-    motion = Motion(0.01, 1.0, 0.5, 2.0, law_of_motion("uniform"))
-
-    assert smallest_plate(motion, 0.01, 0.005).r_0_min == math.inf
+    assert madi_motion().maximum(-1.0, 0.0, -1.0).value == pytest.approx(amplitude - 13e-3 / 3.0, rel=1e-13)
+    assert smallest_plate(Motion(0.01, 1.0, 0.5, 2.0, law_of_motion("uniform")), 0.01, 0.005).r_0_min == math.inf
 
 
 @pytest.mark.parametrize("count", FEW)
@@ -272,66 +229,52 @@ def dense_slack(rocker: Rocker, limits: Limits, places: np.ndarray) -> np.ndarra
     return least
 
 
-def test_pressure_angle_of_a_rocker_is_that_between_normal_and_velocity() -> None:
-    random = np.random.default_rng(SEED + 10)
+@pytest.mark.parametrize("sense", [1, -1])
+def test_pressure_angle_is_that_between_normal_and_velocity(sense: int) -> None:
+    random, sizes = np.random.default_rng(SEED + 10), Sizes(math.hypot(0.01, 0.05), 0.01, 0.05)
     phi = np.linspace(0.01, 6.2, 97)
-
-    for sense in (1, -1):
-        rocker = Rocker(random_motion(random, SMOOTH, 0.5), 0.1, sense)
-        profile = RollerProfile(rocker, Sizes(math.hypot(0.01, 0.05), 0.01, 0.05), 0.01)
-        normal, along = profile.normal(phi) / turned_back(phi, profile.sense), np.exp(1j * rocker.motion.at(phi)[0])
-        theta = profile.pressure(phi)
-        assert theta == pytest.approx(np.angle(normal / (1j * along)), abs=1e-13)
-        for phase, up in ((rocker.motion.rise, 1), (rocker.motion.fall, -1)):
-            inside = (phi > phase.start) & (phi < phase.end)
-            least = rocker.least_transmission(profile.sizes, phase.name)
-            assert least.value <= np.min(0.5 * math.pi - up * sense * theta[inside])
-            assert float(profile.pressure(least.phi)) * up * sense == pytest.approx(
-                0.5 * math.pi - least.value, abs=1e-9
-            )
+    straight = RollerProfile(Straight(random_motion(random), sense), sizes, 0.01)
+    rocker = Rocker(random_motion(random, SMOOTH, 0.5), 0.1, sense)
+    rocking = RollerProfile(rocker, sizes, 0.01)
+    for profile, moves in ((straight, 1j), (rocking, 1j * np.exp(1j * rocker.motion.at(phi)[0]))):
+        normal = profile.normal(phi) / turned_back(phi, profile.sense)
+        assert profile.pressure(phi) == pytest.approx(np.angle(normal / moves), abs=1e-13)
+    for phase, up in ((rocker.motion.rise, 1), (rocker.motion.fall, -1)):
+        inside, least = (phi > phase.start) & (phi < phase.end), rocker.least_transmission(sizes, phase.name)
+        assert least.value <= np.min(0.5 * math.pi - up * sense * rocking.pressure(phi)[inside])
+        assert float(rocking.pressure(least.phi)) * up * sense == pytest.approx(0.5 * math.pi - least.value, abs=1e-9)
 
 
 def test_very_long_rocker_is_a_follower_on_a_line() -> None:
-    scale = 1e-6
-    motion = Motion(
-        13e-3 * scale, *(phase.length for phase in madi_motion().phases[:3]), law_of_motion("sawtooth", 0.3)
-    )
-    line = Motion(13e-3, *(phase.length for phase in madi_motion().phases[:3]), law_of_motion("sawtooth", 0.3))
+    scale, law = 1e-6, law_of_motion("sawtooth", 0.3)
+    swing, line = (Motion(h, *np.radians((108.0, 15.0, 108.0)), law) for h in (13e-3 * scale, 13e-3))
 
-    rocker = smallest_rocker(Rocker(motion, 1.0 / scale), MADI_LIMITS)
+    rocker = smallest_rocker(Rocker(swing, 1.0 / scale), MADI_LIMITS)
 
     straight = smallest_roller(wedge(line, MADI_LIMITS))
     assert (rocker.r_0, rocker.e, rocker.s_0) == pytest.approx((straight.r_0, straight.e, straight.s_0), rel=1e-5)
 
 
 def test_rocker_at_a_given_distance_reaches_its_limit_and_tells_when_it_cannot() -> None:
-    motion = Motion(math.radians(25.0), 1.9, 0.3, 1.9, law_of_motion("sine"))
+    motion, law = Motion(math.radians(25.0), 1.9, 0.3, 1.9, law_of_motion("sine")), law_of_motion("sine")
     limits = Limits(math.radians(50.0), math.radians(45.0))
 
     for sense in (1, -1):
         rocker = Rocker(motion, 0.1, sense)
         best = smallest_rocker(rocker, limits)
         assert isinstance(best, Sizes)
-        same = smallest_rocker_at(rocker, limits, best.l_OC)
+        same, wider = (smallest_rocker_at(rocker, limits, part * best.l_OC) for part in (1.0, 1.2))
         assert isinstance(same, Sizes)
-        assert same.r_0 == pytest.approx(best.r_0, rel=1e-9)
-        wider = smallest_rocker_at(rocker, limits, 1.2 * best.l_OC)
         assert isinstance(wider, Sizes)
+        assert same.r_0 == pytest.approx(best.r_0, rel=1e-9)
         assert wider.r_0 > best.r_0
         assert dense_slack(rocker, limits, np.array([complex(wider.e, wider.s_0)]))[0] == pytest.approx(0.0, abs=1e-7)
         assert not isinstance(smallest_rocker_at(rocker, limits, 0.05), Sizes)
-
-
-def test_wide_swing_with_large_angles_has_no_place_and_says_why() -> None:
-    rocker = Rocker(Motion(math.radians(35.0), 1.9, 0.3, 1.9, law_of_motion("sine")), 0.1)
-
-    found = smallest_rocker(rocker, Limits(math.radians(80.0), math.radians(75.0)))
-
-    assert found == ("rise", "fall")
+    wide = Rocker(Motion(math.radians(35.0), 1.9, 0.3, 1.9, law), 0.1)
+    assert smallest_rocker(wide, Limits(math.radians(80.0), math.radians(75.0))) == ("rise", "fall")
 
 
 PAPER = {"omega": 20.0, "mu_phi": math.radians(1.0), "l_A1": 0.1, "H_a": 0.03, "H_v": 0.03, "R_roller": 1e-4}
-LEAST = [pytest.param(2, id="2"), pytest.param(100, id="100", marks=pytest.mark.soak)]
 
 
 def random_task(random: np.random.Generator, follower: str) -> tuple[Cam, dict[str, float]]:
@@ -365,7 +308,7 @@ def just_above(least: float, scanned: float) -> bool:
     return scanned * (1.0 - 1e-9) <= least <= scanned * (1.0 + 3e-5)
 
 
-@pytest.mark.parametrize("count", LEAST)
+@LEAST
 def test_too_small_a_cam_for_a_roller_names_the_least_r_0_of_all_offsets(count: int) -> None:
     random = np.random.default_rng(SEED + 20)
 
@@ -425,7 +368,7 @@ def test_a_given_r_0_beside_l_OC_of_a_rocker_is_held_against_all_that_is_permitt
                 assert told(cam, {**values, "r_0": named[end]}, "cam-r-0-at-l-OC") == {}
 
 
-@pytest.mark.parametrize("count", LEAST)
+@LEAST
 @pytest.mark.parametrize("name", ["r_0", "r_0_flat"])
 def test_a_given_r_0_under_a_plate_is_held_against_the_least_that_a_scan_finds(name: str, count: int) -> None:
     random = np.random.default_rng(SEED + 22)
@@ -461,3 +404,65 @@ def test_a_plate_cam_with_a_given_r_0_is_drawn_told_and_marked(tmp_path: Path) -
     assert ("r_0_flat" in asked, "rho_flat_min" in asked) == (False, True)
     assert "least radius of curvature under the plate: 21.4039 mm at phi = 195" in swept
     assert [*c8_plate(drawn, drawn.sheet)] == []
+
+
+MM = 1e-3
+DS_MAX, R_0, E = 20.8 * MM, 45.696 * MM, 7.728 * MM
+
+
+def test_no_law_fits_the_printed_sizes_as_well_as_the_sawtooth() -> None:
+    errors = {}
+    for name in SMOOTH:
+        for order in ORDERS:
+            phases = np.radians((108.0, 15.0, 108.0))
+            motion = Motion(13.0 * MM, *phases, law_of_motion(name, 1.0 / 3.0), order=order)
+            sizes = smallest_roller(wedge(motion, MADI_LIMITS))
+            found = np.array((motion.ds_max.value / DS_MAX, sizes.r_0 / R_0, sizes.e / E))
+            errors[name, order] = np.abs(found - 1.0)
+
+    best, following = sorted(errors, key=lambda key: max(errors[key]))[:2]
+
+    assert best == ("sawtooth", "mirror")
+    assert np.all(errors[best] < (0.006, 0.01, 0.021))
+    assert max(errors[following]) > 3.0 * max(errors[best])
+    assert smallest_roller(wedge(madi_motion(), MADI_LIMITS)).on == ("rise", "fall")
+
+
+def test_printed_least_radius_is_not_that_of_the_sharpest_place_and_that_under_the_plate_an_amplitude() -> None:
+    motion = madi_motion()
+    sizes, plate = smallest_roller(wedge(motion, MADI_LIMITS)), smallest_plate(motion, 10.0 * MM, 5.0 * MM)
+
+    sharpest = RollerProfile(Straight(motion), sizes, 7.0 * MM).sharpest
+
+    assert sharpest.value == pytest.approx(29.24 * MM, rel=1e-3)  # printed 60 mm
+    assert math.degrees(sharpest.phi) == pytest.approx(36.0)  # where the acceleration jumps
+    upper = math.hypot(sizes.e, sizes.s_0 + motion.h)
+    assert upper == pytest.approx(60.0 * MM, rel=0.04)  # the printed one is nearer to the radius of the upper dwell
+    assert plate.r_0_min == pytest.approx(28.60 * MM, rel=1e-3)  # printed 55 mm, as many as A_2 has on paper
+    assert plate.R_plate == pytest.approx(25.8 * MM, rel=0.005)
+
+
+def test_printed_scale_factors_follow_from_the_drawn_travel() -> None:
+    per_mm, pole, omega = math.radians(1.0), 30.0, 200.0
+    mu_s, mu_ds, mu_d2s = 0.168, 0.321, 0.613  # 10^-3 m/mm
+
+    assert mu_ds == pytest.approx(mu_s / (per_mm * pole), rel=1e-3)
+    assert mu_d2s == pytest.approx(mu_ds / (per_mm * pole), rel=1e-3)
+    assert omega * mu_ds == pytest.approx(64.2, rel=1e-3)
+    assert omega**2 * mu_d2s == pytest.approx(24520.0, rel=1e-3)
+    assert math.degrees(math.atan(mu_s / mu_ds)) == pytest.approx(27.6, abs=0.05)
+    assert math.degrees(math.atan(mu_ds / mu_d2s)) == pytest.approx(27.6, abs=0.05)
+    assert 13.0 / mu_s == pytest.approx(77.4, abs=0.05)  # mm of the highest ordinate
+    assert 20.8 / mu_ds == pytest.approx(64.8, abs=0.05)
+    assert [45.696 / mu_s, 7.728 / mu_s] == pytest.approx([272.0, 46.0], abs=0.05)
+
+
+def test_printed_mistakes_are_of_the_size_that_the_document_tells() -> None:
+    motion, mu = madi_motion(), 0.613
+    s = float(motion.at(math.radians(36.0))[0]) / MM  # where the second amplitude begins
+    upper = math.hypot(7.728, math.sqrt(45.696**2 - 7.728**2) + 13.0)
+
+    assert s == pytest.approx(4.33, abs=0.005)
+    assert 55.0 - s / mu == pytest.approx(47.9, abs=0.05)
+    assert (55.0 - s / mu) * mu == pytest.approx(29.4, abs=0.05)
+    assert upper == pytest.approx(58.6, abs=0.05)

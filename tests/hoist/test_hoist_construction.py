@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.hoist.construction import BENT, EXTREMES, FORCES, LIFT_OFF, SCHEME
-from kulman.plans.hoist.forces import course, forces
+from kulman.plans.hoist.forces import course
 from kulman.plans.hoist.hoist import PLANS, Hoist
 from kulman.plans.hoist.model import CIRCLE
 from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
@@ -33,7 +33,7 @@ def read(solved: SolvedHoist, plan: str, mark: str, mus: tuple[str, str]) -> com
 
 
 def test_numbers_of_the_construction_are_those_of_the_forces(solved: SolvedHoist) -> None:
-    assert solved.status == "ok"
+    assert (solved.status, all(check.ok for check in solved.forces.checks[:3])) == ("ok", True)
     for name, value in solved.forces.found.items():
         if name in solved.quantities:
             assert solved.quantities[name].value == value
@@ -139,31 +139,25 @@ def test_scheme_has_the_nearer_ends_where_they_are_said_to_be() -> None:
     assert at["B2"] - at["B1"] == pytest.approx(values["l_2"])
 
 
-@pytest.mark.parametrize(
-    ("changes", "missing"),
-    [
-        pytest.param({"I_0": math.inf}, {EXTREMES, "beam_0"}, id="rigid support"),
-        pytest.param({"I_0": math.inf, "I_2": math.inf}, {EXTREMES, "beam_0", "beam_2"}, id="rigid beams"),
-        pytest.param(PUSHES, {LIFT_OFF, EXTREMES}, id="the rope would push"),
-    ],
-)
-def test_what_is_not_there_is_not_drawn(changes: dict[str, float], missing: set[str]) -> None:
+def test_what_is_not_there_is_not_drawn() -> None:
     everything = {SCHEME, FORCES, LIFT_OFF, EXTREMES, CIRCLE, *BENT.values()}
+    for changes, missing in (
+        ({"I_0": math.inf}, {EXTREMES, "beam_0"}),
+        ({"I_0": math.inf, "I_2": math.inf}, {EXTREMES, "beam_0", "beam_2"}),
+        (PUSHES, {LIFT_OFF, EXTREMES}),
+    ):
+        solved = solve_hoist(Hoist(), {**VARIANTS["V04"], **changes})
 
-    solved = solve_hoist(Hoist(), {**VARIANTS["V04"], **changes})
-
-    assert everything - {*solved.program.plans} == missing
-    assert {*solved.scale_of_plan} == everything - missing
-    assert solved.trouble is None
+        assert everything - {*solved.program.plans} == missing
+        assert {*solved.scale_of_plan} == everything - missing
+        assert solved.trouble is None
 
 
 def test_motion_is_drawn_in_the_place_of_formulas_that_are_not_valid() -> None:
-    values = {**VARIANTS["V04"], **PUSHES}
-    motion = forces(values).motion
+    solved = solve_hoist(Hoist(), {**VARIANTS["V04"], **PUSHES})
+
+    motion = solved.forces.motion
     assert motion is not None
-
-    solved = solve_hoist(Hoist(), values)
-
     assert "P_12_max" in solved.quantities
     for i in range(solved.layout.resting + 1):
         at = read(solved, FORCES, f"R{i}", ("mu_t", "mu_F"))
@@ -183,12 +177,10 @@ def test_a_load_that_swings_for_long_is_drawn_at_the_end_only() -> None:
     assert solved.quantities["t_1_drawn"].value == pytest.approx(found["t_1"], abs=0.2 * roots.section)
 
 
-@pytest.mark.parametrize("plan", PLANS)
-def test_every_plan_can_be_had_alone(plan: str) -> None:
-    solved = solve_hoist(Hoist(), VARIANTS["V04"], (plan,))
-
+def test_every_plan_can_be_had_alone() -> None:
     whole = solve_hoist(Hoist(), VARIANTS["V04"])
+    for plan in PLANS:
+        solved = solve_hoist(Hoist(), VARIANTS["V04"], (plan,))
 
-    assert len(solved.program.steps) < len(whole.program.steps)
-    for name, quantity in solved.quantities.items():
-        assert quantity.value == whole.quantities[name].value
+        assert len(solved.program.steps) < len(whole.program.steps)
+        assert all(quantity.value == whole.quantities[name].value for name, quantity in solved.quantities.items())

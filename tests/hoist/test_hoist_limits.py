@@ -20,27 +20,21 @@ from kulman.tests.support.hoists import SEED, VARIANTS, random_hoists
 FORCES = ("t_1", "F_12_t1", "F_12_max", "T_1", "P_12_max", "P_12_min", "s_min")
 
 
-def change(values: dict[str, float], limit: dict[str, float]) -> float:
-    """Return by what part the forces differ most."""
-    one, other = forces(values).found, forces(limit).found
-    return max(abs(one[name] - other[name]) / abs(other[name]) for name in FORCES)
-
-
 @pytest.mark.parametrize(
     ("name", "limit", "steps"),
     [
-        pytest.param("I_0", math.inf, (1.0, 1e4, 1e8), id="rigid support"),
-        pytest.param("I_2", math.inf, (1.0, 1e4, 1e8), id="rigid bridge"),
-        pytest.param("G_2", 0.0, (1e2, 1e-2, 1e-6), id="rope without mass"),
-        pytest.param("a", 0.0, (1e-1, 1e-4, 1e-7), id="no acceleration"),
-        pytest.param("V_0", 0.0, (1e-2, 1e-5, 1e-8), id="no speed"),
-        pytest.param("slack", 0.0, (1e-2, 1e-5, 1e-8), id="no slack"),
+        ("I_0", math.inf, (1.0, 1e4, 1e8)),  # a rigid support
+        ("I_2", math.inf, (1.0, 1e4, 1e8)),
+        ("G_2", 0.0, (1e2, 1e-2, 1e-6)),
+        ("a", 0.0, (1e-1, 1e-4, 1e-7)),
+        ("V_0", 0.0, (1e-2, 1e-5, 1e-8)),
+        ("slack", 0.0, (1e-2, 1e-5, 1e-8)),
     ],
 )
 def test_limits_are_approached_without_a_jump(name: str, limit: float, steps: tuple[float, ...]) -> None:
-    values = VARIANTS["V03"]
+    there, *near = (forces({**VARIANTS["V03"], name: value}).found for value in (limit, *steps))
 
-    changes = [change({**values, name: step}, {**values, name: limit}) for step in steps]
+    changes = [max(abs(one[force] - there[force]) / abs(there[force]) for force in FORCES) for one in near]
 
     assert changes[0] > changes[1] > changes[2] > 0.0
     assert changes[2] < 1e-3 * changes[0]
@@ -111,21 +105,16 @@ def test_slack_is_taken_up_before_the_rope_is_taut() -> None:
 
 
 def test_rope_pulled_from_rest_lifts_off_after_the_exact_time() -> None:
-    values = {**VARIANTS["V06"], "V_0": 0.0}
-    found = forces(values).found
+    found = forces({**VARIANTS["V06"], "V_0": 0.0}).found
 
     t, k = found["t_1"], found["k"]
-    lag = 0.40 * (0.5 * t * t - (1.0 - math.cos(k * t)) / k**2)
-
-    assert lag == pytest.approx(found["P_st"] / found["C"], rel=1e-12)
+    assert 0.40 * (0.5 * t * t - (1.0 - math.cos(k * t)) / k**2) == pytest.approx(found["P_st"] / found["C"], rel=1e-12)
 
 
 ENDLESS = {  # givens within their bounds whose motion nobody follows, and what is said of them
-    ("V04", "l_0", 1e5): "hoist-pieces",  # a support so weak that the rope trembles on it for years
-    ("V04", "E_0", 0.8): "hoist-pieces",
+    ("V04", "E_0", 0.8): "hoist-pieces",  # a support so weak that the rope trembles on it for years
     ("V04", "l_0", 1e4): "hoist-pieces",
     ("V01", "l_0", 3e-12): "hoist-stiff",
-    ("V10", "V_0", 1e-11): "hoist-stiff",
 }
 
 
@@ -135,7 +124,7 @@ def test_a_motion_that_nobody_follows_is_refused_in_a_line(variant: str, name: s
         solve("karpenko-hoist", variant, set={name: f"{value} {VALUES[name]}"})
 
     assert told.value.key == ENDLESS[variant, name, value]
-    assert all(told.value.text(language) for language in LANGUAGES)
+    assert all("\n" not in told.value.text(language) for language in LANGUAGES)
 
 
 def test_many_swings_before_the_lift_off_are_no_trouble_where_the_formulas_are_valid() -> None:

@@ -13,7 +13,7 @@ import pytest
 from kulman.plans.hands.shaky import preset
 from kulman.plans.hoist.forces import BEAM, BOTH, COLUMN_UNITS, NEITHER, ROPE, course, forces
 from kulman.plans.hoist.hoist import Hoist
-from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
+from kulman.plans.hoist.solve import solve_hoist
 from kulman.plans.lab import hoists as races
 from kulman.plans.lab import race as contests
 from kulman.plans.lab.finders import FINDERS, NEWTON
@@ -22,7 +22,6 @@ from kulman.plans.lab.hoists import (
     FORMULAS,
     LIFT_OFF,
     PEAK,
-    Steps,
     by_board,
     by_hand,
     exact,
@@ -31,13 +30,9 @@ from kulman.plans.lab.hoists import (
 )
 from kulman.plans.lab.integrators import EXPLICIT, RK4, STEPPERS, SYMPLECTIC, TRAPEZOID, VERLET
 from kulman.plans.lab.race import Contest, Effort
+from kulman.tests.support.hoists import VARIANTS
 
-# 2.5 t on a soft support, no acceleration: V10 of hoist-variants.json
-STEADY = {
-    "G_1": 25e3, "G_2": 70.0, "L": 5.0, "S": 150e-6, "E_k": 1.1e11, "sigma": 1440e6, "K": 5.6,
-    "l_0": 7.0, "I_0": 3.2e-5, "E_0": 2.06e11, "beta_0": 0.4, "l_2": 12.0, "I_2": 5e-4, "E_2": 2.06e11, "beta_2": 0.35,
-    "V_0": 0.22, "a": 0.0, "slack": 0.0, "g": 9.81,
-}  # fmt: skip
+STEADY = VARIANTS["V10"]  # 2.5 t on a soft support, no acceleration
 PUSHING = STEADY | {"I_0": 1e-6, "V_0": 0.5}  # the rope would have to push on so soft a support
 
 
@@ -70,12 +65,11 @@ def test_exact_values_have_more_digits_than_float64() -> None:
     assert float(found["F_max"]) == pytest.approx(float(peak), rel=5e-15)
 
 
-@pytest.mark.parametrize("kind", [LIFT_OFF, COURSE, PEAK])
-def test_closed_forms_err_by_rounding(kind: str) -> None:
-    found = errors(FORMULAS, kind)
-
-    assert list(found) == [1, 10]
-    assert max(found.values()) < 2e-15  # type: ignore[type-var, operator]
+def test_closed_forms_err_by_rounding() -> None:
+    for kind in (LIFT_OFF, COURSE, PEAK):
+        found = errors(FORMULAS, kind)
+        assert list(found) == [1, 10]
+        assert max(found.values()) < 2e-15  # type: ignore[type-var, operator]
 
 
 @pytest.mark.parametrize("finder", FINDERS)
@@ -105,16 +99,14 @@ def test_runs_that_are_refused_give_nothing_and_are_in_no_front() -> None:
         assert all(entry.error < 1e-15 for entry in race().front(kind)[:1])  # type: ignore[operator]
 
 
-@cache
-def limits() -> dict[str, Steps]:
-    return step_limits(STEADY, (4.0, 2.4, 1.0, 0.32, 0.16, 0.08), (0.0125, 0.00625))
+def test_steps_show_their_orders_and_are_refused_beyond_their_limits() -> None:
+    found = step_limits(STEADY, (4.0, 2.4, 1.0, 0.32, 0.16, 0.08), (0.0125, 0.00625))
 
-
-@pytest.mark.parametrize(
-    ("method", "order"), [(RK4, 4.0), (VERLET, 2.0), (TRAPEZOID, 2.0), (SYMPLECTIC, 2.0), (EXPLICIT, 1.0)]
-)
-def test_steps_show_their_orders(method: str, order: float) -> None:
-    assert limits()[method].order == pytest.approx(order, abs=0.15)
+    orders = {RK4: 4.0, VERLET: 2.0, TRAPEZOID: 2.0, SYMPLECTIC: 2.0, EXPLICIT: 1.0}
+    assert {method: found[method].order for method in orders} == pytest.approx(orders, abs=0.15)
+    refused = {RK4: 4.0, VERLET: 2.4, SYMPLECTIC: 2.4, TRAPEZOID: None, EXPLICIT: 0.08}
+    assert {method: found[method].refused_from for method in STEPPERS} == refused
+    assert np.nanmax(found[RK4].errors) < 0.5
 
 
 def test_runs_of_too_many_steps_give_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -129,19 +121,13 @@ def test_runs_of_too_many_steps_give_nothing(monkeypatch: pytest.MonkeyPatch) ->
     assert not {(method, step) for method, step in taken if step in (0.1, 0.0125)}
 
 
-def test_steps_are_refused_beyond_their_limits() -> None:
-    refused = {method: limits()[method].refused_from for method in STEPPERS}
-
-    assert refused == {RK4: 4.0, VERLET: 2.4, SYMPLECTIC: 2.4, TRAPEZOID: None, EXPLICIT: 0.08}
-    assert np.nanmax(limits()[RK4].errors) < 0.5
-
-
 @pytest.mark.parametrize("values", [STEADY, STEADY | {"a": 0.3, "slack": 0.01}, PUSHING], ids=["a=0", "a>0", "slack"])
-def test_forces_over_time_move_the_load(values: dict[str, float]) -> None:
+def test_forces_over_time_move_the_load_and_are_greatest_at_their_marks(values: dict[str, float]) -> None:
     found = forces(values)
     t = np.linspace(0.0, found.end, 4001)
 
-    moved = course(found, t)
+    moved, marks = course(found, t), found.marks
+    at_marks = dict(zip(marks, course(found, np.array([*marks.values()])).columns["F_12"], strict=True))
 
     column = moved.columns
     m, step = found.found["m"], t[1] - t[0]
@@ -152,76 +138,50 @@ def test_forces_over_time_move_the_load(values: dict[str, float]) -> None:
     smooth[np.clip(np.concatenate((events - 1, events)), 0, len(bent) - 1)] = False
     assert bent[smooth] == pytest.approx(pulled[smooth], abs=1e-4 * column["F_12"].max())
     assert list(column) == list(COLUMN_UNITS)
+    for name in ("F_12_max", "P_12_max", "P_12_min"):
+        assert at_marks[name] == pytest.approx(found.found[name], rel=1e-9, abs=1e-6)
+        assert 0.0 <= marks[name] <= found.end * (1.0 + 1e-12)
+    assert list(marks.values()) == sorted(marks.values())
 
 
 def test_states_say_what_bears() -> None:
     found = forces(PUSHING)
-    t = np.linspace(0.0, found.end, 2001)
 
-    moved = course(found, t)
+    moved = course(found, np.linspace(0.0, found.end, 2001))
 
-    states = np.array(moved.states)
+    states, rope, beam = np.array(moved.states), moved.columns["F_12"], moved.columns["F_01"]
     assert {BOTH, ROPE, BEAM} <= set(moved.states) <= {BOTH, ROPE, BEAM, NEITHER}
-    assert np.all(moved.columns["F_12"][(states == BEAM) | (states == NEITHER)] == 0.0)
-    assert np.all(moved.columns["F_01"][(states == ROPE) | (states == NEITHER)] == 0.0)
-    assert np.all(moved.columns["F_12"] >= 0.0)
-    assert np.all(moved.columns["F_01"] <= 1e-9 * 25e3)
+    assert np.all(rope[(states == BEAM) | (states == NEITHER)] == 0.0)
+    assert np.all(beam[(states == ROPE) | (states == NEITHER)] == 0.0)
+    assert np.all(rope >= 0.0)
+    assert np.all(beam <= 1e-9 * 25e3)
 
 
-def test_beams_bend_as_they_are_loaded() -> None:
-    found = forces(STEADY)
+def test_beams_bend_as_they_are_loaded_and_a_rigid_one_does_not() -> None:
+    found, rigid = forces(STEADY), forces(STEADY | {"I_0": math.inf})
 
     moved = course(found, np.array([0.0, found.found["t_1"] + found.found["T_1"]])).columns
+    stiff = course(rigid, np.linspace(0.0, 0.2, 21)).columns
 
-    assert moved["w_0"][0] == pytest.approx(found.found["P_st"] / found.found["C_01"], rel=1e-14)
-    assert moved["w_0"][1] == 0.0
+    assert moved["w_0"].tolist() == [pytest.approx(found.found["P_st"] / found.found["C_01"], rel=1e-14), 0.0]
     assert moved["w_2"][1] == pytest.approx(found.found["P_12_max"] / found.found["C_2"], rel=1e-12)
     assert moved["F_12"][1] == pytest.approx(found.found["P_12_max"], rel=1e-12)
+    assert np.all(stiff["w_0"] == 0.0)
+    assert np.all(np.isfinite(stiff["F_01"]))
+    assert stiff["F_01"][0] == pytest.approx(-rigid.found["P_st"], rel=1e-15)
 
 
-def test_rigid_support_does_not_bend() -> None:
-    found = forces(STEADY | {"I_0": math.inf})
+def test_drawings_err_as_the_square_of_a_section_and_hands_as_they_are_careful() -> None:
+    drawn = solve_hoist(Hoist(), STEADY)
+    mus = dict.fromkeys(drawn.scale_of_plan, 400.0)
 
-    moved = course(found, np.linspace(0.0, 0.2, 21)).columns
-
-    assert np.all(moved["w_0"] == 0.0)
-    assert np.all(np.isfinite(moved["F_01"]))
-    assert moved["F_01"][0] == pytest.approx(-found.found["P_st"], rel=1e-15)
-
-
-@pytest.mark.parametrize("values", [STEADY, STEADY | {"a": 0.3}, PUSHING], ids=["a=0", "a>0", "slack"])
-def test_marks_are_where_forces_are_greatest_and_least(values: dict[str, float]) -> None:
-    found = forces(values)
-    known = found.marks
-    end = found.end
-
-    at = dict(zip(known, course(found, np.array([*known.values()])).columns["F_12"], strict=True))
-
-    for name in ("F_12_max", "P_12_max", "P_12_min"):
-        assert at[name] == pytest.approx(found.found[name], rel=1e-9, abs=1e-6)
-        assert 0.0 <= known[name] <= end * (1.0 + 1e-12)
-    assert list(known.values()) == sorted(known.values())
-
-
-@cache
-def drawn() -> SolvedHoist:
-    return solve_hoist(Hoist(), STEADY)
-
-
-def test_crossing_of_drawn_curves_errs_as_the_square_of_a_section() -> None:
-    found = {entry.setting: entry.error for entry in by_board(drawn(), time.process_time)}
-
-    assert np.log2(found[40] / found[160]) / 2.0 == pytest.approx(2.0, abs=0.1)  # type: ignore[operator]
-
-
-def test_a_hand_that_errs_less_keeps_less() -> None:
-    mus = dict.fromkeys(drawn().scale_of_plan, 400.0)
-
+    sections = {entry.setting: entry.error for entry in by_board(drawn, time.process_time)}
     kept = {
-        name: {entry.kind: entry.error for entry in by_hand(drawn(), mus, preset(name).hand)}
+        name: {entry.kind: entry.error for entry in by_hand(drawn, mus, preset(name).hand)}
         for name in ("careful", "normal")
     }
 
+    assert np.log2(sections[40] / sections[160]) / 2.0 == pytest.approx(2.0, abs=0.1)  # type: ignore[operator]
     assert set(kept["normal"]) == {LIFT_OFF, PEAK, COURSE}
     for kind, error in kept["normal"].items():
         assert 0.0 < kept["careful"][kind] < error < 0.1  # type: ignore[operator]
