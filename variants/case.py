@@ -6,23 +6,22 @@ without knowing which it is.
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
 
 from ..drawing.words import Given, Words
 from ..plans.names import role
 from ..plans.solved import Check, Course, Solved
 from ..scales.errors import InputError
-from ..scales.givens import Givens
+from ..scales.givens import Described, Givens
 from ..scales.names import all_known, by_name, names_of, of_kind, unknown
 from ..scales.numbers import quote
 from ..scales.scale import AS_INSIDE, Chooser, Choosers, Display, Scale, Segment, chooser, segment_symbol
-from .checks.basics import Checker
-from .checks.names import Names
+from .checks.basics import Checker, Field, record
+from .checks.names import Names, check_numbers, word_or_choice
 from .kinds import MODULES
 from .task import WITH_FORCES, Instead, LocatedError, Task
 from .task import Given as Stated
@@ -117,49 +116,94 @@ class Case(Request):
         return kind_of(self.task.kind)
 
 
-class Kind(ABC, Generic[Subject, Answer]):
-    """A kind of tasks; `table` is where their files describe the subject, `plans` what can be drawn of it."""
+class Kind(Generic[Subject, Answer]):
+    """A kind of tasks; `table` is where their files describe the subject, `plans` what can be drawn of it.
 
+    As it is here, a subject is described by words, and by numbers that all have names: cams, gear pairs, hoists. `room`
+    is the folder of its plans and of its drawings. There what has one use is called alike, after the table:
+    `solve_cam`, `CamScene`, `CamFitting` of `[cam]`.
+    """
+
+    home: ClassVar[str] = __name__.partition(".")[0]  # the package whose layers have the room
+    room: ClassVar[str]
     table: ClassVar[str]
+    made: ClassVar[type[Described]]
     givens: ClassVar[Givens] = {}  # what describes a subject; nothing where every task has names of its own
+    stranger: ClassVar[str] = ""  # key of the message for a number of no such subject, where it has none of its own
+    instead: ClassVar[Instead] = ()  # which givens of a user stand in the place of others
     display: ClassVar[Display] = AS_INSIDE  # the units of results where a file says no others
     plans: ClassVar[tuple[str, ...]]
-    judged: ClassVar[str] = ""  # key of the heading of its checks, where a list of quantities ends in these
-    pages: ClassVar[int] = 1  # how many a sheet has at most that holds everything well
+    symbols: ClassVar[tuple[str, ...]]  # of the scale factors that may be chosen
     segments: ClassVar[bool] = True  # whether a segment may choose a scale factor
+    pages: ClassVar[int] = 1  # how many a sheet has at most that holds everything well
+    moves: ClassVar[bool] = True  # whether its plans have a course
+    judged: ClassVar[str] = ""  # key of the heading of its checks, where a list of quantities ends in these
+    unasked: ClassVar[tuple[str, ...]] = ()  # quantities that no form asks for
     limits_add_up: ClassVar[bool] = False  # whether limits are those of errors of drawing, else of what is read off
-    instead: ClassVar[Instead] = ()  # which givens of a user stand in the place of others
+    # keys, after `form.`, of what a form says beside what every form does, by the plan to which it belongs, or by none
+    form_notes: ClassVar[Mapping[str, str]] = {}
 
-    @abstractmethod
+    def _in(self, layer: str, module: str, name: str) -> Any:
+        """Return what a module of this kind's plans or drawings calls `name`; most need numpy."""
+        return getattr(import_module(f"{self.home}.{layer}.{self.room}.{module}"), name)
+
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Stated]) -> Subject | None:
-        """Read the table of this kind; None when a part of it is at fault."""
+        """Read the table of this kind, and hold the numbers of the task against its own; None where it is at fault."""
+        before = len(checker.faults)
+        words = {key: given.choices for key, given in self.givens.items() if given.choices}
+        fields = {key: Field(word_or_choice(known, givens), required=False) for key, known in words.items()}
+        read = record(checker, (self.table,), raw, fields)
+        check_numbers(checker, names, self.givens, self.stranger or f"{self.table}-number-unknown")
+        return cast(Any, self.made)(**read) if len(checker.faults) == before else None
 
-    @abstractmethod
     def fits(self, checker: Checker, subject: Subject, head: Mapping[str, Any]) -> None:
         """Check that the subject has the plans and the scale factors that the `head` of the file wants."""
+        for name in head.get("scales", {}):
+            if name not in self.symbols:
+                checker.fault(("scales", name), unknown("scale-unknown", name, self.symbols, task=head.get("id", "")))
+
+    def impossible(self, values: Numbers) -> Iterable[tuple[str, InputError]]:
+        """Go through what no such subject can have, each with the name of the number at fault, or without one."""
+        return ()
 
     def varies(self, checker: Checker, task: Task) -> None:
         """Check what can be wrong in single variants only, without solving them."""
+        told: set[str] = set()  # what is at fault in a default is so in every variant
+        for row, variant in enumerate(task.variants.values()):
+            for name, error in self.impossible(task.values(variant.id)):
+                given = task.givens.get(name)
+                if name in variant.values:
+                    checker.fault(("variant", row, name), error)
+                elif given is None or given.default is None:
+                    checker.fault(("variant", row), error)
+                elif name not in told:
+                    told.add(name)
+                    checker.fault(("givens", name, "default"), error)
 
     def remarks(self, task: Task, variant: str, solved: Answer) -> Iterator[InputError]:
         """Go through what a teacher should know of a variant that is no fault of it."""
         yield from self.warnings(solved)
 
-    @abstractmethod
-    def solve(self, subject: Subject, values: Numbers, words: Choices, plans: Plans) -> Answer:
+    def solve(self, subject: Any, values: Numbers, words: Choices, plans: Plans) -> Answer:
         """Solve a variant with its `values` in SI and the `words` of its choices; impossible values are refused."""
+        for _, error in self.impossible(values):
+            raise error
+        solved: Answer = self._in("plans", "solve", f"solve_{self.table}")(subject.chosen(words), values, plans)
+        return solved
 
-    @abstractmethod
     def scale_symbols(self, solved: Answer) -> tuple[str, ...]:
         """Return the symbols of all scale factors that a task or a user may choose."""
+        return self.symbols
 
-    @abstractmethod
     def first_scales(self, solved: Answer, choosers: Choosers, plans: Plans) -> tuple[Format, Scales]:
         """Return format and scale factors by plan as they follow from the extents of plans, of which none is drawn."""
+        scales: tuple[Format, Scales] = self._in("drawing", "sheet", "first_scales")(solved, choosers, plans)
+        return scales
 
-    @abstractmethod
     def conditions(self, solved: Answer) -> dict[str, Condition]:
         """Return the condition of every quantity."""
+        conditions: dict[str, Condition] = self._in("plans", "solve", "conditions_of")(solved)
+        return conditions
 
     def warnings(self, solved: Answer) -> tuple[InputError, ...]:
         """Return what a user should know of what has been solved."""
@@ -179,41 +223,73 @@ class Kind(ABC, Generic[Subject, Answer]):
 
     def course(self, solved: Answer) -> Course | None:
         """Return the subject over its motion; None where a cycle of positions takes the place of columns."""
-        return None
+        if not self.moves:
+            return None
+        course: Course = self._in("plans", "course", f"{self.table.title()}Course")(solved)
+        return course
 
     def listed(self, solved: Answer, plans: tuple[str, ...]) -> tuple[str, ...]:
         """Return the names of the quantities and scale factors that a list for some plans shows, in its order."""
         return tuple(solved.quantities)
 
     def headings(self, solved: Answer, words: Words) -> dict[str, str]:
-        """Return the headings in a list of quantities, each by the first quantity under it; a short list has none."""
-        return {}
+        """Return the headings in a list of quantities, each by the first quantity under it: those of the note."""
+        first: dict[str, str] = {}
+        for name in self.listed(solved, self.plans):
+            first.setdefault(self._in("plans", "solve", "section_of")(name), name)
+        return {name: words[f"heading.{self.table}_{self._headed(solved, section)}"] for section, name in first.items()}
 
-    @abstractmethod
+    def _headed(self, solved: Answer, section: str) -> str:
+        """Return what the heading of a section of the note is called."""
+        return section
+
     def draw(self, case: Case, words: Words, norm: Norm = "gost", paper: Format | None = None) -> Drawn:
         """Draw the sheet of a case; on the smallest format that holds everything where `paper` is not said."""
+        from ..drawing.figure import SheetContents
+
+        note = case.task.note_in(words.language)
+        contents = SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm, note=note)
+        drawn: Drawn = self._in("drawing", "sheet", f"{self.table.title()}Fitting")(contents).draw(paper)
+        return drawn
 
     def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:
         """Return what has been solved as large as a sheet draws it, and what a user should know of that."""
-        return solved, ()
+        if drawn.reduction == 1.0:
+            return solved, ()
+        smaller: Answer = self._in("plans", "solve", "reduced")(solved, drawn.reduction)
+        said = {"format": drawn.format, "part": f"{drawn.reduction:g}", **self.drawn_lengths(smaller)}
+        return smaller, (InputError(f"{self.table}-smaller", **said),)
+
+    def drawn_lengths(self, solved: Answer) -> dict[str, str]:
+        """Return what is told of the lengths of smaller diagrams."""
+        return {}
+
+    def scene(self, case: Case, scales: Scales, words: Words) -> Any:
+        """Return the case with its letters, for what is said of it."""
+        from ..drawing.formats import STYLES
+
+        solved: Any = case.solved
+        made = self._in("drawing", "sheet", f"{self.table.title()}Scene")
+        return made(solved, self.lettered(words, solved), STYLES["A4"], case.givens)
 
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Return what the explanatory note says beside the views of the sheet, drawn with `scales` by plan."""
-        from ..drawing.notes.blocks import Story
-
-        return Story()
+        story: Story = self._in("drawing", "text", "story")(self.scene(case, scales, words), scales, texts)
+        return story
 
     def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
-        """Return what is drawn, after the first steps, of views that are not drawn in stages; nothing of others."""
-        return {}
+        """Return what is drawn, after the first steps, of views that are not drawn in stages: of tables."""
+        shown: Mapping[str, Shown] = self._in("drawing", "text", "begun")(self.scene(case, scales, words), steps)
+        return shown
 
     def lettered(self, words: Words, solved: Answer) -> Words:
-        """Return the words with the letters that depend on the subject."""
-        return words
+        """Return the words with the letters of the subject's quantities."""
+        letters: Words = self._in("drawing", "sheet", "lettered")(words)
+        return letters
 
     def asks(self, solved: Answer, question: Question) -> bool:
-        """Whether a form asks for a quantity."""
-        return True
+        """Whether a form asks for a quantity: for what is found, not for what is given."""
+        return question.name not in self.unasked and question.name not in solved.givens
 
     def as_drawn(self, solved: Answer) -> tuple[Answer, Mapping[str, str]]:
         """Return what has been solved as a student draws it, with what hangs on the drawing: it is marked.
@@ -223,23 +299,21 @@ class Kind(ABC, Generic[Subject, Answer]):
         return solved, {}
 
     def limits(self, drawn: Answer, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
-        """Return by how much single quantities may miss, SI, where the usual rule does not hold.
+        """Return by how much single quantities may miss, SI, where the usual rule does not hold: errors add up.
 
         What is `drawn` is as `as_drawn` returns it, `paper` the same on paper, with its scale factors.
         """
-        return {}
-
-    def form_notes(self, solved: Answer) -> tuple[str, ...]:
-        """Return the keys, after `form.`, of what a form of this kind says beside what every form does."""
-        return ()
+        limits: dict[str, float] = self._in("plans", "solve", "tolerances_of")(drawn, paper, tolerance)
+        return limits
 
     def section(self, solved: Answer, question: Question, current: str) -> str:
         """Return the section of the form in which a question stands; `current` is that of the one before it."""
-        return question.plan
+        section: str = self._in("plans", "solve", "section_of")(question.name)
+        return section
 
     def plan_heading(self, solved: Answer, plan: str, words: Words) -> str:
         """Return the heading of a plan, as the sheet has it, or of a section of the form."""
-        return words[f"heading.{plan}"]
+        return words[f"heading.{self.table}_{plan}"]
 
     def vector_letters(self, solved: Answer, words: Words) -> dict[str, str]:
         """Return the letters of the vectors that show quantities on their plans."""

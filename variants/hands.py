@@ -75,18 +75,16 @@ def hand_of(text: str | Hand) -> tuple[str, Hand, Tolerance]:
     if isinstance(text, str) and not is_own(text):
         found = preset(text.strip())
         return text.strip(), found.hand, found.tolerance
-    hand = _own(text) if isinstance(text, str) else text
+    hand = text
+    if isinstance(hand, str):
+        parts = BETWEEN.split(hand.strip())
+        if len(parts) != 3:
+            raise InputError("hand-three", text=quote(hand))
+        mm, degree = unit("mm"), unit("deg")
+        point, direction, reading = (parse(part, of, of) for part, of in zip(parts, (mm, degree, mm), strict=True))
+        hand = Hand(mm.from_si(point), degree.from_si(direction), mm.from_si(reading))
     no_less = (p for p in PRESETS.values() if all(a <= b for a, b in zip(astuple(hand), astuple(p.hand), strict=True)))
     return OWN, hand, next(no_less, [*PRESETS.values()][-1]).tolerance
-
-
-def _own(text: str) -> Hand:
-    parts = BETWEEN.split(text.strip())
-    if len(parts) != 3:
-        raise InputError("hand-three", text=quote(text))
-    mm, degree = unit("mm"), unit("deg")
-    point, direction, reading = (parse(part, own, own) for part, own in zip(parts, (mm, degree, mm), strict=True))
-    return Hand(mm.from_si(point), degree.from_si(direction), mm.from_si(reading))
 
 
 def drawing(

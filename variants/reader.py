@@ -176,18 +176,12 @@ def _syntax(toml: str, file: str, reason: str) -> InputError:
         column = len(written) - len(written.lstrip()) + 1
         key = re.search(r"(?:inline table key |immutable namespace \()'(.*?)'", reason)
         cause = InputError("toml-twice", text=quote(key[1] if key else written.split("=")[0].strip()))
-    else:
-        cause = _not_toml(written, column)
+    else:  # a letter that looks Latin, a value that lacks its quotes
+        word = next((word[0] for word in re.finditer(r"\w+", written) if word.start() < column <= word.end()), "")
+        bare = any(value.start() < column <= value.end() + 1 for value in _BARE.finditer(written))
+        bad = InputError("toml-bare" if bare else "toml-bad", text=quote(written.strip()))
+        cause = bad if latin(word) == word else cyrillic(word)
     return LocatedError(f"{file}:{line}:{column}", cause)
-
-
-def _not_toml(written: str, column: int) -> InputError:
-    """Return the fault in a line that is not valid TOML: a letter that looks Latin, a value that lacks its quotes."""
-    word = next((found[0] for found in re.finditer(r"\w+", written) if found.start() < column <= found.end()), "")
-    if latin(word) != word:
-        return cyrillic(word)
-    bare = any(found.start() < column <= found.end() + 1 for found in _BARE.finditer(written))
-    return InputError("toml-bare" if bare else "toml-bad", text=quote(written.strip()))
 
 
 def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
@@ -203,30 +197,21 @@ def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     return good
 
 
-def _display(checker: Checker, path: Path, raw: object) -> dict[str, str]:
-    """Read `[display]`: the units of lengths and angles in results, and that of segments."""
-    units = {"length": LENGTHS, "size": LENGTHS, "paper": PAPER, "angle": ANGLES}
-    fields = {
-        name: Field(one_of("display-unit", partial(tuple, known)), required=False) for name, known in units.items()
-    }
-    return record(checker, path, raw, fields)
-
-
-def _in_languages(checker: Checker, path: Path, raw: object) -> dict[str, str]:
-    """Read what is said in each language of a sheet."""
-    return record(checker, path, raw, {language: Field(text) for language in LANGUAGES})
-
-
+_SAID = {language: Field(text) for language in LANGUAGES}
+_UNITS = {"length": LENGTHS, "size": LENGTHS, "paper": PAPER, "angle": ANGLES}  # of results; of segments
+_IN_UNITS = {
+    name: Field(one_of("display-unit", partial(tuple, known)), required=False) for name, known in _UNITS.items()
+}
 _FIELDS = {  # and the table of its kind
     "id": Field(label),
     "source": Field(text),
     "notation": Field(one_of("notation-unknown", notations)),
-    "title": Field(_in_languages),
-    "note": Field(_in_languages, required=False),
+    "title": Field(lambda checker, path, raw: record(checker, path, raw, _SAID)),
+    "note": Field(lambda checker, path, raw: record(checker, path, raw, _SAID), required=False),
     "givens": Field(as_is),
     "choices": Field(as_is, required=False),
     "scales": Field(_scales, required=False),
-    "display": Field(_display, required=False),
+    "display": Field(lambda checker, path, raw: record(checker, path, raw, _IN_UNITS), required=False),
     "variant": Field(as_is),
 }
 

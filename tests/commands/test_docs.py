@@ -20,11 +20,11 @@ from kulman.plans.hoist.hoist import PLANS as HOIST_PLANS
 from kulman.plans.hoist.hoist import SIDES
 from kulman.plans.linkages.chain import PLANS
 from kulman.scales.packaged import packaged
-from kulman.variants import reader
+from kulman.variants import case, reader
 from kulman.variants.checks import basics as checks
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.checks import names as checks_names
-from kulman.variants.kinds import cam, gear, hoist, sized
+from kulman.variants.kinds import cam, gear, hoist
 from kulman.variants.making.starter import template
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
@@ -54,7 +54,7 @@ def keys_read(text: str, monkeypatch: pytest.MonkeyPatch) -> set[str]:
         keys.update(fields)
         return record(checker, path, raw, fields)
 
-    modules: tuple[ModuleType, ...] = (reader, checks, checks_names, checks_mechanism, cam, sized)
+    modules: tuple[ModuleType, ...] = (reader, checks, checks_names, checks_mechanism, cam, case)
     for module in modules:
         monkeypatch.setattr(module, "record", noting)
     task, faults = reader.read_text(text, "t.toml")

@@ -28,17 +28,9 @@ FILE = "seesaw.toml"
 
 
 class Bare(Kind[Any, Any]):
-    """A kind that has nothing but what it must have."""
+    """A kind that says nothing but its name, and that nothing moves."""
 
-    table, plans = "bare", ()
-
-    def read(self, *args: Any) -> Any: ...
-    def fits(self, *args: Any) -> None: ...
-    def solve(self, *args: Any) -> Any: ...
-    def scale_symbols(self, *args: Any) -> Any: ...
-    def first_scales(self, *args: Any) -> Any: ...
-    def conditions(self, *args: Any) -> Any: ...
-    def draw(self, *args: Any, **kwargs: Any) -> Any: ...
+    table, plans, moves = "bare", (), False
 
 
 @pytest.fixture(scope="module")
@@ -76,17 +68,11 @@ def test_what_a_kind_has_not_is_refused_in_one_line(asked: Callable[[Case], Any]
         assert "\n" not in line
 
 
-def test_a_bare_kind_warns_of_nothing_checks_nothing_and_asks_everything(case: Case) -> None:
-    class Unfinished(Kind[Any, Any]):
-        table, plans = "unfinished", ()
-
+def test_a_bare_kind_warns_of_nothing_checks_nothing_and_refuses_no_number(case: Case) -> None:
     bare = Bare()
 
     assert (bare.warnings(case.solved), bare.checks(case.solved), bare.course(case.solved)) == ((), (), None)
-    assert bare.asks(case.solved, None) is True  # type: ignore[arg-type]
-    assert bare.plan_heading(case.solved, "velocity", case.words("en")) == case.words("en")["heading.velocity"]
-    with pytest.raises(TypeError, match=r"conditions.*draw.*first_scales.*fits.*read.*scale_symbols.*solve"):
-        Unfinished()  # type: ignore[abstract]
+    assert [*bare.impossible({"l_OA": -1.0})] == []
 
 
 def test_every_table_leads_to_its_kind() -> None:

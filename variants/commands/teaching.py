@@ -252,8 +252,9 @@ def _mark(
     asked: Check, found: list[Answers], files: tuple[Path, ...], folder: str | None, moodle: Path | None, **how: Any
 ) -> None:
     """Mark one student, or a class: to files, and to the console."""
+    from ...drawing.writers import save_all
     from ..marking.checks import write_tables
-    from ..marking.report import REPORTS, report_text, to_json, write_reports
+    from ..marking.report import REPORTS, report_bytes, report_text, to_json
     from ..marking.result import class_lines
 
     reports = [file for file in files if file.suffix.lower() in REPORTS]
@@ -266,7 +267,7 @@ def _mark(
             console.print_json(to_json(told))
         elif not files:
             click.echo(report_text(told), nl=False)
-        write_reports(told, files)
+        save_all(files, REPORTS, lambda file: [(file, report_bytes(told, file.suffix))])
     else:
         with console.progress() as advance:
             results = asked.mark_all(found, folder, advance, how["jobs"] or None)

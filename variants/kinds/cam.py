@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...plans.cams import cam as cams
 from ...plans.solved import AT_LEAST, AT_MOST, Check
@@ -14,11 +14,10 @@ from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.scale import Display
 from ...scales.units import unit
-from ..case import Case, Choices, Numbers, Plans, Scales
+from ..case import Case, Choices, Kind, Numbers, Plans, Scales
 from ..checks.basics import Checker, Field, Path, array_of, one_of, record, rows, word
 from ..checks.names import Names, Setting, check_numbers, literal, word_or_choice
 from ..task import Given
-from .sized import Sized
 
 if TYPE_CHECKING:
     from ...drawing.cams.scene import CamScene
@@ -46,7 +45,7 @@ SHORTEST = math.radians(0.01)  # of a phase in which a follower moves
 MOST_SECTIONS = 90  # of a phase: finer than a degree nobody divides one
 
 
-class Cams(Sized[cams.Cam, "SolvedCam"]):
+class Cams(Kind[cams.Cam, "SolvedCam"]):
     """Disk cams with translating roller and flat-faced followers, or with a rocker."""
 
     table, plans = "cam", cams.PLANS
@@ -54,6 +53,7 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
     unasked = ("s_max", "s_close", "v_close")  # the stroke, which is given, and what should be nothing
     display = Display(size="mm", angle="deg")
     segments, limits_add_up = False, True
+    form_notes: ClassVar[Mapping[str, str]] = {"": "cam"}  # sizes may be drawn or calculated; the sign of e
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> cams.Cam | None:
         """Read `[cam]`, and hold the numbers of the task against those that such a cam needs."""
@@ -173,10 +173,6 @@ class Cams(Sized[cams.Cam, "SolvedCam"]):
     def _headed(self, solved: SolvedCam, section: str) -> str:
         named = {"profile": "profiles"} | ({"roller": "rocker"} if solved.rocker is not None else {})
         return named.get(section, section)
-
-    def form_notes(self, solved: SolvedCam) -> tuple[str, ...]:
-        """Tell that sizes may be drawn or calculated, and of the sign of e."""
-        return ("cam",)
 
     def section(self, solved: SolvedCam, question: Question, current: str) -> str:
         """Return the section of a question: the three diagrams are one drawing."""

@@ -9,10 +9,10 @@ from ...plans.gears.gear import GIVENS, PLANS, SHIFTS, GearPair, impossible
 from ...plans.solved import Check
 from ...scales.errors import InputError
 from ...scales.scale import Display
+from ..case import Kind
 from ..checks.basics import Checker
 from ..checks.names import Names
 from ..task import Given
-from .sized import Sized
 
 if TYPE_CHECKING:
     from ...plans.gears.solve import SolvedGear
@@ -29,7 +29,7 @@ BROKEN = {"contact_ratio": "gear-rule-broken", "contact_flanks": "gear-rule-flan
 IN_LENGTHS = ("interference", "tip")
 
 
-class Gears(Sized[GearPair, "SolvedGear"]):
+class Gears(Kind[GearPair, "SolvedGear"]):
     """External pairs of involute spur gears cut by a standard rack."""
 
     table, plans = "gear", PLANS

@@ -9,7 +9,7 @@ from ...plans.hoist import hoist as hoists
 from ...plans.names import role
 from ...plans.solved import Check
 from ...scales.errors import InputError
-from .sized import Sized
+from ..case import Kind
 
 if TYPE_CHECKING:
     from ...drawing.words import Words
@@ -24,7 +24,7 @@ RULES = {  # what is told of a check that fails
 }
 
 
-class Hoists(Sized[hoists.Hoist, "SolvedHoist"]):
+class Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
     """Loads that a rope takes off a beam, wound up on another beam."""
 
     table, plans = "hoist", hoists.PLANS

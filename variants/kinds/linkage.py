@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...plans.board import POSITION
 from ...plans.boards.exact import SMALL
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from ...drawing.pens import Norm
     from ...drawing.words import Words
     from ...plans.condition import Condition
+    from ...plans.hands.shaky import Paper, Tolerance
     from ...plans.marking.key import Question
     from ..checks.basics import Checker
     from ..checks.names import Names
@@ -50,7 +51,8 @@ KINEMATIC = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon
 class Linkages(Kind[Mechanism, SolvedLinkage]):
     """Linkages of any structure that the plans know."""
 
-    table, plans = "mechanism", PLANS
+    table, plans, moves = "mechanism", PLANS, False
+    form_notes: ClassVar[Mapping[str, str]] = {"lever": "arms"}  # how arms on the lever are written
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Mechanism | None:
         """Read `[mechanism]`."""
@@ -185,15 +187,16 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Tell every plan step by step, its equations before it."""
         from ...drawing.linkages.steps import story
 
-        return story(self._scene(case, scales, words), texts)
+        return story(self.scene(case, scales, words), texts)
 
     def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what the first steps of every plan draw."""
         from ...drawing.linkages.steps import begun
 
-        return begun(self._scene(case, scales, words), steps)
+        return begun(self.scene(case, scales, words), steps)
 
-    def _scene(self, case: Case, scales: Scales, words: Words) -> Scene:
+    def scene(self, case: Case, scales: Scales, words: Words) -> Scene:
+        """Return what is drawn with its letters and scale factors."""
         from ...drawing.formats import STYLES
         from ...drawing.linkages.scene import Scene
 
@@ -206,13 +209,17 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
         return lettered(words, solved)
 
+    def headings(self, solved: SolvedLinkage, words: Words) -> dict[str, str]:
+        """Leave the list of quantities whole."""
+        return {}
+
+    def limits(self, drawn: SolvedLinkage, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
+        """Let the usual rule hold for all quantities."""
+        return {}
+
     def asks(self, solved: SolvedLinkage, question: Question) -> bool:
         """Ask not for each force of a couple: these are as large as the couple's force."""
         return not (role(question.name).part == COUPLE and role(question.name).about)
-
-    def form_notes(self, solved: SolvedLinkage) -> tuple[str, ...]:
-        """Tell how arms on the lever are written."""
-        return ("arms",) if "lever" in solved.program.plans else ()
 
     def section(self, solved: SolvedLinkage, question: Question, current: str) -> str:
         """Return the section of a question: its plan, or the plan of the forces that it goes with."""

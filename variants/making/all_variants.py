@@ -233,22 +233,15 @@ def _xml_bytes(category: str, questions: Iterable[_Question]) -> bytes:
     parts = [
         '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n',
         f'<question type="category"><category><text>$course$/{_xml(category)}</text></category></question>\n',
-        *map(_question, questions),
-        "</quiz>\n",
     ]
-    return "".join(parts).encode("utf-8")
-
-
-def _question(asked: _Question) -> str:
-    answers = "".join(
-        f'<answer fraction="{fraction}"><text>{asked.value:.10g}</text>'
-        f"<tolerance>{times * asked.tolerance:.3g}</tolerance></answer>"
-        for fraction, times in ((100, 1.0), (50, HALF))
-    )
-    return (
-        f'<question type="numerical"><name><text>{_xml(asked.name)}</text></name>'
-        f'<questiontext format="plain_text"><text>{_xml(asked.text)}</text></questiontext>{answers}</question>\n'
-    )
+    for asked in questions:
+        parts.append(f'<question type="numerical"><name><text>{_xml(asked.name)}</text></name>')
+        parts.append(f'<questiontext format="plain_text"><text>{_xml(asked.text)}</text></questiontext>')
+        for fraction, times in ((100, 1.0), (50, HALF)):
+            parts.append(f'<answer fraction="{fraction}"><text>{asked.value:.10g}</text>')
+            parts.append(f"<tolerance>{times * asked.tolerance:.3g}</tolerance></answer>")
+        parts.append("</question>\n")
+    return "".join((*parts, "</quiz>\n")).encode("utf-8")
 
 
 def _xml(text: str) -> str:

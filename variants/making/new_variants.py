@@ -210,18 +210,14 @@ def _spanned(task: Task, name: str, given: Given) -> _Range | None:
         step = _round_step(2 * spread)
         low, high = (math.ceil(low / step - spread / step) * step, high + spread) if step else (low, high)
         return _Range(given.unit.behind, low, high, step)
-    return _Range(given.unit.behind, low, high, _common_step([value - low for value in values]))
+    apart = [value - low for value in values]  # the largest step in which all are whole; 0 for one value
+    places = max((max(-int(value.as_tuple().exponent), 0) for value in apart), default=0)
+    whole = math.gcd(*(int(value.scaleb(places)) for value in apart))
+    return _Range(given.unit.behind, low, high, Decimal(whole).scaleb(-places))
 
 
 def _decimal(value: float) -> Decimal:
     return Decimal(f"{value:.12g}")
-
-
-def _common_step(values: Sequence[Decimal]) -> Decimal:
-    """Return the largest step in which all values are whole; 0 for one value."""
-    places = max((max(-int(value.as_tuple().exponent), 0) for value in values), default=0)
-    whole = math.gcd(*(int(value.scaleb(places)) for value in values))
-    return Decimal(whole).scaleb(-places)
 
 
 def _round_step(width: Decimal) -> Decimal:

@@ -66,12 +66,13 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
     for key in ASKED_ABOUT:
         yield (said[f"about.{key}"], about.get(key, ""))
     vectors = any(question.vector for part in keyed.parts for question in part.asked)
-    notes = ("hint", *["directions"] * vectors, *keyed.solution.kind.form_notes(keyed.solution.solved))
+    kind, plans = keyed.solution.kind, ("", *keyed.solution.solved.program.plans)
+    notes = ["hint", *["directions"] * vectors, *(note for plan, note in kind.form_notes.items() if plan in plans)]
     yield (" ".join(said[f"form.{note}"] for note in notes),)
     if about.get("variant") and keyed.solution.scales:  # a wish, no answer: the rows of the factors stay the student's
         yield (said["form.scales"].format(scales=keyed.solution.scaled(words)),)
     yield tuple(said[f"column.{column}"] for column in COLUMNS)
-    letters = keyed.solution.kind.vector_letters(keyed.solution.solved, words)
+    letters = kind.vector_letters(keyed.solution.solved, words)
     for part in filter(attrgetter("asked"), keyed.parts):
         yield (plain(part.heading),)
         for name in part.scales:

@@ -71,7 +71,9 @@ def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answe
         kinds = _first(map(column_kind, texts))
         if "name" in kinds and not kinds.keys().isdisjoint(PARTS):
             return [_form(grid, row, kinds, asked)]
-        columns, about = _of_class(texts, asked), _first(map(about_kind, texts))
+        parts = ((column, quantity_part(text)) for column, text in enumerate(texts))
+        columns = {column: part for column, part in parts if part is not None and part[0] in asked.names}
+        about = _first(map(about_kind, texts))
         if len(columns) > 1 or (columns and about):
             return list(_class(grid, row, columns, about, asked))
     raise InputError("answers-header", file=quote(grid.file, SHOWN))
@@ -236,9 +238,10 @@ def _form(grid: Grid, header: int, kinds: Mapping[str, int], asked: Asked) -> An
         _form_row(sheet, row, kinds, columns)
     if not sheet.lines and not sheet.problems:
         raise InputError("answers-none", file=quote(grid.file, SHOWN))
-    exchanged = _put_back(sheet.lines, sheet.scales, asked)
-    if exchanged is not None:
-        sheet.lines = exchanged
+    only = [_only_exchanged(line, sheet.scales, asked) for line in sheet.lines.values()]
+    told = [exchanged for exchanged in only if exchanged is not None]
+    if len(told) >= FEWEST and sum(told) >= MOST * len(told):  # nearly all lines agree only when exchanged
+        sheet.lines = {name: _in_place(line, asked) for name, line in sheet.lines.items()}
         sheet.problems.append(LocatedError(grid.place(header), InputError("answers-swapped")))
     return sheet.answers(grid.file, about)
 
@@ -272,16 +275,10 @@ def _form_row(sheet: _Sheet, row: int, kinds: Mapping[str, int], columns: Column
     sheet.reply(row, name, here, grid.place(row), own)
 
 
-def _of_class(header: Iterable[str], asked: Asked) -> dict[int, tuple[str, str, str]]:
-    """Return the columns of a class that hold answers: name, part and unit by column."""
-    parts = ((column, quantity_part(text)) for column, text in enumerate(header))
-    return {column: part for column, part in parts if part is not None and part[0] in asked.names}
-
-
 def _class(
     grid: Grid, header: int, columns: Mapping[int, tuple[str, str, str]], about: Mapping[str, int], asked: Asked
 ) -> Iterator[Answers]:
-    """Go through the students of a class."""
+    """Go through the students of a class; `columns` hold answers: name, part and unit of each."""
     by_name: dict[str, dict[str, tuple[int, str]]] = {}
     for column, (name, part, written) in columns.items():
         if name not in asked.scales:
@@ -290,7 +287,12 @@ def _class(
             part = "direction" if part in ("dir", "sense") else part or ("mm" if paper else "value")
         by_name.setdefault(name, {}).setdefault(part, (column, written))
     asked_here = tuple(name for name in by_name if name in asked.quantities)
-    strangers = _strangers(grid, header, asked, {*columns, *about.values()})
+    strangers = list[LocatedError]()
+    for column, text in enumerate(grid.rows[header]):  # what looks like a quantity and is none
+        of, read = quantity_part(text), column in columns or column in about.values()
+        if of is not None and not read and of[0] not in asked.others and ("_" in text or of[1]):
+            error = unknown("quantity-unknown", of[0], asked.names)
+            strangers.append(LocatedError(f"{grid.place(header, column)}, {quote(text)}", error))
     for row in range(header + 1, len(grid.rows)):
         if cells.NONE.issuperset(grid.rows[row]):
             continue
@@ -305,33 +307,11 @@ def _class(
         yield sheet.answers(grid.place(row), said, asked_here)
 
 
-def _strangers(grid: Grid, header: int, asked: Asked, read: set[int]) -> list[LocatedError]:
-    """Return an error for each column whose name looks like a quantity's and is none."""
-    found = []
-    for column, text in enumerate(grid.rows[header]):
-        part = quantity_part(text)
-        if part is not None and column not in read and part[0] not in asked.others and ("_" in text or part[1]):
-            error = unknown("quantity-unknown", part[0], asked.names)
-            found.append(LocatedError(f"{grid.place(header, column)}, {quote(text)}", error))
-    return found
-
-
 # Forms in which segments and values stand in each other's column.
 
 NEAR = 0.05  # part by which a product may differ from what it should be
-FEWEST = 3  # lines that must tell
+FEWEST, MOST = 3, 0.8  # lines that must tell, and what part of them that they are exchanged
 CLEAR = math.log(3.0)  # by how much nearer to the task's size a value must be
-
-
-def _put_back(lines: Mapping[str, Reply], scales: Mapping[str, Mu], asked: Asked) -> dict[str, Reply] | None:
-    """Return the lines with segments and values exchanged where nearly all of them only then agree; else None.
-
-    `scales` are the factors that stand in rows of their own, by symbol.
-    """
-    told = [only for line in lines.values() if (only := _only_exchanged(line, scales, asked)) is not None]
-    if len(told) < FEWEST or sum(told) < 0.8 * len(told):
-        return None
-    return {name: _in_place(line, asked) for name, line in lines.items()}
 
 
 def _in_place(line: Reply, asked: Asked) -> Reply:
@@ -355,6 +335,7 @@ def apart(number: float, other: float | None) -> float:
 def _only_exchanged(line: Reply, scales: Mapping[str, Mu], asked: Asked) -> bool | None:
     """Whether a line with segment, scale and value is right only when exchanged; None where it tells nothing.
 
+    `scales` are the factors that stand in rows of their own, by symbol.
     A scale factor without a unit agrees either way, as value per millimetre and as millimetres per unit: then that
     value is meant which is of the size of the task's.
     """
@@ -421,7 +402,8 @@ def _found_files(names: Iterable[str], task: str) -> list[str]:
                 raise InputError("answers-none-printed", task=quote(task))
         elif path.is_dir() or (not path.exists() and glob.has_magic(name)):
             within = map(str, path.iterdir()) if path.is_dir() else glob.glob(name)
-            inside = sorted(file for file in within if _is_answers(Path(file)))
+            tables = (file for file in within if (of := Path(file)).suffix.lower() in SUFFIXES and of.is_file())
+            inside = sorted(file for file in tables if not Path(file).name.startswith((".", "~$")))
         if not inside:
             raise InputError("answers-nowhere", file=quote(name, SHOWN), known=", ".join(SUFFIXES))
         found += inside
@@ -430,7 +412,3 @@ def _found_files(names: Iterable[str], task: str) -> list[str]:
 
 def _printed(task: str) -> str:
     return str(files(__package__) / "printed" / f"{task}.csv")
-
-
-def _is_answers(path: Path) -> bool:
-    return path.suffix.lower() in SUFFIXES and path.is_file() and not path.name.startswith((".", "~$"))

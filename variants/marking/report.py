@@ -8,11 +8,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from html import escape
-from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...drawing.words import Words
-from ...drawing.writers import save_all
 from ...plans.marking.answers import Line, Verdict
 from ...plans.marking.key import behind
 from ...plans.mistakes.explaining import ANGLED
@@ -367,8 +365,3 @@ SUFFIXES = (*REPORTS, *TABLES)  # of all that marks can be written to
 def report_bytes(report: Report, suffix: str) -> bytes:
     """Return what a file of a report holds."""
     return REPORTS[suffix.lower()](report).encode("utf-8", "replace")  # bytes in a name of a file
-
-
-def write_reports(report: Report, files: Sequence[Path]) -> None:
-    """Write the report on one student to each file; the suffix picks text or HTML."""
-    save_all(files, REPORTS, lambda file: [(file, report_bytes(report, file.suffix))])

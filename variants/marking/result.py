@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any
 
 from ...plans.marking.answers import Verdict
@@ -67,21 +67,14 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapp
         drawn = question.step.verb == "arm" or any(made[end].verb in FOUND for end in ends if end in made)
         if mu and drawn and abs(key[name]) / mu >= LEAST_MM:
             found[name] = line, mu
-    step, segments = _resolution([line for line, _ in found.values()]), dict[str, Measured]()
+    # halves of a millimetre are written with one decimal, too; what is laid off may be written to more digits
+    decimals = min(max((line.decimals for line, _ in found.values()), default=0), 3)
+    halves = all((2.0 * (line.mm or 0.0)).is_integer() for line, _ in found.values())
+    step, segments = 0.5 if decimals == 1 and halves else 10.0**-decimals, dict[str, Measured]()
     for name, (line, mu) in found.items():
         right, spread = follows.get(name, abs(key[name])) / mu, max(HAND, key.allowed[name] / mu / 3.0)
         segments[name] = Measured(line.mm or 0.0, right, step, spread)
     return segments
-
-
-def _resolution(lines: Sequence[Reply]) -> float:
-    """Return to what a student reads segments: halves of a millimetre are written with one decimal, too.
-
-    What is laid off is none of them: it may be written to more digits.
-    """
-    decimals = min(max((line.decimals for line in lines), default=0), 3)
-    halves = all((2.0 * (line.mm or 0.0)).is_integer() for line in lines)
-    return 0.5 if decimals == 1 and halves else 10.0**-decimals
 
 
 def too_exact(segments: Mapping[str, Measured]) -> bool:
@@ -190,10 +183,6 @@ class Result:
         said = texts(language)
         found = [said["flag.exact"]] if self.exact else []
         return [*found, said["flag.variant"].format(variant=self.fits)] if self.fits else found
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the result as plain data."""
-        return asdict(self)
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Result:

@@ -131,8 +131,7 @@ class CourseSweep(Swept):
 
     def __repr__(self) -> str:
         """Return task, variant and the number of places."""
-        kind = type(self.course).__name__.replace("Course", "Sweep")
-        return f"<{kind} {self.task.id} {self.variant}: {self.count} {self.course.called}>"
+        return f"<{self.task.kind.title()}Sweep {self.task.id} {self.variant}: {self.count} {self.course.called}>"
 
 
 def ends_data(of: str, most: tuple[float, float], least: tuple[float, float]) -> dict[str, Any]:

@@ -7,13 +7,12 @@ from typing import Any
 
 from kulman.scales.errors import InputError
 from kulman.tests.support.toy.plans.seesaw.seesaw import GIVENS, PLANS, Seesaw
-from kulman.variants.case import Numbers
-from kulman.variants.kinds.sized import Sized
+from kulman.variants.case import Kind, Numbers
 
 LONGEST = 100.0  # times the arm of the load
 
 
-class Seesaws(Sized[Seesaw, Any]):
+class Seesaws(Kind[Seesaw, Any]):
     """Seesaws of two arms."""
 
     home, room, table, plans = "kulman.tests.support.toy", "seesaw", "seesaw", PLANS
