@@ -142,11 +142,6 @@ def _accuracy(scene: charts.Scene) -> charts.AccuracyChart:
     return charts.AccuracyChart(scene, found, charts.Places("rad"), "chart.cam_compared")
 
 
-def _stability(scene: charts.Scene) -> _CamStabilityChart:
-    """Draw section lines beside jumps, and let hands draw what does not close."""
-    return _CamStabilityChart(scene, robustness(SolvedCam.of(scene.case.solved), charts.HANDS))
-
-
 def _sections(scene: charts.Scene) -> _SectionsChart:
     """Draw the diagrams with more and more sections."""
     solved = SolvedCam.of(scene.case.solved)
@@ -157,5 +152,8 @@ def _sections(scene: charts.Scene) -> _SectionsChart:
 CHARTS: charts.Gallery = {
     "sections": (_sections, ("quantities",)),
     "accuracy": (_accuracy, ("hand",)),
-    "stability": (_stability, ()),
+    "stability": (
+        lambda scene: _CamStabilityChart(scene, robustness(SolvedCam.of(scene.case.solved), charts.HANDS)),
+        (),
+    ),
 }

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +17,9 @@ from ...plans.marking.answers import Answer, Line, Verdict
 from ...plans.marking.key import Question
 from ...plans.quantities import unit_of
 from ...scales.errors import InputError
-from ...scales.names import unknown
+from ...scales.names import all_known, unknown
 from ...scales.numbers import SHOWN, quote
-from ..task import LocatedError
+from ..checks.basics import Checker, EnoughError, Field, Places, Read, one_of, record, trying
 from .cells import Asked, value
 
 WORTH = {
@@ -138,84 +140,63 @@ def read_rubric(file: str | Path | None, preset_name: str, asked: Asked, directi
     """
     if directions is not None and directions not in DIRECTIONS:
         raise unknown("choice-unknown", directions, DIRECTIONS)
-    tolerance = preset(preset_name).tolerance
-    rubric = Rubric(tolerance) if file is None else _Reader(quote(file, SHOWN), _table(file), asked).rubric(tolerance)
+    usual = preset(preset_name).tolerance
+    rubric = Rubric(usual) if file is None else _read(file, usual, asked)
     return rubric if directions is None else replace(rubric, directions=directions)
 
 
-def _table(file: str | Path) -> dict[str, Any]:
-    """Return the table of a rubric's file."""
-    path, shown = Path(file), quote(file, SHOWN)
+def _read(file: str | Path, usual: Tolerance, asked: Asked) -> Rubric:
+    """Return what a rubric's file says; what it leaves out of the tolerance is as usual."""
+    path, shown, read = Path(file), quote(file, SHOWN), dict[str, Any]()
     try:
-        data = path.read_bytes() if path.stat().st_size <= LARGEST else b"\0"
-        return tomllib.loads(data.decode("utf-8-sig"))
+        text = (path.read_bytes() if path.stat().st_size <= LARGEST else b"\0").decode("utf-8-sig")
+        raw, checker = tomllib.loads(text), Checker(shown, Places(text))
     except FileNotFoundError:
         raise InputError("file-missing", file=shown) from None
     except OSError:
         raise InputError("file-unreadable", file=shown) from None
     except (ValueError, RecursionError):
         raise InputError("rubric-toml", file=shown) from None
+    with suppress(EnoughError):
+        read = record(checker, (), raw, _fields(asked))
+    if checker.faults:
+        raise min(checker.faults, key=itemgetter(0, 1))[2]
+    own, worth = read.get("tolerance", {}), {Verdict(name): part for name, part in read.pop("worth", {}).items()}
+    part = own["percent"] / 100.0 if "percent" in own else usual.part
+    tolerance = Tolerance(own.get("mm", usual.mm), part, own.get("degrees", usual.degrees))
+    return Rubric(**{**read, "tolerance": tolerance, "worth": {**WORTH, **worth}})
 
 
-@dataclass(frozen=True, slots=True)
-class _Reader:
-    """Reads the keys of a rubric and says which one is wrong."""
+def _fields(asked: Asked) -> dict[str, Field]:
+    """Return how the keys of a rubric are read, none of which must be there."""
+    quantities = asked.quantities
 
-    file: str
-    raw: Mapping[str, Any]
-    asked: Asked
+    def names(raw: object) -> tuple[str, ...]:
+        if not isinstance(raw, list) or not all(isinstance(name, str) for name in raw):
+            raise InputError("rubric-names")
+        all_known("quantity-unknown", raw, quantities)
+        return tuple(raw)
 
-    def rubric(self, usual: Tolerance) -> Rubric:
-        """Return what the file says; what it leaves out of the tolerance is as usual."""
-        quantities = self.asked.quantities
-        self.known("", self.raw, ("out_of", "asked", "weights", "worth", "tolerance", "limits", "directions"))
-        worth = {Verdict(name): value for name, value in self.under("worth", list(map(str, Verdict))).items()}
-        own = self.under("tolerance", ("mm", "percent", "degrees"))
-        part = own["percent"] / 100.0 if "percent" in own else usual.part
-        out_of = self.located("out_of", lambda: _number(self.raw.get("out_of", 100.0)))
-        weights, names = self.under("weights", quantities), self.raw.get("asked", [])
-        if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-            raise self.at("asked", InputError("rubric-names"))
-        for name in names:
-            if name not in quantities:
-                raise self.at("asked", unknown("quantity-unknown", name, quantities))
-        limits = self.under("limits", quantities, lambda text, name: value(str(text), "", name, self.asked))
-        directions = self.raw.get("directions", DIRECTIONS[0])
-        if directions not in DIRECTIONS:
-            raise self.at("directions", unknown("choice-unknown", str(directions), DIRECTIONS))
-        tolerance = Tolerance(own.get("mm", usual.mm), part, own.get("degrees", usual.degrees))
-        return Rubric(tolerance, out_of, weights, {**WORTH, **worth}, tuple(names), limits, directions)
+    def number(raw: object) -> float:
+        if isinstance(raw, bool) or not isinstance(raw, (int, float)) or not 0.0 <= raw < 1e9:
+            raise InputError("rubric-number", text=quote(raw))
+        return float(raw)
 
-    def under(
-        self, table: str, known: Iterable[str], read: Callable[[Any, str], float] = lambda raw, name: _number(raw)
-    ) -> dict[str, float]:
-        """Return the numbers of a table whose keys are all known."""
-        found = self.raw.get(table, {})
-        if not isinstance(found, dict):
-            raise self.at(table, InputError("type-table"))
-        self.known(f"{table}.", found, list(known))
-        return {name: self.located(f"{table}.{name}", partial(read, raw, name)) for name, raw in found.items()}
+    def limit(raw: object, name: str) -> float:
+        return value(str(raw), "", name, asked)
 
-    def known(self, before: str, found: Iterable[str], known: Sequence[str]) -> None:
-        """Refuse keys that no rubric has."""
-        for name in found:
-            if name not in known:
-                raise self.at(f"{before}{name}", unknown("key-unknown", name, known))
+    def optional(readers: Mapping[str, Read]) -> dict[str, Field]:
+        return {key: Field(read, required=False) for key, read in readers.items()}
 
-    def located(self, key: str, read: Callable[[], float]) -> float:
-        """Return what is read; an error has the place of the key."""
-        try:
-            return read()
-        except InputError as error:
-            raise self.at(key, error) from error
-
-    def at(self, key: str, error: InputError) -> LocatedError:
-        """Return an error with its place."""
-        return LocatedError(f"{self.file}: {quote(key)}", error)
-
-
-def _number(raw: object) -> float:
-    """Return a number that is not negative."""
-    if isinstance(raw, bool) or not isinstance(raw, (int, float)) or not 0.0 <= raw < 1e9:
-        raise InputError("rubric-number", text=quote(raw))
-    return float(raw)
+    tables: dict[str, dict[str, Read]] = {
+        "weights": dict.fromkeys(quantities, trying(number)),
+        "worth": dict.fromkeys(map(str, Verdict), trying(number)),
+        "tolerance": dict.fromkeys(("mm", "percent", "degrees"), trying(number)),
+        "limits": {name: trying(partial(limit, name=name)) for name in quantities},
+    }
+    return optional({
+        "out_of": trying(number),
+        "asked": trying(names),
+        "directions": one_of("choice-unknown", lambda: DIRECTIONS),
+        **{table: partial(record, fields=optional(readers)) for table, readers in tables.items()},
+    })  # fmt: skip
