@@ -21,6 +21,7 @@ from kulman import __version__, cli, load_task
 from kulman.scales.errors import LANGUAGES, messages
 from kulman.tests.support.commands import Run
 from kulman.variants.case import kind_of
+from kulman.variants.making.new_variants import _with_variants
 from kulman.variants.reader import check_text
 from kulman.variants.shelf import bundled, bundled_text
 from kulman.variants.solution import Solution, solve
@@ -326,37 +327,6 @@ def test_the_list_loads_nothing_heavy(tmp_path: Path) -> None:
 
 
 # `kulman list --check` solves every variant of a file: what is a fault of it, what a remark, what was not tried.
-CRANK_ROCKER = """
-id = "own"
-source = "own"
-notation = "nau"
-plans = ["position", "velocity"]
-[title]
-uk = "t"
-ru = "t"
-en = "t"
-[givens]
-phi = { unit = "deg" }
-l_OA = { unit = "mm" }
-l_AB = { unit = "mm" }
-l_CB = { unit = "mm" }
-l_OC = { unit = "mm" }
-[mechanism]
-link = [
-  { number = 1, points = { O = ["0 mm", "0 mm"], A = ["l_OA", "0 mm"] } },
-  { number = 2, points = { A = ["0 mm", "0 mm"], B = ["l_AB", "0 mm"] } },
-  { number = 3, points = { C = ["0 mm", "0 mm"], B = ["l_CB", "0 mm"] } },
-]
-pair = [
-  { kind = "revolute", point = "O", links = [1, 0], at = ["0 mm", "0 mm"] },
-  { kind = "revolute", point = "A", links = [1, 2] },
-  { kind = "revolute", point = "B", links = [2, 3], branch = 1 },
-  { kind = "revolute", point = "C", links = [3, 0], at = ["l_OC", "0 mm"] },
-]
-driver = { link = 1, pivot = "O", point = "A", angle = "phi", speed = "10 rad/s", sense = 1 }
-"""
-
-
 @pytest.fixture
 def patience(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let all variants be tried, however slow or busy the machine is."""
@@ -365,10 +335,13 @@ def patience(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def crank_rocker(*variants: tuple[float, ...]) -> str:
     """Return a file of variants: angle of the crank, degrees, lengths of crank, coupler, rocker, frame, mm."""
-    names = ("phi", "l_OA", "l_AB", "l_CB", "l_OC")
-    rows = (dict(zip(names, numbers, strict=True)) for numbers in variants)
-    tables = (f'id = "v{k}"\n' + "\n".join(f"{name} = {x!r}" for name, x in row.items()) for k, row in enumerate(rows))
-    return CRANK_ROCKER + "".join(f"[[variant]]\n{table}\n" for table in tables)
+    names, rest = (
+        ("phi", "l_OA", "l_AB", "l_CB", "l_OC"),
+        {"l_AS2": "5", "l_CS3": "5", "n_1": "90", "q": "9", "M_3": "9"},
+    )
+    rows = (dict(zip(names, map(repr, numbers), strict=True)) for numbers in variants)
+    text = bundled_text("scheme-03-crank-rocker")
+    return _with_variants(text, [(f"v{k}", {**row, **rest}) for k, row in enumerate(rows)])
 
 
 @pytest.mark.usefixtures("patience")
@@ -438,14 +411,13 @@ def test_variants_of_every_kind_are_tried(task: str, old: str, new: str, fault: 
 
 def test_what_there_was_no_time_to_try_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kulman.variants.reader.TRIED_FOR", -1.0)
+    text = crank_rocker(*[(45.0, 30.0, 21.0, 80.0, 100.0)] * 3)
+    line = text[: text.index("[[variant]]")].count("\n") + 1
 
-    faults, remarks = check_text(crank_rocker(*[(45.0, 30.0, 21.0, 80.0, 100.0)] * 3), "own.toml")
+    faults, remarks = check_text(text, "own.toml")
 
-    assert faults == ()
-    assert [one.text("en") for one in remarks] == [
-        "own.toml:29:1: variant.v0: from here on variants were not tried: 3 of 3; "
-        "kulman variants own.toml solves them all"
-    ]
+    said = "variant.v0: from here on variants were not tried: 3 of 3; kulman variants own.toml solves them all"
+    assert (faults, [one.text("en") for one in remarks]) == ((), [f"own.toml:{line}:1: {said}"])
 
 
 TYPICAL = ("nau-slider-crank", "madi-gear")  # the others take all plans, and their first two alone

@@ -157,14 +157,6 @@ def told(scene: Scene, beginning: str) -> str:
     return line
 
 
-def test_rocker_about_a_pivot_moves_absolutely() -> None:
-    scene = bundled("madi-four-bar")
-
-    assert told(scene, "[VC]") == "[VC] = [[VB]] + [VCB], VC ⊥ DC, VCB ⊥ BC"
-    assert told(scene, "aC =").startswith("aC = [[anC]] + [atC] = [[aB]] + [[anCB]] + [atCB], atC ⊥ DC, atCB ⊥ BC")
-    assert told(scene, "anC =").endswith("anC ∥ DC (C → D)")
-
-
 def test_dyad_between_moving_links_has_both_ways() -> None:
     scene = scene_of(*one("RRR"))
 
@@ -197,21 +189,6 @@ def test_groups_in_series_and_side_by_side_have_their_formula_and_blocks() -> No
     blocks = [force_lines(series, part) for part in parts]
     whole = sorted(force_lines(series), key=lambda line: next(i for i, block in enumerate(blocks) if line in block))
     assert [line for block in blocks for line in block] == whole
-
-
-@pytest.mark.parametrize(
-    ("notation", "expected"),
-    [
-        ("nau", "Rt12 = (Fi2·h2·μl + Mi2)/lAB ="),
-        ("madi", "Rτ12 = (Pи2·h2·μl + Mи2)/lAB ="),
-        ("artobolevsky", "Ft12 = (Fи2·h2·μl + Mи2)/lAB ="),
-        ("bauman", "Ft21 = (Φ2·h2/μl + MΦ2)/lAB ="),
-    ],
-)
-def test_moment_equation_in_the_letters_of_a_school(notation: str, expected: str) -> None:
-    scene = scene_of(nau_slider_crank(), nau_values(), "ru", notation)
-
-    assert expected in " ".join(map(plain, lines_of(scene)))
 
 
 def test_frame_is_the_last_link_where_the_notation_says_so() -> None:

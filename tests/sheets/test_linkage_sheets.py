@@ -11,6 +11,7 @@ import pytest
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import (
     Faults,
+    Judged,
     l3_to_l6_plans,
     l5_similarity,
     l7_senses,
@@ -103,7 +104,7 @@ def couple(sheet: Sheet) -> None:
         pytest.param(l12_lever, couple, id="couple of equal senses"),
     ],
 )
-def test_planted_fault_is_seen(judge: Callable[[Linkage, Sheet], Faults], plant: Plant) -> None:
+def test_planted_fault_is_seen(judge: Callable[[Judged, Sheet], Faults], plant: Plant) -> None:
     parsed = {id(page.root): page.root for page in CASE.sheet.pages}  # is not copied
     spoiled = copy.deepcopy(CASE.sheet, parsed)
     plant(spoiled)

@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -22,12 +23,13 @@ from pdfminer.pdftypes import resolve1
 from kulman import sheet
 from kulman.drawing.pdf import write as write_pdf
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support import linkage_points, sheet_points
 from kulman.tests.support.mechanisms import NAU_VARIANTS
 from kulman.tests.support.overlaps import overlaps
 from kulman.tests.support.printed_numbers import decimal, equation_faults, lines_of, numbers_of, table_faults
 from kulman.tests.support.readback import CAP, Sheet, read
 from kulman.tests.support.sheet_cases import FORMATS, TASK, Case, drawn, pages, sheet_of, solved
-from kulman.tests.support.sheet_points import POINTS, mechanism_faults, symbol_of
+from kulman.tests.support.sheet_points import mechanism_faults, symbol_of
 
 MM = 25.4 / 72
 LETTERS = LAParams(boxes_flow=None)  # letters as lines of text, which take no order
@@ -58,19 +60,13 @@ SAMPLE = sample(12)
 
 
 def number_faults(case: Case, sheet: Sheet) -> list[str]:
-    """What does not recompute, or is not what `kulman solve` says."""
-    count, faults = equation_faults(sheet)
+    """Tables that do not say what `kulman solve` does, and too little that could be judged."""
+    count, faults = equation_faults(sheet)[0], []
     if count < 18 or len(sheet.vectors) < 20:
         faults.append(f"only {count} calculations, {len(sheet.vectors)} vectors")
     numbers = solved(case)
     values = {symbol_of(name): q.value for name, q in numbers.quantities.items() if plain(name)}
     faults += table_faults(sheet, case.lang, values)
-    for vector in sheet.vectors:
-        expected = numbers[vector.quantity].value
-        if abs(vector.value - expected) > 1e-12 * abs(expected):
-            faults.append(f"data-value of {vector.quantity} is {vector.value}, not {expected}")
-        if abs(abs(vector.span) * vector.mu - vector.value) > 0.01 * vector.mu:
-            faults.append(f"{vector.quantity} has {abs(vector.span)} mm, not {vector.value / vector.mu}")
     return faults
 
 
@@ -170,8 +166,8 @@ def word_faults(case: Case, sheet: Sheet) -> list[str]:
 
 
 def look_faults(case: Case, read: Sheet) -> list[str]:
-    """All faults of page, pens and words, and letters that touch something."""
-    return [*page_faults(case, read), *pen_faults(case, read), *word_faults(case, read), *overlaps(read)]
+    """All faults of page, pens and words."""
+    return [*page_faults(case, read), *pen_faults(case, read), *word_faults(case, read)]
 
 
 def all_faults(case: Case) -> list[str]:
@@ -209,8 +205,7 @@ def pdf_faults(case: Case) -> list[str]:
 
 def special_faults(case: Case, read: Sheet) -> list[str]:
     """All faults of a sheet whose plans may have vectors of no length."""
-    faults = [*mechanism_faults(case, read), *look_faults(case, read)]
-    faults += [*equation_faults(read)[1], *table_faults(read, case.lang, {})]
+    faults = [*mechanism_faults(case, read, special=True), *look_faults(case, read)]
     for view in read.views:
         notes = " ".join(text.string for text in view.of("heading"))
         for vector in view.vectors:
@@ -257,7 +252,7 @@ def test_sheet_satisfies_the_points_of_a_linkage_and_looks_like_one(case: Case) 
 def test_sheet_of_iso_looks_like_one(case: Case) -> None:
     strings = {text.string for text in drawn(case).texts}
 
-    assert look_faults(case, drawn(case)) == []
+    assert [*look_faults(case, drawn(case)), *overlaps(drawn(case))] == []
     if case.notation == "iso":
         assert {"v_{A}", "α_{2}"} <= strings
         assert "V_{A}" not in strings
@@ -331,23 +326,22 @@ def moved(case: Case, old: str, new: str, count: int = 1) -> Sheet:
     return read(re.sub(old, new, svg, count=count))
 
 
-SPOILED = {
-    "L1": (r'(data-name="S2">\n<circle class="main" cx=")\d+', r"\g<1>300"),
-    "L3": (r'(?s)(data-quantity="V_A".*?x2=")(\d+)', r"\g<1>1\g<2>"),
-    "L4": (r'(data-name="velocity.B_2" [^>]*?y1=")(\d+)', r"\g<1>9\g<2>"),
-    "L6": (r'(?s)(data-quantity="a_BA_n".*?y2=")(\d)', r"\g<1>9\g<2>"),
-    "L9": (r'("h_2">\n<line class="thin" [^>]*?x2=")(\d+)', r"\g<1>1\g<2>"),
-    "L10": (r'(?s)(data-quantity="F_i2".*?y1=")(\d)', r"\g<1>9\g<2>"),
-    "L11": (r'(?s)(data-name="driver">.*?= 0,001)( м/мм)', r"\g<1>01\g<2>"),
-    "L12": (r"·pa − F", "·pa + F"),
-    "L12, arms": (r"(?s)= 18,36(.*?)= 60,76", r"= 60,76\g<1>= 18,36"),
-}
+SPOILED = [
+    (linkage_points.l1_plan, r'(data-name="S2">\n<circle class="main" cx=")\d+', r"\g<1>300"),
+    (linkage_points.l3_to_l6_plans, r'(?s)(data-quantity="V_A".*?x2=")(\d+)', r"\g<1>1\g<2>"),
+    (linkage_points.l3_to_l6_plans, r'(data-name="velocity.B_2" [^>]*?y1=")(\d+)', r"\g<1>9\g<2>"),
+    (sheet_points.l3_to_l6_ends, r'(?s)(data-quantity="a_BA_n".*?y2=")(\d)', r"\g<1>9\g<2>"),
+    (sheet_points.l9_arms, r'("h_2">\n<line class="thin" [^>]*?x2=")(\d+)', r"\g<1>1\g<2>"),
+    (linkage_points.l10_force_plans, r'(?s)(data-quantity="F_i2".*?y1=")(\d)', r"\g<1>9\g<2>"),
+    (sheet_points.l11_driver, r'(?s)(data-name="driver">.*?= 0,001)( м/мм)', r"\g<1>01\g<2>"),
+    (sheet_points.l12_lever, r"·pa − F", "·pa + F"),
+    (sheet_points.l12_lever, r"(?s)= 18,36(.*?)= 60,76", r"= 60,76\g<1>= 18,36"),
+]
 
 
-@pytest.mark.parametrize("point", SPOILED)
-def test_the_examiner_sees_a_spoiled_sheet(point: str) -> None:
-    old, new = SPOILED[point]
-    spoiled, judge = moved(A1, old, new), POINTS[point.partition(",")[0]]
+@pytest.mark.parametrize(("judge", "old", "new"), SPOILED)
+def test_the_examiner_sees_a_spoiled_sheet(judge: Callable[[Case, Sheet], Iterator[str]], old: str, new: str) -> None:
+    spoiled = moved(A1, old, new)
 
     try:
         faults = list(judge(A1, spoiled))
@@ -362,26 +356,6 @@ def test_a_wrong_digit_is_seen() -> None:
     spoiled = moved(A1, r"(= 2,5·240,9 = 602),2", r"\1,4")
 
     assert len(equation_faults(spoiled)[1]) == 1
-
-
-def test_vector_equations_have_at_most_two_unknowns_and_underline_the_known() -> None:
-    """Two underlines: known in full; one: known by direction; bars stand above the letters."""
-    checked = 0
-    for view in drawn(A1).views:
-        for text in view.of("line"):
-            under = [(a, b) for a, b in text.rules if a.imag < text.baseline]
-            if not under:
-                continue
-            body = text.string.partition(",")[0]
-            spans = {(round(a.real, 2), round(b.real, 2)) for a, b in under}
-            lines = {span: sum((round(a.real, 2), round(b.real, 2)) == span for a, b in under) for span in spans}
-            terms = len(re.findall(r"[A-Za-z][_^]", re.sub(r"\}[_^]", "}", body)))
-            single = sum(count == 1 for count in lines.values())
-            free = terms - len(lines)
-            assert set(lines.values()) <= {1, 2}, text.string
-            assert single + 2 * free <= 2 * body.count("="), text.string
-            checked += 1
-    assert checked == 6
 
 
 def test_both_balancing_moments_and_their_difference_are_printed() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -64,12 +65,12 @@ def _oracle(task: str, variant: str) -> Oracle:
 class Oracle:
     """What the constraint equations and their Jacobian say of one position, by the names of the quantities."""
 
-    def __init__(self, solution: Solution) -> None:
+    def __init__(self, solution: Solution, settings: Mapping[str, str] | None = None) -> None:
         solved = solution.solved
         self.m: Mechanism = solved.mechanism
         # what is given comes first: the plan calls a load and its size by one name
         values = {name: value for name, value in solved.values.items() if isinstance(value, float)}
-        values |= solution.task.values(solution.variant)
+        values |= solution.task.values(solution.variant, settings)
         values["output_angle"] = _output_angle(solution)
         self.solver = JacobianSolver(self.m, values, _rough_places(solution))
         self.known = {name: complex(value[0]) for name, value in self.solver.expected.items()}

@@ -12,9 +12,11 @@ from kulman.tests.support.linkage_cases import Linkage, Oracle
 from kulman.tests.support.overlaps import overlaps
 from kulman.tests.support.printed_numbers import equation_faults, lines_of, numbers_of, table_faults
 from kulman.tests.support.readback import Sheet, View, cross, parallel
+from kulman.tests.support.sheet_cases import Case
 from kulman.tests.support.sheet_geometry import NEAR, closed_chain, crosses, past, runs_along, same, unless
 
 Faults = Iterator[str]
+Judged = Linkage | Case
 
 
 def mu_of(view: View, lang: str) -> float:
@@ -24,7 +26,7 @@ def mu_of(view: View, lang: str) -> float:
     return number * 1e-3 if re.search(r"(cm|см)/(cm|см)$", found) else number
 
 
-def l1_plan(case: Linkage, sheet: Sheet) -> Faults:
+def l1_plan(case: Judged, sheet: Sheet) -> Faults:
     """Every lettered point stands in its place; links, points and the frame are lettered; supports are hatched."""
     view, oracle = sheet["position"], case.oracle
     mu, pivot = mu_of(view, case.lang), next(iter(oracle.still), None)
@@ -58,7 +60,7 @@ def _guides(view: View) -> Faults:
             yield from unless(not crosses(hatch, (a, b)), f"a link crosses the hatching at {hatch[0]:.1f}")
 
 
-def _driver(case: Linkage, view: View) -> Faults:
+def _driver(case: Judged, view: View) -> Faults:
     driver, oracle = case.oracle.m.driver, case.oracle
     if not isinstance(driver, Driver):
         return
@@ -70,7 +72,7 @@ def _driver(case: Linkage, view: View) -> Faults:
     yield from unless(turning is not None and turning[1] == sense, "sense of omega_1")
 
 
-def l2_structure(case: Linkage, sheet: Sheet) -> Faults:
+def l2_structure(case: Judged, sheet: Sheet) -> Faults:
     """W with its numbers and the formula of structure are printed."""
     words = " ".join(lines_of(sheet["structure"]))
     n, p = len(case.oracle.m.links), len(case.oracle.m.pairs)
@@ -80,7 +82,7 @@ def l2_structure(case: Linkage, sheet: Sheet) -> Faults:
         yield from unless(formula in words or f"({', '.join(map(str, group.links))})" in words, f"no group {formula}")
 
 
-def l3_to_l6_plans(case: Linkage, sheet: Sheet) -> Faults:
+def l3_to_l6_plans(case: Judged, sheet: Sheet) -> Faults:
     """Every vector of both plans is what the constraints say; marks stand at the ends of absolute vectors."""
     for plan in ("velocity", "acceleration"):
         for view in [v for v in sheet.views if v.name == plan]:
@@ -88,7 +90,7 @@ def l3_to_l6_plans(case: Linkage, sheet: Sheet) -> Faults:
             yield from _meetings(view, plan)
 
 
-def _vectors(case: Linkage, view: View) -> Faults:
+def _vectors(case: Judged, view: View) -> Faults:
     for vector in view.vectors:
         wanted = case.oracle.vector(vector.quantity)
         if wanted is None:
@@ -117,7 +119,7 @@ def _meetings(view: View, plan: str) -> Faults:
                 yield from unless(abs(((at - a) / e).imag) < NEAR and past >= 3.0, f"{name}: a line does not run past")
 
 
-def l5_similarity(case: Linkage, sheet: Sheet) -> Faults:
+def l5_similarity(case: Judged, sheet: Sheet) -> Faults:
     """Of every triangle that similarity names all three sides are drawn: on both plans, and on the mechanism."""
     program = case.solution.solved.program
     made = {step.name: step for step in program}
@@ -143,7 +145,7 @@ def _sides(view: View, marks: tuple[str, ...]) -> Faults:
                 yield from unless(drawn, f"{view.name}: no side {second}-{first} of a similar triangle")
 
 
-def l7_senses(case: Linkage, sheet: Sheet) -> Faults:
+def l7_senses(case: Judged, sheet: Sheet) -> Faults:
     """Arcs of omega and epsilon turn as the constraints say."""
     view = sheet["position"]
     for link in case.oracle.m.links:
@@ -174,7 +176,7 @@ def _across_its_link(view: View, name: str, driver: int) -> Faults:
         yield from unless(number in crossed, f"the arc of {name} is not at its link")
 
 
-def l8_groups(case: Linkage, sheet: Sheet) -> Faults:
+def l8_groups(case: Judged, sheet: Sheet) -> Faults:
     """Every group apart in its attitude; each arrow of a force points as the force does and passes its point."""
     for group in case.solution.solved.structure.groups:
         view = sheet[f"group_{group.name}"]
@@ -188,7 +190,7 @@ def l8_groups(case: Linkage, sheet: Sheet) -> Faults:
         yield from _arrows(case, view, case.oracle)
 
 
-def _to_scale(case: Linkage, view: View) -> Faults:
+def _to_scale(case: Judged, view: View) -> Faults:
     """What is drawn apart stands as in the mechanism, to the scale factor that its own heading prints."""
     mu = mu_of(view, case.lang)
     drawn = [name for name in sorted(case.oracle.points()) if view.has(name)]
@@ -209,7 +211,7 @@ def _largest(oracle: Oracle) -> float:
     return max((abs(force) for force in oracle.solver.forces.values()), default=[0.0])[0]
 
 
-def _arrows(case: Linkage, view: View, oracle: Oracle) -> Faults:
+def _arrows(case: Judged, view: View, oracle: Oracle) -> Faults:
     for arrow in view.arrows:
         wanted = oracle.known.get(arrow.name)
         if wanted is None or abs(wanted) < 1e-6 * _largest(oracle):
@@ -236,7 +238,7 @@ def _applied(oracle: Oracle, name: str) -> str | None:
     return None
 
 
-def l9_arms(case: Linkage, sheet: Sheet) -> Faults:
+def l9_arms(case: Judged, sheet: Sheet) -> Faults:
     """Every arm is normal to the line of its force, is drawn from the centre of moments, and its mm are printed."""
     for view in sheet.views:
         if not (view.name.startswith("group_") or view.name in ("driver", "lever")):
@@ -262,7 +264,7 @@ def _begins(view: View, at: complex) -> bool:
     return any(same(at, c) for c in centres) or any(past(ends, at, 0.0) for ends in extended)
 
 
-def l10_force_plans(case: Linkage, sheet: Sheet) -> Faults:
+def l10_force_plans(case: Judged, sheet: Sheet) -> Faults:
     """Every force plan closes, and its vectors are what the balance of all links says."""
     groups = {g.name: g for g in case.solution.solved.structure.groups}
     for view in sheet.views:
@@ -291,13 +293,13 @@ def _pole_chords(view: View) -> set[str]:
     return {name for name in names if f"{name}_n" in names and f"{name}_t" in names}
 
 
-def l11_driver(case: Linkage, sheet: Sheet) -> Faults:
+def l11_driver(case: Judged, sheet: Sheet) -> Faults:
     """The driver is drawn to its printed scale factor; the arrows on it are those of the balance."""
     yield from _to_scale(case, sheet["driver"])
     yield from _arrows(case, sheet["driver"], case.oracle)
 
 
-def l12_lever(case: Linkage, sheet: Sheet) -> Faults:
+def l12_lever(case: Judged, sheet: Sheet) -> Faults:
     """The velocity plan turned; forces unturned at their images; the sum of F h with signs is zero."""
     view = sheet["lever"]
     p, numbers = view.point("lever.p"), case.solution
@@ -342,7 +344,7 @@ def _hangs(view: View, moment: str) -> bool:
     return force in {arrow.name for arrow in view.arrows}
 
 
-def l13_numbers(case: Linkage, sheet: Sheet) -> Faults:
+def l13_numbers(case: Judged, sheet: Sheet) -> Faults:
     """Printed calculations recompute; mm times mu is the printed value; every vector has the value of solve."""
     yield from equation_faults(sheet)[1]
     yield from table_faults(sheet, case.lang, {})
@@ -354,7 +356,7 @@ def l13_numbers(case: Linkage, sheet: Sheet) -> Faults:
         yield from unless(off <= NEAR, f"{vector.quantity}: {abs(vector.span)} mm are not {vector.value}")
 
 
-def underlines(case: Linkage, sheet: Sheet) -> Faults:
+def underlines(case: Judged, sheet: Sheet) -> Faults:
     """Vector equations underline the known and leave at most two unknowns."""
     for view in sheet.views:
         for text in view.of("line"):
@@ -368,12 +370,12 @@ def underlines(case: Linkage, sheet: Sheet) -> Faults:
             yield from unless(single <= 2 * max(1, text.string.count("=")), f"too many unknowns: {text.string}")
 
 
-def nothing_touches(case: Linkage, sheet: Sheet) -> Faults:
+def nothing_touches(case: Judged, sheet: Sheet) -> Faults:
     """No letter touches anything."""
     yield from overlaps(sheet)
 
 
-JUDGES: tuple[Callable[[Linkage, Sheet], Faults], ...] = (
+JUDGES: tuple[Callable[[Judged, Sheet], Faults], ...] = (
     l1_plan,
     l2_structure,
     l3_to_l6_plans,
@@ -390,7 +392,7 @@ JUDGES: tuple[Callable[[Linkage, Sheet], Faults], ...] = (
 )
 
 
-def linkage_faults(case: Linkage) -> list[str]:
+def linkage_faults(case: Judged) -> list[str]:
     """All faults of a sheet."""
     sheet = case.sheet
     has_forces, has_lever = any(v.name == "driver" for v in sheet.views), any(v.name == "lever" for v in sheet.views)

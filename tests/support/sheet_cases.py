@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from kulman import sheet, solve
+from kulman.tests.support.linkage_cases import Oracle
 from kulman.tests.support.mechanisms import NAU_VARIANTS
 from kulman.tests.support.readback import Sheet, read
 from kulman.variants.sheets import Sheet as DrawnSheet
@@ -64,6 +65,18 @@ class Case:
         b = complex(a.real + (reach if self.side == "right" else -reach))
         return {"O": 0j, "A": a, "B": b, "S2": a + (b - a) * self.given("l_AS2") / self.given("l_AB")}
 
+    @property
+    def sheet(self) -> Sheet:
+        return drawn(self)
+
+    @property
+    def solution(self) -> Solution:
+        return solved(self)
+
+    @property
+    def oracle(self) -> Oracle:
+        return _oracle(self)
+
 
 @lru_cache(maxsize=2)
 def sheet_of(case: Case) -> DrawnSheet:
@@ -105,3 +118,8 @@ def solved(case: Case) -> Solution:
     chosen: Mapping[str, str] = case.settings
     only: Sequence[str] | None = case.only
     return solve(TASK, case.variant, set=chosen, only=only)
+
+
+@lru_cache(maxsize=64)
+def _oracle(case: Case) -> Oracle:
+    return Oracle(solve(TASK, case.variant, set=case.settings), case.settings)
