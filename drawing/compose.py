@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from ..scales.scale import Scale
-from .formats import GAPS, Format, reserved_boxes, usable
+from .formats import GAPS, Format, Norm, reserved_boxes, usable
 from .packing import Placement, pack
 from .page import Page
-from .pens import Norm
 from .rows import SLACK, Size
 from .shapes import Group
 from .titleblock import Stamp, frame_shapes

@@ -27,10 +27,6 @@ class Axis:
     high: float
     divisions: Mapping[float, str]
 
-    def mm(self, value: float) -> float:
-        """Return a value in mm from the zero of the axis."""
-        return self.scale.drawn(value)
-
 
 @dataclass(frozen=True, slots=True)
 class Field:
@@ -42,7 +38,7 @@ class Field:
 
     def at(self, x: float, y: float) -> complex:
         """Return a place of the diagram on the view, mm."""
-        return self.origin + complex(self.x.mm(x), self.y.mm(y))
+        return self.origin + complex(self.x.scale.drawn(x), self.y.scale.drawn(y))
 
 
 def axes(canvas: Canvas, field: Field, lettered: bool = True, past: float = PAST) -> None:
@@ -59,16 +55,16 @@ def axes(canvas: Canvas, field: Field, lettered: bool = True, past: float = PAST
     canvas.label(y.letter, top, prefer=1.0 - 0.3j, clear=1.2)
     if x.letter:
         canvas.label(x.letter, right, prefer=1j, clear=1.2)
-    tick, text = 0.4 * canvas.style.text, canvas.style.text
+    tick = 0.4 * canvas.style.text
     for value, number in x.divisions.items():
         canvas.add(Line(field.at(value, y.low), field.at(value, y.high), Pen.THIN, role="section"))
         if lettered and number:
-            canvas.label(number, field.at(value, y.low), prefer=-1j, clear=0.8, height=text)
+            canvas.small(number, field.at(value, y.low), -1j)
     for value, number in y.divisions.items():
         at = field.at(0.0, value)
         canvas.add(Line(at - tick, at + tick, Pen.THIN, role="division"))
         if number:
-            canvas.label(number, at - tick, prefer=-1.0 + 0j, clear=0.8, height=text)
+            canvas.small(number, at - tick, -1.0 + 0j)
 
 
 def curve(
@@ -134,12 +130,12 @@ def mark_pole(canvas: Canvas, pole: Pole, at: complex, foot: complex, below: flo
     """Mark a pole, and dimension its distance `below` mm under the lowest place of its line, its `foot`."""
     style, level = canvas.style, foot.imag - below
     canvas.add(Circle(at, style.node, Pen.MAIN, fill="white", role="pole"))
-    canvas.label(pole.letter, at, prefer=-1.0 + 1j, clear=1.0, height=style.text)
+    canvas.small(pole.letter, at, -1.0 + 1j, 1.0)
     feet = complex(at.real, level), complex(foot.real, level)
     for start, end in zip((at, foot), feet, strict=True):
         canvas.add(Line(start, end - 1.5j, Pen.THIN, role="extension"))
     canvas.add(dimension(*feet, pole.name, style))
-    canvas.label(pole.text, feet, prefer=-1j, clear=0.8, height=style.text)
+    canvas.small(pole.text, feet, -1j)
 
 
 def numbers(lines: Sequence[float], level: float, height: float, first: int = 0) -> list[Text]:

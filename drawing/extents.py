@@ -10,15 +10,14 @@ many pages as it takes, each part of the work on a page of its own where that is
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from ..scales.choices import SIZES
 from ..scales.errors import InputError
 from ..scales.scale import Chooser, Scale
-from .formats import FORMATS, GAPS, Format, printable, room, usable
-from .pens import Norm
+from .formats import FORMATS, GAPS, Format, Norm, printable, room, usable
 
 NORMS: tuple[Norm, ...] = ("gost", "iso")
 # parts of a page that estimates may cover, since views leave gaps: of the only page, of the page of one part of the
@@ -32,7 +31,6 @@ MOST, MORE = 100, 3  # pages that there may be; of more than are expected, for w
 # parts of the width and of the height of a page that one figure may take, so that others find room beside it
 ONE = {"A1": 0.75, "A2": 0.85, "A3": 1.0, "A4": 1.0}
 Size: TypeAlias = tuple[float, float]
-Lengths: TypeAlias = tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +117,7 @@ class Extents:
         return self.ladders[symbol].values[rungs[self.root(symbol)]] if symbol else 1.0
 
 
-def choose(extents: Extents, longest: Mapping[str, Lengths], formats: Sequence[Format]) -> tuple[Format, Rungs]:
+def choose(extents: Extents, longest: Mapping[str, Size], formats: Sequence[Format]) -> tuple[Format, Rungs]:
     """Return the format, one of `formats` with the smallest first, and the rungs of all scale factors.
 
     Where there is one format its sheet may have several pages. `longest` is, by format, how long the longest segment of
@@ -144,7 +142,9 @@ def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:
             if rungs[symbol] + 1 == len(ladder.values):
                 break
             rungs[symbol] += 1
-    (wide, high), part = _room(sheet), ONE[sheet.letters]
+    # the largest view that a page can hold, whatever its norm, and where printers do not reach the edges
+    wide, high = (min(sides) for sides in zip(*(room(printable(sheet), norm, True) for norm in NORMS), strict=True))
+    part = ONE[sheet.letters]
     for figure in extents.figures:
         symbol = extents.root(figure.symbol)
         while symbol and extents.ladders[symbol].free and rungs[symbol] + 1 < len(extents.ladders[symbol].values):
@@ -155,7 +155,7 @@ def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:
     return rungs
 
 
-def _on_pages(extents: Extents, sheet: Format, longest: Lengths) -> Rungs:
+def _on_pages(extents: Extents, sheet: Format, longest: Size) -> Rungs:
     """Return rungs at which plans as long as on one page take as few pages, but are as large as these have room for.
 
     Two pages have a part each where that is possible.
@@ -164,9 +164,14 @@ def _on_pages(extents: Extents, sheet: Format, longest: Lengths) -> Rungs:
     large = _begun(extents, sheet, longest[1])
     apart = dict(large)
     if all(_shrunk(extents, apart, sheet, part, APART * page, True) for part in parts):
-        return _grown(
-            extents, apart, large, lambda r: all(_shrunk(extents, r, sheet, p, FULL * page, False) for p in parts)
-        )
+        for symbol in apart:  # finer again, where that still fits, what only one of its pages asks to be coarser
+            shown = {figure.part for figure in extents.figures if extents.root(figure.symbol) == symbol}
+            while len(shown) > 1 and apart[symbol] > large[symbol]:
+                finer = {**apart, symbol: apart[symbol] - 1}
+                if not all(_shrunk(extents, finer, sheet, p, FULL * page, False) for p in parts):
+                    break
+                apart[symbol] -= 1
+        return apart
     least = float(SMALLER[sheet.letters] ** 1.5) * sum(extents.texts)
     least += _area(extents, extents.figures, _begun(extents, sheet, longest[0]), sheet)
     pages = 2 if least < 2.0 * CLOSELY * page else math.ceil(min(least / (SHARED * page), MOST))
@@ -175,15 +180,6 @@ def _on_pages(extents: Extents, sheet: Format, longest: Lengths) -> Rungs:
         if _shrunk(extents, together, sheet, None, SHARED * count * page, True):
             break
     return together
-
-
-def _grown(extents: Extents, rungs: dict[str, int], finest: Rungs, fits: Callable[[dict[str, int]], bool]) -> Rungs:
-    """Return rungs finer again, where that still fits, of plans that were coarser than only one of their pages asks."""
-    for symbol in rungs:
-        pages = {figure.part for figure in extents.figures if extents.root(figure.symbol) == symbol}
-        while len(pages) > 1 and rungs[symbol] > finest[symbol] and fits({**rungs, symbol: rungs[symbol] - 1}):
-            rungs[symbol] -= 1
-    return rungs
 
 
 def _area(extents: Extents, figures: Iterable[Extent], rungs: Rungs, sheet: Format) -> float:
@@ -220,12 +216,6 @@ def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, part: int | None, mos
 def _page(sheet: Format) -> float:
     x0, y0, x1, y1 = usable(printable(sheet), "gost")
     return (x1 - x0) * (y1 - y0) - BLOCK
-
-
-def _room(sheet: Format) -> Size:
-    """Return the largest view that a page can hold, whatever its norm, and where printers do not reach the edges."""
-    rooms = [room(printable(sheet), norm, True) for norm in NORMS]
-    return min(w for w, _ in rooms), min(h for _, h in rooms)
 
 
 def smallest(areas: Iterable[float]) -> Format:

@@ -21,9 +21,8 @@ from ..scales.errors import InputError
 from ..scales.scale import Choosers, Scale
 from .compose import Drawn, Nest, arrange, arrange_closely, compose, zoned
 from .extents import Rungs, from_format
-from .formats import Format, Style, room
+from .formats import Format, Norm, Style, room
 from .packing import Placement
-from .pens import Norm
 from .printed import DEGREES, value_text
 from .shapes import Circle, Group, Pen
 from .view import Canvas, View
@@ -54,9 +53,9 @@ class Stage:
     variant: Callable[[Any], str] = lambda scene: ""  # what stands after its key in a scene of another sentence
 
 
-def stages(*names: str) -> tuple[Stage, ...]:
-    """Return stages that every scene has, by name."""
-    return tuple(map(Stage, names))
+def stages(*names: str, **marks: str) -> tuple[Stage, ...]:
+    """Return stages that every scene has, by name, then those in which `marks` are made."""
+    return (*map(Stage, names), *(Stage(name, made) for name, made in marks.items()))
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +127,10 @@ class SubjectScene(Generic[Subject]):
     style: Style
     givens: Mapping[str, Given]
 
+    def length(self, value: float) -> str:
+        """Return a length, m, in mm, as a dimension has it."""
+        return self.words.number(value * 1e3, 2)
+
     def value(self, value: float) -> str:
         """Return a value with the usual digits."""
         return value_text(self.words, value)
@@ -169,9 +172,9 @@ class Fitting(ABC, Generic[Subject, Scene]):
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
 
-    @abstractmethod
     def on_a_page(self, sheet: Format, last: bool) -> Found | None:
-        """Place everything on one page; on the `last` format what may give way is smaller where that helps."""
+        """Place everything on one page; on the `last` format what may give way may be smaller where that helps."""
+        return self.placed(sheet, self.wanted)
 
     def part(self, rungs: Rungs) -> float:
         """Return what a millimetre of the task's diagrams is on the sheet."""
@@ -185,13 +188,13 @@ class Fitting(ABC, Generic[Subject, Scene]):
         """Return the views of a sheet in the order of the work, each with its figure."""
         scene = self.scene(sheet, rungs)
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, self.contents.norm)[0])
-        return [(self._view(scene, sheet, rungs, figure), figure) for figure in self.figures(scene, width)]
-
-    def _view(self, scene: Scene, sheet: Format, rungs: Rungs, figure: Figure[Scene]) -> View:
-        key = sheet.name, figure.name, *(rungs[ladder] for ladder in figure.ladders)
-        if key not in self._drawn:
-            self._drawn[key] = figure.draw(scene)
-        return self._drawn[key]
+        sized = []
+        for figure in self.figures(scene, width):
+            key = sheet.name, figure.name, *(rungs[ladder] for ladder in figure.ladders)
+            if key not in self._drawn:
+                self._drawn[key] = figure.draw(scene)
+            sized.append((self._drawn[key], figure))
+        return sized
 
     def views(self, sheet: Format, rungs: Rungs) -> list[View]:
         """Return the views of a sheet in the order of the work."""
@@ -248,18 +251,16 @@ class Fitting(ABC, Generic[Subject, Scene]):
                 return rungs
             for ladders, size in tight.items():
                 name = next((ladder for ladder in ladders if self.has_next(rungs, ladder)), None)
-                if name is None:
-                    raise self._refusal(sheet, ladders, size)
-                rungs = self.lower(rungs, name)
-
-    def _refusal(self, sheet: Format, ladders: tuple[str, ...], size: tuple[float, float]) -> InputError:
-        """Return why a drawing of this size, mm, has no room: its scale factor is fixed, or no format is larger."""
-        fixed = next((name for name in ladders if role(name).kind == "mu" and len(self.ladders[name]) == 1), None)
-        if fixed is not None:
-            return InputError("plan-too-fine", symbol=fixed, mu=f"{self.ladders[fixed][0]:g}", format=sheet.name)
-        if sheet.name != SIZES[-1]:
-            return InputError("sheet-too-small", format=sheet.name)
-        return InputError("sheet-too-large", wide=f"{size[0]:.0f}", high=f"{size[1]:.0f}")
+                if name is not None:
+                    rungs = self.lower(rungs, name)
+                    continue
+                fixed = next((n for n in ladders if role(n).kind == "mu" and len(self.ladders[n]) == 1), None)
+                if fixed is not None:
+                    mu = f"{self.ladders[fixed][0]:g}"
+                    raise InputError("plan-too-fine", symbol=fixed, mu=mu, format=sheet.name)
+                if sheet.name != SIZES[-1]:
+                    raise InputError("sheet-too-small", format=sheet.name)
+                raise InputError("sheet-too-large", wide=f"{size[0]:.0f}", high=f"{size[1]:.0f}")
 
     def has_next(self, rungs: Rungs, ladder: str) -> bool:
         """Whether a ladder has a further rung."""

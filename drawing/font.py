@@ -95,7 +95,8 @@ class _Font:
         """
         glyph = self.glyph(character)
         if glyph == 0:
-            raise InputError("character-missing", character=_shown(character), code=f"U+{ord(character):04X}")
+            shown = character if character.isprintable() else repr(character)[1:-1]
+            raise InputError("character-missing", character=shown, code=f"U+{ord(character):04X}")
         return glyph
 
     @cache  # noqa: B019
@@ -121,10 +122,6 @@ class _Font:
             return advances[2 * glyph], bearing - 0x10000 if bearing > 0x7FFF else bearing
         extra = 2 * len(advances) + 2 * (glyph - len(advances) // 2)
         return advances[-2], struct.unpack_from(">h", self.table("hmtx"), extra)[0]
-
-
-def _shown(character: str) -> str:
-    return character if character.isprintable() else repr(character)[1:-1]
 
 
 @cache
@@ -253,16 +250,6 @@ def _subset_tables(source: _Font, characters: Iterable[str]) -> dict[str, bytes]
     }
 
 
-def _directory(tables: dict[str, bytes], sums: dict[str, int]) -> bytes:
-    power = 1 << (len(tables).bit_length() - 1)
-    entries = struct.pack(">L4H", 0x10000, len(tables), 16 * power, power.bit_length() - 1, 16 * (len(tables) - power))
-    at = 12 + 16 * len(tables)
-    for tag, data in tables.items():
-        entries += struct.pack(">4sLLL", tag.encode(), sums[tag], at, len(data))
-        at += len(_padded(data))
-    return entries
-
-
 @lru_cache(maxsize=64)
 def web_subset(characters: str) -> bytes:
     """Return a font with the glyphs of `characters` only, compressed as web pages have it (WOFF 1), without hinting.
@@ -271,7 +258,13 @@ def web_subset(characters: str) -> bytes:
     """
     plain = _subset_tables(font(), characters)
     sums = {tag: _checksum(data) for tag, data in plain.items()}
-    head, file = bytearray(plain["head"]), _directory(plain, sums) + b"".join(map(_padded, plain.values()))
+    power = 1 << (len(plain).bit_length() - 1)
+    file = struct.pack(">L4H", 0x10000, len(plain), 16 * power, power.bit_length() - 1, 16 * (len(plain) - power))
+    at = 12 + 16 * len(plain)
+    for tag, data in plain.items():
+        file += struct.pack(">4sLLL", tag.encode(), sums[tag], at, len(data))
+        at += len(_padded(data))
+    head, file = bytearray(plain["head"]), file + b"".join(map(_padded, plain.values()))
     struct.pack_into(">L", head, 8, (0xB1B0AFBA - _checksum(file)) & 0xFFFFFFFF)
     whole = plain | {"head": bytes(head)}
     size = 12 + sum(16 + len(_padded(data)) for data in plain.values())

@@ -10,12 +10,10 @@ from math import ceil
 from ..scales.packaged import packaged
 from .areas import beside
 from .figure import GIVEN
-from .formats import Format, drawing_area, reserved_boxes
+from .formats import Format, Norm, drawing_area, reserved_boxes
 from .page import TASK_VIEWS, Layer, Page, extent
-from .pens import Norm
 from .shapes import Group, Line, Pen, Shape, Text, shifted
-from .table import cells
-from .view import View
+from .view import View, cells
 
 NUMBER = re.compile(r"[−-]?\d+(?:[.,]\d+)?(?: |$)")  # what a cell of units does not begin with
 SQUARE, LIGHT = 5.0, "#d9d9d9"  # of the grid: side in mm, colour
@@ -66,16 +64,13 @@ def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Sho
     if view.rows:
         return replace(shape, shapes=tuple(_table(part, view, kept) for part in shape.shapes))
     hidden = frozenset(() if kept.notes else view.notes)
-    stages = view.parts or ("",) * len(shape.shapes)
-
-    def is_kept(part: Shape, stage: str) -> bool:
+    parts: list[Shape] = []
+    for part, stage in zip(shape.shapes, view.parts or ("",) * len(shape.shapes), strict=True):
         if isinstance(part, Text) and part.role == "heading":
-            return part.markup not in hidden
-        return stage in kept.stages
-
-    return replace(
-        shape, shapes=tuple(part for part, stage in zip(shape.shapes, stages, strict=True) if is_kept(part, stage))
-    )
+            parts += [part] if part.markup not in hidden else []
+        elif stage in kept.stages:
+            parts.append(part)
+    return replace(shape, shapes=tuple(parts))
 
 
 def _table(shape: Shape, view: View, shown: Shown) -> Shape:

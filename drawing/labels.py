@@ -8,27 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 import shapely
 
+from . import spots
 from .areas import lines
-from .spots import (
-    CLOSE,
-    COVER,
-    CROSSING,
-    FAR,
-    NEAR,
-    SLACK,
-    THIN,
-    TOUCH,
-    Convex,
-    Flags,
-    Grid,
-    Obstacles,
-    Points,
-    Reals,
-    Request,
-    Segment,
-    Surroundings,
-    Wanted,
-)
+from .spots import Convex, Flags, Grid, Obstacles, Points, Reals, Request, Segment, Surroundings, Wanted
 from .text import Box
 
 APART = 1.4  # mm that should be left between two labels side by side, beyond the gap around each
@@ -83,7 +65,7 @@ class _Scene:
         self.requests, self.gap = requests, gap
         self.wanted = Wanted.of(requests, obstacles, gap)
         self.around = Surroundings(obstacles, gap, self.wanted, bounds)
-        self.grid = self.around.grid(self.wanted, NEAR)
+        self.grid = self.around.grid(self.wanted, spots.NEAR)
         self._apart: dict[tuple[int, float | None, tuple[float, ...]], tuple[Wanted, Grid]] = {}
 
     def apart(self, i: int, share: float | None, steps: tuple[float, ...]) -> tuple[Wanted, Grid]:
@@ -119,13 +101,23 @@ class _Board:
         self.leaders: dict[int, Segment] = {}
         for i in first:
             cost, k = self._best(i)
-            if cost < COVER or not self._lead(i, COVER, afield=self.requests[i].afield):
+            if cost < spots.COVER or not self._lead(i, spots.COVER, afield=self.requests[i].afield):
                 self._put(i, k)
-        self._settle()
+        # leave alone who is in nobody's way; then the most constrained label chooses first
+        self.down |= self._touching(APART, 0.0).sum(axis=1) == 1
+        free, rest = (self.cost < spots.COVER).sum(axis=1), (~self.down).nonzero()[0]
+        for i in rest[np.lexsort((rest, free[rest], -self.wanted.priority[rest]))].tolist():
+            self._put(i, self._best(i)[1])
         for _ in range(ROUNDS):  # give each label in trouble a place by moving those that block it
             if not [i for i in self._in_trouble() if self._improve(i)]:
                 break
-        self._set_apart(bool(first))
+        # set apart, on leaders, who found no free place or whom a thin line would run through, but for those that find
+        # no free place there either; of two labels that touch one may stay: the less important is taken up first
+        bad = self._in_trouble()
+        bad.sort(key=lambda i: (self.requests[i].priority, self.now[i] < spots.COVER, i))
+        for i, limit in [*((i, spots.COVER) for i in bad), *((i, spots.THIN) for i in self._crossed() if i not in bad)]:
+            if limit == spots.THIN or i in self._in_trouble():
+                self._lead(i, limit, afield=bool(first) and limit == spots.COVER and self.requests[i].afield)
 
     def labels(self) -> Labels:
         """Return where all stand, and who of them does not stand well."""
@@ -139,7 +131,7 @@ class _Board:
         )
 
     def _crossed(self) -> list[int]:
-        crossed: list[int] = ((self.now >= THIN) & (self.now < COVER)).nonzero()[0].tolist()
+        crossed: list[int] = ((self.now >= spots.THIN) & (self.now < spots.COVER)).nonzero()[0].tolist()
         return crossed
 
     def _beside(self, i: int, x: Reals, y: Reals, apart: float = 0.0) -> tuple[Flags, Flags]:
@@ -148,7 +140,7 @@ class _Board:
         Two letters side by side read as one word.
         """
         w = self.wanted
-        wide, high = w.hw + (w.hw[i] + self.gap - SLACK), w.hh + (w.hh[i] + self.gap - SLACK)
+        wide, high = w.hw + (w.hw[i] + self.gap - spots.SLACK), w.hh + (w.hh[i] + self.gap - spots.SLACK)
         level = abs(y[:, None] - self.now_y) < high
         level &= self.down
         level[:, i] = False
@@ -158,22 +150,14 @@ class _Board:
     def _best(self, i: int) -> tuple[float, int]:
         """Return the cost and the number of the best place of label i among the others."""
         touched, close = self._beside(i, self.x[i], self.y[i], APART)
-        cost = self.cost[i] + COVER * touched.sum(axis=1)
-        cost += CLOSE * close.sum(axis=1)
+        cost = self.cost[i] + spots.COVER * touched.sum(axis=1)
+        cost += spots.CLOSE * close.sum(axis=1)
         k = int(cost.argmin())
         return float(cost[k]), k
 
     def _put(self, i: int, k: int) -> None:
         self.now_x[i], self.now_y[i], self.now[i] = self.x[i, k], self.y[i, k], self.cost[i, k]
         self.down[i] = True
-
-    def _settle(self) -> None:
-        """Leave alone who is in nobody's way; then the most constrained label chooses first."""
-        self.down |= self._touching(APART, 0.0).sum(axis=1) == 1
-        free = (self.cost < COVER).sum(axis=1)
-        rest = (~self.down).nonzero()[0]
-        for i in rest[np.lexsort((rest, free[rest], -self.wanted.priority[rest]))].tolist():
-            self._put(i, self._best(i)[1])
 
     def _touching(self, apart: float, slack: float) -> Flags:
         """Tell, shape (L, L), which labels touch one another, or stand less than `apart` beside one another."""
@@ -184,19 +168,19 @@ class _Board:
 
     def _in_trouble(self) -> list[int]:
         """Labels that cover something or touch another label."""
-        touch = self._touching(0.0, SLACK) & self.down & self.down[:, None]
-        bad = (self.now >= COVER) | (touch.sum(axis=1) > 1)
+        touch = self._touching(0.0, spots.SLACK) & self.down & self.down[:, None]
+        bad = (self.now >= spots.COVER) | (touch.sum(axis=1) > 1)
         labels: list[int] = (bad & self.down).nonzero()[0].tolist()
         return labels
 
     def _improve(self, i: int) -> bool:
         cost, k = self._best(i)
-        if cost < COVER:
+        if cost < spots.COVER:
             self._put(i, k)
             return True
         blocked, _ = self._beside(i, self.x[i], self.y[i])
         order = np.argsort(self.cost[i], kind="stable")[:24].tolist()
-        return any(self.cost[i, k] < COVER and self._push(i, k, blocked[k].nonzero()[0].tolist()) for k in order)
+        return any(self.cost[i, k] < spots.COVER and self._push(i, k, blocked[k].nonzero()[0].tolist()) for k in order)
 
     def _push(self, i: int, k: int, blockers: list[int]) -> bool:
         if len(blockers) > 3 or not self.leaders.keys().isdisjoint(blockers):
@@ -205,29 +189,17 @@ class _Board:
         self._put(i, k)
         for j in blockers:
             cost, place = self._best(j)
-            if cost >= COVER:
+            if cost >= spots.COVER:
                 self.now_x, self.now_y, self.now = before
                 return False
             self._put(j, place)
         return True
 
-    def _set_apart(self, again: bool) -> None:
-        """Set apart, on leaders, the labels that found no free place or that a thin line would run through.
-
-        Those that find no free place there either are given up.
-        """
-        bad = self._in_trouble()
-        # Of two labels that touch, one may stay: take them up one by one, the less important first.
-        bad.sort(key=lambda i: (self.requests[i].priority, self.now[i] < COVER, i))
-        for i, limit in [*((i, COVER) for i in bad), *((i, THIN) for i in self._crossed() if i not in bad)]:
-            if limit == THIN or i in self._in_trouble():
-                self._lead(i, limit, afield=again and limit == COVER and self.requests[i].afield)
-
     def _lead(self, i: int, limit: float, afield: bool) -> bool:
         """Move label i away onto a leader, if there is a place for both that costs less than `limit`."""
         # beside a line a leader leaves along its normal; where that is barred, from a point of it to any side
         shares: tuple[float | None, ...] = (None,) if self.wanted.a[i] == self.wanted.b[i] else (None, 0.5, 0.25, 0.75)
-        ways = [(share, FAR) for share in shares] + [(None, ())] * afield
+        ways = [(share, spots.FAR) for share in shares] + [(None, ())] * afield
         return any(self._led(i, *self.scene.apart(i, share, steps), limit) for share, steps in ways)
 
     def _led(self, i: int, one: Wanted, grid: Grid, limit: float) -> bool:
@@ -239,7 +211,7 @@ class _Board:
         self.down[i], self.leaders[i] = True, (head - way * self.gap / 2, start)
         # no other label may stand on the leader from now on
         line, w = Convex.of(*np.array([self.leaders[i]]).T), self.wanted
-        self.cost = self.cost + COVER * (line.distance(self.x, self.y, w.hw[:, None], w.hh[:, None]) < self.gap)
+        self.cost = self.cost + spots.COVER * (line.distance(self.x, self.y, w.hw[:, None], w.hh[:, None]) < self.gap)
         rows = (~self.down).nonzero()[0]
         pick = self.cost[rows].argmin(axis=1)
         self.now_x[rows], self.now_y[rows] = self.x[rows, pick], self.y[rows, pick]
@@ -253,12 +225,12 @@ class _Board:
         """
         few = grid.cost < limit
         x, y, cost = (column[few] for column in grid)
-        cost = cost + COVER * self._beside(i, x, y)[0].sum(axis=1)
+        cost = cost + spots.COVER * self._beside(i, x, y)[0].sum(axis=1)
         foot = one.feet(x + 1j * y)
         head = np.clip(foot.real, x - one.hw, x + one.hw) + 1j * np.clip(foot.imag, y - one.hh, y + one.hh)
         far = abs(head - foot)
-        way = (head - foot) / np.where(far > TOUCH, far, 1.0)
-        cost[far < FAR[0] - 1.0] += COVER
+        way = (head - foot) / np.where(far > spots.TOUCH, far, 1.0)
+        cost[far < spots.FAR[0] - 1.0] += spots.COVER
         leads, few = np.array([x + 1j * y, head, foot + way * one.rim[0], way]), cost < limit
         return leads[:, few], cost[few]
 
@@ -268,7 +240,7 @@ class _Board:
         None may run through a label, and label i not stand on older leaders.
         """
         (at, head, start, way), w = leads, self.wanted
-        start = start + TOUCH * way
+        start = start + spots.TOUCH * way
         others = self.now_x[:, None], self.now_y[:, None], w.hw[:, None], w.hh[:, None]
         touched = (Convex.of(start, head).distance(*others) < self.gap / 2) & self.down[:, None]
         touched[i] = False
@@ -276,4 +248,4 @@ class _Board:
         on = Convex.of(*older).distance(at.real[:, None], at.imag[:, None], w.hw[i], w.hh[i]) < self.gap
         crossed = shapely.crosses(lines(start, head)[:, None], lines(*older)).sum(axis=1)
         crossed = crossed + self.scene.around.crossed(head, start)
-        return np.asarray(COVER * (touched.sum(axis=0) + on.sum(axis=1)) + CROSSING * crossed)
+        return np.asarray(spots.COVER * (touched.sum(axis=0) + on.sum(axis=1)) + spots.CROSSING * crossed)

@@ -6,12 +6,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from .rows import SLACK, Column, Edge, Room, Row, Search, Size
+from .rows import SLACK, Edge, Room, Row, Search, Size
 from .text import Box
 
 Corner: TypeAlias = tuple[float, float]
 Place: TypeAlias = tuple[int, float, float]  # of a view: its number, its lower left corner
-
 SINK = 12.0  # mm that a layer may move away from the one above it
 NEIGHBOURS = (5, 7, 12, 19)  # how many views may change places if they do not fit in order
 
@@ -137,20 +136,16 @@ class _Hanging:
         for n, (column, width) in enumerate(zip(columns, widths, strict=True)):
             head = self._inset(row.head, space) if n == 0 else 0.0
             tail = self._inset(row.tail, space) if n == len(columns) - 1 else 0.0
-            yield from self._column(column, (x, top - head), width, height - head - tail)
+            level, sink = top - head, min(SINK, max(0.0, height - head - tail - column.height) / len(column.layers))
+            for layer in column.layers:
+                sizes = [self.views[i] for i in layer]
+                beside = (width - sum(w for w, _ in sizes) - gap * (len(sizes) - 1)) / (len(sizes) + 1)
+                left = x + beside
+                for i, (w, h) in zip(layer, sizes, strict=True):
+                    yield i, left, level - h
+                    left += w + gap + beside
+                level -= max(h for _, h in sizes) + gap + sink
             x += width + gap + share
-
-    def _column(self, column: Column, corner: Corner, width: float, height: float) -> Iterator[Place]:
-        x, top = corner
-        sink = min(SINK, max(0.0, height - column.height) / len(column.layers))
-        for layer in column.layers:
-            sizes = [self.views[i] for i in layer]
-            share = (width - sum(w for w, _ in sizes) - self.gap * (len(sizes) - 1)) / (len(sizes) + 1)
-            left = x + share
-            for i, (w, h) in zip(layer, sizes, strict=True):
-                yield i, left, top - h
-                left += w + self.gap + share
-            top -= max(h for _, h in sizes) + self.gap + sink
 
 
 # Close packing: the last resort ---------------------------------------------------------------------------------------
@@ -179,7 +174,15 @@ def _in_any_order(sizes: Sequence[Size], page: _Page) -> list[Corner] | None:
                 if corners is not None:
                     found.append(corners)
         if found:
-            return _stretch(max(found, key=lambda corners: order_kept(corners, sizes)), sizes, page)
+            best = max(found, key=lambda corners: order_kept(corners, sizes))
+            boxes = [(x, y, x + w, y + h) for (x, y), (w, h) in zip(best, sizes, strict=True)]
+            # drawn apart, away from the top left corner; what is clear along an axis stays so when stretched
+            for share in (0.8, 0.4, 0.0):
+                wide = min([(x1 - x0 - (c - a)) / (a - x0) for a, _, c, _ in boxes if a > x0 + 1] or [1.0])
+                boxes = _moved(boxes, page, wide, 1.0, share)
+                high = min([(y1 - y0 - (d - b)) / (y1 - d) for _, b, _, d in boxes if d < y1 - 1] or [1.0])
+                boxes = _moved(boxes, page, 1.0, high, share)
+            return [(a, b) for a, b, _, _ in boxes]
     return None
 
 
@@ -239,18 +242,6 @@ def _cut(empty: list[Box], taken: Box) -> list[Box]:
         if not any(p <= x0 and q <= y0 and r >= x1 and s >= y1 for p, q, r, s in rivals):
             kept.append((x0, y0, x1, y1))
     return whole + kept
-
-
-def _stretch(corners: list[Corner], sizes: Sequence[Size], page: _Page) -> list[Corner]:
-    """Draw the views apart, away from the top left corner; what is clear along an axis stays so when stretched."""
-    x0, y0, x1, y1 = page.area
-    boxes = [(x, y, x + w, y + h) for (x, y), (w, h) in zip(corners, sizes, strict=True)]
-    for share in (0.8, 0.4, 0.0):
-        wide = min([(x1 - x0 - (c - a)) / (a - x0) for a, _, c, _ in boxes if a > x0 + 1] or [1.0])
-        boxes = _moved(boxes, page, wide, 1.0, share)
-        high = min([(y1 - y0 - (d - b)) / (y1 - d) for _, b, _, d in boxes if d < y1 - 1] or [1.0])
-        boxes = _moved(boxes, page, 1.0, high, share)
-    return [(a, b) for a, b, _, _ in boxes]
 
 
 def _moved(boxes: list[Box], page: _Page, wide: float, high: float, share: float) -> list[Box]:

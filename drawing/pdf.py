@@ -1,6 +1,6 @@
 """The PDF writer: the same shapes in points, with selectable text in an embedded subset of the font, in layers.
 
-Pages as large as they are, or spread over small paper.
+Pages as large as they are, or spread over small paper; a PNG is a picture of one.
 """
 
 from __future__ import annotations
@@ -18,10 +18,9 @@ from zlib import compress
 from ..scales.errors import InputError
 from ..scales.numbers import quote
 from .font import font
-from .page import Layer, Page
-from .shapes import Arc, Arrow, Circle, Line, Pen, Polyline, Shape, Text, Vector
+from .page import BLACK, Layer, Page, Part, Stroke, Walk, filled
+from .shapes import Arc, Arrow, Circle, Group, Line, Pen, Polyline, Shape, Text, Vector
 from .text import Box, Run
-from .walk import BLACK, Part, Stroke, Walk, filled
 
 if TYPE_CHECKING:
     from reportlab.pdfbase.pdfdoc import PDFDictionary, PDFResourceDictionary
@@ -339,3 +338,29 @@ def _marks(name: str, box: Box) -> list[Shape]:
             shapes.append(Line(corner + outward, corner + outward * MARK, Pen.THIN))
             shapes.append(Line(corner + up * 1j, corner + up * MARK * 1j, Pen.THIN))
     return [*shapes, Text(complex(x0 + 3, y0 - 5), name, 3.5)]
+
+
+DPI = 200
+
+
+def write_png(pages: Sequence[Page], stream: BinaryIO, dpi: float = DPI) -> None:
+    """Write the first of `pages` as a picture of `dpi` dots per inch.
+
+    Raises InputError: the extra `png` is not installed.
+    """
+    try:
+        from pypdfium2 import PdfDocument
+    except ImportError:
+        raise InputError("extra-missing", extra="png", suffix=".png") from None
+    picture = BytesIO()
+    write(pages[:1], picture)
+    document = PdfDocument(picture.getvalue())
+    try:
+        grey = not _coloured(pages[0].shapes)
+        document[0].render(scale=dpi / 72, grayscale=grey).to_pil().save(stream, "PNG", dpi=(dpi, dpi))
+    finally:
+        document.close()
+
+
+def _coloured(shapes: Iterable[Shape]) -> bool:
+    return any(_coloured(shape.shapes) if isinstance(shape, Group) else shape.colour is not None for shape in shapes)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from operator import add, mul, sub, truediv
@@ -318,17 +319,10 @@ def calculation(
         for digits in range(DIGITS, most + 1):
             places = [one.decimals(digits, free) for one in inputs]
             shown = [x if cut is None else round(x, cut) for x, cut in zip(values, places, strict=True)]
-            if _recomputes(law, shown, round(result, decimals), decimals):
-                return _texts(words, values, places), words.number(result, decimals)
+            with suppress(ArithmeticError, ValueError):  # numbers that are rounded to nothing may give none at all
+                if round(law(*shown), decimals) == round(result, decimals):
+                    return _texts(words, values, places), words.number(result, decimals)
     return _texts(words, values, places), words.number(result, decimals)
-
-
-def _recomputes(law: Callable[..., float], shown: Sequence[float], result: float, decimals: int) -> bool:
-    """Whether printed numbers give the printed result; those that are rounded to nothing may give none at all."""
-    try:
-        return round(law(*shown), decimals) == result
-    except (ArithmeticError, ValueError):
-        return False
 
 
 class Shown(NamedTuple):

@@ -15,7 +15,7 @@ HeadPlace: TypeAlias = Literal["tip", "middle", "none"]
 
 
 class Pen(Enum):
-    """A line by its meaning; its width belongs to the format of the sheet (`pens.py`)."""
+    """A line by its meaning; its width belongs to the format of the sheet (`formats.py`)."""
 
     MAIN = "main"
     THIN = "thin"

@@ -72,17 +72,12 @@ class Request:
     afield: bool = True
 
 
-def _compass() -> tuple[Reals, Reals, Points]:
-    """Sixteen sides of a box: where its centre lies in half sizes, and along what normal it leaves the anchor."""
-    e = HEADING
-    s = e / np.maximum(abs(e.real), abs(e.imag))
-    corner = np.minimum(abs(s.real), abs(s.imag)) > 0.99
-    axis = np.where(abs(e.real) > abs(e.imag), np.sign(e.real) + 0j, 1j * np.sign(e.imag))
-    return s.real, s.imag, np.where(corner, e, axis)
-
-
+# sixteen sides of a box: where its centre lies in half sizes, and along what normal it leaves the anchor
 HEADING = np.exp(1j * np.pi / 8 * np.arange(16))
-SIDE_X, SIDE_Y, LEAVE = _compass()
+_SQUARE = HEADING / np.maximum(abs(HEADING.real), abs(HEADING.imag))
+SIDE_X, SIDE_Y = _SQUARE.real, _SQUARE.imag
+_AXIS = np.where(abs(HEADING.real) > abs(HEADING.imag), np.sign(HEADING.real) + 0j, 1j * np.sign(HEADING.imag))
+LEAVE = np.where(np.minimum(abs(SIDE_X), abs(SIDE_Y)) > 0.99, HEADING, _AXIS)
 
 
 class Wanted(NamedTuple):

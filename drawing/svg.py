@@ -12,10 +12,9 @@ from typing import Any, BinaryIO, assert_never
 from xml.etree import ElementTree
 
 from .font import FAMILY, web_subset
-from .page import Layer, Page
+from .page import BLACK, Layer, Page, Part, Stroke, Walk, filled
 from .shapes import Arc, Arrow, Circle, Group, Line, Polyline, Text, Vector
 from .text import Run
-from .walk import BLACK, Part, Stroke, Walk, filled
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"  # which shows groups of its mode as layers
 LETTERS = "text{font-kerning:none;font-variant-ligatures:none;white-space:pre}"  # each where it has been measured

@@ -177,14 +177,13 @@ def angle_dimension(centre: complex, radius: float, start: float, sweep: float, 
     return Group(tuple(parts), "dimension", name)
 
 
-def clear_ray(direction: complex, lines: list[complex], arrows: list[complex]) -> tuple[complex, bool]:
-    """Choose where an arrow along `direction` stands at its point: on the ray it points along, or on the opposite one.
+def clear_ray(direction: complex, lines: list[complex], arrows: list[complex]) -> complex:
+    """Return the ray on which an arrow along `direction` lies at its point: along which it points or the other one.
 
-    Lines of links must not be covered; another arrow may be, for then this one stands beyond it. Returned are the unit
-    ray on which the arrow lies, and whether its tail is at the point, not its tip.
+    Lines of links must not be covered; another arrow may be, for then this one stands beyond it.
     """
     outward, inward = room_on(direction, lines, arrows), room_on(-direction, lines, arrows)
-    return (direction, True) if outward >= inward - 0.1 else (-direction, False)
+    return direction if outward >= inward - 0.1 else -direction
 
 
 def room_on(ray: complex, lines: list[complex], arrows: list[complex]) -> float:
@@ -215,11 +214,6 @@ class Rod:
     style: Style
 
     @property
-    def half(self) -> float:
-        """Half the width of the rod."""
-        return 0.5 * self.style.label
-
-    @property
     def guide(self) -> tuple[float, float]:
         """Where the guide begins and ends: with room for the spring pressed together by the stroke."""
         low = self.collar + self.stroke + 2.0 * self.style.label
@@ -232,26 +226,19 @@ class Rod:
 
     def shapes(self) -> tuple[Shape, ...]:
         """Return the rod with its collar, the spring on it, and the guide of the frame."""
-        x, w = self.x, self.half
+        x, w = self.x, 0.5 * self.style.label  # half its width
         body = _box(x - w, self.low, x + w, self.top)
         collar = _box(x - 2.2 * w, self.collar - 0.5 * w, x + 2.2 * w, self.collar)
-        link = Group((body, collar), "link", "rod")
-        return link, self._spring(), *self._guides()
-
-    def _spring(self) -> Group:
-        low, step = complex(self.x, self.collar), 1j * ((self.guide[0] - self.collar) / (2 * COILS))
-        points = coils([low + step * k for k in range(2 * COILS + 1)], 1.9 * self.half)
-        return Group((Polyline(tuple(points), Pen.THIN),), "spring", "spring")
-
-    def _guides(self) -> tuple[Shape, ...]:
-        low, high = self.guide
-        found: list[Shape] = []
+        (low, high), start = self.guide, complex(x, self.collar)
+        step = 1j * ((low - self.collar) / (2 * COILS))
+        bends = coils([start + step * k for k in range(2 * COILS + 1)], 1.9 * w)
+        spring = Group((Polyline(tuple(bends), Pen.THIN),), "spring", "spring")
+        shapes: list[Shape] = [Group((body, collar), "link", "rod"), spring]
         for side in (-1.0, 1.0):
-            x = self.x + side * (self.half + 0.8)
-            foot = complex(x, low), complex(x + side * 2.4 * self.half, low)
-            found.append(guide(((complex(x, low), complex(x, high)),), complex(-side, 0.0), "guide", self.style))
-            found.append(Line(*foot, Pen.MAIN))
-        return tuple(found)
+            x = self.x + side * (w + 0.8)
+            shapes.append(guide(((complex(x, low), complex(x, high)),), complex(-side, 0.0), "guide", self.style))
+            shapes.append(Line(complex(x, low), complex(x + side * 2.4 * w, low), Pen.MAIN))
+        return tuple(shapes)
 
 
 def coils(places: Sequence[complex], half: float) -> list[complex]:

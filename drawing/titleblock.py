@@ -14,8 +14,7 @@ from typing import TypeAlias
 from ..scales.errors import InputError
 from ..scales.numbers import quote
 from ..scales.packaged import packaged
-from .formats import Format, block_box, drawing_area, turned_box
-from .pens import Norm
+from .formats import Format, Norm, block_box, drawing_area, turned_box
 from .shapes import Anchor, Group, Line, Pen, Polyline, Shape, Text, shifted
 from .text import Box, escape, lay_out
 
@@ -105,7 +104,12 @@ def _changes(caption: dict[str, str], y: float) -> list[Text]:
 def _form_1(stamp: Stamp) -> list[Shape]:
     """Return form 1, 185 x 55 mm, filled in."""
     caption = words(stamp.language)
-    filled: list[Shape] = [*_changes(caption, 30.0), *_people(caption, stamp)]
+    filled: list[Shape] = [*_changes(caption, 30.0)]
+    for key, y in ROLES:
+        filled += _fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
+    for key, plain, level in (("student", stamp.student, 25.0), ("teacher", stamp.teacher, 20.0)):
+        filled += named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
+    filled += _fitted(stamp.date, (55.0, 25.0, 65.0, 30.0), CAPTION, name="date_value")
     name_cell = (65.0, 22.0 if stamp.document_type else 15.0, 135.0, 40.0)
     owner = ", ".join(part for part in (stamp.organisation, stamp.group) if part)
     for key, plain, cell, heights in (
@@ -123,16 +127,6 @@ def _form_1(stamp: Stamp) -> list[Shape]:
     ):
         filled += _fitted(plain, cell, heights, name=key)
     return [*_ruled(FORM_1), *filled]
-
-
-def _people(caption: dict[str, str], stamp: Stamp) -> list[Text]:
-    """Return the rows of roles, names and the date."""
-    texts: list[Text] = []
-    for key, y in ROLES:
-        texts += _fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
-    for key, plain, level in (("student", stamp.student, 25.0), ("teacher", stamp.teacher, 20.0)):
-        texts += named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
-    return texts + _fitted(stamp.date, (55.0, 25.0, 65.0, 30.0), CAPTION, name="date_value")
 
 
 def _form_2a(stamp: Stamp) -> list[Shape]:
@@ -211,8 +205,11 @@ def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool =
     if norm == "iso":
         return edge, frame, _centring_marks(sheet), _at_corner(_iso_block(stamp), "iso-7200", x0, y0), *identity
     parts, name = (_form_1(stamp), "form-1") if first else (_form_2a(stamp), "form-2a")
-    around = [_below(sheet, stamp), _turned(sheet, stamp)] if first else [_below(sheet, stamp)]
-    return edge, frame, _at_corner(parts, name, x0, y0), *around, *identity
+    caption, right = words(stamp.language), drawing_area(sheet)[2]
+    size = _under(sheet, right - 50, caption["format"].format(sheet.letters), "format")
+    below = Group((_under(sheet, right - 120, caption["copied"], "copied"), size), "margin")
+    turned = (_turned(sheet, stamp),) if first else ()
+    return edge, frame, _at_corner(parts, name, x0, y0), below, *turned, *identity
 
 
 def _rectangle(box: Box, pen: Pen, role: str) -> Polyline:
@@ -228,13 +225,6 @@ def _at_corner(parts: Iterable[Shape], name: str, x0: float, y0: float) -> Group
     lines = [part for part in moved if isinstance(part, Line)]
     corner = complex(x0, max(line.a.imag for line in lines))
     return Group((*moved, Polyline((corner - 1j, corner, corner + 1), T, role="corner")), "titleblock", name)
-
-
-def _below(sheet: Format, stamp: Stamp) -> Group:
-    """Return the words under the frame: who copied it, and the format."""
-    caption, right = words(stamp.language), drawing_area(sheet)[2]
-    size = _under(sheet, right - 50, caption["format"].format(sheet.letters), "format")
-    return Group((_under(sheet, right - 120, caption["copied"], "copied"), size), "margin")
 
 
 def _under(sheet: Format, x: float, text: str, name: str) -> Text:

@@ -102,8 +102,11 @@ class Words:
 
     def short(self, value: float, digits: int = 12) -> str:
         """Return a number as short as it is, such as a given."""
-        short = 1e-4 <= abs(value) < 10.0 ** min(digits, 15) or value == 0
-        return self.decimal(f"{value:.{digits}g}" if short else _plain(value, digits))
+        if 1e-4 <= abs(value) < 10.0 ** min(digits, 15) or value == 0:
+            return self.decimal(f"{value:.{digits}g}")
+        decimals = min(max(digits - 1 - math.floor(math.log10(abs(value))), 0), 40)  # without an exponent
+        text = f"{value:.{decimals}f}"
+        return self.decimal(text.rstrip("0").rstrip(".") if decimals else text)
 
     def decimal(self, text: str) -> str:
         """Write the decimal sign and the minus of the language."""
@@ -148,18 +151,16 @@ class Words:
     def _parts(self, name: Name) -> tuple[str, str]:
         """Return the letter of a quantity and its scripts."""
         halved = name.part == COUPLE
-        special = self._special(name.whole if halved else name)
-        if special is None and name.kind == "h":
-            return self._arm(name)
-        head, rest = _split(special or self._composed(spelled(name.kind, name.of) if halved else name))
-        return (head + ("″" if name in self.seconds else "′") if halved else head), rest
-
-    def _special(self, name: str) -> str | None:
-        """Return the symbol that the notation has for a name; `#` in its table stands for a number."""
         table: Mapping[str, str] = self.notation["symbols"][self.language]
-        numbers = re.findall(r"\d+", name)
-        pattern = table.get(name) or table.get(re.sub(r"\d+", "#", name))
-        return None if pattern is None else pattern.replace("#", "".join(numbers[:1]))
+        whole = name.whole if halved else name
+        special = table.get(whole) or table.get(re.sub(r"\d+", "#", whole))  # `#` stands for a number
+        if special is not None:
+            special = special.replace("#", "".join(re.findall(r"\d+", whole)[:1]))
+        elif name.kind == "h":
+            return self._arm(name)
+        markup = special or self._composed(spelled(name.kind, name.of) if halved else name)
+        at = next((n for n, letter in enumerate(markup) if letter in "_^"), len(markup))
+        return markup[:at] + ("″" if name in self.seconds else "′") * halved, markup[at:]
 
     def _composed(self, name: Name) -> str:
         """Return a symbol made from the name's own letters: `a_BA_n` is a with n above and BA below."""
@@ -189,8 +190,13 @@ class Words:
 
         The two links of a pair stand in the notation's order.
         """
-        if self.notation["links"] == "ends" and head not in OF_LINKS:
-            return self._by_ends(head, index)
+        if self.notation["links"] == "ends" and head in OF_LINK:
+            return self.ends.get(index, index)
+        if self.notation["links"] == "ends" and head not in OF_LINKS:  # digits of letters lowered: `O_{1}B`
+            letters, centre, number = index.partition("P") if head == "l" else (index, "", "")
+            lowered = re.sub(r"(?<=[A-Za-z])(\d+)", r"_{\1}", letters)
+            link = f"P_{{{self.ends.get(number, number)}}}" if number.isdigit() else centre + number
+            return lowered + link
         if head not in OF_LINKS or not re.fullmatch(r"\d+,\d+" if self.parted else r"\d\d", index):
             return index
         parting = "," if self.parted else ""
@@ -198,14 +204,6 @@ class Words:
             self.frame if number == "0" else number for number in re.findall(r"\d+" if self.parted else r"\d", index)
         ]
         return parting.join(pair if self.notation["reaction"] == "ij" else reversed(pair))
-
-    def _by_ends(self, head: str, index: str) -> str:
-        """Return the ends of a link in place of its number, letters with their digits lowered: `O_{1}B`."""
-        if head in OF_LINK:
-            return self.ends.get(index, index)
-        letters, centre, number = index.partition("P") if head == "l" else (index, "", "")
-        lowered = re.sub(r"(?<=[A-Za-z])(\d+)", r"_{\1}", letters)
-        return f"{lowered}P_{{{self.ends.get(number, number)}}}" if number.isdigit() else lowered + centre + number
 
     def _arm(self, name: Name) -> tuple[str, str]:
         """Return the symbol of an arm: of a link's own force of inertia, of a reaction or of another force."""
@@ -259,16 +257,3 @@ def indexed(letter: str) -> str:
 def _joined(index: str) -> str:
     """Return an index as it is printed, with a comma between numbers of links of two digits."""
     return PARTING.sub(",", index).replace("_", "")
-
-
-def _split(markup: str) -> tuple[str, str]:
-    """Cut the markup of a symbol into its letter and its scripts."""
-    at = next((n for n, letter in enumerate(markup) if letter in "_^"), len(markup))
-    return markup[:at], markup[at:]
-
-
-def _plain(value: float, digits: int) -> str:
-    """Return a very small or a large number without an exponent."""
-    decimals = min(max(digits - 1 - math.floor(math.log10(abs(value))), 0), 40)
-    text = f"{value:.{decimals}f}"
-    return text.rstrip("0").rstrip(".") if decimals else text

@@ -25,8 +25,9 @@ Files: TypeAlias = Iterable[tuple[Path, bytes]]
 
 
 def _by_module(kind: str, pages: Sequence[Page], stream: BinaryIO) -> None:
-    """Write pages as the module named after the kind of file does, which is loaded now."""
-    import_module(f".{kind}", __package__).write(pages, stream)
+    """Write pages as the module for the kind of file does, which is loaded now; a PNG is a picture of a PDF."""
+    module = import_module(".pdf" if kind == "png" else f".{kind}", __package__)
+    (module.write_png if kind == "png" else module.write)(pages, stream)
 
 
 WRITERS: dict[str, Writer] = {f".{kind}": partial(_by_module, kind) for kind in SHEETS}

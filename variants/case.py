@@ -28,10 +28,9 @@ from .task import Given as Stated
 
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..drawing.compose import Drawn
-    from ..drawing.formats import Format
+    from ..drawing.formats import Format, Norm
     from ..drawing.handouts import Shown
     from ..drawing.notes.blocks import Story
-    from ..drawing.pens import Norm
     from ..plans.condition import Condition
     from ..plans.hands.shaky import Paper, Tolerance
     from ..plans.marking.key import Question

@@ -12,10 +12,9 @@ from pathlib import Path
 from typing import get_args
 
 from ..drawing.compose import Drawn
-from ..drawing.formats import format_named, printable
+from ..drawing.formats import Norm, format_named, printable
 from ..drawing.handouts import begun_pages, gridded, keyed, marked, over_page
 from ..drawing.page import Page
-from ..drawing.pens import Norm
 from ..drawing.titleblock import Stamp
 from ..drawing.view import View
 from ..drawing.writers import write_pages

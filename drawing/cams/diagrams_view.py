@@ -18,7 +18,7 @@ from ..printed import DEGREES
 from ..shapes import Group, Line, Pen, Polyline, Text
 from ..text import Box, lay_out
 from ..view import Canvas, View, linear
-from .scene import CamScene, grouped, letter, thin
+from .scene import CamScene
 
 ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a diagram shows
 LETTER = {TRAVEL: "s", VELOCITY: "ds", ACCELERATION: "d2s"}
@@ -108,7 +108,7 @@ def _section_lines(canvas: Canvas, scene: CamScene, fields: Sequence[Field], box
     top, bottom, height, angles = fields[0], fields[-1], scene.style.text, scene.solved.angles.tolist()
     for i, phi in enumerate(angles):
         a, b = top.at(phi, top.y.high) + 1.5j, bottom.at(phi, bottom.y.low) - 1.5j
-        grouped(canvas, "section", str(i), *(Line(*part, Pen.THIN) for part in beside(a, b, boxes)))
+        canvas.group("section", str(i), *(Line(*part, Pen.THIN) for part in beside(a, b, boxes)))
     lines = [top.at(phi, 0.0).real for phi in angles]
     above, below = top.at(0.0, top.y.high).imag + 2.3, bottom.at(0.0, bottom.y.low).imag - 2.3 - height
     canvas.add(*numbers(lines, above, height)[1:], *numbers(lines, below, height))
@@ -118,7 +118,7 @@ def _exact(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> None:
     """Draw the exact curve; at a jump a line across, between its two ends."""
     exact = diagram(scene.solved, ORDER[plan], *scene.solved.motion.phases[:3])
     curves = [[field.at(*place) for place in curve] for curve in exact]
-    grouped(canvas, "curve", plan, *(Polyline(tuple(points), Pen.MAIN) for points in curves))
+    canvas.group("curve", plan, *(Polyline(tuple(points), Pen.MAIN) for points in curves))
     jumps(canvas, [[field.at(0.0, 0.0)], *curves, [field.at(field.x.high, 0.0)]], plan)
 
 
@@ -126,7 +126,7 @@ def jumps(canvas: Canvas, pieces: Sequence[Sequence[complex]], name: str) -> Non
     """Draw the lines from the end of a piece of a curve to the beginning of the next, where they are apart."""
     steps = [(a[-1], b[0]) for a, b in pairwise(pieces) if abs(b[0] - a[-1]) > SAME]
     for k, (a, b) in enumerate(steps, start=1):
-        grouped(canvas, "jump", f"{name}.{k}", Line(a, b, Pen.MAIN))
+        canvas.group("jump", f"{name}.{k}", Line(a, b, Pen.MAIN))
 
 
 def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field, away: float) -> None:
@@ -135,8 +135,7 @@ def _board(canvas: Canvas, scene: CamScene, plan: str, field: Field, away: float
     nodes = [(i, origin + scene.mm(f"{plan}.{i}")) for i in _nodes(scene, plan)]
     if len(nodes) == len(solved.layout.division.lines) and plan != solved.layout.given:
         chords = tuple(Line(a, b, Pen.THIN, name=str(i)) for (_, a), (i, b) in pairwise(nodes))
-        canvas.add(Group(chords, "chords", plan))
-        canvas.add(*(scene.node(at, str(i)) for i, at in nodes))
+        canvas.add(Group(chords, "chords", plan), *(scene.node(at, str(i)) for i, at in nodes))
     means = [(i, origin + mean) for i, mean in _means(scene, plan)]
     if means:
         curve, (name, letter) = canvas.part(f"rays_{shown}"), POLES[plan]
@@ -163,7 +162,7 @@ def _amplitudes(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Non
         if not name or abs(extreme.value) < SAME * field.y.scale.mu:
             continue
         peak, foot = field.at(last, extreme.value), field.at(last, 0.0)
-        thin(canvas, "extension", "", field.at(extreme.phi, extreme.value), peak)
+        canvas.thin("extension", "", field.at(extreme.phi, extreme.value), peak)
         symbol = words.symbol("V_max" if name == "V_min" else name)
         linear(canvas, (foot, peak), 14.0, f"{symbol} = {words.short(round(abs(peak - foot), 2))}", name)
 
@@ -216,20 +215,19 @@ def _fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, co
         cuts.setdefault(round(mean.imag, 4), []).append((i, mean))
     feet = [complex(zero.real, cut) for cut in sorted(cuts)]
     for foot, (_, equal) in zip(feet, sorted(cuts.items()), strict=True):
-        thin(canvas, "ray", " ".join(str(i) for i, _ in equal), at, foot)
+        canvas.thin("ray", " ".join(str(i) for i, _ in equal), at, foot)
         nearest = min((mean for _, mean in equal), key=lambda mean: mean.real)
         level = complex(foot.real, nearest.imag)
         canvas.add(*(Line(*part, Pen.DASHED, role="projection") for part in beside(nearest, level, boxes)))
     stage = canvas.part("axes")
     lowest, highest = (end(foot, zero, key=lambda place: place.imag) for end, foot in ((min, feet[0]), (max, feet[-1])))
     if len(feet) > 1:
-        thin(canvas, "feet", "", lowest, highest)
+        canvas.thin("feet", "", lowest, highest)
     wide = lay_out(beyond[0], height).width + AROUND if beyond else 0.0
     axis = beside(field.origin, at - max(AT_POLE, wide), boxes)
     canvas.add(*(Line(*part, Pen.THIN, role="axis") for part in axis))
     if beyond:
-        canvas.part(stage)
-        canvas.add(Text(at - wide - 1j * (height + 2.0 * AROUND), beyond[0], height, role="number"))
+        canvas.part(stage, Text(at - wide - 1j * (height + 2.0 * AROUND), beyond[0], height, role="number"))
         canvas.part("axes")
     mark_pole(canvas, pole, at, lowest, 5.0)
 
@@ -248,9 +246,7 @@ DIAGRAMS_FIGURE = Figure(
     _diagrams_view,
     ("reduction",),
     (
-        Stage("axes", "diagram_s.#"),
-        Stage("sections", "diagram_s.f#"),
-        Stage("law_a", "diagram_a.m#"),
+        *stages(axes="diagram_s.#", sections="diagram_s.f#", law_a="diagram_a.m#"),
         Stage("law_v", "diagram_v.m#", "place"),
         Stage("rays_a", "diagram_a.p#"),
         Stage("chords_v", "diagram_v.#", "meet"),
@@ -274,7 +270,7 @@ def _pressure_view(scene: CamScene) -> View:
     axes(canvas, field, lettered=False)
     canvas.part("curve")
     points = [tuple(field.at(*place) for place in curve) for curve in curves]
-    grouped(canvas, "curve", "theta", *map(Polyline, points))
+    canvas.group("curve", "theta", *map(Polyline, points))
     canvas.part("limits")
     places = [place for curve in points for place in curve]
     boxes = [box for name, limit in limits if (box := _pressure_limit(canvas, scene, field, places, name, limit))]
@@ -284,7 +280,7 @@ def _pressure_view(scene: CamScene) -> View:
     canvas.add(*numbers(lines, field.at(0.0, field.y.low).imag - 2.3 - height, height))
     for i, (phi, value) in enumerate(zip(angles, values, strict=True)):
         for a, b in beside(field.at(phi, field.y.high), field.at(phi, field.y.low) - 1.5j, boxes):
-            thin(canvas, "section", str(i), a, b)
+            canvas.thin("section", str(i), a, b)
         canvas.add(scene.node(field.at(phi, value), str(i)))
     per_mm = f"{words.symbol('mu_theta')} = {scene.degrees(field.y.scale.mu)}/{words.unit('mm')}"
     heading = words["heading.cam_pressure"], f"{per_mm};  {scene.factor(field.x.scale)}"
@@ -308,7 +304,7 @@ def _pressure_limit(
     """Draw a limit over its phase, and write it on the line; return the box of what stands among section lines."""
     phase, height = scene.solved.motion.phase(name), scene.style.text
     ends = field.at(phase.start, limit), field.at(phase.end, limit)
-    grouped(canvas, "limit", f"{name}{'' if limit > 0 else '-'}", Line(*ends, Pen.DASHED))
+    canvas.group("limit", f"{name}{'' if limit > 0 else '-'}", Line(*ends, Pen.DASHED))
     markup = f"[{scene.symbol('theta')}] = {scene.degrees(abs(limit))}"
     for share in SHARES if limit < field.y.high else ():  # section lines run through, or their numbers stand below
         text = Text(ends[0] + share * (ends[1] - ends[0]) + 0.5j * height, markup, height, "middle", role="label")
@@ -316,7 +312,7 @@ def _pressure_limit(
         if not any(x0 < p.real < x1 and y0 < p.imag < y1 for p in places):
             canvas.add(text)
             return box
-    letter(canvas, markup, ends, complex(0.0, limit))
+    canvas.small(markup, ends, complex(0.0, limit))
     return None
 
 

@@ -17,7 +17,7 @@ from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import angle_dimension, polar, shaft, shaft_radius, swept, turning_arrow, unit
 from ..text import lay_out
 from ..view import View
-from .scene import CamScene, grouped, letter, thin
+from .scene import CamScene
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles
 OF_PHASE = (0.5, 0.7, 0.3, 0.8, 0.2)  # of the arc of a phase at which its text may stand
@@ -74,11 +74,19 @@ class Inversion(ABC):
         """Draw the cam as it stands when the follower is lowest."""
         canvas, scene = self.canvas, self.scene
         self._centre()
-        canvas.part(self.base)
-        canvas.add(*(Group((Circle(0j, r, Pen.THIN),), "circle", name) for name, r in self.circles.items()))
+        canvas.part(self.base, *(Group((Circle(0j, r, Pen.THIN),), "circle", name) for name, r in self.circles.items()))
         for i in self.lines:
             self.position(i)
-        self._curves()
+        curves = [("profile", "practical", self.profile.outline(), Pen.MAIN)]
+        if isinstance(self.profile, RollerProfile):
+            curves.insert(0, ("pitch", "pitch", self.profile.pitch(self.profile.motion.samples()[:-1]), Pen.AXIS))
+        for part, name, points, pen in curves:
+            canvas.part(part)
+            canvas.group("curve", name, Polyline(scene.curve(points.tolist()), pen, closed=True))
+        for k, undercut in enumerate(self.profile.undercuts):
+            corner, radius = scene.drawn(undercut.corner), 2.5 * self.style.node
+            canvas.group("corner", str(k + 1), Circle(corner, radius, Pen.THIN))
+            canvas.small(_corner(self.profile.undercuts, k), corner, -corner, radius + 0.5)
         canvas.part(self.numbered)
         self.numbers(self.outer + NUMBERS * self.style.label)
         canvas.part(self.base)
@@ -125,13 +133,18 @@ class Inversion(ABC):
             self.canvas.add(angle_dimension(0j, radius, begin, sweep, name, self.style))
             for angle in (begin, begin + sweep):
                 ends = polar(radius - 1.5, angle), polar(radius + 2.0, angle)
-                thin(self.canvas, "extension", "", *ends)
+                self.canvas.thin("extension", "", *ends)
             text = scene.angle(name, phase.length)
             half = 0.6 * lay_out(text, height).width / radius
             # beside the radius dimensioned
             middles = [begin + share * sweep for share in OF_PHASE[2 * (phase.name == LOWER) :]]
             clear = (a for a in middles if not past or abs(swept(1.0 + 0j, past * polar(1.0, -a))) > half)
-            self.canvas.add(_along(text, radius, next(clear, middles[0]), abs(sweep), height))
+            out = polar(1.0, next(clear, middles[0]))
+            # outside of the arc, along it; where the arc is short, clear of its ends
+            away, below = 1.4 if radius * abs(sweep) <= 1.3 * lay_out(text, height).width else 0.5, out.imag < -1e-9
+            turn = swept(1.0 + 0j, out * (1j if below else -1j))
+            at = out * (radius + away * height + height * below)
+            self.canvas.add(Text(at, text, height, "middle", turn))
 
     def _centre(self) -> None:
         """Draw the cam's shaft, its axes, and the arrow of omega."""
@@ -175,37 +188,14 @@ class Inversion(ABC):
         line = Line(
             0j, ray * (size if inside or is_small else free[2] + wide + 1.5), Pen.THIN, role="radius", name=name
         )
-        grouped(canvas, "dimension", name, line, Head(ray * size, ray))
+        canvas.group("dimension", name, line, Head(ray * size, ray))
         if is_small:
-            letter(canvas, text, (0.5 * ray * size, ray * size), ray)
+            canvas.small(text, (0.5 * ray * size, ray * size), ray)
             return
         middle = 0.5 * (low + high) if inside else free[2] + 0.5 * wide + 1.5
         turn = 1.0 if ray.real > -1e-9 else -1.0
         at = ray * complex(middle, turn)
         canvas.add(Text(at, text, style.text, "middle", swept(1.0 + 0j, ray * turn), role="label", name=name))
-
-    def _curves(self) -> None:
-        """Draw the pitch curve dash-dot and the practical profile in main lines; mark corners of the profile."""
-        canvas, scene, profile = self.canvas, self.scene, self.profile
-        curves = [("profile", "practical", profile.outline(), Pen.MAIN)]
-        if isinstance(profile, RollerProfile):
-            curves.insert(0, ("pitch", "pitch", profile.pitch(profile.motion.samples()[:-1]), Pen.AXIS))
-        for part, name, points, pen in curves:
-            canvas.part(part)
-            grouped(canvas, "curve", name, Polyline(scene.curve(points.tolist()), pen, closed=True))
-        for k, cut in enumerate(profile.undercuts):
-            corner, radius = scene.drawn(cut.corner), 2.5 * self.style.node
-            grouped(canvas, "corner", str(k + 1), Circle(corner, radius, Pen.THIN))
-            letter(canvas, _corner(profile.undercuts, k), corner, -corner, radius + 0.5)
-
-
-def _along(text: str, radius: float, angle: float, sweep: float, height: float) -> Text:
-    """Return a text outside of an arc about the cam's centre, along it; where the arc is short, clear of its ends."""
-    away = 0.5 * height if radius * sweep > 1.3 * lay_out(text, height).width else 1.4 * height
-    out = polar(1.0, angle)
-    below = out.imag < -1e-9
-    turn = swept(1.0 + 0j, out * (1j if below else -1j))
-    return Text(out * (radius + away + (height if below else 0.0)), text, height, "middle", turn)
 
 
 def undercut_notes(scene: CamScene, profile: Envelope) -> tuple[str, ...]:
@@ -234,7 +224,7 @@ class RollerInversion(Inversion):
     def roller(self, i: int, pen: Pen = Pen.THIN) -> None:
         """Draw the roller in a position."""
         (R,) = self.scene.sizes("R_roller")
-        grouped(self.canvas, "roller", str(i), Circle(self.mark("B", i), R, pen))
+        self.canvas.group("roller", str(i), Circle(self.mark("B", i), R, pen))
 
     def sharpest(self) -> None:
         """Mark the place of the least radius of curvature of the pitch curve, and the radius."""
@@ -245,13 +235,13 @@ class RollerInversion(Inversion):
             return
         at, normal, centre, is_arc = sharpest
         place, core = scene.drawn(at), scene.drawn(centre)
-        grouped(canvas, "dimension", "rho_min", Line(core, place, Pen.THIN), Head(place, normal))
+        canvas.group("dimension", "rho_min", Line(core, place, Pen.THIN), Head(place, normal))
         size = 0.8 * self.style.arrow / 2
         cross = (Line(core - size * d, core + size * d, Pen.THIN) for d in (1 + 0j, 1j))
-        grouped(canvas, "point", "curvature", *cross)
+        canvas.group("point", "curvature", *cross)
         canvas.add(scene.node(place, "rho_min", "sharpest", filled=True, pen=Pen.MAIN))
         anchor = (core, place) if is_arc else core  # about the cam's centre stands enough
-        letter(canvas, scene.symbol("rho_min"), anchor, -normal)
+        canvas.small(scene.symbol("rho_min"), anchor, -normal)
 
     def normal_end(self, i: int) -> complex:
         """Return the outer end of the normal that is drawn in a position."""
@@ -264,13 +254,12 @@ class RollerInversion(Inversion):
         at, touch, (pole, up) = self.mark("B", i), self.mark("K", i), self.rising(i)
         out = unit(at - touch)
         canvas.part("normal")
-        thin(canvas, "normal", str(i), pole, self.normal_end(i))
-        thin(canvas, "transverse", str(i), at - 1j * up * reach, at + 1j * up * reach)
-        thin(canvas, "transverse", f"P{i}", 0j, pole)
+        canvas.thin("normal", str(i), pole, self.normal_end(i))
+        canvas.thin("transverse", str(i), at - 1j * up * reach, at + 1j * up * reach)
+        canvas.thin("transverse", f"P{i}", 0j, pole)
         for mark, place, part in (("K", touch, "profile"), ("P", pole, "normal")):
-            canvas.part(part)
-            canvas.add(scene.node(place, f"{mark}{i}", "point", pen=Pen.MAIN))
-            letter(canvas, f"{mark}_{{{i}}}", place, place * 1j)
+            canvas.part(part, scene.node(place, f"{mark}{i}", "point", pen=Pen.MAIN))
+            canvas.small(f"{mark}_{{{i}}}", place, place * 1j)
         across = up * -1j if swept(out, up) > 0.0 else up * 1j
         for name, rays, far in (("theta", (out, up), reach), ("gamma", (out, across), 0.5 * reach)):
             if abs(swept(*rays)) > FLAT:
@@ -297,7 +286,7 @@ class RollerInversion(Inversion):
         far = next(iter(free), far)
         middle = at + polar(far, start + 0.5 * sweep)
         canvas.add(angle_dimension(at, far, start, sweep, name, style))
-        letter(canvas, text, middle, middle - at)
+        canvas.small(text, middle, middle - at)
 
     def roller_radius(self) -> None:
         """Dimension the radius of the roller about its centre in a position on the side of a dwell."""
@@ -306,5 +295,5 @@ class RollerInversion(Inversion):
         at = self.mark("B", line)
         rim = at + course.up_at(solved, line, ASIDE if rest else -ASIDE) * R
         self.canvas.part("profile")
-        grouped(self.canvas, "dimension", "R_roller", Line(at, rim, Pen.THIN), Head(rim, rim - at))
-        letter(self.canvas, self.scene.symbol("R_roller"), rim, rim - at, 1.0)
+        self.canvas.group("dimension", "R_roller", Line(at, rim, Pen.THIN), Head(rim, rim - at))
+        self.canvas.small(self.scene.symbol("R_roller"), rim, rim - at, 1.0)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from ...plans.cams.construction import PLATE_PROFILE, PROFILE
 from ...plans.cams.course import on_circle, rests, turning, up_at
-from ..figure import Figure, Stage
+from ..figure import Figure, Stage, stages
 from ..page import extent
 from ..shapes import Arc, Group, Line, Pen, Polyline, Text
 from ..symbols import Rod, fixed_pivot, polar, revolute, swept, unit
 from ..text import lay_out
 from ..view import angle, linear
 from .inversion import NUMBERS, PHASES, RADIUS, Inversion, RollerInversion
-from .scene import CamScene, grouped, is_aside, is_sharp, letter, thin
+from .scene import CamScene, is_aside, is_sharp
 
 OUT = 1.5  # heights of letters from the roller to the dimension of the stroke
 ASIDE = 0.45  # rad between the rays of two radii
@@ -47,12 +47,11 @@ class _Roller(RollerInversion):
         canvas, reach = self.canvas, self.outer + (NUMBERS - 0.9) * self.style.label
         canvas.part("lines")
         line = self.mark("E", i), on_circle(self.e, reach, up_at(self.scene.solved, i))
-        thin(canvas, "position", str(i), *line)
+        canvas.thin("position", str(i), *line)
         if i:
             canvas.part("profile")
             self.roller(i)
-        canvas.part("pitch")
-        canvas.add(self.scene.node(self.mark("B", i), str(i)))
+        canvas.part("pitch", self.scene.node(self.mark("B", i), str(i)))
 
     def rising(self, i: int) -> tuple[complex, complex]:
         """Return the instant centre, on the normal to the line through the cam's centre, and the line's direction."""
@@ -107,17 +106,15 @@ class _Rocker(RollerInversion):
         if i:
             canvas.part("profile")
             self.roller(i)
-            canvas.part("pivots")
-            canvas.add(scene.node(pivot, f"A{i}"))
-        canvas.part("pitch")
-        canvas.add(scene.node(self.mark("B", i), f"B{i}"))
+            canvas.part("pivots", scene.node(pivot, f"A{i}"))
+        canvas.part("pitch", scene.node(self.mark("B", i), f"B{i}"))
 
     def numbers(self, radius: float) -> None:
         """Write the number of each position beyond its pivot, with a tick from the pivot towards it."""
         for i in self.lines:
             pivot = self.mark("A", i)
             tick = pivot, unit(pivot) * (radius - 0.9 * self.style.label)
-            thin(self.canvas, "position", str(i), *tick)
+            self.canvas.thin("position", str(i), *tick)
             at, wide = unit(pivot) * radius, lay_out(str(i), self.style.text).width
             gaps = (at - other for other in self.numbered_at)
             if all(abs(gap.real) > wide or abs(gap.imag) > self.style.text for gap in gaps):  # clear of all before
@@ -135,12 +132,12 @@ class _Rocker(RollerInversion):
         self.sharpest()
         canvas.part("normal")
         shown = self.mark("A", scene.shown), self.mark("B", scene.shown)
-        grouped(canvas, "rocker", str(scene.shown), Line(*shown, Pen.THIN))
+        canvas.group("rocker", str(scene.shown), Line(*shown, Pen.THIN))
         self.normal(scene.shown)
         canvas.part("follower")
         along = unit(at - pivot)
         self.roller(0, Pen.MAIN)
-        grouped(canvas, "rocker", "0", Line(pivot + along * pair, at - along * pair, Pen.MAIN))
+        canvas.group("rocker", "0", Line(pivot + along * pair, at - along * pair, Pen.MAIN))
         canvas.add(fixed_pivot(pivot, "A0", self.style), revolute(at, "B0", self.style))
         canvas.label("C", pivot, prefer=1 - 1j, clear=pair + 0.5)
         canvas.label("B", at, prefer=1 + 1j, clear=pair + 0.5)
@@ -153,10 +150,10 @@ class _Rocker(RollerInversion):
         high, low = self.mark("A", top), -self.sense * float(scene.solved.angles[top])
         rays = polar(l, low), self.mark("B", top) - high
         for ray in rays:
-            thin(canvas, "rocker", str(top), high, high + ray)
+            canvas.thin("rocker", str(top), high, high + ray)
         angle(canvas, high, rays, 0.4 * abs(rays[0]), "psi", words.symbol("psi"), clear=0.8)
         canvas.part("follower")
-        letter(canvas, words.symbol("l_rocker"), (pivot, at), 1j)
+        canvas.small(words.symbol("l_rocker"), (pivot, at), 1j)
         return [*scene.lettered("l_rocker", "R_roller", "rho_min", "psi"), *self.left]
 
 
@@ -182,13 +179,12 @@ class _Plate(Inversion):
         """Draw the axis and the plate, its centre, and where it touches the profile."""
         canvas, reach = self.canvas, self.outer + (NUMBERS - 0.9) * self.style.label
         canvas.part("circles")
-        thin(canvas, "position", str(i), 0j, up_at(self.scene.solved, i) * reach)
+        canvas.thin("position", str(i), 0j, up_at(self.scene.solved, i) * reach)
         canvas.part("profile")
         if i:
-            thin(canvas, "plate", str(i), *self.plate(i))
+            canvas.thin("plate", str(i), *self.plate(i))
         for role, mark, part in (("node", "B", "centres"), ("contact", "K", "profile")):
-            canvas.part(part)
-            canvas.add(self.scene.node(self.mark(mark, i), str(i), role))
+            canvas.part(part, self.scene.node(self.mark(mark, i), str(i), role))
 
     def follower(self) -> list[str]:
         """Draw plate and rod; dimension radii, the plate, how far to both sides it touches, the stroke."""
@@ -237,6 +233,7 @@ def _central(scene: CamScene) -> str:
     return "" if is_aside(scene) else "_central"
 
 
+LAST = Stage("sharpest", when=is_sharp), Stage("follower")  # of cams for rollers
 _Roller.figure = Figure(
     PROFILE,
     lambda scene: _Roller(scene).view(),
@@ -245,11 +242,8 @@ _Roller.figure = Figure(
         Stage("shaft", "profile.O"),
         Stage("circles", "_axis#", variant=_central),
         Stage("lines", "profile.E#", variant=_central),
-        Stage("pitch", "profile.B#"),
-        Stage("normal", "profile.P#"),
-        Stage("profile", "profile.K#"),
-        Stage("sharpest", when=is_sharp),
-        Stage("follower"),
+        *stages(pitch="profile.B#", normal="profile.P#", profile="profile.K#"),
+        *LAST,
     ),
     "cam.profile",
 )
@@ -258,13 +252,8 @@ _Rocker.figure = Figure(
     lambda scene: _Rocker(scene).view(),
     ("mu_l",),
     (
-        Stage("shaft", "profile.O"),
-        Stage("pivots", "profile.A#"),
-        Stage("pitch", "profile.B#"),
-        Stage("normal", "profile.D#"),
-        Stage("profile", "profile.K#"),
-        Stage("sharpest", when=is_sharp),
-        Stage("follower"),
+        *stages(shaft="profile.O", pivots="profile.A#", pitch="profile.B#", normal="profile.D#", profile="profile.K#"),
+        *LAST,
     ),
     "cam.rocker_profile",
 )
@@ -273,10 +262,7 @@ _Plate.figure = Figure(
     lambda scene: _Plate(scene).view(),
     ("mu_l",),
     (
-        Stage("shaft", "plate_profile.O"),
-        Stage("circles", "_axis#"),
-        Stage("centres", "plate_profile.B#"),
-        Stage("profile", "plate_profile.K#"),
+        *stages(shaft="plate_profile.O", circles="_axis#", centres="plate_profile.B#", profile="plate_profile.K#"),
         Stage("follower"),
     ),
     "cam.plate_profile",

@@ -17,8 +17,6 @@ from ...plans.names import role
 from ...plans.solved import PAPER_MM
 from ...scales.scale import Scale
 from ..figure import SubjectScene
-from ..shapes import Group, Line, Pen, Shape
-from ..view import Canvas
 from ..words import Words
 
 Size = TypeVar("Size", float, complex)
@@ -105,10 +103,6 @@ class CamScene(SubjectScene[SolvedCam]):
         rounded = Scale(scale.symbol, float(f"{scale.mu:.{MU_DIGITS}g}"), scale.unit, scale.paper)
         return self.words.scale(rounded)
 
-    def length(self, value: float) -> str:
-        """Return a length of the mechanism in mm, as a dimension has it."""
-        return self.words.number(value * 1e3, 2)
-
     def dimension(self, name: str, length: float) -> str:
         """Return a length of the mechanism with its letter, as a dimension has it."""
         return f"{self.symbol(name)} = {self.length(length)}"
@@ -156,23 +150,6 @@ class CamScene(SubjectScene[SolvedCam]):
         theta = float(self.rolling.profile.pressure(self.solved.angles[self.shown]))
         angles = {"theta": theta, "gamma": RIGHT_ANGLE - abs(theta)}
         return [self.angle(name, angle, self.shown) for name, angle in angles.items()]
-
-
-def letter(
-    canvas: Canvas, text: str, at: complex | tuple[complex, complex], prefer: complex, clear: float = 0.8
-) -> None:
-    """Ask for a letter as small as texts beside a node or a line."""
-    canvas.label(text, at, prefer=prefer, clear=clear, height=canvas.style.text)
-
-
-def thin(canvas: Canvas, role: str, name: str, a: complex, b: complex) -> None:
-    """Draw a thin line."""
-    canvas.add(Line(a, b, Pen.THIN, role=role, name=name))
-
-
-def grouped(canvas: Canvas, role: str, name: str, *shapes: Shape) -> None:
-    """Draw shapes that are one thing."""
-    canvas.add(Group(shapes, role, name))
 
 
 def given(*names: str) -> Callable[[CamScene], str]:

@@ -14,8 +14,7 @@ from ..compose import BLOCK, TURNED, column, row
 from ..extents import Rungs, not_a_point, smallest, visible
 from ..figure import Figure, Fitting, Found, SheetContents, may_fit
 from ..formats import STYLES, Format, room
-from ..table import givens_view
-from ..view import View
+from ..view import givens_view
 from .scene import CamScene, lettered
 
 GIVING = ("mu_l", "reduction", *EQUAL)  # what may be drawn smaller for the sake of one page
@@ -49,7 +48,6 @@ LEAST = 60.0  # mm of the least radius and the stroke on such a plan, where ther
 LARGEST = 150.0  # mm of the least radius and the stroke on a plan, where nothing is said
 DIGITS = 5  # of a scale factor that is chosen, not found
 AREAS = {DIAGRAMS_PART: 2.3e5, SIZES_PART: 9e4, PROFILE_PART: 9e4, PRESSURE_PART: 1.5e4}  # mm^2 of A1, with texts
-PARTS = tuple(AREAS)
 RADII = {"mu_s_ds": "r_0", "mu_s_d2s": "r_0_flat"}  # least radii that plans with equal scale factors show
 SYMBOLS = ("mu_l", *EQUAL)  # what may be chosen: the others follow from the drawn amplitude and the pole distances
 
@@ -77,9 +75,7 @@ def _ladder(solved: SolvedCam, choosers: Choosers, symbol: str) -> tuple[float, 
     return tuple(mu for mu in rungs if across <= LARGEST * mu) or (steps(across / LARGEST)[0],)
 
 
-def first_scales(
-    solved: SolvedCam, choosers: Choosers, plans: Sequence[str] = PARTS
-) -> tuple[Format, dict[str, Scale]]:
+def first_scales(solved: SolvedCam, choosers: Choosers, plans: Sequence[str]) -> tuple[Format, dict[str, Scale]]:
     """Return the format and the scale factors by plan: those of the diagrams follow from the construction."""
     if "mu_phi" in solved.givens:
         not_a_point("mu_phi", solved.givens["mu_phi"], math.tau, "rad")
@@ -124,9 +120,10 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
         from . import diagrams_view, profile_view, sizes_view, text
 
         solved, narrow, note = self.contents.solved, NARROW * width, self.contents.note
+        numbers = {name: given for name, given in scene.givens.items() if not isinstance(given.value, str)}
         for plan in self.contents.plans:
             if plan == DIAGRAMS_PART:
-                yield Figure("givens", _givens)
+                yield Figure("givens", lambda scene: givens_view(numbers, scene.words, scene.style))
                 yield Figure("choices", partial(text.choices_block, note=note, width=narrow), ("reduction",))
                 yield Figure("motion", text.motion_table)
                 yield diagrams_view.DIAGRAMS_FIGURE
@@ -193,8 +190,3 @@ def _chosen(solved: SolvedCam, choosers: Choosers) -> dict[str, tuple[float, ...
 def _missed(rungs: Rungs) -> tuple[int, int]:
     """Return how much is given up at these rungs; of equal losses that of the diagrams is the least."""
     return 3 * (rungs["mu_l"] + rungs["reduction"]) + sum(rungs[name] for name in EQUAL), rungs["mu_l"]
-
-
-def _givens(scene: CamScene) -> View:
-    numbers = {name: given for name, given in scene.givens.items() if not isinstance(given.value, str)}
-    return givens_view(numbers, scene.words, scene.style)

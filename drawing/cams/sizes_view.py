@@ -16,13 +16,13 @@ from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.sizes import apex, wedge
 from ..areas import hatched
 from ..diagram import small
-from ..figure import Figure, Stage
+from ..figure import Figure, Stage, stages
 from ..shapes import Arc, Circle, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, arc_between, at_level, fixed_pivot, nearer, swept, unit
 from ..text import lay_out
 from ..view import Canvas, View, angle, linear, turning
 from .diagrams_view import jumps
-from .scene import CamScene, given, grouped, letter, thin
+from .scene import CamScene, given
 from .text import transfer
 
 PAST = 8.0  # mm by which an axis runs past the curve, a rocker's path past its ends
@@ -46,7 +46,7 @@ def _sizes_view(scene: CamScene) -> View:
     outline = [0j]
     for phase in (RISE, FALL):  # a line across where the velocity jumps
         points = scene.curve(course.analogues(solved, phase), SIZES)
-        grouped(canvas, "curve", phase, Polyline(points, Pen.MAIN))
+        canvas.group("curve", phase, Polyline(points, Pen.MAIN))
         outline += points
     canvas.part("axes")
     _axes(canvas, scene, outline, centre.imag - 2 * PAST, "ds")
@@ -60,7 +60,7 @@ def _sizes_view(scene: CamScene) -> View:
         _number(canvas, group, at, out or 1j * at.imag)
     canvas.part("centre")
     _radius(canvas, centre, 0j, "r_0")
-    letter(canvas, scene.lettered("r_0")[0], (centre, 0j), -1.0)
+    canvas.small(scene.lettered("r_0")[0], (centre, 0j), -1.0)
     offset = scene.dimension("e", abs(float(solved.values["e"])))
     linear(canvas, (complex(0.0, centre.imag), centre), -1j * (BELOW + 8.0), offset, "e")
     _mark_centre(canvas, scene, centre, -1 + 0j, 0.0)
@@ -99,7 +99,7 @@ def _limits(canvas: Canvas, scene: CamScene, centre: complex) -> None:
         touch = scene.drawn(course.touch_of(scene.solved, plane), SIZES)
         up = plane.normal.conjugate() * 1j  # along the line, upwards: a mirror image turns e + i s_0 down
         up = up if up.imag > 0.0 else -up
-        thin(canvas, "limit", plane.name, touch + up * LINE, at_level(touch, up, low))
+        canvas.thin("limit", plane.name, touch + up * LINE, at_level(touch, up, low))
         canvas.add(scene.node(touch, plane.name, "touch", filled=True))
         if not _is_lettered(scene, plane.name):
             continue
@@ -141,7 +141,7 @@ def _number(canvas: Canvas, group: list[tuple[int, str]], at: complex, prefer: c
 def _radius(canvas: Canvas, centre: complex, end: complex, name: str) -> complex:
     """Draw the dimension line from the cam's centre to a point; return its direction."""
     out = unit(end - centre)
-    grouped(canvas, "dimension", name, Line(centre, end, Pen.THIN), Head(end, out), Head(centre, -out))
+    canvas.group("dimension", name, Line(centre, end, Pen.THIN), Head(end, out), Head(centre, -out))
     return out
 
 
@@ -149,7 +149,7 @@ def _mark_centre(
     canvas: Canvas, scene: CamScene, centre: complex, prefer: complex, middle: float | None = None
 ) -> None:
     """Mark the centre of the cam, and where its middle is said show its sense."""
-    grouped(canvas, "point", "O", Circle(centre, canvas.style.node * 1.5, Pen.MAIN, fill="white"))
+    canvas.group("point", "O", Circle(centre, canvas.style.node * 1.5, Pen.MAIN, fill="white"))
     canvas.label("O", centre, prefer=prefer, clear=1.0)
     if middle is not None:
         radius, sense = 2.4 * scene.style.label, float(scene.solved.cam.sense)
@@ -165,11 +165,11 @@ def _permitted_offsets(canvas: Canvas, scene: CamScene) -> None:
     ends = sorted((low, high, at), key=lambda place: place.real)
     whole = arc_between(0j, ends[0], ends[-1], Pen.AXIS, "circle", "r_0")
     canvas.add(replace(whole, start=whole.start - OVER, sweep=whole.sweep + 2.0 * OVER))
-    grouped(canvas, "offsets", "e", arc_between(0j, low, high, Pen.MAIN))
+    canvas.group("offsets", "e", arc_between(0j, low, high, Pen.MAIN))
     for name, end, side in (("e_least", low, -1.0), ("e_most", high, 1.0)):
         tick = TICK * unit(end)
-        thin(canvas, "offset", name, end - tick, end + tick)
-        letter(canvas, scene.symbol(name), end, complex(side, -1.0), 1.0)
+        canvas.thin("offset", name, end - tick, end + tick)
+        canvas.small(scene.symbol(name), end, complex(side, -1.0), 1.0)
 
 
 def _plate_sizes_view(scene: CamScene) -> View:
@@ -180,7 +180,7 @@ def _plate_sizes_view(scene: CamScene) -> View:
     outline: list[complex] = []
     for phase in (solved.motion.rise, solved.motion.fall):  # a line across where the acceleration jumps
         curves = [scene.curve(piece, PLATE_SIZES) for piece in course.over_acceleration(solved, phase)]
-        grouped(canvas, "curve", phase.name, *(Polyline(points, Pen.MAIN) for points in curves))
+        canvas.group("curve", phase.name, *(Polyline(points, Pen.MAIN) for points in curves))
         feet = ((complex(0.0, place.imag),) for place in (curves[0][0], curves[-1][-1]))
         jumps(canvas, [next(feet), *curves, next(feet)], phase.name)
         outline += [point for points in curves for point in points]
@@ -188,7 +188,7 @@ def _plate_sizes_view(scene: CamScene) -> View:
     _axes(canvas, scene, outline, centre.imag - PAST, "d2s")
     canvas.part("tangent")  # from past the place where it touches to its foot on the axis
     touch = scene.drawn(course.touch_of_plate(solved), PLATE_SIZES)
-    thin(canvas, "limit", "convex", touch + ALONG * TANGENT, low - ALONG * TANGENT)
+    canvas.thin("limit", "convex", touch + ALONG * TANGENT, low - ALONG * TANGENT)
     canvas.add(scene.node(touch, "convex", "touch", filled=True))
     angle(canvas, low, (1j, ALONG), 3.0 * scene.style.label, "tangent", "45°")
     canvas.part("points")
@@ -222,7 +222,7 @@ def _rocker_sizes_view(scene: CamScene) -> View:
     ends = [(k, phase, scene.drawn(course.analogue(solved, k, phase))) for k, phase in division.on_lines]
     for k, phase, end in ends:  # towards the cam's centre
         past = end + course.limit_direction(solved, k, phase) * (LIMIT * scene.style.label)
-        thin(canvas, "limit", f"{k}_{phase}", end, past)
+        canvas.thin("limit", f"{k}_{phase}", end, past)
     _bounds(canvas, scene, centre.imag - AROUND)
     x, y = centre.real, centre.imag
     box = (x - 2.0 * AROUND, y - AROUND, x + 2.0 * AROUND, min(0.0, y + 2.0 * AROUND))
@@ -232,7 +232,7 @@ def _rocker_sizes_view(scene: CamScene) -> View:
     low, high = (scene.mm(f"{ROCKER_SIZES}.B{k}") for k in (0, division.top))
     canvas.part("centre")
     for name, end in (("r_0", low), ("l_OC", 0j)):
-        letter(canvas, words.symbol(name), (centre, end), _radius(canvas, centre, end, name) * 1j)
+        canvas.small(words.symbol(name), (centre, end), _radius(canvas, centre, end, name) * 1j)
     canvas.part("positions")
     linear(canvas, (0j, high), 1j * unit(high) * 3.0 * scene.style.label, words.symbol("l_rocker"), "l_rocker")
     angle(canvas, 0j, (low, high), 0.45 * abs(low), "psi", words.symbol("psi"), prefer=-1 + 0j)
@@ -253,21 +253,19 @@ def _rocker(canvas: Canvas, scene: CamScene) -> None:
     """Draw the rocker in all positions, the path of its roller, and the curve of the analogues' ends."""
     division, (l,) = scene.division, scene.sizes("l_rocker")
     over, swing = PAST / l, scene.value_of("psi")
-    canvas.part("positions")
-    canvas.add(Arc(0j, l, -over, swing + 2.0 * over, Pen.AXIS, role="path", name="B"))
+    canvas.part("positions", Arc(0j, l, -over, swing + 2.0 * over, Pen.AXIS, role="path", name="B"))
     canvas.part("analogues")
     for phase in (RISE, FALL):
         points = scene.curve(course.analogues(scene.solved, phase))
-        grouped(canvas, "curve", phase, Polyline(points, Pen.MAIN))
+        canvas.group("curve", phase, Polyline(points, Pen.MAIN))
     canvas.part("positions")
     for i in division.lines:
         at, end = (scene.mm(f"{ROCKER_SIZES}.{letter}{i}") for letter in "BD")
         # from the pivot only the rocker itself, its highest position, and the one that is lettered
         near = 0j if i in (0, division.top, scene.shown) else min(at, end, key=abs)
         line = Line(near, at, Pen.MAIN) if i == 0 else Line(near, max(at, end, key=abs), Pen.THIN)
-        grouped(canvas, "position", str(i), line)
-    canvas.part("pivot")
-    canvas.add(fixed_pivot(0j, "C", scene.style))
+        canvas.group("position", str(i), line)
+    canvas.part("pivot", fixed_pivot(0j, "C", scene.style))
     canvas.label("C", 0j, prefer=-1 + 1j, clear=scene.style.pair + 1.0)
 
 
@@ -276,13 +274,13 @@ def _bounds(canvas: Canvas, scene: CamScene, low: float) -> None:
     for limit, place, arm, along in course.bounds(scene.solved):
         end, radius = scene.drawn(place), 5.0 * scene.style.label
         canvas.add(scene.node(end, limit.name, "touch", filled=True))
-        thin(canvas, "bound", limit.name, end, at_level(end, along, low))
+        canvas.thin("bound", limit.name, end, at_level(end, along, low))
         if not _is_lettered(scene, limit.name):
             continue
         start, text = nearer(arm, along), scene.symbol(f"gamma_{limit.phase}")
         angle(canvas, end, (start, along), radius, f"gamma_{limit.name}", text, clear=0.8)
         if start == arm:  # beyond the rocker
-            thin(canvas, "extension", "", end, end + arm * (radius + 2.0))
+            canvas.thin("extension", "", end, end + arm * (radius + 2.0))
 
 
 def _rocker_nodes(canvas: Canvas, scene: CamScene, ends: Ends) -> None:
@@ -295,11 +293,11 @@ def _rocker_nodes(canvas: Canvas, scene: CamScene, ends: Ends) -> None:
     shared = _marked(canvas, scene, ends)
     middle = sum(shared) / len(shared)
     canvas.part("positions")
-    letter(canvas, f"B_{{{shown}}}", scene.mm(f"{ROCKER_SIZES}.B{shown}"), 1 + 0j, 1.0)
+    canvas.small(f"B_{{{shown}}}", scene.mm(f"{ROCKER_SIZES}.B{shown}"), 1 + 0j, 1.0)
     canvas.part("analogues")
     for at, group in shared.items():
         if [i for i, _ in group] == [shown]:
-            letter(canvas, f"D_{{{shown}}}", at, at - middle)
+            canvas.small(f"D_{{{shown}}}", at, at - middle)
         else:
             _number(canvas, group, at, at - middle)
 
@@ -310,8 +308,7 @@ FIGURES = {
         _sizes_view,
         ("mu_s_ds", "reduction"),
         (
-            Stage("axes", "sizes.#"),
-            Stage("points", "sizes.#_rise"),
+            *stages(axes="sizes.#", points="sizes.#_rise"),
             *(Stage(f"tangent_{limit}", f"sizes.T_{limit}") for limit in PHASE_OF),
             Stage("permitted", "sizes.A"),
             Stage("centre", "sizes.C", variant=given("r_0", "e")),
@@ -324,9 +321,7 @@ FIGURES = {
         _plate_sizes_view,
         ("mu_s_d2s", "reduction"),
         (
-            Stage("axes", "plate_sizes.#"),
-            Stage("points", "plate_sizes.#_before"),
-            Stage("tangent", "plate_sizes.T"),
+            *stages(axes="plate_sizes.#", points="plate_sizes.#_before", tangent="plate_sizes.T"),
             Stage("centre", variant=given("r_0_flat")),
         ),
         "cam.plate_sizes",
@@ -336,10 +331,7 @@ FIGURES = {
         _rocker_sizes_view,
         ("mu_l",),
         (
-            Stage("pivot", "rocker_sizes.#"),
-            Stage("positions", "rocker_sizes.B#"),
-            Stage("analogues", "rocker_sizes.D#"),
-            Stage("limits", "_limit#"),
+            *stages(pivot="rocker_sizes.#", positions="rocker_sizes.B#", analogues="rocker_sizes.D#", limits="_limit#"),
             Stage("centre", "rocker_sizes.C", variant=given("l_OC", "r_0")),
             Stage("pressure"),
         ),

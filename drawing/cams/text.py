@@ -20,8 +20,7 @@ from ..handouts import Shown as Begun
 from ..notes.blocks import Sentences, Story
 from ..printed import DEGREES, Input, Shown, calculation, segment_decimals, worked
 from ..symbols import swept
-from ..table import table, text_block, words_of
-from ..view import View
+from ..view import View, table, text_block, words_of
 from .inversion import undercut_notes
 from .scene import MU_DIGITS, CamScene, is_aside
 

@@ -17,26 +17,8 @@ from ...plans.lab.hoists import Steps, Ways
 from ...plans.lab.integrators import RK4, VERLET, growth
 from ..gears.scene import lettered
 from ..words import Words
-from .paper import (
-    BLACK,
-    DASHED,
-    GREY,
-    LINES,
-    SMALL,
-    SOLID,
-    TEXT,
-    WHITE,
-    WIDTH,
-    Label,
-    beside,
-    box,
-    curve,
-    decimals,
-    legend,
-    mathtext,
-    page,
-    put,
-)
+from . import paper
+from .paper import Label, beside, box, curve, decimals, legend, mathtext, page, put
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,7 +30,7 @@ PERCENT = 100.0
 LEFT, APART = 24.0, 158.0  # mm: where fields begin
 FOOT, WIDE, TALL = 30.0, 258.0, 152.0  # mm: all fields together
 GAP, GEAR_GAP = 11.0, 16.0
-RING: Mapping[str, Any] = {"ms": 9.0, "mfc": "none", "mec": BLACK, "mew": 0.8, "zorder": 4}
+RING: Mapping[str, Any] = {"ms": 9.0, "mfc": "none", "mec": paper.BLACK, "mew": 0.8, "zorder": 4}
 SYMBOLS: Mapping[str, str] = {  # of quantities of a cam
     chords.V_MAX: "$V_{max}$",
     chords.S_MAX: "$S_{max}$",
@@ -57,7 +39,7 @@ SYMBOLS: Mapping[str, str] = {  # of quantities of a cam
     chords.CLOSED: "s",
 }
 # line of each family of curves, and the order of its error
-FAMILIES: Mapping[str, tuple[Any, int]] = {chords.NODES: (SOLID, 2), chords.BETWEEN: (DASHED, 1)}
+FAMILIES: Mapping[str, tuple[Any, int]] = {chords.NODES: (paper.SOLID, 2), chords.BETWEEN: (paper.DASHED, 1)}
 ROUNDING = 1e-4  # per cent below which an error is rounding
 FACES = {"drawn": ("white", ""), "speed": ("white", "////"), "stroke": ("0.82", ""), "both": ("0.0", "")}  # and hatch
 BAR = 0.19
@@ -110,7 +92,7 @@ def sections_page(found: chords.Convergence, words: Words, title: str, note: str
 
 def _chords(axes: Axes, found: chords.Convergence, names: Sequence[str], words: Words) -> None:
     """Draw the errors of chords alone, with the slopes that they should have."""
-    axes.set_title(words["chart.chords_alone"], fontsize=TEXT + 1.5)
+    axes.set_title(words["chart.chords_alone"], fontsize=paper.TEXT + 1.5)
     axes.set(ylabel=words["chart.sections_error"])
     labels, points = [], []
     for where in found.sections:
@@ -119,7 +101,7 @@ def _chords(axes: Axes, found: chords.Convergence, names: Sequence[str], words: 
             if n.size:
                 curve(axes, k, n, error, ls=FAMILIES[where][0], ms=4.4)
                 points += list(zip(n.tolist(), error.tolist(), strict=True))
-                labels.append(Label(*points[-1], SYMBOLS[name], must=True, size=TEXT))
+                labels.append(Label(*points[-1], SYMBOLS[name], must=True, size=paper.TEXT))
     _logarithmic(axes, found.sections[chords.NODES], words)
     axes.set_xlim(right=axes.get_xlim()[1] * 1.25)
     put(axes, labels, points)
@@ -142,23 +124,25 @@ def _slope(axes: Axes, found: chords.Convergence, where: str, words: Words) -> N
     n, error = sorted(curves, key=lambda pair: float(pair[1][-1]))[-1 if above else 0]
     i = len(n) // 2
     low, high, start = float(n[i - 1]), float(n[i + 1]), float(error[i - 1]) * (2.6 if above else 0.45)
-    axes.plot([low, high], [start, start * (low / high) ** power], color=GREY, lw=2.2, solid_capstyle="butt", zorder=1)
+    axes.plot(
+        [low, high], [start, start * (low / high) ** power], color=paper.GREY, lw=2.2, solid_capstyle="butt", zorder=1
+    )
     middle = (low * high) ** 0.5
     text, away = f"{words[f'chart.{where}']}: $n^{{-{power}}}$".replace("-", "−"), 4.0 if above else -4.0
     sides: Any = {"ha": "left", "va": "bottom"} if above else {"ha": "right", "va": "top"}
-    beside(axes, text, (middle, start * (low / middle) ** power), (away, away), fontsize=SMALL + 0.5, **sides)
+    beside(axes, text, (middle, start * (low / middle) ** power), (away, away), fontsize=paper.SMALL + 0.5, **sides)
 
 
 def _sections(axes: Axes, found: chords.Convergence, name: str, words: Words) -> None:
     """Draw what every hand keeps of one quantity, beside chords without errors of drawing."""
     key = "chart.by_hands_closed" if name == chords.CLOSED else "chart.by_hands"
-    axes.set_title(words[key].format(name=SYMBOLS[name]), fontsize=TEXT, pad=3.0)
+    axes.set_title(words[key].format(name=SYMBOLS[name]), fontsize=paper.TEXT, pad=3.0)
     n = np.array(found.drawn, float)
     best = {hand: found.drawn.index(found.best(hand, name)[0]) for hand in PRESETS}
     labels, points = _by_hands(axes, n, {hand: found.hands[hand, name] for hand in PRESETS}, best, words)
     counts, alone = _visible(found, chords.NODES, name)
     inside = counts <= n.max() * 1.01
-    axes.plot(counts[inside], alone[inside], color=GREY, lw=2.0, zorder=1)
+    axes.plot(counts[inside], alone[inside], color=paper.GREY, lw=2.0, zorder=1)
     _logarithmic(axes, found.drawn, words)
     low, high = axes.get_ylim()
     axes.set_ylim(max(low, high * 1e-3), high * 1.6)
@@ -172,7 +156,7 @@ def closing_page(found: chords.Robustness, words: Words, title: str, note: str) 
         if found.beside:
             _missed(box(figure, (LEFT, 34.0, 112.0, 148.0), title=words["chart.line_beside"]), found, words)
         else:
-            figure.text(LEFT / WIDTH, 0.5, words["chart.no_jumps"], fontsize=TEXT)
+            figure.text(LEFT / paper.WIDTH, 0.5, words["chart.no_jumps"], fontsize=paper.TEXT)
         _closings(box(figure, (164.0, 34.0, 106.0, 148.0), title=words["chart.travel_error"]), found, words)
     return figure
 
@@ -187,17 +171,17 @@ def _missed(axes: Axes, found: chords.Robustness, words: Words) -> None:
         if name == chords.MU_S:
             continue
         error = PERCENT * parts
-        curve(axes, names.index(name), found.beside, error, ls=LINES[counts.index(n)], markevery=5, ms=3.8)
+        curve(axes, names.index(name), found.beside, error, ls=paper.LINES[counts.index(n)], markevery=5, ms=3.8)
         points += list(zip(found.beside, error.tolist(), strict=True))
         if n == counts[0]:
-            labels.append(Label(*points[-1], SYMBOLS[name], must=True, size=TEXT))
-    axes.axhline(0.0, color=BLACK, lw=0.6)
-    axes.axvline(0.0, color=BLACK, lw=0.6)
+            labels.append(Label(*points[-1], SYMBOLS[name], must=True, size=paper.TEXT))
+    axes.axhline(0.0, color=paper.BLACK, lw=0.6)
+    axes.axvline(0.0, color=paper.BLACK, lw=0.6)
     axes.set(xlim=(-0.5, 0.6), ylim=(-PERCENT, PERCENT), xticks=[-0.5, -0.25, 0.0, 0.25, 0.5])
     decimals(words, axes.xaxis)
     put(axes, labels, points)
-    for n, line in zip(counts, LINES, strict=False):
-        axes.plot([], [], ls=line, color=BLACK, lw=0.9, label=f"n = {n}")
+    for n, line in zip(counts, paper.LINES, strict=False):
+        axes.plot([], [], ls=line, color=paper.BLACK, lw=0.9, label=f"n = {n}")
     legend(axes, "lower left", handlelength=3.0)
 
 
@@ -209,10 +193,10 @@ def _closings(axes: Axes, found: chords.Robustness, words: Words) -> None:
         heights = [PERCENT * closing.errors.get(way, 0.0) for closing in found.closings.values()]
         places = [i + (k - 1.5) * BAR for i in range(len(heights))]
         label = words[f"chart.closed.{way}"].rpartition(",")[0]
-        axes.bar(places, heights, BAR, color=face, edgecolor=BLACK, lw=0.7, hatch=hatch, label=label, zorder=2)
+        axes.bar(places, heights, BAR, color=face, edgecolor=paper.BLACK, lw=0.7, hatch=hatch, label=label, zorder=2)
         for x, height in zip(places, heights, strict=True):
             if height:
-                beside(axes, words.short(height, 2), (x, height), (0.0, 1.5), ha="center", fontsize=SMALL - 0.5)
+                beside(axes, words.short(height, 2), (x, height), (0.0, 1.5), ha="center", fontsize=paper.SMALL - 0.5)
     axes.set(yscale="log", ylim=(0.5, 300.0))
     decimals(words, axes.yaxis)
     axes.yaxis.minorticks_off()
@@ -233,7 +217,7 @@ def scales_page(found: ScaleErrors, words: Words, title: str, note: str) -> Figu
 
 def _scales(axes: Axes, found: ScaleErrors, name: str, words: Words) -> None:
     """Draw what every hand keeps of one quantity, what is let pass of it, and where a tooth is as high as usual."""
-    axes.set_title(words["chart.by_hands"].format(name=mathtext(words.symbol(name))), fontsize=TEXT, pad=3.0)
+    axes.set_title(words["chart.by_hands"].format(name=mathtext(words.symbol(name))), fontsize=paper.TEXT, pad=3.0)
     enough = {hand: found.enough(hand, name, preset.tolerance.part) for hand, preset in PRESETS.items()}
     rings = {hand: None if ratio is None else found.ratios.index(ratio) for hand, ratio in enough.items()}
     errors = {hand: found.errors[hand, name] for hand in PRESETS}
@@ -244,7 +228,7 @@ def _scales(axes: Axes, found: ScaleErrors, name: str, words: Words) -> None:
     axes.set_xlim(right=axes.get_xlim()[1] * 2.0)
     ratio = HIGH * MILLI / found.tooth
     if axes.get_xlim()[0] < ratio < axes.get_xlim()[1]:
-        axes.axvline(ratio, color=GREY, lw=0.8, ls=(0, (8, 2, 1, 2)), zorder=1)
+        axes.axvline(ratio, color=paper.GREY, lw=0.8, ls=(0, (8, 2, 1, 2)), zorder=1)
         text, top = words["chart.scale_tooth"].format(height=words.short(HIGH)), (ratio, axes.get_ylim()[1])
         beside(axes, text, top, (-3.0, -4.0), ha="right", va="top", rotation=90)
     put(axes, [replace(label, x=1.06 * label.x) for label in labels], points)  # clear of a ring
@@ -266,7 +250,7 @@ def _errors(axes: Axes, found: Mapping[str, Steps], words: Words) -> None:
     """Draw errors over steps; crosses at the top are runs that are refused."""
     for limit in {runs.limit for runs in found.values()}:
         if 0.0 < limit < math.inf:
-            axes.axvline(limit, color=GREY, lw=0.8, ls=(0, (4, 2)), zorder=1)
+            axes.axvline(limit, color=paper.GREY, lw=0.8, ls=(0, (4, 2)), zorder=1)
     for k, (method, runs) in enumerate(found.items()):
         rising, name = np.argsort(runs.steps), words[f"chart.{method}"]
         z, error = runs.steps[rising], runs.errors[rising]
@@ -275,9 +259,9 @@ def _errors(axes: Axes, found: Mapping[str, Steps], words: Words) -> None:
         refused = z[np.isnan(error)]
         if refused.size:
             height = REFUSED * ROW**k
-            axes.plot(refused, np.full(refused.shape, height), "x", color=BLACK, ms=3.6, mew=0.8)
+            axes.plot(refused, np.full(refused.shape, height), "x", color=paper.BLACK, ms=3.6, mew=0.8)
             # whose runs are refused stands to the left of the first
-            beside(axes, name, (float(refused.min()), height), (-5.0, 0.0), ha="right", va="center", bbox=WHITE)
+            beside(axes, name, (float(refused.min()), height), (-5.0, 0.0), ha="right", va="center", bbox=paper.WHITE)
     axes.set(xscale="log", yscale="log", ylim=(1e-9, 3e3))
     axes.set(xlim=(axes.get_xlim()[0] * 0.9, 6.0), xticks=[0.01, 0.1, 1.0], yticks=[10.0**n for n in range(-9, 1)])
     axes.yaxis.minorticks_off()
@@ -293,9 +277,9 @@ def _growths(axes: Axes, found: Mapping[str, Steps], words: Words) -> None:
         curve(axes, k, z, grown, label=words[f"chart.{method}"], markevery=(40 * k, 200))
     for method, (dx, dy, side) in LIMITED.items():
         limit = found[method].limit
-        axes.plot(limit, 1.0, "o", ms=6.0, mfc=BLACK, mec=BLACK, zorder=4)
+        axes.plot(limit, 1.0, "o", ms=6.0, mfc=paper.BLACK, mec=paper.BLACK, zorder=4)
         text = words["chart.hoist.limit"].format(value=words.short(limit, 4))
-        beside(axes, text, (limit, 1.0), (dx, dy), ha=side, va="center", fontsize=TEXT)
+        beside(axes, text, (limit, 1.0), (dx, dy), ha=side, va="center", fontsize=paper.TEXT)
     axes.set(yscale="log", ylim=(1e-1, 1e3), xlim=(0.0, FARTHEST))
     decimals(words, axes.xaxis, axes.yaxis)
     legend(axes, "upper left", handlelength=4.0, borderaxespad=0.8)

@@ -42,7 +42,15 @@ def _action_view(overall: GearScene) -> View:
     scene = replace(overall, mu_l=overall.rolled)
     canvas = ACTION_FIGURE.canvas(scene, coarse=0.0)
     canvas.part(ANSWERS)
-    _zones(canvas, scene)
+    for k, (first, last, count) in enumerate(GearCourse(scene.solved).zones):  # as many steps as pairs touch
+        a, b, top = scene.drawn(first), scene.drawn(last), LEVEL * scene.style.label * count
+        corners = complex(a, 0.0), complex(a, top), complex(b, top), complex(b, 0.0)
+        canvas.group("zone", f"{k + 1}_{count}", Polyline(corners, Pen.THIN))
+        narrow = b - a < lay_out(str(count), scene.style.label).width + 2.0
+        level = top + (0.4 if narrow else -0.5 * (LEVEL + 1.0)) * scene.style.label
+        canvas.add(
+            Text(complex(0.5 * (a + b), level), str(count), scene.style.label, "middle", role="zone", name=str(k + 1))
+        )
     _line(canvas, scene)
     canvas.part(ANSWERS)
     _dimensions(canvas, scene)
@@ -73,19 +81,6 @@ def _ratios(scene: GearScene) -> tuple[str, ...]:
     return tuple(found)
 
 
-def _zones(canvas: Canvas, scene: GearScene) -> None:
-    """Draw over each part as many steps as pairs touch, with their number."""
-    label = scene.style.label
-    for k, (first, last, count) in enumerate(GearCourse(scene.solved).zones):
-        a, b = scene.drawn(first), scene.drawn(last)
-        top = LEVEL * label * count
-        corners = complex(a, 0.0), complex(a, top), complex(b, top), complex(b, 0.0)
-        canvas.add(Group((Polyline(corners, Pen.THIN),), "zone", f"{k + 1}_{count}"))
-        narrow = b - a < lay_out(str(count), label).width + 2.0
-        middle = complex(0.5 * (a + b), top + 0.4 * label if narrow else top - 0.5 * (LEVEL + 1.0) * label)
-        canvas.add(Text(middle, str(count), label, "middle", role="zone", name=str(k + 1)))
-
-
 def _line(canvas: Canvas, scene: GearScene) -> None:
     """Draw the line with its points."""
     style, line = scene.style, scene.paper("l_N1N2")
@@ -102,8 +97,7 @@ def _line(canvas: Canvas, scene: GearScene) -> None:
         if 0.0 < x < line:
             ends[f"H{i}"] = x
     for name, x in ends.items():
-        canvas.part(STAGE.get(name, "pitches"))
-        canvas.add(scene.node(complex(x, 0.0), name, "point"))
+        canvas.part(STAGE.get(name, "pitches"), scene.node(complex(x, 0.0), name, "point"))
         canvas.label(indexed(name), complex(x, 0.0), prefer=-1j, clear=style.node + 0.8)
 
 
@@ -126,7 +120,7 @@ def _dimensions(canvas: Canvas, scene: GearScene) -> None:
             ends = complex(low, 0.0), complex(high, 0.0)
             linear(canvas, ends, 1j * y, "", name)
             at = ends[0] + 1j * y, ends[1] + 1j * y
-            canvas.label(scene.stated(quantity), at, prefer=1j, clear=0.8, height=scene.style.text)
+            canvas.small(scene.stated(quantity), at, 1j)
         y -= ROW * scene.style.label * bool(shown)
 
 
@@ -191,18 +185,16 @@ def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field) -> N
     canvas.add(*numbers(lines, foot - 0.8 - height, height, first=1))
     for name, rho in scene.places.items():
         at = above.at(rho, 0.0)
-        canvas.part("active_line" if name in ("A1", "A2") else "axes")
-        canvas.add(scene.node(at, name, "point", pen=Pen.MAIN))
+        canvas.part("active_line" if name in ("A1", "A2") else "axes", scene.node(at, name, "point", pen=Pen.MAIN))
         canvas.label(indexed(name), at, prefer=-0.6 - 1j if name == "N1" else 0.6 - 1j, clear=1.0, priority=1)
 
 
 def _velocities(canvas: Canvas, scene: GearScene, field: Field) -> None:
     """Draw the lines of both velocities from N1 and N2, marked at the points of the table."""
-    words, w = scene.words, _w_of(scene, field)
+    words, w = scene.words, field.at(scene.size("rho_w1"), scene.size("PW"))
     for i in WHEELS:
         tips = [field.at(_place(scene, point), scene.size(f"y_{i}_{point}")) for point in POINTS]
-        canvas.part("velocities")
-        canvas.add(Group((Line(tips[0], tips[-1], Pen.MAIN),), "curve", f"V_k{i}"))
+        canvas.part("velocities", Group((Line(tips[0], tips[-1], Pen.MAIN),), "curve", f"V_k{i}"))
         canvas.add(*(scene.node(tip, f"y_{i}_{n}", "ordinate") for n, tip in zip(POINTS, tips, strict=True)))
         far = [tip for tip in tips if (tip - w).real * SIDES[i] > -1e-6]
         canvas.label(words.symbol(f"V_k{i}"), _widest(far, w), prefer=1j, clear=1.0)
@@ -212,20 +204,14 @@ def _velocities(canvas: Canvas, scene: GearScene, field: Field) -> None:
         linear(canvas, (complex(tip.real, 0.0), tip), 2.0 * scene.style.label * SIDES[i], text, f"y_{i}_{point}")
 
 
-def _w_of(scene: GearScene, field: Field) -> complex:
-    """Return W, over the pole."""
-    return field.at(scene.size("rho_w1"), scene.size("PW"))
-
-
 def _pole(canvas: Canvas, scene: GearScene, field: Field) -> list[str]:
     """Mark W over the pole, and dimension PW; return its text where it has no room along its line."""
-    w, words = _w_of(scene, field), scene.words
+    w, words = field.at(scene.size("rho_w1"), scene.size("PW")), scene.words
     text = f"{words.symbol('PW')} = {words.short(round(scene.size('PW') * 1e3, 6))}"
     canvas.part(ANSWERS)
     fits = w.imag - 2.0 * scene.style.arrow > lay_out(text, scene.style.text).width
     linear(canvas, (complex(w.real, 0.0), w), 0j, text if fits else "", "PW")
-    canvas.part("pole")
-    canvas.add(scene.node(w, "W", "point", pen=Pen.MAIN))
+    canvas.part("pole", scene.node(w, "W", "point", pen=Pen.MAIN))
     canvas.label("W", w, prefer=1j, clear=1.2, priority=1)
     return [] if fits else [f"{text} {words.unit('mm')}"]
 

@@ -43,8 +43,7 @@ def _rolling_view(overall: GearScene) -> View:
         _foot(canvas, scene, wheel, inside)
     lasts = ((f"N{wheel.number}", f"D{wheel.number}_{_divisions(scene, wheel)[-1]}") for wheel in pair)
     first, last = (max(map(scene.mm, names), key=abs) for names in lasts)
-    canvas.part("line_of_action")
-    canvas.add(Line(first - PAST * along, last + PAST * along, Pen.THIN, role=LINE, name="N1N2"))
+    canvas.part("line_of_action", Line(first - PAST * along, last + PAST * along, Pen.THIN, role=LINE, name="N1N2"))
     canvas.part("pole")
     node(canvas, scene, "P", 1j * along)
     heading = scene.words["heading.gear_rolling"], scene.factor
@@ -62,8 +61,7 @@ def _circles(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
     for name, (low, high) in spans.items():
         start = wheel.direction + low - BESIDE
         arc = Arc(wheel.centre, wheel.radius(name), start, high - low + 2.0 * BESIDE, PENS[name])
-        canvas.part("line_of_action" if name == "b" else "involutes")
-        canvas.add(Group((arc,), "circle", f"d_{name}{i}"))
+        canvas.part("line_of_action" if name == "b" else "involutes", Group((arc,), "circle", f"d_{name}{i}"))
     far = max(base, key=abs)
     at = wheel.on(wheel.radius("b"), far + (BESIDE if far > 0.0 else -BESIDE))
     canvas.part(ANSWERS)
@@ -77,11 +75,9 @@ def _involute(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
     i, height = wheel.number, scene.style.text
     for k in (*_divisions(scene, wheel), TIP):
         foot, end = scene.mm(f"T{i}_{k}"), scene.mm(f"E{i}_{k}")
-        canvas.part("tangents")
-        canvas.add(Line(foot, end, Pen.THIN, role="tangent", name=f"{i}_{k}"))
+        canvas.part("tangents", Line(foot, end, Pen.THIN, role="tangent", name=f"{i}_{k}"))
         for letter, at, stage in (("T", foot, "arcs"), ("E", end, "involutes")):
-            canvas.part(stage)
-            canvas.add(_division(scene, at, f"{letter}{i}_{k}"))
+            canvas.part(stage, _division(scene, at, f"{letter}{i}_{k}"))
     canvas.part("parts")
     for k in _divisions(scene, wheel):  # numbered on PN and the base circle, or here alone where both are one
         foot, part = scene.mm(f"T{i}_{k}"), scene.mm(f"D{i}_{k}")
@@ -92,7 +88,7 @@ def _involute(canvas: Canvas, scene: GearScene, wheel: Wheel) -> None:
             canvas.label(str(k), part, prefer=-inward, clear=1.0, height=height)
     canvas.part("involutes")
     curve = wheel.flank(0.0, wheel.sizes[f"rho_a{i}"])
-    canvas.add(Group((Polyline(curve, Pen.MAIN),), "curve", f"involute_{i}"))
+    canvas.group("curve", f"involute_{i}", Polyline(curve, Pen.MAIN))
 
 
 def _division(scene: GearScene, at: complex, name: str) -> Group:
@@ -104,10 +100,8 @@ def _foot(canvas: Canvas, scene: GearScene, wheel: Wheel, inside: complex) -> No
     name, label = f"N{wheel.number}", scene.style.label
     at = scene.mm(name)
     inward = unit(wheel.centre - at)
-    canvas.part("line_of_action")
-    canvas.add(Line(at, at + 3.0 * label * inward, Pen.THIN, role="radius", name=name))
-    canvas.part(ANSWERS)
-    canvas.add(right_angle(at, inward, inside, 0.6 * label))
+    canvas.part("line_of_action", Line(at, at + 3.0 * label * inward, Pen.THIN, role="radius", name=name))
+    canvas.part(ANSWERS, right_angle(at, inward, inside, 0.6 * label))
     canvas.part("line_of_action")
     node(canvas, scene, name, inward - inside)
 
@@ -130,30 +124,25 @@ def rack_view(overall: GearScene) -> View:
     """Draw the pinion, a space of it in the middle of a tooth of the rack."""
     scene = replace(overall, mu_l=overall.near)
     canvas, rack = Canvas(scene.style), Rack(scene.solved, 1.0 / scene.mu_l)
-    _wheel(canvas, scene, rack)
+    pinion = rack.pinion  # two teeth beside the space, the reference and the base circle
+    teeth = Polyline(pinion.placed(pinion.tooth.teeth(2), -0.5), Pen.MAIN, role="profile", name="pinion")
+    canvas.group("wheel", "1", teeth)
+    half = min(SPACES * pinion.pitch, WIDEST)
+    for name in ("", "b"):
+        arc = Arc(pinion.centre, pinion.radius(name), 0.5 * HALF_TURN - half, 2.0 * half, PENS[name])
+        canvas.group("circle", f"d_{name}1", arc)
+        symbol = scene.words.symbol(f"d_{name}1")
+        canvas.small(symbol, pinion.on(pinion.radius(name), -half), 1 + 0j, 1.0)
     line = Polyline(tuple(rack.outline()), Pen.MAIN, role="profile", name="rack")
-    canvas.add(Group((line,), "rack", "rack"))
+    canvas.group("rack", "rack", line)
     x0, _, x1, _ = extent((line,))
     _lines(canvas, scene, rack, x0 - RACK_PAST, x1 + RACK_PAST)
     _line_of_action(canvas, scene, rack)
     at = rack.corner + scene.paper("rho_f") * OUT
     canvas.add(Line(rack.corner, at, Pen.THIN, role="radius", name="rho_f"), Head(at, OUT))
-    canvas.label(scene.stated("rho_f"), at, prefer=OUT, clear=1.0, height=scene.style.text)
+    canvas.small(scene.stated("rho_f"), at, OUT, 1.0)
     heading = scene.words["heading.gear_rack"], scene.factor
     return canvas.finish("rack", heading, tuple(scene.words["said.gear_rack"].split("|")))
-
-
-def _wheel(canvas: Canvas, scene: GearScene, rack: Rack) -> None:
-    """Draw two teeth beside the space, the reference and the base circle."""
-    pinion = rack.pinion
-    line = Polyline(pinion.placed(pinion.tooth.teeth(2), -0.5), Pen.MAIN, role="profile", name="pinion")
-    canvas.add(Group((line,), "wheel", "1"))
-    half = min(SPACES * pinion.pitch, WIDEST)
-    for name in ("", "b"):
-        arc = Arc(pinion.centre, pinion.radius(name), 0.5 * HALF_TURN - half, 2.0 * half, PENS[name])
-        canvas.add(Group((arc,), "circle", f"d_{name}1"))
-        symbol = scene.words.symbol(f"d_{name}1")
-        canvas.label(symbol, pinion.on(pinion.radius(name), -half), prefer=1 + 0j, clear=1.0, height=scene.style.text)
 
 
 def _lines(canvas: Canvas, scene: GearScene, rack: Rack, left: float, right: float) -> None:
@@ -164,7 +153,7 @@ def _lines(canvas: Canvas, scene: GearScene, rack: Rack, left: float, right: flo
     if abs(shift) > 0.01:
         text = f"{words.symbol('x_1')}{words.symbol('m')} = {scene.length(shift * scene.mu_l)}"
         linear(canvas, (complex(right, 0.0), complex(right, shift)), 0j, "", "x_1")
-        canvas.label(text, complex(right, 0.5 * shift), prefer=1 + 0j, clear=1.0, height=scene.style.text)
+        canvas.small(text, complex(right, 0.5 * shift), 1 + 0j, 1.0)
 
 
 def _line_of_action(canvas: Canvas, scene: GearScene, rack: Rack) -> None:
@@ -206,11 +195,11 @@ def contour_view(scene: GearScene) -> View:
         pen = Pen.THIN if name in BLOCKING else Pen.DASHED
         canvas.add(Group(tuple(Polyline(run, pen) for run in runs), "limit", name))
     for name, side in sides:
-        canvas.add(Group((Polyline(_thinned(field, side), Pen.MAIN),), "contour", name))
+        canvas.group("contour", name, Polyline(_thinned(field, side), Pen.MAIN))
     x_1, x_2 = scene.size("x_1"), scene.size("x_2")
     at, feet = field.at(x_1, x_2), (field.at(x_1, field.y.low), field.at(field.x.low, x_2))
     canvas.add(*(Line(at, foot, Pen.DASHED, role="projection") for foot in feet))
-    canvas.add(Group((Circle(at, 1.5 * style.node, Pen.MAIN, fill="black"),), "point", "chosen"))
+    canvas.group("point", "chosen", Circle(at, 1.5 * style.node, Pen.MAIN, fill="black"))
     # curves have numbers, long ones in several places, where they are far from others
     seen = [name for name, runs in curves.items() if runs]
     numbered = [(number, run) for number, name in enumerate(seen, start=1) for run in curves[name]]

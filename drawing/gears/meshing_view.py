@@ -53,8 +53,7 @@ def _diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, end: float, other
     anchor: Anchor = "left" if out > 0.0 else "right"
     for circle, level in zip(circles, levels, strict=True):
         name, at = f"d_{circle}{wheel.number}", complex(out * x, side * level)
-        canvas.part(STAGE.get(circle, "circles"))
-        canvas.add(Line(ends[circle], at, Pen.THIN, role="leader", name=name))
+        canvas.part(STAGE.get(circle, "circles"), Line(ends[circle], at, Pen.THIN, role="leader", name=name))
         text = scene.words.symbol(name) if scene.close else scene.stated(name)
         place = at + complex(out, -0.5 * height)
         canvas.add(Text(place, text, height, anchor, role="diameter", name=name))
@@ -77,8 +76,7 @@ def _centres(canvas: Canvas, scene: GearScene, pair: Pair, left: float) -> None:
     """Draw both centres on the line of centres, their distance as a dimension at the abscissa `left`."""
     style, sense = scene.style, scene.meshing.sense
     below, above = (scene.mm(f"O{wheel.number}") for wheel in pair)
-    canvas.part("centres")
-    canvas.add(Line(below - 2j * PAST, above + 2j * PAST, Pen.AXIS, role="axis", name="O1O2"))
+    canvas.part("centres", Line(below - 2j * PAST, above + 2j * PAST, Pen.AXIS, role="axis", name="O1O2"))
     for wheel, at in zip(pair, (below, above), strict=True):
         canvas.add(fixed_pivot(at, f"O{wheel.number}", style, -wheel.up))
         canvas.label(f"O_{{{wheel.number}}}", at, prefer=complex(1.0, 0.3), clear=style.pair + 0.8)
@@ -93,8 +91,7 @@ def _centres(canvas: Canvas, scene: GearScene, pair: Pair, left: float) -> None:
 
 def _tangent(canvas: Canvas, left: float, right: float) -> None:
     """Draw the common tangent t-t of the rolling circles through the pole."""
-    canvas.part("rolling_circles")
-    canvas.add(Line(complex(left, 0.0), complex(right, 0.0), Pen.THIN, role="tangent", name="t"))
+    canvas.part("rolling_circles", Line(complex(left, 0.0), complex(right, 0.0), Pen.THIN, role="tangent", name="t"))
     for end in (left, right):
         canvas.label("t", complex(end, 0.0), prefer=complex(end, 0.0), clear=0.8)
 
@@ -109,8 +106,7 @@ def _line_of_action(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
         name = f"N{wheel.number}"
         canvas.add(Line(wheel.centre, end, Pen.THIN, role="radius", name=name))
         radius = unit(wheel.centre - end)
-        canvas.part(ANSWERS)
-        canvas.add(right_angle(end, radius, inside, size))
+        canvas.part(ANSWERS, right_angle(end, radius, inside, size))
         canvas.part("line_of_action")
         node(canvas, scene, name, -radius)
 
@@ -140,7 +136,7 @@ def _active_line(canvas: Canvas, scene: GearScene, inner: bool = True) -> None:
 def node(canvas: Canvas, scene: GearScene, name: str, prefer: complex) -> None:
     """Mark a point of the meshing with its letter."""
     at, radius = scene.mm(name), scene.style.node
-    canvas.add(Group((Circle(at, radius, Pen.THIN, fill="white"),), "point", name))
+    canvas.group("point", name, Circle(at, radius, Pen.THIN, fill="white"))
     canvas.label(indexed(name), at, prefer=prefer, clear=radius + 0.6)
 
 
@@ -206,8 +202,7 @@ def _near_view(overall: GearScene) -> View:
     canvas, pair = NEAR.canvas(scene, coarse=0.0), scene.wheels()
     _tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
     low, high = (wheel.on(wheel.radius("f") - PAST, 0.0) for wheel in pair)
-    canvas.part("centres")
-    canvas.add(Line(low, high, Pen.AXIS, role="axis", name="O1O2"))
+    canvas.part("centres", Line(low, high, Pen.AXIS, role="axis", name="O1O2"))
     _active_line(canvas, scene)
     _details(canvas, scene, pair)
     for wheel in pair:
@@ -245,8 +240,7 @@ def _circles(canvas: Canvas, scene: GearScene, pair: Pair, to_end: bool) -> tupl
                 low = -wheel.side * max(abs(low), wheel.sizes["alpha_w"] + PAST / wheel.radius("b"))
             same = abs(wheel.radius(name) - wheel.radius("")) < SAME
             arc = Arc(wheel.centre, wheel.radius(name), wheel.direction + low, high - low, PENS["" if same else name])
-            canvas.part(STAGE.get(name, "circles"))
-            canvas.add(Group((arc,), "circle", f"d_{name}{wheel.number}"))
+            canvas.part(STAGE.get(name, "circles"), Group((arc,), "circle", f"d_{name}{wheel.number}"))
         _diameters(canvas, scene, wheel, span[1], others)
     xs = [tip.real for both in tips for tip in both]
     return min(xs), max(xs)
@@ -258,7 +252,7 @@ def _details(canvas: Canvas, scene: GearScene, pair: Pair) -> None:
     for name, rho_1 in zip(ENDS, scene.meshing.touching, strict=True):  # thin, those that touch at both ends
         for wheel in scene.wheels(rho_1):
             line = Polyline(wheel.outline(1), Pen.THIN, role="profile", name=f"{name}_{wheel.number}")
-            canvas.add(Group((line,), "position", name))
+            canvas.group("position", name, line)
     _outlines(canvas, pair)
     canvas.part("lowest_points")
     lowest = [_active_flank(canvas, scene, wheel) for wheel in pair]
@@ -288,7 +282,7 @@ def _outlines(canvas: Canvas, pair: Pair) -> None:
     canvas.part("teeth")
     for wheel in pair:
         line = Polyline(wheel.outline(), Pen.MAIN, role="profile", name=f"teeth_{wheel.number}")
-        canvas.add(Group((line,), "wheel", str(wheel.number)))
+        canvas.group("wheel", str(wheel.number), line)
 
 
 def _active_flank(canvas: Canvas, scene: GearScene, wheel: Wheel) -> float:

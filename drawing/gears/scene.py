@@ -114,13 +114,9 @@ class GearScene(SubjectScene[SolvedGear]):
         """The scale of a view as drawings have it, and its scale factor: M 5:1; mu_l = 0.0002 m/mm."""
         return f"{self.words.drawn_at(self.mu_l)};  {self.words.scale(Scale('mu_l', self.mu_l, 'm'))}"
 
-    def stated(self, name: str, decimals: int = 2) -> str:
+    def stated(self, name: str) -> str:
         """Return a quantity in mm as a dimension has it: d_a1 = 86.53."""
-        return f"{self.words.symbol(name)} = {self.length(self.size(name), decimals)}"
-
-    def length(self, value: float, decimals: int = 2) -> str:
-        """Return a length in mm."""
-        return self.words.number(value * 1e3, decimals)
+        return f"{self.words.symbol(name)} = {self.length(self.size(name))}"
 
     def shift(self, name: str) -> str:
         """Return a profile shift with its letter: x_1 = 0.5."""

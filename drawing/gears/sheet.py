@@ -17,7 +17,7 @@ from ..compose import BLOCK, TURNED, Nest, arrange, column, names, row, zoned
 from ..extents import Rungs
 from ..figure import Figure, Fitting, Found, SheetContents, pages
 from ..formats import STYLES, Format, room
-from ..table import note_block
+from ..view import note_block
 from .scene import GearScene, first_scales, lettered, mu_ladder, near_ladder, parts_of, rolled_ladder
 
 BESIDE = ("rolled", "part")  # ladders of what stands beside the meshing
@@ -97,7 +97,13 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
 
     def on_pages(self, sheet: Format) -> Found:
         """Take one page, with what is beside the meshing smaller where it must be, or several."""
-        first = self.fitted(sheet, self._least(sheet))
+        wide, high = room(sheet, self.contents.norm)
+        rungs, sizes = dict(self.wanted), self.contents.solved.sizes
+        # the first rungs at which the lines that size the views have room, before any view is drawn
+        lines = {"mu_l": (sizes["a_w"], high), "near": (2.0 * sizes["p"], wide), "rolled": (sizes["l_N1N2"], wide)}
+        for name, (length, most) in lines.items():
+            rungs[name] = next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
+        first = self.fitted(sheet, rungs)
         last = {ladder: len(self.ladders[ladder]) - 1 for ladder in BESIDE}
         smaller = [
             first | {ladder: min(first[ladder] + steps[ladder], last[ladder]) for ladder in BESIDE} for steps in SMALLER
@@ -115,15 +121,6 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
                 raise InputError("sheet-too-small", format=sheet.name)
             first = self.lower(first, "mu_l")
         return placed
-
-    def _least(self, sheet: Format) -> Rungs:
-        """Return the first rungs at which the lines that size the views have room, before any view is drawn."""
-        wide, high = room(sheet, self.contents.norm)
-        rungs, sizes = dict(self.wanted), self.contents.solved.sizes
-        lines = {"mu_l": (sizes["a_w"], high), "near": (2.0 * sizes["p"], wide), "rolled": (sizes["l_N1N2"], wide)}
-        for name, (length, most) in lines.items():
-            rungs[name] = next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
-        return rungs
 
     def _in_order(self, sheet: Format, rungs: Rungs) -> Found | None:
         """Place views on as many pages as they need, the data before or after the meshing."""

@@ -15,8 +15,7 @@ from ...scales.scale import Scale
 from ..handouts import Shown as Begun
 from ..notes.blocks import Story
 from ..printed import DEGREES, Input, Shown, prints, worked
-from ..table import table, text_block
-from ..view import View
+from ..view import View, table, text_block
 from ..words import indexed
 from .action_view import theta_said
 from .scene import PLACES, GearScene
@@ -172,7 +171,15 @@ def calculations_block(scene: GearScene, name: str, width: float) -> View:
     if name == "sizes":
         lines += _calculations(scene, SAME_CENTRES, "a_w")
     if name == "quality":
-        lines += _sliding_laws(scene)
+        words = scene.words  # the laws of sliding, and between which values it is on the active line
+        v, omega, rho, y = ([words.symbol(f"{of}{i}") for i in (1, 2)] for of in ("V_k", "omega_", "rho_", "y_"))
+        lines.append(tuple(f"{v[k]} = {omega[k]}·{rho[k]}{';' if k == 0 else ''}" for k in range(2)))
+        for own, mate in ((0, 1), (1, 0)):
+            theta = f"theta_{own + 1}{mate + 1}"
+            values = sorted(scene.size(f"{theta}_{end}") for end in ("A1", "A2"))
+            low, high = ("−∞" if math.isinf(value) else words.number(value, 2) for value in values)
+            law, known = f"{words.symbol(theta)} = ({y[own]} − {y[mate]})/{y[own]}", not any(map(math.isnan, values))
+            lines.append((f"{law};", f"{low} ≤ {words.symbol(theta)} ≤ {high}") if known else (law,))
     return text_block(f"equations_{name}", scene.words[f"heading.gear_{name}"], lines, scene.style, width)
 
 
@@ -205,21 +212,6 @@ def _input(scene: GearScene, name: str) -> Input:
     short = round(value, SHORT)
     exact = abs(value - short) < NOISE
     return Input(short if exact else value, exact, name=name, sign="°" * (unit == "deg"), times=times)
-
-
-def _sliding_laws(scene: GearScene) -> Lines:
-    """Return the laws of sliding, and between which values it is on the active line."""
-    words = scene.words
-    v, omega, rho, y = ([words.symbol(f"{name}{i}") for i in (1, 2)] for name in ("V_k", "omega_", "rho_", "y_"))
-    lines: Lines = [tuple(f"{v[k]} = {omega[k]}·{rho[k]}{';' if k == 0 else ''}" for k in range(2))]
-    for own, mate in ((0, 1), (1, 0)):
-        name = f"theta_{own + 1}{mate + 1}"
-        values = sorted(scene.size(f"{name}_{end}") for end in ("A1", "A2"))
-        texts = ["−∞" if math.isinf(value) else words.number(value, 2) for value in values]
-        law = f"{words.symbol(name)} = ({y[own]} − {y[mate]})/{y[own]};"
-        ranges = f"{texts[0]} ≤ {words.symbol(name)} ≤ {texts[1]}"
-        lines.append((law, ranges) if not any(math.isnan(value) for value in values) else (law.rstrip(";"),))
-    return lines
 
 
 def story(scene: GearScene, scales: Mapping[str, Scale], texts: Mapping[str, str]) -> Story:

@@ -36,7 +36,7 @@ ANGLE = 0.3  # part of the radius at which the angle is dimensioned
 
 def _lift_off_view(scene: HoistScene) -> View:
     """Draw the crossing of parabola and sinusoid."""
-    canvas, words, roots, h = LIFT_OFF_FIGURE.canvas(scene), scene.words, _roots(scene), scene.style.text
+    canvas, words, roots = LIFT_OFF_FIGURE.canvas(scene), scene.words, _roots(scene)
     curves = {name: scene.places(equation(scene.solved, letter)) for name, letter in CURVES.items()}
     heights = [place.imag for places in curves.values() for place in places]
     field = _field(scene, f"y, {words.unit('m')}", "mu_y", heights)
@@ -51,7 +51,7 @@ def _lift_off_view(scene: HoistScene) -> View:
         canvas.add(*(scene.node(scene.mm(f"{LIFT_OFF}.{mark}"), mark) for mark in marks))
     canvas.part("curves")
     for text, name, prefer in (("y − mg/C", "parabola", -1j), ("osc", "sinusoid", 1j)):
-        canvas.label(text, curves[name][POINTS // 4], prefer=prefer, clear=1.5, height=h)
+        canvas.small(text, curves[name][POINTS // 4], prefer, 1.5)
     canvas.part("crossing")
     _crossing(canvas, scene, LIFT_OFF, "X", "t_1_drawn")
     _magnified(canvas, scene, complex(field.at(field.x.high, 0.0).real + BESIDE, field.at(0.0, field.y.low).imag))
@@ -61,7 +61,7 @@ def _lift_off_view(scene: HoistScene) -> View:
 
 def _extremes_view(scene: HoistScene) -> View:
     """Draw the crossings of sinusoid and straight line."""
-    canvas, words, roots, h = EXTREMES_FIGURE.canvas(scene), scene.words, _roots(scene), scene.style.text
+    canvas, words, roots = EXTREMES_FIGURE.canvas(scene), scene.words, _roots(scene)
     wave = scene.places(equation(scene.solved, "W"))
     left, right = (scene.mm(f"{EXTREMES}.L{i}") for i in range(2))
     heights = [place.imag for place in wave]
@@ -74,9 +74,9 @@ def _extremes_view(scene: HoistScene) -> View:
     canvas.add(Line(left, right, Pen.MAIN, role="curve", name="line"))
     canvas.add(*(scene.node(scene.mm(f"{EXTREMES}.W{i}"), f"W{i}") for i in _shown(roots, roots.extremes)))
     speed = words.symbol("V_t")
-    canvas.label(f"{speed} cos kt + (a/k) sin kt", wave[POINTS // 6], prefer=1j, clear=1.5, height=h)
+    canvas.small(f"{speed} cos kt + (a/k) sin kt", wave[POINTS // 6], 1j, 1.5)
     name = f"−({words.symbol('C_01')}/{words.symbol('C_12')})({speed} + at)"
-    canvas.label(name, (left, right), prefer=-1j, clear=1.5, height=h)
+    canvas.small(name, (left, right), -1j, 1.5)
     canvas.part("crossing")
     for n in range(1, len(roots.times) + 1):
         number = f"({n})" if len(roots.times) > FEW else ""
@@ -143,7 +143,7 @@ def _crossing(canvas: Canvas, scene: HoistScene, plan: str, mark: str, name: str
         canvas.add(Line(at, complex(at.real, 0.0), Pen.DASHED, role="projection", name=name))
     canvas.add(scene.node(at, mark, filled=True))
     text = number or scene.stated(name, scene.solved.quantities[name].value or 0.0, "s")
-    canvas.label(text, at, prefer=1.0 - 1j, clear=1.2, height=scene.style.text)
+    canvas.small(text, at, 1.0 - 1j, 1.2)
 
 
 def _magnified(canvas: Canvas, scene: HoistScene, corner: complex) -> None:
@@ -255,9 +255,8 @@ def _values(canvas: Canvas, scene: HoistScene) -> None:
         marks.append(("F_12_max", "M", RESTING, 1j))
     for name, mark, part, prefer in (*marks, ("P_12_min", "L", HANGING, -1j)):
         at = scene.mm(f"{FORCES}.{mark}")
-        canvas.part(part)
-        canvas.add(scene.node(at, name, filled=True))
-        canvas.label(scene.stated(name), at, prefer=prefer, clear=1.2, height=scene.style.text)
+        canvas.part(part, scene.node(at, name, filled=True))
+        canvas.small(scene.stated(name), at, prefer, 1.2)
 
 
 # where the closed formulas are not valid, the first step says so, and draws nothing
@@ -295,9 +294,8 @@ def _circle_view(scene: HoistScene) -> View:
     for name, at in marks.items():
         if abs(reached.get(name, scene.size(name)) - scene.size(name)) > SAME * scene.size("R"):
             continue  # the rope goes slack before, or the load comes back
-        canvas.part("ends" if name in reached else "start")
-        canvas.add(scene.node(at, name, filled=True))
-        canvas.label(scene.stated(name), at, prefer=(at or -1j) - 0.6j, clear=1.2, height=scene.style.text)
+        canvas.part("ends" if name in reached else "start", scene.node(at, name, filled=True))
+        canvas.small(scene.stated(name), at, (at or -1j) - 0.6j, 1.2)
     notes = (scene.stated("R"), *([words["hoist.slack"]] if scene.solved.layout.slack else []))
     return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")), notes)
 
@@ -309,11 +307,10 @@ def _circle(canvas: Canvas, scene: HoistScene, ends: tuple[complex, complex]) ->
         return
     high, low = (scene.mm(f"{CIRCLE}.{mark}") - scene.mm(f"{CIRCLE}.C") for mark in ("high", "low"))
     pulled = (arc_between(0j, *pair, Pen.MAIN) for pair in ((low, ends[1]), (ends[1], high)))
-    canvas.add(Group(tuple(pulled), "circle", "R"))
-    canvas.add(arc_between(0j, high, low, Pen.DASHED, role="slack"))
+    canvas.add(Group(tuple(pulled), "circle", "R"), arc_between(0j, high, low, Pen.DASHED, role="slack"))
     canvas.add(Line(low, high, Pen.THIN, role="level", name="slack"))
     symbol = scene.words.symbol("P_12")
-    canvas.label(f"{symbol} = 0", high, prefer=-1.0 + 1j, clear=1.2, height=scene.style.text)
+    canvas.small(f"{symbol} = 0", high, -1.0 + 1j, 1.2)
 
 
 # a rope that goes slack need not reach the ends of the diameter: they are no step of their own

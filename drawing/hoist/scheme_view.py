@@ -43,13 +43,11 @@ def _scheme_view(scene: HoistScene) -> View:
     canvas.part("support")
     tall = min(BOX, LOAD * rope)
     corners = tuple(at["A0"] + complex(x * 0.8 * tall, y * tall) for x, y in ((-1, 0), (1, 0), (1, 1), (-1, 1)))
-    canvas.add(Group((Polyline(corners, Pen.MAIN, closed=True, fill="white"),), "link", "1"))
-    canvas.part("rope")
-    canvas.add(Line(at["A0"] + 1j * tall, at["A2"], Pen.MAIN, role="rope", name="L"))
-    canvas.add(Group((Circle(at["A2"], DRUM, Pen.MAIN, fill="white"),), "drum", "A2"))
+    canvas.group("link", "1", Polyline(corners, Pen.MAIN, closed=True, fill="white"))
+    canvas.part("rope", Line(at["A0"] + 1j * tall, at["A2"], Pen.MAIN, role="rope", name="L"))
+    canvas.group("drum", "A2", Circle(at["A2"], DRUM, Pen.MAIN, fill="white"))
     for left, right, number in (("O1", "O2", "0"), ("B1", "B2", "2")):
-        canvas.part(STAGE_OF_BEAM[number])
-        canvas.add(Group((Line(at[left], at[right]),), "link", number))
+        canvas.part(STAGE_OF_BEAM[number], Group((Line(at[left], at[right]),), "link", number))
         supports = fixed_pivot(at[left], left, style), _rolling_support(at[right], right, scene)
         canvas.add(*(replace(one, layer=Layer.RESULT.value) for one in supports))  # they cover the ends of the beam
     for mark, letter in (("A0", "A_{0}"), ("A2", "A_{2}")):
@@ -155,15 +153,14 @@ def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
     """Draw one beam with its axis at `top`; return how low it reaches, mm."""
     plan, words, by = BENT[i], scene.words, 1j * top
     feet = [scene.mm(f"{plan}.f{n}") + by for n in range(SECTIONS + 1)]
-    canvas.part("axes")
-    canvas.add(Line(feet[0], feet[-1], Pen.AXIS, role="axis", name=plan))
+    canvas.part("axes", Line(feet[0], feet[-1], Pen.AXIS, role="axis", name=plan))
     canvas.part("bent")
     for letter, force in zip(LETTERS, FORCE[i], strict=False):
         points = tuple(place + by for place in scene.places(bent(scene.solved, i, letter, force)))
         nodes = (scene.node(scene.mm(f"{plan}.{letter}{n}") + by, f"{letter}{n}") for n in range(1, SECTIONS))
         pen = Pen.MAIN if letter == LETTERS[0] else Pen.THIN
         canvas.add(Group((Polyline(points, pen),), "curve", f"{plan}_{letter}"), *nodes)
-        canvas.label(words.symbol(force), points[2 * OF_BEAM // 3], prefer=-1j, clear=1.2, height=scene.style.text)
+        canvas.small(words.symbol(force), points[2 * OF_BEAM // 3], -1j, 1.2)
     canvas.part("axes")
     for end in (feet[0], feet[-1]):
         canvas.add(revolute(end, plan, scene.style))
@@ -176,7 +173,7 @@ def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
         at, above = scene.mm(f"{plan}.{mark}") + by, scene.mm(f"{plan}.{foot}") + by
         canvas.add(Line(above, at, Pen.THIN, role="deflection", name=name), scene.node(at, name, filled=True))
         said = scene.stated(name, float(scene.solved.quantities[name].value or 0.0) * 1e3, "mm")
-        canvas.label(said, at, prefer=-1.0 - 1j if mark == "A" else 1.0 - 1j, clear=1.2, height=scene.style.text)
+        canvas.small(said, at, -1.0 - 1j if mark == "A" else 1.0 - 1j, 1.2)
     canvas.part("greatest")
     ends = scene.mm(f"{plan}.fM") + by, feet[-1]
     linear(canvas, ends, 6j, scene.stated(f"x_w{i}", unit="m"), f"x_w{i}")
@@ -228,7 +225,7 @@ def _block(canvas: Canvas, name: str, text: str, place: tuple[complex, float], h
         "diamond": ((-half - lean, 0.0), (0.0, -POINTED * up), (half + lean, 0.0), (0.0, POINTED * up)),
     }[kind]
     outline = tuple(at + complex(*corner) for corner in corners)
-    canvas.add(Group((Polyline(outline, Pen.MAIN, closed=True, fill="white"),), "block", name))
+    canvas.group("block", name, Polyline(outline, Pen.MAIN, closed=True, fill="white"))
     canvas.add(Text(at - 0.5j * h, text, h, "middle", role="block"))
 
 

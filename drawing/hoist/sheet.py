@@ -8,9 +8,9 @@ from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PAR
 from ...plans.hoist.solve import SCALES, SolvedHoist, reduced
 from ...scales.scale import Scale
 from ..extents import Rungs
-from ..figure import Figure, Fitting, Found, SheetContents
+from ..figure import Figure, Fitting, SheetContents
 from ..formats import STYLES, Format
-from ..table import note_block
+from ..view import note_block
 from .scene import UNITS, HoistScene, first_scales, ladder, lettered
 
 PARTS = 1.0, 0.8, 0.63, 0.5, 0.4  # of the usual size of diagrams
@@ -45,10 +45,6 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
     def part(self, rungs: Rungs) -> float:
         """Return how large diagrams are drawn, in their usual size."""
         return PARTS[rungs["part"]]
-
-    def on_a_page(self, sheet: Format, last: bool) -> Found | None:
-        """Place everything on one page, wherever there is room."""
-        return self.placed(sheet, self.wanted)
 
     def figures(self, scene: HoistScene, width: float) -> Iterator[HoistFigure]:
         """Go through the figures of a sheet in the order of the work."""

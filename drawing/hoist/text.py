@@ -15,8 +15,7 @@ from ...scales.scale import Scale
 from ..handouts import Shown
 from ..notes.blocks import Story
 from ..printed import Input, Symbol, calculation
-from ..table import givens_view, table, text_block
-from ..view import View
+from ..view import View, givens_view, table, text_block
 from ..words import Given, Words
 from .scene import HoistScene
 
@@ -31,15 +30,12 @@ LARGE, SMALL, DIGITS, PAPER = 1e8, 1e-3, 4, 1  # sizes from which on a number ha
 
 def data_table(scene: HoistScene) -> View:
     """Return the givens in the task's own units; stresses and areas in those in which people know them."""
-    givens = {name: _usual(given) for name, given in scene.givens.items()}
+    givens = dict(scene.givens)
+    for name, given in givens.items():
+        if given.unit in USUAL and not isinstance(given.value, str):
+            times, unit = USUAL[given.unit]
+            givens[name] = Given(float(f"{given.value * times:.{ROUNDING}g}"), unit)
     return givens_view(givens, scene.words, scene.style)
-
-
-def _usual(given: Given) -> Given:
-    times, unit = USUAL.get(given.unit, (1.0, given.unit))
-    if isinstance(given.value, str) or times == 1.0:
-        return given
-    return Given(float(f"{given.value * times:.{ROUNDING}g}"), unit)
 
 
 def results_table(scene: HoistScene) -> View:
@@ -223,7 +219,13 @@ def _said(scene: HoistScene, scales: Mapping[str, Scale]) -> dict[str, str]:
 def conclusions(scene: HoistScene, texts: Texts) -> Iterator[str]:
     """Go through the sentences for the end of the note."""
     yield texts["hoist.conclusion.lift_off"].format(t_1=scene.stated("t_1", unit="s"), F_12_t1=scene.stated("F_12_t1"))
-    yield _greatest(scene, texts)
+    # the greatest force of the rope, compared with that of the load at rest
+    after = scene.size("P_12_max") >= scene.size("F_12_max")
+    force = scene.stated("P_12_max" if after else "F_12_max")
+    when = scene.stated("T_1" if after else "t_F12_max", unit="s")
+    factor = f"{scene.words.symbol('dynamic_factor')} = {scene.value(scene.size('dynamic_factor'))}"
+    greatest = texts[f"hoist.conclusion.greatest_{'after' if after else 'before'}"]
+    yield greatest.format(force=force, P_st=scene.stated("P_st"), factor=factor, when=when)
     if scene.solved.forces.motion is None:
         least = {name: scene.stated(name) for name in ("F_12_min", "P_12_min")}
         yield texts["hoist.conclusion.valid"].format(**least)
@@ -241,17 +243,6 @@ def conclusions(scene: HoistScene, texts: Texts) -> Iterator[str]:
         key = f"hoist.conclusion.article_{'more' if printed >= exact else 'less'}"
         yield texts[key].format(printed=scene.stated("P_12_max_printed"), part=part)
     yield from _bent(scene, texts)
-
-
-def _greatest(scene: HoistScene, texts: Texts) -> str:
-    """Compare the greatest force of the rope with that of the load at rest."""
-    words = scene.words
-    after = scene.size("P_12_max") >= scene.size("F_12_max")
-    force = scene.stated("P_12_max" if after else "F_12_max")
-    factor = f"{words.symbol('dynamic_factor')} = {scene.value(scene.size('dynamic_factor'))}"
-    when = scene.stated("T_1" if after else "t_F12_max", unit="s")
-    key = f"hoist.conclusion.greatest_{'after' if after else 'before'}"
-    return texts[key].format(force=force, P_st=scene.stated("P_st"), factor=factor, when=when)
 
 
 def _bent(scene: HoistScene, texts: Texts) -> Iterator[str]:

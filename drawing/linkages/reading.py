@@ -126,26 +126,19 @@ def lettered(words: Words, solved: SolvedLinkage) -> Words:
     """Return the words for the sheet of one mechanism."""
     reading = read(solved.program)
     frame = str(len(solved.mechanism.links) + 1) if words.notation["frame"] == "last" else "0"
-    letters, ends = _ends(reading, words), _joints(solved)
+    letters, ends = _ends(reading, words), dict[str, str]()
+    for link in solved.mechanism.links:  # by the two joints that are farthest apart, in the order of the link
+        joints = {pair.point for pair in solved.mechanism.pairs if link.number in pair.links}
+        pairs = combinations([point for point in link.points if point in joints], 2)
+        at = {point: complex(*(solved.values[xy] for xy in place)) for point, place in link.points.items()}
+        if farthest := max(pairs, key=lambda ends: abs(at[ends[1]] - at[ends[0]]), default=()):
+            ends[str(link.number)] = "".join(re.sub(r"(\d+)", r"_{\1}", end) for end in farthest)
     # the second force of each couple on the lever, and its arm
     seconds = [step.name for step in solved.program if step.law == "opposite" and role(step.name).part == COUPLE]
     arms = [arm.name for name in seconds for moment in reading.users(name) for arm in reading.users(moment.name)]
     seconds += [name for name in arms if role(name).part == COUPLE or role(name).kind == "h"]
     parted = solved.mechanism.parted
     return replace(words, seconds=frozenset(seconds), letters=letters, frame=frame, ends=ends, parted=parted)
-
-
-def _joints(solved: SolvedLinkage) -> dict[str, str]:
-    """Return links by their ends, `O_{1}B`: by the two joints that are farthest apart, in the order of the link."""
-    named = {}
-    for link in solved.mechanism.links:
-        joints = {pair.point for pair in solved.mechanism.pairs if link.number in pair.links}
-        pairs = combinations([point for point in link.points if point in joints], 2)
-        at = {point: complex(*(solved.values[xy] for xy in place)) for point, place in link.points.items()}
-        ends = max(pairs, key=lambda ends: abs(at[ends[1]] - at[ends[0]]), default=())
-        if ends:
-            named[str(link.number)] = "".join(re.sub(r"(\d+)", r"_{\1}", end) for end in ends)
-    return named
 
 
 def _ends(reading: Reading, words: Words) -> dict[str, str]:

@@ -21,9 +21,8 @@ from ..extents import Rungs, from_format
 from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, printable, room
 from ..packing import Placement, pack
-from ..table import note_block, text_block
 from ..text import Box
-from ..view import View
+from ..view import View, note_block, text_block
 from .calculations.equations import PLANS, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
 from .calculations.tables import givens_table, results_parts, results_table, structure_lines
@@ -84,7 +83,14 @@ def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
         yield from _compound(solved, width)
         yield from _results(solved, ("compound",))
     if contents.cycle is not None:
-        yield from _cycle(solved, contents.cycle)
+        # a sheet of one position does not pay for the import
+        from .figures.cycle import coupler, diagrams_view, field_view, main_output, positions_view
+
+        yield Figure("positions", partial(positions_view, cycle=contents.cycle), ("mu_l",))
+        if main_output(contents.cycle) is not None:
+            yield Figure("diagrams", partial(diagrams_view, cycle=contents.cycle))
+        if (link := coupler(solved)) is not None:
+            yield Figure("field", partial(field_view, link=link), ("mu_l",))
     if "forces" in plans:
         yield from _forces(solved, width)
     if "lever" in plans:
@@ -153,17 +159,6 @@ def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
         yield text(coupler, "a")
 
 
-def _cycle(solved: SolvedLinkage, cycle: Cycle) -> Iterator[LinkageFigure]:
-    # a sheet of one position does not pay for the import
-    from .figures.cycle import coupler, diagrams_view, field_view, main_output, positions_view
-
-    yield Figure("positions", partial(positions_view, cycle=cycle), ("mu_l",))
-    if main_output(cycle) is not None:
-        yield Figure("diagrams", partial(diagrams_view, cycle=cycle))
-    if (link := coupler(solved)) is not None:
-        yield Figure("field", partial(field_view, link=link), ("mu_l",))
-
-
 def _forces(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
     """Go through the force plans from the last group to the driver, with their equations.
 
@@ -212,10 +207,7 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     Where views have no room on one page of a smaller format than the largest, the next one is taken; where one has no
     room on a page of its own, its scale factor becomes coarser.
 
-    Raises
-    ------
-    InputError
-        When a plan cannot fit at the scale factor that was asked for; it names what would fit.
+    Raises InputError: a plan cannot fit at the scale factor that was asked for; it names what would fit.
     """
     fitting = Fitting(contents)
     usual, rungs = chosen(fitting.extents, sheet)
@@ -274,7 +266,9 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
             if not first:
                 raise
             break
-        if first and any(taken[symbol] > rung for symbol, rung in rungs.items() if fitting.is_fixed(symbol)):
+        if first and any(
+            taken[symbol] > rung for symbol, rung in rungs.items() if fitting.extents.ladders[symbol].fixed
+        ):
             break
         if (places := placed(views)) is not None:
             return views, taken, places
@@ -305,7 +299,7 @@ def _zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
                     break
                 tight.add(zone)
         sizing = ((s, zone) for (_, s), zone in zip(built, zones, strict=True) if s and zone in tight - crowded)
-        coarser = {s: zone for s, zone in sizing if role(s).of == OWN[zone] and not fitting.is_fixed(s)}
+        coarser = {s: zone for s, zone in sizing if role(s).of == OWN[zone] and not fitting.extents.ladders[s].fixed}
         if not coarser:
             break
         for symbol, zone in coarser.items():
@@ -342,20 +336,13 @@ class Fitting:
         self.extents = extents_of(contents.solved, contents.choosers, contents.plans)
         self._drawings: dict[tuple[str, str], list[tuple[dict[str, Scale], View]]] = {}
 
-    def is_fixed(self, symbol: str) -> bool:
-        """Whether the task or the user has fixed a scale factor."""
-        return self.extents.ladders[symbol].fixed
-
     def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> tuple[list[View], Rungs]:
         """Return views and rungs for pages of `sheet`: these rungs, coarser ones where they must be.
 
         What is fixed, too, becomes coarser only where a page cannot hold it alone. With `first` all have room even on
         the first page.
 
-        Raises
-        ------
-        InputError
-            When a view has no room on a page even at the last rung.
+        Raises InputError: a view has no room on a page even at the last rung.
         """
         norm = self.contents.norm
         own, printed = room(sheet, norm, first), room(printable(sheet), norm, first)

@@ -21,7 +21,7 @@ from .calculations.forces import LOADS, force_lines, force_parts, lines_by_plan
 from .calculations.tables import printed_segment
 from .compound import block_name, compound_lines, compound_told
 from .figures.compound import figures_of
-from .figures.inset import ENLARGED
+from .figures.plan import ENLARGED
 from .ladders import links_apart
 from .scene import Scene, is_at_point, plan_heading
 from .telling import Teller, Told, lever_told, tell
@@ -104,7 +104,12 @@ def conclusions(teller: Teller) -> Iterator[str]:
             absolute = {f"{kind}_{point}" for point in teller.points}
             names = [name for name in teller.quantities if name in absolute]
             yield from _extremes(teller, f"conclusion.{plan}", names)
-            yield from _fastest(teller, rate)
+            rates = [f"{rate}_{number}" for number in teller.numbers if number != teller.solved.structure.driver]
+            values = {name: rate_of(teller, name) for name in rates if name in teller.quantities}
+            fastest = max(values, key=lambda name: abs(values[name]), default="")
+            if values.get(fastest):
+                value, sense = _alike(teller, values, fastest), sensed(teller.words, values[fastest])
+                yield teller.texts[f"conclusion.{rate}"].format(value=value, sense=sense)
     gap = disagreement(teller.solved)
     if gap is not None:  # by which the theorems of compound motion give what the plans give
         yield teller.texts["conclusion.compound"].format(part=teller.words.number(100.0 * gap, 2))
@@ -144,15 +149,6 @@ def _alike(teller: Teller, found: Mapping[str, float], name: str) -> str:
     if not teller.figure_of(name):
         return stated(teller.words, symbol, abs(found[name]), item.unit)
     return f"{symbol} = {printed_segment(teller, item)[2]} {teller.words.unit(teller.words.display.unit(item.unit))}"
-
-
-def _fastest(teller: Teller, rate: str) -> Iterator[str]:
-    names = [f"{rate}_{number}" for number in teller.numbers if number != teller.solved.structure.driver]
-    values = {name: rate_of(teller, name) for name in names if name in teller.quantities}
-    fastest = max(values, key=lambda name: abs(values[name]), default="")
-    if values.get(fastest):
-        value, sense = _alike(teller, values, fastest), sensed(teller.words, values[fastest])
-        yield teller.texts[f"conclusion.{rate}"].format(value=value, sense=sense)
 
 
 def _balance(teller: Teller, name: str) -> Iterator[str]:

@@ -55,7 +55,7 @@ class Teller(Scene):
         """Return the letter of a mark."""
         return self.words.mark(name)
 
-    def length(self, letters: str, name: str, plan: str) -> str:
+    def lettered(self, letters: str, name: str, plan: str) -> str:
         """Return a segment by its letters with the length at which it is drawn; lengths may have the same letters."""
         text = self.drawn(name, plan)
         return text if text.startswith((f"{letters}/", f"{letters}·")) else f"{letters} = {text}"
@@ -165,7 +165,7 @@ def _lay(teller: Teller, step: Step) -> str:
     a = teller.mark(start)
     if edge is not None and teller.vanishes(edge.name):
         return teller.say("zero", vector=teller.letter(edge.name), start=a, end=b)
-    parts = {"start": a, "length": teller.length(f"{a}{b}", size, step.plan)}
+    parts = {"start": a, "length": teller.lettered(f"{a}{b}", size, step.plan)}
     if edge is None:
         return teller.say("lay", line=teller.angle(direction) or line, **parts)
     return teller.say("vector", line=line, vector=teller.letter(edge.name), **parts)
@@ -179,7 +179,7 @@ def _chain(teller: Teller, step: Step) -> str:
     line, letter, made = teller.along(vector), teller.letter(vector), teller.made.get(vector)
     if made is not None and made.law == "opposite":  # a reaction, and the one that it answers
         letter = f"{letter} = −{teller.letter(made.operands[0])}"
-    parts = {"length": teller.length(f"{a}{b}", vector, step.plan), "vector": letter}
+    parts = {"length": teller.lettered(f"{a}{b}", vector, step.plan), "vector": letter}
     return teller.say("vector", start=a, line=line, **parts) if line else teller.say("chain", start=a, **parts)
 
 
@@ -268,7 +268,7 @@ def tell(teller: Teller, step: Step) -> str:
         case "divide", start, end, part, whole:  # on the mechanism by its distance, on a plan by similarity
             a, b, s = map(mark, (start, end, point))
             if step.plan == POSITION:
-                return say("on_link", point=s, link=f"{a}{b}", length=teller.length(f"{a}{s}", part, POSITION))
+                return say("on_link", point=s, link=f"{a}{b}", length=teller.lettered(f"{a}{s}", part, POSITION))
             ratio = " : ".join(teller.words.symbol(role(name).shown) for name in (part, whole))
             return say("divide", point=s, segment=f"{a}{b}", ratio=ratio)
         case "same", other if mark(other) != mark(point) and not role(point).hidden:

@@ -18,12 +18,11 @@ from ...scales.errors import InputError
 from ...scales.packaged import home, packaged
 from ..font import font
 from ..formats import FORMATS
-from ..png import write as write_png
-from ..table import cells as cells_of
+from ..pdf import write_png
 from ..text import lay_out
+from ..view import cells as cells_of
 from . import blocks as note
 from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
-from .markup import Node, Plain, Scripted, joined, letters, parse, printable, tied
 from .omml import built_up, displayed, node, quoted, whole
 
 if TYPE_CHECKING:
@@ -62,11 +61,7 @@ class Drawing(NamedTuple):
     svg: bytes
 
 
-class Picture(NamedTuple):
-    """By what names a document knows the parts that hold a picture: one for any reader, one that is sharp."""
-
-    png: str
-    svg: str
+Picture = tuple[str, str]  # by what names a document knows the parts of a picture: for any reader, and sharp
 
 
 def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) -> bytes:
@@ -179,7 +174,7 @@ def _sign(word: Word, document: Document) -> None:
 
 
 def _short(text: str) -> str:
-    return printable(text)[:LONGEST]
+    return note.printable(text)[:LONGEST]
 
 
 def _picture(word: Word, drawing: Drawing, number: int) -> Picture:
@@ -190,7 +185,7 @@ def _picture(word: Word, drawing: Drawing, number: int) -> Picture:
 
     name = PackURI(f"/word/media/figure{number}.svg")
     part = Part(name, "image/svg+xml", drawing.svg, word.part.package)
-    return Picture(word.part.get_or_add_image(BytesIO(drawing.png))[0], word.part.relate_to(part, KIND.IMAGE))
+    return word.part.get_or_add_image(BytesIO(drawing.png))[0], word.part.relate_to(part, KIND.IMAGE)
 
 
 def _undated(data: bytes) -> bytes:
@@ -263,32 +258,32 @@ def words(text: str, properties: str = "") -> str:
 
 def line(markup: str, properties: str = "") -> str:
     """Return a line of markup: words as text with `properties`, symbols with scripts and bars as formulas."""
-    parts = whole(parse(markup))
+    parts = whole(note.parse(markup))
     before = "m/" if len(parts) == 1 else ""  # a power of m alone is a unit
     told: list[tuple[bool, str]] = []
     for place, part in enumerate(parts):
-        formula = not isinstance(part, Plain) and not _is_unit(part, before)
-        told.append((formula, node(part, joined(parts, place)) if formula else _text(part, properties)))
-        before = part.text if isinstance(part, Plain) else ""
+        formula = not isinstance(part, note.Plain) and not _is_unit(part, before)
+        told.append((formula, node(part, note.joined(parts, place)) if formula else _text(part, properties)))
+        before = part.text if isinstance(part, note.Plain) else ""
     shown = ((formula, "".join(text for _, text in some)) for formula, some in groupby(told, lambda pair: pair[0]))
     return "".join(f"<m:oMath>{text}</m:oMath>" if formula else text for formula, text in shown)
 
 
-def _is_unit(part: Node, before: str) -> bool:
-    if not isinstance(part, Scripted) or not isinstance(part.base, Plain) or part.below:
+def _is_unit(part: note.Node, before: str) -> bool:
+    if not isinstance(part, note.Scripted) or not isinstance(part.base, note.Plain) or part.below:
         return False
     cyrillic = "а" <= part.base.text[:1].lower() <= "ґ"
-    powers = all(isinstance(up, Plain) for up in part.above)
+    powers = all(isinstance(up, note.Plain) for up in part.above)
     return powers and (cyrillic or (part.base.text in ("m", "s") and _UNITS.search(before) is not None))
 
 
-def _text(part: Node, properties: str) -> str:
+def _text(part: note.Node, properties: str) -> str:
     """Return words, or a unit with its power."""
-    if isinstance(part, Plain):
-        return words(tied(part.text), properties)
-    assert isinstance(part, Scripted)
-    assert isinstance(part.base, Plain)
-    power = "".join(up.text for up in part.above if isinstance(up, Plain))
+    if isinstance(part, note.Plain):
+        return words(note.tied(part.text), properties)
+    assert isinstance(part, note.Scripted)
+    assert isinstance(part.base, note.Plain)
+    power = "".join(up.text for up in part.above if isinstance(up, note.Plain))
     raised = words(power, f'{properties}<w:vertAlign w:val="superscript"/>')
     return words(part.base.text, properties) + raised
 
@@ -332,7 +327,7 @@ def _contents(document: Document) -> Iterator[str]:
     """Go through the contents, a field with its entries; their pages are known when it is updated."""
     yield _paragraph("TOCHeading", words(packaged(__package__, "texts", document.language)["contents"]))
     before = _begun(r'TOC \o "1-2" \h \z \u')
-    entries = [letters(block.text) for block in document.blocks if isinstance(block, Heading)]
+    entries = [note.letters(block.text) for block in document.blocks if isinstance(block, Heading)]
     for number, entry in enumerate(entries, 1):
         page = _begun(rf"PAGEREF {_mark(number)} \h") + _END
         shown = f"{words(f'{number} {entry}')}<w:r><w:tab/></w:r>{page}"
@@ -438,10 +433,10 @@ def _row(row: tuple[str | None, ...], number: int) -> str:
     head, bold = ("<w:tblHeader/>", "<w:b/><w:bCs/>") if number == 0 else ("", "")
     cells = []
     for start, end, cell in cells_of(row):
-        joined = f'<w:gridSpan w:val="{end - start}"/>' if end - start > 1 else ""
+        spanned = f'<w:gridSpan w:val="{end - start}"/>' if end - start > 1 else ""
         text = _paragraph("Cell", line(cell, bold))
         cells.append(
-            f'<w:tc><w:tcPr><w:tcW w:w="0" w:type="auto"/>{joined}<w:vAlign w:val="center"/></w:tcPr>{text}</w:tc>'
+            f'<w:tc><w:tcPr><w:tcW w:w="0" w:type="auto"/>{spanned}<w:vAlign w:val="center"/></w:tcPr>{text}</w:tc>'
         )
     return f"<w:tr><w:trPr><w:cantSplit/>{head}</w:trPr>{''.join(cells)}</w:tr>"
 
@@ -454,18 +449,18 @@ def _caption(figure: Figure, said: dict[str, str], number: str) -> str:
 def _drawing(figure: Figure, picture: Picture, number: int) -> str:
     """Return a picture as large as the figure is shown; what it shows is told to who cannot see it."""
     cx, cy = (round(mm * figure.share * EMU) for mm in figure.view.size)
-    told = quoted("; ".join(map(letters, (figure.caption, *figure.under))))
+    told = quoted("; ".join(map(note.letters, (figure.caption, *figure.under))))
     size = f'cx="{cx}" cy="{cy}"'
     name = f'id="{number}" name="{quoted(figure.view.name)}" descr="{told}"'
     sharp = (
         f'<a:extLst><a:ext uri="{{96DAC541-7B7A-43D3-8B79-37D633B846F1}}"><asvg:svgBlip xmlns:asvg="{_SVG}" '
-        f'r:embed="{picture.svg}"/></a:ext></a:extLst>'
+        f'r:embed="{picture[1]}"/></a:ext></a:extLst>'
     )
     return (
         f'<w:r><w:drawing><wp:inline distT="0" distB="0" distL="0" distR="0"><wp:extent {size}/><wp:docPr {name}/>'
         f'<a:graphic xmlns:a="{_PICTURES}/main"><a:graphicData uri="{_PICTURES}/picture">'
         f'<pic:pic xmlns:pic="{_PICTURES}/picture"><pic:nvPicPr><pic:cNvPr {name}/><pic:cNvPicPr/></pic:nvPicPr>'
-        f'<pic:blipFill><a:blip r:embed="{picture.png}">{sharp}</a:blip>'
+        f'<pic:blipFill><a:blip r:embed="{picture[0]}">{sharp}</a:blip>'
         "<a:stretch><a:fillRect/></a:stretch></pic:blipFill>"
         f'<pic:spPr><a:xfrm><a:off x="0" y="0"/><a:ext {size}/></a:xfrm>'
         '<a:prstGeom prst="rect"><a:avLst/></a:prstGeom></pic:spPr></pic:pic></a:graphicData></a:graphic>'

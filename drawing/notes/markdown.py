@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 
 from ...scales.packaged import packaged
-from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table, numbered
-from .markup import Node, Plain, Ruled, letters, parse
+from . import blocks as note
+from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
 
 _SIGNS = re.compile(r"([\\`*_{}\[\]<>#|~])")
 
@@ -21,7 +21,7 @@ def markdown(document: Document, figures: list[str]) -> str:
     ]
     about += [text for text in (page.department, page.date, page.identity) if text]
     head = [f"# {_plain(said['title.note'])}", f"**{_plain(page.title)}**", "  \n".join(map(_plain, about))]
-    texts = (text for block, number in numbered(document.blocks) for text in _block(block, number, said, figures))
+    texts = (text for block, number in note.numbered(document.blocks) for text in _block(block, number, said, figures))
     return "\n\n".join([*head, *texts]) + "\n"
 
 
@@ -43,18 +43,18 @@ def _block(block: Block, number: int, said: dict[str, str], figures: Sequence[st
             name = figures[number - 1]
             if re.search(r"[\s()<>]", name):  # the target of a link holds these only within signs of its own
                 name = "<" + re.sub(r"([<>\\])", r"\\\1", name) + ">"
-            yield f"![{_plain(letters(caption))}]({name})"
+            yield f"![{_plain(note.letters(caption))}]({name})"
             yield "  \n".join((f"*{said['figure']} {number} – {_line(caption)}*", *map(_line, under)))
 
 
 def _line(markup: str) -> str:
-    return "".join(map(_node, parse(markup)))
+    return "".join(map(_node, note.parse(markup)))
 
 
-def _node(node: Node) -> str:
-    if isinstance(node, Plain):
+def _node(node: note.Node) -> str:
+    if isinstance(node, note.Plain):
         return _plain(node.text)
-    if isinstance(node, Ruled):
+    if isinstance(node, note.Ruled):
         inner = "".join(map(_node, node.parts))
         return RULED[node.kind](inner)
     above, below = ("".join(map(_node, parts)) for parts in (node.above, node.below))

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import groupby, pairwise
 
-from .markup import Node, Plain, Ruled, Scripted, parse, printable
+from .blocks import Node, Plain, Ruled, Scripted, parse, printable
 
 _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
 _EMPTY = "\u200b"  # an argument without a character would be shown as a box to fill in
@@ -110,20 +110,15 @@ def whole(parts: Iterable[Node]) -> tuple[Node, ...]:
     for part in parts:
         before = found[-1] if found else None
         if isinstance(before, Plain) and isinstance(part, Scripted) and isinstance(part.base, Plain):
-            kept, taken = _split(before.text, part.base.text)
-            found[-1:] = [Plain(kept)] if kept else []
-            part = replace(part, base=Plain(taken + part.base.text))
+            base = part.base.text
+            match = re.search(r"[\d.,]*$" if base.isdigit() else r"[A-Za-z]*$", before.text)
+            tail = match.group() if match else ""
+            if base.isdigit() or tail + base in _FUNCTIONS or _ROMAN.fullmatch(tail + base):
+                kept = before.text.removesuffix(tail)
+                found[-1:] = [Plain(kept)] if kept else []
+                part = replace(part, base=Plain(tail + base))
         found.append(part)
     return tuple(found)
-
-
-def _split(text: str, base: str) -> tuple[str, str]:
-    """Split characters into those that stay before a base and those that belong to it."""
-    kind = r"[\d.,]*$" if base.isdigit() else r"[A-Za-z]*$"
-    match = re.search(kind, text)
-    tail = match.group() if match else ""
-    belongs = base.isdigit() or tail + base in _FUNCTIONS or _ROMAN.fullmatch(tail + base)
-    return (text[: len(text) - len(tail)], tail) if belongs else (text, "")
 
 
 def _atoms(parts: Iterable[Node]) -> Iterator[_Atom]:

@@ -12,10 +12,9 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ...scales.packaged import packaged
-from ..table import cells
+from ..view import cells
 from . import blocks as note
 from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
-from .markup import Node, Plain, Ruled, joined, parse, printable, tied
 
 PREAMBLE = """\
 #set document(title: {title}, date: none)
@@ -145,38 +144,38 @@ def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
 
 def _line(markup: str, plain: Callable[[str], str] | None = None) -> str:
     """Return a line of markup: words as text, or as `plain` has them, symbols with scripts and bars as formulas."""
-    said, nodes = plain or _text, parse(markup)
+    said, nodes = plain or _text, note.parse(markup)
     return "".join(
-        said(node.text) if isinstance(node, Plain) else f"${_formula(node, joined(nodes, k))}$"
+        said(node.text) if isinstance(node, note.Plain) else f"${_formula(node, note.joined(nodes, k))}$"
         for k, node in enumerate(nodes)
     )
 
 
 def _sentence(markup: str) -> str:
     """Return a sentence in which no line ends between a letter and what it is equal to, a number and its unit."""
-    return _line(markup, lambda plain: _text(tied(plain)))
+    return _line(markup, lambda plain: _text(note.tied(plain)))
 
 
-def _formula(node: Node, upright: bool = False) -> str:
+def _formula(node: note.Node, upright: bool = False) -> str:
     """Return a node within a formula; a letter alone is slanted, unless it is `upright`."""
-    if isinstance(node, Plain):
+    if isinstance(node, note.Plain):
         slanted = len(node.text) == 1 and node.text.isalpha() and not upright
         return f"italic({_quoted(node.text)})" if slanted else _quoted(node.text)
-    if isinstance(node, Ruled):
+    if isinstance(node, note.Ruled):
         inner = " ".join(map(_formula, node.parts)) or '""'
         return {"bar": f"overline({inner})", "u": f"underline({inner})", "uu": f"underline(underline({inner}))"}[
             node.kind
         ]
     scripts = "".join(
-        f", {place}: {''.join(_script(part, joined(parts, k)) for k, part in enumerate(parts))}"
+        f", {place}: {''.join(_script(part, note.joined(parts, k)) for k, part in enumerate(parts))}"
         for place, parts in (("t", node.above), ("b", node.below))
         if parts
     )
     return f"attach({_formula(node.base, upright)}{scripts})"
 
 
-def _script(node: Node, upright: bool) -> str:
-    return _quoted(node.text) if isinstance(node, Plain) else _formula(node, upright)
+def _script(node: note.Node, upright: bool) -> str:
+    return _quoted(node.text) if isinstance(node, note.Plain) else _formula(node, upright)
 
 
 def _text(plain: str) -> str:
@@ -186,4 +185,4 @@ def _text(plain: str) -> str:
 
 def _quoted(text: str) -> str:
     """Return a string literal."""
-    return json.dumps(printable(text), ensure_ascii=False)
+    return json.dumps(note.printable(text), ensure_ascii=False)

@@ -18,7 +18,7 @@ import pypdfium2
 import pytest
 
 from kulman import all_variants, batch, check, load_task, note, sheet
-from kulman.drawing.notes.markup import letters
+from kulman.drawing.notes.blocks import letters
 from kulman.drawing.notes.omml import atoms_of
 from kulman.drawing.text import escape, lay_out
 from kulman.drawing.titleblock import surname, with_initials

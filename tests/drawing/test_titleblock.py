@@ -6,9 +6,8 @@ import pytest
 import shapely
 from lxml import etree
 
-from kulman.drawing.formats import FORMATS, block_box, drawing_area, format_named, reserved_boxes
+from kulman.drawing.formats import FORMATS, block_box, drawing_area, format_named, pens_for, reserved_boxes
 from kulman.drawing.page import Page, extent
-from kulman.drawing.pens import pens_for
 from kulman.drawing.shapes import Group, Line, Pen, Polyline, Text
 from kulman.drawing.svg import svg_text
 from kulman.drawing.titleblock import Stamp, frame_shapes, named, words

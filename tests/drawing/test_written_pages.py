@@ -23,15 +23,13 @@ from pdfminer.pdfparser import PDFParser
 from pypdfium2 import PdfDocument
 
 from kulman.drawing import writers
-from kulman.drawing.formats import FORMATS
-from kulman.drawing.page import Page, _reach, extent
+from kulman.drawing.formats import FORMATS, pens_for
+from kulman.drawing.page import Page, Walk, _reach, extent
 from kulman.drawing.pdf import MARGIN, OVERLAP, tiles, write_tiles
 from kulman.drawing.pdf import write as write_pdf
-from kulman.drawing.pens import pens_for
 from kulman.drawing.shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from kulman.drawing.svg import svg_text
 from kulman.drawing.text import lay_out
-from kulman.drawing.walk import Walk
 from kulman.drawing.writers import WRITERS, write_pages
 from kulman.scales.errors import InputError
 

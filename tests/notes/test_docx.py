@@ -22,10 +22,9 @@ from lxml import etree
 from PIL import Image
 
 from kulman import batch, cli, note
-from kulman.drawing.notes.blocks import Document, Equations, Figure, Heading, Sentences, Steps, Table
-from kulman.drawing.notes.docx import SPACES, Picture, blocks_in_word, docx_bytes, folded_in_word, line, outlined
+from kulman.drawing.notes.blocks import Document, Equations, Figure, Heading, Sentences, Steps, Table, letters
+from kulman.drawing.notes.docx import SPACES, blocks_in_word, docx_bytes, folded_in_word, line, outlined
 from kulman.drawing.notes.markdown import markdown
-from kulman.drawing.notes.markup import letters
 from kulman.drawing.notes.omml import built_up, displayed
 from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
@@ -205,7 +204,7 @@ def sides(document: Document) -> Iterator[tuple[str, str]]:
 
 
 def assert_a_document_says_all(document: Document) -> None:
-    pictures = [Picture("rId1", "rId2")] * sum(isinstance(block, Figure) for block in document.blocks)
+    pictures = [("rId1", "rId2")] * sum(isinstance(block, Figure) for block in document.blocks)
     body = parsed(blocks_in_word(document, pictures) + folded_in_word(document, pictures))
     told = paragraphs(body)
 

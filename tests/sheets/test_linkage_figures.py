@@ -14,8 +14,8 @@ import pytest
 import kulman
 from kulman import sheet, solve
 from kulman.drawing.formats import STYLES
+from kulman.drawing.linkages.figures.group import Arm
 from kulman.drawing.linkages.figures.lever import staggered
-from kulman.drawing.linkages.figures.sketch import Arm
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.view import Canvas
 from kulman.tests.support.linkage_cases import Linkage

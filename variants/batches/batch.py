@@ -15,11 +15,10 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from ...drawing.compose import Drawn
-from ...drawing.formats import format_named
+from ...drawing.formats import Norm, format_named
 from ...drawing.notes.blocks import Block, Document
 from ...drawing.notes.docx import Drawing, docx_bytes, drawings_of
 from ...drawing.notes.typst import Body, pdf_bytes
-from ...drawing.pens import Norm
 from ...drawing.words import Words
 from ...drawing.writers import WRITERS, folder_for, page_files, save_all, slug, sweep_parts, write_whole
 from ...plans.quantities import measured

@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...drawing.charts.curves import roots_page, steps_page
-from ...drawing.charts.depth import hoist_page, hoist_verdict
-from ...drawing.charts.maps import choice_page, choice_verdict
+from ...drawing.charts.depth import choice_page, choice_verdict, hoist_page, hoist_verdict
 from ...drawing.words import Words
 from ...plans.hoist.forces import Choice, choose
 from ...plans.hoist.hoist import complete

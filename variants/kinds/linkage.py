@@ -29,11 +29,10 @@ from ..task import Given, Task
 
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
-    from ...drawing.formats import Format
+    from ...drawing.formats import Format, Norm
     from ...drawing.handouts import Shown
     from ...drawing.linkages.scene import Scene
     from ...drawing.notes.blocks import Story
-    from ...drawing.pens import Norm
     from ...drawing.words import Words
     from ...plans.condition import Condition
     from ...plans.hands.shaky import Paper, Tolerance

@@ -17,23 +17,8 @@ from ...printed import POINT, Symbol, value_text
 from ...words import Words
 from ..reading import Edge
 from ..scene import Scene
-from .equations import (
-    Factor,
-    Lines,
-    Product,
-    ends_of,
-    factor,
-    line_note,
-    noted,
-    paper,
-    segment,
-    sensed,
-    size_by_law,
-    size_of,
-    stated,
-    summed,
-    worked,
-)
+from . import equations as equations
+from .equations import Factor, Lines, Product, factor, line_note, noted, segment, size_by_law, size_of, stated, worked
 
 WHOLE, LOADS = "", "loads"
 
@@ -131,7 +116,7 @@ def _solved_for(scene: Scene, moment: str, products: Iterable[Product], sign: fl
     """Return a moment as the sum of others, with numbers and its sense; `sign` is that of the sum in it."""
     words, value = scene.words, scene.values[moment]
     line = worked(words, words.symbol(moment), products, "N*m", turn=math.copysign(sign, sign * value))
-    return noted(line, sensed(words, value))
+    return noted(line, equations.sensed(words, value))
 
 
 def _force(scene: Scene, step: Step) -> Lines:
@@ -169,7 +154,7 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
     name, known, point, made = reading.visible(step.name), _terms(scene, moments), _about(scene, step), scene.made
     laid = next((s for s in reading.users(step.name) if s.verb in ("lay", "back")), None)
     if laid is not None and not any(map(_is_sum, moments)):
-        point = ends_of(reading, made[laid.operands[1]].operands[0])[laid.verb == "lay"]
+        point = equations.ends_of(reading, made[laid.operands[1]].operands[0])[laid.verb == "lay"]
     if length not in made or made[length].verb == "measure":
         arm = Product((factor(scene, length),))
     else:  # measured from the point to the line of the force
@@ -224,7 +209,7 @@ def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
         arm = next(user.name for user in scene.reading.users(name) if user.verb == "arm")
         return factor(scene, step.operands[0]), *_on_arm(scene, arm)
     if step is not None and step.law == "couple_on_lever":
-        scale = paper(scene.words, scene.scales["lever"])
+        scale = equations.paper(scene.words, scene.scales["lever"])
         over = Factor(scale.symbol, scale.value, scale.exact, -scale.power)
         return factor(scene, step.operands[0]), factor(scene, step.operands[1]), over
     return (factor(scene, name),)
@@ -234,7 +219,7 @@ def _on_arm(scene: Scene, arm: str) -> tuple[Factor, ...]:
     """Return an arm in mm, and the scale factor unless the plan's own cancels, as on the lever."""
     plan = scene.figure_of(arm)
     own = segment(scene, scene.words.symbol(arm), plan, size_of(scene, arm))
-    return (own,) if plan == "lever" else (own, paper(scene.words, scene.scales[plan]))
+    return (own,) if plan == "lever" else (own, equations.paper(scene.words, scene.scales[plan]))
 
 
 def _about(scene: Scene, step: Step) -> str:
@@ -299,7 +284,7 @@ def _chords(
     for chord in (e for e in edges if e not in ready):
         parts = _path(ready, chord.tail, chord.tip)
         if parts and all(role(part).whole == chord.name != part for part in parts):  # of one reaction
-            yield summed(scene, chord.name, parts)
+            yield equations.summed(scene, chord.name, parts)
         else:
             around = _path([e for e in others or ready if e is not chord], chord.tip, chord.tail)
             yield _zero(scene, around, (), chord.name)
@@ -334,7 +319,14 @@ def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
             pair = [s.name for s in scene.program if role(s.name).whole == step.name != s.name]
             lines.append(size_by_law(scene, " = ".join(dict.fromkeys(map(symbol, pair))), step, "N"))
         elif step.law == "moment_equation" and role(step.operands[0]).kind == "V":
-            lines += _on_lever(scene, step)
+            speed, *moments = step.operands  # each force times its arm in mm, solved for the balancing force
+            laid = next(s for s in scene.reading.users(speed) if s.verb in ("lay", "back"))
+            letters = scene.words.mark(laid.operands[0]) + scene.words.mark(laid.name)
+            arm = Product((segment(scene, letters, "lever", size_of(scene, speed)),))
+            # the balancing force along the line of its point's velocity has the moment -F * V, with the signs of both
+            sign = -math.copysign(1.0, scene.values[step.name] * scene.values[speed])
+            head = f"ΣM_{{{scene.words.mark('lever.p')}}} = 0:"
+            lines += _moments(scene.words, head, step.name, arm, _terms(scene, moments), sign)
         elif step.law == "crank_moment":
             lines.append(size_by_law(scene, symbol(step.name), step, "N*m"))
         elif step.law == "difference" and scene.values[step.operands[0]] != 0.0:
@@ -345,14 +337,3 @@ def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
             result = scene.words.number(scene.values[step.name], 2)
             lines.append((head, f"({a} − {b})/{a}·100 % =", f"{result} %"))
     return lines
-
-
-def _on_lever(scene: Scene, step: Step) -> Lines:
-    """Sum of moments about the pole, each force times its arm in mm, solved for the balancing force."""
-    words, (speed, *moments) = scene.words, step.operands
-    laid = next(s for s in scene.reading.users(speed) if s.verb in ("lay", "back"))
-    reach = segment(scene, words.mark(laid.operands[0]) + words.mark(laid.name), "lever", size_of(scene, speed))
-    # the balancing force along the line of its point's velocity has the moment -F * V, with the signs of both
-    sign = -math.copysign(1.0, scene.values[step.name] * scene.values[speed])
-    head = f"ΣM_{{{words.mark('lever.p')}}} = 0:"
-    return _moments(words, head, step.name, Product((reach,)), _terms(scene, moments), sign)

@@ -16,9 +16,8 @@ from ....plans.names import COUPLE, role
 from ....plans.quantities import Quantity
 from ....scales.scale import Scale
 from ...printed import ruler_decimals, segment_decimals, value_text
-from ...table import givens_view, table
-from ...view import View
-from ..figures.inset import enlarged
+from ...view import View, givens_view, table
+from ..figures.plan import enlarged
 from ..reading import read
 from ..scene import Scene
 from .equations import Lines, rate_of

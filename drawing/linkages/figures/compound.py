@@ -26,10 +26,10 @@ from ...view import Canvas, View
 from ..calculations.equations import line_of
 from ..reading import Edge
 from ..scene import Scene, is_at_point
-from . import inset
-from .arcs import free_arc
-from .inset import ConstructionLine, Plan, Window, headed, length_of, with_insets
+from . import plan as plans
 from .links import Skeleton, draw_links, pins_of, rays_at, rays_of
+from .plan import ConstructionLine, Plan, Window, headed, length_of, with_insets
+from .scheme import free_arc
 
 SIZES, SPREAD, UP = (0.5, 0.75, 1.0), 1.2, 0.5 * math.pi  # of arcs of turning: radii beyond the joint in arrows, angles
 FAR = 0.75  # part of the mechanism's size within which an instant centre is drawn
@@ -95,11 +95,11 @@ class At(Plan):
         for short in (v for v in vectors if length_of(v) < SHORT * arrow):
             if any(window.shows(short.tail, short.tip) for window in windows):
                 continue
-            times = next((m for m in inset.TIMES if length_of(short) * m >= inset.READABLE * arrow), inset.TIMES[-1])
+            times = next((m for m in plans.TIMES if length_of(short) * m >= plans.READABLE * arrow), plans.TIMES[-1])
             ends = {short.tail, short.tip}
             for other in vectors:
                 wider = ends | {other.tail, other.tip}
-                if inset.hangs(other, ends) and max(inset.size_of(wider)) * times <= inset.WIDEST:
+                if plans.hangs(other, ends) and max(plans.size_of(wider)) * times <= plans.WIDEST:
                     ends = wider
             windows.append(Window.about(ends, times, NARROWEST))
         return windows
@@ -147,10 +147,9 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     windows, name = _at_points(canvas, [at]), f"V_{at.letter}_r"
     if e := scene.direction(name):
         lines = rays_at(at.place, figures) + rays_of(at.place, ((v.tail, v.tip) for v in at.vectors()))
-        side, _ = clear_ray(e, lines, [])
+        side = clear_ray(e, lines, [])
         near, far = (at.place + side * (scene.style.pair + out) for out in (0.0, 0.6 * scene.style.force))
-        canvas.part(ANSWERS)
-        canvas.add(Arrow(*((near, far) if side == e else (far, near)), name=name))
+        canvas.part(ANSWERS, Arrow(*((near, far) if side == e else (far, near)), name=name))
         canvas.label(scene.letter(name), ((near + far) / 2, far), clear=0.9)
     for rate in (coupler.omega_e, coupler.epsilon_e):
         _turn(canvas, scene, rate, coupler.pivot)
@@ -199,8 +198,7 @@ def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window]
         start, end, rim = at.scene.mm(at.coupler.pivot), at.place, at.scene.style.pair
         if abs(end - start) > 4 * rim:
             e, name = unit(end - start), f"l_{at.coupler.pivot}{at.point}"
-            canvas.part(name)
-            canvas.add(Line(start + e * rim, end - e * rim, Pen.AXIS, role="measured", name=name))
+            canvas.part(name, Line(start + e * rim, end - e * rim, Pen.AXIS, role="measured", name=name))
     shown = {at.plan: at.windows() for at in points}
     for at in points:
         canvas.part(mark(at.plan, at.letter))

@@ -20,12 +20,12 @@ from ....plans.names import role
 from ....scales.scale import Scale, rounded, steps
 from ...diagram import Axis, Field, Pole, axes, curve, rays
 from ...printed import value_text
-from ...shapes import Circle, Group, HeadPlace, Line, Pen, Polyline, Vector
+from ...shapes import Circle, HeadPlace, Line, Pen, Polyline, Vector
 from ...symbols import slider_up
 from ...view import Canvas, View
 from ..scene import Scene
-from .arcs import turning_of_driver
 from .links import draw_links, letter_links, skeleton
+from .scheme import turning_of_driver
 
 DENSE = 240  # places through which a path is drawn
 STRAIGHT = 0.05  # mm within which a path is a straight line, or a point
@@ -145,7 +145,7 @@ def _number(canvas: Canvas, scene: Scene, stands: Mapping[int, Scene], point: st
         away = -slider_up(far / abs(far)) if straight else place - middle
         # as of a point, for bare numbers are those of links
         text = f"{scene.words.mark(point)}_{{{','.join(numbers)}}}"
-        canvas.label(text, place, prefer=away, clear=scene.style.node + 0.6, height=scene.style.text)
+        canvas.small(text, place, away, scene.style.node + 0.6)
 
 
 def _ways(scene: Scene, stands: Iterable[Scene]) -> dict[str, tuple[float, float]]:
@@ -210,10 +210,7 @@ class _Band(NamedTuple):
 def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     """Draw the three diagrams of the main output; its letter is the point's, or the link's number.
 
-    Raises
-    ------
-    ValueError
-        When there is no output that moves to and fro.
+    Raises ValueError: there is no output that moves to and fro.
     """
     motion = main_output(cycle)
     if motion is None:
@@ -239,7 +236,7 @@ def diagrams_view(scene: Scene, cycle: Cycle) -> View:
     travel = (drawn.s - np.nanmin(dense.s)).tolist()
     ends = (top.at(t, s) for t, s in zip(times, travel, strict=True))
     chords = Polyline(tuple(end for end in ends if math.isfinite(end.imag)), Pen.THIN)  # of the travel
-    canvas.add(Group((chords,), "chords", "s"))
+    canvas.group("chords", "s", chords)
     scales = [across]
     if cycle.drive.turns:  # a sliding driver has no angle
         scales.append(Scale("mu_phi", rounded(2.0 * math.pi / length, 6), "rad"))
@@ -290,7 +287,7 @@ def _chords(canvas: Canvas, scene: Scene, field: Field, above: Scale, band: _Ban
     # the pole stands at its distance to the left of the axis
     reach, name = pole_distance(above.mu, field.x.scale.mu, band.scale.mu), f"H_{role(band.name).kind or band.name}"
     text = f"{scene.words.symbol(name)} = {scene.words.number(reach, 2)}"
-    ordinates = ((i, field.y.mm(y)) for i, (_, y) in enumerate(points, 1) if math.isfinite(y))
+    ordinates = ((i, band.scale.drawn(y)) for i, (_, y) in enumerate(points, 1) if math.isfinite(y))
     rays(canvas, field, Pole(reach, letter, name, text), ordinates)
 
 
@@ -323,7 +320,7 @@ def load_diagram(scene: Scene, diagram: Diagram) -> View:
         text = f"{words.symbol(name)} = {value_text(words, acting)} {words.unit(field.y.scale.unit)}"
         canvas.add(Line(field.at(place, 0.0), at, Pen.DASHED, role="ordinate", name=name))
         canvas.add(Circle(at, scene.style.node, Pen.THIN, fill="white", role="ordinate", name=name))
-        canvas.label(text, at, prefer=1.0 + 1.0j, clear=1.2, height=scene.style.text)
+        canvas.small(text, at, 1.0 + 1.0j, 1.2)
     notes = [words["said.load_back"]] if back else []
     if not back and loads and loads[0].stroke != BOTH:
         notes.append(words["said.load_working" if loads[0].stroke == WORKING else "said.load_idle"])

@@ -12,9 +12,9 @@ from ...shapes import Line
 from ...view import View
 from ..reading import Edge
 from ..scene import Scene
-from .inset import letter_marks
+from .group import LEAST, Arm, Sketch, arms_of, zeros
 from .links import rays_of
-from .sketch import LEAST, Arm, Moment, Sketch, arms_of, zeros
+from .plan import letter_marks
 
 BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
 BESIDE = cos(radians(12.0))  # arms that make a smaller angle run into one another
@@ -41,7 +41,7 @@ def lever_view(scene: Scene) -> View:
         canvas.part(name)
         sketch.bar(at, rays_of(at, strokes))
         sketch.hang(name, at)
-    moments = [Moment(name, _arm_of(name), _image(scene, mark), pole) for name, mark in hung if name not in BALANCE]
+    moments = [(name, _arm_of(name), _image(scene, mark), pole) for name, mark in hung if name not in BALANCE]
     arms = [own for _, own in arms_of(scene, moments)]
     shifts = staggered(pole, arms, sum(places.values()) / len(places), STEP * scene.style.text)
     for number, own in enumerate(arms):

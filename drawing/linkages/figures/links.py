@@ -255,8 +255,7 @@ def draw_links(
     held = scene.mechanism.frame_points if framed else ()
     pins = dict.fromkeys(point for number in numbers for point in pins_of(scene, number))
     for point in (point for point in pins if point not in held):
-        canvas.part(point)
-        canvas.add(revolute(scene.mm(point), point, scene.style))
+        canvas.part(point, revolute(scene.mm(point), point, scene.style))
     if framed:
         before = canvas.part(GIVEN)
         for point in dict.fromkeys(pair.point for pair in scene.turning() if {*numbers} & {*pair.links}):

@@ -1,20 +1,292 @@
-"""A plan of velocities, accelerations or forces: the recorded steps, drawn."""
+"""A plan of velocities, accelerations or forces: the recorded steps, drawn; what is too short to be read, in insets.
+
+An inset has the surroundings of such vectors, enlarged, in a frame of its own.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import cycle
+from typing import NamedTuple
 
-from ....plans.board import POSITION
+from ....plans.board import POSITION, Step
 from ....plans.boards.exact import ILL, SMALL
-from ....plans.names import role
+from ....plans.names import FORCES, role
 from ....plans.quantities import intersections, pins_together, point_of
-from ...shapes import Line, Pen
-from ...view import Canvas, View
+from ....scales.scale import SERIES, Scale
+from ...areas import clipped
+from ...page import extent
+from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
+from ...text import Box
+from ...view import Canvas, View, write_above
 from ..reading import Edge
 from ..scene import Scene, plan_heading
-from .inset import NUMERALS, Plan, construction_line, headed, in_inset, length_of, letter_marks, with_insets
 from .links import NEAR, Stroke
+
+READABLE = 1.7  # arrowheads: the least length of a vector in an inset
+TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
+WIDEST, NARROWEST = 85.0, 45.0  # mm, the largest side of what an inset shows, the least side of an inset of forces
+MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
+LEAST_FRAME = 5.0  # mm, the least side of the frame around what an inset shows
+TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
+NUMERALS = ["I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X"]
+ENLARGED = "enlarged"  # the stage of insets: all that a figure has is there before them
+PAST = 6.0  # mm by which a construction line runs past the point that it finds
+FEW = 1  # forces too short to be read that a plan shows as points, said in words
+ConstructionLine = tuple[complex, complex, complex, str]  # whence, the point that it finds, its end, what is said of it
+
+
+class Window(NamedTuple):
+    """What an inset shows: a box of the figure, mm, and how many times it is enlarged."""
+
+    box: Box
+    times: float
+
+    @classmethod
+    def about(cls, ends: Collection[complex], times: float, narrowest: float) -> Window:
+        """Return a window around points, whose inset has at least the sides `narrowest`, mm."""
+        x0, y0, x1, y1 = _box(ends)
+        wide, high = (max(MARGIN, (narrowest - size * times) / 2) / times for size in size_of(ends))
+        return cls((x0 - wide, y0 - high, x1 + wide, y1 + high), times)
+
+    def shows(self, *ends: complex) -> bool:
+        """Whether points stand in it."""
+        x0, y0, x1, y1 = self.box
+        return all(x0 <= end.real <= x1 and y0 <= end.imag <= y1 for end in ends)
+
+
+def _box(ends: Iterable[complex]) -> Box:
+    xs, ys = zip(*((end.real, end.imag) for end in ends), strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def size_of(ends: Iterable[complex]) -> tuple[float, float]:
+    """Return width and height of the box of points."""
+    x0, y0, x1, y1 = _box(ends)
+    return x1 - x0, y1 - y0
+
+
+def length_of(vector: Vector) -> float:
+    """Return how long a vector is drawn, mm."""
+    return abs(vector.tip - vector.tail)
+
+
+def hangs(vector: Vector, ends: Iterable[complex]) -> bool:
+    """Whether a vector begins or ends at one of these places."""
+    return any(abs(end - other) < 1e-6 for end in (vector.tail, vector.tip) for other in ends)
+
+
+def headed(vector: Vector, least: float) -> Vector:
+    """Return a vector without its arrowhead where it is shorter than the `least` length."""
+    return replace(vector, head="none") if length_of(vector) < least else vector
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A plan; its insets show what is too short for an arrowhead, where that is more than one force."""
+
+    scene: Scene
+    plan: str
+
+    def vectors(self) -> Iterable[Vector]:
+        """Return the vectors that can be read on the plan or in an inset."""
+        least = READABLE * self.scene.style.arrow / self._times[-1]
+        vectors = map(self.scene.vector, dict.fromkeys(self.scene.reading.on(self.plan)))
+        return (vector for vector in vectors if length_of(vector) >= least)
+
+    def lines(self) -> Iterable[ConstructionLine]:
+        """Go through the construction lines."""
+        for step, _, start, along in self.scene.reading.meetings(self.plan):
+            yield (*construction_line(self.scene, step, start, along), "")
+
+    def marks(self) -> Mapping[str, complex]:
+        """Return the places of the pole and of all ends of vectors."""
+        ends = (edge.tip for edge in self.scene.reading.on(self.plan))
+        return {mark: self.scene.mm(mark) for mark in (*self.poles(), *ends)}
+
+    def poles(self) -> list[str]:
+        """Return the mark at which all begins."""
+        return [step.name for step in self.scene.program.on(self.plan) if step.verb == "pole"]
+
+    def windows(self) -> list[Window]:
+        """Return what the insets show, the coarser ones first; none where a single force is too short."""
+        if role(self.plan).kind != FORCES:
+            return []
+        short = self._short(1.0)
+        windows, left = list[Window](), _clusters(short) if len(short) > FEW else []
+        while left:
+            cluster, times = left.pop(0), self._times
+            ends = {end for vector in cluster for end in (vector.tail, vector.tip)}
+            least = READABLE * self.scene.style.arrow / min(map(length_of, cluster))
+            readable = next((m for m in times if m >= least), times[-1])
+            fitting = [m for m in times if max(size_of(ends)) * m <= WIDEST] or times[:1]
+            windows.append(Window.about(ends, min(readable, fitting[-1]), NARROWEST))
+            enlarged = windows[-1].times
+            finer = [vector for vector in cluster if vector in self._short(enlarged)]
+            left += _clusters(finer) if len(finer) < len(cluster) or enlarged < times[-1] else []
+        return windows
+
+    def _short(self, times: float) -> list[Vector]:
+        return [vector for vector in self.vectors() if length_of(vector) * times < self.scene.style.arrow]
+
+    @property
+    def _times(self) -> Sequence[float]:
+        """The enlargements whose scale factors are of the customary series; all, where there are none."""
+        mu = self.scene.scales[self.plan].mu
+        return [m for m in TIMES if float(f"{mu / m:e}".partition("e")[0]) in SERIES] or TIMES
+
+    def read_in(self, window: Window) -> Iterator[str]:
+        """Go through the quantities whose vectors, too short for an arrowhead on the plan, can be read in a window."""
+        for vector in self.vectors():
+            long = length_of(vector) * window.times >= self.scene.style.arrow
+            if long and in_inset(self.scene, [window], (vector.tail, vector.tip)):
+                yield vector.quantity
+
+
+def enlarged(scene: Scene, quantity: str, plan: str) -> float:
+    """Return how many times as large as on its plan a force can be read in an inset, 1 where it is in none."""
+    forces = Plan(scene, plan)
+    return min((window.times for window in forces.windows() if quantity in forces.read_in(window)), default=1.0)
+
+
+def in_inset(scene: Scene, shown: Iterable[Window], ends: tuple[complex, complex]) -> bool:
+    """Whether a vector is too short to be read in its figure and stands in an inset."""
+    return abs(ends[1] - ends[0]) < scene.style.arrow and any(window.shows(*ends) for window in shown)
+
+
+def _clusters(vectors: Sequence[Vector]) -> list[list[Vector]]:
+    clusters: list[list[Vector]] = []
+    for vector in vectors:
+        own = [c for c in clusters if any(hangs(other, (vector.tail, vector.tip)) for other in c)]
+        clusters = [c for c in clusters if c not in own] + [[*(v for c in own for v in c), vector]]
+    return clusters
+
+
+def with_insets(
+    canvas: Canvas, name: str, heading: tuple[str, ...], notes: tuple[str, ...], shown: Sequence[tuple[Plan, Window]]
+) -> View:
+    """Finish a figure: frame the surroundings of short vectors in it, and put each enlarged beside it.
+
+    The insets stand to the right of the figure, or under it, whichever takes less room; the heading over all.
+    """
+    if not shown:
+        return canvas.finish(name, heading, notes)
+    frames: dict[Window | None, list[tuple[Box, str]]] = {}  # by the inset in which they stand, else in the figure
+    for (_, window), numeral in zip(shown, cycle(NUMERALS), strict=False):
+        x0, y0, x1, y1 = window.box
+        around = [w for _, w in shown if w.times < window.times and w.shows(complex(x0 + x1, y0 + y1) / 2)]
+        host = max(around, key=lambda other: other.times, default=None)  # the finest of the coarser ones
+        frames.setdefault(host, []).append((window.box, numeral))
+    insets = [
+        _inset(plan, window, name, numeral, frames.get(window, ()))
+        for (plan, window), numeral in zip(shown, cycle(NUMERALS), strict=False)
+    ]
+    canvas.part(ENLARGED)
+    _framed(canvas, name, frames.get(None, ()), 1.0)
+    figure = canvas.finish(name)
+    ways = []
+    for right in (True, False):
+        x, y = (figure.box[2] + GAP, figure.box[1]) if right else (figure.box[0], figure.box[1] - GAP)
+        placed = list[Shape](figure.shapes)
+        for inset in insets:
+            (width, height), (left, low, *_) = inset.size, inset.box
+            corner = complex(x - left, y - low - (0.0 if right else height))
+            placed.append(Group(tuple(shifted(shape, corner) for shape in inset.shapes), ENLARGED, inset.name))
+            x, y = (x, y + height + GAP) if right else (x + width + GAP, y)
+        x0, y0, x1, y1 = extent(placed)
+        ways.append(((x1 - x0) * (y1 - y0), placed))
+    _, shapes = min(ways, key=lambda way: way[0])
+    before = len(shapes)
+    x0, y0, x1, y1 = write_above(shapes, heading, notes, canvas.style)
+    parts = (*figure.parts, *(ENLARGED for _ in insets), *("" for _ in shapes[before:]))
+    return View(name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes, parts=parts)
+
+
+def _framed(canvas: Canvas, name: str, frames: Iterable[tuple[Box, str]], times: float) -> None:
+    """Draw the frames of what the insets of a figure show, with their numerals."""
+    for box, numeral in frames:
+        x0, y0, x1, y1 = (side * times for side in box)
+        wide, high = (max(0.0, LEAST_FRAME - size) / 2 for size in (x1 - x0, y1 - y0))
+        corners = _corners((x0 - wide, y0 - high, x1 + wide, y1 + high))
+        canvas.add(Polyline(corners, Pen.THIN, closed=True, role="window", name=f"{name}_{numeral}"))
+        canvas.label(numeral, corners[2:], prefer=1j, clear=0.8)
+
+
+def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
+    """Return the corners of a box, counter-clockwise; the last two are the upper ones."""
+    x0, y0, x1, y1 = box
+    return complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
+
+
+def _inset(plan: Plan, window: Window, figure: str, numeral: str, framed: Iterable[tuple[Box, str]]) -> View:
+    """Draw what stands in the window, enlarged: vectors to a scale factor of their own, those that leave it cut off."""
+    name = f"{figure}_{numeral}"
+    scene, times, (x0, y0, x1, y1) = plan.scene, window.times, window.box
+    bounds: Box = (x0 * times, y0 * times, x1 * times, y1 * times)
+    canvas, scale = Canvas(scene.style, bounds=bounds), scene.scales[plan.plan]
+    own = Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit)
+    for i, (tail, point, end, text) in enumerate(plan.lines()):
+        cut, past = (clipped(start * times, end * times, bounds) for start in (tail, point))
+        if cut is not None:
+            canvas.add(Line(*cut, Pen.DASHED, role="construction", name=f"{name}_{i + 1}"))
+        if past is not None and text:
+            canvas.label(text, past, clear=0.8)
+    letters: dict[tuple[complex, complex], dict[str, None]] = {}  # of vectors from one place to another
+    for vector in plan.vectors():
+        letters.setdefault((vector.tail, vector.tip), {})[scene.letter(vector.quantity)] = None
+    for vector in plan.vectors():
+        tail, tip, names = vector.tail * times, vector.tip * times, letters.pop((vector.tail, vector.tip), ())
+        cut = clipped(tail, tip, bounds)
+        if cut is None or abs(cut[1] - cut[0]) < 1e-6:
+            continue
+        if abs(cut[0] - tail) + abs(cut[1] - tip) < 1e-6:  # the whole of it
+            canvas.add(headed(replace(vector, tail=tail, tip=tip, mu=own.mu), scene.style.arrow))
+        else:
+            parts: list[Shape] = [Line(*cut)]
+            parts += [Head(tip, tip - tail)] if abs(cut[1] - tip) < 1e-6 else []
+            canvas.add(Group(tuple(parts), "cut", vector.quantity))
+        if names:
+            canvas.label(" = ".join(names), cut, clear=0.9, strict=True)
+    _framed(canvas, figure, framed, times)
+    places = {mark: place * times for mark, place in plan.marks().items()}
+    seen = {mark: place for mark, place in places.items() if clipped(place, place, bounds) is not None}
+    letter_marks(
+        canvas, scene, {mark: scene.words.mark(mark) for mark in seen}, seen, [p for p in plan.poles() if p in seen]
+    )
+    canvas.add(Polyline(_corners(bounds), Pen.THIN, closed=True, role="inset", name=name))
+    return canvas.finish(name, (f"{numeral}:  {scene.words.scale(own)}",))
+
+
+def construction_line(scene: Scene, step: Step, start: str, direction: str) -> tuple[complex, complex, complex]:
+    """Return whence a line of a meeting runs, the point that it finds, and its end past it."""
+    e, tail, point = scene.solved.point(direction), scene.mm(start), scene.mm(step.name)
+    along = ((point - tail) / e).real
+    if abs(along) < PAST:
+        return point - e * 2 * PAST, point, point + e * 2 * PAST
+    return tail, point, point + e * PAST if along > 0 else point - e * PAST
+
+
+def letter_marks(
+    canvas: Canvas, scene: Scene, letters: Mapping[str, str], places: Mapping[str, complex], poles: Collection[str]
+) -> None:
+    """Draw poles and points with their letters outside of the figure; marks that coincide share one letter."""
+    if not places:
+        return
+    middle, at = sum(places.values()) / len(places), dict[complex, list[str]]()
+    for mark in letters:
+        near = next((place for place in at if abs(place - places[mark]) < TOGETHER), places[mark])
+        at.setdefault(near, []).append(mark)
+    for mark in poles:
+        canvas.part(mark, scene.point(places[mark], mark))
+    for place, marks in at.items():
+        canvas.part(scene.last(canvas.parts.get(mark, mark) for mark in marks))
+        canvas.label(", ".join(letters[mark] for mark in marks), place, prefer=place - middle, priority=1)
+    for mark in letters:
+        if mark not in poles:
+            canvas.part(mark, Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
+
 
 SHORT = 2.0  # mm below which a vector cannot be drawn as an arrow
 LARGE = 1e4  # above it a number is written with a power of ten
@@ -28,8 +300,7 @@ def plan_view(scene: Scene, plan: str) -> View:
     left = [edge for edge in vectors if not in_inset(scene, shown, scene.ends(edge))]
     for step, number, start, direction in scene.reading.meetings(plan):
         begin, _, end = construction_line(scene, step, start, direction)
-        canvas.part(step.name)
-        canvas.add(Line(begin, end, Pen.DASHED, role="construction", name=f"{step.name}_{number}"))
+        canvas.part(step.name, Line(begin, end, Pen.DASHED, role="construction", name=f"{step.name}_{number}"))
     draw_sides(canvas, scene, plan, map(scene.ends, vectors))
     _vectors(canvas, scene, vectors, left)
     ends, poles = {mark for edge in left for mark in (edge.tail, edge.tip)}, forces.poles()
@@ -81,8 +352,7 @@ def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke])
     for first, second in ((a, b) for marks in figures for i, a in enumerate(marks) for b in marks[:i]):
         side = scene.mm(second), scene.mm(first)
         if abs(side[1] - side[0]) > NEAR and not any(_covers(line, side) for line in lines):
-            canvas.part(scene.last((first, second)))
-            canvas.add(Line(*side, Pen.THIN, role="similarity", name=f"{second} {first}"))
+            canvas.part(scene.last((first, second)), Line(*side, Pen.THIN, role="similarity", name=f"{second} {first}"))
             lines.append(side)
 
 
