@@ -22,8 +22,7 @@ import numpy as np
 from kulman import check, load_task, solve
 from kulman.plans.hands.shaky import draw, preset
 from kulman.scales.errors import KulmanError
-from kulman.variants.marking.keyed import Keyed, Request, keyed
-from kulman.variants.marking.rubric import Rubric
+from kulman.variants.marking.keyed import Keyed, Request, Rubric, keyed
 from kulman.variants.task import Task
 
 HAND = preset("normal")

@@ -43,7 +43,7 @@ class KulmanError(Exception):
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Keep the data when the error crosses to another process."""
-        return _again, (type(self), self.args, self.__dict__)
+        return type(self).__new__, (type(self), *self.args), self.__dict__  # whatever its constructor asks for
 
     def text(self, language: str = "en") -> str:
         """Return the message as one line in `language`."""
@@ -63,13 +63,6 @@ def _shown(value: object, language: str) -> object:
     if language == "en" or isinstance(value, Written) or not isinstance(value, (str, float)):
         return value
     return _DECIMAL.sub(r"\1,\2", str(value))
-
-
-def _again(kind: type[KulmanError], arguments: tuple[Any, ...], state: dict[str, Any]) -> KulmanError:
-    """Make an error again from what it holds, whatever its constructor asks for."""
-    error = kind.__new__(kind, *arguments)
-    error.__dict__.update(state)
-    return error
 
 
 class InputError(KulmanError, ValueError):

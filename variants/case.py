@@ -36,6 +36,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..plans.marking.key import Question
 
 Settings = Mapping[str, str | float]
+Wanted = str | Iterable[str] | None  # names, each alone or several with commas between; all for none
 Numbers = Mapping[str, float]  # of a variant, SI
 Choices = Mapping[str, str]  # of a variant: its word of each choice
 Plans = tuple[str, ...]
@@ -51,7 +52,7 @@ class Request:
     task: Task
     variant: str | None = None
     settings: Settings | None = None  # in the place of givens
-    only: str | Iterable[str] | None = None
+    only: Wanted = None
     scales: Settings | None = None
     notation: str | None = None
     language: str = "uk"
@@ -137,6 +138,7 @@ class Kind(Generic[Subject, Answer]):
     pages: ClassVar[int] = 1  # how many a sheet has at most that holds everything well
     moves: ClassVar[bool] = True  # whether its plans have a course
     judged: ClassVar[str] = ""  # key of the heading of its checks, where a list of quantities ends in these
+    rules: ClassVar[Mapping[str, str]] = {}  # keys of what is told of checks that fail
     unasked: ClassVar[tuple[str, ...]] = ()  # quantities that no form asks for
     limits_add_up: ClassVar[bool] = False  # whether limits are those of errors of drawing, else of what is read off
     # keys, after `form.`, of what a form says beside what every form does, by the plan to which it belongs, or by none
@@ -187,8 +189,7 @@ class Kind(Generic[Subject, Answer]):
         """Solve a variant with its `values` in SI and the `words` of its choices; impossible values are refused."""
         for _, error in self.impossible(values):
             raise error
-        solved: Answer = self._in("plans", "solve", f"solve_{self.table}")(subject.chosen(words), values, plans)
-        return solved
+        return cast("Answer", self._in("plans", "solve", f"solve_{self.table}")(subject.chosen(words), values, plans))
 
     def scale_symbols(self, solved: Answer) -> tuple[str, ...]:
         """Return the symbols of all scale factors that a task or a user may choose."""
@@ -196,17 +197,16 @@ class Kind(Generic[Subject, Answer]):
 
     def first_scales(self, solved: Answer, choosers: Choosers, plans: Plans) -> tuple[Format, Scales]:
         """Return format and scale factors by plan as they follow from the extents of plans, of which none is drawn."""
-        scales: tuple[Format, Scales] = self._in("drawing", "sheet", "first_scales")(solved, choosers, plans)
-        return scales
+        return cast("tuple[Format, Scales]", self._in("drawing", "sheet", "first_scales")(solved, choosers, plans))
 
     def conditions(self, solved: Answer) -> dict[str, Condition]:
         """Return the condition of every quantity."""
-        conditions: dict[str, Condition] = self._in("plans", "solve", "conditions_of")(solved)
-        return conditions
+        return cast("dict[str, Condition]", self._in("plans", "solve", "conditions_of")(solved))
 
     def warnings(self, solved: Answer) -> tuple[InputError, ...]:
-        """Return what a user should know of what has been solved."""
-        return ()
+        """Return what a user should know of what has been solved: which `rules` do not hold."""
+        failed = [check for check in self.checks(solved) if not check.ok and check.name in self.rules]
+        return tuple(InputError(self.rules[c.name], value=f"{c.value:.5g}", limit=f"{c.limit:.5g}") for c in failed)
 
     def unfit(self, case: Case) -> Iterator[InputError]:
         """Go through what makes a variant a poor exercise: what users are warned of, rules that it breaks."""
@@ -224,8 +224,7 @@ class Kind(Generic[Subject, Answer]):
         """Return the subject over its motion; None where a cycle of positions takes the place of columns."""
         if not self.moves:
             return None
-        course: Course = self._in("plans", "course", f"{self.table.title()}Course")(solved)
-        return course
+        return cast("Course", self._in("plans", "course", f"{self.table.title()}Course")(solved))
 
     def listed(self, solved: Answer, plans: tuple[str, ...]) -> tuple[str, ...]:
         """Return the names of the quantities and scale factors that a list for some plans shows, in its order."""
@@ -248,8 +247,7 @@ class Kind(Generic[Subject, Answer]):
 
         note = case.task.note_in(words.language)
         contents = SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm, note=note)
-        drawn: Drawn = self._in("drawing", "sheet", f"{self.table.title()}Fitting")(contents).draw(paper)
-        return drawn
+        return cast("Drawn", self._in("drawing", "sheet", f"{self.table.title()}Fitting")(contents).draw(paper))
 
     def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:
         """Return what has been solved as large as a sheet draws it, and what a user should know of that."""
@@ -273,18 +271,15 @@ class Kind(Generic[Subject, Answer]):
 
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Return what the explanatory note says beside the views of the sheet, drawn with `scales` by plan."""
-        story: Story = self._in("drawing", "text", "story")(self.scene(case, scales, words), scales, texts)
-        return story
+        return cast("Story", self._in("drawing", "text", "story")(self.scene(case, scales, words), scales, texts))
 
     def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what is drawn, after the first steps, of views that are not drawn in stages: of tables."""
-        shown: Mapping[str, Shown] = self._in("drawing", "text", "begun")(self.scene(case, scales, words), steps)
-        return shown
+        return cast("Mapping[str, Shown]", self._in("drawing", "text", "begun")(self.scene(case, scales, words), steps))
 
     def lettered(self, words: Words, solved: Answer) -> Words:
         """Return the words with the letters of the subject's quantities."""
-        letters: Words = self._in("drawing", "sheet", "lettered")(words)
-        return letters
+        return cast("Words", self._in("drawing", "sheet", "lettered")(words))
 
     def asks(self, solved: Answer, question: Question) -> bool:
         """Whether a form asks for a quantity: for what is found, not for what is given."""
@@ -302,13 +297,11 @@ class Kind(Generic[Subject, Answer]):
 
         What is `drawn` is as `as_drawn` returns it, `paper` the same on paper, with its scale factors.
         """
-        limits: dict[str, float] = self._in("plans", "solve", "tolerances_of")(drawn, paper, tolerance)
-        return limits
+        return cast("dict[str, float]", self._in("plans", "solve", "tolerances_of")(drawn, paper, tolerance))
 
     def section(self, solved: Answer, question: Question, current: str) -> str:
         """Return the section of the form in which a question stands; `current` is that of the one before it."""
-        section: str = self._in("plans", "solve", "section_of")(question.name)
-        return section
+        return cast("str", self._in("plans", "solve", "section_of")(question.name))
 
     def plan_heading(self, solved: Answer, plan: str, words: Words) -> str:
         """Return the heading of a plan, as the sheet has it, or of a section of the form."""
@@ -323,8 +316,7 @@ class Kind(Generic[Subject, Answer]):
 def kind_of(table: str) -> Kind[Any, Any]:
     """Return the kind of the tasks that have this table."""
     name = MODULES[table]
-    kind: Kind[Any, Any] = import_module(name if "." in name else f".kinds.{name}", __package__).KIND
-    return kind
+    return cast("Kind[Any, Any]", import_module(name if "." in name else f".kinds.{name}", __package__).KIND)
 
 
 def beside(task: Task, folder: str) -> Any:
@@ -379,7 +371,7 @@ def positions_of(argument: str, value: int) -> int:
     return value
 
 
-def plans_wanted(value: str | Iterable[str] | None, task: Task) -> tuple[str, ...]:
+def plans_wanted(value: Wanted, task: Task) -> tuple[str, ...]:
     """Return the plans that `only` names, each alone or several with commas between; all of the task for none."""
     if value is None:
         return task.plans

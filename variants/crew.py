@@ -14,7 +14,6 @@ from collections import deque
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, ProcessPoolExecutor, wait
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
-from dataclasses import dataclass
 from functools import partial
 from multiprocessing.process import BaseProcess
 from pathlib import Path
@@ -43,6 +42,8 @@ Task: TypeAlias = "Future[list[Any]]"
 Tasks: TypeAlias = dict[Task, Piece[Any]]
 Submit: TypeAlias = Callable[[list[Any]], Task]
 Hire: TypeAlias = Callable[[int], AbstractContextManager[Submit]]  # for so many pieces at a time
+# the place of an item and what has been made of it; nothing where its process died of it, when it was alone with it
+Done: TypeAlias = tuple[int, Made | None]
 _HERE: dict[str, Any] = {}  # what a process works at
 
 
@@ -51,14 +52,6 @@ class Work(Protocol[ItemIn, MadeOut]):
 
     def begin(self) -> Callable[[ItemIn], MadeOut]:
         """Set up, and return what makes something of an item."""
-
-
-@dataclass(frozen=True, slots=True)
-class Done(Generic[Made]):
-    """What has been made of the item at `place`; nothing where its process died of it, when it was alone with it."""
-
-    place: int
-    made: Made | None
 
 
 def shared_out(
@@ -85,7 +78,7 @@ def shared_out(
     make = work.begin()
     for piece in pieces:
         for place, item in piece:
-            yield [Done(place, make(item))]
+            yield [(place, make(item))]
 
 
 def _pieces(items: Sequence[Item], alike: Callable[[Item], Any]) -> list[Piece[Item]]:
@@ -126,13 +119,13 @@ def _tried(
                         except deaths:
                             lost.append(piece)
                             continue
-                        yield [Done(place, one) for (place, _), one in zip(piece, made, strict=True)]
+                        yield [(place, one) for (place, _), one in zip(piece, made, strict=True)]
                     if not done:
                         left.extend(tasks.values())
                         tasks.clear()
             lost += tasks.values()
         pieces = [[item] for piece in lost for item in piece]
-    yield [Done(place, None) for ((place, _),) in pieces]
+    yield [(place, None) for ((place, _),) in pieces]
 
 
 @contextmanager

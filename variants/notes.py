@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import io
-import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -20,11 +19,11 @@ from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
-from .case import Case, Request, Settings
+from .case import Case, Request, Settings, Wanted
 from .reader import load_task
 from .sheets import Sheet, draw_case, said_of, sheet_id
 from .tables import Saved
-from .task import Task
+from .task import AnyTask
 
 TEXTS = "kulman.drawing.notes"
 DOCUMENTS = (".pdf", ".docx", ".md")
@@ -76,11 +75,11 @@ class Note(Saved):
 
 
 def note(
-    task: str | os.PathLike[str] | Task,
+    task: AnyTask,
     variant: str | None = None,
     *,
     set: Settings | None = None,
-    only: str | Iterable[str] | None = None,
+    only: Wanted = None,
     scales: Settings | None = None,
     notation: str | None = None,
     lang: str = "uk",

@@ -23,7 +23,7 @@ from .checks.basics import Checker, EnoughError, Field, Path, Places, array_of, 
 from .checks.names import Names, Settings, read_choices, read_givens, read_variants
 from .kinds import table_in
 from .shelf import bundled, bundled_text
-from .task import WITH_FORCES, Given, LocatedError, Task
+from .task import WITH_FORCES, AnyTask, Given, LocatedError, Task
 
 LARGEST_FILE = 1_000_000
 TRIED_FOR = 1.3  # seconds of processor time in which a file is read and its variants are tried
@@ -51,7 +51,7 @@ class TaskFileError(InputError):
         return f"{line} {more}"
 
 
-def load_task(task: str | os.PathLike[str] | Task) -> Task:
+def load_task(task: AnyTask) -> Task:
     """Return the bundled task of this id, or the task in a TOML file; one that is read already as it is.
 
     Raises

@@ -6,7 +6,7 @@ import hashlib
 import io
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import get_args
@@ -22,9 +22,9 @@ from ..scales.errors import InputError
 from ..scales.names import latin, legible, of_kind, unknown
 from ..scales.numbers import quote
 from ..scales.scale import Fixed, Scale
-from .case import Case, Request, Settings
+from .case import Case, Request, Settings, Wanted
 from .reader import load_task
-from .task import Task
+from .task import AnyTask, Task
 
 # what a title block says beside what the task does
 BLOCK = ("student", "group", "teacher", "department", "designation", "date")
@@ -91,11 +91,11 @@ class Sheet:
 
 
 def sheet(
-    task: str | os.PathLike[str] | Task,
+    task: AnyTask,
     variant: str | None = None,
     *,
     set: Settings | None = None,
-    only: str | Iterable[str] | None = None,
+    only: Wanted = None,
     scales: Settings | None = None,
     format: str | None = None,
     norm: Norm = "gost",
@@ -226,7 +226,7 @@ def variant_of_id(task: Task, written: str) -> str | None:
 
 
 def handout(
-    task: str | os.PathLike[str] | Task,
+    task: AnyTask,
     variant: str | None = None,
     *,
     steps: int = 0,
@@ -235,7 +235,7 @@ def handout(
     over: str | None = None,
     grid: bool = False,
     set: Settings | None = None,
-    only: str | Iterable[str] | None = None,
+    only: Wanted = None,
     scales: Settings | None = None,
     format: str = PAPER,
     norm: Norm = "gost",

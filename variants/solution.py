@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from html import escape
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from ..drawing.formats import format_named
 from ..drawing.words import Words
@@ -16,10 +15,10 @@ from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.scale import Scale
 from ..scales.units import format_unit
-from .case import Case, Kind, Request, Settings
+from .case import Case, Kind, Request, Settings, Wanted
 from .reader import load_task
 from .tables import FILES, OfCase, Table, aligned
-from .task import Task
+from .task import AnyTask
 
 if TYPE_CHECKING:
     from ..plans.condition import Condition
@@ -70,8 +69,7 @@ class Solution(OfCase):
     @property
     def drawn_by_students(self) -> Solved:
         """What has been solved, as a student draws it."""
-        drawn: Solved = self.kind.as_drawn(self.solved)[0]
-        return drawn
+        return cast("Solved", self.kind.as_drawn(self.solved)[0])
 
     def __getitem__(self, name: str) -> Quantity:
         """Return a quantity by its name."""
@@ -233,11 +231,11 @@ def _condition(words: Words, condition: Condition | None) -> tuple[str, str]:
 
 
 def solve(
-    task: str | os.PathLike[str] | Task,
+    task: AnyTask,
     variant: str | None = None,
     *,
     set: Settings | None = None,
-    only: str | Iterable[str] | None = None,
+    only: Wanted = None,
     scales: Settings | None = None,
     notation: str | None = None,
     lang: str | None = None,

@@ -17,10 +17,11 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
-from ..drawing.writers import Files, save_all
+from ..drawing.writers import WRITERS, Files, save_all
 
 if TYPE_CHECKING:
     from ..drawing.words import Words
+    from ..scales.errors import PositionError
     from .case import Case
     from .task import Task
 
@@ -177,6 +178,37 @@ class OfCase(Result):
     def variant(self) -> str:
         """The variant."""
         return self.case.variant
+
+
+@dataclass(frozen=True, slots=True)
+class Swept(OfCase):
+    """A variant of a task over its whole cycle."""
+
+    suffixes = (*FILES, *WRITERS)
+
+    @property
+    def status(self) -> str:
+        """The status of the whole cycle: `ok` where something moves."""
+        return "ok"
+
+    @property
+    def reason(self) -> PositionError | None:
+        """Why no position at all can be assembled, or None."""
+        return None
+
+    @abstractmethod
+    def _data(self) -> dict[str, Any]:
+        """Return what has been found, for JSON: everything in SI."""
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what `kulman sweep --json` prints: everything in SI."""
+        data = {"task": self.task.id, "variant": self.variant, "status": self.status} | self._data()
+        return {name: plain(value) for name, value in data.items()}
+
+
+def ends_data(of: str, most: tuple[float, float], least: tuple[float, float]) -> dict[str, Any]:
+    """Return the largest and the smallest value, each with its place, as data."""
+    return {"unit": of} | {key: {"value": x, "at": at} for key, (x, at) in (("max", most), ("min", least))}
 
 
 def aligned(rows: Sequence[Sequence[str]], left: Container[int] = (0,)) -> str:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, SupportsFloat
+from typing import TYPE_CHECKING, SupportsFloat, TypeAlias
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..scales.errors import InputError, KulmanError
@@ -23,8 +24,9 @@ if TYPE_CHECKING:
     from ..plans.gears.gear import GearPair
     from ..plans.hoist.hoist import Hoist
 
-ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written
+ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written, with a unit or without
 
+AnyTask: TypeAlias = "str | os.PathLike[str] | Task"  # an id or a file, or one that is read already
 Instead = tuple[tuple[frozenset[str], tuple[str, ...]], ...]  # givens, and those in whose place they stand
 WITH_FORCES = frozenset(("forces", "lever"))  # plans whose units hang together in SI alone
 
@@ -62,7 +64,8 @@ class Given:
             if value not in self.choices or not isinstance(value, str):
                 raise InputError("choice-unknown", text=quote(value), known=", ".join(self.choices))
             return value
-        if self.bound is Bound.RIGID and _endless(value):
+        written = value.strip().lower().partition(" ")[0] if isinstance(value, str) else value
+        if self.bound is Bound.RIGID and written in (*ENDLESS, math.inf):
             return math.inf
         if isinstance(value, str):
             number = parse(value, self.unit, self.unit)
@@ -73,13 +76,6 @@ class Given:
         if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))
         return number
-
-
-def _endless(value: object) -> bool:
-    """Tell whether what was written is infinite, with a unit or without."""
-    if isinstance(value, str):
-        return value.strip().lower().partition(" ")[0] in ENDLESS
-    return value == math.inf
 
 
 def plain_number(value: SupportsFloat, of: Unit) -> float:

@@ -16,7 +16,7 @@ from kulman.plans.cams.course import CamCourse
 from kulman.plans.cams.solve import SolvedCam
 from kulman.scales.errors import InputError
 from kulman.tests.support.cam_students import ROCKER
-from kulman.variants.sweeps.swept import CourseSweep
+from kulman.variants.sweeps.sweeps import CourseSweep
 
 TASK = "madi-cam"
 

@@ -52,8 +52,8 @@ class Squares:
 
 def made(work: Squares, jobs: int, **more: int) -> dict[int, int | None]:
     done = [one for piece in shared_out(work, ITEMS, jobs, str, **more) for one in piece]
-    assert sorted(one.place for one in done) == ITEMS  # nothing lost, nothing twice
-    return {one.place: one.made for one in done}
+    assert sorted(place for place, _ in done) == ITEMS  # nothing lost, nothing twice
+    return dict(done)
 
 
 @pytest.mark.parametrize("jobs", [1, 2])
@@ -101,7 +101,7 @@ def test_items_that_are_alike_are_made_in_one_process() -> None:
 
     done = [one for piece in shared_out(Place(), items, 2, int) for one in piece]
 
-    where = {one.place: one.made[0] for one in done if isinstance(one.made, tuple)}
+    where = {place: made[0] for place, made in done if isinstance(made, tuple)}
     assert sorted(where) == list(range(160))
     assert len(set(where.values())) <= 2
     assert os.getpid() not in where.values()
@@ -118,7 +118,7 @@ def test_many_that_are_alike_go_to_all_processes() -> None:
 def test_what_is_large_stops_nobody() -> None:
     done = [one for piece in shared_out(Place(300_000), ["y" * 300_000] * 40, 2, len) for one in piece]
 
-    assert [len(one.made[1]) for one in done if isinstance(one.made, tuple)] == [300_000] * 40
+    assert [len(made[1]) for _, made in done if isinstance(made, tuple)] == [300_000] * 40
 
 
 def test_what_cannot_be_sent_is_an_error_and_no_process_stays() -> None:
@@ -192,7 +192,7 @@ class TestCluster:
 
         done = [one for piece in on_cluster(work, list(range(24)), str, address) for one in piece]
 
-        assert {one.place: one.made for one in done} == {n: n * n if n != 13 else None for n in range(24)}
+        assert dict(done) == {n: n * n if n != 13 else None for n in range(24)}
 
     def test_a_worker_that_cannot_do_the_work_is_told_in_a_line(self, address: str) -> None:
         with pytest.raises(InputError, match="cannot do the work: No module named 'kulman'"):
@@ -235,7 +235,7 @@ class TestCluster:
             with pytest.raises(InputError, match="no certificates for TLS"):
                 list(on_cluster(Squares(), [2, 3], str, address))
 
-        assert [one.made for one in done] == [4, 9]
+        assert [made for _, made in done] == [4, 9]
 
 
 @dataclass(frozen=True)

@@ -33,8 +33,7 @@ from kulman.scales.scale import Scale
 from kulman.tests.support.cases import draw_case, solve_case
 from kulman.tests.support.shapes import leaves
 from kulman.variants.case import Case, Request
-from kulman.variants.marking.keyed import keyed
-from kulman.variants.marking.rubric import Rubric
+from kulman.variants.marking.keyed import Rubric, keyed
 from kulman.variants.reader import load_task
 from kulman.variants.sheets import Sheet
 from kulman.variants.solution import Solution

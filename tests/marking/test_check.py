@@ -28,10 +28,10 @@ from kulman.variants import sheets
 from kulman.variants.case import Case
 from kulman.variants.marking.checks import Check
 from kulman.variants.marking.figures import Box, boxes, plan_figures
+from kulman.variants.marking.keyed import read_rubric
 from kulman.variants.marking.reading import Answers, read_answers
 from kulman.variants.marking.report import report_html, report_text, to_json
 from kulman.variants.marking.result import result_of
-from kulman.variants.marking.rubric import read_rubric
 from kulman.variants.roster import read_roster, variant_of_book
 from kulman.variants.sheets import drawing_of, same_id, sheet_id, variant_of_id
 

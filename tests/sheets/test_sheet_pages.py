@@ -17,8 +17,7 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.printed_numbers import decimal
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.case import Request
-from kulman.variants.marking.keyed import keyed
-from kulman.variants.marking.rubric import Rubric
+from kulman.variants.marking.keyed import Rubric, keyed
 from kulman.variants.reader import load_task
 from kulman.variants.sheets import Sheet
 from kulman.variants.shelf import bundled, bundled_text

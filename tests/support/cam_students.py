@@ -14,8 +14,7 @@ from kulman.plans.mistakes.book import Book, book
 from kulman.scales.errors import InputError
 from kulman.tests.support.marking_cases import HAND
 from kulman.variants.case import Request
-from kulman.variants.marking.keyed import Keyed, keyed
-from kulman.variants.marking.rubric import Rubric
+from kulman.variants.marking.keyed import Keyed, Rubric, keyed
 from kulman.variants.reader import load_task
 
 MADI = "madi-cam"

@@ -6,7 +6,7 @@ import os
 import re
 import sys
 import traceback
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, fields, replace
 from functools import cached_property, partial
@@ -30,7 +30,7 @@ from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit
 from ...scales.version import __version__
-from ..case import Case, Request, Settings, plans_wanted
+from ..case import Case, Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Done, Journal, digest_of, on_cluster, remove_stale, shared_out
 from ..marking.wording import texts
 from ..notes import body_of, title_page
@@ -39,11 +39,10 @@ from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, read_roster
 from ..sheets import PAPER, Sheet, begun_of_case, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of
 from ..spreadsheets.grid import SUFFIXES
 from ..tables import Cell, csv_table, table_bytes
-from ..task import Task
+from ..task import AnyTask, Task
 
 MANIFEST, KEY = "manifest.csv", "key.csv"
-One: TypeAlias = str | os.PathLike[str] | Task
-Tasks: TypeAlias = One | Sequence[One]
+Tasks: TypeAlias = "AnyTask | Sequence[AnyTask]"
 NOTE, HANDOUT = "note", "handout"
 KEPT = 32  # variants whose drawings a process keeps for the next students that have them
 NOTES = {NOTE: ".pdf", "docx": ".docx"}
@@ -266,9 +265,9 @@ def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, a
     advance(len(found), len(students))
     todo = [number for number in range(len(students)) if number not in found]
     for done in crew(making, [students[number] for number in todo]):
-        for one in done:
-            number = todo[one.place]
-            found[number] = _kept(one.made, students[number], folder, making.language)
+        for place, made in done:
+            number = todo[place]
+            found[number] = _kept(made, students[number], folder, making.language)
             journal.note(digests[number], found[number])
         advance(len(done), len(students))
     outcomes = tuple(found[number] for number in range(len(students)))
@@ -304,7 +303,7 @@ def batch(
     kinds: Sequence[str] = ("svg", "pdf", NOTE),
     digits: int | str | None = None,
     set: Settings | None = None,
-    only: str | Iterable[str] | None = None,
+    only: Wanted = None,
     scales: Settings | None = None,
     format: str | None = None,
     norm: Norm = "gost",

@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import astuple, dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
 
 import numpy as np
 
@@ -28,11 +28,11 @@ from ...scales.names import all_known, names_of, of_kind
 from ...scales.numbers import quote
 from ...scales.units import parse, unit
 from ...scales.version import __version__
-from ..case import Case, Request, Settings, beside, positions_of
+from ..case import Case, Request, Settings, Wanted, beside, positions_of
 from ..hands import is_own
 from ..reader import load_task
 from ..tables import FILES, Cell, OfCase, Result, Table, aligned, plain
-from ..task import LocatedError, Task
+from ..task import AnyTask, LocatedError
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -115,8 +115,7 @@ class Chart(ABC, Generic[Found]):
 
     def to_json(self) -> dict[str, Any]:
         """Return it as data in SI, null in the place of what is no number."""
-        data: dict[str, Any] = plain(self._data())
-        return data
+        return cast("dict[str, Any]", plain(self._data()))
 
     def _shown(self, words: Words) -> tuple[Any, ...]:
         """Return what the picture shows beside what has been found."""
@@ -312,15 +311,15 @@ class Charts(OfCase):
 
 
 def chart(
-    task: str | os.PathLike[str] | Task,
+    task: AnyTask,
     variant: str | None = None,
     *,
     set: Settings | None = None,
-    only: str | Iterable[str] | None = None,
+    only: Wanted = None,
     scales: Settings | None = None,
-    chart: str | Iterable[str] | None = None,
+    chart: Wanted = None,
     positions: int | None = None,
-    quantities: str | Iterable[str] | None = None,
+    quantities: Wanted = None,
     tolerance: str | float = TOLERANCE,
     hand: str = HAND,
     notation: str | None = None,

@@ -108,20 +108,16 @@ class Places:
         self.value(path)
 
     def value(self, path: Path) -> None:
-        """Move over one value and note what it holds."""
+        """Move over one value and note what it holds, where it is an array or an inline table."""
         self.skip(_BLANK)
         first = self.text[self.at]
-        if first in "[{":
-            self.items(path, "]" if first == "[" else "}")
-        else:
+        if first not in "[{":
             self.skip(_STRING if first in "\"'" else _SCALAR)
-
-    def items(self, path: Path, closing: str) -> None:
-        """Move over an array or an inline table."""
+            return
         self.at, index = self.at + 1, 0
         self.skip(_BLANK)
-        while self.text[self.at] != closing:
-            if closing == "}":
+        while self.text[self.at] not in "]}":
+            if first == "{":
                 self.assignment(path)
             else:
                 self._offsets[(*path, index)] = self.at
@@ -323,14 +319,3 @@ def rows(checker: Checker, path: Path, raw: object) -> list[tuple[Path, object]]
         checker.wrong_type(path, "type-tables")
         return []
     return [((*path, i), row) for i, row in enumerate(raw)]
-
-
-def on_link(
-    checker: Checker, path: Path, key: str, point: str, number: int, links: Mapping[int, Mapping[str, object]]
-) -> None:
-    """Check that `point`, named by `key`, is lettered on link `number`."""
-    if number not in links:
-        at = (*path, "links") if (*path, "links") in checker.places else (*path, "link")
-        checker.fault(at, unknown("link-unknown", str(number), map(str, links)))
-    elif point not in links[number]:
-        checker.fault((*path, key), unknown("point-unknown", point, links[number], link=number))

@@ -14,7 +14,7 @@ from ...scales.givens import Bound
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import ONE, unit
-from .basics import Checker, Field, Path, array_of, as_is, link_number, name, on_link, one_of, record, record_of, rows
+from .basics import Checker, Field, Path, array_of, as_is, link_number, name, one_of, record, record_of, rows
 from .names import Names
 
 _RAD, _RAD_S, _RAD_S2 = unit("rad"), unit("rad/s"), unit("rad/s^2")
@@ -251,6 +251,13 @@ def _known(checker: Checker, path: Path, number: int, links: Links) -> bool:
     return number in links
 
 
+def _on_link(checker: Checker, path: Path, key: str, point: str, number: int, links: Links) -> None:
+    """Check that `point`, named by `key`, is lettered on link `number`."""
+    at = (*path, "links") if (*path, "links") in checker.places else (*path, "link")
+    if _known(checker, at, number, links) and point not in links[number]:
+        checker.fault((*path, key), unknown("point-unknown", point, links[number], link=number))
+
+
 def _pair_joined(checker: Checker, path: Path, pair: model.Pair, links: Links) -> None:
     """Check one pair: two different links, its point on both of them, a place where one of them is the frame."""
     if pair.links[0] == pair.links[1]:
@@ -258,7 +265,7 @@ def _pair_joined(checker: Checker, path: Path, pair: model.Pair, links: Links) -
     elif isinstance(pair, model.Revolute):
         for number in pair.links:
             if number != model.FRAME:
-                on_link(checker, path, "point", pair.point, number, links)
+                _on_link(checker, path, "point", pair.point, number, links)
         if pair.at is None and model.FRAME in pair.links:
             checker.fault(path, InputError("key-missing", name="at"))
         if pair.at is not None and model.FRAME not in pair.links:
@@ -266,7 +273,7 @@ def _pair_joined(checker: Checker, path: Path, pair: model.Pair, links: Links) -
     elif pair.links[0] == model.FRAME:
         checker.fault((*path, "links"), InputError("moving-guide", links=", ".join(map(str, pair.links))))
     else:
-        on_link(checker, path, "point", pair.point, pair.links[0], links)
+        _on_link(checker, path, "point", pair.point, pair.links[0], links)
         if pair.links[1] != model.FRAME:
             _known(checker, (*path, "links"), pair.links[1], links)
 
@@ -275,10 +282,10 @@ def _driver_joined(checker: Checker, mechanism: model.Mechanism, links: Links) -
     """Check that the driver carries its point, and that a crank turns on the frame about another one, its pivot."""
     driver = mechanism.driver
     before, path = len(checker.faults), ("mechanism", "driver")
-    on_link(checker, path, "point", driver.point, driver.link, links)
+    _on_link(checker, path, "point", driver.point, driver.link, links)
     if not isinstance(driver, model.Driver):
         return
-    on_link(checker, path, "pivot", driver.pivot, driver.link, links)
+    _on_link(checker, path, "pivot", driver.pivot, driver.link, links)
     if len(checker.faults) > before:
         return
     joints = [pair for pair in mechanism.pairs if isinstance(pair, model.Revolute) and pair.point == driver.pivot]
@@ -306,7 +313,7 @@ def _loads_joined(checker: Checker, mechanism: model.Mechanism, names: Names, li
         if load.link == model.FRAME:
             checker.fault((*path, "link"), InputError("load-frame", known=", ".join(map(str, links))))
         elif isinstance(load, model.Load):
-            on_link(checker, path, "point", load.point, load.link, links)
+            _on_link(checker, path, "point", load.point, load.link, links)
         else:
             _known(checker, (*path, "link"), load.link, links)
         if load.name in seen:

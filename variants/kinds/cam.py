@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, cast
 
 from ...plans.cams import cam as cams
 from ...plans.solved import AT_LEAST, AT_MOST, Check
@@ -167,8 +167,7 @@ class Cams(Kind[cams.Cam, "SolvedCam"]):
     def listed(self, solved: SolvedCam, plans: tuple[str, ...]) -> tuple[str, ...]:
         """Return what belongs to the plans, section by section, the chosen scale factors among it."""
         chosen = (symbol for symbol in SYMBOLS if symbol in solved.scale_of_plan.values())
-        names: tuple[str, ...] = self._in("plans", "solve", "listed")((*chosen, *solved.quantities), plans)
-        return names
+        return cast("tuple[str, ...]", self._in("plans", "solve", "listed")((*chosen, *solved.quantities), plans))
 
     def _headed(self, solved: SolvedCam, section: str) -> str:
         named = {"profile": "profiles"} | ({"roller": "rocker"} if solved.rocker is not None else {})

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from ...plans.hoist import hoist as hoists
 from ...plans.names import role
@@ -16,13 +16,6 @@ if TYPE_CHECKING:
     from ...plans.hoist.solve import SolvedHoist
     from ...plans.marking.key import Question
 
-RULES = {  # what is told of a check that fails
-    "rope_phase_1": "hoist-rule-rope-phase-1",
-    "rope_phase_2": "hoist-rule-rope-phase-2",
-    "support": "hoist-rule-support",
-    "strength": "hoist-rule-strength",
-}
-
 
 class Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
     """Loads that a rope takes off a beam, wound up on another beam."""
@@ -31,6 +24,12 @@ class Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
     room, made, givens = "hoist", hoists.Hoist, hoists.GIVENS
     symbols = ("mu_l", "mu_F_circle")  # those of the diagrams are found
     unasked = ("s_min", "t_P12_max")
+    rules: ClassVar[Mapping[str, str]] = {  # where the formulas are not valid, or a rope is not strong enough
+        "rope_phase_1": "hoist-rule-rope-phase-1",
+        "rope_phase_2": "hoist-rule-rope-phase-2",
+        "support": "hoist-rule-support",
+        "strength": "hoist-rule-strength",
+    }
 
     def impossible(self, values: Mapping[str, float]) -> Iterator[tuple[str, InputError]]:
         """Say why no hoist has these numbers."""
@@ -38,15 +37,6 @@ class Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
             hoists.complete(values)
         except InputError as error:
             yield "", error
-
-    def warnings(self, solved: SolvedHoist) -> tuple[InputError, ...]:
-        """Tell where the formulas are not valid, and of a rope that is not strong enough."""
-        found = []
-        for check in solved.forces.checks:
-            if not check.ok:
-                said = {"value": f"{check.value:.5g}", "limit": f"{check.limit:.5g}"}
-                found.append(InputError(RULES[check.name], **said))
-        return tuple(found)
 
     def checks(self, solved: SolvedHoist) -> tuple[Check, ...]:
         """Return what formulas and rope are judged by: the compared value and its limit, SI.

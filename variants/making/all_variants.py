@@ -18,14 +18,13 @@ from ...scales.names import all_known, names_of
 from ...scales.numbers import quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit
-from ..case import Settings
+from ..case import Settings, Wanted
 from ..crew import Advance
 from ..marking.checks import Check, check
-from ..marking.keyed import Keyed, keyed
-from ..marking.rubric import SIGNED
+from ..marking.keyed import SIGNED, Keyed, keyed
 from ..marking.wording import texts
 from ..tables import FILES, Cell, Result, Table, aligned
-from ..task import Task
+from ..task import AnyTask
 from .new_variants import NewVariants, import_variants, make_variants
 
 TASK_FILE = ".toml"
@@ -141,14 +140,14 @@ def _shown(key: Keyed, name: str) -> float | None:
 
 
 def all_variants(
-    task: str | os.PathLike[str] | Task,
+    task: AnyTask,
     *,
     make: int | None = None,
     ranges: Settings | None = None,
     seed: int | None = None,
     table: str | os.PathLike[str] | None = None,
     set: Settings | None = None,
-    only: str | Iterable[str] | None = None,
+    only: Wanted = None,
     scales: Settings | None = None,
     quantities: Sequence[str] | None = None,
     preset: str = "normal",

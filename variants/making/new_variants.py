@@ -24,7 +24,7 @@ from ..reader import TaskFileError, load_task, task_of
 from ..sheets import draw_case
 from ..spreadsheets.files import read_grid
 from ..spreadsheets.grid import UNDERSTOOD, Grid, about_kind, column_kind, symbol, variant_said
-from ..task import Given, LocatedError, Task
+from ..task import AnyTask, Given, LocatedError, Task
 
 MOST = 1000  # variants that are made at once
 AROUND = 0.2  # a given that all variants have alike is varied by so much to either side, if there is one variant alone
@@ -53,7 +53,7 @@ class NewVariants:
 
 
 def make_variants(
-    task: str | os.PathLike[str] | Task,
+    task: AnyTask,
     count: int,
     ranges: Settings | None = None,
     *,
@@ -83,7 +83,7 @@ def make_variants(
     return _task_with(found, rows)
 
 
-def import_variants(task: str | os.PathLike[str] | Task, file: str | os.PathLike[str]) -> NewVariants:
+def import_variants(task: AnyTask, file: str | os.PathLike[str]) -> NewVariants:
     """Read variants from a spreadsheet; those that have no solution are left out and named, unless none has one."""
     found = load_task(task)
     rows: dict[str, Mapping[str, str]] = {}

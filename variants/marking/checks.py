@@ -18,19 +18,18 @@ from ...drawing.writers import Files, folder_for, save_all, slug, write_whole
 from ...scales.errors import InputError, KulmanError
 from ...scales.names import by_name
 from ...scales.version import __version__
-from ..case import Request, Settings, plans_wanted
+from ..case import Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
 from ..roster import Digits, Entry, read_roster
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, table_bytes
 from ..task import Task
-from .keyed import asked_of, class_header, form_rows, solved
+from .keyed import asked_of, class_header, form_rows, read_rubric, solved
 from .marked import Desk, Terms, variant_of
 from .reading import Answers, read_all
 from .report import REPORTS, Report, report_bytes
 from .result import Result, class_rows, failed, moodle_rows, result_of
-from .rubric import read_rubric
 from .wording import texts
 
 PathLike = str | os.PathLike[str]
@@ -139,7 +138,7 @@ def check(
     variant: str | None = None,
     *,
     set: Settings | None = None,
-    only: str | Iterable[str] | None = None,
+    only: Wanted = None,
     scales: Settings | None = None,
     preset: str = "normal",
     rubric: PathLike | None = None,
@@ -240,7 +239,7 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
     todo = [item for item in enumerate(answers) if item[0] not in found]
     with _seldom_collected():
         for done in shared_out(job, todo, jobs or os.cpu_count() or 1, lambda item: _variant(job.terms, item[1])):
-            for number, student, result in ((*todo[one.place], one.made) for one in done):
+            for number, student, result in ((*todo[place], made) for place, made in done):
                 if result is None:  # the student's answers have killed the process that marked them
                     result = failed(student, InputError("process-died"), job.terms.request.language)
                 elif journal:

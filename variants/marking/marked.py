@@ -18,9 +18,8 @@ from ..case import Request, Settings
 from ..roster import Entry, Roster, variant_of_book
 from ..sheets import same_id, variant_of_id
 from .cells import Asked
-from .keyed import Keyed, keyed
+from .keyed import Keyed, Rubric, keyed
 from .reading import Answers, Reply, apart
-from .rubric import Rubric
 
 NEAR = 0.05  # part by which values over segments may differ from one another
 TELLING = 3  # lines that must tell that a scale factor is not theirs

@@ -21,8 +21,8 @@ from ..roster import WHO
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import aligned
 from .figures import plan_figures
+from .keyed import Rubric
 from .marked import Marked, Misfit
-from .rubric import Rubric
 from .wording import letter, mistake_texts, plain, script_runs, texts
 
 DIGITS, SCALE_DIGITS = 4, 3

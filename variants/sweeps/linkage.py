@@ -27,12 +27,12 @@ from ...scales.units import format_unit, parse, unit
 from ..case import Case, positions_of
 from ..kinds.linkage import placed
 from ..sheets import Sheet, sheet_of
-from ..tables import FILES, Result, Rows, Table, aligned
+from ..tables import FILES, Result, Rows, Swept, Table, aligned, ends_data
 from ..task import LocatedError, Task, plain_number
-from .swept import DIGITS, SweepRequest, Swept, ends_data
 
 Array = NDArray[Any]
 SECTIONS = POSITIONS = 12
+DIGITS = 6  # of a number in the table
 ROUGHLY = 4  # decimals of the angle of an extreme, near which values hardly change
 ROUNDING = 1e-12  # part of the largest value of a column below which one is zero
 CONSTANT = 1e-7  # part of its size within which a quantity does not change over the cycle
@@ -52,18 +52,25 @@ class Sweep(Swept):
     compared: str | None = None
 
     @classmethod
-    def of(cls, case: Case, words: Words, asked: SweepRequest) -> Sweep:
+    def of(
+        cls,
+        case: Case,
+        positions: int | None,
+        points: str | Iterable[str] | None,
+        ends: tuple[str | float | None, str | float | None],
+        chords: str | None,
+    ) -> Sweep:
         """Solve a linkage over its whole cycle; refuse unknown points, no places, an end where a crank goes round."""
         mechanism = case.task.mechanism
-        chosen = names_of("points", asked.points, (str, int))
+        chosen = names_of("points", points, (str, int))
         all_known("motion-unknown", chosen, (*_letters(mechanism), *(str(link.number) for link in mechanism.links)))
-        first, last = (_place(case.task, *item) for item in (("start", asked.start), ("end", asked.end)))
+        first, last = (_place(case.task, *item) for item in zip(("start", "end"), ends, strict=True))
         if last is not None and isinstance(mechanism.driver, Driver):
             raise InputError("sweep-end")
         values = case.task.values(case.variant, case.settings)
         plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
-        count = POSITIONS if asked.positions is None else asked.positions
-        return cls(case, words, cycle(mechanism, values, plans, count, first, last), chosen, asked.chords)
+        count = POSITIONS if positions is None else positions
+        return cls(case, case.words(), cycle(mechanism, values, plans, count, first, last), chosen, chords)
 
     @property
     def status(self) -> str:

@@ -1,26 +1,156 @@
-"""A task over its whole cycle, as users ask for it."""
+"""A task over its whole cycle, as users ask for it; the columns of what has a course: cams, gears, hoists."""
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
-from ..case import Request, Settings, positions_of
+import numpy as np
+
+from ...drawing.words import Words
+from ...drawing.writers import Files
+from ...plans.solved import Columned, Course, Ends
+from ...scales.errors import InputError
+from ...scales.numbers import quote
+from ...scales.units import format_unit, unit
+from ..case import Request, Settings, Wanted, positions_of
 from ..reader import load_task
-from ..task import Task
-from .swept import SUFFIXES as SUFFIXES
-from .swept import CourseSweep, SweepRequest, Swept
+from ..tables import FILES, Result, Swept, Table, aligned, ends_data
+from ..task import AnyTask
+
+SUFFIXES = Swept.suffixes
+SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
+DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of what drives
+DRIVES = "phi"
+NOTHING = 1e-9  # part of the largest value of a column below which one is rounding
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class CourseSweep(Swept):
+    """What is solved over its motion, at `positions` places; None for the marked ones in the table, many in files."""
+
+    course: Course
+    positions: int | None
+
+    @property
+    def count(self) -> int:
+        """The number of places in files."""
+        return self.positions or self.course.usual
+
+    def table(self, language: str | None = None) -> str:
+        """Return the columns at what is marked, or at the positions asked for, then extremes and remarks."""
+        words = self._words(language)
+        heads, columns = self.course.rows(self.positions)
+        shown = [_in_degrees_and_millimetres(column) for column in columns]
+        rows = [["", *(_titled(column.name, column.unit, words) for column in shown)]]
+        for k, head in enumerate(heads):  # one that comes again stands but once
+            first = k == 0 or heads[k - 1] != head
+            rows.append([head if first else "", *(_cell(column, k, words) for column in shown)])
+        remarks = [
+            words[key].format(**{name: _filled(value, words) for name, value in values.items()})
+            for key, values in self.course.remarks()
+        ]
+        warnings = [warning.text(words.language) for warning in self.case.warnings]
+        parts = aligned(rows, ()), _extremes_table(self.course.extremes(), words), "\n".join((*remarks, *warnings))
+        return "\n\n".join(part for part in parts if part)
+
+    def data(self, language: str | None = None) -> Table:
+        """Return all columns, the number of the row before them, after them what is said of each row."""
+        places, words = self.course.places(self.count), self._words(language)
+        shown = [_in_degrees_and_millimetres(column) for column in self.course.columns(places)]
+        states = self.course.states(places)
+        units = (format_unit(column.unit, words.language) for column in shown)
+        heads = (f"{column.name} [{of}]" if of else column.name for column, of in zip(shown, units, strict=True))
+        rows = zip(*(map(float, column.values) for column in shown), *states.values(), strict=True)
+        numbered = tuple((k, *row) for k, row in enumerate(rows))
+        return Table(("k", *heads, *states), numbered, words.language, self.task.id)
+
+    def _data(self) -> dict[str, Any]:
+        """Return columns, extremes where they are told, and what else the course has."""
+        places = self.course.places(self.count)
+        columns = {column.name: {"unit": column.unit, "value": column.values} for column in self.course.columns(places)}
+        extremes = {
+            ends.name: ends_data(ends.unit, (ends.most, ends.most_at), (ends.least, ends.least_at))
+            for ends in self.course.extremes()
+        }
+        return {"columns": columns, **({"extremes": extremes} if extremes else {}), **self.course.data(places)}
+
+    def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
+        """Return the file of the columns: diagrams are on the sheet."""
+        if path.suffix.lower() not in FILES:
+            key = f"{self.task.kind}-sweep-drawing"
+            raise InputError(key, task=quote(self.task.id), file=quote(path.name))
+        return Result._files(self, path, drawn)
+
+    def __repr__(self) -> str:
+        """Return task, variant and the number of places."""
+        return f"<{self.task.kind.title()}Sweep {self.task.id} {self.variant}: {self.count} {self.course.called}>"
+
+
+def _in_degrees_and_millimetres(column: Columned) -> Columned:
+    """Return a column as it is shown."""
+    shown = SHOWN.get(column.unit)
+    if shown is None:
+        return column
+    values: Any = column.values
+    values = unit(shown).from_si(values)
+    return Columned(column.name, shown, np.round(values, PLACES) if column.name == DRIVES else values)
+
+
+def _titled(name: str, of: str, words: Words) -> str:
+    spelled = format_unit(of, words.language)
+    return f"{name}, {spelled}" if spelled else name
+
+
+def _cell(column: Columned, k: int, words: Words) -> str:
+    size = float(np.max(np.abs(column.values), initial=0.0, where=np.isfinite(column.values)))
+    value = float(column.values[k])
+    if np.isinf(value):
+        return "−∞" if value < 0.0 else "∞"
+    return words.short(0.0 if abs(value) <= NOTHING * size else value, DIGITS)
+
+
+def _extremes_table(found: Collection[Ends], words: Words) -> str:
+    """Return the extremes of columns, and at which angles of what drives they are."""
+    rows = [["", words["sweep.most"], "", words["sweep.least"], ""]]
+    for one in found:
+        shown = SHOWN.get(one.unit, one.unit)
+        of = unit(shown)
+        cells = [_titled(one.name, shown, words)]
+        small = NOTHING * max(abs(one.most), abs(one.least))
+        for value, at in ((one.most, one.most_at), (one.least, one.least_at)):
+            tidy = 0.0 if abs(value) <= small else value
+            cells += [words.short(of.from_si(tidy) + 0.0, DIGITS), f"{DRIVES} = {_degrees(at, words)}"]
+        rows.append(cells)
+    return aligned(rows, (0, 2, 4)) if found else ""
+
+
+def _degrees(at: float, words: Words) -> str:
+    """Return an angle in degrees."""
+    return f"{words.short(round(unit('deg').from_si(at), 4), DIGITS)}°"
+
+
+def _filled(value: Any, words: Words) -> Any:
+    """Return what fills in a remark: a value with its SI unit in degrees or millimetres, else as it is."""
+    if not isinstance(value, tuple):
+        return value
+    number, of = value
+    if of == "rad":
+        return _degrees(number, words)
+    return f"{words.short(unit('mm').from_si(number), DIGITS)} {format_unit('mm', words.language)}"
 
 
 def sweep(
-    task: str | os.PathLike[str] | Task,
+    task: AnyTask,
     variant: str | None = None,
     *,
     set: Settings | None = None,
-    only: str | Iterable[str] | None = None,
+    only: Wanted = None,
     scales: Settings | None = None,
     positions: int | None = None,
-    points: str | Iterable[str] | None = None,
+    points: Wanted = None,
     start: str | float | None = None,
     end: str | float | None = None,
     chords: str | None = None,
@@ -67,9 +197,12 @@ def sweep(
         positions_of("positions", positions)
     language = "en" if lang is None else lang
     case = Request(load_task(task), variant, set, only, scales, notation, language).case()
-    asked, course = SweepRequest(positions, points, start, end, chords), case.kind.course(case.solved)
-    if course is not None:
-        return CourseSweep.of(case, case.words(), asked, course)
-    from .linkage import Sweep  # brings its drawings
+    course = case.kind.course(case.solved)
+    if course is None:
+        from .linkage import Sweep  # brings its drawings
 
-    return Sweep.of(case, case.words(), asked)
+        return Sweep.of(case, positions, points, (start, end), chords)
+    for option, value in {"--points": points, "--from": start, "--to": end, "--chords": chords}.items():
+        if value is not None:  # what only the cycle of a linkage has
+            raise InputError("kind-without", task=quote(case.task.id), text=option)
+    return CourseSweep(case, case.words(), course, positions)
