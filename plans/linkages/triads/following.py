@@ -118,7 +118,7 @@ def followed(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, Any]:
     The `values` are numbers or float64 arrays of shape (N,) in SI, the driver's position among them. A mechanism
     without such groups needs none. For many positions of one mechanism, asked for again and again, keep a `Follower`.
     """
-    if not mechanism.starts or not triads(mechanism):
+    if not mechanism.starts:
         return {}
     at = np.asarray(values[mechanism.driver.coordinate], float)
     found = Follower(mechanism, values).near(np.atleast_1d(at))
