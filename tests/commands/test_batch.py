@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -117,26 +115,6 @@ def test_processes_give_the_same_bytes(tmp_path: Path) -> None:
         batch(TASK, file, tmp_path / str(jobs), only="structure", kinds=["svg"], jobs=jobs)
 
     assert files(tmp_path / "1") == files(tmp_path / "2")
-
-
-def test_who_kills_the_process_is_named_and_the_others_are_done(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    first = Making.make
-
-    def poisoned(making: Making, student: Student) -> Made:
-        if student.number == 7:
-            os.kill(os.getpid(), signal.SIGKILL)
-        return first(making, student)
-
-    monkeypatch.setattr(Making, "make", poisoned)
-    file = roster(tmp_path, *(f"S{number};;{number % 10};" for number in range(1, 19)))
-
-    done = batch(TASK, file, tmp_path / "out", only="structure", kinds=["svg"], jobs=2, lang="en")
-
-    assert len(done.problems) == 1
-    assert "class.csv: 8" in done.problems[0]
-    assert len([name for name in files(tmp_path / "out") if name.endswith(".svg")]) == 17
 
 
 @pytest.mark.parametrize(

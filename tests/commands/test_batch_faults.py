@@ -24,7 +24,7 @@ from kulman import batch
 from kulman.drawing import writers
 from kulman.scales.errors import InputError
 from kulman.tests.support import commands
-from kulman.tests.support.commands import Run, files
+from kulman.tests.support.commands import files
 from kulman.variants.batches.batch import JOURNAL, Made, Making, Outcome, Student
 from kulman.variants.crew import Journal
 
@@ -173,18 +173,6 @@ def test_a_run_that_is_killed_at_any_moment_is_gone_on_with(
         assert child.exitcode == 9
         goes_on(out, whole, made)
     assert until >= MOMENTS
-
-
-def test_a_full_disk_is_one_line_with_a_status_of_its_own(
-    tmp_path: Path, made: list[int], monkeypatch: pytest.MonkeyPatch, run: Run
-) -> None:
-    out = tmp_path / "out"
-    Disk(monkeypatch, 7, full)
-
-    status, printed, err = run("batch", TASK, "--roster", str(roster(tmp_path, 3)), "--out", str(out), "--jobs", "1")
-
-    assert (status, printed, err.count("\n")) == (2, "", 1)
-    assert str(out / "002-S2.svg") in err
 
 
 @pytest.mark.soak

@@ -100,14 +100,6 @@ def test_a_check_shows_every_fault_of_a_file(folder: Path, run: Run) -> None:
     assert good == {"file": "good.toml", "ok": True, "errors": [], "remarks": []}
 
 
-def test_settings_are_taken_in_any_unit(run: Run) -> None:
-    plain = run("solve", TASK, "--set", "l_OA=55.5", "--set", "n_1=765", "--set", "F_3=2", "--json")
-    units = ("l_OA=55,5 мм", "n_1=765 об/хв", "F_3=2 кН")
-
-    assert plain == run("solve", TASK, *(x for unit in units for x in ("--set", unit)), "--json")
-    assert plain[0] == 0
-
-
 def test_plans_and_scale_factors_are_those_asked_for(run: Run) -> None:
     scales = ("--scale", "pa=40", "--scale", "mu_a=5")
 
@@ -239,12 +231,6 @@ def test_the_language_stands_in_the_environment(
 
     assert found == status
     assert said in err
-
-
-def test_documents_have_the_language_before_the_command(folder: Path, run: Run) -> None:
-    run("--lang", "ru", "note", TASK, "--only", "velocity", "-o", "note.md")
-
-    assert "Пояснительная записка" in Path("note.md").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("encoding", ["cp1251", "ascii"])

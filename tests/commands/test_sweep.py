@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import math
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 import kulman
@@ -46,14 +44,6 @@ def test_a_velocity_at_a_dead_position_is_shown_as_zero() -> None:
     swept = kulman.sweep("madi-four-bar", only="velocity", positions=6)  # begins where the working stroke begins
 
     assert swept.table().splitlines()[1].split() == ["0", "38.9871", "0", "96.5926", "0"]
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_table_speaks_every_language(language: str, swept: Run) -> None:
-    out = swept("--lang", language, "--only", "velocity", *SHORT_ROD)[1]
-
-    assert ("." in out.splitlines()[3]) is (language == "en")
-    assert {"en": "cannot be assembled", "uk": "не складається", "ru": "не собирается"}[language] in out
 
 
 def test_arcs_that_cannot_be_reached_are_said_and_no_error(swept: Run) -> None:
@@ -102,26 +92,6 @@ def test_json_has_null_where_a_position_fails(swept: Run) -> None:
     assert all(data["quantities"]["V_B"]["value"][k] is None for k in failed)
     assert data["extremes"]["V_B"]["max"]["value"] is None  # it grows without bound
     assert data["outputs"][0]["time_ratio"] is None
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_a_csv_is_what_spreadsheets_read(language: str, tmp_path: Path, swept: Run) -> None:
-    file = tmp_path / "cycle.csv"
-
-    status, out, _ = swept("--lang", language, "-o", str(file), "--positions", "24")
-
-    assert (status, out) == (0, f"{file}\n")
-    data = file.read_bytes()
-    assert data.startswith(b"\xef\xbb\xbf") is (language != "en")
-    assert b"\r\n" in data
-    rows = list(csv.reader(data.decode("utf-8-sig").splitlines(), delimiter="," if language == "en" else ";"))
-    assert len(rows) == 25
-    assert {len(row) for row in rows} == {len(rows[0])}
-    column = next(i for i, name in enumerate(rows[0]) if name.startswith("V_B ["))
-    cycle = kulman.sweep(TASK, positions=24).cycle
-    values = [float(row[column].replace(",", ".")) for row in rows[1:]]
-    assert values == np.abs(cycle.values["V_B"]).tolist()
-    assert rows[0][:2] == ["k", "phi [°]"]
 
 
 def test_only_chosen_points_and_links_are_shown(swept: Run) -> None:

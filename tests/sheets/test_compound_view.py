@@ -171,14 +171,6 @@ def test_nothing_touches_on_the_sheet_of_the_seed(lang: str) -> None:
     assert [t.string for p in page.pages for v in p.all if "compound" in v.name for t, _ in thin_faults(v)] == []
 
 
-def test_equations_have_their_numbers_in_centimetres() -> None:
-    lines = [t.string for page in drawn("bertyaev-six-bar").pages for v in page.all for t in v.texts]
-
-    assert any("15·0,17453/0,056027 = 46,73 см" in line for line in lines)
-    assert any(line.startswith("OB = 20,362·5 = 101,8 см") for line in lines)
-    assert any("0,17453 − 0,23056 = −0,05603 рад/с" in line for line in lines)
-
-
 def test_smaller_format_takes_coarser_scales_and_a_mechanism_without_couplers_is_refused() -> None:
     assert len(drawn("scheme-03-crank-rocker", format="A3").pages) > 1
     assert overlaps(drawn("scheme-03-crank-rocker", format="A3")) == []

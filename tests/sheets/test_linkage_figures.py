@@ -155,16 +155,6 @@ def test_driver_with_a_short_crank_is_drawn_larger() -> None:
     assert row[2] == f"{mu:g}"
 
 
-def test_block_lies_in_its_link_and_turns_with_it() -> None:
-    view = position("scheme-09-shaper")
-    pivot, pin = view.point("C"), view.point("A")
-    (block,) = [s for s in view.inside("link", "2") if len(s.points) == 5]
-    a, b, c, _, _ = block.points
-
-    assert same(sum(block.points[:4]) / 4, pin)
-    assert min(abs(((side / (pin - pivot)) / abs(side / (pin - pivot))).imag) for side in (b - a, c - b)) < 1e-4
-
-
 @pytest.mark.parametrize(("lines", "role"), [("", "label"), ("along", "heading"), ("across", "heading")])
 def test_letter_that_may_give_way_goes_into_the_notes_where_lines_leave_no_room(lines: str, role: str) -> None:
     canvas, way = Canvas(STYLE), {"": 0j, "along": 1 + 0j, "across": 1j}[lines]

@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -19,6 +19,9 @@ from kulman.tests.support.glyphs import Box, advance, ink
 
 SVG = "{http://www.w3.org/2000/svg}"
 CAP = 0.729  # cap height of DejaVu Sans in ems
+MARKED = ("pair", "pivot", "centre", "point")  # groups whose circle is a point
+Path = tuple[tuple[str, str], ...]
+Rules = tuple[tuple[complex, complex], ...]
 
 
 @dataclass(frozen=True)
@@ -32,7 +35,7 @@ class Stroke:
     dashed: bool
     colour: str
     fill: str
-    path: tuple[tuple[str, str], ...]
+    path: Path
     arc: tuple[complex, float, float] | None = None  # centre, radius, sweep
 
 
@@ -42,7 +45,7 @@ class Ring:
     radius: float
     width: float
     fill: str
-    path: tuple[tuple[str, str], ...]
+    path: Path
 
 
 @dataclass(frozen=True)
@@ -50,7 +53,7 @@ class Tip:
     """An arrowhead; its first corner is the tip."""
 
     corners: tuple[complex, complex, complex]
-    path: tuple[tuple[str, str], ...]
+    path: Path
 
     @property
     def length(self) -> float:
@@ -97,9 +100,9 @@ class Text:
     role: str
     name: str
     runs: tuple[Run, ...]
-    rules: tuple[tuple[complex, complex], ...]
+    rules: Rules
     string: str
-    path: tuple[tuple[str, str], ...]
+    path: Path
     turned: bool
 
     @property
@@ -146,15 +149,16 @@ class View:
         (found,) = [a for a in self.arrows if a.name == name]
         return found
 
+    def marked(self, name: str) -> list[Ring]:
+        return [ring for ring in self.rings if any(k in MARKED and n == name for k, n in ring.path)]
+
     def point(self, name: str) -> complex:
         """Centre of the circle in the group (pair, pivot, centre, point) called `name`."""
-        kinds = ("pair", "pivot", "centre", "point")
-        (found,) = [r for r in self.rings if any(k in kinds and n == name for k, n in r.path)]
+        (found,) = self.marked(name)
         return found.centre
 
     def has(self, name: str) -> bool:
-        kinds = ("pair", "pivot", "centre", "point")
-        return any(k in kinds and n == name for r in self.rings for k, n in r.path)
+        return bool(self.marked(name))
 
     def turning(self, name: str) -> tuple[complex, float, complex] | None:
         """Centre, sense (+1 counter-clockwise) and tip of a turning arrow; the head must stand at the arc's end."""
@@ -172,16 +176,11 @@ class View:
 
     @property
     def box(self) -> Box:
-        points = [p for s in self.strokes for p in _thick(s)]
-        points += [c for t in self.tips for c in t.corners]
-        for r in self.rings:
-            reach = (r.radius + r.width / 2) * (1 + 1j)
-            points += [r.centre - reach, r.centre + reach]
-        for text in self.texts:
-            x0, y0, x1, y1 = text.box
-            points += [complex(x0, y0), complex(x1, y1)]
-        for inset in self.insets:
-            x0, y0, x1, y1 = inset.box
+        round_ = [(p, s.width / 2) for s in self.strokes for p in s.points]
+        round_ += [(ring.centre, ring.radius + ring.width / 2) for ring in self.rings]
+        points = [c for t in self.tips for c in t.corners]
+        points += [at + sign * reach * (1 + 1j) for at, reach in round_ for sign in (-1.0, 1.0)]
+        for x0, y0, x1, y1 in (part.box for part in (*self.texts, *self.insets)):
             points += [complex(x0, y0), complex(x1, y1)]
         xs, ys = [p.real for p in points], [p.imag for p in points]
         return min(xs), min(ys), max(xs), max(ys)
@@ -234,133 +233,104 @@ def _page(number: int, svg: str | bytes) -> Page:
     root = etree.fromstring(svg.encode() if isinstance(svg, str) else svg)
     _, _, width, height = map(float, root.get("viewBox").split())
     views: dict[str, View] = {}
-    rest = View("", number)
-    for child in _leafed(root):
+    rest, reader = View("", number), _Reader(height)
+    layers = [child for child in root if child.get("class") == "layer"]
+    layers.sort(key=lambda layer: layer.get("id") != "layer-given")  # there every view has its heading
+    for child in (*(child for layer in layers for child in layer), *(child for child in root if child not in layers)):
         if child.tag == f"{SVG}g" and child.get("class") == "view":
             name = child.get("data-name")
-            _walk(child, views.setdefault(name, View(name, number)), (), height)
+            reader.inside(child, views.setdefault(name, View(name, number)), ())
         else:
-            _element(child, rest, (), height)
+            reader.element(child, rest, ())
     return Page(width, height, root, list(views.values()), rest)
 
 
-def _leafed(root: etree._Element) -> Iterator[etree._Element]:
-    """Go through what a page or its layers hold: first what is given, where every view has its heading."""
-    layers = [child for child in root if child.get("class") == "layer"]
-    for layer in sorted(layers, key=lambda layer: layer.get("id") != "layer-given"):
-        yield from layer
-    yield from (child for child in root if child not in layers)
+@dataclass(frozen=True)
+class _Reader:
+    """Reads elements of a page of this height into views; `path` are classes and names of the groups around them."""
 
+    height: float
 
-def _walk(group: etree._Element, view: View, path: tuple[tuple[str, str], ...], height: float) -> None:
-    for child in group:
-        _element(child, view, path, height)
+    def inside(self, group: etree._Element, view: View, path: Path) -> None:
+        for child in group:
+            self.element(child, view, path)
 
+    def element(self, e: etree._Element, view: View, path: Path) -> None:
+        kind, role, name = etree.QName(e).localname, e.get("class", ""), e.get("data-name", "")
+        if kind == "g":
+            self.group(e, view, path)
+        elif kind == "text":
+            view.texts.append(self.text([e], (), role, name, path))
+        elif kind == "circle":
+            width, fill = float(e.get("stroke-width", "0")), e.get("fill", "")
+            view.rings.append(Ring(self.at(e.get("cx"), e.get("cy")), float(e.get("r")), width, fill, path))
+        elif role == "head":
+            a, b, c = self.places(e.get("points"))
+            view.tips.append(Tip((a, b, c), path))
+        elif kind in ("line", "polyline", "polygon", "path") and role != "span":
+            view.strokes.append(self.stroke(e, kind, role, name, path))
 
-def _element(e: etree._Element, view: View, path: tuple[tuple[str, str], ...], height: float) -> None:
-    kind = etree.QName(e).localname
-    role, name = e.get("class", ""), e.get("data-name", "")
-    if kind == "g":
-        inner = (*path, (role, name or e.get("data-quantity", "")))
+    def group(self, e: etree._Element, view: View, path: Path) -> None:
+        role, name = e.get("class", ""), e.get("data-name", "")
+        texts, lines = e.findall(f"{SVG}text"), e.findall(f"{SVG}line")
+        runs = not any(text.get("class") for text in texts) and all(line.get("class") == "rule" for line in lines)
         if role == "enlarged":
             view.insets.append(View(name, view.page))
-            _walk(e, view.insets[-1], (), height)
-            return
-        texts = e.findall(f"{SVG}text")
-        if texts and all(etree.QName(c).localname in ("text", "line") for c in e) and role not in ("table", "text"):
-            rules = tuple(_ends(c, height) for c in e.findall(f"{SVG}line"))
-            if all(c.get("class") == "rule" for c in e.findall(f"{SVG}line")) and not _separate(e):
-                view.texts.append(_text(texts, rules, role, name, path, height))
-                return
-        if role == "vector":
-            tail, tip = _ends(e.find(f"{SVG}line"), height)
-            facts = float(e.get("data-value")), e.get("data-unit"), float(e.get("data-mu"))
-            view.vectors.append(Vec(e.get("data-quantity"), *facts, tail, tip))
-        span = e.find(f"{SVG}line[@class='span']")
-        if role == "arrow" and span is not None:
-            view.arrows.append(Arrow(name, *_ends(span, height)))
-        _walk(e, view, inner, height)
-    elif kind == "text":
-        view.texts.append(_text([e], (), role, name, path, height))
-    elif kind == "circle":
-        centre = complex(float(e.get("cx")), height - float(e.get("cy")))
-        width = float(e.get("stroke-width", "0"))
-        view.rings.append(Ring(centre, float(e.get("r")), width, e.get("fill", ""), path))
-    elif kind in ("line", "polyline", "polygon", "path") and role not in ("span",):
-        if role == "head":
-            a, b, c = _places(e.get("points"), height)
-            view.tips.append(Tip((a, b, c), path))
+            self.inside(e, view.insets[-1], ())
+        elif texts and runs and len(texts) + len(lines) == len(e) and role not in ("table", "text"):
+            view.texts.append(self.text(texts, tuple(map(self.ends, lines)), role, name, path))
         else:
-            view.strokes.append(_stroke(e, kind, role, name, path, height))
+            if role == "vector":
+                facts = float(e.get("data-value")), e.get("data-unit"), float(e.get("data-mu"))
+                view.vectors.append(Vec(e.get("data-quantity"), *facts, *self.ends(lines[0])))
+            span = e.find(f"{SVG}line[@class='span']")
+            if role == "arrow" and span is not None:
+                view.arrows.append(Arrow(name, *self.ends(span)))
+            self.inside(e, view, (*path, (role, name or e.get("data-quantity", ""))))
 
+    def at(self, x: str | float, y: str | float) -> complex:
+        return complex(float(x), self.height - float(y))
 
-def _separate(group: etree._Element) -> bool:
-    """Tell a group of texts that have a class of their own from the runs of one text."""
-    return any(text.get("class") for text in group.findall(f"{SVG}text"))
+    def ends(self, line: etree._Element) -> tuple[complex, complex]:
+        return self.at(line.get("x1"), line.get("y1")), self.at(line.get("x2"), line.get("y2"))
 
+    def places(self, text: str) -> tuple[complex, ...]:
+        return tuple(self.at(*pair.split(",")) for pair in text.split())
 
-def _ends(line: etree._Element, height: float) -> tuple[complex, complex]:
-    x1, y1, x2, y2 = (float(line.get(key)) for key in ("x1", "y1", "x2", "y2"))
-    return complex(x1, height - y1), complex(x2, height - y2)
+    def stroke(self, e: etree._Element, kind: str, role: str, name: str, path: Path) -> Stroke:
+        arc = None
+        if kind == "line":
+            points: tuple[complex, ...] = self.ends(e)
+        elif kind == "path":
+            points, arc = self.arc(e.get("d"))
+        else:
+            points = self.places(e.get("points"))
+            points = (*points, points[0]) if kind == "polygon" else points
+        width, dashed = float(e.get("stroke-width", "0")), e.get("stroke-dasharray") is not None
+        return Stroke(points, width, role, name, dashed, e.get("stroke", ""), e.get("fill", ""), path, arc)
 
+    def arc(self, d: str) -> tuple[tuple[complex, ...], tuple[complex, float, float]]:
+        """Read `M x y A r r 0 0 f x y ...`: points every few degrees, centre, radius, sweep counter-clockwise."""
+        numbers = [float(n) for n in re.findall(r"-?\d+(?:\.\d+)?", d)]
+        points, total, centre, radius = [self.at(*numbers[:2])], 0.0, 0j, 0.0
+        for k in range(2, len(numbers), 7):
+            radius, sense = numbers[k], -1.0 if numbers[k + 4] else 1.0  # y is turned up
+            start, end = points[-1], self.at(*numbers[k + 5 : k + 7])
+            depth = math.sqrt(max(radius**2 - abs(end - start) ** 2 / 4, 0.0))
+            centre = (start + end) / 2 + sense * 1j * (end - start) / abs(end - start) * depth
+            sweep = sense * abs(cmath.phase((end - centre) / (start - centre)))
+            points += [centre + (start - centre) * cmath.rect(1.0, sweep * i / 12) for i in range(1, 12)] + [end]
+            total += sweep
+        return tuple(points), (centre, radius, total)
 
-def _places(text: str, height: float) -> tuple[complex, ...]:
-    pairs = (pair.split(",") for pair in text.split())
-    return tuple(complex(float(x), height - float(y)) for x, y in pairs)
-
-
-def _stroke(
-    e: etree._Element, kind: str, role: str, name: str, path: tuple[tuple[str, str], ...], height: float
-) -> Stroke:
-    arc = None
-    if kind == "line":
-        points: tuple[complex, ...] = _ends(e, height)
-    elif kind == "path":
-        points, arc = _arc(e.get("d"), height)
-    else:
-        points = _places(e.get("points"), height)
-        points = (*points, points[0]) if kind == "polygon" else points
-    width = float(e.get("stroke-width", "0"))
-    dashed = e.get("stroke-dasharray") is not None
-    return Stroke(points, width, role, name, dashed, e.get("stroke", ""), e.get("fill", ""), path, arc)
-
-
-def _arc(d: str, height: float) -> tuple[tuple[complex, ...], tuple[complex, float, float]]:
-    """Read `M x y A r r 0 0 f x y ...`: points every few degrees, centre, radius, sweep counter-clockwise."""
-    numbers = [float(n) for n in re.findall(r"-?\d+(?:\.\d+)?", d)]
-    start = complex(numbers[0], height - numbers[1])
-    points, total, centre, radius = [start], 0.0, 0j, 0.0
-    for at in range(2, len(numbers), 7):
-        radius, flag = numbers[at], numbers[at + 4]
-        end = complex(numbers[at + 5], height - numbers[at + 6])
-        chord = end - points[-1]
-        sense = -1.0 if flag else 1.0  # y is turned up
-        depth = math.sqrt(max(radius**2 - abs(chord) ** 2 / 4, 0.0))
-        centre = points[-1] + chord / 2 + sense * 1j * chord / abs(chord) * depth
-        sweep = sense * abs(cmath.phase((end - centre) / (points[-1] - centre)))
-        first = points[-1] - centre
-        points += [centre + first * cmath.rect(1.0, sweep * k / 12) for k in range(1, 13)]
-        points[-1] = end
-        total += sweep
-    return tuple(points), (centre, radius, total)
-
-
-def _text(
-    texts: Sequence[etree._Element],
-    rules: tuple[tuple[complex, complex], ...],
-    role: str,
-    name: str,
-    path: tuple[tuple[str, str], ...],
-    height: float,
-) -> Text:
-    runs = []
-    for e in texts:
-        at, size = complex(float(e.get("x")), height - float(e.get("y"))), float(e.get("font-size"))
-        runs.append(Run(at, size, e.text or "", ink(e.text or "", at, size, e.get("transform"), height)))
-    first = texts[0]
-    role, name = (role, name) if role else (first.get("class", ""), first.get("data-name", ""))
-    turned = any(e.get("transform") for e in texts)
-    return Text(role, name, tuple(runs), rules, _joined(runs), path, turned)
+    def text(self, texts: Sequence[etree._Element], rules: Rules, role: str, name: str, path: Path) -> Text:
+        runs = []
+        for e in texts:
+            at, size, string = self.at(e.get("x"), e.get("y")), float(e.get("font-size")), e.text or ""
+            runs.append(Run(at, size, string, ink(string, at, size, e.get("transform"), self.height)))
+        role, name = (role, name) if role else (texts[0].get("class", ""), texts[0].get("data-name", ""))
+        turned = any(e.get("transform") for e in texts)
+        return Text(role, name, tuple(runs), rules, _joined(runs), path, turned)
 
 
 def _joined(runs: Sequence[Run]) -> str:
@@ -375,13 +345,6 @@ def _joined(runs: Sequence[Run]) -> str:
         out += f"{script}{{{run.string}}}" if script else run.string
         end = run.at.real + advance(run.string) * run.size
     return out
-
-
-def _thick(stroke: Stroke) -> Iterator[complex]:
-    half = stroke.width / 2 * (1 + 1j)
-    for point in stroke.points:
-        yield point - half
-        yield point + half
 
 
 def cross(a: complex, b: complex) -> float:
