@@ -7,7 +7,6 @@ import io
 import re
 import subprocess
 import sys
-import zipfile
 from contextlib import suppress
 from pathlib import Path
 
@@ -27,6 +26,7 @@ from kulman.variants.spreadsheets.files import read_grid
 from kulman.variants.spreadsheets.grid import letters
 from kulman.variants.tables import csv_table, harmless, xlsx_bytes
 
+QUICK = ("blanks of 22 MB", "member twice", "password", "packed by LZMA", "size that is too small")
 PACKAGE = "kulman.variants.marking"
 
 
@@ -36,10 +36,10 @@ def form(tmp_path: Path, name: str, language: str, task: str = "nau-slider-crank
 
 
 def refused(file: Path) -> str:
-    """Return the one line with which a grid is refused; nothing where it is read."""
+    """Return the one line with which a file is refused; nothing where it is read."""
     line = ""
     try:
-        read_grid(file)
+        read_answers(file, ASKED)
     except InputError as error:
         line = error.text("en")
     assert "\n" not in line
@@ -255,52 +255,34 @@ def test_a_formula_is_read_by_its_stored_result_and_a_date_is_told_of(tmp_path: 
     assert "holds a date" in date
 
 
-def changed(tmp_path: Path, before: bytes, after: bytes, more: bytes = b"") -> Path:
-    """Write a small workbook of another program, its sheet changed and followed by something."""
-    file, name = tmp_path / "answers.xlsx", "xl/worksheets/sheet1.xml"
-    with xlsxwriter.Workbook(str(file)) as book:
-        book.add_worksheet().write_row(0, 0, HEAD.strip().split(";"))
-    with zipfile.ZipFile(file) as old:
-        parts = {name: old.read(name) for name in old.namelist()}
-    parts[name] = parts[name].replace(before, after, 1) + more
-    file.write_bytes(zipped(parts))
-    return file
-
-
-def test_a_zip_bomb_is_refused_entities_are_not_unfolded_and_a_huge_file_is_not_read(tmp_path: Path) -> None:
-    bomb = changed(tmp_path, b"", b"", b" " * 22_000_000)
-    assert bomb.stat().st_size < 200_000
-    assert "unpacked, the file is larger than 20 MB" in refused(bomb)
-
-    evil = b'?>\n<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">]>'
-    assert "not an XLSX file" in refused(changed(tmp_path, b"?>\n", evil))
-
-    with (huge := tmp_path / "answers.csv").open("wb") as stream:
-        stream.truncate(100_000_000)
-    assert "larger than 20 MB" in refused(huge)
-
-
 @pytest.mark.parametrize(
     ("name", "content", "what"),
     [
         ("a.csv", b"", "the file is empty"),
-        ("a.csv", b"\0\1\2" * 100, "not a text"),
         ("a.csv", b"PK\x03\x04abc", "its name end in .xlsx"),
         ("a.xlsx", b"PK\x03\x04abc", "not an XLSX file"),
         ("a.xlsx", b"\xd0\xcf\x11\xe0" * 100, "not an XLSX file"),
         ("a.csv", "щось;інше\n1;2\n".encode(), "no row says what the columns hold"),
         ("a.ods", b"x", "ends in one of: .csv, .xlsx"),
+        ("a.csv", b"x" * 21_000_000, "larger than 20 MB"),
+        ("a.csv", b";" * 2_000_000, "more than 20000 rows or 1000 columns"),
+        ("a.csv", b"a;b;c\n" * 200_000, "more than 20000 rows or 1000 columns"),
+        ("a.csv", (b";" * 900 + b"\n") * 2_000, "than can be read at once"),
+        ("a.csv", b"a" * 9_000_000, "than can be read at once"),
+        ("a.csv", b"a;" + b"b" * 40_000, "B1: the cell is longer than 32767 characters"),
         ("a.csv", b'"V_B;' + b"x" * 200_000, "a quotation mark is not closed"),
+        *(("a.csv", content, "not a text") for content in (b"\0\1\2" * 100, b"\xff\xfe\0\0a\0\0\0", b"\x98" * 100)),
+        *(("a.csv", content, "not a text") for content in ("a;\0".encode("utf-16"), b"\xff\xfe\x00\xd8")),
+        *(("a.csv", content, "") for content in (b'"' * 300_001, b'sep="\n1"2', b"\r" * 3_000_000)),
+        ("a.csv", "\N{RIGHT-TO-LEFT OVERRIDE};\u200b\n".encode() * 9, ""),
     ],
 )
 def test_what_is_no_file_of_answers_is_refused_in_one_line(
     tmp_path: Path, name: str, content: bytes, what: str
 ) -> None:
-    with pytest.raises(InputError) as caught:
-        read(tmp_path, content, name)
+    (file := tmp_path / name).write_bytes(content)
 
-    assert what in caught.value.text("en")
-    assert "\n" not in caught.value.text("en")
+    assert what in refused(file)
 
 
 def test_a_folder_or_nothing_is_refused(tmp_path: Path) -> None:
@@ -319,7 +301,7 @@ def test_whatever_bytes_come_they_are_read_or_refused(tmp_path_factory: pytest.T
             read(folder, HEAD.encode() + data if name == "a.csv" else b"PK\x03\x04" + data, name)
 
 
-@pytest.mark.parametrize("name", [*SMALL, "member twice", "password", "packed by LZMA", "size that is too small"])
+@pytest.mark.parametrize("name", [*SMALL, *QUICK])
 def test_a_hostile_workbook_is_refused_in_one_line(tmp_path: Path, name: str) -> None:
     (file := tmp_path / "answers.xlsx").write_bytes(hostile(name))
 
@@ -395,28 +377,3 @@ def test_a_workbook_of_two_programs_is_read_alike_whatever_looks_it_has(tmp_path
         assert [grid.shared(row, column) for row in (2, 3) for column in (1, 2, 3, 4)] == ["", "both", "both", ""] * 2
     (tmp_path / "answers.xlsx").write_bytes(zipped(good()))  # of which the hostile ones are made
     assert read_answers(tmp_path / "answers.xlsx", ASKED)[0].lines["V_B"].value == pytest.approx(2.76)
-
-
-@pytest.mark.parametrize(
-    ("content", "what"),
-    [
-        (b";" * 2_000_000, "more than 20000 rows or 1000 columns"),
-        (b"a;b;c\n" * 200_000, "more than 20000 rows or 1000 columns"),
-        ((b";" * 900 + b"\n") * 2_000, "than can be read at once"),
-        (b"a" * 9_000_000, "than can be read at once"),
-        (b"a;" + b"b" * 40_000, "B1: the cell is longer than 32767 characters"),
-        (b"a;" + b"b" * 140_000, "a quotation mark is not closed"),
-        *((b"\xff\xfe\0\0a\0\0\0", "not a text"), ("a;\0".encode("utf-16"), "not a text")),
-        *(
-            (b"\xff\xfe\x00\xd8", "not a text"),
-            (b'"' * 300_001, ""),
-            (b'sep="\n1"2', ""),
-            (b"\x98" * 100, "not a text"),
-        ),
-        *((b"\r" * 3_000_000, ""), ("\N{RIGHT-TO-LEFT OVERRIDE};\u200b\n".encode() * 9, "")),
-    ],
-)
-def test_a_hostile_csv_is_refused_in_one_line(tmp_path: Path, content: bytes, what: str) -> None:
-    (file := tmp_path / "a.csv").write_bytes(content)
-
-    assert what in refused(file)

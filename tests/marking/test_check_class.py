@@ -97,7 +97,7 @@ def test_a_class_gets_tables_reports_and_grades(tmp_path: Path, capsys: pytest.C
     sheet = openpyxl.load_workbook(tables[0]).active
     assert sheet is not None
     head, first, *_, last = sheet.iter_rows(values_only=True)
-    assert head[:3] == ("student", "group", "record book")
+    assert (head[:3], sheet.freeze_panes) == (("student", "group", "record book"), "A2")
     assert (first[0], first[7] >= 80) == ("Student 01", True)
     assert {"Student 09", "nothing handed in"} <= {*last}
     text = tables[1].read_text(encoding="utf-8-sig")

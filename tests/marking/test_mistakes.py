@@ -24,6 +24,7 @@ from kulman.plans.mistakes.book import book, broken
 from kulman.plans.mistakes.explaining import Candidate, explain
 from kulman.plans.mistakes.rules import BY_SCALE, MISTAKES, Broken, Scene
 from kulman.tests.support.cam_students import MADI, ROCKER, keyed_cam
+from kulman.tests.support.marking_cases import mistakes
 from kulman.tests.support.mechanisms import ORIGIN
 
 CRANK, PHI, OMEGA = 0.08, math.radians(60.0), 20.0
@@ -248,6 +249,8 @@ Law = Callable[[Values, Any], Any]
 OF_SLIDER_CRANK: list[tuple[str, str, str, str, Law]] = [
     ("M06", "l", "", "|V_B| |a_B| |F_i2|", lambda r, x: 1e3 * x),
     ("M06", "l", "", "omega_2 epsilon_2", lambda r, x: x),
+    ("M09", "", "sense", "V_A V_B omega_2", lambda r, x: -x),
+    ("M09", "", "sense", "a_A a_B epsilon_2 F_i2", lambda r, x: x),
     ("M14", "velocity", "", "|V_B| |V_BA| |V_S2|", lambda r, x: x / MU_V**2),
     ("M15", "velocity", "acceleration", "|V_B| |V_BA| |V_S2|", lambda r, x: x * MU_A / MU_V),
     ("M16", "", "", "|a_BA_n|", lambda r, x: x * MU_A * MU_L / MU_V**2),
@@ -432,6 +435,15 @@ def test_what_concerns_a_construction_follows_from_its_steps() -> None:
     assert {"M26", "M30", "M73"} <= crank
     assert set(MISTAKES) == {f"M{n:02}" for n in range(1, 126) if n != 87}  # of a displacement counted backwards
     assert len(crank) >= 60
+
+
+def test_lengths_are_exchanged_with_those_of_other_links_or_between_the_wrong_points() -> None:
+    exchanged = {s.broken.place[1:] for s in mistakes("madi-four-bar").signatures if s.broken.mistake == "M13"}
+
+    links, parts = ("l_AB", "l_BC", "l_DC"), ("l_AS1", "l_BS2", "l_DS3")
+    assert {frozenset(pair) & {*links} for pair in exchanged} >= {frozenset(("l_BC", "l_DC")), frozenset()}
+    assert {name for pair in exchanged for name in pair} == {*links, *parts}
+    assert [b.place[1:] for b in ways(slider_crank(), "M13")] == [("l_OA", "l_AB")]
 
 
 def test_every_mistake_concerns_a_bundled_task_or_a_crank_that_speeds_up() -> None:
