@@ -106,19 +106,15 @@ def quantities(
     for step in program:
         if not is_shown(step.name):
             continue
-        if step.verb in RESULTS:
-            found[step.name] = _quantity(step.name, values[step.name], unit(step.name))
-        elif step.verb in POINTS:
-            point = values[step.name]
-            found[step.name] = Quantity(step.name, None, "m", _finite(point.real), _finite(point.imag), kind="point")
+        name, value = step.name, values[step.name]
+        if step.verb in POINTS:
+            found[name] = Quantity(name, None, "m", _finite(value.real), _finite(value.imag), kind="point")
+        elif step.verb in RESULTS and isinstance(value, complex):
+            size = None if cmath.isnan(value) else math.hypot(value.real, value.imag)
+            found[name] = Quantity(name, size, unit(name), _finite(value.real), _finite(value.imag), kind="vector")
+        elif step.verb in RESULTS:
+            found[name] = Quantity(name, _finite(value), unit(name))
     return found
-
-
-def _quantity(name: str, value: Any, unit: str) -> Quantity:
-    if isinstance(value, complex):
-        size = None if cmath.isnan(value) else math.hypot(value.real, value.imag)
-        return Quantity(name, size, unit, _finite(value.real), _finite(value.imag), kind="vector")
-    return Quantity(name, _finite(value), unit)
 
 
 def _finite(value: float) -> float | None:

@@ -66,14 +66,9 @@ def traced(
     number: DTypeLike = float,
     loop: bool = False,
 ) -> tuple[dict[str, NDArray[Any]], NDArray[np.int8]]:
-    """Run `program` as `batch` does, on numbers of another type and with boards that go with them.
+    """Run `program` as `batch` does, on numbers of another type, real ones, and with boards that go with them.
 
-    Parameters
-    ----------
-    boards : type of TracingBoard and ArrayBoard
-        The one that writes the arithmetic down, and the one that does what is more than arithmetic.
-    number : dtype
-        Of the numbers, real ones.
+    Of the `boards` one writes the arithmetic down, and one does what is more than arithmetic.
     """
     arrays = {name: np.asarray(value, number) for name, value in givens.items() if np.ndim(value)}
     size = len(next(iter(arrays.values())))

@@ -310,11 +310,6 @@ class ExactBoard(Board):
 
         return self._look("clear", (distance, size), (self._calm(distance, "at least", ILL, size),), rare)
 
-    def _divisor(self, size: Any) -> Any:
-        """Return a size to divide by: one in the place of zero, where what is divided is known to fail."""
-        calm = self._calm(size, "above", 0.0)
-        return self._look("divisor", (size,), (calm,), lambda: ((), self._choose(size == 0.0, 1.0, size)))
-
     def _bears(self, size: Any, moment: Any) -> Any:
         """Return the size of a force to divide its moment by; a moment without a force is a couple: it has no arm."""
 
@@ -397,11 +392,14 @@ class ExactBoard(Board):
     def _arcs(self, first: Any, radius: Any, second: Any, other: Any, side: Any) -> Any:
         between = self._read(first, second)
         square = dot(between, between)
-        total, product = _heron(radius, other, base := self._sqrt(square))
+        base, total, less = self._sqrt(square), radius + other, radius - other
+        product = (total + base) * (total - base) * (base + less) * (base - less)  # 16 times the squared area
         places = first.real, first.imag, second.real, second.imag
         root = self._sqrt(self._assembles(product, radius, other, base, total, *places))
-        half = 0.5 / self._divisor(square)  # parts of the way between the centres: along it, and across
-        along, across = (square + (radius - other) * (radius + other)) * half, side * root * half
+        calm = self._calm(square, "above", 0.0)  # else one in the place of zero: what is divided is known to fail
+        divisor = self._look("divisor", (square,), (calm,), lambda: ((), self._choose(square == 0.0, 1.0, square)))
+        half = 0.5 / divisor  # parts of the way between the centres: along it, and across
+        along, across = (square + less * total) * half, side * root * half
         return self._chain(first, between * along + (between * 1j) * across)
 
     def _tangent(self, centre: Any, point: Any, offset: Any, side: Any, size: Any) -> Any:
@@ -485,12 +483,6 @@ class PlainBoard(ExactBoard):
         values = self.values
         self._name, self._operands = name, operands
         values[name] = operate(*[values[operand] for operand in operands])
-
-
-def _heron(first: Any, second: Any, base: Any) -> tuple[Any, Any]:
-    """Return the sum of two sides, and 16 times the squared area of the triangle on `base`."""
-    total, between = first + second, first - second
-    return total, (total + base) * (total - base) * (base + between) * (base - between)
 
 
 def run(program: Program, givens: Mapping[str, Any]) -> ExactBoard:

@@ -59,17 +59,9 @@ class FiftyDigits(PlainBoard):
 
 
 def fifty_digits(program: Program, givens: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Run `program` with fifty digits for one position.
+    """Run `program` with fifty digits for one position, and return every name.
 
-    Parameters
-    ----------
-    givens : mapping of str to float
-        Values in SI, taken as exact; numbers of mpmath as well.
-
-    Returns
-    -------
-    mapping of str to mpf or mpc
-        Every name.
+    The `givens` are values in SI, taken as exact, floats or numbers of mpmath; what is returned is mpf or mpc.
     """
     from mpmath import mp, mpf
 
@@ -180,10 +172,7 @@ def batch_in(
 def run_in(program: Program, givens: Mapping[str, Any], precision: str) -> Mapping[str, Any]:
     """Run `program` for one position in a precision: `single`, `double`, `extended` or `fifty` digits.
 
-    Returns
-    -------
-    mapping of str to number
-        Every name; of numpy, Python or mpmath, as the precision is.
+    Every name is returned with its number: of numpy, Python or mpmath, as the precision is.
     """
     if precision == "fifty":
         return fifty_digits(program, givens)

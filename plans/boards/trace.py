@@ -274,14 +274,8 @@ class TracingBoard(ExactBoard):
     """A position as numbers of a trace: what depends on no given of it is computed, all else is noted.
 
     Steps that are more than sums, products and roots are left to the array board `checks` as a whole, and `sample` does
-    the program for one position, to tell a vector from a number there.
-
-    Parameters
-    ----------
-    constants : mapping of str to float
-        Givens that are the same wherever the trace is used.
-    givens : iterable of str
-        Names of the others.
+    the program for one position, to tell a vector from a number there. The `constants` are givens that are the same
+    wherever the trace is used, `givens` the names of the others.
     """
 
     def __init__(

@@ -104,7 +104,7 @@ def ordinates(values: Mapping[str, Any], plan: str, division: Division, *shape: 
 AS_DRAWN, SPEED, STROKE, BOTH = WAYS = ("drawn", "speed", "stroke", "both")  # what has been closed
 
 
-def travel_errors(solved: SolvedCam, division: Division, values: Mapping[str, Any], *shape: int) -> dict[str, Array]:
+def _travel_errors(solved: SolvedCam, division: Division, values: Mapping[str, Any], *shape: int) -> dict[str, Array]:
     """Return the errors of a drawn travel on its worst section line, in parts of the stroke, by what has been closed.
 
     The nodes among the `values` are numbers or arrays of `shape`, the errors too. They stand by `WAYS`; where the
@@ -246,7 +246,7 @@ def _error(solved: SolvedCam, drawing: Drawing, name: str, exact: Mapping[str, f
     division, _, values = drawing
     if name in exact:
         return float(values[name] / exact[name] - 1.0)
-    found = travel_errors(solved, division, values)
+    found = _travel_errors(solved, division, values)
     return float(found.get(BOTH, found[STROKE]))
 
 
@@ -260,7 +260,7 @@ def _by_hand(
         if name in exact:
             yield float(kept(np.broadcast_to(values[name], DRAWINGS), exact[name])) / exact[name]
         else:
-            found = travel_errors(solved, division, values, DRAWINGS)
+            found = _travel_errors(solved, division, values, DRAWINGS)
             yield float(kept(found.get(BOTH, found[STROKE]), 0.0))
 
 
@@ -329,6 +329,6 @@ def _closing(solved: SolvedCam, division: Division, hand: Hand) -> Closing:
 
     given = solved.layout.given == ACCELERATION
     top, last = ends(VELOCITY, division.top, division.last) if given else (None, None)
-    errors = travel_errors(solved, division, values, DRAWINGS)
+    errors = _travel_errors(solved, division, values, DRAWINGS)
     kept_errors = {way: float(kept(error, 0.0)) for way, error in errors.items()}
     return Closing(top, last, ends(TRAVEL, division.last)[0], kept_errors)

@@ -24,9 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..laws import cross
-from .motion import TURN, Extreme, Motion, Places, minima, refined
+from .motion import TURN, Array, Extreme, Motion, Places, minima, refined
 
-Array = NDArray[np.float64]
 Points = NDArray[Any]  # complex
 Ends = tuple[float, float]
 OUTLINE = math.radians(0.5)  # between points of a profile

@@ -26,8 +26,8 @@ from typing import Any
 import numpy as np
 
 from ..laws import cross, dot
-from .envelopes import Array, Envelope, Points
-from .motion import FALL, RISE, Division, Extreme, Motion, least
+from .envelopes import Envelope, Points
+from .motion import FALL, RISE, Array, Division, Extreme, Motion, least
 
 OF_R_0, OF_RHO_MIN = 0.4, 0.7  # the roller's radius is at most these parts of r_0 and of the pitch curve's rho_min
 RIGHT_ANGLE = 0.5 * math.pi

@@ -89,7 +89,7 @@ class Extreme:
 
 
 @dataclass(frozen=True, slots=True)
-class Jump:
+class _Jump:
     """A jump of s' (order 1) or of s'' (order 2) at an angle of the cam, with the limits on both sides."""
 
     phi: float
@@ -245,21 +245,21 @@ class Motion:
         return self._greatest(0.0, 1.0)
 
     @cached_property
-    def jumps(self) -> tuple[Jump, ...]:
+    def jumps(self) -> tuple[_Jump, ...]:
         """All jumps of the velocity, and of the acceleration where the velocity has none, in order."""
-        found: list[Jump] = []
+        found: list[_Jump] = []
         sizes = (0.0, self.ds_max.value, self.d2s_max.value)
         for k, (_, piece) in enumerate(self._pieces):
             for order in (1, 2):
                 curves = self._derivatives[order]
                 before, after = curves[k - 1].value(curves[k - 1].high), curves[k].value(piece.low)
                 if abs(after - before) > SAME * sizes[order]:
-                    found.append(Jump(piece.low, order, before, after))
+                    found.append(_Jump(piece.low, order, before, after))
                     break
         return tuple(found)
 
     @cached_property
-    def velocity_jumps(self) -> tuple[Jump, ...]:
+    def velocity_jumps(self) -> tuple[_Jump, ...]:
         """The jumps of the velocity, in order."""
         return tuple(jump for jump in self.jumps if jump.order == 1)
 

@@ -22,7 +22,7 @@ from ..solved import AT_LEAST, AT_MOST, Check
 from .cam import GIVENS
 from .construction import CHORD_OF, EXACT, EXACT_OF, SHARPEST
 from .followers import OF_R_0, OF_RHO_MIN
-from .solve import SolvedCam, unit_of
+from .solve import SolvedCam
 
 ROUNDING = 1e-9  # part of a limit by which rounding may pass it
 
@@ -66,28 +66,20 @@ def rules_of(solved: SolvedCam) -> tuple[Rule, ...]:
 USUAL_FOUND = {"r_0": (2e-3, 1.0), "r_0_flat": (2e-3, 1.0), "a_max": (0.0, 1e5)}
 
 
-@dataclass(frozen=True, slots=True)
-class Unusual:
-    """A number of a cam with its SI unit ("" for none), and between what the usual ones lie."""
-
-    name: str
-    unit: str
-    value: float
-    least: float
-    most: float
+_Unusual = tuple[str, float, float, float]  # the name of a number, the number, and between what the usual ones lie
 
 
-def unusual(solved: SolvedCam) -> Iterator[Unusual]:
-    """Go through the numbers that hardly any cam has: the given ones, else those that follow from them."""
+def unusual(solved: SolvedCam) -> Iterator[_Unusual]:
+    """Go through the numbers that hardly any cam has, SI: the given ones, else those that follow from them."""
     given = {name: of.usual for name, of in GIVENS.items() if of.usual is not None}
     yield from [*_beyond(solved.givens, given)] or _beyond(solved.values, USUAL_FOUND)
 
 
-def _beyond(values: Mapping[str, Any], usual: Mapping[str, tuple[float, float]]) -> Iterator[Unusual]:
+def _beyond(values: Mapping[str, Any], usual: Mapping[str, tuple[float, float]]) -> Iterator[_Unusual]:
     for name, (least, most) in usual.items():
         value = values.get(name)
         if value is not None and not least * (1.0 - ROUNDING) <= value <= most * (1.0 + ROUNDING):
-            yield Unusual(name, unit_of(name), float(value), least, most)
+            yield name, float(value), least, most
 
 
 HEIGHTS = {EXACT[name]: CHORD_OF[name] for name in EXACT}  # ordinates that only a drawing shows keep its name

@@ -329,22 +329,18 @@ def rocker_cam(cam: Cam, values: Values) -> RollerCam:
         sizes = smallest_rocker_at(rocker, limits, distance)
         if r_0 is not None:
             permitted = (sizes.r_0, sizes.r_0_most) if isinstance(sizes, Sizes) else None
-            sizes = _given_sizes(rocker.l, distance, r_0)
+            l = rocker.l  # a triangle whose sides are given
+            cosine = (l * l + distance * distance - r_0 * r_0) / (2.0 * l * distance)
+            if not -1.0 < cosine < 1.0:
+                raise InputError("cam-rocker-triangle", l=_mm(l), l_OC=_mm(distance), r_0=_mm(r_0))
+            place = l - distance * complex(cosine, -math.sqrt(1.0 - cosine * cosine))
+            sizes = Sizes(r_0, place.real, place.imag, l_OC=distance)
     if not isinstance(sizes, Sizes):
         free = sizes if distance is None else smallest_rocker(rocker, limits)
         if distance is None or not isinstance(free, Sizes):
             raise InputError("cam-no-place", limits=_blamed(sizes if isinstance(free, Sizes) else free))
         raise InputError("cam-no-place-at", limits=_blamed(sizes), l_OC=_mm(distance), best=_mm(free.l_OC))
     return RollerCam(profile=RollerProfile(rocker, sizes, values["R_roller"]), limits=limits, permitted=permitted)
-
-
-def _given_sizes(l: float, l_OC: float, r_0: float) -> Sizes:
-    """Return the sizes of a cam of which the rocker, its pivot and r_0 are given: the sides of a triangle."""
-    cosine = (l * l + l_OC * l_OC - r_0 * r_0) / (2.0 * l * l_OC)
-    if not -1.0 < cosine < 1.0:
-        raise InputError("cam-rocker-triangle", l=_mm(l), l_OC=_mm(l_OC), r_0=_mm(r_0))
-    place = l - l_OC * complex(cosine, -math.sqrt(1.0 - cosine * cosine))
-    return Sizes(r_0, place.real, place.imag, l_OC=l_OC)
 
 
 def _blamed(limits: Names) -> str:

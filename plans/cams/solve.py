@@ -204,16 +204,10 @@ class SolvedCam(Solved):
 
 
 def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedCam:
-    """Solve a cam.
+    """Solve a cam, whose followers, laws and senses are chosen.
 
-    Parameters
-    ----------
-    cam : Cam
-        Followers, laws, senses, all chosen.
-    values : mapping of str to float
-        Its numbers in SI by name; r_0_flat of a cam for a plate alone may be called r_0.
-    plans : iterable of str
-        Plans wanted, of `cam.PLANS`; those they need are built too, no others.
+    The `values` are its numbers in SI by name; r_0_flat of a cam for a plate alone may be called r_0. The `plans`
+    wanted, of `cam.PLANS`, come with those that they need, no others.
 
     Raises InputError: a law that cannot be had with these numbers, or a size that the limits do not permit.
     """

@@ -188,7 +188,7 @@ CURVES = tuple(OF_CURVE)
 BLOCKING = CURVES[:7]
 
 
-class Crossing(NamedTuple):
+class _Crossing(NamedTuple):
     """Where two curves cross."""
 
     first: str
@@ -204,7 +204,6 @@ class Plane:
     least_tip: float  # thickness of a tooth at its tip, in modules, that the curves `thin_1` and `thin_2` stand for
     low: complex  # corner of the window in which the curves are traced
     high: complex
-    cells: int = CELLS
 
     def measures(self, places: Any, wanted: Iterable[str] = CURVES) -> dict[str, Array]:
         """Return the functions whose zeros are the curves, at places, by name; NaN where no pair can mesh.
@@ -229,26 +228,26 @@ class Plane:
     @cached_property
     def curves(self) -> dict[str, list[Places]]:
         """All curves inside the window, by name: their pieces, each a run of places on it."""
-        known = self.measures(grid(self.low, self.high, self.cells))  # of all at once: they share most of it
+        known = self.measures(grid(self.low, self.high, CELLS))  # of all at once: they share most of it
 
         def measure(places: Any, name: str) -> Array:
             return self.measures(places, (name,))[name]
 
-        window = self.low, self.high, self.cells
+        window = self.low, self.high, CELLS
         return {name: traced(partial(measure, name=name), *window, known[name]) for name in CURVES}
 
-    def crossings(self) -> list[Crossing]:
+    def crossings(self) -> list[_Crossing]:
         """Return where the curves that block cross each other inside the window."""
-        found, reach = [], 2.0 * abs(self.high - self.low) / self.cells
+        found, reach = [], 2.0 * abs(self.high - self.low) / CELLS
         for pair in combinations(BLOCKING, 2):
             first, second = pair
             starts = near_crossings(self.curves[first], self.curves[second])
             if starts.size:
                 places = crossings(partial(self.measures, wanted=pair), starts, reach)
-                found += [Crossing(first, second, place) for place in places.tolist()]
+                found += [_Crossing(first, second, place) for place in places.tolist()]
         return found
 
-    def corners(self) -> list[Crossing]:
+    def corners(self) -> list[_Crossing]:
         """Return the corners of the contour: crossings that all other curves permit."""
         others = {corner: [name for name in BLOCKING if name not in corner] for corner in self.crossings()}
         return [corner for corner, names in others.items() if bool(self.permits(corner.place, names, SAME))]
@@ -297,7 +296,7 @@ def _connected(inside: NDArray[np.bool_], distance: Array) -> NDArray[np.bool_]:
         part = wider
 
 
-def plane_of(values: Mapping[str, float], least_tip: float = 0.3, cells: int = CELLS) -> Plane:
+def plane_of(values: Mapping[str, float], least_tip: float = 0.3) -> Plane:
     """Return the plane of shifts of a pair with its complete givens, in a window round the contour.
 
     Wheels with many teeth have contours for gearing beyond the pole, too; the window is round that which holds the
@@ -305,13 +304,13 @@ def plane_of(values: Mapping[str, float], least_tip: float = 0.3, cells: int = C
     """
     least = geometry(values, ("x_min1", "x_min2"))
     low, chosen = complex(least["x_min1"], least["x_min2"]), complex(values["x_1"], values["x_2"])
-    wide = Plane(values, least_tip, low, complex(HIGHEST, HIGHEST), cells)
-    places = grid(wide.low, wide.high, cells)
+    wide = Plane(values, least_tip, low, complex(HIGHEST, HIGHEST))
+    places = grid(wide.low, wide.high, CELLS)
     inside = places[_connected(wide.permits(places), np.abs(places - chosen))]
     seen = np.append(inside if inside.size else np.array([low, low + complex(LEAST_WINDOW, LEAST_WINDOW)]), chosen)
     size = wide.high - wide.low
-    cell = complex(size.real / cells, size.imag / cells)  # the contour may go on up to the next place of the grid
+    cell = complex(size.real / CELLS, size.imag / CELLS)  # the contour may go on up to the next place of the grid
     low = complex(float(np.min(seen.real)), float(np.min(seen.imag))) - cell
     high = complex(float(np.max(seen.real)), float(np.max(seen.imag))) + cell
     margin = MARGIN * (high - low)
-    return Plane(values, least_tip, low - margin, high + margin, cells)
+    return Plane(values, least_tip, low - margin, high + margin)

@@ -83,7 +83,13 @@ def _meshing(board: Board, rollings: tuple[Rolling, Rolling], sense: int) -> Non
     _line_of_action(board)
     _active_line(board)
     for i, rolled in zip(WHEELS, rollings, strict=True):
-        _lower_point(board, i)
+        board.calc(f"_inv_p{i}", "unrolled_involute", f"nu_p{i}")
+        board.calc(f"_inv_a{i}", "involute", f"alpha_a{i}")
+        board.distance(f"r_p{i}", mark("O", i), mark("A", i))  # an arc carries the end of the active line to the flank
+        board.calc(f"_down_flank{i}", "angle_on_flank", "inv_alpha_w", f"_inv_p{i}", "_sense")
+        board.calc(f"_angle_of_L{i}", "sum", f"_base{i}", f"_down_flank{i}")
+        board.turn(f"_to_L{i}", f"_angle_of_L{i}")
+        board.lay(mark("L", i), mark("O", i), f"_to_L{i}", f"r_p{i}")
         _involute_by_rolling(board, i, rolled)
         _teeth(board, i)
     for i in WHEELS:
@@ -130,17 +136,6 @@ def _active_line(board: Board) -> None:
     board.lay(mark("H1"), mark("N1"), ACTION, "rho_l1")
     board.back(mark("H2"), mark("N2"), ACTION, "rho_l2")
     board.distance("g_alpha_drawn", mark("A1"), mark("A2"))
-
-
-def _lower_point(board: Board, i: int) -> None:
-    """Carry the end of the active line to the flank in P by an arc about the wheel's centre."""
-    board.calc(f"_inv_p{i}", "unrolled_involute", f"nu_p{i}")
-    board.calc(f"_inv_a{i}", "involute", f"alpha_a{i}")
-    board.distance(f"r_p{i}", mark("O", i), mark("A", i))
-    board.calc(f"_down_flank{i}", "angle_on_flank", "inv_alpha_w", f"_inv_p{i}", "_sense")
-    board.calc(f"_angle_of_L{i}", "sum", f"_base{i}", f"_down_flank{i}")
-    board.turn(f"_to_L{i}", f"_angle_of_L{i}")
-    board.lay(mark("L", i), mark("O", i), f"_to_L{i}", f"r_p{i}")
 
 
 def _involute_by_rolling(board: Board, i: int, rolled: Rolling) -> None:

@@ -23,7 +23,7 @@ from .teeth import Array, Wheel
 NEAR = 1e-9  # part of the base pitch within which a contact begins or ends
 
 
-class Zone(NamedTuple):
+class _Zone(NamedTuple):
     """A part of the line of action, from `first` to `last`, rho_1 in m, on which so many `pairs` of teeth touch."""
 
     first: float
@@ -73,7 +73,7 @@ class GearCourse(Course):
         return np.asarray(sum(np.floor(way / self.pitch + NEAR) for way in ways) + 1.0)
 
     @property
-    def zones(self) -> list[Zone]:
+    def zones(self) -> list[_Zone]:
         """The parts of the line of action by how many pairs touch, from start to end."""
         first, last, pitch = self.first, self.last, self.pitch
         steps = pitch * np.arange(math.floor((last - first) / pitch + NEAR) + 1)
@@ -82,7 +82,7 @@ class GearCourse(Course):
             if place - places[-1] > NEAR * pitch:
                 places.append(place)
         middles = 0.5 * (np.array(places[:-1]) + np.array(places[1:]))
-        return [Zone(a, b, int(n)) for (a, b), n in zip(pairwise(places), self.pairs(middles), strict=True)]
+        return [_Zone(a, b, int(n)) for (a, b), n in zip(pairwise(places), self.pairs(middles), strict=True)]
 
     @property
     def marks(self) -> dict[str, float]:

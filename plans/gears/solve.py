@@ -412,18 +412,16 @@ def compared(solved: SolvedGear) -> tuple[str, ...]:
     return tuple(name for name in solved.program.names if name in solved.quantities and section_of(name) == DRAWN)
 
 
-def scale_errors(
-    solved: SolvedGear, hands: Mapping[str, Hand], quantities: Sequence[str] = (), ratios: Iterable[float] = RATIOS
-) -> ScaleErrors:
+def scale_errors(solved: SolvedGear, hands: Mapping[str, Hand], quantities: Sequence[str] = ()) -> ScaleErrors:
     """Draw the meshing at one scale after the other, by hands of some names; `quantities` of `compared`, or the usual.
 
     Raises InputError with the key `chart-no-meshing` where the meshing is not among the plans.
     """
     if MESHING not in solved.scale_of_plan:
         raise InputError("chart-no-meshing")
-    wanted, ratios = tuple(quantities) or USUAL, tuple(ratios)
-    errors = {(hand, name): np.empty(len(ratios)) for hand in hands for name in wanted}
-    for i, k in enumerate(ratios):
+    wanted = tuple(quantities) or USUAL
+    errors = {(hand, name): np.empty(len(RATIOS)) for hand in hands for name in wanted}
+    for i, k in enumerate(RATIOS):
         paper = drawing_of(solved, dict.fromkeys(solved.scale_of_plan, MILLI / k))
         paper = replace(paper, program=paper.program.needed_for(wanted))
         for hand, own in hands.items():
@@ -433,4 +431,4 @@ def scale_errors(
                 drawn = np.broadcast_to(board.values[name], board.codes.shape)
                 errors[hand, name][i] = float(kept(drawn, exact)) / abs(exact)
     exact_values = {name: float(solved.values[name]) for name in wanted}
-    return ScaleErrors(exact_values, ratios, solved.sizes["h"], errors)
+    return ScaleErrors(exact_values, RATIOS, solved.sizes["h"], errors)

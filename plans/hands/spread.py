@@ -265,15 +265,13 @@ class Expectation:
         return {name: None if isinstance(x, float) and not math.isfinite(x) else x for name, x in data.items()}
 
 
-def expectations(
-    paper: Paper, hand: Hand, tolerance: Tolerance, limits: Mapping[str, float] | None = None, drawings: int = DRAWINGS
-) -> dict[str, Expectation]:
+def expectations(paper: Paper, hand: Hand, tolerance: Tolerance, limits: Mapping[str, float]) -> dict[str, Expectation]:
     """Draw a construction many times with a hand, the same drawings every time, and mark what comes out.
 
     What to expect is told of every quantity of the construction; what is only given does not err. `limits` are
     tolerances of single quantities in SI, in the place of the rule.
     """
-    found = drawn(paper, hand, np.random.default_rng(SEED), drawings)
+    found = drawn(paper, hand, np.random.default_rng(SEED), DRAWINGS)
     key = answer_key(paper, tolerance, limits)
     parts, failed, plans = sensitivities(paper, hand), found.failing(key.allowed), plans_of(paper.program)
     made = {}

@@ -89,24 +89,19 @@ def _hanging(board: Board, sections: int, moves: bool) -> None:
     for i in range(sections + 1):
         if moves:
             moved(f"_T_{HANGING}{i}", f"_P_12_{i}")(board)
-        else:
-            _swing(board, i, sections)
+        else:  # turn the circle by i sections of a swing
+            at = f"{CIRCLE}.{i + 1}"
+            board.calc(f"_T_{HANGING}{i}", "product", "_period", part(i, sections))
+            if i:
+                board.calc(f"_run{i}", "product", "_turn", part(i, sections))
+                board.calc(f"_angle{i}", "excess", "phi_1", f"_run{i}")
+                board.turn(f"_ray{i}", f"_angle{i}")
+                board.lay(at, f"{CIRCLE}.C", f"_ray{i}", "R")
+            board.read(f"_from_C{i}", f"{CIRCLE}.C", at)
+            board.calc(f"_swing{i}", "component", f"_from_C{i}", HORIZONTAL)
+            board.calc(f"_P_12_{i}", "suspended_force", "P_m", f"_swing{i}")
         board.calc(f"_t_{HANGING}{i}", "later", "t_1", f"_T_{HANGING}{i}")
         points(board, FORCES, f"{HANGING}{i}", f"_t_{HANGING}{i}", **{f"P{i}": f"_P_12_{i}"})
-
-
-def _swing(board: Board, i: int, sections: int) -> None:
-    """Turn the circle by i sections of a swing, and read the force of the rope there."""
-    at = f"{CIRCLE}.{i + 1}"
-    board.calc(f"_T_{HANGING}{i}", "product", "_period", part(i, sections))
-    if i:
-        board.calc(f"_run{i}", "product", "_turn", part(i, sections))
-        board.calc(f"_angle{i}", "excess", "phi_1", f"_run{i}")
-        board.turn(f"_ray{i}", f"_angle{i}")
-        board.lay(at, f"{CIRCLE}.C", f"_ray{i}", "R")
-    board.read(f"_from_C{i}", f"{CIRCLE}.C", at)
-    board.calc(f"_swing{i}", "component", f"_from_C{i}", HORIZONTAL)
-    board.calc(f"_P_12_{i}", "suspended_force", "P_m", f"_swing{i}")
 
 
 def _extreme_points(board: Board) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..solved import Columned, Course, Rows
-from .forces import course
+from .forces import COLUMN_UNITS, course
 from .solve import SolvedHoist
 
 TABLED = 25  # times in the table, beside the marks
@@ -28,7 +28,8 @@ class HoistCourse(Course):
 
     def columns(self, places: Any) -> Sequence[Columned]:
         """Return the columns at times."""
-        return course(self.forces, places).columned
+        columns = course(self.forces, places).columns
+        return [Columned(name, unit, columns[name]) for name, unit in COLUMN_UNITS.items()]
 
     def rows(self, count: int | None) -> Rows:
         """Return even times with the marks among them."""

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from ..board import Board, recorded
 from ..boards.exact import ExactBoard
 from ..laws import TURN
-from ..solved import AT_LEAST, MORE, Check, Columned
+from ..solved import AT_LEAST, MORE, Check
 from .hoist import VALUES, Numbers, complete, in_range
 from .model import model, motion_given, rope_force
 from .onesided import OneSided, one_sided
@@ -163,17 +163,11 @@ BOTH, ROPE, BEAM, NEITHER = ("both", "rope", "support", "neither")  # what bears
 BEARS = {(True, True): BOTH, (True, False): ROPE, (False, True): BEAM, (False, False): NEITHER}  # rope, support
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Course:
-    """A hoist at times of shape (N,): columns in SI, and what bears at each."""
+class Course(NamedTuple):
+    """A hoist at times of shape (N,): columns in SI by name, and what bears at each."""
 
-    columned: tuple[Columned, ...]
+    columns: dict[str, Array]
     states: tuple[str, ...]
-
-    @property
-    def columns(self) -> dict[str, Array]:
-        """Values of the columns by name."""
-        return {column.name: column.values for column in self.columned}
 
 
 def _in_phases(board: Board) -> None:
@@ -226,8 +220,7 @@ def course(forces: Forces, t: Array) -> Course:
     board = ExactBoard({**found, "t": t, "F_01": F_01, "F_12": F_12})
     board.follow(recorded(_after))
     values = {**board.values, **better}
-    columned = (Columned(name, of, np.asarray(values[name], float)) for name, of in COLUMN_UNITS.items())
-    return Course(tuple(columned), states)
+    return Course({name: np.asarray(values[name], float) for name in COLUMN_UNITS}, states)
 
 
 LEAST, MOST = 0.05, 0.5  # of beta: nearer to its end a beam is rigid

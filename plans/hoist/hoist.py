@@ -69,7 +69,17 @@ def complete(values: Numbers) -> dict[str, float]:
     Raises InputError: `hoist-missing`, `hoist-number`, `hoist-positive`, `hoist-not-negative`, `hoist-beta` of a single
     number, `hoist-still` of a rope that is not wound up at all.
     """
-    found = {name: _number(name, values) for name in VALUES}
+    found: dict[str, float] = {}
+    for name in VALUES:
+        given, bound = values.get(name, GIVENS[name].default), GIVENS[name].bound
+        if name not in values and given is None:
+            raise InputError("hoist-missing", name=name)
+        try:
+            found[name] = value = float(given)
+        except (TypeError, ValueError):
+            raise InputError("hoist-number", name=name, text=quote(str(given))) from None
+        if math.isnan(value) or (math.isinf(value) and bound is not Bound.RIGID):
+            raise InputError("hoist-number", name=name, text=f"{value:g}")
     for name, value in found.items():
         bound = GIVENS[name].bound
         if not bound.admits(value):
@@ -77,19 +87,6 @@ def complete(values: Numbers) -> dict[str, float]:
     if found["V_0"] == 0.0 == found["a"]:
         raise InputError("hoist-still")
     return found
-
-
-def _number(name: str, values: Numbers) -> float:
-    given = values.get(name, GIVENS[name].default)
-    if name not in values and given is None:
-        raise InputError("hoist-missing", name=name)
-    try:
-        value = float(given)
-    except (TypeError, ValueError):
-        raise InputError("hoist-number", name=name, text=quote(str(given))) from None
-    if math.isnan(value) or (math.isinf(value) and GIVENS[name].bound is not Bound.RIGID):
-        raise InputError("hoist-number", name=name, text=f"{value:g}")
-    return value
 
 
 def in_range(found: Numbers) -> None:

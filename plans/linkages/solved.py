@@ -154,19 +154,8 @@ def _spoken(direction: str, program: Program) -> str:
 def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iterable[str] = USUAL) -> SolvedLinkage:
     """Solve one position of `mechanism`.
 
-    Parameters
-    ----------
-    mechanism : Mechanism
-        Links, pairs, driver, loads.
-    values : mapping of str to float
-        Its numbers in SI by name.
-    plans : iterable of str
-        Plans wanted, of `chain.PLANS`; those they need are built too, no others.
-
-    Returns
-    -------
-    SolvedLinkage
-        With status `singular` or `no-assembly` when the position has no plan; what is undefined is None.
+    The `values` are its numbers in SI by name; the `plans` wanted, of `chain.PLANS`, come with those that they need, no
+    others. The status is `singular` or `no-assembly` when the position has no plan; what is undefined is None.
     """
     plans = tuple(plans)
     if mechanism.starts:  # groups of class III need arrays, and so numpy, on the way from their start

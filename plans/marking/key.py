@@ -102,17 +102,6 @@ def hanging_on(key: Key) -> Mapping[str, int]:
     return {name: hanging.get(name, 0) | hanging.get(behind(key, name).name, 0) for name in key.questions}
 
 
-def needed_by(key: Key) -> dict[str, float]:
-    """Return for each quantity the part of those asked after it that hang on it, on its mark or its value."""
-    places = key.paper.program.places
-    asked, found, after = list(key.questions), {}, 0
-    hanging = hanging_on(key)
-    for count, name in enumerate(reversed(asked)):
-        found[name] = (hanging[name] & after).bit_count() / count if count else 0.0
-        after |= 1 << places[name]
-    return found
-
-
 def answer_key(
     paper: Paper,
     tolerance: Tolerance,
@@ -155,7 +144,7 @@ def _key(paper: Paper, key: Key) -> Key:
     for name in key.questions:
         least = rounded(key.values[name], key.tolerance)
         allowed[name] = key.limits.get(name, max(allowed[name], least))
-    flat = worst_behind(paper.program, key.sines, same_plan)
+    flat = worst_behind(paper.program, key.sines, _same_plan)
     angles = {
         name: _angle(key, name, allowed[name], flat) for name, question in key.questions.items() if question.vector
     }
@@ -210,7 +199,7 @@ def tolerances(
     less. A calculated quantity inherits what the segments in it may miss; data have none. Values and sines are those of
     an exact run.
     """
-    rule = _Rule(paper, values, worst_behind(paper.program, sines, same_plan), most, {}, _longest(paper, values))
+    rule = _Rule(paper, values, worst_behind(paper.program, sines, _same_plan), most, {}, _longest(paper, values))
     for step in paper.program:
         if step.verb == "arc":  # on a line that misses its direction
             rule.aside[step.name] = rule._tilt(abs(values[step.name] - values[step.operands[2]]))
@@ -332,6 +321,6 @@ def longer(value: Any, miss: float) -> tuple[Any, ...]:
     return value * (1.0 + miss / size), value * (1.0 - miss / size)
 
 
-def same_plan(step: Step, operand: str) -> bool:
+def _same_plan(step: Step, operand: str) -> bool:
     """Whether a step draws on the plan of one of its operands."""
     return role(step.name).plan == role(operand).plan

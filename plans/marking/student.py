@@ -143,11 +143,11 @@ class StudentBoard(ExactBoard):
             self._put(moment, taken * abs(values[force]) * (-1.0 if values[moment] < 0.0 else 1.0))
         elif verb == "read" and moves:  # the mark that was made last is where the vector says it is; a pole stays
             tail, tip = operands
-            last = made_last(self._program, tail, tip)
+            last = _made_last(self._program, tail, tip)
             self._put(last, values[tail] + taken if last == tip else values[tip] - taken)
 
 
-def made_last(program: Program, tail: str, tip: str) -> str:
+def _made_last(program: Program, tail: str, tip: str) -> str:
     """Return which of two marks was made last."""
     places = program.places
     return tip if places.get(tip, -1) >= places.get(tail, -1) else tail
@@ -156,7 +156,7 @@ def made_last(program: Program, tail: str, tip: str) -> str:
 def shifted(step: Step, program: Program) -> str:
     """Return what else changes on the board where a student's quantity takes the place of what a step makes."""
     if step.verb == "read":
-        return made_last(program, *step.operands)
+        return _made_last(program, *step.operands)
     if step.verb in LAID:
         return step.operands[2] if role(step.operands[2]).hidden else ""
     return step.operands[0] if step.verb == "arm" else ""

@@ -232,14 +232,14 @@ def _outside(solved: SolvedCam) -> Iterator[InputError]:
 def _unusual(solved: SolvedCam) -> Iterator[InputError]:
     """Go through the numbers that hardly any cam has, each in the unit in which people read it."""
     from ...plans.cams.rules import unusual
+    from ...plans.cams.solve import unit_of
 
-    for one in unusual(solved):
-        key, shown = UNUSUAL[one.unit]
+    for name, *numbers in unusual(solved):
+        key, shown = UNUSUAL[unit_of(name)]
         size = unit(shown) if shown else None
-        numbers = (one.value, one.least, one.most)
         value, least, most = (f"{x if size is None else size.from_si(x):.4g}" for x in numbers)
-        end = LARGE.get(key, key) if one.least == 0.0 else key
-        yield InputError(f"cam-unusual-{end}", name=one.name, value=value, least=least, most=most)
+        end = LARGE.get(key, key) if numbers[1] == 0.0 else key
+        yield InputError(f"cam-unusual-{end}", name=name, value=value, least=least, most=most)
 
 
 def _degrees(angle: float) -> str:

@@ -16,7 +16,7 @@ from typing import Any
 from ...drawing.words import Words
 from ...plans.hands.shaky import Tolerance, paper_of, preset
 from ...plans.marking.answers import Answer, Line, Verdict
-from ...plans.marking.key import Key, Question, answer_key, needed_by
+from ...plans.marking.key import Key, Question, answer_key, hanging_on
 from ...plans.mistakes.book import Book, book
 from ...plans.names import COUPLE, LEVER, role
 from ...plans.quantities import unit_of
@@ -319,8 +319,13 @@ class Keyed:
 
     @cached_property
     def needed(self) -> dict[str, float]:
-        """For each quantity the part of those asked after it that hang on it."""
-        return needed_by(self.key)
+        """For each quantity the part of those asked after it that hang on it, on its mark or its value."""
+        places, hanging, after = self.key.paper.program.places, hanging_on(self.key), 0
+        parts: dict[str, float] = {}
+        for count, name in enumerate(reversed([*self.key.questions])):
+            parts[name] = (hanging[name] & after).bit_count() / count if count else 0.0
+            after |= 1 << places[name]
+        return parts
 
     @cached_property
     def by_plan(self) -> dict[str, str]:

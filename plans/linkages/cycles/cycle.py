@@ -329,15 +329,10 @@ def _named(cycle: Cycle, of: str) -> tuple[tuple[str, str | None, str | None], b
 
 
 def diagrams(cycle: Cycle, of: str, sections: int = 12) -> Diagrams:
-    """Draw the diagrams of a point or a link over the cycle, by plans and by chords.
+    """Draw the diagrams of a point or a link over so many sections of the cycle, by plans and by chords.
 
-    Parameters
-    ----------
-    of : str
-        A point's letter, or the number of a link for its angle. A slider on the frame, or a point of it, has signed
-        travels along its guide; of any other point travel, velocity and acceleration are vectors.
-    sections : int
-        Sections of the cycle.
+    They are `of` a point's letter, or the number of a link for its angle. A slider on the frame, or a point of it, has
+    signed travels along its guide; of any other point travel, velocity and acceleration are vectors.
 
     Raises InputError: no such point or link; the cycle was computed without velocities or accelerations.
     """
