@@ -10,7 +10,7 @@ Source: Bolotovskaya, Bolotovsky et al., Handbook of gear correction (blocking c
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import combinations
@@ -18,6 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
+from contourpy import contour_generator
 from numpy.typing import NDArray
 
 from .gear import WHEELS
@@ -26,7 +27,6 @@ from .geometry import geometry
 Array = NDArray[np.float64]
 Places = NDArray[Any]  # complex
 Function = Callable[[Any], Array]
-Edge = int  # number of an edge of the grid
 CHORDS = 14  # rounds, of which ten suffice
 STILL = 1e-12  # part of an edge by which a place may still move when it has been found
 NEWTON = 6  # steps, from places that are crossings of chords
@@ -48,20 +48,19 @@ def traced(function: Function, low: complex, high: complex, cells: int, known: A
 
     Every place is on an edge of the grid, put to the last digits there. `known` are the function's values on the grid.
     """
-    places = grid(low, high, cells)
+    places, nodes = grid(low, high, cells), np.arange(cells + 1)
     values = function(places) if known is None else known
-    numbers = np.arange(places.size).reshape(places.shape)
-    on_edge: dict[Edge, complex] = {}
-    for begin, end, beyond in (
-        (np.s_[:-1, :], np.s_[1:, :], 0),
-        (np.s_[:, :-1], np.s_[:, 1:], places.size),
-    ):
-        change = (values[begin] >= 0.0) != (values[end] >= 0.0)
-        change &= np.isfinite(values[begin]) & np.isfinite(values[end])
-        zeros = _zeros(function, places[begin][change], places[end][change])
-        on_edge |= zip((numbers[begin][change] + beyond).tolist(), zeros.tolist(), strict=True)
-    links = _links(on_edge.keys(), values)
-    runs = (np.array([on_edge[edge] for edge in run]) for run in _runs(links))
+    above = np.ma.masked_invalid(np.where(values == 0.0, np.finfo(float).tiny, values).T)  # a zero is permitted
+    runs = []
+    for line in map(np.asarray, contour_generator(nodes, nodes, above, name="serial", corner_mask=False).lines(0.0)):
+        node = np.rint(line).astype(int)
+        along, rows = np.abs(line - node).argmax(axis=1), np.arange(len(line))  # the axis along which each edge runs
+        node[rows, along] = np.minimum(np.floor(line[rows, along]), cells - 1)
+        beyond = node.copy()
+        beyond[rows, along] += 1
+        run = _zeros(function, places[node[:, 0], node[:, 1]], places[beyond[:, 0], beyond[:, 1]])
+        first, last = ((along[end], *node[end].tolist()) for end in (0, -1))
+        runs.append(run if first <= last else run[::-1])  # always from the same end
     return sorted(runs, key=len, reverse=True)
 
 
@@ -85,44 +84,6 @@ def _zeros(function: Function, first: Places, last: Places) -> Places:
         if still.all():
             break
     return last
-
-
-def _links(edges: Iterable[Edge], values: Array) -> dict[Edge, list[Edge]]:
-    """Return which edges with zeros are neighbours on the curve: those of one cell, where it has two.
-
-    Edges along the abscissa have the number of their first node, those along the ordinate begin after all of these. Of
-    a cell with four zeros the mean of its corners tells which of them belong together.
-    """
-    rows, size = values.shape[1], values.size
-    known, links = set(edges), {edge: list[Edge]() for edge in edges}
-    cells = {edge % size for edge in known} | {edge - 1 for edge in known if edge < size}
-    cells |= {edge - size - rows for edge in known if edge >= size}
-    for n in sorted(cells):
-        i, j = divmod(n, rows)
-        if n < 0 or i + 1 >= values.shape[0] or j + 1 >= rows:
-            continue
-        crossed = [edge for edge in (n, size + n + rows, n + 1, size + n) if edge in known]  # all round
-        if len(crossed) == 4 and (values[i : i + 2, j : j + 2].mean() >= 0.0) != (values[i, j] >= 0.0):
-            crossed = crossed[1:] + crossed[:1]
-        for a, b in zip(crossed[::2], crossed[1::2], strict=False):
-            links[a].append(b)
-            links[b].append(a)
-    return links
-
-
-def _runs(links: dict[Edge, list[Edge]]) -> Iterator[list[Edge]]:
-    """Go through runs of linked edges: first those with ends, then loops, which end where they begin."""
-    left = {edge: list(neighbours) for edge, neighbours in links.items()}
-    ends = [edge for edge, neighbours in links.items() if len(neighbours) == 1]
-    for start in (*ends, *links):
-        if not left[start]:
-            continue
-        run = [start]
-        while left[run[-1]]:
-            following = left[run[-1]].pop()
-            left[following].remove(run[-1])
-            run.append(following)
-        yield run
 
 
 def near_crossings(first: Iterable[Places], second: Iterable[Places]) -> Places:

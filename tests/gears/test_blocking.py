@@ -7,7 +7,17 @@ from functools import cache
 import numpy as np
 import pytest
 
-from kulman.plans.gears.blocking import BLOCKING, CURVES, Plane, crossings, grid, near_crossings, plane_of, traced
+from kulman.plans.gears.blocking import (
+    BLOCKING,
+    CELLS,
+    CURVES,
+    Plane,
+    crossings,
+    grid,
+    near_crossings,
+    plane_of,
+    traced,
+)
 from kulman.plans.gears.solve import complete
 from kulman.tests.support.gears import SEED, madi, second_route
 
@@ -44,7 +54,7 @@ def by_second_route(plane: Plane, places: np.ndarray) -> dict[str, np.ndarray]:
 def test_points_of_every_curve_are_on_their_limit(z_1: float, z_2: float) -> None:
     of = plane(z_1, z_2)
 
-    step = abs(of.high - of.low) / of.cells
+    step = abs(of.high - of.low) / CELLS
     for name in CURVES:
         inside = np.concatenate([run[of.permits(run, others_of(name))] for run in of.curves[name]] or [np.empty(0)])
         assert np.max(np.abs(by_second_route(of, inside)[name]), initial=0.0) < 1e-9, name
