@@ -11,18 +11,18 @@ import sys
 import time
 from dataclasses import replace
 from functools import cache, partial
-from itertools import pairwise
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.text import Text
+from matplotlib.text import Annotation, Text
 
 from kulman import KulmanError, cli, solve
 from kulman.docs import refresh
-from kulman.drawing.charts.cycle import _log, _lost, _widen
-from kulman.drawing.charts.depth import equal
+from kulman.drawing.charts.paper import Label, put
 from kulman.plans.cams.chords import NODES, S_MAX, convergence, robustness
 from kulman.plans.gears.solve import RATIOS, USUAL, ScaleErrors, SolvedGear, compared, scale_errors
 from kulman.plans.hands.shaky import PRESETS, Hand
@@ -36,7 +36,6 @@ from kulman.tests.support.documents import run_here
 from kulman.variants.charts.charts import Charts, chart
 
 TASK, CAM, GEAR, HOIST = "nau-slider-crank", "madi-cam", "madi-gear", "karpenko-hoist"
-SHAPER = "scheme-09-shaper"
 BOTH = ("stability", "depth")
 # times measured on little work, drawn by hand on one format only, few places looked at
 LITTLE = {
@@ -149,28 +148,6 @@ def test_a_hand_stands_above_the_times_of_the_others() -> None:
     assert any("«звичайна»" in text.get_text().replace("\n", " ") for one in axes for text in one.texts)
 
 
-def test_a_picture_of_depth_is_as_tall_as_its_rows_and_its_numbers_equally_precise() -> None:
-    shaper, words = chart(SHAPER, chart="depth", positions=12, lang="en"), made(TASK).words
-
-    heights = [found["depth"].figure(words).get_figheight() for found in (made(TASK), shaper)]
-
-    assert heights[0] < 0.75 * heights[1]
-    shown = [equal(value, words) for value in (20.0, 2.6, 0.0409, 9.999, 345.0)]
-    assert shown == ["20.0", "2.60", "0.0409", "10.0", "345"]
-
-
-@pytest.mark.parametrize(("low", "high"), [(2.1, 4.5), (0.5, 9.0), (1.2, 400.0)])
-def test_short_logarithmic_axes_name_enough_numbers(low: float, high: float) -> None:
-    axes = Figure().add_subplot()
-    axes.set(yscale="log", ylim=(low, high))
-    _widen(axes)
-    _log(axes, "K")
-
-    least, most = axes.get_ylim()
-    assert len([tick for tick in axes.get_yticks() if least <= tick <= most]) >= 3
-    assert len(_lost(math.log10(least), math.log10(most))) >= 2
-
-
 @pytest.mark.parametrize(
     ("task", "name"), [(TASK, "depth"), (TASK, "stability"), (CAM, "stability"), (HOIST, "choice"), (GEAR, "scale")]
 )
@@ -271,13 +248,6 @@ def test_json_holds_everything_in_si(capsys: pytest.CaptureFixture[str]) -> None
     assert hoist["depth"]["enough_to"] > hoist["depth"]["ratio"]
     assert hoist["choice"]["trials"][-1]["safety"] >= hoist["choice"]["safety_required"]
     assert {entry["kind"] for entry in hoist["accuracy"]["entries"]} == {"lift_off", "course", "peak"}
-
-
-def test_one_quantity_may_be_asked_for() -> None:
-    table = chart(CAM, chart="sections", quantities="r_0_tangents", lang="en").table()
-
-    assert "r_0_tangents" in table
-    assert "S_max_chord" not in table
 
 
 def test_a_chart_that_the_task_cannot_have_is_left_out_with_a_word(capsys: pytest.CaptureFixture[str]) -> None:
@@ -490,17 +460,21 @@ def test_better_hands_err_less_at_every_scale_and_the_smallest_that_is_enough_is
     assert errors.enough("normal", name, 0.0) is None
 
 
-def test_table_csv_and_json_of_gears_tell_the_same(tmp_path: Path) -> None:
-    charts = chart(GEAR, lang="en", quantities="r_p1")
+def test_labels_stand_at_their_points_with_room_between_them() -> None:
+    figure = made(TASK)["accuracy"].figure(made(TASK).words)
+    figure.draw_without_rendering()
+    fields = [axes for axes in figure.axes if axes.get_ylabel()]
 
-    (path,) = charts.save(tmp_path / "a.csv")
-    data = json.loads(json.dumps(charts.to_json()))["scale"]
-
-    rows = rows_of(path)
-    assert len(rows) == len(PRESETS) * len(RATIOS) == len(data["errors"])
-    for row, item in zip(rows, data["errors"], strict=True):
-        assert (row["drawn_by"], float(row["scale"])) == (item["drawn_by"], item["scale"])
-        assert float(row["error [%]"]) == pytest.approx(100.0 * item["error"], rel=1e-12)
-    for language in LANGUAGES:
-        shown = [f"{ratio:g}:1".replace(".", "," if language != "en" else ".") for ratio in RATIOS]
-        assert [ratio for ratio in shown if ratio not in charts.table(language)] == []
+    entries = made(TASK)["accuracy"].found.entries
+    assert fields
+    for axes in fields:
+        labels = [text for text in axes.texts if isinstance(text, Annotation)]
+        boxes = [text.get_window_extent().shrunk(0.9, 0.9) for text in labels]
+        assert {text.xy for text in labels} <= {(entry.error, entry.seconds) for entry in entries}
+        assert len(labels) > 3
+        assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
+    figure = Figure(figsize=(8.0, 4.0))
+    FigureCanvasAgg(figure)
+    axes = figure.add_subplot(xlim=(0.0, 10.0), ylim=(0.0, 10.0))
+    put(axes, [Label(x, 5.0, "label", (0, 1)) for x in (4.0, 4.6)], [(4.0, 5.0), (4.6, 5.0)])
+    assert [text.get_position()[0] for text in axes.texts] == pytest.approx([0.0, 0.0])  # each right above its point
