@@ -1,7 +1,5 @@
 """Errors of the diagrams of cams: orders of chords, hands, lines beside jumps, closing; ways to the motion."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import replace
 from functools import cache
@@ -92,11 +90,6 @@ def test_straight_accelerations_give_the_velocity_without_error_and_constant_vel
     assert problem.value.key == "chart-exact-chords"
 
 
-def test_straight_accelerations_give_the_velocity_without_error() -> None:
-    assert np.abs(chords("sawtooth").errors[NODES, V_MAX]).max() < 1e-14
-    assert chords("sawtooth").order(NODES, V_MAX) is None
-
-
 def test_a_hand_without_errors_draws_the_chords() -> None:
     found = convergence(cam(), {"steady": Hand(0.0, 0.0, 0.0)}, sections=(12, 24), drawn=(12, 24))
 
@@ -137,9 +130,9 @@ def test_a_better_hand_errs_less_and_takes_more_sections() -> None:
 
 
 def test_a_drafting_machine_draws_along_the_edges_without_an_error_of_direction() -> None:
-    solved = cam()
-    names = ("diagram_s.f12", "diagram_v.p1", "diagram_v.1")
-    paper = drawn_on(solved, solved.motion.division(12), names)
+    solved, names = cam(), ("diagram_s.f12", "diagram_v.p1", "diagram_v.1")
+    division = solved.motion.division(12)
+    paper, whole = drawn_on(solved, division, names), drawn_on(solved, division, tuple(exact_values(solved)))
 
     machine, free = (
         draw(one, Hand(0.0, 1.0, 0.0), np.random.default_rng(1), 50).values for one in (paper, replace(paper, edges=()))
@@ -149,6 +142,22 @@ def test_a_drafting_machine_draws_along_the_edges_without_an_error_of_direction(
     assert np.ptp(np.imag(free["diagram_s.f12"])) > 1e-4
     assert np.ptp(np.real(machine["diagram_v.1"])) < 1e-15  # on its section line
     assert np.ptp(np.imag(machine["diagram_v.1"])) > 1e-5  # at the end of a chord
+    assert len(paper.program.names) < 0.5 * len(whole.program.names)  # some values need few steps
+
+
+def test_lines_at_jumps_only_are_late_and_err_as_far_as_they_are() -> None:
+    solved, found = cam(), robustness(cam(), {}, (12, 24))
+    division, middle = solved.motion.division(12), found.beside.index(0.0)
+
+    moved = late(solved, division, 0.25).angles - division.angles
+
+    assert [*np.flatnonzero(moved)] == [*division.jumps]
+    assert np.degrees(moved[list(division.jumps)]) == pytest.approx([2.25, 2.25])
+    assert found.missed[12, S_MAX][middle] == pytest.approx(1.0 / 64.0, rel=1e-9)
+    for n in (12, 24):
+        far, near = found.missed[n, V_MAX][-1], found.missed[n, V_MAX][(middle + len(found.beside)) // 2]
+        assert far == pytest.approx(2.0 * near, rel=0.05)
+    assert found.missed[12, S_MAX][-1] == pytest.approx(2.0 * found.missed[24, S_MAX][-1], rel=0.05)
 
 
 def test_errors_that_cancel_in_a_ratio_are_none() -> None:
@@ -158,27 +167,6 @@ def test_errors_that_cancel_in_a_ratio_are_none() -> None:
     assert drawing.expected["mu_s_chord"].errs
     assert not drawing.expected["nu_chord"].errs
     assert drawing.expected["nu_chord"].step is None
-
-
-def test_a_line_beside_a_jump_errs_as_far_as_it_is_late() -> None:
-    found = robustness(cam(), {}, (12, 24))
-    middle = found.beside.index(0.0)
-
-    assert found.missed[12, S_MAX][middle] == pytest.approx(1.0 / 64.0, rel=1e-9)
-    for n in (12, 24):
-        far, near = found.missed[n, V_MAX][-1], found.missed[n, V_MAX][(middle + len(found.beside)) // 2]
-        assert far == pytest.approx(2.0 * near, rel=0.05)
-    assert found.missed[12, S_MAX][-1] == pytest.approx(2.0 * found.missed[24, S_MAX][-1], rel=0.05)
-
-
-def test_only_lines_at_jumps_are_late() -> None:
-    solved = cam()
-    division = solved.motion.division(12)
-
-    moved = late(solved, division, 0.25).angles - division.angles
-
-    assert [*np.flatnonzero(moved)] == [*division.jumps]
-    assert np.degrees(moved[list(division.jumps)]) == pytest.approx([2.25, 2.25])
 
 
 def test_closing_takes_out_a_drift_of_the_velocity_exactly() -> None:
@@ -199,19 +187,14 @@ def test_closing_takes_out_a_drift_of_the_velocity_exactly() -> None:
 
 def test_closing_brings_more_than_care() -> None:
     found = robustness(cam(), {name: preset(name).hand for name in ("careful", "normal")}, (12,))
+    steady = robustness(cam("sine"), {"cad": preset("cad").hand})  # no inner jumps: no line to miss
 
     normal, careful = (found.closings[name].errors for name in ("normal", "careful"))
     assert normal[BOTH] < 0.2 * normal["drawn"]
     assert normal[BOTH] < normal["speed"] < normal["drawn"]
     assert normal[BOTH] < careful["drawn"]
-
-
-def test_cams_without_inner_jumps_have_no_line_to_miss() -> None:
-    found = robustness(cam("sine"), {"cad": preset("cad").hand})
-
-    assert found.beside == ()
-    assert found.missed == {}
-    assert found.closings["cad"].errors[BOTH] < 0.05
+    assert (steady.beside, steady.missed) == ((), {})
+    assert steady.closings["cad"].errors[BOTH] < 0.05
 
 
 @cache
@@ -240,12 +223,3 @@ def test_sums_have_their_orders_where_the_law_bends(way: object, order: float) -
 
     for kind in coarse:
         assert np.log2(coarse[kind] / fine[kind]) == pytest.approx(order, abs=0.2)
-
-
-def test_construction_of_some_values_needs_few_steps() -> None:
-    solved = cam()
-    division = solved.motion.division(12)
-
-    whole, part = (drawn_on(solved, division, names).program for names in (tuple(exact_values(solved)), (V_MAX,)))
-
-    assert len(part.names) < 0.5 * len(whole.names)

@@ -1,7 +1,5 @@
 """Speed against accuracy: errors beside fifty digits come out as the methods' laws say, Newton's beside plans."""
 
-from __future__ import annotations
-
 import math
 import time
 from dataclasses import replace
@@ -89,19 +87,20 @@ def test_the_front_is_beaten_by_nobody(race: Contest) -> None:
         front = race.front(kind)
         timed = [e for e in race.of(kind) if e.seconds is not None]
 
-        assert front
         assert not [e for e in front if any(o.seconds < e.seconds and o.error < e.error for o in timed)]
         assert min(timed, key=lambda e: e.seconds or 0.0) in front
         assert min(timed, key=lambda e: e.error or 0.0).error == front[0].error
+    made = (("fast", 1.0, 1e-3), ("good", 2.0, 1e-6), ("bad", 3.0, 1e-4), ("best", 4.0, 1e-9))
+    entries = tuple(Entry(name, 1.0, KINDS[0], e, e, "V_B", 0.0, t, 1, 0.0) for name, t, e in made)
+    assert [e.method for e in Contest((), np.zeros(1), entries).front(KINDS[0])] == ["best", "good", "fast"]
 
 
-def test_the_front_of_a_made_up_contest() -> None:
-    def entry(method: str, seconds: float, error: float) -> Entry:
-        return Entry(method, 1.0, "velocity", error, error, "V_B", 0.0, seconds, 1, 0.0)
+def test_contours_are_no_more_than_loops_and_what_newton_does_not_find_is_not_a_number() -> None:
+    whole, contours = of_task("madi-four-bar"), Rivals(of_task("scheme-09-shaper")).contours
 
-    entries = entry("fast", 1.0, 1e-3), entry("good", 2.0, 1e-6), entry("bad", 3.0, 1e-4), entry("best", 4.0, 1e-9)
-
-    assert [e.method for e in Contest((), np.zeros(1), entries).front("velocity")] == ["best", "good", "fast"]
+    assert len(contours.closed) == 2
+    assert contours.count == 4  # frame and slide, crank, lever and block, rod
+    assert np.isnan(Rivals(whole).newton(0.0, places_of(whole, 24), ("V_C",))["V_C"]).all()
 
 
 MUS = {"position": 0.0025, "velocity": 0.2, "acceleration": 20.0, "lever": 0.2, "forces_1": 50.0, "forces_23": 50.0}
@@ -271,16 +270,3 @@ def test_newton_takes_a_driver_that_slides_and_speeds_up() -> None:
     found, exact = both(cycle(driven, values, PLANS, start=0.45, end=0.6), 1e-9)
 
     assert differences(found, exact) < 1e-10
-
-
-def test_what_newton_does_not_find_is_not_a_number() -> None:
-    whole = of_task("madi-four-bar")
-
-    assert np.isnan(Rivals(whole).newton(0.0, places_of(whole, 24), ("V_C",))["V_C"]).all()
-
-
-def test_contours_are_no_more_than_loops() -> None:
-    contours = Rivals(of_task("scheme-09-shaper")).contours
-
-    assert len(contours.closed) == 2
-    assert contours.count == 4  # frame and slide, crank, lever and block, rod

@@ -1,7 +1,5 @@
 """Stability over the cycle grows where lines meet flatly; depth: nothing left out costs nothing, everything all."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 

@@ -1,7 +1,5 @@
 """Hatching, clipping, clear places, what leaders cross, curves of few points, beside what many places tell."""
 
-from __future__ import annotations
-
 import cmath
 import math
 

@@ -1,7 +1,5 @@
 """Letters: metrics against another reader of the font, markup, symbols of the schools, words in three languages."""
 
-from __future__ import annotations
-
 import ast
 import math
 import string

@@ -1,7 +1,5 @@
 """Quantities as people write them, in three languages; scale factors in both conventions."""
 
-from __future__ import annotations
-
 import math
 from contextlib import suppress
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """The blocking contour: its curves and corners by the second route, and by looking at many points of the plane."""
 
-from __future__ import annotations
-
 from functools import cache
 
 import numpy as np

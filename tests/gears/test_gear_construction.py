@@ -1,7 +1,5 @@
 """The construction of a gear pair on the board: what is drawn and measured, against strings, circles, turned teeth."""
 
-from __future__ import annotations
-
 import math
 import re
 from itertools import pairwise
@@ -169,46 +167,6 @@ def test_many_pairs_at_once_equal_one_at_a_time_to_the_last_bit() -> None:
             assert np.array_equal(np.broadcast_to(column, x_1.shape)[::9], one_by_one), name
 
 
-def test_sliding_is_drawn_in_millimetres_of_paper_over_the_same_points() -> None:
-    solved = solve_gear(GearPair(), madi())
-    mu_rho, mu_theta = solved.values["mu_rho"], solved.values["mu_theta"]
-
-    assert (mu_rho, mu_theta) == (0.2, 50.0)  # 5:1, and 0.05 a millimetre
-    for k, point in enumerate(POINTS):
-        foot = solved.point(f"sliding.{point}")
-        assert foot == pytest.approx(solved.point(f"theta.{point}"), abs=1e-16)
-        for i in (1, 2):
-            tip = solved.point(f"sliding.V{i}_{point}")
-            assert tip.real == pytest.approx(foot.real, abs=1e-16)
-            assert tip.imag == pytest.approx(solved.values[f"y_{i}_{point}"], abs=1e-16)
-            theta = solved.values[f"theta_{i}{3 - i}_{point}"]
-            if k != (0 if i == 1 else 11):
-                end = solved.point(f"theta.T{i}{3 - i}_{point}")
-                assert end == pytest.approx(foot + 1j * theta / mu_theta, abs=1e-15)
-            else:
-                assert theta == -math.inf
-    at_pole = solved.layout.pole
-    assert solved.values[f"y_1_{at_pole}"] == solved.values[f"y_2_{at_pole}"] == solved.values["PW"]
-    assert solved.values[f"theta_12_{at_pole}"] == solved.values[f"theta_21_{at_pole}"] == 0.0
-
-
-def test_pole_outside_the_active_line_stands_at_another_point_of_the_table() -> None:
-    for x_1, x_2, point in ((1.5, -1.0, "03"), (-1.0, 1.5, "08"), (0.2, 0.0, "06")):
-        solved = solve_gear(GearPair(), madi(z_1=40.0, z_2=50.0, x_1=x_1, x_2=x_2))
-        assert solved.layout.pole == point
-        assert solved.values[f"theta_12_{point}"] == 0.0
-
-
-def test_involutes_far_out_are_divided_into_no_more_parts_than_can_be_told_apart() -> None:
-    for rho_w, rho_a in ((1.0, 1.2), (1.0, 0.4), (1.0, 7.0), (1.0, 40.0), (1e-6, 1.0)):
-        rolled = rolling(rho_w, rho_a)
-        assert 1 <= rolled.parts <= construction.PARTS
-        assert rolled.last <= MOST
-        assert rolled.last == MOST or rolled.last * rho_w / rolled.parts <= rho_a < (
-            (rolled.last + 1) * rho_w / rolled.parts
-        )
-
-
 def test_hand_that_never_errs_draws_what_is_exact_and_a_shaky_one_errs_as_it_should() -> None:
     solved = solve_gear(GearPair(), madi())
     paper = paper_of(solved, {"mu_l": 0.0002, "mu_rho": 0.0002, "mu_theta": 0.05})
@@ -243,3 +201,17 @@ def test_what_follows_from_a_students_value_follows_from_it_on_the_drawing() -> 
     assert board.values["g_alpha_drawn"] == pytest.approx(g_alpha, rel=1e-12)
     assert board.values["epsilon_alpha_drawn"] == pytest.approx(g_alpha / solved.values["p_b"], rel=1e-12)
     assert board.values["c_1"] == pytest.approx(1.25e-3 - 0.5e-3, rel=1e-9)
+
+
+def test_a_pole_outside_the_active_line_and_involutes_far_out_are_constructed_otherwise() -> None:
+    for x_1, x_2, point in ((1.5, -1.0, "03"), (-1.0, 1.5, "08"), (0.2, 0.0, "06")):
+        solved = solve_gear(GearPair(), madi(z_1=40.0, z_2=50.0, x_1=x_1, x_2=x_2))
+        assert solved.layout.pole == point  # of the table
+        assert solved.values[f"theta_12_{point}"] == solved.values[f"theta_21_{point}"] == 0.0
+        assert solved.values[f"y_1_{point}"] == solved.values[f"y_2_{point}"] == solved.values["PW"]
+    for rho_w, rho_a in ((1.0, 1.2), (1.0, 0.4), (1.0, 7.0), (1.0, 40.0), (1e-6, 1.0)):
+        rolled = rolling(rho_w, rho_a)  # in no more parts than can be told apart
+        part = rho_w / rolled.parts
+        assert 1 <= rolled.parts <= construction.PARTS
+        assert rolled.last <= MOST
+        assert rolled.last == MOST or rolled.last * part <= rho_a < (rolled.last + 1) * part

@@ -1,7 +1,5 @@
 """Files of tasks about gears: what they may say, what is refused, where, and in three languages."""
 
-from __future__ import annotations
-
 import random
 from functools import partial
 

@@ -1,7 +1,5 @@
 """Quantities of a pair by a route without formulas, shifts that follow, data of which no pair can be made, verdicts."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -61,31 +59,6 @@ def test_every_quantity_is_found_by_a_second_route(pairs: dict[str, np.ndarray])
         assert [name for name, value in alone.items() if value != found[name][k]] == []
 
 
-def test_ends_of_the_line_have_infinite_sliding_and_the_pole_none(pairs: dict[str, np.ndarray]) -> None:
-    found = geometry(pairs)
-
-    assert np.all(found["theta_12_01"] == -np.inf)
-    assert np.all(found["theta_21_12"] == -np.inf)
-    assert np.all(found["theta_21_01"] == 1.0)
-    assert np.all(found["theta_12_12"] == 1.0)
-    inside = (found["g_f"] > 0.0) & (found["g_a"] > 0.0)  # the pole is the sixth point
-    assert np.all(found["theta_12_06"][inside] == 0.0)
-    assert np.all(found["theta_21_06"][inside] == 0.0)
-    y_1, y_2 = (np.array([found[f"y_{i}_{point}"] for point in POINTS]) for i in (1, 2))
-    assert np.all(np.diff(y_1, axis=0) > 0.0)
-    assert np.all(np.diff(y_2, axis=0) < 0.0)
-
-
-def test_centre_distance_is_the_same_in_four_other_ways(pairs: dict[str, np.ndarray]) -> None:
-    found = geometry(pairs)
-
-    for name in SAME_CENTRES:
-        assert np.max(np.abs(found[name] / found["a_w"] - 1.0)) < 1e-14
-    for i in (1, 2):  # and the depth of the teeth in two
-        depth = 0.5 * (found[f"d_a{i}"] - found[f"d_f{i}"])
-        assert np.max(np.abs(depth - found["h"]) / pairs["m"]) < 1e-12
-
-
 def test_common_normal_is_the_distance_of_jaws_that_touch_two_flanks(pairs: dict[str, np.ndarray]) -> None:
     found = geometry(pairs)
 
@@ -143,13 +116,6 @@ def test_inverse_of_the_involute_never_fails() -> None:
     assert np.all(np.diff(t) > 0.0)
     assert tangent_of_involute(0.0) == 0.0
     assert np.isnan(tangent_of_involute(-1e-9))
-
-
-def test_standard_rack_is_taken_where_no_other_is_given() -> None:
-    found = complete({**BASIC, "x_1": 0.2, "x_2": 0.85})
-
-    assert found == madi()
-    assert complete({**BASIC, "x_1": 0.2, "x_2": 0.85, "c": 0.3})["c"] == 0.3
 
 
 @pytest.mark.parametrize("count", [pytest.param(4, id="4"), pytest.param(40, id="40", marks=pytest.mark.soak)])
@@ -217,19 +183,6 @@ def test_bad_data_are_explained(given: dict[str, float], key: str) -> None:
     assert not [language for language in LANGUAGES if "{" in caught.value.text(language)]
 
 
-def test_limits_of_the_rack_and_of_teeth_are_allowed_themselves() -> None:
-    for others in (
-        {"alpha": math.radians(10.0)},
-        {"alpha": math.radians(35.0), "h_a": 0.8, "h_l": 1.6},
-        {"c": 0.0},
-        {"h_l": 2.25},
-        {"h_a": 0.25 * math.pi / math.tan(math.radians(20.0)) - 0.25},  # the tip of the rack has no width
-        {"z_1": 3.0, "x_1": 1.0},
-        {"z_2": 10000.0},
-    ):
-        assert complete(madi(**others)) == madi(**others)
-
-
 def verdicts(values: dict[str, float], pair: GearPair | None = None) -> dict[str, Check]:
     return {check.name: check for check in checks(pair or GearPair(), geometry(values))}
 
@@ -248,25 +201,6 @@ def test_pair_of_the_project_passes_all_checks_and_each_fault_is_told_by_its_own
     assert found["contact_ratio"].limit == 1.2
     for others, failing in FAULTS:
         assert {name for name, check in verdicts(madi(**others)).items() if not check.ok} == failing
-
-
-def test_hardened_teeth_have_to_be_thicker_at_the_tip() -> None:
-    values = madi(z_1=12.0, x_1=0.6, x_2=0.2)
-
-    soft, hard = (verdicts(values, pair)["tip_1"] for pair in (GearPair(), GearPair(material=HARDENED)))
-
-    assert (soft.ok, hard.ok) == (True, False)
-    assert (soft.limit, hard.limit) == pytest.approx((0.3 * values["m"], 0.4 * values["m"]))
-    assert soft.limit < geometry(values)["s_a1"] < hard.limit
-
-
-def test_value_on_its_limit_is_in_order_and_what_is_undefined_is_not() -> None:
-    assert verdicts(madi(x_1=geometry(madi())["x_min1"]))["undercut_1"].ok
-    assert judged("contact_ratio", "e", {"e": 1.2}, 1.2, "at-least").ok
-    assert judged("interference_1", "e", {"e": 1.2}, 1.2, "at-most").ok
-    assert not judged("tip_1", "s_a1", {"s_a1": math.nan}, 1e-3, "at-least").ok
-    assert not judged("interference_1", "rho_l1", {"rho_l1": math.nan}, 1e-3, "at-most").ok
-    assert not judged("centre_a_w_shift", "a_w_shift", {"a_w_shift": 92e-3, "a_w": 92.1e-3}, "a_w", "equal").ok
 
 
 def test_limit_that_an_error_names_is_the_limit() -> None:
@@ -319,3 +253,52 @@ def test_undercut_and_thickness_are_those_of_the_teeth(count: int) -> None:
         assert own["undercut_1"].ok != tooth.undercut
         thickness = 2.0 * tooth.r_a * float(tooth.half_angle(tooth.r_a))
         assert own["tip_1"].ok == (thickness >= 0.3 * values["m"])
+
+
+def test_sliding_at_the_ends_and_in_the_pole_and_the_distance_of_centres_in_four_other_ways(
+    pairs: dict[str, np.ndarray],
+) -> None:
+    found = geometry(pairs)
+
+    for own, mate, end, other in (("12", "21", "01", "12"), ("21", "12", "12", "01")):
+        assert np.all(found[f"theta_{own}_{end}"] == -np.inf)
+        assert np.all(found[f"theta_{own}_{other}"] == 1.0)
+        inside = (found["g_f"] > 0.0) & (found["g_a"] > 0.0)  # the pole is the sixth point
+        assert np.all(found[f"theta_{mate}_06"][inside] == 0.0)
+    y_1, y_2 = (np.array([found[f"y_{i}_{point}"] for point in POINTS]) for i in (1, 2))
+    assert np.all(np.diff(y_1, axis=0) > 0.0)
+    assert np.all(np.diff(y_2, axis=0) < 0.0)
+    for name in SAME_CENTRES:
+        assert np.max(np.abs(found[name] / found["a_w"] - 1.0)) < 1e-14
+    for i in (1, 2):  # and the depth of the teeth in two
+        depth = 0.5 * (found[f"d_a{i}"] - found[f"d_f{i}"])
+        assert np.max(np.abs(depth - found["h"]) / pairs["m"]) < 1e-12
+
+
+def test_standard_rack_is_taken_where_no_other_is_given_and_limits_are_allowed_themselves() -> None:
+    assert complete({**BASIC, "x_1": 0.2, "x_2": 0.85}) == madi()
+    assert complete({**BASIC, "x_1": 0.2, "x_2": 0.85, "c": 0.3})["c"] == 0.3
+    for others in (
+        {"alpha": math.radians(10.0)},
+        {"alpha": math.radians(35.0), "h_a": 0.8, "h_l": 1.6},
+        {"c": 0.0},
+        {"h_l": 2.25},
+        {"h_a": 0.25 * math.pi / math.tan(math.radians(20.0)) - 0.25},  # the tip of the rack has no width
+        {"z_1": 3.0, "x_1": 1.0},
+        {"z_2": 10000.0},
+    ):
+        assert complete(madi(**others)) == madi(**others)
+
+
+def test_hardened_tips_are_thicker_what_is_on_its_limit_is_in_order_what_is_undefined_is_not() -> None:
+    values = madi(z_1=12.0, x_1=0.6, x_2=0.2)
+    soft, hard = (verdicts(values, pair)["tip_1"] for pair in (GearPair(), GearPair(material=HARDENED)))
+
+    assert (soft.ok, hard.ok) == (True, False)
+    assert (soft.limit, hard.limit) == pytest.approx((0.3 * values["m"], 0.4 * values["m"]))
+    assert soft.limit < geometry(values)["s_a1"] < hard.limit
+    assert verdicts(madi(x_1=geometry(madi())["x_min1"]))["undercut_1"].ok
+    for relation, undefined in (("at-least", "tip_1"), ("at-most", "interference_1")):
+        assert judged(undefined, "e", {"e": 1.2}, 1.2, relation).ok
+        assert not judged(undefined, "e", {"e": math.nan}, 1.2, relation).ok
+    assert not judged("centre_a_w_shift", "a_w_shift", {"a_w_shift": 92e-3, "a_w": 92.1e-3}, "a_w", "equal").ok

@@ -1,7 +1,5 @@
 """Points Z1 to Z7 of the examiner's list on sheets of gear pairs that were drawn and read back."""
 
-from __future__ import annotations
-
 import math
 import random
 import re

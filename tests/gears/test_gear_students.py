@@ -1,7 +1,5 @@
 """Gears for students and teachers: handouts, notes, answers marked, mistakes that are planted and found."""
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping

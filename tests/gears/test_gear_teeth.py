@@ -1,7 +1,5 @@
 """Teeth: involutes, fillets of a rack, undercut and pointed ones, areas; pairs rolled through a pitch as polygons."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -170,24 +168,6 @@ def overlap(meshing: Meshing, angle: float) -> float:
     return float(first.intersection(second).area)
 
 
-@pytest.mark.parametrize(("others", "sense"), PAIRS)
-def test_wheels_roll_through_a_pitch_without_overlap(others: dict[str, float], sense: int) -> None:
-    meshing = mesh(others, sense)
-
-    for angle in np.linspace(0.0, 2.0 * math.pi / meshing.teeth[0].z, 8):
-        assert overlap(meshing, float(angle)) < 1e-6
-
-
-def test_wheels_of_which_one_is_turned_by_a_thousandth_overlap() -> None:
-    meshing = mesh({})
-
-    first, second = outlines(meshing, 0.0, 100)
-
-    for turn in (1e-3, -1e-3):  # there is no backlash
-        turned = meshing.centres[0] + (first - meshing.centres[0]) * np.exp(1j * turn)
-        assert polygon(turned).intersection(polygon(second)).area > 1e-2
-
-
 @pytest.mark.parametrize(
     ("others", "sense"), [PAIRS[1], *(pytest.param(*PAIRS[k].values, marks=pytest.mark.soak) for k in (0, 2, 3))]
 )
@@ -270,3 +250,15 @@ def test_flanks_touch_on_the_line_of_action_where_the_contact_is_said_to_be(
         lines = [line(np.append(outline, outline[0])) for outline in outlines(meshing, angle, 400)]
         point = line(np.array([place, place + 1e-12]))
         assert all(outline.distance(point) < 1e-4 for outline in lines)
+
+
+@pytest.mark.parametrize(("others", "sense"), PAIRS)
+def test_wheels_roll_through_a_pitch_without_overlap_and_without_backlash(others: dict[str, float], sense: int) -> None:
+    meshing = mesh(others, sense)
+    first, second = outlines(meshing, 0.0, 100)
+
+    for angle in np.linspace(0.0, 2.0 * math.pi / meshing.teeth[0].z, 8):
+        assert overlap(meshing, float(angle)) < 1e-6
+    for turn in (1e-3, -1e-3):
+        turned = meshing.centres[0] + (first - meshing.centres[0]) * np.exp(1j * turn)
+        assert polygon(turned).intersection(polygon(second)).area > 1e-2

@@ -4,8 +4,6 @@ Source: Moscow Automobile and Road Institute, explanatory note to the course pro
 millimetres, angles in degrees, as printed. The note computes with five digits, and cuts some off.
 """
 
-from __future__ import annotations
-
 import math
 
 import pytest
@@ -60,20 +58,6 @@ def test_printed_numbers_are_right() -> None:
     assert sum(map(len, RIGHT.values())) == 33
     for digit, printed in RIGHT.items():
         assert {name: shown(name) for name in printed} == pytest.approx(printed, abs=digit)
-
-
-def test_printed_distance_of_centres_without_shifts_is_a_slip_of_the_pen() -> None:
-    assert shown("a") == pytest.approx(87.5, abs=1e-9)  # printed 85.5, as the result of (15 + 20) * 5 / 2
-    assert shown("a_w") - 5.0 * 0.8999 == pytest.approx(87.5, abs=1e-3)  # y is computed with the right one
-
-
-def test_printed_base_diameter_of_the_pinion_is_a_slip_of_the_pen() -> None:
-    assert shown("d_b1") == pytest.approx(70.47695, abs=1e-5)  # printed 70.747675; later on 70.47675 is used
-    assert math.degrees(math.acos(70.47675 / 85.499)) == pytest.approx(34.4825, abs=1e-3)
-
-
-def test_printed_thickness_of_the_pinion_has_digits_exchanged() -> None:
-    assert shown("s_1") == pytest.approx(8.581922, abs=1e-6)  # printed 8.584192
 
 
 def test_printed_rolling_diameters_follow_from_a_rounded_ratio() -> None:
@@ -131,19 +115,22 @@ def test_printed_table_has_its_rows_exchanged_beyond_the_pole() -> None:
     assert [shown(f"y_1_{point}") for point in POINTS] == sorted(shown(f"y_1_{point}") for point in POINTS)
 
 
-def test_printed_sliding_is_that_of_the_drawn_ordinates() -> None:
+def test_three_printed_lengths_are_slips_of_the_pen() -> None:
+    assert shown("a") == pytest.approx(87.5, abs=1e-9)  # printed 85.5, as the result of (15 + 20) * 5 / 2
+    assert shown("a_w") - 5.0 * 0.8999 == pytest.approx(87.5, abs=1e-3)  # y is computed with the right one
+    assert shown("d_b1") == pytest.approx(70.47695, abs=1e-5)  # printed 70.747675; later on 70.47675 is used
+    assert math.degrees(math.acos(70.47675 / 85.499)) == pytest.approx(34.4825, abs=1e-3)
+    assert shown("s_1") == pytest.approx(8.581922, abs=1e-6)  # printed 8.584192: digits exchanged
+
+
+def test_printed_sliding_is_that_of_the_drawn_ordinates_at_the_ends_of_the_active_line_too() -> None:
     for k, point in enumerate(POINTS):
-        of_12, of_21 = (THETA_12[k], THETA_21[k]) if k < 6 else (THETA_21[k], THETA_12[k])
-        exact_12, exact_21 = FOUND[f"theta_12_{point}"], FOUND[f"theta_21_{point}"]
-        for printed, exact in ((of_12, exact_12), (of_21, exact_21)):
-            if math.isinf(printed):
-                assert exact == printed
-            else:  # as slopes: near N a millimetre of the drawing changes much
-                assert math.atan(exact) == pytest.approx(math.atan(printed), abs=0.06)
-
-
-def test_printed_ends_of_the_active_line_have_the_sliding_of_a_drawing() -> None:
-    for name, printed in (("theta_12_A1", -2.9), ("theta_12_A2", 0.46), ("theta_21_A1", 0.75), ("theta_21_A2", -0.86)):
-        assert FOUND[name] == pytest.approx(printed, rel=0.06)
+        printed = (THETA_12[k], THETA_21[k]) if k < 6 else (THETA_21[k], THETA_12[k])
+        for said, exact in zip(printed, (FOUND[f"theta_12_{point}"], FOUND[f"theta_21_{point}"]), strict=True):
+            # as slopes: near N a millimetre of the drawing changes much
+            assert exact == said or math.atan(exact) == pytest.approx(math.atan(said), abs=0.06)
+            assert math.isfinite(said) == math.isfinite(exact)
+    for name, said in (("theta_12_A1", -2.9), ("theta_12_A2", 0.46), ("theta_21_A1", 0.75), ("theta_21_A2", -0.86)):
+        assert FOUND[name] == pytest.approx(said, rel=0.06)
     assert FOUND["theta_12_A1"] == pytest.approx(FOUND["theta_12_03"], rel=1e-13)  # the third point and the eighth
     assert FOUND["theta_21_A2"] == pytest.approx(FOUND["theta_21_08"], rel=1e-13)

@@ -1,7 +1,5 @@
 """The console blocks of a document, run again without starting Python for each."""
 
-from __future__ import annotations
-
 import shlex
 
 import pytest

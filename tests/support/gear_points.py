@@ -1,7 +1,5 @@
 """Points Z1 to Z7 of the examiner's list for sheets of gear pairs that were read back; sizes by the second route."""
 
-from __future__ import annotations
-
 import cmath
 import math
 import re
@@ -76,31 +74,19 @@ class GearCase:
         return 1 if self.rotation == "ccw" else -1
 
 
-# What is drawn in a view.
-
-
 def mu(view: View) -> float:
     """The printed scale factor, m a mm; it must be that of the printed ratio."""
-    heading = " ".join(t.string for t in view.of("heading"))
-    number = re.search(r"μ_\{l\} = (\d+[.,]?\d*)", heading)
-    ratio = re.search(r"[MМ] (\d+(?:[.,]\d+)?):(\d+)", heading)
-    assert number is not None, heading
-    assert ratio is not None, heading
-    up, down = (float(part.replace(",", ".")) for part in ratio.groups())
-    found = float(number[1].replace(",", "."))
-    assert abs(found - 1e-3 * down / up) < 1e-9, heading
+    [(up, down)] = re.findall(r"[MМ] (\d+(?:[.,]\d+)?):(\d+)", heading(view))
+    found = scale(view, "μ_{l}")
+    assert abs(found - 1e-3 * number(down) / number(up)) < 1e-9, heading(view)
     return found
 
 
 def printed(view: View, symbol: str) -> float:
     """The number printed after `symbol =`, as it stands; those of both wheels must agree."""
-    found = {
-        float(number.replace(",", "."))
-        for text in view.texts
-        for number in re.findall(rf"(?<!\w){re.escape(symbol)} ?= (-?\d+(?:[.,]\d+)?)", _line(text))
-    }
-    assert len(found) == 1, f"{symbol}: {found}"
-    return found.pop()
+    sought = re.compile(rf"(?<!\w){re.escape(symbol)} ?= (-?\d+(?:[.,]\d+)?)")
+    [found] = {number(text) for line in map(_line, view.texts) for text in sought.findall(line)}
+    return found
 
 
 def _line(text: Text) -> str:
@@ -178,6 +164,11 @@ def rows(view: View) -> list[list[str]]:
     return [[string for _, string in sorted(levels[level])] for level in sorted(levels, reverse=True)]
 
 
+def near(off: float, what: str) -> Faults:
+    """A fault unless a length is nothing, mm."""
+    yield from unless(abs(off) < NEAR, f"{what}: {off} mm")
+
+
 def detailed(sheet: Sheet) -> View:
     """The view in which teeth are large enough to measure on."""
     return sheet["near"] if "near" in sheet.names else sheet["meshing"]
@@ -212,15 +203,16 @@ def z2_circles(case: GearCase, sheet: Sheet) -> Faults:
             about = [arc_of(view, f"d_{name}{i}")[0] for name in CIRCLES]
             for name, centre in zip(CIRCLES, about, strict=True):
                 full, radius = f"d_{name}{i}", arc_of(view, f"d_{name}{i}")[1]
-                off = 2.0 * radius - case.sizes[full if name else f"d_{i}"] / mu(view)
-                yield from unless(abs(off) < NEAR, f"{view.name}: {full} is {off} mm too large")
+                yield from near(
+                    2.0 * radius - case.sizes[full if name else f"d_{i}"] / mu(view),
+                    f"{view.name}: {full} is too large",
+                )
                 yield from unless(abs(centre - about[0]) < NEAR, f"{view.name}: {full} has another centre")
                 number = printed(sheet["meshing"], f"d_{{{name}{i}}}")
                 yield from unless(abs(number - 2e3 * radius * mu(view)) < 0.00501, f"{full} is printed as {number}")
             (dashes,) = {tuple(s.dashed for s in view.inside("circle", f"d_{name}{i}")) for name in ("w", "", "b")}
             yield from unless(dashes == (True,), f"the circles of wheel {i} cannot be told apart")
-            rolling = abs(pole - about[0]) - arc_of(view, f"d_w{i}")[1]
-            yield from unless(abs(rolling) < NEAR, f"{view.name}: d_w{i} misses the pole by {rolling} mm")
+            yield from near(abs(pole - about[0]) - arc_of(view, f"d_w{i}")[1], f"{view.name}: d_w{i} misses the pole")
         yield from unless(any(t.string == "P" for t in view.texts), f"{view.name}: P has no letter")
 
 
@@ -235,8 +227,9 @@ def z3_line_of_engagement(case: GearCase, sheet: Sheet) -> Faults:
         yield from unless(abs(cross(along, end - drawn[0])) < NEAR, f"N{i} is not on the line")
         lean = abs(angle(along, centre - end)) - 90.0
         yield from unless(abs(lean) < STEEP, f"the radius to N{i} leans by {lean} degrees")
-        gap = abs(cross(along, centre - end)) - case.sizes[f"d_b{i}"] / 2 / mu(view)
-        yield from unless(abs(gap) < NEAR, f"N1N2 passes the base circle {i} at {gap} mm")
+        yield from near(
+            abs(cross(along, centre - end)) - case.sizes[f"d_b{i}"] / 2 / mu(view), f"N1N2 passes the base circle {i}"
+        )
         radius = one(view.lines("radius", f"N{i}"))
         yield from unless(abs(radius[1] - end) < NEAR and abs(radius[0] - centre) < NEAR, f"O{i}N{i} is not drawn")
     a, b = one(view.lines("tangent", "t"))
@@ -275,11 +268,9 @@ def z4_teeth(case: GearCase, sheet: Sheet) -> Faults:
         a, b = tips(view, f"gap_{i}")
         gap = case.given["c"] * case.given["m"] / mu(view)
         yield from unless(abs(abs(a - b) - gap) < NEAR, f"the gap at root {i} is {abs(a - b)} mm")
-        about = {abs(p - arc_of(view, f"d_f{i}")[0]) - arc_of(view, f"d_f{i}")[1] for p in (a, b)}
-        over = {abs(p - arc_of(view, f"d_a{mate}")[0]) - arc_of(view, f"d_a{mate}")[1] for p in (a, b)}
-        yield from unless(
-            min(map(abs, about)) < NEAR and min(map(abs, over)) < NEAR, f"gap {i} is not from root to tip"
-        )
+        for centre, radius in (arc_of(view, f"d_f{i}"), arc_of(view, f"d_a{mate}")):
+            off = min(abs(abs(p - centre) - radius) for p in (a, b))
+            yield from unless(off < NEAR, f"gap {i} is not from root to tip")
 
 
 def _pitched(case: GearCase, view: View, i: int) -> Faults:
@@ -291,17 +282,15 @@ def _pitched(case: GearCase, view: View, i: int) -> Faults:
         pitch = turned(centre, a, b) - math.tau / case.given[f"z_{i}"]
         yield from unless(abs(pitch) * r < NEAR, f"flank {k + 1} of wheel {i} is {pitch * r} mm off the pitch")
     thick = [abs(turned(centre, a, b)) * r for a, b in zip(cuts[::2], cuts[1::2], strict=True)]
-    wanted = {
-        "s": case.sizes[f"s_{i}"] / mu(view),
-        "e": (case.sizes["p"] - case.sizes[f"s_{i}"]) / mu(view),
-    }
+    s_i = case.sizes[f"s_{i}"]
+    wanted = {"s": s_i / mu(view), "e": (case.sizes["p"] - s_i) / mu(view)}
     for s in thick:
         yield from unless(abs(s - wanted["s"]) < NEAR, f"a tooth of wheel {i} is {s} mm thick")
     for letter, length in wanted.items():
         a, b = tips(view, f"{letter}_{i}")
         yield from unless(abs(abs(turned(centre, a, b)) * r - length) < NEAR, f"{letter}_{i} is dimensioned otherwise")
-        number = printed(view, f"{letter}_{{{i}}}")
-        yield from unless(abs(number - length * mu(view) * 1e3) < 0.00501, f"{letter}_{i} is printed as {number}")
+        said = printed(view, f"{letter}_{{{i}}}")
+        yield from unless(abs(said - length * mu(view) * 1e3) < 0.00501, f"{letter}_{i} is printed as {said}")
         for tip in (a, b):
             far = min(abs(tip - cut) for cut in cuts)
             yield from unless(far < NEAR, f"{letter}_{i} ends {far} mm beside a flank")
@@ -329,8 +318,7 @@ def z5_active(case: GearCase, sheet: Sheet) -> Faults:
     yield from unless(abs(abs(last - first) - g / mu(view)) < NEAR, f"A1A2 is {abs(last - first)} mm")
     for i, mate, end in ((1, 2, first), (2, 1, last)):
         centre, tip = arc_of(view, f"d_a{mate}")
-        off = abs(end - centre) - tip
-        yield from unless(abs(off) < NEAR, f"A{i} is {off} mm off the tip circle of its mate")
+        yield from near(abs(end - centre) - tip, f"A{i} is off the tip circle of its mate")
         low, own = view.point(f"L{i}"), arc_of(view, f"d_{i}")[0]
         yield from unless(abs(abs(low - own) - abs(end - own)) < NEAR, f"L{i} is not as far from O{i} as A{i}")
         line = shapely.LineString([(p.real, p.imag) for p in outline(view, f"teeth_{i}")])
@@ -363,8 +351,9 @@ def _ratios(case: GearCase, sheet: Sheet) -> Iterator[str]:
         yield from unless(abs(math.degrees(phi) - printed(view, f"φ_{{α{i}}}")) < 0.006, f"phi_alpha{i} is {phi}")
         tau = math.radians(printed(view, f"τ_{{{i}}}"))
         yield from unless(abs(phi / tau - epsilon) < 0.002, f"phi/tau of wheel {i} is {phi / tau}")
-        on = abs(a - centre) - arc_of(view, f"d_w{i}")[1]
-        yield from unless(abs(on) < NEAR, f"the arc of action of wheel {i} is {on} mm off its rolling circle")
+        yield from near(
+            abs(a - centre) - arc_of(view, f"d_w{i}")[1], f"the arc of action of wheel {i} is off its rolling circle"
+        )
 
 
 def _zones(case: GearCase, view: View) -> Faults:
@@ -378,9 +367,7 @@ def _zones(case: GearCase, view: View) -> Faults:
         count = sum(-1e-6 < middle + k * pitch < line + 1e-6 for k in range(-5, 6))
         yield from unless(count == int(name.partition("_")[2]), f"zone {name} has {count} pairs")
         for edge in (low, high):
-            whole = min(
-                abs(edge % pitch), pitch - edge % pitch, abs((line - edge) % pitch), pitch - (line - edge) % pitch
-            )
+            whole = min(min(x % pitch, pitch - x % pitch) for x in (edge, line - edge))
             yield from unless(whole < NEAR, f"zone {name} ends {whole} mm beside a change")
     a, b = tips(view, "p_b_1")
     yield from unless(abs(abs(a - b) - pitch) < NEAR, "p_b is dimensioned otherwise")
@@ -415,14 +402,14 @@ def _velocities(case: GearCase, view: View) -> Faults:
     first, last, pole, w = (view.point(name) for name in ("N1", "N2", "P", "W"))
     mu, sizes = scale(view, "μ_{ρ}"), case.sizes
     for name, rho in (("A1", "rho_p1"), ("P", "rho_w1"), ("A2", "rho_a1"), ("N2", "l_N1N2")):
-        off = abs(view.point(name) - first - sizes[rho] / mu)
-        yield from unless(off < NEAR, f"{name} is {off} mm beside its place")
+        yield from near(view.point(name) - first - sizes[rho] / mu, f"{name} is beside its place")
     yield from unless(abs((w - pole).real) < NEAR, "W is not over the pole")
     for i, foot in zip(WHEELS, (first, last), strict=True):
         ends = one(view.inside("curve", f"V_k{i}"))
         yield from unless(min(abs(end - foot) for end in ends) < NEAR, f"V_k{i} does not begin in N{i}")
-        sine = ((ends[1] - ends[0]).conjugate() * (w - ends[0])).imag / abs(ends[1] - ends[0])
-        yield from unless(abs(sine) < NEAR, f"V_k{i} misses W by {sine} mm")
+        yield from near(
+            ((ends[1] - ends[0]).conjugate() * (w - ends[0])).imag / abs(ends[1] - ends[0]), f"V_k{i} misses W"
+        )
     a, b = tips(view, "PW")
     yield from unless(abs(abs(a - b) - abs(w - pole)) < NEAR, "PW is dimensioned otherwise")
 
@@ -466,8 +453,10 @@ def _curve(case: GearCase, view: View, i: int) -> Faults:
         rho_1, theta = (p.real - first.real) * mu, (p.imag - axis) * mu_theta
         own, mate, ratio = (rho_1, whole - rho_1, u) if i == 1 else (whole - rho_1, rho_1, 1.0 / u)
         slope = whole * mu / (ratio * own**2) / mu_theta  # as a distance from the curve: it is steep near its own end
-        off = (theta - 1.0 + mate / (ratio * own)) / mu_theta / math.hypot(1.0, slope)
-        yield from unless(abs(off) < NEAR, f"{CURVES[i]} is {off} mm beside its law at rho_1 = {rho_1}")
+        yield from near(
+            (theta - 1.0 + mate / (ratio * own)) / mu_theta / math.hypot(1.0, slope),
+            f"{CURVES[i]} is beside its law at rho_1 = {rho_1}",
+        )
     ends = sorted(line.points, key=lambda p: p.imag)
     yield from unless(abs((ends[-1].imag - axis) * mu_theta - 1.0) < NEAR * mu_theta, "the highest sliding is not 1")
     cut = number(heading(view).split("θ = ")[1])
@@ -573,14 +562,8 @@ def evaluated(expression: str) -> float:
     return float(eval(text.replace("°", ""), {"__builtins__": {}}, known | {"pi": math.pi}))
 
 
-POINTS: dict[str, Callable[[GearCase, Sheet], Faults]] = {
-    "Z1": z1_scale,
-    "Z2": z2_circles,
-    "Z3": z3_line_of_engagement,
-    "Z4": z4_teeth,
-    "Z5": z5_active,
-}
-SLIDING_POINTS: dict[str, Callable[[GearCase, Sheet], Faults]] = {"Z6": z6_sliding, "Z7": z7_checks}
+POINTS = {"Z1": z1_scale, "Z2": z2_circles, "Z3": z3_line_of_engagement, "Z4": z4_teeth, "Z5": z5_active}
+SLIDING_POINTS = {"Z6": z6_sliding, "Z7": z7_checks}
 
 
 def faults(case: GearCase, sheet: Sheet, point: str) -> list[str]:

@@ -5,8 +5,6 @@ looks for what is wanted by halving. All are arrays, one element a pair. Wheels 
 them in mesh are polygons of another library, in millimetres.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping
 

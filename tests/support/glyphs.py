@@ -1,7 +1,5 @@
 """Boxes of letters, measured with fontTools on the glyphs of DejaVu Sans: advances and ink in ems."""
 
-from __future__ import annotations
-
 import cmath
 import io
 import math

@@ -1,7 +1,5 @@
 """What touches on a drawn sheet; shapely, which no drawing code uses, is the judge."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

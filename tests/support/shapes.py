@@ -1,7 +1,5 @@
 """Shapes of a page one by one, whatever groups they are in."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from kulman.drawing.shapes import Group, Shape

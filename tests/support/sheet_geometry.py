@@ -1,7 +1,5 @@
 """Small geometry for judging plans: lines through points, closed chains of vectors."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from kulman.tests.support.readback import Vec, cross, parallel
