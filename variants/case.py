@@ -363,7 +363,7 @@ def _choosable(task: Task, name: str, text: str | float, solved: Solved) -> None
 
 def positions_of(argument: str, value: int) -> int:
     """Return a number of positions or sections that a cycle can have."""
-    from ..plans.linkages.cycles.cycle import FEWEST, MOST  # brings numpy, which most commands do without
+    from ..plans.linkages.cycle import FEWEST, MOST  # brings numpy, which most commands do without
 
     of_kind(argument, value, (int,), "int")
     if not FEWEST <= value <= MOST:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ...plans.boards.exact import SMALL as SMALL_SINE
 from ...plans.lab.stability import CHANGE, DEAD, DIGITS, LIMIT, POLE, Spot, Stability
 from ...plans.laws import TURN
-from ...plans.linkages.cycles.limits import Arc
+from ...plans.linkages.limits import Arc
 from ..words import Words
 from .paper import BLACK, GREY, HEIGHT, LIGHT, SMALL, TEXT, box, curve, decimals, mathtext, page
 

@@ -23,7 +23,7 @@ from .ladders import DRIVER
 from .reading import Edge, Reading, read
 
 if TYPE_CHECKING:
-    from ...plans.linkages.cycles.cycle import Runs
+    from ...plans.linkages.cycle import Runs
 
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import Coupler
-from ...plans.linkages.cycles.cycle import slider_runs
+from ...plans.linkages.cycle import slider_runs
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Group, Structure
 from ...plans.names import role, scale_factor
@@ -37,7 +37,7 @@ from .reading import lettered
 from .scene import Scales, Scene
 
 if TYPE_CHECKING:
-    from ...plans.linkages.cycles.cycle import Cycle
+    from ...plans.linkages.cycle import Cycle
 
 LinkageFigure = Figure[Scene]
 # views with which the part of the forces begins

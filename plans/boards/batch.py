@@ -285,12 +285,7 @@ def script_of(program: Program, givens: Mapping[str, float], wanted: Sequence[st
 
     It takes an object of numbers in SI by name and returns an array: the index of the status in `STATUSES`, then each
     of the `wanted` names, vectors as arrays of two numbers; equal to Python to the last bit, but for the last one of an
-    arc tangent.
-
-    Parameters
-    ----------
-    givens : mapping of str to float
-        Of these the zeros stay zeros: what lies in the origin is no point of the drawing.
+    arc tangent. Of the `givens` the zeros stay zeros: what lies in the origin is no point of the drawing.
 
     Raises TypeError: the program has steps that are more than arithmetic.
     """

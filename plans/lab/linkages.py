@@ -27,7 +27,7 @@ from ..hands.shaky import Hand, Paper, draw
 from ..hands.spread import kept
 from ..laws import TURN, inclination
 from ..linkages.chain import construct, moving_bodies
-from ..linkages.cycles.cycle import Cycle, chords
+from ..linkages.cycle import Cycle, chords
 from ..linkages.mechanism import ZERO, Driver
 from ..linkages.solved import SolvedLinkage
 from ..names import LEVER, role

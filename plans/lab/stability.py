@@ -21,7 +21,7 @@ from ..condition import conditions
 from ..hands.shaky import Hand, Paper, Shape, draw
 from ..hands.spread import kept
 from ..laws import TURN, dot
-from ..linkages.cycles.cycle import Cycle
+from ..linkages.cycle import Cycle
 from ..linkages.mechanism import ZERO
 from ..linkages.solved import signs
 from ..names import role

@@ -40,7 +40,7 @@ _CONSTRUCTED = Kept[tuple[Structure, Program]](16)
 _BODIES = Kept[Bodies](16)
 Ends = tuple[str, str, str, str]  # two points that turn together, the normal to their line, their distance
 # modules with the groups of each kind, and their classes, which a mechanism without such a group does without
-CONSTRUCTIONS = {kind: ("dyads", kind) for kind in KINDS} | {TRIAD: ("triads.triad", "Triad")}
+CONSTRUCTIONS = {kind: ("dyads", kind) for kind in KINDS} | {TRIAD: ("triad", "Triad")}
 
 
 class Crank:

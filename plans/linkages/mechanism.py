@@ -237,7 +237,7 @@ def start_names(number: int) -> tuple[str, str, str, str, str]:
     """Return the names of the values that say where the central link lies, about, before it is laid down.
 
     x, y of its first joint, cosine and sine of its x axis, and how far it went astray on the way there (zero: it did
-    not). They come from `triads.following`, not from the task.
+    not). They come from `following`, not from the task.
     """
     x, y, cosine, sine, astray = (f"_{what}_{number}" for what in ("near_x", "near_y", "near_c", "near_s", "astray"))
     return x, y, cosine, sine, astray

@@ -68,7 +68,7 @@ class SolvedLinkage(Solved):
         if trouble.status == "singular":
             legs = listed(group.legs)
             return PositionError("singular-triad", status_word="singular", link=group.central, legs=legs)
-        from .triads.following import Follower
+        from .following import Follower
 
         limits = Follower(self.mechanism, self._numbers).limits()
         data = {"link": group.central, "gap": f"{trouble.gap * 1e3:.4g}"}
@@ -80,7 +80,7 @@ class SolvedLinkage(Solved):
 
     def _apart(self, trouble: Trouble) -> PositionError:
         """Return by how much the links miss each other, and the places of the driver at which they just meet."""
-        from .cycles.limits import limiting_places
+        from .limits import limiting_places
 
         limits = limiting_places(self.mechanism, self._numbers)
         found = [place for place in limits or () if place is not None]
@@ -159,7 +159,7 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     """
     plans = tuple(plans)
     if mechanism.starts:  # groups of class III need arrays, and so numpy, on the way from their start
-        from .triads.following import followed, with_special_points
+        from .following import followed, with_special_points
 
         near = followed(mechanism, values)
         mechanism, values = with_special_points(mechanism, values, near), {**values, **near}
@@ -201,7 +201,7 @@ def board_givens(
     Raises InputError: a load diagram whose places decrease, or an output without a stroke.
     """
     if mechanism.starts and follow:
-        from .triads.following import followed  # which needs numpy, and few mechanisms need it
+        from .following import followed  # which needs numpy, and few mechanisms need it
 
         values = {**values, **followed(mechanism, values)}
     givens = with_sizes(mechanism, values)
@@ -217,7 +217,7 @@ def _stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterab
     `motion` names the values on which its motion depends. The ends are kept, for sweeps, charts and sheets ask for them
     again at each position.
     """
-    from .cycles.strokes import stroke_of  # which needs numpy, and givens of its own for the sweep
+    from .strokes import stroke_of  # which needs numpy, and givens of its own for the sweep
 
     assert mechanism.stroke is not None
     sense, driver_at = mechanism.stroke.sense, mechanism.driver.coordinate

@@ -112,18 +112,10 @@ def answer_key(
 ) -> Key:
     """Make the answer key of one position.
 
-    Parameters
-    ----------
-    paper : Paper
-        The construction with the scale factors of the sheet, those that a student is supposed to take.
-    limits : mapping of str to float, optional
-        Tolerances of single quantities in SI, in the place of the rule.
-    wanted : collection of str, optional
-        The quantities that are asked; all when left out. What is undefined is not asked.
-    units : callable
-        The SI unit of each quantity by its name.
-    drawn : mapping of str to float, optional
-        What errors of drawing come to, SI, where the usual rule knows nothing of how they add up.
+    The `paper` has the scale factors of the sheet, those that a student is supposed to take. `limits` are tolerances of
+    single quantities in SI, in the place of the rule; `drawn` is what errors of drawing come to, SI, where the usual
+    rule knows nothing of how they add up. Asked are the quantities `wanted`, all when left out, but for what is
+    undefined; `units` gives their SI units by name.
     """
     board = run(paper.program, paper.givens)
     asked = _questions(paper, board.values, wanted, units)

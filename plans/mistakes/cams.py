@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
 
 from ..board import Step
 from ..names import role
@@ -242,15 +243,6 @@ def _plate_by_another_line(scene: Scene) -> Changes:
         yield Change("r_0_flat_min", with_operand(touching, 0, "zero"), "ordinate")
 
 
-@mistake("M97")
-def _not_added(scene: Scene) -> Changes:
-    """What is to be added to a size is left out, or twice the size is given: a diameter."""
-    for step in scene.calculated("enlarged"):
-        if not role(step.name).hidden:
-            yield with_other(step, 1, "zero", "none")
-            yield scaled(2.0, step, how="diameter")
-
-
 @mistake("M98")
 def _roller_added(scene: Scene) -> Changes:
     """The curvature is that of the practical profile, or the roller is added where it is not to be."""
@@ -272,15 +264,6 @@ def _curvature_of_a_dwell(scene: Scene) -> Changes:
         yield instead(scene.steps["rho_min"], highest, far, how="upper")
 
 
-@mistake("M13")
-def _sides_exchanged(scene: Scene) -> Changes:
-    """An angle of a triangle is found at another corner."""
-    for step in scene.calculated("angle_of_triangle"):
-        a, b, opposite = step.operands
-        yield otherwise(step, "first", operands=(opposite, b, a))
-        yield otherwise(step, "second", operands=(a, opposite, b))
-
-
 @mistake("M15", by_scale=True)
 def _another_scale_of_sizes(scene: Scene) -> Changes:
     """Sizes are read with the scale factor of a diagram."""
@@ -297,5 +280,19 @@ mistake("M17", by_scale=True)(
 )
 # sizes are read in centimetres
 mistake("M20")(lambda scene: (_sizes_scaled(scene, p, x, f"{x}") for p in _plans_of_sizes(scene) for x in CENTIMETRES))
+# what is to be added to a size is left out, or twice the size is given: a diameter
+each(
+    "M97",
+    lambda scene: (step for step in scene.calculated("enlarged") if not role(step.name).hidden),
+    lambda step: with_other(step, 1, "zero", "none"),
+    partial(scaled, 2.0, how="diameter"),
+)
+# an angle of a triangle is found at another corner
+each(
+    "M13",
+    "angle_of_triangle",
+    lambda step: otherwise(step, "first", operands=step.operands[::-1]),
+    lambda step: otherwise(step, "second", operands=(step.operands[0], step.operands[2], step.operands[1])),
+)
 # the scale factor of the travel is millimetres by the stroke
 each("M14", "scale_factor", lambda step: instead(step, *then(step, "part_of", "one", aside(step.name))))

@@ -291,14 +291,6 @@ def _forgotten(step: Step) -> Change:
     return with_other(step, 2, "zero", "none")
 
 
-@mistake("M54")
-def _normal_of_slotted_link(scene: Scene) -> Changes:
-    """The normal part of the slotted link is forgotten, or drawn away from its pivot."""
-    for step in _normals(scene, "slotted"):
-        yield _forgotten(step)
-        yield otherwise(step, "away", verb="lay")
-
-
 @mistake("M40")
 def _normal_from_another(scene: Scene) -> Changes:
     """The normal part is calculated from the absolute velocity, or from the angular velocity of the crank."""
@@ -369,6 +361,8 @@ mistake("M37")(lambda scene: (otherwise(s, verb="lay") for s in _drive(scene, AC
 mistake("M38")(lambda scene: (otherwise(step, verb="lay") for step in _normals(scene, "link", "rocker")))
 each("M39", lambda scene: _normals(scene, "link"), _forgotten)
 each("M47", lambda scene: _normals(scene, "rocker"), _forgotten)
+# that of the slotted link is forgotten, or drawn away from its pivot
+each("M54", lambda scene: _normals(scene, "slotted"), _forgotten, partial(otherwise, how="away", verb="lay"))
 
 
 # The acceleration of Coriolis, and what is read.

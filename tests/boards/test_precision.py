@@ -24,9 +24,9 @@ from kulman.plans.boards.precision import DIGITS, batch_in, fifty_digits, run_in
 from kulman.plans.condition import conditions, derivatives, sizes_beside
 from kulman.plans.laws import LAWS, TURN
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.cycles.limits import Reach, Swept, reach_of, swept
-from kulman.plans.linkages.cycles.strokes import output_motions
+from kulman.plans.linkages.limits import Reach, Swept, reach_of, swept
 from kulman.plans.linkages.solved import SolvedLinkage, conditions_of, signs, solve_linkage, varied
+from kulman.plans.linkages.strokes import output_motions
 from kulman.plans.quantities import plans_of, references, results
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.fifty_digits import differences

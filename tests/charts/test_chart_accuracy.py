@@ -18,7 +18,7 @@ from kulman.plans.lab.contours import Contours
 from kulman.plans.lab.linkages import DrawnSheet, Rivals, by_hand, contest, kinds_of, places_of, truth
 from kulman.plans.lab.race import Contest, Effort, Entry
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.cycles.cycle import Cycle, cycle
+from kulman.plans.linkages.cycle import Cycle, cycle
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import board_givens, solve_linkage
 from kulman.plans.quantities import references

@@ -25,7 +25,7 @@ from kulman.plans.lab.stability import (
     stability,
     without,
 )
-from kulman.plans.linkages.cycles.cycle import Cycle, cycle
+from kulman.plans.linkages.cycle import Cycle, cycle
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import SolvedLinkage, solve_linkage
 from kulman.scales.errors import InputError

@@ -9,11 +9,11 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from kulman.plans.linkages.cycles.cycle import cycle
-from kulman.plans.linkages.cycles.limits import Arc, limiting_places, reach_of, size_of, swept
-from kulman.plans.linkages.cycles.strokes import OutputMotion, output_motions, stroke_of
+from kulman.plans.linkages.cycle import cycle
+from kulman.plans.linkages.limits import Arc, limiting_places, reach_of, size_of, swept
 from kulman.plans.linkages.mechanism import Mechanism, Stroke
 from kulman.plans.linkages.solved import solve_linkage
+from kulman.plans.linkages.strokes import OutputMotion, output_motions, stroke_of
 from kulman.plans.zeros import Stretch, zeros
 from kulman.scales.errors import InputError
 from kulman.tests.support.linkages import (

@@ -10,7 +10,7 @@ import pytest
 from mpmath import mp, mpc, mpf
 
 from kulman import solve
-from kulman.plans.linkages.cycles.cycle import (
+from kulman.plans.linkages.cycle import (
     chords,
     cycle,
     diagrams,

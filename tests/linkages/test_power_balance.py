@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from kulman.plans.board import Program
 from kulman.plans.boards.batch import batch
 from kulman.plans.linkages.chain import construct, moving_bodies
-from kulman.plans.linkages.cycles.limits import swept
+from kulman.plans.linkages.limits import swept
 from kulman.plans.linkages.mechanism import FORCE, Driver, Link, Mechanism
 from kulman.plans.linkages.solved import board_givens
 from kulman.variants.reader import load_task

@@ -12,10 +12,10 @@ import pytest
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.cycles.limits import swept
+from kulman.plans.linkages.following import Follower, followed, with_special_points
+from kulman.plans.linkages.limits import swept
 from kulman.plans.linkages.mechanism import ZERO, Mechanism, Prismatic, Revolute, SlidingDriver, Start
 from kulman.plans.linkages.solved import SolvedLinkage, board_givens, solve_linkage
-from kulman.plans.linkages.triads.following import Follower, followed, with_special_points
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.linkages import BENT, DEAD, PARALLELOGRAM, PRESS, RAM, RAM_VALUES, SHIFTS, two_presses
 from kulman.tests.support.linkages import PRESS_VALUES as VALUES

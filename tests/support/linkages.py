@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from kulman.plans.linkages.cycles.limits import Reach, reach_of, swept
+from kulman.plans.linkages.limits import Reach, reach_of, swept
 from kulman.plans.linkages.mechanism import (
     ZERO,
     Driver,

@@ -22,7 +22,7 @@ from ...drawing.writers import Files
 from ...plans.hands.shaky import PRESETS, Hand, preset
 from ...plans.lab.race import FULL, Contest, Entry
 from ...plans.laws import TURN
-from ...plans.linkages.cycles.cycle import Cycle
+from ...plans.linkages.cycle import Cycle
 from ...scales.errors import InputError, KulmanError
 from ...scales.names import all_known, names_of, of_kind
 from ...scales.numbers import quote

@@ -22,7 +22,7 @@ from ...plans.lab.linkages import DrawnSheet, by_hand, contest
 from ...plans.lab.race import Contest, Entry
 from ...plans.lab.stability import DEAD, Cost, Depth, Stability, depth, stability
 from ...plans.linkages.chain import NEEDS
-from ...plans.linkages.cycles.cycle import Cycle, cycle
+from ...plans.linkages.cycle import Cycle, cycle
 from ...plans.linkages.solved import SolvedLinkage, solve_linkage
 from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of

@@ -172,7 +172,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
         whole = None
         if "cycle" in case.plans:  # drawing a single position does not import it
-            from ...plans.linkages.cycles.cycle import cycle
+            from ...plans.linkages.cycle import cycle
 
             values = case.task.values(case.variant, case.settings)
             whole = cycle(case.task.mechanism, values, ("position", "velocity", "acceleration"))
@@ -276,7 +276,7 @@ def _hindered(mechanism: Mechanism, values: Mapping[str, float], lined: bool = F
 
     Nothing is told of a crank that reaches no place at all.
     """
-    from ...plans.linkages.cycles.limits import reach_of, swept
+    from ...plans.linkages.limits import reach_of, swept
 
     drive = swept(mechanism, values)
     found = reach_of(drive, values)

@@ -15,9 +15,9 @@ from ...drawing.linkages.sheet import Contents, draw
 from ...drawing.titleblock import Stamp
 from ...drawing.words import Words
 from ...drawing.writers import Files, page_files
-from ...plans.linkages.cycles.cycle import Curve, Cycle, Diagrams, cycle, diagrams
-from ...plans.linkages.cycles.strokes import Output, OutputMotion
+from ...plans.linkages.cycle import Curve, Cycle, Diagrams, cycle, diagrams
 from ...plans.linkages.mechanism import Driver, Mechanism
+from ...plans.linkages.strokes import Output, OutputMotion
 from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
 from ...plans.solved import Columned

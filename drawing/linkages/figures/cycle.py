@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from ....plans.board import POSITION
 from ....plans.laws import dot
-from ....plans.linkages.cycles.cycle import MARGIN, Cycle, Diagrams, diagrams, pole_distance, velocity_field
-from ....plans.linkages.cycles.strokes import OutputMotion
+from ....plans.linkages.cycle import MARGIN, Cycle, Diagrams, diagrams, pole_distance, velocity_field
 from ....plans.linkages.mechanism import ANGLE, BOTH, FRAME, WORKING, Couple, Diagram, Driver, Load
 from ....plans.linkages.solved import SolvedLinkage, solve_linkage
+from ....plans.linkages.strokes import OutputMotion
 from ....plans.names import role
 from ....scales.scale import Scale, rounded, steps
 from ...diagram import Axis, Field, Pole, axes, curve, rays

@@ -18,18 +18,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...board import Program
-from ...boards.arrays import Along, ArrayBoard, remembering
-from ...boards.exact import TANGENT
-from ...laws import TURN
-from ...names import role
-from ...zeros import Stretch, zeros
-from ..chain import constructed
-from ..loads import with_sizes
-from ..mechanism import ZERO, Driver, Mechanism
+from ..board import Program
+from ..boards.arrays import Along, ArrayBoard, remembering
+from ..boards.exact import TANGENT
+from ..laws import TURN
+from ..names import role
+from ..zeros import Stretch, zeros
+from .chain import constructed
+from .loads import with_sizes
+from .mechanism import ZERO, Driver, Mechanism
 
 if TYPE_CHECKING:
-    from ..triads.following import Follower
+    from .following import Follower
 
 Array = NDArray[Any]
 SAME = 1e-9  # radians, or parts of a slide's range, within which two places of the driver are one, but for rounding
@@ -83,7 +83,7 @@ def swept(mechanism: Mechanism, values: Mapping[str, float]) -> Swept:
         mechanism = replace(mechanism, driver=replace(driver, **{key: name}))  # type: ignore[arg-type]
     follower = None
     if mechanism.starts:  # few mechanisms have groups of class III
-        from ..triads.following import Follower, triads, with_special_points
+        from .following import Follower, triads, with_special_points
 
         if triads(mechanism):
             follower = Follower(mechanism, {**values, name: start})

@@ -18,13 +18,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ....scales.errors import InputError
-from ...board import Board
-from ...names import NORMAL, POINT, Name, arm, between, mark, moment, vector
-from ..legs import AssurGroup, Hinged, Leg, Slide, legs_of, normal_part
-from ..mechanism import ZERO, Mechanism, Revolute, start_names
-from ..parts import Bodies, Couples, Forces, Plan, Polygon, Span, answer, local_mark, moments_about
-from ..structure import Group, listed
+from ...scales.errors import InputError
+from ..board import Board
+from ..names import NORMAL, POINT, Name, arm, between, mark, moment, vector
+from .legs import AssurGroup, Hinged, Leg, Slide, legs_of, normal_part
+from .mechanism import ZERO, Mechanism, Revolute, start_names
+from .parts import Bodies, Couples, Forces, Plan, Polygon, Span, answer, local_mark, moments_about
+from .structure import Group, listed
 
 
 class Triad(AssurGroup):

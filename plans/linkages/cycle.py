@@ -24,20 +24,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....scales.errors import InputError
-from ....scales.names import unknown
-from ...board import POSITION, Program
-from ...boards.batch import FEW, batch
-from ...boards.exact import STATUSES
-from ...laws import LAWS, TURN, dot, inclination
-from ...quantities import quantities
-from ...zeros import Extreme, extremes
-from ..chain import USUAL, constructed, moving_bodies
-from ..mechanism import Driver, Mechanism, Prismatic
-from ..solved import SolvedLinkage, board_givens
-from ..structure import Structure
+from ...scales.errors import InputError
+from ...scales.names import unknown
+from ..board import POSITION, Program
+from ..boards.batch import FEW, batch
+from ..boards.exact import STATUSES
+from ..laws import LAWS, TURN, dot, inclination
+from ..quantities import quantities
+from ..zeros import Extreme, extremes
+from .chain import USUAL, constructed, moving_bodies
 from .limits import NEAR_LIMIT, Arc, Reach, Swept, reach_of, swept
+from .mechanism import Driver, Mechanism, Prismatic
+from .solved import SolvedLinkage, board_givens
 from .strokes import Output, OutputMotion, measured, output_motions, outputs, unwound, zero_position
+from .structure import Structure
 
 Array = NDArray[Any]
 Runs = Mapping[str, tuple[float, float]]
@@ -146,20 +146,11 @@ def cycle(
 ) -> Cycle:
     """Compute N positions over a full turn of the crank, or over the stroke of a sliding driver.
 
-    Parameters
-    ----------
-    values : mapping of str to float
-        Numbers of the mechanism in SI; where its driver stands does not matter.
-    plans : iterable of str
-        Plans wanted, of `chain.PLANS`.
-    positions : int
-        How many: of a turn they divide the circle evenly, the first one does not come again; of a sliding driver the
-        first and the last are the ends of its travel.
-    start : float, optional
-        Where the driver begins; without it at the zero position, where the working stroke of `mechanism.stroke` begins,
-        or at its own zero angle; a sliding driver at the end of its reach.
-    end : float, optional
-        Where a sliding driver stops; without it at the other end of its reach.
+    The `values` are the numbers of the mechanism in SI, where its driver stands does not matter; the `plans` wanted are
+    those of `chain.PLANS`. Of a turn so many `positions` divide the circle evenly, the first one does not come again;
+    of a sliding driver the first and the last are the ends of its travel. The driver begins at `start`, without it at
+    the zero position, where the working stroke of `mechanism.stroke` begins, or at its own zero angle; a sliding driver
+    runs to `end`, without either from one end of its reach to the other.
 
     Raises InputError: too few or too many positions; the output has no stroke; a sliding driver's reach has no end.
     """

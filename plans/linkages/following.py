@@ -26,17 +26,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...board import Program, RecordingBoard, Step
-from ...boards.arrays import ArrayBoard
-from ...boards.batch import FEW, batch
-from ...boards.exact import ILL, SMALL, run
-from ...boards.template import ASTRAY, CLOSED, FOLDED
-from ...laws import TURN
-from ...names import role
-from ..chain import construct, named
-from ..mechanism import Driver, Mechanism, start_names
-from ..parts import local_mark
-from ..structure import TRIAD, analyse
+from ..board import Program, RecordingBoard, Step
+from ..boards.arrays import ArrayBoard
+from ..boards.batch import FEW, batch
+from ..boards.exact import ILL, SMALL, run
+from ..boards.template import ASTRAY, CLOSED, FOLDED
+from ..laws import TURN
+from ..names import role
+from .chain import construct, named
+from .mechanism import Driver, Mechanism, start_names
+from .parts import local_mark
+from .structure import TRIAD, analyse
 from .triad import Triad
 
 Array = NDArray[np.float64]

@@ -16,15 +16,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....scales.errors import InputError
-from ...board import Program, Step
-from ...boards.arrays import remembering
-from ...laws import TURN, inclination
-from ...zeros import Stretch, zeros
-from ..chain import constructed, moving_bodies
-from ..mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic
-from ..structure import Structure
+from ...scales.errors import InputError
+from ..board import Program, Step
+from ..boards.arrays import remembering
+from ..laws import TURN, inclination
+from ..zeros import Stretch, zeros
+from .chain import constructed, moving_bodies
 from .limits import Reach, Swept, reach_of, size_of, swept
+from .mechanism import FRAME, ZERO, Driver, Mechanism, Prismatic
+from .structure import Structure
 
 Array = NDArray[Any]
 INSIDE = 1e-14  # part of a stretch by which its end may lie beyond a limit of assembly, by rounding

@@ -1,1 +1,0 @@
-"""Groups of class III: their construction, and how they are followed through the cycle."""
