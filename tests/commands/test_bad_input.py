@@ -316,18 +316,6 @@ def test_a_command_that_cannot_be_carried_out_is_refused(name: str, refusal: Cal
     assert len(line) < 400
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_messages_follow_the_language_of_the_system(
-    language: str, refusal: Callable[..., str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("LC_ALL", f"{language}_XX.UTF-8")
-
-    line = refusal("solve", TASK, "-v", "zz")
-
-    known = ", ".join((*"0123456789", "example"))
-    assert line == messages(language)["variant-unknown"].format(task=TASK, text="zz", known=known)
-
-
 def test_every_message_is_in_every_language_with_the_same_data() -> None:
     def fields(template: str) -> set[str]:
         return {name for _, name, _, _ in string.Formatter().parse(template) if name}

@@ -56,6 +56,8 @@ FOUND = {
     "a cam without a least radius": Found("solve madi-cam --set rho_flat=0 --condition", status=0),
     "a load diagram twice, once unfinished": Found("list --check x.toml", "'p_gas' stands here a second time",
         task="scheme-01-compressor", changes=((DIAGRAM, UNFINISHED + DIAGRAM),)),
+    "a load diagram twice, the second unfinished": Found("list --check x.toml", "'p_gas' stands here a second time",
+        task="scheme-01-compressor", changes=(('[[mechanism.load]]\n', UNFINISHED + '[[mechanism.load]]\n'),)),
     "a plan of joints that is a point": Found("solve x.toml --format A4", status=0, task="bertyaev-six-bar",
         changes=(('mu_l = "5 cm/cm"', 'mu_l = "80 m/mm"'),)),
     "gears that slide without bounds": Found("solve madi-gear --set x_sum=-0 --set x_2=0.97 --condition", status=0),

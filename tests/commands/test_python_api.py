@@ -126,13 +126,15 @@ def test_a_solution_has_the_checks_of_its_json_and_is_short_on_a_prompt(solution
     )
 
 
-def test_a_notebook_shows_a_solution_as_its_table(solution: Solution) -> None:
+def test_a_notebook_shows_a_solution_as_its_table_or_why_there_is_none(solution: Solution) -> None:
     apart = kulman.solve(TASK, set={"l_AB": 20, "phi": 90}, lang="uk")
+    same = pickle.loads(pickle.dumps(apart))
 
     assert solution.table() in solution._repr_html_()
     assert apart.status == "no-assembly"
     assert apart.reason is not None
     assert apart.reason.text("uk") in apart._repr_html_()
+    assert (same.to_json(), str(same.reason)) == (apart.to_json(), str(apart.reason))  # in another process, too
 
 
 def test_a_notebook_shows_a_sheet_as_its_first_page() -> None:
@@ -179,15 +181,6 @@ def test_an_error_crosses_to_another_process_whole(verb: str, arguments: dict[st
 
     assert type(same) is type(caught.value)
     assert (same.text("uk"), same.status) == (caught.value.text("uk"), caught.value.status)
-
-
-def test_a_solution_crosses_to_another_process_whole() -> None:
-    solved = kulman.solve(TASK, set={"l_AB": 20, "phi": 90})
-
-    same = pickle.loads(pickle.dumps(solved))
-
-    assert json.dumps(same.to_json()) == json.dumps(solved.to_json())
-    assert str(same.reason) == str(solved.reason)
 
 
 # What commands have found, as data: columns, rows and files alike from Python and the command line.

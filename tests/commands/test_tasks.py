@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import tomllib
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from kulman import load_task
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import STATUSES, run
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.mechanism import FRAME, STROKE, WORKING, Driver, Mechanism, Prismatic, Revolute
+from kulman.plans.linkages.mechanism import FRAME, Driver, Prismatic, Revolute
 from kulman.plans.linkages.solved import board_givens, solve_linkage
 from kulman.plans.linkages.structure import Group, analyse
 from kulman.variants.shelf import bundled, bundled_text, summary
@@ -115,22 +114,6 @@ def test_variant_has_good_plans_in_every_position_of_the_driver(scheme: str, var
     assert sine > LEAST, mark
     assert {STATUSES[code] for code in codes} == {"ok"}
     assert flattest > FLAT
-
-
-def schemes_with(found: Callable[[Mechanism], object]) -> int:
-    """Count the schemes whose mechanism has something."""
-    return sum(bool(found(load_task(scheme).mechanism)) for scheme in FORMULAS)
-
-
-def test_schemes_show_all_that_a_task_may_have() -> None:
-    assert schemes_with(lambda m: m.gravity) >= 5
-    assert schemes_with(lambda m: any(diagram.over == STROKE for diagram in m.diagrams)) >= 3
-    assert schemes_with(lambda m: any(diagram.back for diagram in m.diagrams)) >= 1
-    assert schemes_with(lambda m: any(load.stroke == WORKING for load in m.loads)) >= 5
-    assert schemes_with(lambda m: any(load.direction is None for load in m.loads)) >= 5
-    assert schemes_with(lambda m: any(couple.sense is None for couple in m.couples)) >= 1
-    assert schemes_with(lambda m: any(link.per_length and link.inertia_factor for link in m.links)) >= 5
-    assert schemes_with(lambda m: not isinstance(m.driver, Driver)) == 1
 
 
 @pytest.mark.soak

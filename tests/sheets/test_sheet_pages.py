@@ -113,15 +113,6 @@ def test_a_sheet_with_other_scale_factors_names_them_and_solve_shows_its_numbers
             assert decimal(change, language) in line
 
 
-def test_solve_names_format_and_scale_factors(capsys: pytest.CaptureFixture[str]) -> None:
-    solution = kulman.solve("nau-slider-crank", "7", lang="en")
-
-    last = solution.table().splitlines()[-1]
-    assert last.startswith("A1: mu_l = 0.00068 m/mm, ")
-    assert solution.to_json()["format"] == "A1"
-    assert [part.split(" = ")[0] for part in last.removeprefix("A1: ").split(", ")] == [*solution.to_json()["scales"]]
-
-
 def test_few_plans_take_a_small_format_and_much_text_a_large_one() -> None:
     solved, drawn = (
         {only: command("nau-slider-crank", "7", only=only).format for only in ("velocity", "position", None)}
@@ -215,13 +206,6 @@ def test_a_fixed_scale_factor_takes_a_larger_format_a_second_page_or_is_refused(
     assert mus(on_a4)["mu_V"] == 0.02
     assert "velocity" not in {view.name for view in views(on_a4.pages[0])}
     assert refused.value.key == "plan-too-large-everywhere"
-
-
-def test_compound_motion_is_drawn_on_pages_of_any_format() -> None:
-    drawn = kulman.sheet("bertyaev-six-bar", only="compound", format="A4")
-
-    assert len(drawn.pages) > 3
-    assert {error.key for error in drawn.warnings} == {"scale-coarser"}
 
 
 @lru_cache

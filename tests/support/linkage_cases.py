@@ -90,18 +90,11 @@ class Oracle:
 
     def place(self, letter: str) -> complex:
         """Where a lettered point stands; `A3`, the point of link 3 under A, stands at A."""
-        return (
-            self.still.get(letter)
-            or self.special.get(letter)
-            or self.known.get(letter, self.known.get(letter[:-1], 0j))
-        )
+        known = self.known.get(letter, self.known.get(letter[:-1], 0j))
+        return self.still.get(letter) or self.special.get(letter) or known
 
     def points(self) -> set[str]:
         return {point for link in self.m.links for point in link.points} | {*self.still}
-
-    def letters(self, index: str) -> list[str]:
-        """Split `S3C` into S3 and C, `A3A2` into A3 and A2."""
-        return re.findall(r"[A-Z][a-z]?\d*", index)
 
     def link_of(self, *letters: str) -> int:
         """The link to which all these letters belong."""
@@ -130,11 +123,9 @@ class Oracle:
             return self.known[name]
         kind, _, rest = name.partition("_")
         index, _, part = rest.partition("_")
-        if kind in ("V", "a") and part in ("", *PARTS):
-            return self._motion(kind, self.letters(index), part)
-        if kind == "F" and index == "bal":
-            return None
-        return None
+        # `S3C` is S3 and C, `A3A2` is A3 and A2
+        motion = kind in ("V", "a") and part in ("", *PARTS)
+        return self._motion(kind, re.findall(r"[A-Z][a-z]?\d*", index), part) if motion else None
 
     def _motion(self, kind: str, letters: list[str], part: str) -> complex:
         if len(letters) == 1 and not part:

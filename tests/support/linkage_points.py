@@ -183,8 +183,8 @@ def l8_groups(case: Judged, sheet: Sheet) -> Faults:
         yield from _to_scale(case, view)
         names = [arrow.name for arrow in view.arrows]
         yield from unless(len(names) == len(set(names)), f"{view.name}: forces drawn twice in {sorted(names)}")
-        loads = [*case.oracle.solver.forces]
-        of_group = {x for x in loads if _link_of_force(case.oracle, x) in group.links}
+        at = {load.name: load.link for load in case.oracle.m.loads}
+        of_group = {x for x in case.oracle.solver.forces if at.get(x, int(re.sub(r"\D", "", x) or 0)) in group.links}
         acting = {x for x in of_group if abs(case.oracle.known[x]) > 1e-9 * _largest(case.oracle)}
         yield from unless(acting <= set(names), f"{view.name} lacks {sorted(acting - set(names))}")
         yield from _arrows(case, view, case.oracle)
@@ -198,13 +198,6 @@ def _to_scale(case: Judged, view: View) -> Faults:
         wanted = (case.oracle.place(b) - case.oracle.place(a)) / mu
         off = abs(view.point(b) - view.point(a) - wanted)
         yield from unless(off <= 0.02, f"{view.name}: {a}{b} is {off:.3f} mm off")
-
-
-def _link_of_force(oracle: Oracle, name: str) -> int:
-    for load in oracle.m.loads:
-        if load.name == name:
-            return load.link
-    return int(re.sub(r"\D", "", name))
 
 
 def _largest(oracle: Oracle) -> float:
@@ -275,7 +268,7 @@ def l10_force_plans(case: Judged, sheet: Sheet) -> Faults:
         group = groups.get(view.name.removeprefix("forces_"))
         inner = {f"R_{i}{j}" for i in group.links for j in group.links} if group else set()
         across = {name for name in names if name.endswith("_m")}  # it finds the reaction, and is no side of the plan
-        beside = parted | inner | across | _pole_chords(view)
+        beside = parted | inner | across
         sides = [v for v in view.vectors if v.quantity not in beside]
         whole = sum(v.span for v in sides)
         yield from unless(abs(whole) < 0.02, f"{view.name} is open by {abs(whole):.3f} mm: {sorted(names)}")
@@ -285,12 +278,6 @@ def l10_force_plans(case: Judged, sheet: Sheet) -> Faults:
             if wanted is not None:
                 off = abs(vector.span - wanted / vector.mu)
                 yield from unless(off <= NEAR, f"{view.name}: {vector.quantity} is {off:.3f} mm off")
-
-
-def _pole_chords(view: View) -> set[str]:
-    """Reactions drawn as sums of their parts beside both parts."""
-    names = {v.quantity for v in view.vectors}
-    return {name for name in names if f"{name}_n" in names and f"{name}_t" in names}
 
 
 def l11_driver(case: Judged, sheet: Sheet) -> Faults:
@@ -321,8 +308,9 @@ def l12_lever(case: Judged, sheet: Sheet) -> Faults:
         size = abs(numbers.solved.values.get(arrow.name, numbers.solved.values.get(name, 0.0)))
         moment = size * cross(arrow.tail - p, arrow.unit)
         total, largest = total + moment, max(largest, abs(moment))
+    hung = {f"_M_{arrow.name}_p" for arrow in view.arrows}  # moments of what hangs there as an arrow
     for name, value in numbers.solved.values.items():
-        if re.fullmatch(r"_M_?\w+_p", name) and isinstance(value, float) and not _hangs(view, name):
+        if re.fullmatch(r"_M_?\w+_p", name) and isinstance(value, float) and name not in hung:
             total, largest = total + value / mu, max(largest, abs(value / mu))
     yield from unless(abs(total) <= 1e-3 * largest, f"lever: the sum of moments is {total}, the largest {largest}")
 
@@ -336,12 +324,6 @@ def _whole_plan(sheet: Sheet, lever: View, mu: float) -> Faults:
             ends = [q + (end - p) * 1j * vector.mu / mu for end in (vector.tail, vector.tip)]
             found = any(same(ends[0], s.points[i]) and same(ends[1], s.points[1 - i]) for s in lines for i in (0, 1))
             yield from unless(found or abs(ends[1] - ends[0]) < 0.1, f"lever: no line of {vector.quantity}")
-
-
-def _hangs(view: View, moment: str) -> bool:
-    """Whether what has this moment hangs on the lever as an arrow."""
-    force = moment.removeprefix("_M_").removesuffix("_p")
-    return force in {arrow.name for arrow in view.arrows}
 
 
 def l13_numbers(case: Judged, sheet: Sheet) -> Faults:
@@ -370,11 +352,6 @@ def underlines(case: Judged, sheet: Sheet) -> Faults:
             yield from unless(single <= 2 * max(1, text.string.count("=")), f"too many unknowns: {text.string}")
 
 
-def nothing_touches(case: Judged, sheet: Sheet) -> Faults:
-    """No letter touches anything."""
-    yield from overlaps(sheet)
-
-
 JUDGES: tuple[Callable[[Judged, Sheet], Faults], ...] = (
     l1_plan,
     l2_structure,
@@ -388,7 +365,6 @@ JUDGES: tuple[Callable[[Judged, Sheet], Faults], ...] = (
     l12_lever,
     l13_numbers,
     underlines,
-    nothing_touches,
 )
 
 
@@ -398,4 +374,5 @@ def linkage_faults(case: Judged) -> list[str]:
     has_forces, has_lever = any(v.name == "driver" for v in sheet.views), any(v.name == "lever" for v in sheet.views)
     judges = [j for j in JUDGES if has_forces or j not in (l8_groups, l10_force_plans, l11_driver)]
     judges = [j for j in judges if has_lever or j is not l12_lever]
-    return [f"{case} {judge.__name__}: {fault}" for judge in judges for fault in judge(case, sheet)]
+    faults = [f"{case} {judge.__name__}: {fault}" for judge in judges for fault in judge(case, sheet)]
+    return [*faults, *(f"{case}: {fault}" for fault in overlaps(sheet))]

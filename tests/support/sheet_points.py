@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 
 from kulman.tests.support import linkage_points
+from kulman.tests.support.overlaps import overlaps
 from kulman.tests.support.printed_numbers import lines_of, numbers_of, table
 from kulman.tests.support.readback import Arrow, Sheet, Stroke, View, angle, cross, parallel
 from kulman.tests.support.sheet_cases import Case
@@ -301,4 +302,5 @@ UNSURE = (linkage_points.l7_senses, linkage_points.l12_lever)
 def mechanism_faults(case: Case, sheet: Sheet, special: bool = False) -> list[str]:
     """All faults of a sheet by the points L1 to L13, those of any linkage and of the slider-crank."""
     general = [judge for judge in linkage_points.JUDGES if not (special and judge in UNSURE)]
-    return [f"{case} {judge.__name__}: {fault}" for judge in (*general, *OWN) for fault in judge(case, sheet)]
+    faults = [f"{case} {judge.__name__}: {fault}" for judge in (*general, *OWN) for fault in judge(case, sheet)]
+    return [*faults, *(f"{case}: {fault}" for fault in overlaps(sheet))]
