@@ -21,7 +21,7 @@ from pypdfium2 import PdfDocument
 
 from kulman.drawing import writers
 from kulman.drawing.formats import FORMATS, pens_for
-from kulman.drawing.page import Page, Walk, _reach, extent
+from kulman.drawing.page import Page, _reach, extent
 from kulman.drawing.pdf import MARGIN, OVERLAP, tiles, write_tiles
 from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
