@@ -119,30 +119,16 @@ def test_a_file_that_cannot_be_read_does_not_stop_the_others(
 
     status, out, err = run(capsys, folder, "-o", marks, "--lang", "en")
     by_pattern = run(capsys, folder / "c*.csv", "--lang", "en")[1]
+    single, _, refusal = run(capsys, folder / "class.csv", "-o", tmp_path / "r.html")
 
     assert (status, err.count("\n")) == (0, 1)
     assert "bad.csv: not a text" in err
     assert "students: 3, marked: 2" in out
     assert "students: 2" in by_pattern
+    assert (single, "--out" in refusal, (tmp_path / "r.html").exists()) == (2, True, False)
     bad = next(row for row in csv.reader(marks.read_text(encoding="utf-8-sig").splitlines()) if "bad.csv" in row[-2])
     assert bad[-3].startswith("not read: ")
     assert bad[7] == ""
-
-
-def test_marks_have_the_decimal_sign_of_the_language_and_a_class_no_single_report(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    file = class_file(tmp_path, 2, drawn=False)
-    (rubric := tmp_path / "rubric.toml").write_text("out_of = 97.5\n", encoding="utf-8")
-
-    _, out, _ = run(capsys, file, "--rubric", rubric, "--lang", "uk")
-    status, _, err = run(capsys, file, "-o", tmp_path / "r.html")
-
-    assert "97,5" in out
-    assert "97.5" not in out
-    assert status == 2
-    assert "--out" in err
-    assert not (tmp_path / "r.html").exists()
 
 
 def test_processes_and_one_process_give_the_same_and_a_result_survives_its_file(tmp_path: Path) -> None:

@@ -437,6 +437,14 @@ def test_what_concerns_a_construction_follows_from_its_steps() -> None:
     assert len(crank) >= 60
 
 
+def test_the_crank_may_stand_in_any_other_of_twelve_positions() -> None:
+    counted = [b.givens["phi"] - PHI for b in ways(slider_crank(), "M10") if b.change.how != "180-"]
+    (mirrored_angle,) = (b.givens["phi"] for b in ways(slider_crank(), "M10", how="180-"))
+
+    assert sorted(round(math.degrees(angle)) % 360 for angle in counted) == [*range(30, 360, 30)]
+    assert mirrored_angle == pytest.approx(math.pi - PHI)
+
+
 def test_lengths_are_exchanged_with_those_of_other_links_or_between_the_wrong_points() -> None:
     exchanged = {s.broken.place[1:] for s in mistakes("madi-four-bar").signatures if s.broken.mistake == "M13"}
 

@@ -179,14 +179,6 @@ def test_a_name_is_never_taken_for_a_sign(name: str) -> None:
     assert all(word in said for word in re.findall(r"\w+", name, re.ASCII))
 
 
-def test_markdown_tells_one_line_under_a_vector_from_two() -> None:
-    lines = Equations(((r"\uu{\bar{V}_{B}} = \u{\bar{V}_{BA}}",),))
-
-    said = markdown(replace(few_words(), blocks=(lines,)), [])
-
-    assert "V\u0305\u0333<sub>B</sub> = <u>V\u0305<sub>BA</sub></u>" in said
-
-
 @pytest.mark.parametrize(("notation", "by"), [("nau", "times its"), ("bauman", "over its")])
 def test_a_note_says_what_scale_factors_are_for(notation: str, by: str) -> None:
     about = note(TASK, only="structure", notation=notation, lang="en").document.blocks[0]
@@ -252,13 +244,10 @@ def test_conclusions_are_whole_sentences_in_every_language(task: str, settings: 
 
 
 def test_gears_are_judged_as_their_checks_are() -> None:
-    good, bad, alike = (
-        " ".join(concluded(solved(GEAR, **own))) for own in ({}, {"x_1": "-0.3", "x_2": "-0.3"}, {"x_sum": "1.05"})
+    bad, alike = (
+        " ".join(concluded(solved(GEAR, **own))) for own in ({"x_1": "-0.3", "x_2": "-0.3"}, {"x_sum": "1.05"})
     )
 
-    assert r"x_{1} = 0.2000 ≥ x_{min 1} = 0.1227; x_{2} = 0.8500 ≥ x_{min 2} = −0.1698" in good
-    assert "ε_{α} = 1.2048 ≥ 1.2000. During 20 % of the time two pairs" in good
-    assert "roots of the pinion wear more" in good
     assert r"Teeth are undercut: x_{1} = −0.3000 < x_{min 1} = 0.1227" in bad
     assert "No tooth is undercut" not in bad
     assert "both wheels wear alike" in alike

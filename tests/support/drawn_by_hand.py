@@ -35,7 +35,6 @@ class Hand:
         return self.dice.gauss(0.0, rms) if self.dice else 0.0
 
     def spot(self, z: complex) -> complex:
-        """Mark a point."""
         return z + complex(self._gauss(POINT), self._gauss(POINT))
 
     def ray(self, along: complex) -> complex:
@@ -68,7 +67,6 @@ class Hand:
         return self.spot(a + way / abs(way) * complex(along, side * math.sqrt(r * r - along * along)))
 
     def length(self, p: complex, q: complex) -> float:
-        """Measure a distance, mm."""
         return abs(self._grid(abs(q - p) + self._gauss(READING)))
 
     def arm(self, about: complex, at: complex, along: complex) -> float:
@@ -77,19 +75,16 @@ class Hand:
         return math.copysign(abs(self._grid(abs(drawn) + self._gauss(READING))), drawn)
 
     def degrees(self, vector: complex) -> float:
-        """Measure the direction of a vector."""
         return self._grid(math.degrees(cmath.phase(vector)) + self._gauss(DIRECTION)) % 360.0
 
     def _grid(self, x: float) -> float:
         return round(x / GRID) * GRID if self.dice else x
 
     def number(self, x: float) -> float:
-        """Write a number down as calculated."""
         return float(f"{x:.{self.digits}g}") if self.dice else x
 
 
 def turn(a: complex, b: complex) -> float:
-    """Return the cross product of two vectors."""
     return (a.conjugate() * b).imag
 
 
@@ -132,15 +127,12 @@ class Sheet:
     plans: dict[str, str] = field(default_factory=dict)  # on which plan a line is measured
 
     def slip(self, id: str, at: str = "") -> Slip | None:
-        """Return the mistake of this number, if it is made here."""
         return next((s for s in self.slips if s.id == id and s.at in ("", at)), None)
 
     def mu(self, plan: str) -> float:
-        """Return the scale factor of a plan."""
         return self.mus.get(plan, 1.0)
 
     def size(self, name: str) -> float:
-        """Return the value that is gone on with."""
         return self.lines[name].value
 
     def vector(self, name: str) -> complex:
@@ -234,7 +226,6 @@ class Sheet:
         return 1.0 if away else -1.0
 
     def way(self, id: str) -> str:
-        """Return in which way a mistake is made."""
         return next(s.way for s in self.slips if s.id == id)
 
     def meet(self, plan: str, name: str, p: complex, u: complex, q: complex, w: complex) -> complex:

@@ -307,6 +307,7 @@ PRESETS = (HANDS, TEXTS)
 FORMATS = (SIZES, TEXTS)
 TEXT = (("І. Петренко", *TEXTS), TEXTS)
 POINTS = (("A", "B", "S2", "B,C", "2", "12"), TEXTS)
+DIGITS = (("1", "2", "variant", "variant,scheme", "-"), TEXTS)
 BLOCK: Options = {
     **{"--student": TEXT, "--group": TEXT, "--date": TEXT, "--format": FORMATS},
     **{"--norm": (("gost", "iso"), TEXTS), "--tile": (("A4", "A3"), TEXTS)},
@@ -314,6 +315,8 @@ BLOCK: Options = {
 OPTIONS: dict[str, Options] = {
     "solve": {"--condition": None, "--json": None, "--hand": _hand, "--format": FORMATS},
     "list --check": {"--json": None},
+    "list": {"--json": None, "--check": (("task.toml",), TEXTS)},
+    "new": {"--kind": (KINDS, TEXTS)},
     "sweep": {
         **{"--positions": (("8", "12", "24"), COUNTS), "--points": POINTS, "--chords": POINTS, "--json": None},
         **{"--from": lambda luck, tree: luck.number("30 deg"), "--to": lambda luck, tree: luck.number("50 mm")},
@@ -324,10 +327,14 @@ OPTIONS: dict[str, Options] = {
         **{"-o": (("v.csv", "v.xml", "v.gift", "v.toml", "v.xlsx"), TEXTS)},
     },
     "check": {
-        **{"--preset": PRESETS, "--verdict-only": None, "--json": None, "--out": (("out",), TEXTS)},
-        **{"--digits": (("1", "2", "variant", "variant,scheme", "-"), TEXTS), "--form": (("form.csv",), TEXTS)},
-        **{"-o": (("r.html", "r.txt", "r.csv"), TEXTS), "--rubric": (("rubric.toml",), TEXTS)},
-        "--roster": (("roster.csv",), TEXTS),
+        **{"--preset": PRESETS, "--verdict-only": None, "--json": None, "--out": (("out",), ("a" * 300, *TEXTS))},
+        **{"--digits": DIGITS, "--form": (("form.csv", "form.xlsx"), TEXTS), "--moodle": (("m.csv",), TEXTS)},
+        **{"-o": (("r.html", "r.txt", "r.csv", "r.xlsx"), TEXTS), "--rubric": (("rubric.toml",), TEXTS)},
+        **{"--format": FORMATS, "--directions": (("required", "optional", "ignored"), TEXTS)},
+    },
+    "batch": {
+        **{name: value for name, value in BLOCK.items() if name not in ("--student", "--tile")},
+        "--digits": DIGITS,
     },
     "sheet": BLOCK,
     "note": {"--student": TEXT, "--date": TEXT, "--format": FORMATS, "--figure": ((*PLANS, "forces_23"), TEXTS)},
@@ -341,9 +348,6 @@ OPTIONS: dict[str, Options] = {
         **{"--quantities": _names, "--json": None},
     },
 }
-# of a chart the figure is another one: a chart of everything measures times for longer than a case may take
-LIGHT = {"solve": 40, "list --check": 22, "check": 16, "variants": 12, "sweep": 10}
-DRAWN = {"sheet": 40, "note": 20, "handout": 20, "chart": 20}
 CHARTS = {
     "mechanism": ("accuracy", "stability", "depth"),
     "cam": ("sections", "accuracy", "stability"),
@@ -354,18 +358,13 @@ OUTPUTS = {
     **{"sheet": ("x.svg", "x.svg", "x.pdf"), "note": ("x.md", "x.md", "x.docx"), "handout": ("x.svg", "x.pdf")},
     **{"chart": ("x.svg", "x.csv", "x.csv")},
 }
+XML = (
+    *("<", ">", "&", "</c>", "<c/>", "<row/>", '="', "&lt;", "&#0;", "&#x1F600;", "]]>", "<!--", "<![CDATA["),
+    *("r=", "s"),
+)
 
 
-def _new_variants(luck: Luck, case: Case, tree: Tree) -> None:
-    """Ask for new variants: made from ranges, or read from a table."""
-    if luck.random() < 0.5:
-        own: Options = {"--range": _range, "--seed": (("1", "5"), COUNTS)}
-        case.arguments += ["--make", luck.of(("1", "2"), COUNTS), *some(luck, tree, own, 0.6)]
-    else:
-        case.arguments += ["--from", "table.csv"]
-        known = givens(tree)
-        rows = [["id", "1", "2"], *([name, *(setting(luck, known, name) for _ in "12")] for name in known)]
-        case.files["table.csv"] = table(luck, rows)
+# --- tables: answers, rosters, rubrics, as CSV or as workbooks --------------------------------------------------------
 
 
 def ruined(luck: Luck, rows: list[list[str]]) -> list[list[str]]:
@@ -416,59 +415,16 @@ def rubric(luck: Luck) -> bytes:
     return "\n".join(written(tree)).encode("utf-8", "surrogatepass")
 
 
-def made(n: int, drawn: bool = False) -> Case:
-    """Return case `n`: of commands that calculate, or of those that draw."""
-    luck = Luck(f"{n} {drawn}")
-    weights = DRAWN if drawn else LIGHT
-    command = luck.choices([*weights], [*weights.values()])[0]
-    text, tree = task_file(luck)
-    case = Case([*command.split(), "task.toml"], {"task.toml": text.encode("utf-8", "surrogatepass")})
-    if luck.random() < 0.35 and command != "list --check":  # a good task, so that the options are reached
-        task = luck.choice(sorted(bundled()))
-        case, tree = Case([command, task]), json.loads(tree_of(bundled_text(task)))
-    if command != "list --check":
-        case.arguments += about(luck, tree, 0.15)
-    case.arguments += some(luck, tree, OPTIONS[command], 0.2)
-    if command in OUTPUTS and (command != "chart" or luck.random() < 0.5):
-        case.arguments += ["-o", luck.choice(OUTPUTS[command])]
-    _companions(luck, command, case, tree)
-    case.language = luck.choice(("uk", "ru", "en"))
-    case.arguments = [argument.replace("\0", "") for argument in case.arguments]  # which no shell hands over
-    return case
-
-
-def _companions(luck: Luck, command: str, case: Case, tree: Tree) -> None:
-    """Add what only one command takes, and the files that its options name."""
-    if command == "chart":
-        kind = next((kind for kind in CHARTS if kind in tree), "cam")
-        case.arguments += ["--chart", luck.of(CHARTS[kind], TEXTS)]
-    elif command == "variants" and luck.random() < 0.3:
-        _new_variants(luck, case, tree)
-    elif command == "check":
-        case.arguments += ["answers.csv", "--jobs", "1"]
-        known = givens(tree)
-        rows = [["name", "group", "variant", *known]]
-        rows += [[str(i), "1", str(i), *(setting(luck, known, name) for name in known)] for i in range(3)]
-        case.files |= {
-            "answers.csv": table(luck, answers(luck)),
-            "rubric.toml": rubric(luck),
-            "roster.csv": table(luck, rows),
-        }
-
-
-def lay_out(case: Case, folder: Path) -> None:
-    """Write the files of a case."""
-    for name, content in case.files.items():
-        (folder / name).write_bytes(content)
-
-
-# --- classes: rosters, answers and tables, workbooks among them ------------------------------------------------------
-
-XML = (
-    *("<", ">", "&", "</c>", "<c/>", "<row/>", '="', "&lt;", "&#0;", "&#x1F600;", "]]>", "<!--", "<![CDATA["),
-    *("r=", "s"),
-)
-TABLES = ("csv", "xlsx", "xlsx", "xlsx")  # kinds of tables that are read: mostly workbooks
+def roster(luck: Luck, tree: Tree) -> list[list[str]]:
+    """Return students with variants and some of the givens of their own."""
+    known = givens(tree)
+    names = luck.sample([*known], min(len(known), luck.choice((0, 0, 1, 3))))
+    head = luck.choice((["name", "group", "variant"], ["Прізвище", "група", "номер заліковки"], ["ФИО", "вариант"]))
+    rows = [[*head, *names]]
+    for i in range(luck.choice((1, 1, 2))):
+        told = (f"Студент {i}", "1", luck.choice(("1", "2", "123456", str(i))))[-len(head) :]
+        rows.append([*told, *(setting(luck, known, name) for name in names)])
+    return rows
 
 
 def workbook(luck: Luck, rows: list[list[str]]) -> bytes:
@@ -526,22 +482,22 @@ def _xml_changed(luck: Luck, text: str) -> str:
     return text[: place.start()] + new + text[place.end() :]
 
 
-def _tabled(luck: Luck, case: Case, name: str, rows: list[list[str]]) -> str:
+def tabled(luck: Luck, case: Case, name: str, rows: list[list[str]]) -> str:
     """Add a table to the files of a case; return its name."""
-    file = f"{name}.{luck.choice(TABLES)}"
+    file = f"{name}.{luck.choice(('csv', 'xlsx'))}"
     case.files[file] = workbook(luck, rows) if file.endswith("xlsx") else table(luck, rows)
     return file
 
 
-def _roster(luck: Luck, tree: Tree) -> list[list[str]]:
-    known = givens(tree)
-    names = luck.sample([*known], min(len(known), luck.choice((0, 0, 1, 3))))
-    head = luck.choice((["name", "group", "variant"], ["Прізвище", "група", "номер заліковки"], ["ФИО", "вариант"]))
-    rows = [[*head, *names]]
-    for i in range(luck.choice((1, 1, 2))):
-        told = (f"Студент {i}", "1", luck.choice(("1", "2", "123456", str(i))))[-len(head) :]
-        rows.append([*told, *(setting(luck, known, name) for name in names)])
-    return rows
+# --- commands: what each takes beside its options ---------------------------------------------------------------------
+
+
+def _check(luck: Luck, case: Case, tree: Tree) -> None:
+    """Mark answers of a student or a class."""
+    case.arguments += [tabled(luck, case, "answers", answers(luck)), "--jobs", "1"]
+    case.files["rubric.toml"] = rubric(luck)
+    if luck.random() < 0.3:
+        case.arguments += ["--roster", tabled(luck, case, "roster", roster(luck, tree))]
 
 
 def _batch(luck: Luck, case: Case, tree: Tree) -> None:
@@ -549,85 +505,78 @@ def _batch(luck: Luck, case: Case, tree: Tree) -> None:
     if luck.random() < 0.15:
         case.arguments += ["--form", luck.of(("f.csv", "f.xlsx"), TEXTS)]
     if luck.random() < 0.9:
-        roster = _tabled(luck, case, "roster", _roster(luck, tree))
-        case.arguments += ["--roster", roster, "--out", luck.of(("out",), ("roster.csv", "out/out", "я", "x" * 300))]
+        file = tabled(luck, case, "roster", roster(luck, tree))
+        case.arguments += ["--roster", file, "--out", luck.of(("out",), ("roster.csv", "out/out", "я", "x" * 300))]
     case.arguments += ["--jobs", "1", "--as", luck.of(("svg", "handout", "note", "pdf"), TEXTS)]
-    block = {name: value for name, value in BLOCK.items() if name not in ("--student", "--tile")}
-    case.arguments += some(luck, tree, {**block, "--digits": OPTIONS["check"]["--digits"]}, 0.15)
-
-
-def _check(luck: Luck, case: Case, tree: Tree) -> None:
-    """Mark answers in workbooks, of a student or a class, against a sheet of any format."""
-    file = _tabled(luck, case, "answers", answers(luck))
-    case.arguments += [file, "--jobs", "1"]
-    own: Options = {
-        **{"--format": FORMATS, "--preset": PRESETS, "--verdict-only": None, "--out": (("out",), ("a" * 300,))},
-        **{"-o": (("r.html", "r.csv", "r.xlsx"), TEXTS), "--form": (("form.xlsx",), TEXTS)},
-        **{"--moodle": (("m.csv",), TEXTS), "--digits": OPTIONS["check"]["--digits"]},
-        "--directions": (("required", "optional", "ignored"), TEXTS),
-    }
-    case.arguments += some(luck, tree, own, 0.25)
-    if luck.random() < 0.4:
-        case.arguments += ["--roster", _tabled(luck, case, "roster", _roster(luck, tree))]
 
 
 def _variants(luck: Luck, case: Case, tree: Tree) -> None:
-    """Read new variants from a workbook, parameters in rows or in columns."""
-    known = givens(tree)
-    rows = [["id", "1", "2"], *([name, *(setting(luck, known, name) for _ in "12")] for name in known)]
-    if luck.random() < 0.4:
-        rows = [list(column) for column in zip(*rows, strict=True)]
-    case.arguments += ["--from", _tabled(luck, case, "table", rows)]
-    case.arguments += some(luck, tree, OPTIONS["variants"], 0.2)
+    """Ask for new variants: made from ranges, or read from a table, with parameters in rows or in columns."""
+    if luck.random() < 0.15:
+        own: Options = {"--range": _range, "--seed": (("1", "5"), COUNTS)}
+        case.arguments += ["--make", luck.of(("1", "2"), COUNTS), *some(luck, tree, own, 0.6)]
+    elif luck.random() < 0.5:
+        known = givens(tree)
+        rows = [["id", "1", "2"], *([name, *(setting(luck, known, name) for _ in "12")] for name in known)]
+        rows = [list(column) for column in zip(*rows, strict=True)] if luck.random() < 0.3 else rows
+        case.arguments += ["--from", tabled(luck, case, "table", rows)]
 
 
 def _chart(luck: Luck, case: Case, tree: Tree) -> None:
-    """Measure several charts at once; that of accuracy measures times and has its turn among those that draw."""
-    kind = next((kind for kind in CHARTS if kind in tree), "cam")
-    charts = [luck.of([name for name in CHARTS[kind] if name != "accuracy"], (*TEXTS, "depth")) for _ in "12"]
-    case.arguments += ["--chart", ",".join(charts), "--positions", luck.of(("8", "12"), COUNTS)]
-    case.arguments += some(luck, tree, {**OPTIONS["chart"], "-o": (("c.csv", "c.svg"), TEXTS)}, 0.2)
-
-
-def _formats(luck: Luck, case: Case, tree: Tree) -> None:
-    """Draw on a format, cut for a small printer."""
-    case.arguments += ["-o", luck.of(("x.pdf", "x.svg"), TEXTS), "--format", luck.of(SIZES, TEXTS)]
-    case.arguments += some(luck, tree, BLOCK, 0.3)
+    """Draw a chart, or several at once without that of accuracy, which measures times."""
+    charts = CHARTS[next((kind for kind in CHARTS if kind in tree), "cam")]
+    several = [luck.of([name for name in charts if name != "accuracy"], (*TEXTS, "depth")) for _ in "12"]
+    case.arguments += ["--chart", ",".join(several) if luck.random() < 0.3 else luck.of(charts, TEXTS)]
 
 
 def _new(luck: Luck, case: Case, tree: Tree) -> None:
     """Begin a task file."""
     names = [name for name in TEXTS if not {"/", "\\"} & {*name}]
     case.arguments[1:] = [luck.of(("new.toml", "новий", "task.toml"), names)]
-    case.arguments += some(luck, tree, {"--kind": (KINDS, TEXTS)}, 0.7)
 
 
 def _list(luck: Luck, case: Case, tree: Tree) -> None:
     """Show the tasks."""
-    case.arguments[1:] = some(luck, tree, {"--json": None, "--check": (("task.toml",), TEXTS)}, 0.5)
+    del case.arguments[1:]
 
 
-COMMANDS: dict[str, tuple[int, Callable[[Luck, Case, Tree], None]]] = {
-    **{"batch": (25, _batch), "check": (30, _check), "variants": (20, _variants), "chart": (8, _chart)},
-    **{"sheet": (5, _formats), "handout": (5, _formats), "new": (4, _new), "list": (3, _list)},
+MAKERS: dict[str, Callable[[Luck, Case, Tree], None]] = {
+    **{"check": _check, "batch": _batch, "variants": _variants, "chart": _chart, "new": _new, "list": _list},
+}
+# Commands by how often each is run: of those that calculate, of those that draw, of those about classes and formats.
+# Of a chart the figure is another one: a chart of everything measures times for longer than a case may take.
+FAMILIES: dict[str, dict[str, int]] = {
+    "solved": {"solve": 40, "list --check": 22, "check": 16, "variants": 12, "sweep": 10},
+    "drawn": {"sheet": 40, "note": 20, "handout": 20, "chart": 20},
+    "classes": {"batch": 30, "check": 35, "variants": 20, "sheet": 5, "handout": 5, "new": 5, "list": 5},
 }
 
 
-def made_of_class(n: int) -> Case:
-    """Return case `n` of the commands about classes and formats."""
-    luck = Luck(f"{n} classes")
-    command = luck.choices([*COMMANDS], [weight for weight, _ in COMMANDS.values()])[0]
-    if luck.random() < 0.5:
-        text, tree = task_file(luck)
-        case = Case([command, "task.toml"], {"task.toml": text.encode("utf-8", "surrogatepass")})
-    else:
+def made(n: int, family: str) -> Case:
+    """Return case `n` of a family."""
+    luck, weights = Luck(f"{n} {family}"), FAMILIES[family]
+    command = luck.choices([*weights], [*weights.values()])[0]
+    if luck.random() < 0.4 and command != "list --check":  # a good task, so that the options are reached
         task = luck.choice(sorted(bundled()))
         case, tree = Case([command, task]), json.loads(tree_of(bundled_text(task)))
-    if command not in ("new", "list"):
-        case.arguments += [word for word in about(luck, tree, 0.08) if word != "-v" or command != "batch"]
-    COMMANDS[command][1](luck, case, tree)
-    if luck.random() < 0.2:
+    else:
+        text, tree = task_file(luck)
+        case = Case([*command.split(), "task.toml"], {"task.toml": text.encode("utf-8", "surrogatepass")})
+    if command not in ("list --check", "list", "new"):
+        case.arguments += about(luck, tree, 0.1)
+    if command in MAKERS:
+        MAKERS[command](luck, case, tree)
+    case.arguments += some(luck, tree, OPTIONS[command], 0.2)
+    if command in OUTPUTS and (command != "chart" or luck.random() < 0.5):
+        case.arguments += ["-o", luck.choice(OUTPUTS[command])]
+    if luck.random() < 0.05:
         case.arguments[:0] = ["--lang", luck.of(("uk", "ru", "en"), TEXTS)]
     case.language = luck.choice(("uk", "ru", "en"))
-    case.arguments = [argument.replace("\0", "") for argument in case.arguments]
+    case.arguments = [argument.replace("\0", "") for argument in case.arguments]  # which no shell hands over
     return case
+
+
+def lay_out(case: Case, folder: Path) -> None:
+    """Write the files of a case."""
+    for name, content in case.files.items():
+        (folder / name).write_bytes(content)

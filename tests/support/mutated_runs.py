@@ -25,18 +25,17 @@ import time
 import traceback
 import warnings
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import chdir
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from types import FrameType
 
 from kulman import cli
 from kulman.plans.lab.race import FULL
 from kulman.tests.support import mutated
-from kulman.tests.support.mutated import Case, lay_out, made, made_of_class
+from kulman.tests.support.mutated import FAMILIES, Case, lay_out, made
 from kulman.variants.making import new_variants
 
 SECONDS = 5.0  # of processor time
@@ -48,11 +47,6 @@ CHUNK = 250  # cases a process, so that what one leaves behind is not another's
 
 class TooLongError(BaseException):
     """A case has taken more processor time than it may; not caught by what catches exceptions."""
-
-
-FAMILIES: dict[str, Callable[[int], Case]] = {
-    **{"solved": made, "drawn": partial(made, drawn=True), "classes": made_of_class}
-}
 
 
 @dataclass(frozen=True)
@@ -110,7 +104,7 @@ def tried(n: int, family: str, seconds: float) -> Fault | None:
     def stop(number: int, frame: FrameType | None) -> None:
         raise TooLongError
 
-    case = FAMILIES[family](n)
+    case = made(n, family)
     signal.signal(signal.SIGPROF, stop)
     what = where = trace = ""
     with tempfile.TemporaryDirectory() as folder, chdir(folder):
@@ -165,7 +159,7 @@ def faults(
 
 def _alone(n: int, family: str) -> None:
     """Write the files of a case here, show its command, run it."""
-    case = FAMILIES[family](n)
+    case = made(n, family)
     lay_out(case, Path())
     print(case.line, flush=True)
     print(*run(case), sep="\n")

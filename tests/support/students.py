@@ -299,7 +299,6 @@ def _apart(one: Sheet, other: Sheet, allowed: dict[str, float], told: bool) -> d
 
 @cache
 def spread(task: str, data: Data) -> dict[str, float]:
-    """Return the tolerance of every line."""
     right, mus = exact(task, data.givens), scale_factors(task, data.givens, (), random.Random(SEED))
     dice, missed = random.Random(SEED), dict.fromkeys(right.lines, 0.0)
     for _ in range(PATTERNS):
@@ -391,7 +390,6 @@ def at_random(task: str, dice: random.Random, among: Sequence[Data] = ()) -> Stu
 
 @cache
 def kinds(task: str) -> dict[str, list[Slip]]:
-    """Return the mistakes that can be made in a task, by number."""
     found: dict[str, list[Slip]] = {}
     for slip in SLIPS[task]:
         found.setdefault(slip.id, []).append(slip)
@@ -423,11 +421,9 @@ class Outcome:
 
     @property
     def named(self) -> bool:
-        """Whether all mistakes are named first."""
         return all(self.has(slip) for slip in self.slips)
 
     def has(self, slip: str) -> bool:
-        """Whether a mistake is named first."""
         return not accepted(slip).isdisjoint(self.names)
 
 
@@ -516,7 +512,6 @@ def swapped_sheets(task: str, count: int, dice: random.Random) -> Iterator[Stude
 
 
 def printed(task: str, variant: str) -> Data:
-    """Return the data of a bundled variant."""
     loaded = load_task(task)
     values, factors = loaded.resolve(variant), {"deg": 180.0 / 3.141592653589793, "rpm": 30.0 / 3.141592653589793}
     written, turn, side = {}, 1, 1
