@@ -15,6 +15,8 @@ from hypothesis import strategies as st
 from kulman.plans.linkages.mechanism import ZERO, Prismatic
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.commands import Run
+from kulman.tests.support.mechanisms import NAU_VARIANTS
+from kulman.tests.support.sheet_cases import ROWS, Case
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.checks.basics import Places
 from kulman.variants.kinds import KINDS, MODULES
@@ -116,20 +118,11 @@ def test_every_bundled_task_is_without_fault(task: str) -> None:
 
 def test_the_slider_crank_has_the_numbers_of_its_table() -> None:
     task = load_task("nau-slider-crank")
-    printed = {  # NAU guide 2016, table of variants: columns 0, 4, 9 and the worked example
-        "0": (30, 25, 125, 42, 2000, 0.8, 0.6, 2.0),
-        "4": (150, 45, 215, 72, 1200, 3.5, 3.0, 5.0),
-        "9": (330, 46, 220, 75, 1150, 3.4, 2.9, 4.8),
-        "example": (60, 50, 130, 60, 765, 2.5, 2.0, 1.5),
-    }
 
-    assert list(task.variants) == [*"0123456789", "example"]
-    for variant, (phi, crank, rod, centre, speed, m_2, m_3, force) in printed.items():
+    assert list(task.variants) == list(NAU_VARIANTS) == [*"0123456789", "example"]
+    for variant in task.variants:
         values = task.values(variant)
-        assert values["phi"] == phi * math.pi / 180
-        assert (values["l_OA"], values["l_AB"], values["l_AS2"]) == (crank / 1000, rod / 1000, centre / 1000)
-        assert values["n_1"] == speed * math.pi / 30
-        assert (values["m_2"], values["m_3"], values["F_3"]) == (m_2, m_3, force * 1000)
+        assert {name: values[name] for name in ROWS} == pytest.approx({n: Case(variant).given(n) for n in ROWS}, 1e-15)
         assert task.variants[variant].reconstructed == (() if variant == "example" else ("J_S2",))
 
 

@@ -112,23 +112,6 @@ def test_compass_arcs_can_be_seen_beside_carried_vectors(task: str) -> None:
                 assert all(abs(end.imag) > 1.2 for end in ends)
 
 
-@pytest.mark.parametrize(
-    ("task", "ends"),
-    [
-        pytest.param("scheme-09-shaper", ("A3", "C"), id="a slotted link, by its point under the block"),
-        pytest.param("scheme-03-crank-rocker", ("B", "C"), id="a rocker, by its joints"),
-    ],
-)
-def test_couples_hang_on_the_lever_as_pairs(task: str, ends: tuple[str, str]) -> None:
-    """Also the force at the pole is drawn, that at the image of a pivot: it has no moment, but it is half the pair."""
-    lever = drawn(task, "velocity,forces,lever")[1]["lever"]
-    found = [a for a in lever.arrows if re.fullmatch(rf"F_(i3|sum)_couple_({'|'.join(ends)})", a.name)]
-
-    assert len(found) == 2
-    assert same(found[0].unit, -found[1].unit)
-    assert any(min(abs(a.tail - lever.point("lever.p")), abs(a.tip - lever.point("lever.p"))) < 0.01 for a in found)
-
-
 def test_forces_on_one_line_stay_near_their_slider() -> None:
     view = drawn("scheme-13-toggle-press", FORCES)[1]["group_45"]
     pin = view.point("D")

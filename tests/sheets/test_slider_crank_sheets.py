@@ -26,7 +26,7 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support import linkage_points, sheet_points
 from kulman.tests.support.mechanisms import NAU_VARIANTS
 from kulman.tests.support.overlaps import overlaps
-from kulman.tests.support.printed_numbers import decimal, equation_faults, lines_of, numbers_of, table_faults
+from kulman.tests.support.printed_numbers import decimal, equation_faults, numbers_of, table_faults
 from kulman.tests.support.readback import CAP, Sheet, read
 from kulman.tests.support.sheet_cases import FORMATS, TASK, Case, drawn, pages, sheet_of, solved
 from kulman.tests.support.sheet_points import mechanism_faults, symbol_of
@@ -356,14 +356,6 @@ def test_a_wrong_digit_is_seen() -> None:
     spoiled = moved(A1, r"(= 2,5·240,9 = 602),2", r"\1,4")
 
     assert len(equation_faults(spoiled)[1]) == 1
-
-
-def test_both_balancing_moments_and_their_difference_are_printed() -> None:
-    lines = lines_of(drawn(A1)["equations_lever"])
-
-    assert any(line.startswith("M^{Ж}_{зр} = F_{зр}·l_{OA}") for line in lines)
-    assert any(line.startswith("ΔM_{зр}") and line.endswith("%") for line in lines)
-    assert any("M_{зр} = R_{21}·h_{21}·μ_{l}" in line for line in lines_of(drawn(A1)["equations_forces"]))
 
 
 def test_the_judge_sees_a_letter_on_a_letter_and_a_grey_too_light_to_print() -> None:
