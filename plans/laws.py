@@ -113,10 +113,6 @@ def _resisting(size: Any, v: Any, speed: Any, reference: Any) -> Any:
     return v * -(size * moves / (speed + (1.0 - moves)))
 
 
-def _resisting_along(size: Any, v: Any, line: Any, reference: Any) -> Any:
-    return line * -(size * _sign(dot(v, line), reference))
-
-
 def _working(rate: Any, reference: Any, acceleration: Any) -> Any:
     # at a dead position the stroke that is about to begin
     starts = (1.0 - _moves(rate, reference)) * (acceleration > 0.0)
@@ -189,7 +185,7 @@ LAWS: dict[str, Law] = {
     "component": dot,
     # F against v, M against omega; none where nothing moves. Of a point whose line is known v tells only the sense
     "resisting_force": _resisting,
-    "resisting_along": _resisting_along,
+    "resisting_along": lambda size, v, line, reference: line * -(size * _sign(dot(v, line), reference)),
     "resisting_moment": lambda size, omega, reference: -size * _sign(omega, reference),
     # a length that none in the mechanism exceeds, and an angular velocity that goes with it
     "reach": lambda *lengths: _sum(*map(abs, lengths)),

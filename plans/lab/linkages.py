@@ -298,7 +298,12 @@ def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Discipl
 
     The plans of every position are drawn as long as a sheet draws those of one.
     """
-    places, kinds = _not_dead(cycle, places_of(cycle, DRAWN)), tuple(kinds)
+    places, kinds = places_of(cycle, DRAWN), tuple(kinds)
+    near, off = NEAR_DEAD * abs(cycle.range.high - cycle.range.low), np.ones(len(places), bool)
+    for dead in (dead for motion in cycle.motions for dead in motion.dead):
+        away = places - dead.angle
+        off &= np.abs(away - TURN * np.rint(away / TURN) if cycle.drive.turns else away) > near
+    places = places[off]  # a hand that errs at a dead position takes one stroke for the other
     names = tuple(name for kind in kinds for name in kind.names)
     program, givens = cycle.program.needed_for(names), cycle.drive.givens(cycle.givens, places)
     runs = [run(cycle.program, here) for here in cycle.each(places)]
@@ -336,13 +341,3 @@ def _largest(program: Program, values: Mapping[str, Any], symbols: Mapping[str, 
         if symbol is not None:
             largest[symbol] = max(largest.get(symbol, 0.0), size)
     return largest
-
-
-def _not_dead(cycle: Cycle, places: Array) -> Array:
-    """Return the places that are off dead positions: a hand that errs there takes one stroke for the other."""
-    near = NEAR_DEAD * abs(cycle.range.high - cycle.range.low)
-    off = np.ones(len(places), bool)
-    for dead in (dead for motion in cycle.motions for dead in motion.dead):
-        away = places - dead.angle
-        off &= np.abs(away - TURN * np.rint(away / TURN) if cycle.drive.turns else away) > near
-    return places[off]
