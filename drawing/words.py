@@ -113,6 +113,14 @@ class Words:
         text = text.replace("-", "−")
         return text if self.language == "en" else text.replace(".", ",")
 
+    def spelled(self, unit: str) -> str:
+        """Return a unit in the language, as plain text; nothing where there is none."""
+        return format_unit(unit, self.language)
+
+    def amount(self, value: float, si: str, digits: int = 12) -> str:
+        """Return a value of an SI unit as it is shown, with its unit, as plain text."""
+        return f"{self.short(self.display.value(value, si), digits)} {self.spelled(self.display.unit(si))}".rstrip()
+
     def unit(self, unit: str) -> str:
         """Return a unit in the language, powers as true superscripts."""
         return format_unit(unit, self.language, raised=True)

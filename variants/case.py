@@ -84,6 +84,11 @@ class Case(Request):
     choosers: Mapping[str, Chooser] = field(kw_only=True)
 
     @property
+    def values(self) -> dict[str, float]:
+        """Every number that the subject names, SI."""
+        return self.task.values(self.variant, self.settings)
+
+    @property
     def givens(self) -> dict[str, Given]:
         """The givens as the task states them, each in its own unit."""
         stated = {}

@@ -14,6 +14,7 @@ from collections import deque
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, ProcessPoolExecutor, wait
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from dataclasses import asdict
 from functools import partial
 from multiprocessing.process import BaseProcess
 from pathlib import Path
@@ -239,13 +240,12 @@ def _make_piece(work: Work[Any, Any], items: list[Any]) -> list[Any]:
 class Journal(Generic[Made]):
     """The results of a run by the digests of what they were made from, in a file of JSON lines.
 
-    So a killed run can be gone on with; `load` and `dump` turn plain data into results and back.
+    So a killed run can be gone on with: `before` has what it made. Results are dataclasses, which `load` makes of plain
+    data.
     """
 
-    def __init__(
-        self, path: Path, load: Callable[[Mapping[str, Any]], Made], dump: Callable[[Made], Mapping[str, Any]]
-    ) -> None:
-        self.path, self.dump = path, dump
+    def __init__(self, path: Path, load: Callable[[Mapping[str, Any]], Made]) -> None:
+        self.path = path
         self.before: dict[str, Made] = {}
         self._torn = False
         with suppress(OSError):  # what cannot be read is made again
@@ -255,10 +255,6 @@ class Journal(Generic[Made]):
                 with suppress(ValueError, KeyError, TypeError, AttributeError):  # torn, or no line of a journal
                     item = json.loads(line)
                     self.before[item["digest"]] = load(item["result"])
-
-    def found(self, digest: str) -> Made | None:
-        """Return what an earlier run has made of the same."""
-        return self.before.get(digest)
 
     def note(self, digest: str, result: Made) -> None:
         """Keep a result, or say that it cannot be written."""
@@ -273,8 +269,8 @@ class Journal(Generic[Made]):
         with suppress(InputError):  # a folder that takes no note keeps what is there
             write_whole(self.path, "".join(lines).encode("ascii"))
 
-    def _line(self, digest: str, result: Made) -> str:
-        return json.dumps({"digest": digest, "result": self.dump(result)}, ensure_ascii=True) + "\n"
+    def _line(self, digest: str, result: Any) -> str:
+        return json.dumps({"digest": digest, "result": asdict(result)}, ensure_ascii=True) + "\n"
 
     def finish(self) -> None:
         """Forget: all is done."""

@@ -11,15 +11,18 @@ from typing import Any
 
 from ..drawing.words import Words
 from ..plans.board import LINES, Program
-from ..plans.hands.shaky import PRESETS, Hand, Paper, Tolerance, preset
+from ..plans.hands.shaky import PRESETS, Hand, Tolerance, drawing_of, preset
 from ..plans.hands.spread import DRAWINGS, SEED, Expectation, expectations
 from ..plans.linkages.legs import guide_letters
 from ..plans.names import role
 from ..plans.quantities import Quantity
+from ..plans.solved import Solved
 from ..scales.errors import InputError
 from ..scales.names import of_kind
 from ..scales.numbers import quote
-from ..scales.units import format_unit, parse, unit
+from ..scales.scale import Scale
+from ..scales.units import parse, unit
+from .case import Kind
 from .tables import aligned
 
 OWN = "own"
@@ -87,16 +90,17 @@ def hand_of(text: str | Hand) -> tuple[str, Hand, Tolerance]:
     return OWN, hand, next(no_less, [*PRESETS.values()][-1]).tolerance
 
 
-def drawing(
-    paper: Paper, text: str | Hand, limits: Mapping[str, float] = NONE, other_names: Mapping[str, str] = NONE
-) -> Drawing:
-    """Draw a construction with the hand that is named.
+def drawing(kind: Kind[Any, Any], solved: Solved, scales: Mapping[str, Scale], text: str | Hand) -> Drawing | None:
+    """Draw what is solved as a student does, with the hand that is named; nothing of a position without a plan.
 
-    `limits` are what to let pass of single quantities, SI, in the place of the rule; `other_names` have by what other
-    name a quantity goes, and its own in the construction.
+    What goes by another name there is told by its own, too.
     """
-    name, hand, tolerance = hand_of(text)
-    expected = expectations(paper, hand, tolerance, limits)
+    name, hand, tolerance = hand_of(text)  # a wrong one is refused in any position
+    if solved.trouble is not None:
+        return None
+    drawn, other_names = kind.as_drawn(solved)
+    paper = drawing_of(drawn, {plan: scale.mu for plan, scale in scales.items()})
+    expected = expectations(paper, hand, tolerance, kind.limits(drawn, paper, tolerance))
     expected |= {other: expected[own] for other, own in other_names.items() if own in expected}
     return Drawing(name, hand, tolerance, expected, paper.program)
 
@@ -109,7 +113,7 @@ def table(
     Quantities that are only given are left out. `conditions` have K and the sine of the worst intersection of each, as
     texts: two columns before the worst step.
     """
-    paper = format_unit(words.display.paper, words.language)
+    paper = words.spelled(words.display.paper)
     heads = ("name", "value", "unit", "interval", "paper", "percent", "pass", "step")
     rows = [[words[f"hand.{key}"].format(paper=paper) for key in heads]]
     for quantity in quantities:
@@ -146,7 +150,7 @@ def _row(quantity: Quantity, expected: Expectation, program: Program, words: Wor
     part = "" if expected.percent is None or not errs else _two(expected.percent, words)
     degrees = "" if expected.degrees is None else f"; {_two(expected.degrees, words)}°"
     allowed = f"{shown(expected.allowed)}{degrees}" if expected.allowed is not None and errs else ""
-    unit = format_unit(words.display.unit(quantity.unit), words.language)
+    unit = words.spelled(words.display.unit(quantity.unit))
     return [quantity.name, value, unit, interval, paper, part, allowed, _worst(expected, program, words)]
 
 

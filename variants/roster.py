@@ -113,11 +113,6 @@ class _Columns:
     schemes: Schemes
     whole: bool
 
-    @property
-    def read(self) -> frozenset[int]:
-        """The columns that are read."""
-        return frozenset((*self.about.values(), *self.givens))
-
     def said(self, row: int) -> dict[str, str]:
         """Return what a row says of the student."""
         return {kind: self.grid.shared(row, column) for kind, column in self.about.items()}
@@ -154,8 +149,8 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
                 raise
             return Entry(Who.of(columns.said(row)), "", {}, grid.place(row), error)
 
-    heads = enumerate(grid.rows[header])
-    unread = (text for column, text in heads if column not in columns.read and any(map(str.isalpha, text)))
+    said = {*columns.about.values(), *columns.givens}
+    unread = (text for n, text in enumerate(grid.rows[header]) if n not in said and any(map(str.isalpha, text)))
     return Roster(tuple(map(read, rows)), tuple(unread))
 
 

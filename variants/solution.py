@@ -14,7 +14,6 @@ from ..plans.solved import Check, Solved
 from ..scales.errors import InputError, PositionError
 from ..scales.names import unknown
 from ..scales.scale import Scale
-from ..scales.units import format_unit
 from .case import Case, Kind, Request, Settings, Wanted
 from .reader import load_task
 from .tables import FILES, OfCase, Table, aligned
@@ -191,26 +190,22 @@ class Solution(OfCase):
     def scaled(self, words: Words) -> str:
         """Return the format of the sheet and its scale factors, as a line."""
         shown = (words.display.scale(scale) for scale in self.scales.values())
-        units = ((one, format_unit(one.per_mm_unit, words.language)) for one in shown)
+        units = ((one, words.spelled(one.per_mm_unit)) for one in shown)
         return f"{self.format}: {', '.join(f'{one.symbol} = {words.short(one.mu, 6)} {unit}' for one, unit in units)}"
 
 
 def _judged(checks: Iterable[Check], words: Words) -> list[list[str]]:
     """Return a row for each check: its name, the quantity and its value, how it has to stand to its limit, verdict."""
 
-    def shown(value: float, si: str) -> str:
-        spelled = format_unit(words.display.unit(si), words.language)
-        return f"{words.short(words.display.value(value, si), 6)} {spelled}".rstrip()
-
-    return [
-        [one.name, one.quantity, shown(one.value, one.unit), one.sign, shown(one.limit, one.unit), words[verdict]]
-        for one in checks
-        for verdict in ("said.ok" if one.ok else "said.fails",)
-    ]
+    rows = []
+    for one in checks:
+        value, limit = (words.amount(number, one.unit, 6) for number in (one.value, one.limit))
+        rows.append([one.name, one.quantity, value, one.sign, limit, words["said.ok" if one.ok else "said.fails"]])
+    return rows
 
 
 def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
-    unit = format_unit(q.unit, words.language)
+    unit = words.spelled(q.unit)
     parts = "–" if q.x is None or q.y is None else f"({words.short(q.x, 6)}; {words.short(q.y, 6)})"
     if q.kind == "point":
         return q.name, parts, unit, "", ""
@@ -218,9 +213,7 @@ def _row(words: Words, q: Quantity) -> tuple[str, str, str, str, str]:
         parts = words["said.about"].format(point=q.about)
     value = "–" if q.value is None else words.short(q.value, 6)
     places = 2 if words.display.paper == "mm" else 3
-    mm = (
-        "" if q.mm is None else f"{words.short(round(q.mm, places))} {format_unit(words.display.paper, words.language)}"
-    )
+    mm = "" if q.mm is None else f"{words.short(round(q.mm, places))} {words.spelled(words.display.paper)}"
     return q.name, value, unit, "" if parts == "–" else parts, mm
 
 
@@ -297,7 +290,11 @@ def solution_of(asked: Request, condition: bool = False, hand: str | Hand | None
     items = measured(solved.quantities, solved.shown_on, by_plan)
     used = {scale.symbol: scale for scale in by_plan.values()}
     conditions = case.kind.conditions(case.solved) if condition else {}
-    drawn = None if hand is None else _drawing(case.kind, solved, by_plan, hand)
+    drawn = None
+    if hand is not None:
+        from .hands import drawing
+
+        drawn = drawing(case.kind, solved, by_plan, hand)
     return Solution(case, words, solved, items, used, solved.error(), warnings, conditions, drawn, paper)
 
 
@@ -320,16 +317,3 @@ def _on_paper(case: Case) -> tuple[Solved, str, Mapping[str, Scale], tuple[Input
     solved, said = case.kind.fitted(solved, drawn)
     # some views are drawn larger
     return solved, drawn.format, {plan: drawn.scales[plan] for plan in solved.scale_of_plan}, (*case.warnings, *said)
-
-
-def _drawing(kind: Kind[Any, Any], solved: Solved, scales: Mapping[str, Scale], hand: str | Hand) -> Drawing | None:
-    """Draw what is solved as a student does; what goes by another name there is told by its own, too."""
-    from ..plans.hands.shaky import drawing_of
-    from .hands import drawing, hand_of
-
-    _, _, tolerance = hand_of(hand)  # a wrong one is refused in any position
-    if solved.trouble is not None:
-        return None
-    drawn, exact = kind.as_drawn(solved)
-    paper = drawing_of(drawn, {plan: scale.mu for plan, scale in scales.items()})
-    return drawing(paper, hand, kind.limits(drawn, paper, tolerance), exact)

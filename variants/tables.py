@@ -21,6 +21,7 @@ from ..drawing.writers import WRITERS, Files, save_all
 
 if TYPE_CHECKING:
     from ..drawing.words import Words
+    from ..plans.solved import Columned
     from ..scales.errors import PositionError
     from .case import Case
     from .task import Task
@@ -195,6 +196,20 @@ class Swept(OfCase):
     def reason(self) -> PositionError | None:
         """Why no position at all can be assembled, or None."""
         return None
+
+    @abstractmethod
+    def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
+        """Return the columns in the units in which they are shown, and what is said of each row."""
+
+    def data(self, language: str | None = None) -> Table:
+        """Return all columns, the number of the row before them, after them what is said of each row."""
+        words = self._words(language)
+        shown, states = self._columns(words)
+        units = [words.spelled(column.unit) for column in shown]
+        heads = (f"{column.name} [{of}]" if of else column.name for column, of in zip(shown, units, strict=True))
+        rows = zip(*(map(float, column.values) for column in shown), *states.values(), strict=True)
+        numbered = tuple((k, *row) for k, row in enumerate(rows))
+        return Table(("k", *heads, *states), numbered, words.language, self.task.id)
 
     @abstractmethod
     def _data(self) -> dict[str, Any]:

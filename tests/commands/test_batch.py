@@ -11,7 +11,7 @@ import pytest
 from kulman import batch, check, load_task
 from kulman.scales.errors import InputError
 from kulman.tests.support.commands import Run, files, roster, table
-from kulman.variants.batches.batch import Made, Making, Student
+from kulman.variants.batches.batch import Making, Outcome, Student
 from kulman.variants.roster import Digits, Entry, Schemes, Who, read_roster, variant_of_book
 from kulman.variants.task import Task
 
@@ -26,7 +26,7 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     numbers: list[int] = []
     first = Making.make
 
-    def counting(making: Making, student: Student) -> Made:
+    def counting(making: Making, student: Student) -> Outcome:
         numbers.append(student.number)
         return first(making, student)
 

@@ -14,7 +14,6 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +24,7 @@ from kulman.drawing import writers
 from kulman.scales.errors import InputError
 from kulman.tests.support import commands
 from kulman.tests.support.commands import files
-from kulman.variants.batches.batch import JOURNAL, Made, Making, Outcome, Student
+from kulman.variants.batches.batch import JOURNAL, Making, Outcome, Student
 from kulman.variants.crew import Journal
 
 TASK = "nau-slider-crank"
@@ -51,10 +50,10 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """The numbers of the students for whom something is made: two small files each, as what they hold is no matter."""
     found: list[int] = []
 
-    def make(making: Making, student: Student) -> Made:
+    def make(making: Making, student: Student) -> Outcome:
         found.append(student.number)
         stem, data = f"{student.number:03d}-{student.entry.who.student}", f"{student!r}\n" * 20
-        return Made("1", "id", {f"{stem}.svg": data.encode(), f"{stem}.pdf": data.encode()}, {"V_B": 1.5})
+        return Outcome("1", "id", {f"{stem}.svg": data.encode(), f"{stem}.pdf": data.encode()}, {"V_B": 1.5})
 
     monkeypatch.setattr(Making, "make", make)
     return found
@@ -212,15 +211,15 @@ def test_only_what_a_batch_has_left_half_written_is_swept(tmp_path: Path, made: 
 def test_what_a_killed_run_has_torn_costs_no_other_line(tmp_path: Path, torn: bytes) -> None:
     path = tmp_path / JOURNAL
     outcome = Outcome("1", "id", {"x.svg": "0"}, {}, (), "")
-    journal = Journal(path, Outcome.from_json, asdict)
+    journal = Journal(path, Outcome.from_json)
     journal.note("first", outcome)
     path.write_bytes(path.read_bytes() + torn)
-    journal = Journal(path, Outcome.from_json, asdict)
+    journal = Journal(path, Outcome.from_json)
     journal.note("second", outcome)
 
-    found = Journal(path, Outcome.from_json, asdict)
+    found = Journal(path, Outcome.from_json)
 
-    assert (found.found("first"), found.found("second")) == (outcome, outcome)
+    assert (found.before.get("first"), found.before.get("second")) == (outcome, outcome)
 
 
 @pytest.mark.parametrize("files", ["5", "null", "[]", '{"a": 1}', '"x"'])
@@ -295,10 +294,10 @@ def divide() -> None:
 def test_a_row_that_crashes_is_named_and_the_others_are_done(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, poison: Callable[[], None], jobs: int | None, said: str
 ) -> None:
-    def make(making: Making, student: Student) -> Made:
+    def make(making: Making, student: Student) -> Outcome:
         if student.number == 3:
             poison()
-        return Made("1", "id", {f"{student.number:03d}.svg": b"<svg/>"})
+        return Outcome("1", "id", {f"{student.number:03d}.svg": b"<svg/>"})
 
     monkeypatch.setattr(Making, "_made", make)
 

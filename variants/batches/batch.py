@@ -8,7 +8,7 @@ import sys
 import traceback
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
 from operator import attrgetter
 from pathlib import Path
@@ -66,8 +66,11 @@ class Student:
 
 
 @dataclass(frozen=True, slots=True)
-class Made:
-    """The files of a student by name, the values of the key by quantity with its unit; or what the problem is."""
+class Outcome:
+    """The files of a student by name, the values of the key by quantity with its unit; or what the problem is.
+
+    Of each file it says what that holds, once it is written a digest.
+    """
 
     variant: str = ""
     sheet: str = ""
@@ -75,17 +78,6 @@ class Made:
     key: Mapping[str, float | None] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     problem: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Outcome(Made):
-    """What a student has got, with digests of what the files hold in the place of that."""
-
-    @classmethod
-    def of(cls, made: Made) -> Outcome:
-        """Return what has been made, without what the files hold."""
-        files = {name: digest_of(data) for name, data in made.files.items()}
-        return cls(made.variant, made.sheet, files, made.key, made.notes, made.problem)
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Outcome:
@@ -174,7 +166,7 @@ class Making:
         """Whether processes for it must be no copies of this one: typst, once at work, stands still in a copy."""
         return NOTE in self.kinds and "typst" in sys.modules
 
-    def begin(self) -> Callable[[Student], Made]:
+    def begin(self) -> Callable[[Student], Outcome]:
         """Return what makes the files of a student."""
         return self.make
 
@@ -192,23 +184,23 @@ class Making:
         how = __version__, self.kinds, len(self.asked) == 1
         return {name: digest_of(repr((how, self.asked[name].task.text, *items))) for name, items in said.items()}
 
-    def make(self, student: Student) -> Made:
+    def make(self, student: Student) -> Outcome:
         """Make the files of a student; what cannot be made is told, not raised."""
         entry = student.entry
         try:
             return self._made(student)
         except KulmanError as error:
             place = "" if error is entry.problem else f"{entry.place}: "
-            return Made(entry.variant, problem=f"{place}{error.text(self.language)}")
+            return Outcome(entry.variant, problem=f"{place}{error.text(self.language)}")
         except (KeyboardInterrupt, SystemExit):
             raise
         except BaseException as error:  # what typst panics with is no Exception
             source = traceback.extract_tb(error.__traceback__)[-1]
             name = quote(f"{type(error).__name__}: {error}".rstrip(": "), SHOWN)
             crash = InputError("student-crash", error=name, source=f"{Path(source.filename).name}:{source.lineno}")
-            return Made(entry.variant, problem=f"{entry.place}: {crash.text(self.language)}")
+            return Outcome(entry.variant, problem=f"{entry.place}: {crash.text(self.language)}")
 
-    def _made(self, student: Student) -> Made:
+    def _made(self, student: Student) -> Outcome:
         who, work = student.entry.who, self._work(student)
         common = work.case.block
         block = {**common, "student": who.student, "group": who.group or common.get("group", "")}
@@ -218,7 +210,7 @@ class Making:
         stem = f"{student.number:03d}-{slug(f'{who.student} {what}')}"
         files = {name: data for kind in self.kinds for name, data in self._files(work, case, drawn, kind, stem)}
         notes = tuple(warning.text(self.language) for warning in drawn.warnings)
-        return Made(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
+        return Outcome(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
 
     def _files(self, work: _Work, case: Case, drawn: Sheet, kind: str, stem: str) -> Iterator[tuple[str, bytes]]:
         """Go through the files of one kind: their names and what they hold."""
@@ -248,19 +240,19 @@ class Making:
         return self._works.get(data, make)
 
 
-Crew = Callable[[Making, list[Student]], Iterator[list[Done[Made]]]]
+Crew = Callable[[Making, list[Student]], Iterator[list[Done[Outcome]]]]
 
 
 def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance) -> tuple[Outcome, ...]:
     """Make what is not there yet; write it, and note it, as it comes."""
     sweep_parts(folder, lambda name: _OWN.match(name) is not None)
-    journal = Journal(folder / JOURNAL, Outcome.from_json, asdict)
+    journal = Journal(folder / JOURNAL, Outcome.from_json)
     of = making.digests()
     digests = [digest_of(f"{of.get(student.entry.task)} {student!r}") for student in students]
     found = {
         number: outcome
         for number, digest in enumerate(digests)
-        if (outcome := journal.found(digest)) is not None and outcome.there(folder)
+        if (outcome := journal.before.get(digest)) is not None and outcome.there(folder)
     }
     advance(len(found), len(students))
     todo = [number for number in range(len(students)) if number not in found]
@@ -277,14 +269,14 @@ def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, a
     return outcomes
 
 
-def _kept(made: Made | None, student: Student, folder: Path, language: str) -> Outcome:
+def _kept(made: Outcome | None, student: Student, folder: Path, language: str) -> Outcome:
     """Write what has been made for a student, but for what is there already; nothing means that a process died."""
     if made is None:
         reason = InputError("process-died").text(language)
         return Outcome(student.entry.variant, problem=f"{student.entry.place}: {reason}")
     for name, data in made.files.items():
         put(folder / name, data)
-    return Outcome.of(made)
+    return replace(made, files={name: digest_of(data) for name, data in made.files.items()})
 
 
 def put(path: Path, data: bytes) -> None:

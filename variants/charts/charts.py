@@ -134,9 +134,20 @@ Gallery = Mapping[str, tuple[Callable[[Scene], Chart[Any]], tuple[str, ...]]]
 
 @dataclass(frozen=True, slots=True)
 class Places:
-    """Places of the driver, or times, by their SI unit: `rad`, `m`, `s`."""
+    """Places of the driver, or times, by their SI unit: `rad`, `m`, `s`; `name` is that of the driver's variable."""
 
     unit: str
+    name: str = ""
+
+    def head(self, words: Words) -> str:
+        """Return the name of the driver's variable with its unit."""
+        return f"{self.name}, {words.spelled(PLACES[self.unit][1])}"
+
+    def told(self, words: Words, at: float) -> str:
+        """Return one with its unit, an angle within a turn."""
+        if self.unit == "rad":
+            return f"{words.number(round(math.degrees(at) % 360.0, 2) % 360.0, 2)}°"
+        return f"{words.short(at * 1e3, 6)} {words.spelled('mm')}"
 
     @property
     def column(self) -> str:

@@ -20,7 +20,7 @@ from ...plans.lab.hoists import Steps, Ways, by_board, by_hand, rivals, root_rac
 from ...plans.lab.integrators import GROWN
 from ...plans.lab.ropes import COMPARED, MANY, HoistDepth, depth
 from ...scales.errors import InputError
-from ...scales.units import format_unit, unit
+from ...scales.units import unit
 from ..tables import Cell, aligned
 from . import charts
 from .charts import HANDS, PERCENT, AccuracyChart, Chart, Scene, per_cent, short
@@ -138,7 +138,7 @@ class _HoistDepthChart(Chart[HoistDepth]):
             cells = [short(words, per_cent(changes[name])) for name in COMPARED]
             rows.append([words[f"chart.hoist.without.{key}"], *cells])
         yield aligned(rows)
-        newton, second = (format_unit(unit, words.language) for unit in ("N", "s"))
+        newton, second = (words.spelled(unit) for unit in ("N", "s"))
         heads = [f"t_1, {second}", f"F_12_max, {newton}", f"P_12_max, {newton}"]
         rows = [[words["chart.hoist.masses"], *heads, f"{words['chart.hoist.at_drum']}, {newton}"]]
         rows += [[str(rope.n), *(short(words, value, 7) for value in astuple(rope)[1:])] for rope in self.found.ropes]
@@ -204,7 +204,7 @@ class _HoistChoiceChart(Chart[Choice]):
                 for j in range(0, len(grid.beta_2), EVERY)
             ]
             rows.append([words.short(float(grid.beta_0[i]), 3), *cells])
-        head = words["chart.hoist.choice_key"].format(name=name, unit=format_unit(of, words.language))
+        head = words["chart.hoist.choice_key"].format(name=name, unit=words.spelled(of))
         return f"{head}\n{aligned(rows, ())}"
 
     def _rows(self) -> Iterator[Sequence[Cell]]:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 import textwrap
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 
@@ -29,7 +28,6 @@ from ...plans.quantities import BALANCES, unit_of
 from ...scales.choices import SIZES
 from ...scales.errors import InputError, PositionError
 from ...scales.names import all_known
-from ...scales.units import format_unit
 from ..case import Case
 from ..sweeps.linkage import driver_name
 from ..tables import Cell, aligned
@@ -39,7 +37,6 @@ from .charts import AccuracyChart, Scene
 POSITIONS = {"accuracy": 36, "stability": 360, "depth": 360}
 LINES = 24  # of the table of stability
 LOOKED = 12  # positions at which scale factors are looked for
-Found = TypeVar("Found", Depth, Stability)
 
 
 def _cycle_of(name: str, scene: Scene) -> Cycle:
@@ -47,7 +44,7 @@ def _cycle_of(name: str, scene: Scene) -> Cycle:
     case, count = scene.case, scene.positions or POSITIONS[name]
     if count not in scene.cycles:
         plans = (plan for plan in with_needs((*case.plans, "position"), NEEDS) if plan not in ("cycle", "compound"))
-        values = case.task.values(case.variant, case.settings)
+        values = case.values
         scene.cycles[count] = cycle(case.task.mechanism, values, tuple(plans), count)
         if not scene.cycles[count].reach.stretches:
             raise _unreachable(case)
@@ -67,7 +64,7 @@ def _accuracy(scene: Scene) -> AccuracyChart:
     if not found.kinds:
         raise InputError("chart-no-rivals")
     found = replace(found, entries=(*found.entries, *_hands(scene, whole, found)))
-    return AccuracyChart(scene, found, charts.Places("rad" if whole.drive.turns else "m"))
+    return AccuracyChart(scene, found, _places(whole))
 
 
 def _stability(scene: Scene) -> _StabilityChart:
@@ -75,13 +72,13 @@ def _stability(scene: Scene) -> _StabilityChart:
     whole = _cycle_of("stability", scene)
     mus = scales_of_cycle(scene, whole)
     found = stability(whole, scene.quantities or usual(whole), mus, charts.HANDS[scene.hand])
-    return _StabilityChart(scene, found, whole, mus)
+    return _StabilityChart(scene, found, whole, _places(whole), mus)
 
 
 def _depth(scene: Scene) -> _DepthChart:
     """Look at what each part of the model is worth."""
     whole = _cycle_of("depth", scene)
-    return _DepthChart(scene, depth(whole, scene.tolerance), whole)
+    return _DepthChart(scene, depth(whole, scene.tolerance), _places(whole))
 
 
 def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
@@ -97,54 +94,39 @@ def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
         yield from by_hand(cycle, sheet, charts.HANDS[scene.hand], found.kinds)
 
 
+def _places(cycle: Cycle) -> charts.Places:
+    """Return what places of the driver are."""
+    return charts.Places("rad" if cycle.drive.turns else "m", driver_name(cycle))
+
+
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class _OfCycle(charts.Chart[Found]):
-    """A chart with places of the driver: how they are shown and called."""
-
-    cycle: Cycle
-
-    @property
-    def _places(self) -> charts.Places:
-        """Places of the driver."""
-        return charts.Places("rad" if self.cycle.drive.turns else "m")
-
-    def _place(self, words: Words, at: float) -> str:
-        """Return a place with its unit, an angle within a turn."""
-        if self.cycle.drive.turns:
-            return f"{words.number(round(math.degrees(at) % 360.0, 2) % 360.0, 2)}°"
-        return f"{words.short(at * 1e3, 6)} {format_unit('mm', words.language)}"
-
-    def _place_head(self, words: Words) -> str:
-        """Return the name of the driver's variable with its unit."""
-        return f"{driver_name(self.cycle)}, {format_unit('deg' if self.cycle.drive.turns else 'mm', words.language)}"
-
-
-class _DepthChart(_OfCycle[Depth]):
+class _DepthChart(charts.Chart[Depth]):
     """What simplifications cost over the cycle."""
 
     heading, noted, page = "chart.depth", "chart.whole", staticmethod(depth_page)
+    places: charts.Places
 
     def table(self, words: Words) -> str:
         """Return a row for every simplification, then what the scene needs."""
         found = self.found
         names = [found.balance, words["chart.reactions"]][: 2 if found.reaction else 1]
         head = ["", *(f"{name}, {words[f'chart.{key}']}, %" for name in names for key in ("max", "rms"))]
-        rows = [[*head, self._place_head(words)]]
+        rows = [[*head, self.places.head(words)]]
         for cost in found.costs:
             alone = cost.parts == (cost.key,)
             named = words["chart.without" if alone else f"chart.without.{cost.key}"].format(part=cost.key)
             values = [cost.balance, cost.balance_rms]
             values += [cost.reaction or 0.0, cost.reaction_rms or 0.0] if found.reaction else []
             tidy = (0.0 if value < 1e-10 else value for value in values)
-            rows.append([named, *(charts.short(words, value) for value in tidy), self._place(words, cost.place)])
+            rows.append([named, *(charts.short(words, value) for value in tidy), self.places.told(words, cost.place)])
         return "\n".join((aligned(rows), "", depth_verdict(found, words, plain=True)))
 
     def _rows(self) -> Iterator[Sequence[Cell]]:
         errors = ("balance_max [%]", "balance_rms [%]", "reaction_max [%]", "reaction_rms [%]")
-        yield "without", "parts", *errors, self._places.column
+        yield "without", "parts", *errors, self.places.column
         for c in self.found.costs:
             found = (c.balance, c.balance_rms, c.reaction, c.reaction_rms)
-            yield c.key, " ".join(c.parts), *found, self._places.shown(c.place)
+            yield c.key, " ".join(c.parts), *found, self.places.shown(c.place)
 
     def _data(self) -> dict[str, Any]:
         found = self.found
@@ -168,15 +150,17 @@ class _DepthChart(_OfCycle[Depth]):
             "parts": list(cost.parts),
             "balance": {"max": cost.balance, "rms": cost.balance_rms},
             "reaction": None if cost.reaction is None else {"max": cost.reaction, "rms": cost.reaction_rms},
-            "at": self._places.si(cost.place),
+            "at": self.places.si(cost.place),
         }
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class _StabilityChart(_OfCycle[Stability]):
+class _StabilityChart(charts.Chart[Stability]):
     """What is lost over the cycle; `scales` are the scale factors of the hand, by plan."""
 
     heading, page = "chart.stability", staticmethod(stability_page)
+    cycle: Cycle
+    places: charts.Places
     scales: Mapping[str, float]
 
     def _unit(self, name: str) -> str:
@@ -186,7 +170,7 @@ class _StabilityChart(_OfCycle[Stability]):
     def table(self, words: Words) -> str:
         """Return some positions, the worst one of every quantity, special places."""
         found, names = self.found, tuple(self.found.conditions)
-        head = [self._place_head(words), words["chart.angle"], *(f"K {name}" for name in names)]
+        head = [self.places.head(words), words["chart.angle"], *(f"K {name}" for name in names)]
         head += [f"Δ {name}, {words.unit('mm') if found.in_mm[name] else '%'}" for name in names]
         step = max(len(found.places) // LINES, 1)
         rows = [head, *(self._row(i, words) for i in range(0, len(found.places), step))]
@@ -198,7 +182,7 @@ class _StabilityChart(_OfCycle[Stability]):
     def _row(self, i: int, words: Words) -> list[str]:
         found, status = self.found, self.found.statuses[i]
         columns = (found.angles, *found.conditions.values(), *(found.misses[name] for name in found.conditions))
-        cells = [self._place(words, found.places[i]), *(charts.short(words, values[i]) for values in columns)]
+        cells = [self.places.told(words, found.places[i]), *(charts.short(words, values[i]) for values in columns)]
         return [*cells, "" if status == "ok" else words[f"status.{status}"]]
 
     def _worst(self, name: str, words: Words) -> str:
@@ -206,15 +190,16 @@ class _StabilityChart(_OfCycle[Stability]):
         if not np.isfinite(values).any():
             return ""
         i = int(np.nanargmax(values))
-        at, digits = self._place(words, self.found.places[i]), charts.short(words, float(self.found.digits(name)[i]))
-        return words["chart.worst"].format(name=name, condition=charts.short(words, values[i]), digits=digits, place=at)
+        at, lost = self.places.told(words, self.found.places[i]), float(self.found.digits(name)[i])
+        condition, digits = (charts.short(words, value) for value in (values[i], lost))
+        return words["chart.worst"].format(name=name, condition=condition, digits=digits, place=at)
 
     def _spots(self, words: Words) -> list[str]:
         """Say where special places are, all that is there on one line."""
         texts: dict[str, list[str]] = {}
         dead: dict[str, list[str]] = {}
         for spot in self.found.spots:
-            at = self._place(words, spot.place)
+            at = self.places.told(words, spot.place)
             if spot.kind == DEAD:
                 dead.setdefault(at, []).append(str(spot.link))
             else:
@@ -230,14 +215,14 @@ class _StabilityChart(_OfCycle[Stability]):
     def _rows(self) -> Iterator[Sequence[Cell]]:
         """Go through all positions."""
         found, names = self.found, tuple(self.found.conditions)
-        heads = [self._places.column, "status", "sine", "angle [deg]", "worst"]
+        heads = [self.places.column, "status", "sine", "angle [deg]", "worst"]
         columns = []
         for name in names:
             heads += [f"K_{name}", f"digits_{name}", f"miss_{name} [{self._unit(name)}]"]
             columns += [found.conditions[name], found.digits(name), found.misses[name]]
         yield heads
         for i, at in enumerate(found.places):
-            place, status = self._places.shown(at), found.statuses[i]
+            place, status = self.places.shown(at), found.statuses[i]
             head = place, status, float(found.sines[i]), float(found.angles[i])
             yield *head, found.worst[i], *(float(column[i]) for column in columns)
 
@@ -246,7 +231,7 @@ class _StabilityChart(_OfCycle[Stability]):
         return {
             "hand": self.scene.hand,
             "scales": dict(self.scales),
-            "places": [self._places.si(at) for at in found.places],
+            "places": [self.places.si(at) for at in found.places],
             "statuses": list(found.statuses),
             "sines": found.sines,
             "worst": list(found.worst),
@@ -259,14 +244,11 @@ class _StabilityChart(_OfCycle[Stability]):
                 }
                 for name in found.conditions
             },
-            "spots": [
-                {"kind": spot.kind, "at": self._places.si(spot.place), "link": spot.link} for spot in found.spots
-            ],
+            "spots": [{"kind": spot.kind, "at": self.places.si(spot.place), "link": spot.link} for spot in found.spots],
         }
 
     def _shown(self, words: Words) -> tuple[Any, ...]:
-        name = driver_name(self.cycle)
-        kind = role(name).kind or name
+        kind = role(self.places.name).kind or self.places.name
         unit = "°" if self.cycle.drive.turns else words.unit("mm")
         return (Abscissa(f"{GREEK.get(kind, kind)}, {unit}", self.cycle.drive.turns, self.cycle.reach.apart),)
 
@@ -287,7 +269,7 @@ def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
     gives none at any of them, and a mechanism that none of them can be assembled in.
     """
     case, mus, reason = scene.case, dict[str, float](), None
-    values = case.task.values(case.variant, case.settings)
+    values = case.values
     plans = (*case.plans, "position")
     sound: list[SolvedLinkage] = []
     for angles in (cycle.angles, cycle.angles[cycle.codes < STATUSES.index("singular")]):

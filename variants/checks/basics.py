@@ -169,7 +169,7 @@ class Checker:
         """Return a table; what is none is a fault, and an empty one."""
         if isinstance(raw, dict):
             return raw
-        self.wrong_type(path, "type-table")
+        self.fault(path, InputError("type-table"))
         return {}
 
     def _located(self, path: Path, error: KulmanError, *more: str) -> tuple[int, int, InputError]:
@@ -182,10 +182,6 @@ class Checker:
     def twice(self, path: Path, name: object, first: Path) -> None:
         """Note that `name` stands at `path` again, after it stood at `first`."""
         self.fault(path, InputError("id-twice", name=quote(name), line=self.places[first][0]))
-
-    def wrong_type(self, path: Path, expected: str) -> None:
-        """Note that the value at `path` is not of the `expected` kind, a key of a message."""
-        self.fault(path, InputError(expected))
 
 
 Read = Callable[[Checker, Path, Any], Any]
@@ -247,7 +243,7 @@ def text(checker: Checker, path: Path, raw: object) -> str | None:
     """Read a string that is not blank."""
     if isinstance(raw, str) and seen(raw).strip():
         return seen(raw)
-    checker.wrong_type(path, "type-text")
+    checker.fault(path, InputError("type-text"))
     return None
 
 
@@ -273,7 +269,7 @@ def label(checker: Checker, path: Path, raw: object) -> str | None:
     """Read an id of a task or variant: something to type on a command line."""
     if isinstance(raw, str) and re.fullmatch(r"\w[\w.-]*", raw):
         return raw
-    checker.wrong_type(path, "type-id")
+    checker.fault(path, InputError("type-id"))
     return None
 
 
@@ -281,7 +277,7 @@ def link_number(checker: Checker, path: Path, raw: object) -> int | None:
     """Read the number of a link, 0 for the frame."""
     if isinstance(raw, int) and not isinstance(raw, bool) and 0 <= raw < 100:
         return raw
-    checker.wrong_type(path, "type-link-number")
+    checker.fault(path, InputError("type-link-number"))
     return None
 
 
@@ -303,7 +299,7 @@ def one_of(key: str, known: Callable[[], tuple[str, ...]]) -> Read:
 
     def read_word(checker: Checker, path: Path, raw: object) -> str | None:
         if not isinstance(raw, str):
-            checker.wrong_type(path, "type-text")
+            checker.fault(path, InputError("type-text"))
         elif raw not in known():
             checker.fault(path, unknown(key, raw, known()))
         else:
@@ -316,6 +312,6 @@ def one_of(key: str, known: Callable[[], tuple[str, ...]]) -> Read:
 def rows(checker: Checker, path: Path, raw: object) -> list[tuple[Path, object]]:
     """Return the tables of an array of tables with their paths."""
     if not isinstance(raw, list) or not raw:
-        checker.wrong_type(path, "type-tables")
+        checker.fault(path, InputError("type-tables"))
         return []
     return [((*path, i), row) for i, row in enumerate(raw)]

@@ -101,7 +101,7 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> model.Link
 
     def points(checker: Checker, path: Path, raw: object) -> dict[str, tuple[str, str]] | None:
         if not isinstance(raw, dict) or not raw:
-            checker.wrong_type(path, "type-table")
+            checker.fault(path, InputError("type-table"))
             return None
         place = array_of(names.place, 2)
         letters = [name(checker, (*path, key), key) for key in raw]

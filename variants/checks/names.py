@@ -64,7 +64,7 @@ _GIVEN = {
 def read_givens(checker: Checker, raw: object) -> dict[str, Given]:
     """Read `[givens]`: each has either a unit or choices."""
     if not isinstance(raw, dict) or not raw:
-        checker.wrong_type(("givens",), "type-table")
+        checker.fault(("givens",), InputError("type-table"))
         return {}
     givens = {}
     for key, value in raw.items():
@@ -152,7 +152,7 @@ def read_variants(
     stated: dict[str, Path] = {}
     for path, row in rows(checker, ("variant",), raw):
         if not isinstance(row, dict):
-            checker.wrong_type(path, "type-table")
+            checker.fault(path, InputError("type-table"))
             continue
         fields = {
             key: Field(trying(given.read), given.default is None and key not in optional)

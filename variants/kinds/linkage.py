@@ -111,7 +111,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
     def unfit(self, case: Case) -> Iterator[InputError]:
         """Go through what makes a variant a poor exercise: its crank does not turn round, a plan is a line."""
         yield from super().unfit(case)
-        yield from _hindered(case.task.mechanism, case.task.values(case.variant, case.settings))
+        yield from _hindered(case.task.mechanism, case.values)
         if short := _short_vectors(case):
             # those that are so in every variant of a task, as on guides that do not turn, do not count
             always = (_short_vectors(Request(case.task, one).case()) for one in case.task.variants)
@@ -174,7 +174,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         if "cycle" in case.plans:  # drawing a single position does not import it
             from ...plans.linkages.cycle import cycle
 
-            values = case.task.values(case.variant, case.settings)
+            values = case.values
             whole = cycle(case.task.mechanism, values, ("position", "velocity", "acceleration"))
         solved = placed(case)
         plans = case.plans if solved is case.solved else (*case.plans, POSITION)
@@ -312,7 +312,7 @@ def placed(case: Case) -> SolvedLinkage:
     solved = SolvedLinkage.of(case.solved)
     if POSITION in solved.program.plans:
         return solved
-    values, words = case.task.values(case.variant, case.settings), case.task.words(case.variant, case.settings)
+    values, words = case.values, case.task.words(case.variant, case.settings)
     found = KIND.solve(case.task.mechanism, values, words, (*case.plans, POSITION))
     error = found.error()
     if error is not None:

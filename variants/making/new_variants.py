@@ -7,7 +7,7 @@ import math
 import os
 import random
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cache
@@ -66,6 +66,7 @@ def make_variants(
     A crank turns round, lines meet at angles over 20 degrees, plans fit at the scale factors that the task wants, and
     what the task's kind calls good design holds. Ranges, `{"l_OA": "25..60/5 mm"}`, say from, to, and a step; of other
     givens they are what the task's variants span; those in `set` all have alike. The same seed gives the same variants.
+    Where too few sets are good an error says what was wrong last.
     """
     found = load_task(task)
     of_kind("count", count, (int,), "int")
@@ -74,10 +75,25 @@ def make_variants(
     fixed = {name: str(value) for name, value in by_name("set", set).items()}
     found.resolve(None, fixed)
     spans = _ranges_of(found, {name: str(text) for name, text in by_name("ranges", ranges).items()})
-    spans = {name: one for name, one in spans.items() if name not in fixed}
+    luck, seen, pages = random.Random(seed), dict[tuple[str, ...], None](), _most_pages(found)
     rows: dict[str, Mapping[str, str]] = {}
-    for row in made(found, spans, count, seed, fixed):
-        rows[str(len(rows) + 1)] = row
+    for number in range(count):
+        reason: KulmanError | None = InputError("variants-few", found=number)
+        for _ in range(TRIES):
+            row = {name: span.pick(luck) for name, span in spans.items() if name not in fixed}
+            if tuple(row.values()) in seen:
+                continue
+            seen[tuple(row.values())] = None
+            row |= fixed
+            reason = next(filter(None, _looked_at(found, next(iter(found.variants)), row, pages, through=False)), None)
+            if reason is None:
+                rows[str(number + 1)] = row
+                break
+        else:
+            assert reason is not None
+            if reason.key != "variants-few":
+                reason = InputError("variants-hard", found=number, tries=TRIES, reason=reason)
+            raise LocatedError(f"--make {count}", reason)
         if advance is not None:
             advance(1, count)
     return _task_with(found, rows)
@@ -227,35 +243,6 @@ def _round_step(width: Decimal) -> Decimal:
     rough = width / STEPS
     power = Decimal(10) ** rough.adjusted()
     return next(step * power for step in map(Decimal, (1, 2, 5, 10)) if step * power >= rough)
-
-
-def made(
-    task: Task, ranges: Mapping[str, _Range], count: int, seed: int, fixed: Mapping[str, str]
-) -> Iterator[dict[str, str]]:
-    """Go through new variants that differ, each a good exercise; `fixed` are givens that all have alike.
-
-    Each is solved, looked at as its kind looks at exercises, and drawn: its plans must fit one sheet at the scale
-    factors that the task wants. Where too few sets are good an error says what was wrong last.
-    """
-    luck, seen = random.Random(seed), set[tuple[str, ...]]()
-    first, pages = next(iter(task.variants)), _most_pages(task)
-    for number in range(count):
-        reason: KulmanError | None = InputError("variants-few", found=number)
-        for _ in range(TRIES):
-            row = {name: one.pick(luck) for name, one in ranges.items()}
-            if tuple(row.values()) in seen:
-                continue
-            seen.add(tuple(row.values()))
-            row |= fixed
-            reason = next(filter(None, _looked_at(task, first, row, pages, through=False)), None)
-            if reason is None:
-                yield row
-                break
-        else:
-            assert reason is not None
-            if reason.key != "variants-few":
-                reason = InputError("variants-hard", found=number, tries=TRIES, reason=reason)
-            raise LocatedError(f"--make {count}", reason)
 
 
 def _looked_at(

@@ -10,7 +10,7 @@ import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...drawing.formats import format_named
@@ -230,9 +230,9 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
     folder, names = None if job.folder is None else Path(job.folder), list[str]()
     journal, found = None, dict[int, Result]()
     if folder is not None:
-        journal, names = Journal(folder / JOURNAL, Result.from_json, asdict), job.names(answers)
+        journal, names = Journal(folder / JOURNAL, Result.from_json), job.names(answers)
         for number, name in enumerate(names):  # what an earlier run found of the same answers, if its reports are there
-            before = journal.found(name)
+            before = journal.before.get(name)
             if before is not None and all((folder / report).is_file() for report in before.reports):
                 found[number] = before
     advance(len(found), len(answers))

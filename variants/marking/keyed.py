@@ -23,7 +23,6 @@ from ...plans.quantities import unit_of
 from ...scales.errors import InputError
 from ...scales.names import all_known, unknown
 from ...scales.numbers import SHOWN, quote
-from ...scales.units import format_unit
 from ..case import Request, Settings
 from ..checks.basics import Checker, EnoughError, Field, Places, Read, one_of, record, trying
 from ..sheets import sheet_id
@@ -265,9 +264,9 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
         yield (plain(part.heading),)
         for name in part.scales:
             unit = f"({asked.display.of_scales.unit(asked.scales[name])})/{asked.display.paper}"
-            yield (name, keyed.symbol(name), "", "", "", "", format_unit(unit, words.language))
+            yield (name, keyed.symbol(name), "", "", "", "", words.spelled(unit))
         for name in (question.name for question in part.asked):
-            unit = format_unit(asked.unit(name), words.language)
+            unit = words.spelled(asked.unit(name))
             yield (name, keyed.symbol(name), letters.get(name, ""), "", "", "", unit)
 
 

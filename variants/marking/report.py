@@ -16,7 +16,6 @@ from ...plans.marking.key import behind
 from ...plans.mistakes.explaining import ANGLED
 from ...plans.mistakes.rules import Broken
 from ...plans.names import role
-from ...scales.units import format_unit
 from ..roster import WHO
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import aligned
@@ -140,7 +139,7 @@ class Report:
             self.words.display.of_scales,
             self.words.short,
         )
-        unit = format_unit(f"({display.unit(si)})/mm", self.language)
+        unit = self.words.spelled(f"({display.unit(si)})/mm")
         ratio = misfit.written / misfit.fits
         return self.said["again.large" if ratio > 1.0 else "again.small"].format(
             symbol=self.symbol(misfit.symbol),
@@ -215,7 +214,7 @@ class Report:
             return "–"
         parts = []
         if answer.mm is not None:
-            parts.append(f"{self.words.short(answer.mm, DIGITS)} {format_unit('mm', self.language)}")
+            parts.append(f"{self.words.short(answer.mm, DIGITS)} {self.words.spelled('mm')}")
         if answer.value is not None:
             parts.append("+" * answer.plus + self._value(line.name, answer.value))
         if answer.direction is not None:
@@ -234,9 +233,7 @@ class Report:
             text = self._value(name, size)
             return f"{text}; {self._degrees(math.atan2(value.imag, value.real))}" if size else text
         value = value if abs(value) > ROUNDING * self.marked.marking.key.allowed.get(name, 0.0) else 0.0
-        si, display = self.marked.keyed.solution.quantities[name].unit, self.words.display
-        shown = self.words.short(display.value(value, si), DIGITS)
-        return f"{shown} {format_unit(display.unit(si), self.language)}".rstrip()
+        return self.words.amount(value, self.marked.keyed.solution.quantities[name].unit, DIGITS)
 
 
 COLUMNS = ("column.name", "report.answer", "report.right", "report.tolerance_column", "report.verdict", "report.weight")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,11 +23,11 @@ from ...plans.quantities import BALANCES, unit_of
 from ...plans.solved import Columned
 from ...scales.errors import InputError, PositionError
 from ...scales.names import all_known, names_of, of_kind
-from ...scales.units import format_unit, parse, unit
+from ...scales.units import parse, unit
 from ..case import Case, positions_of
 from ..kinds.linkage import placed
 from ..sheets import Sheet, sheet_of
-from ..tables import FILES, Result, Rows, Swept, Table, aligned, ends_data
+from ..tables import FILES, Result, Swept, aligned, ends_data
 from ..task import LocatedError, Task, plain_number
 
 Array = NDArray[Any]
@@ -67,7 +67,7 @@ class Sweep(Swept):
         first, last = (_place(case.task, *item) for item in zip(("start", "end"), ends, strict=True))
         if last is not None and isinstance(mechanism.driver, Driver):
             raise InputError("sweep-end")
-        values = case.task.values(case.variant, case.settings)
+        values = case.values
         plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
         count = POSITIONS if positions is None else positions
         return cls(case, case.words(), cycle(mechanism, values, plans, count, first, last), chosen, chords)
@@ -104,7 +104,7 @@ class Sweep(Swept):
             return self.chords(self.compared, language)
         cycle, words = self.cycle, self._words(language)
         shown = _shown(cycle, _columns_of(cycle, self.chosen, whole=False), words)
-        head = ["", *(f"{column.name}, {format_unit(column.unit, words.language)}" for column in shown)]
+        head = ["", *(f"{column.name}, {words.spelled(column.unit)}" for column in shown)]
         statuses = ["" if status == "ok" else words[f"status.{status}"] for status in cycle.statuses]
         rows = [[str(k), *(_cell(words, column, k) for column in shown), said] for k, said in enumerate(statuses)]
         motions = ("\n".join(_output(cycle, motion, words)) for motion in cycle.motions)
@@ -118,15 +118,9 @@ class Sweep(Swept):
         parts = (velocity, f"{drawn.unit}/s", drawn.velocity), (acceleration, f"{drawn.unit}/s^2", drawn.acceleration)
         return "\n\n".join(_chords(f"{symbol}_{of}", unit_name, curve, words) for symbol, unit_name, curve in parts)
 
-    def data(self, language: str | None = None) -> Table:
-        """Return the columns of what is chosen, or all."""
-        cycle, words = self.cycle, self._words(language)
-        shown = _shown(cycle, _columns_of(cycle, self.chosen, whole=True), words)
-        heads = (f"{column.name} [{format_unit(column.unit, words.language)}]" for column in shown)
-        rows: Rows = [
-            [k, *(float(column.values[k]) for column in shown), status] for k, status in enumerate(cycle.statuses)
-        ]
-        return Table(("k", *heads, "status"), rows, words.language, self.task.id)
+    def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
+        columns = _columns_of(self.cycle, self.chosen, whole=True)
+        return _shown(self.cycle, columns, words), {"status": self.cycle.statuses}
 
     def _data(self) -> dict[str, Any]:
         """Return the cycle, of chosen points and links only, or of all."""
@@ -324,8 +318,7 @@ def _amount(words: Words, value: float, of: str) -> str:
     """Return a value with its unit, angles in degrees."""
     if of == "rad":
         return f"{words.short(round(unit('deg').from_si(value), 7), DIGITS)}°"
-    shown = words.display.unit(of)
-    return f"{words.short(words.display.value(value, of), DIGITS)} {format_unit(shown, words.language)}"
+    return words.amount(value, of, DIGITS)
 
 
 def _extremes(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
@@ -337,7 +330,7 @@ def _extremes(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
         size = max(abs(most.value), abs(least.value))
         if not np.isfinite(size) or most.value - least.value > CONSTANT * size:
             of = unit_of(name)
-            cells = [f"{name}, {format_unit(words.display.unit(of), words.language)}"]
+            cells = [f"{name}, {words.spelled(words.display.unit(of))}"]
             for end in (most, least):
                 endless, size = "∞" if end.value > 0.0 else "−∞", words.display.value(end.value, of) + 0.0
                 cells.append(endless if math.isinf(end.value) else words.short(size, DIGITS))
@@ -348,8 +341,8 @@ def _extremes(cycle: Cycle, chosen: tuple[str, ...], words: Words) -> str:
 
 def _chords(name: str, of: str, curve: Curve, words: Words) -> str:
     """Return one curve by plans and by chords; of vectors the sizes, and the size of their difference."""
-    shown = format_unit(words.display.unit(of), words.language)
-    seconds, per_cent = (format_unit(x, words.language) for x in ("s", "%"))
+    shown = words.spelled(words.display.unit(of))
+    seconds, per_cent = (words.spelled(x) for x in ("s", "%"))
     head = [f"t, {seconds}", f"{name} {words['sweep.plans']}, {shown}", words["sweep.chords"]]
     rows = [[*head, f"{words['sweep.difference']}, {per_cent}"]]
     for t, plan, chord, part in zip(curve.times, curve.plans, curve.chords, curve.per_cent, strict=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,10 +14,10 @@ from ...drawing.writers import Files
 from ...plans.solved import Columned, Course, Ends
 from ...scales.errors import InputError
 from ...scales.numbers import quote
-from ...scales.units import format_unit, unit
+from ...scales.units import unit
 from ..case import Request, Settings, Wanted, positions_of
 from ..reader import load_task
-from ..tables import FILES, Result, Swept, Table, aligned, ends_data
+from ..tables import FILES, Result, Swept, aligned, ends_data
 from ..task import AnyTask
 
 SUFFIXES = Swept.suffixes
@@ -56,16 +56,10 @@ class CourseSweep(Swept):
         parts = aligned(rows, ()), _extremes_table(self.course.extremes(), words), "\n".join((*remarks, *warnings))
         return "\n\n".join(part for part in parts if part)
 
-    def data(self, language: str | None = None) -> Table:
-        """Return all columns, the number of the row before them, after them what is said of each row."""
-        places, words = self.course.places(self.count), self._words(language)
-        shown = [_in_degrees_and_millimetres(column) for column in self.course.columns(places)]
-        states = self.course.states(places)
-        units = (format_unit(column.unit, words.language) for column in shown)
-        heads = (f"{column.name} [{of}]" if of else column.name for column, of in zip(shown, units, strict=True))
-        rows = zip(*(map(float, column.values) for column in shown), *states.values(), strict=True)
-        numbered = tuple((k, *row) for k, row in enumerate(rows))
-        return Table(("k", *heads, *states), numbered, words.language, self.task.id)
+    def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
+        places = self.course.places(self.count)
+        columns = [_in_degrees_and_millimetres(column) for column in self.course.columns(places)]
+        return columns, self.course.states(places)
 
     def _data(self) -> dict[str, Any]:
         """Return columns, extremes where they are told, and what else the course has."""
@@ -100,7 +94,7 @@ def _in_degrees_and_millimetres(column: Columned) -> Columned:
 
 
 def _titled(name: str, of: str, words: Words) -> str:
-    spelled = format_unit(of, words.language)
+    spelled = words.spelled(of)
     return f"{name}, {spelled}" if spelled else name
 
 
@@ -139,7 +133,7 @@ def _filled(value: Any, words: Words) -> Any:
     number, of = value
     if of == "rad":
         return _degrees(number, words)
-    return f"{words.short(unit('mm').from_si(number), DIGITS)} {format_unit('mm', words.language)}"
+    return f"{words.short(unit('mm').from_si(number), DIGITS)} {words.spelled('mm')}"
 
 
 def sweep(
