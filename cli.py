@@ -11,8 +11,16 @@ from typing import Any
 import click
 
 from .scales.choices import HANDS
-from .scales.errors import LANGUAGES, InputError, KulmanError, messages
-from .scales.language import VARIABLE, of_environment, speaking, system_language
+from .scales.errors import (
+    LANGUAGES,
+    VARIABLE,
+    InputError,
+    KulmanError,
+    messages,
+    of_environment,
+    speaking,
+    system_language,
+)
 from .scales.numbers import SHOWN, quote
 from .scales.version import __version__
 from .variants.commands import console

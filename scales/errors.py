@@ -1,13 +1,21 @@
-"""The errors everybody raises: a key, the data that explain it, and the exit status they mean."""
+"""The errors everybody raises: a key, the data that explain it, and the exit status they mean; their language."""
 
 from __future__ import annotations
 
+import os
 import re
+import sys
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from itertools import pairwise
 from typing import Any
 
 from .packaged import packaged
 
 LANGUAGES = ("uk", "ru", "en")
+VARIABLE = "KULMAN_LANG"
+_spoken: ContextVar[str | None] = ContextVar("spoken", default=None)
 _DECIMAL = re.compile(r"(?<![\w.=/])(\d+)\.(\d+(?:e[-+]?\d+)?)(?![\w.])")  # no part of a name, a path, a date
 
 
@@ -80,3 +88,43 @@ class PositionError(KulmanError, ArithmeticError):
     def __init__(self, key: str, /, *, status_word: str, **data: Any) -> None:
         super().__init__(key, **data)
         self.status_word = status_word
+
+
+@contextmanager
+def speaking(words: Sequence[str]) -> Iterator[None]:
+    """Take the language of messages from the words of a command line, wrong ones too, or from `KULMAN_LANG`.
+
+    >>> with speaking(["solve", "--lang=ru"]): system_language()
+    'ru'
+    """
+    said = [word for before, word in pairwise(words) if before == "--lang"]
+    said += [word.partition("=")[2] for word in words if word.startswith("--lang=")]
+    known = [word for word in (of_environment(), *map(_plain, said)) if word in LANGUAGES]
+    token = _spoken.set(known[-1] if known else None)
+    try:
+        yield
+    finally:
+        _spoken.reset(token)
+
+
+def of_environment() -> str:
+    """Return what `KULMAN_LANG` says, in small letters; nothing where it is not set."""
+    return _plain(os.environ.get(VARIABLE, ""))
+
+
+def _plain(word: str) -> str:
+    return word.strip().lower()
+
+
+def system_language() -> str:
+    """Return the language of messages: what has been said, else that of the system, English for any other."""
+    spoken = _spoken.get()
+    if spoken is not None:
+        return spoken
+    name = next(filter(None, map(os.environ.get, ("LC_ALL", "LC_MESSAGES", "LANG"))), "")
+    if not name and sys.platform == "win32":  # in which Windows shows itself to the user
+        import ctypes
+        import locale
+
+        name = locale.windows_locale.get(ctypes.windll.kernel32.GetUserDefaultUILanguage(), "")
+    return name[:2].lower() if name[:2].lower() in LANGUAGES else "en"

@@ -57,8 +57,7 @@ def split_number(text: str) -> tuple[float, str]:
         raise InputError("number-bad", text=quote(stripped))
     plain = found.group().translate(_PLAIN)
     value = float(plain) if under is None else float(plain) / float(under[1])
-    if not math.isfinite(value):
-        raise InputError("number-infinite", text=quote(stripped))
-    if value == 0.0 and any(digit in "123456789" for digit in re.split("[eE]", plain)[0]):
+    vanished = value == 0.0 and any(digit in "123456789" for digit in re.split("[eE]", plain)[0])
+    if vanished or not math.isfinite(value):
         raise InputError("number-infinite", text=quote(stripped))
     return value, rest

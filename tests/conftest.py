@@ -7,7 +7,7 @@ import os
 
 import pytest
 
-from kulman.scales.language import VARIABLE
+from kulman.scales.errors import VARIABLE
 from kulman.tests.support.mechanisms import SEED, Solved, general_slider_crank, random_slider_cranks, solved
 
 os.environ.pop(VARIABLE, None)  # tests choose the language of messages themselves, those in processes too

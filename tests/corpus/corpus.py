@@ -46,7 +46,7 @@ Koval M.;МТ-31;7;41,5
 def digest(case: str, kept: Path | None = None) -> str:
     """Run a case and hash what comes of it; write that into the folder `kept`, too, where one is given."""
     from kulman import cli
-    from kulman.scales.language import VARIABLE
+    from kulman.scales.errors import VARIABLE
 
     out, err = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8", newline="") for _ in range(2))
     streams, shell = (sys.stdout, sys.stderr), {name: os.environ.pop(name, None) for name in ("LC_ALL", VARIABLE)}

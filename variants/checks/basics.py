@@ -239,12 +239,12 @@ def as_is(checker: Checker, path: Path, raw: object) -> Any:
     return raw
 
 
-def text(checker: Checker, path: Path, raw: object) -> str | None:
+@trying
+def text(raw: object) -> str:
     """Read a string that is not blank."""
     if isinstance(raw, str) and seen(raw).strip():
         return seen(raw)
-    checker.fault(path, InputError("type-text"))
-    return None
+    raise InputError("type-text")
 
 
 def name(checker: Checker, path: Path, raw: object) -> str | None:
@@ -265,20 +265,20 @@ def word(checker: Checker, path: Path, raw: object) -> str | None:
     return None if isinstance(raw, str) else name(checker, path, raw)
 
 
-def label(checker: Checker, path: Path, raw: object) -> str | None:
+@trying
+def label(raw: object) -> str:
     """Read an id of a task or variant: something to type on a command line."""
     if isinstance(raw, str) and re.fullmatch(r"\w[\w.-]*", raw):
         return raw
-    checker.fault(path, InputError("type-id"))
-    return None
+    raise InputError("type-id")
 
 
-def link_number(checker: Checker, path: Path, raw: object) -> int | None:
+@trying
+def link_number(raw: object) -> int:
     """Read the number of a link, 0 for the frame."""
     if isinstance(raw, int) and not isinstance(raw, bool) and 0 <= raw < 100:
         return raw
-    checker.fault(path, InputError("type-link-number"))
-    return None
+    raise InputError("type-link-number")
 
 
 def array_of(read: Read, length: int | None = None) -> Read:

@@ -47,15 +47,15 @@ Settings = Mapping[str, Mapping[str, Mapping[str, Setting]]]
 Named = Callable[[Checker, Path, Any], str | None]  # a reader of what has a name, or gets one
 
 
+@trying
 def _unit(raw: object) -> Unit:
-    """Read a unit."""
     if isinstance(raw, str):
         return unit(raw)
     raise InputError("type-text")
 
 
 _GIVEN = {
-    "unit": Field(trying(_unit), required=False),
+    "unit": Field(_unit, required=False),
     "choices": Field(array_of(word), required=False),
     "default": Field(as_is, required=False),
 }
@@ -126,7 +126,8 @@ def _settings(checker: Checker, path: Path, raw: object) -> dict[str, Setting] |
     return known if own or isinstance(raw, dict) else None
 
 
-def _literal(raw: object) -> Setting:
+@trying
+def literal(raw: object) -> Setting:
     """Read a number, plain or with a unit, of whatever dimension."""
     if isinstance(raw, str):
         _, rest = split_number(raw)
@@ -136,9 +137,6 @@ def _literal(raw: object) -> Setting:
         Given("", ONE).read(raw)
         return Setting(float(raw), ONE.dimension)
     raise InputError("type-number", text=quote(type(raw).__name__))
-
-
-literal = trying(_literal)
 
 
 def read_variants(

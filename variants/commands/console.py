@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from ...scales.choices import SIZES
-from ...scales.errors import LANGUAGES, InputError, KulmanError
-from ...scales.language import system_language
+from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
 from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ...scales.choices import HANDS, SHEETS
-from ...scales.errors import InputError, messages
-from ...scales.language import system_language
+from ...scales.errors import InputError, messages, system_language
 from ...scales.numbers import SHOWN, quote
 from . import console
 

@@ -15,7 +15,7 @@ from ...scales.numbers import quote
 from ...scales.scale import Display
 from ...scales.units import unit
 from ..case import Case, Choices, Kind, Numbers, Plans, Scales
-from ..checks.basics import Checker, Field, Path, array_of, one_of, record, rows, word
+from ..checks.basics import Checker, Field, Path, array_of, one_of, record, rows, trying, word
 from ..checks.names import Names, Setting, check_numbers, literal, word_or_choice
 from ..task import Given
 
@@ -250,12 +250,12 @@ def _millimetres(length: float, digits: int = 4) -> str:
     return f"{length * MILLI:.{digits}g}"
 
 
-def _sections(checker: Checker, path: Path, raw: object) -> int | None:
+@trying
+def _sections(raw: object) -> int:
     """Read into how many sections a phase is divided at least."""
     if isinstance(raw, int) and not isinstance(raw, bool) and cams.SECTIONS <= raw <= MOST_SECTIONS:
         return raw
-    checker.fault(path, InputError("cam-sections", text=quote(raw), least=cams.SECTIONS, most=MOST_SECTIONS))
-    return None
+    raise InputError("cam-sections", text=quote(raw), least=cams.SECTIONS, most=MOST_SECTIONS)
 
 
 def _curves(checker: Checker, path: Path, raw: object) -> tuple[cams.Curve, ...]:
