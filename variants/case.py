@@ -131,6 +131,7 @@ class Kind(Generic[Subject, Answer]):
 
     home: ClassVar[str] = __name__.partition(".")[0]  # the package whose layers have the room
     room: ClassVar[str]
+    elsewhere: ClassVar[Mapping[str, str]] = {}  # modules of functions that stand in others than usual
     table: ClassVar[str]
     made: ClassVar[type[Described]]
     givens: ClassVar[Givens] = {}  # what describes a subject; nothing where every task has names of its own
@@ -151,7 +152,7 @@ class Kind(Generic[Subject, Answer]):
 
     def _in(self, layer: str, module: str, name: str) -> Any:
         """Return what a module of this kind's plans or drawings calls `name`; most need numpy."""
-        return getattr(import_module(f"{self.home}.{layer}.{self.room}.{module}"), name)
+        return getattr(import_module(f"{self.home}.{layer}.{self.room}.{self.elsewhere.get(name, module)}"), name)
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Stated]) -> Subject | None:
         """Read the table of this kind, and hold the numbers of the task against its own; None where it is at fault."""

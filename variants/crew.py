@@ -20,22 +20,23 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from pickle import PickleError
 from threading import Thread
-from typing import Any, Generic, Protocol, TypeAlias, TypeVar
+from typing import Any, Generic, TypeAlias, TypeVar
 
 from ..drawing.writers import refused, write_whole
 from ..scales.errors import InputError
 from ..scales.numbers import SHOWN, quote
 
 Item = TypeVar("Item")
-ItemIn = TypeVar("ItemIn", contravariant=True)
 Made = TypeVar("Made")
-MadeOut = TypeVar("MadeOut", covariant=True)
 TOGETHER, MOST = 8, 16  # items in a piece: at least, and at most where the next ones are alike
 ALONE = 16  # items for which no process is started
 WAITING = 2  # pieces that each process has, one in work
 PATIENCE, BEAT = 10.0, 0.2  # seconds for which a process that is stopped may go on; after which it looks whether it is
 Advance = Callable[[int, int], None]  # told how many more are done, and of how many
 Piece = list[tuple[int, Item]]
+Begin: TypeAlias = Callable[
+    [], Callable[[Item], Made]
+]  # sets up, once in each process, what makes something of an item
 ANSWERS = "10s"  # how long the scheduler is waited for
 ROUND, ROUNDS = 10.0, 6  # after so many seconds in which nobody does anything, so often, it is said, or begun again
 DEATHS = 1  # times that a worker of a cluster may die of a piece
@@ -48,15 +49,8 @@ Done: TypeAlias = tuple[int, Made | None]
 _HERE: dict[str, Any] = {}  # what a process works at
 
 
-class Work(Protocol[ItemIn, MadeOut]):
-    """What is done with every item; it goes to each process, which sets itself up once."""
-
-    def begin(self) -> Callable[[ItemIn], MadeOut]:
-        """Set up, and return what makes something of an item."""
-
-
 def shared_out(
-    work: Work[Item, Made],
+    begin: Begin[Item, Made],
     items: Sequence[Item],
     jobs: int,
     alike: Callable[[Item], Any],
@@ -74,9 +68,9 @@ def shared_out(
     if len(items) > ((ALONE if jobs > 1 else len(items)) if alone is None else alone):
         most = max(1, min(jobs, len(pieces)))
         # an executor is broken as a whole: who was at work then is tried item by item, at last one alone
-        yield from _tried(partial(_processes, work, most, afresh), pieces, (WAITING * most, most, 1), BrokenExecutor)
+        yield from _tried(partial(_processes, begin, most, afresh), pieces, (WAITING * most, most, 1), BrokenExecutor)
         return
-    make = work.begin()
+    make = begin()
     for piece in pieces:
         for place, item in piece:
             yield [(place, make(item))]
@@ -130,11 +124,11 @@ def _tried(
 
 
 @contextmanager
-def _processes(work: Work[Any, Any], most: int, afresh: bool, at_once: int) -> Iterator[Submit]:
+def _processes(begin: Begin[Any, Any], most: int, afresh: bool, at_once: int) -> Iterator[Submit]:
     """Start processes; in the end each is stopped when it has done the item that it is at."""
     means: Any = multiprocessing.get_context("spawn" if afresh else None)
     over = means.RawValue("b", 0)
-    executor = ProcessPoolExecutor(min(most, at_once), means, _begin, (work, over))
+    executor = ProcessPoolExecutor(min(most, at_once), means, _begin, (begin, over))
 
     def submit(items: list[Any]) -> Task:
         with _without_script() if afresh else nullcontext():
@@ -159,10 +153,10 @@ def _without_script() -> Iterator[None]:
         script.update(kept)
 
 
-def _begin(work: Work[Any, Any], over: Any) -> None:
+def _begin(begin: Begin[Any, Any], over: Any) -> None:
     """Begin a process, which ends with the one that has started it, even if that is killed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the other end is told, and stops this one
-    _HERE.update(work=work, over=over)
+    _HERE.update(begin=begin, over=over)
     Thread(target=_end_with, args=(multiprocessing.parent_process(), over), daemon=True).start()
 
 
@@ -176,12 +170,12 @@ def _end_with(parent: BaseProcess, over: Any) -> None:
 def _make_here(items: list[Any]) -> list[Any]:
     """Do a piece in a process; one that is stopped leaves the rest."""
     if "make" not in _HERE:
-        _HERE["make"] = _HERE["work"].begin()
+        _HERE["make"] = _HERE["begin"]()
     return [_HERE["make"](item) for item in items if not _HERE["over"].value]
 
 
 def on_cluster(
-    work: Work[Item, Made], items: Sequence[Item], alike: Callable[[Item], Any], address: str
+    begin: Begin[Item, Made], items: Sequence[Item], alike: Callable[[Item], Any], address: str
 ) -> Iterator[list[Done[Made]]]:
     """Go through what is made on a cluster, in the order in which it is done; what fails there is an `InputError`.
 
@@ -200,7 +194,7 @@ def on_cluster(
     before, pieces = logging.root.manager.disable, _pieces(items, alike)
     try:
         with client:
-            submit = partial(client.get_executor(pure=False, retries=DEATHS).submit, _make_piece, work)
+            submit = partial(client.get_executor(pure=False, retries=DEATHS).submit, _make_piece, begin)
             rounds = len(pieces), 1  # what else a dying worker has made would be lost with it
             try:
                 first = partial(_some_done, client)
@@ -230,10 +224,10 @@ def _some_done(client: Any, tasks: Tasks) -> Iterable[Task]:
     return ()
 
 
-def _make_piece(work: Work[Any, Any], items: list[Any]) -> list[Any]:
+def _make_piece(begin: Begin[Any, Any], items: list[Any]) -> list[Any]:
     """Do a piece on a worker, which sets itself up once for each work."""
-    if _HERE.get("key") != (key := repr(work)):
-        _HERE.update(key=key, make=work.begin())
+    if _HERE.get("key") != (key := repr(begin)):
+        _HERE.update(key=key, make=begin())
     return [_HERE["make"](item) for item in items]
 
 

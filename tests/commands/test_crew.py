@@ -51,7 +51,7 @@ class Squares:
 
 
 def made(work: Squares, jobs: int, **more: int) -> dict[int, int | None]:
-    done = [one for piece in shared_out(work, ITEMS, jobs, str, **more) for one in piece]
+    done = [one for piece in shared_out(work.begin, ITEMS, jobs, str, **more) for one in piece]
     assert sorted(place for place, _ in done) == ITEMS  # nothing lost, nothing twice
     return dict(done)
 
@@ -94,7 +94,7 @@ class Place:
 def test_items_that_are_alike_are_made_in_one_process() -> None:
     items = [number % 20 for number in range(160)]
 
-    done = [one for piece in shared_out(Place(), items, 2, int) for one in piece]
+    done = [one for piece in shared_out(Place().begin, items, 2, int) for one in piece]
 
     where = {place: made[0] for place, made in done if isinstance(made, tuple)}
     assert sorted(where) == list(range(160))
@@ -104,8 +104,8 @@ def test_items_that_are_alike_are_made_in_one_process() -> None:
 
 
 def test_many_that_are_alike_go_to_all_processes_and_what_is_large_stops_nobody() -> None:
-    sizes = [len(piece) for piece in shared_out(Place(), [1] * 100, 2, int)]
-    done = [one for piece in shared_out(Place(300_000), ["y" * 300_000] * 40, 2, len) for one in piece]
+    sizes = [len(piece) for piece in shared_out(Place().begin, [1] * 100, 2, int)]
+    done = [one for piece in shared_out(Place(300_000).begin, ["y" * 300_000] * 40, 2, len) for one in piece]
 
     assert sum(sizes) == 100
     assert max(sizes) <= 16
@@ -114,7 +114,7 @@ def test_many_that_are_alike_go_to_all_processes_and_what_is_large_stops_nobody(
 
 def test_what_cannot_be_sent_is_an_error_and_no_process_stays() -> None:
     with pytest.raises((AttributeError, PicklingError), match="pickle"):
-        list(shared_out(Place(odd=31), list(range(60)), 2, str))
+        list(shared_out(Place(odd=31).begin, list(range(60)), 2, str))
 
     assert multiprocessing.active_children() == []
 
@@ -137,7 +137,7 @@ class Slow:
 
 def test_a_process_that_is_stopped_leaves_the_rest_of_its_piece(tmp_path: Path) -> None:
     with pytest.raises(ValueError):
-        list(shared_out(Slow(tmp_path), range(40), 2, lambda item: item > 0))
+        list(shared_out(Slow(tmp_path).begin, range(40), 2, lambda item: item > 0))
 
     assert multiprocessing.active_children() == []
     assert len(list(tmp_path.iterdir())) < 16  # a piece
@@ -181,20 +181,20 @@ class TestCluster:
     def test_an_item_that_kills_workers_is_found_out(self, address: str) -> None:
         work = Squares(frozenset({13}))
 
-        done = [one for piece in on_cluster(work, list(range(24)), str, address) for one in piece]
+        done = [one for piece in on_cluster(work.begin, list(range(24)), str, address) for one in piece]
 
         assert dict(done) == {n: n * n if n != 13 else None for n in range(24)}
 
     def test_a_worker_that_cannot_do_the_work_is_told_in_a_line(self, address: str) -> None:
         with pytest.raises(InputError, match="cannot do the work: No module named 'kulman'"):
-            list(on_cluster(Strange(), [1], str, address))
+            list(on_cluster(Strange().begin, [1], str, address))
 
     def test_a_scheduler_that_goes_is_told_in_a_line(self, idle: tuple[str, subprocess.Popen[bytes]]) -> None:
         there, going = idle
         Thread(target=kill_when_reached, args=(going,)).start()
 
         with pytest.raises(InputError, match=f"{there} no longer answers"):
-            list(on_cluster(Squares(), [1, 2, 3], str, there))
+            list(on_cluster(Squares().begin, [1, 2, 3], str, there))
 
         assert logging.root.manager.disable == logging.NOTSET
 
@@ -205,9 +205,9 @@ class TestCluster:
         monkeypatch.setattr("kulman.variants.crew.ANSWERS", "1s")
 
         with pytest.raises(InputError, match=f"{idle[0]} has no workers"):
-            list(on_cluster(Squares(), [1, 2, 3], str, idle[0]))
+            list(on_cluster(Squares().begin, [1, 2, 3], str, idle[0]))
         with pytest.raises(InputError, match=r"tcp://127\.0\.0\.1:9"):
-            next(on_cluster(Squares(), [1], str, "tcp://127.0.0.1:9"))
+            next(on_cluster(Squares().begin, [1], str, "tcp://127.0.0.1:9"))
 
     def test_a_cluster_with_tls_lets_in_who_has_a_certificate(self, tmp_path: Path) -> None:
         import dask
@@ -222,9 +222,9 @@ class TestCluster:
             address = str(cluster.scheduler_address)
 
             with dask.config.set(config):
-                done = [made for piece in on_cluster(Squares(), [2, 3], str, address) for made in piece]
+                done = [made for piece in on_cluster(Squares().begin, [2, 3], str, address) for made in piece]
             with pytest.raises(InputError, match="no certificates for TLS"):
-                list(on_cluster(Squares(), [2, 3], str, address))
+                list(on_cluster(Squares().begin, [2, 3], str, address))
 
         assert [made for _, made in done] == [4, 9]
 

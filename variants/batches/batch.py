@@ -31,7 +31,7 @@ from ...scales.packaged import packaged
 from ...scales.units import format_unit
 from ...scales.version import __version__
 from ..case import Case, Request, Settings, Wanted, plans_wanted
-from ..crew import Advance, Done, Journal, digest_of, on_cluster, remove_stale, shared_out
+from ..crew import Advance, Begin, Done, Journal, digest_of, on_cluster, remove_stale, shared_out
 from ..marking.wording import texts
 from ..notes import body_of, title_page
 from ..reader import load_task
@@ -240,7 +240,7 @@ class Making:
         return self._works.get(data, make)
 
 
-Crew = Callable[[Making, list[Student]], Iterator[list[Done[Outcome]]]]
+Crew = Callable[[Begin[Student, Outcome], list[Student]], Iterator[list[Done[Outcome]]]]
 
 
 def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance) -> tuple[Outcome, ...]:
@@ -256,7 +256,7 @@ def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, a
     }
     advance(len(found), len(students))
     todo = [number for number in range(len(students)) if number not in found]
-    for done in crew(making, [students[number] for number in todo]):
+    for done in crew(making.begin, [students[number] for number in todo]):
         for place, made in done:
             number = todo[place]
             found[number] = _kept(made, students[number], folder, making.language)

@@ -21,7 +21,7 @@ from ...plans.solved import WITHIN, Check
 from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
-from ...scales.scale import Choosers, Segment, chooser
+from ...scales.scale import Segment, chooser
 from ..case import Case, Choices, Kind, Numbers, Plans, Request, Scales
 from ..checks.mechanism import branched, place_of, read_mechanism, started
 from ..marking.wording import letter, texts
@@ -30,11 +30,9 @@ from ..task import Given, Task
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
     from ...drawing.formats import Format, Norm
-    from ...drawing.handouts import Shown
     from ...drawing.linkages.scene import Scene
     from ...drawing.notes.blocks import Story
     from ...drawing.words import Words
-    from ...plans.condition import Condition
     from ...plans.hands.shaky import Paper, Tolerance
     from ...plans.marking.key import Question
     from ..checks.basics import Checker
@@ -50,7 +48,8 @@ KINEMATIC = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon
 class Linkages(Kind[Mechanism, SolvedLinkage]):
     """Linkages of any structure that the plans know."""
 
-    table, plans, moves = "mechanism", PLANS, False
+    table, room, plans, moves = "mechanism", "linkages", PLANS, False
+    elsewhere: ClassVar[Mapping[str, str]] = {"first_scales": "ladders", "conditions_of": "solved", "begun": "steps"}
     form_notes: ClassVar[Mapping[str, str]] = {"lever": "arms"}  # how arms on the lever are written
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Mechanism | None:
@@ -102,12 +101,6 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Return the symbols of all scale factors that may be chosen."""
         return scale_symbols(solved.structure, solved.program)
 
-    def first_scales(self, solved: SolvedLinkage, choosers: Choosers, plans: Plans) -> tuple[Format, Scales]:
-        """Return format and scale factors by plan, chosen by the areas of figures."""
-        from ...drawing.linkages.ladders import first_scales
-
-        return first_scales(solved, choosers, plans)
-
     def unfit(self, case: Case) -> Iterator[InputError]:
         """Go through what makes a variant a poor exercise: its crank does not turn round, a plan is a line."""
         yield from super().unfit(case)
@@ -122,12 +115,6 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Go through what a teacher should know: where a crank does not turn, where links lie in line."""
         yield from super().remarks(task, variant, solved)
         yield from _hindered(task.mechanism, task.values(variant), lined=True)
-
-    def conditions(self, solved: SolvedLinkage) -> dict[str, Condition]:
-        """Return the condition of every quantity."""
-        from ...plans.linkages.solved import conditions_of  # needs numpy, which plain solutions do without
-
-        return conditions_of(solved)
 
     def warnings(self, solved: SolvedLinkage) -> tuple[InputError, ...]:
         """Tell of lines that meet at a small angle."""
@@ -187,12 +174,6 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         from ...drawing.linkages.steps import story
 
         return story(self.scene(case, scales, words), texts)
-
-    def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
-        """Return what the first steps of every plan draw."""
-        from ...drawing.linkages.steps import begun
-
-        return begun(self.scene(case, scales, words), steps)
 
     def scene(self, case: Case, scales: Scales, words: Words) -> Scene:
         """Return what is drawn with its letters and scale factors."""

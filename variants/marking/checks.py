@@ -238,7 +238,7 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
     advance(len(found), len(answers))
     todo = [item for item in enumerate(answers) if item[0] not in found]
     with _seldom_collected():
-        for done in shared_out(job, todo, jobs or os.cpu_count() or 1, lambda item: _variant(job.terms, item[1])):
+        for done in shared_out(job.begin, todo, jobs or os.cpu_count() or 1, lambda item: _variant(job.terms, item[1])):
             for number, student, result in ((*todo[place], made) for place, made in done):
                 if result is None:  # the student's answers have killed the process that marked them
                     result = failed(student, InputError("process-died"), job.terms.request.language)
