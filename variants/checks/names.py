@@ -13,23 +13,7 @@ from ...scales.names import cyrillic, latin, unknown
 from ...scales.numbers import quote, split_number
 from ...scales.units import ONE, Dimension, Unit, customary, parse, unit
 from ..task import Given, Variant
-from .basics import (
-    NAME,
-    Checker,
-    Field,
-    Path,
-    Read,
-    array_of,
-    as_is,
-    label,
-    name,
-    one_of,
-    record,
-    rows,
-    text,
-    trying,
-    word,
-)
+from .basics import NAME, Checker, Field, Path, array_of, as_is, label, name, one_of, record, rows, text, trying, word
 
 NEVER_NEGATIVE = {unit("kg").dimension, unit("kg*m^2").dimension, unit("rad/s").dimension}
 _M = unit("m")
@@ -240,7 +224,7 @@ class Names:
 
         return read
 
-    def above_zero(self, wanted: Unit) -> Read:
+    def above_zero(self, wanted: Unit) -> Named:
         """Return a reader of a value that is greater than zero."""
 
         def read(checker: Checker, path: Path, raw: object) -> str | None:
