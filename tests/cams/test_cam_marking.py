@@ -24,21 +24,15 @@ from kulman.plans.marking.key import Key
 from kulman.plans.marking.verdicts import mark
 from kulman.plans.mistakes.book import book, broken
 from kulman.plans.mistakes.explaining import Explanation, explain
-from kulman.tests.support.cam_students import MADI, ROCKER, Settings, asked, asked_key, cam_book, keyed_cam, random_cams
+from kulman.tests.support.cams import MADI, ROCKER, Settings, asked, asked_key, cam_book, keyed_cam, random_cams
 from kulman.tests.support.marking_cases import HAND, moves, students
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import Solution
 
-PRINTED = {
-    "mu_s": Verdict.RIGHT,
-    "mu_a": Verdict.RIGHT,
-    "ds_max": Verdict.RIGHT,
-    "r_0": Verdict.RIGHT,
-    "e": Verdict.RIGHT,
+PRINTED = dict.fromkeys(("mu_s", "mu_a", "ds_max", "r_0", "e", "R_plate"), Verdict.RIGHT) | {
     "rho_min": Verdict.WRONG,  # the radius of the upper dwell
     "r_0_flat_min": Verdict.WRONG,  # an amplitude on paper
     "r_0_flat": Verdict.CARRIED,
-    "R_plate": Verdict.RIGHT,
 }
 
 
@@ -456,32 +450,23 @@ def test_what_is_a_power_of_data_has_it_where_phases_fill_the_turn_or_the_veloci
 @pytest.mark.parametrize(
     ("numbers", "names"),
     [
-        pytest.param(("h", "phi_rise", "phi_fall", "u", "gamma_rise", "gamma_fall"), ("r_0", "s_0"), id="roller"),
-        pytest.param(("h", "phi_rise", "phi_fall", "u", "rho_flat"), ("r_0_flat",), id="plate", marks=pytest.mark.soak),
+        ("h phi_rise phi_fall u gamma_rise gamma_fall", ("r_0", "s_0")),
+        pytest.param("h phi_rise phi_fall u rho_flat", ("r_0_flat",), marks=pytest.mark.soak),
     ],
 )
-def test_sizes_hang_on_the_data_as_they_do_when_solved_again(numbers: tuple[str, ...], names: tuple[str, ...]) -> None:
+def test_sizes_hang_on_the_data_as_they_do_when_solved_again(numbers: str, names: tuple[str, ...]) -> None:
     right = madi()
 
     totals = dict.fromkeys(names, 0.0)
-    for name in numbers:
-        unit, given = right.task.givens[name].unit, right.solved.givens[name]
+    for name in numbers.split():
+        given, unit = right.solved.givens[name], right.task.givens[name].unit
         assert unit is not None
-        there = [solve(MADI, set={name: unit.from_si(given * (1.0 + step))}) for step in (STEP, -STEP)]
+        there = [solve(MADI, set={name: unit.from_si(given * (1.0 + step))}).solved.values for step in (STEP, -STEP)]
         for quantity in names:
-            more, less = (float(one[quantity].value or 0.0) for one in there)
-            totals[quantity] += abs(more - less) * (0.5 / STEP) / abs(float(right[quantity].value or 0.0))
+            moved = abs(float(there[0][quantity]) - float(there[1][quantity])) * (0.5 / STEP)
+            totals[quantity] += moved / abs(float(right.solved.values[quantity]))
 
-    for quantity in names:
-        assert right.conditions[quantity].value == pytest.approx(totals[quantity], rel=2e-3)
-
-
-@pytest.mark.soak
-def test_conditions_of_a_rocker_are_those_of_its_triangle() -> None:
-    found = solve(ROCKER, condition=True).conditions
-
-    assert found["l_rocker"].value == pytest.approx(1.0, abs=1e-4)
-    assert all(0.0 < (found[name].value or 0.0) < 20.0 for name in ("r_0", "l_OC", "psi_0", "rho_min"))
+    assert {name: right.conditions[name].value for name in names} == pytest.approx(totals, rel=2e-3)
 
 
 def test_sines_are_those_of_the_flattest_rays_of_the_chords() -> None:
@@ -497,16 +482,12 @@ def test_sines_are_those_of_the_flattest_rays_of_the_chords() -> None:
 
 def test_no_size_of_a_cam_loses_more_than_its_condition_says() -> None:
     right, err, signs = madi(), 1e-6, cycle((1.0, -1.0, -1.0))
-    units = {name: right.task.givens[name].unit for name in NUMBERS}
-    erring = {
-        name: unit.from_si(right.solved.givens[name] * (1.0 + err * next(signs)))
-        for name, unit in units.items()
-        if unit is not None
-    }
-    there = solve(MADI, set=erring)
+    units = {name: unit for name in NUMBERS if (unit := right.task.givens[name].unit) is not None}
+    givens = {name: right.solved.givens[name] * (1.0 + err * next(signs)) for name in units}
+    there = solve(MADI, set={name: unit.from_si(givens[name]) for name, unit in units.items()})
 
     for name, condition in right.conditions.items():
         value, size = float(right.solved.values[name]), float(right.solved.values[BESIDE.get(name, name)])
-        moved = float(there.solved.values[name])
+        moved = abs(float(there.solved.values[name]) - value)
         assert condition.value is not None, name
-        assert abs(moved - value) <= err * (condition.value * 1.01 + 1e-3) * abs(size), name
+        assert moved <= err * (condition.value * 1.01 + 1e-3) * abs(size), name

@@ -1,15 +1,37 @@
-"""Points C1 to C8 of the examiner's list on sheets of cams that were drawn and read back."""
+"""Points C1 to C8 of the examiner's list on sheets of cams, those with rockers each place after formulas of its own."""
 
 from __future__ import annotations
 
+import cmath
+import math
 import re
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import pairwise
 
+import numpy as np
 import pytest
+import shapely
 
 from kulman import sheet, solve
 from kulman.plans.cams.cam import LAWS
-from kulman.tests.support.cam_points import POINTS, CamCase, apart
-from kulman.tests.support.readback import read
+from kulman.plans.laws import LAWS as LAWS_OF_BOARD
+from kulman.scales.errors import LANGUAGES
+from kulman.tests.support.cam_points import (
+    NEAR,
+    POINTS,
+    STEEP,
+    CamCase,
+    Faults,
+    apart,
+    measured,
+    mu_l,
+    node,
+    ring,
+    unless,
+)
+from kulman.tests.support.cams import ROCKER
+from kulman.tests.support.readback import Sheet, View, angle, cross, polygon, read
 from kulman.variants.kinds.cam import RULES
 
 MADI = CamCase()
@@ -64,10 +86,11 @@ def test_small_changes_of_a_cam_stay_on_one_a1(changes: dict[str, object]) -> No
 @pytest.mark.parametrize(
     ("changes", "mu", "ratio"),
     [
-        pytest.param({}, 0.001, "M 1:1", id="of the project"),
-        pytest.param({"law": "cosine"}, 0.0005, "M 2:1", id="least radii below 30 mm", marks=pytest.mark.soak),
-        pytest.param({"h": "40 mm"}, 0.002, "M 1:2", id="more than 150 mm to the top", marks=pytest.mark.soak),
+        ({}, 0.001, "M 1:1"),
+        pytest.param({"law": "cosine"}, 0.0005, "M 2:1", marks=pytest.mark.soak),  # least radii below 30 mm
+        pytest.param({"h": "40 mm"}, 0.002, "M 1:2", marks=pytest.mark.soak),  # more than 150 mm to the top
     ],
+    ids=str,
 )
 def test_the_profile_of_a_cam_is_enlarged_or_reduced_as_is_customary(
     changes: dict[str, object], mu: float, ratio: str
@@ -155,3 +178,333 @@ def test_the_examiner_sees_a_spoiled_sheet_of_a_cam(point: str) -> None:
         found = [str(stumbled)]
 
     assert found
+
+
+FREE = CamCase((), "A1", "uk", ROCKER)
+TWO_SIDED = CamCase((("rotation", "cw"), ("limits", "two-sided"), ("law", "polynomial-345")), "A3", "en", ROCKER)
+GIVEN = CamCase((("l_OC", "125 mm"), ("law", "constant"), ("fall", "same")), "A1", "ru", ROCKER)
+TURNED = CamCase(
+    (("l_OC", "140 mm"), ("rotation", "cw"), ("law", "cosine"), ("phi_upper", "0 deg")), "A1", "en", ROCKER
+)
+JUDGED = CamCase(TWO_SIDED.changes, "A2", "en", ROCKER, only="sizes,profile")  # what the judges look at, on one page
+ROCKERS = (FREE, *(pytest.param(case, marks=pytest.mark.soak) for case in (TWO_SIDED, GIVEN, TURNED)))
+
+
+def swing(case: CamCase, phi: np.ndarray, side: int = -1) -> tuple[np.ndarray, np.ndarray]:
+    """Angle of the rocker and its analogue of velocity: the travel along the arc over the rocker's length."""
+    s, ds, _ = case.solved.motion.at(phi, side)
+    l = case.solved.values["l_rocker"]
+    return np.asarray(s / l), np.asarray(ds / l)
+
+
+def first_angle(case: CamCase) -> float:
+    """Angle at the pivot between the rocker in its lowest position and the line of centres."""
+    l, d, r_0 = (case.solved.values[name] for name in ("l_rocker", "l_OC", "r_0"))
+    return math.acos((l * l + d * d - r_0 * r_0) / (2.0 * l * d))
+
+
+def inversion_faults(case: CamCase, drawn: Sheet) -> Faults:
+    """The pivot goes round against omega; each roller's centre is l from it, and as far from O as the triangle says."""
+    view, values = drawn["profile"], case.solved.values
+    mu, l, d = mu_l(view), values["l_rocker"], values["l_OC"]
+    centre, r_0 = ring(view, "circle", "r_0")
+    sizes = abs(r_0 * mu - values["r_0"]), abs(ring(view, "circle", "l_OC")[1] * mu - d)
+    yield from unless(max(sizes) <= NEAR * mu, "a circle has another radius")
+    turning = view.turning("omega")
+    yield from unless(turning is not None and turning[1] == case.sense, "omega turns the other way")
+    angles = case.solved.angles
+    psi, first = swing(case, angles)[0], first_angle(case)
+    pivots = [view.point("A0"), *(node(view, f"A{i}") for i in range(1, len(angles)))]
+    start = pivots[0] - centre
+    for i, (phi, pivot) in enumerate(zip(angles.tolist(), pivots, strict=True)):
+        at, there = node(view, f"B{i}"), centre + start * cmath.rect(1.0, -case.sense * phi)
+        yield from unless(abs(pivot - there) <= NEAR, f"pivot {i} is not laid off against omega")
+        yield from unless(abs(abs(at - pivot) * mu - l) <= NEAR * mu, f"rocker {i} has another length")
+        far = math.sqrt(l * l + d * d - 2.0 * l * d * math.cos(first + float(psi[i]))) / mu
+        yield from unless(abs(abs(at - centre) - far) <= NEAR, f"roller {i} is {abs(at - centre)} mm from O, not {far}")
+        yield from unless(abs(ring(view, "roller", str(i))[0] - at) <= NEAR, f"roller {i} is not about its centre")
+
+
+def contact_faults(case: CamCase, drawn: Sheet) -> Faults:
+    """At any angle a roller about the place of its centre touches the practical profile and does not cut it."""
+    view, values = drawn["profile"], case.solved.values
+    mu, l, d, R = mu_l(view), values["l_rocker"], values["l_OC"], values["R_roller"]
+    (practical,) = view.inside("curve", "practical")
+    body = polygon(practical.points)
+    yield from unless(body.is_valid, "the practical profile has a loop")
+    centre, start = ring(view, "circle", "r_0")[0], view.point("A0")
+    phi = np.linspace(0.0, math.tau, 500)[:-1]
+    along = cmath.phase(start - centre) - case.sense * phi
+    lift = math.pi + first_angle(case)  # from the line of centres, outwards, to the rocker
+    at = centre + (d * np.exp(1j * along) + l * np.exp(1j * (along + lift + swing(case, phi)[0]))) * (1.0 / mu)
+    beside = abs(complex(at[0]) - node(view, "B0"))
+    yield from unless(beside <= NEAR, "the rocker lies on the other side of the line of centres")
+    room = np.max(np.abs(shapely.distance(body.exterior, shapely.points(at.real, at.imag)) - R / mu))
+    yield from unless(room <= NEAR, f"a roller misses the profile by {room:.4f} mm")
+
+
+def size_faults(case: CamCase, drawn: Sheet) -> Faults:
+    """Analogues along the rocker, limits through their ends at the permitted angle, the centre where they permit it."""
+    view, values = drawn["rocker_sizes"], case.solved.values
+    mu, l = mu_l(view), values["l_rocker"]
+    pivot, centre = view.point("C"), view.point("O")
+    (psi, before), (_, after) = (swing(case, case.solved.angles, side) for side in (-1, 1))
+    for name in ("r_0", "l_OC"):
+        away = abs(measured(view, name) * mu - values[name])
+        yield from unless(away <= NEAR * mu, f"{name} is dimensioned otherwise")
+    away = abs(abs(centre - node(view, "B0")) * mu - values["r_0"])
+    yield from unless(away <= NEAR * mu, "the centre is not at r_0")
+    for phase, way in (("rise", 1), ("fall", -1)):
+        lines = getattr(case.solved.layout.division, phase)
+        for i in lines:
+            arm, dpsi = cmath.rect(1.0, float(psi[i])), float((after if i == lines[0] else before)[i])
+            at, end = node(view, f"B{i}"), node(view, f"{i}_{phase}")
+            yield from unless(abs(at - pivot - arm * (l / mu)) <= NEAR, f"position {i} is elsewhere")
+            away = abs(end - at + arm * (case.sense * dpsi * l / mu))
+            yield from unless(away <= NEAR, f"analogue {i} is laid off otherwise")
+            (limit,) = view.lines("limit", f"{i}_{phase}")
+            a, b = limit.points
+            yield from unless(abs(cross((b - a) / abs(b - a), end - a)) <= NEAR, f"limit {i} misses its end")
+            turned = angle(arm * cmath.rect(1.0, -way * case.sense * values[f"gamma_{phase}"]), b - a)
+            yield from unless(abs(math.remainder(turned, 180.0)) <= STEEP, f"limit {i} is turned by {turned} degrees")
+    yield from permitted_faults(case, view, pivot, centre)
+
+
+def permitted_faults(case: CamCase, view: View, pivot: complex, centre: complex) -> Faults:
+    """All hatched places, and the centre, keep the pressure angle in all positions; beyond the hatching none does."""
+    within, strokes = math.radians(STEEP), view.inside("permitted", "centre")
+    yield from unless(lack(case, view, pivot, centre) <= within, "the centre does not keep the limits")
+    if len(strokes) < 5:
+        yield "the permitted places are not hatched"
+        return
+    ends = [p for s in strokes for p in s.points]
+    kept = max(lack(case, view, pivot, p) for p in ends) <= within
+    yield from unless(kept, "a place is hatched that does not keep the limits")
+    box = shapely.MultiPoint([(p.real, p.imag) for p in ends]).envelope
+    inner = [p for p in ends if box.exterior.distance(shapely.Point(p.real, p.imag)) > 0.1]
+    for stroke in strokes:
+        a, b = stroke.points
+        for end, out in ((a, a - b), (b, b - a)):
+            if end in inner and lack(case, view, pivot, end + out / abs(out)) < 0.0:
+                yield "a place that keeps the limits is not hatched"
+
+
+def lack(case: CamCase, view: View, pivot: complex, place: complex) -> float:
+    """By how much the pressure angle exceeds its limit if the cam's centre is at a place; negative within it."""
+    mu, l, worst = mu_l(view), case.solved.values["l_rocker"], -math.inf
+    motion, two_sided = case.solved.motion, case.solved.cam.two_sided
+    if any(cross(cmath.rect(1.0, psi), place - pivot) > NEAR for psi in (0.0, motion.h / l)):
+        return math.inf  # the cam stays below the rocker
+    for phase, way in ((motion.rise, 1), (motion.fall, -1)):
+        phi = np.linspace(phase.start, phase.end, 400)[:-1]
+        psi, dpsi = swing(case, phi, 1)
+        arm = np.exp(1j * psi)
+        normal = pivot + arm * (l / mu) * (1.0 - case.sense * dpsi) - place
+        theta = np.angle(normal / (1j * arm))
+        limit = 0.5 * math.pi - case.solved.values[f"gamma_{phase.name}"]
+        pushed = np.abs(theta) if two_sided else way * case.sense * theta
+        worst = max(worst, float(np.max(pushed)) - limit)
+    return worst
+
+
+JUDGES: dict[str, Callable[[CamCase, Sheet], Faults]] = {
+    "inversion": inversion_faults,
+    "contact": contact_faults,
+    "sizes": size_faults,
+    "views": apart,
+}
+
+
+@pytest.mark.parametrize("judge", JUDGES)
+@pytest.mark.parametrize("case", [*ROCKERS, JUDGED], ids=str)
+def test_sheet_of_a_rocker_is_drawn_to_scale(case: CamCase, judge: str) -> None:
+    assert list(JUDGES[judge](case, case.sheet)) == []
+
+
+def shifted(view: str, tag: str, **shifts: float) -> Callable[[str], str]:
+    """Add to attributes of the first element that follows `tag` in a view, mm; y runs down."""
+
+    def shift(page: str) -> str:
+        found = next(filter(None, (re.compile(tag).search(page, *span) for span in spans(page, view))), None)
+        assert found, tag
+        end = page.index(">", found.end())
+        element = page[found.end() : end]
+        for name, by in shifts.items():
+            element, count = re.subn(
+                rf'\b{name}="([\d.]+)', lambda was, name=name, by=by: f'{name}="{float(was[1]) + by:.6f}', element
+            )
+            assert count == 1, name
+        return page[: found.end()] + element + page[end:]
+
+    return shift
+
+
+def spans(page: str, view: str) -> Iterator[tuple[int, int]]:
+    """Go through where the groups of a view begin and end, one in each layer."""
+    starts = [found.start() for found in re.finditer('class="(?:view|layer)"', page)]
+    for start, end in pairwise([*starts, len(page)]):
+        if page.startswith(f'class="view" data-name="{view}"', start):
+            yield start, end
+
+
+def without(group: str) -> Callable[[str], str]:
+    """Take away the strokes of the first group of its kind."""
+    return partial(re.sub, rf'(class="{group}" data-name="\w+">\n)(?:<line .*\n)*', r"\g<1>", count=1)
+
+
+def of(role: str, name: str, tag: str = "circle") -> str:
+    return rf'"{role}" data-name="{name}">\n<{tag}'
+
+
+SIZES, PROFILE = "rocker_sizes", "profile"
+HATCH = of("permitted", "centre", "line.*\n<line.*\n<line.*\n<line.*\n<line.*\n<line")  # from the edge to a limit
+SPOILED_ROCKERS = {
+    "a circle has another radius": ("inversion", shifted(PROFILE, of("circle", "l_OC"), r=0.02)),
+    "pivot 7 is not laid off against omega": ("inversion", shifted(PROFILE, of("node", "A7"), cx=0.02)),
+    "rocker 7 has another length": ("inversion", shifted(PROFILE, of("node", "A7"), cx=0.1, cy=0.1)),
+    "roller 7 is ": ("inversion", shifted(PROFILE, of("node", "B7"), cx=0.1)),
+    "roller 7 is not about its centre": ("inversion", shifted(PROFILE, of("roller", "7"), cx=0.02)),
+    "a roller misses the profile by": ("contact", shifted(PROFILE, of("curve", "practical", "polygon"), points=-3.0)),
+    "the practical profile has a loop": (
+        "contact",
+        shifted(PROFILE, of("curve", "practical", "polygon"), points=200.0),
+    ),
+    "the rocker lies on the other side": ("contact", shifted(PROFILE, of("node", "B0"), cx=0.02)),
+    "the centre is not at r_0": ("sizes", shifted(SIZES, of("point", "O"), cy=0.02)),
+    "r_0 is dimensioned otherwise": (
+        "sizes",
+        shifted(SIZES, of("dimension", "r_0", "line.*\n<polygon"), points=1.0),
+    ),
+    "position 5 is elsewhere": ("sizes", shifted(SIZES, of("node", "B5"), cy=0.02)),
+    "analogue 5 is laid off otherwise": ("sizes", shifted(SIZES, of("node", "5_rise"), cx=0.02)),
+    "limit 5 misses its end": ("sizes", shifted(SIZES, 'class="limit" data-name="5_rise"', x1=0.03, x2=0.03)),
+    "limit 5 is turned by": ("sizes", shifted(SIZES, 'class="limit" data-name="5_rise"', x2=0.2)),
+    "the centre does not keep the limits": ("sizes", shifted(SIZES, of("point", "O"), cy=-1.0)),
+    "the permitted places are not hatched": ("sizes", without("permitted")),
+    "a place is hatched that does not keep the limits": ("sizes", shifted(SIZES, HATCH, x2=0.5, y2=-0.5)),
+    "a place that keeps the limits is not hatched": ("sizes", shifted(SIZES, HATCH, x2=-2.0, y2=2.0)),
+}
+SPOILED_ROCKERS_BY_DEFAULT = (
+    "roller 7 is ",
+    "a roller misses the profile by",
+    "limit 5 is turned by",
+)  # one of each judge
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [
+        fault if fault in SPOILED_ROCKERS_BY_DEFAULT else pytest.param(fault, marks=pytest.mark.soak)
+        for fault in SPOILED_ROCKERS
+    ],
+)
+def test_the_judges_see_what_is_spoiled_on_a_sheet_of_a_rocker(fault: str) -> None:
+    judge, spoil = SPOILED_ROCKERS[fault]
+
+    found = list(JUDGES[judge](FREE, read(*map(spoil, FREE.pages))))
+
+    assert any(one.startswith(fault) for one in found), found
+
+
+def test_numbers_of_positions_stand_apart_where_the_phases_of_a_rocker_fill_the_turn() -> None:
+    turn = (("phi_rise", "200 deg"), ("phi_upper", "0 deg"), ("phi_fall", "160 deg"))
+    case = CamCase(turn, "A1", "en", ROCKER, only="sizes,profile")
+
+    numbers = case.sheet["profile"].of("position")
+
+    boxes = [shapely.box(*text.box) for text in numbers]
+    assert [text.string for text in numbers][:2] == ["0", "1"]
+    assert len(numbers) >= case.solved.layout.division.last
+    assert not any(a.intersects(b) for k, a in enumerate(boxes) for b in boxes[:k])
+
+
+@pytest.mark.parametrize(
+    ("variant", "lang"), [("1", "uk"), *(pytest.param("2", lang, marks=pytest.mark.soak) for lang in LANGUAGES)]
+)
+def test_the_example_is_one_a1_in_all_languages(variant: str, lang: str) -> None:
+    drawn = sheet(ROCKER, variant, lang=lang)
+
+    assert (drawn.format, len(drawn.pages)) == ("A1", 1)
+
+
+def test_pressure_angles_of_a_rocker_are_drawn_between_their_limits_over_the_section_lines_of_the_diagrams() -> None:
+    view, angles = FREE.sheet["pressure"], FREE.solved.angles
+    rise, fall = (view.inside("limit", name) for name in ("rise", "fall-"))
+    heights = [p.imag for s in view.inside("curve", "theta") for p in s.points]
+    feet = [min(s.points, key=lambda p: p.imag).real for s in view.lines("section")]
+
+    steps = np.diff(feet)
+
+    assert max(heights) == pytest.approx(rise[0].points[0].imag, abs=NEAR)
+    assert min(heights) == pytest.approx(fall[0].points[0].imag, abs=NEAR)
+    assert steps == pytest.approx(np.diff(angles) * (steps[0] / (angles[1] - angles[0])), abs=NEAR)
+
+
+@pytest.mark.parametrize("setting", [{"rotation": "ccw"}, {"rotation": "cw"}, {"l_OC": "140 mm"}])
+def test_the_angle_at_the_pivot_is_that_of_its_positions_drawn(setting: dict[str, str]) -> None:
+    found = solve(ROCKER, set=setting)
+
+    roller, centre = (complex(found.solved.values[f"rocker_sizes.{mark}"]) for mark in ("B0", "C"))
+
+    assert found["psi_0"].value == pytest.approx(abs(cmath.phase(centre / roller)), rel=1e-9)
+
+
+def test_a_triangle_of_no_height_has_its_angle() -> None:
+    triangle = LAWS_OF_BOARD["angle_of_triangle"]
+
+    assert triangle(0.1, 0.3, 0.2 * (1.0 - 1e-15)) == 0.0
+    assert triangle(0.1, 0.3, 0.4 * (1.0 + 1e-15)) == math.pi
+    assert list(triangle(np.array([3.0, 1.0]), 4.0, 5.0)) == pytest.approx([math.pi / 2, math.pi])
+
+
+@pytest.mark.soak
+def test_an_undercut_profile_of_a_rocker_is_drawn_with_its_corner() -> None:
+    case = CamCase((("R_roller", "34 mm"),), "A1", "en", ROCKER, only="profile")
+    view, solved = case.sheet["profile"], case.solved
+    assert solved.rocker is not None
+    (cut,) = solved.rocker.profile.undercuts
+    mu, R = mu_l(view), case.solved.values["R_roller"]
+    (practical,) = view.inside("curve", "practical")
+    corner, _ = ring(view, "corner", "1")
+    notes = " ".join(text.string for text in view.of("heading"))
+
+    (said,) = re.findall(r"from φ = ([\d.]+)° to ([\d.]+)° .* corner Q, up to ([\d.]+)° of its travel", notes)
+
+    assert [float(one) for one in said[:2]] == pytest.approx(np.degrees([cut.start, cut.end]), abs=0.006)
+    assert float(said[2]) == pytest.approx(math.degrees(cut.lost), rel=5e-3)
+    k = min(range(len(practical.points)), key=lambda at: abs(practical.points[at] - corner))
+    before, at, after = (practical.points[k + step] for step in (-1, 0, 1))
+    assert abs(at - corner) < NEAR
+    assert abs(angle(at - before, after - at)) > 5.0
+    outline = shapely.LinearRing([(p.real, p.imag) for p in practical.points])
+    centres = [ring(view, "roller", str(i))[0] for i in range(len(solved.angles))]
+    room = {i: outline.distance(shapely.Point(b.real, b.imag)) - R / mu for i, b in enumerate(centres)}
+    within = {i for i, phi in enumerate(solved.angles) if cut.start < phi < cut.end}
+    assert within
+    assert max(room[i] for i in within) > 4.0 * NEAR
+    assert all(room[i] > -NEAR if i in within else abs(room[i]) < NEAR for i in room)
+
+
+def test_the_offsets_that_a_given_r_0_permits_are_drawn_on_its_circle() -> None:
+    case = CamCase((("r_0", "50 mm"),), "A3", "en", only="sizes")
+    view, values = case.sheet["sizes"], case.solved.values
+    (permitted,) = view.inside("offsets", "e")
+    assert permitted.arc is not None
+    origin, radius, _ = permitted.arc
+    mu, ends = values["r_0"] / radius, sorted(permitted.points[k].real for k in (0, -1))
+
+    found = [(x - origin.real) * mu for x in (*ends, view.point("O").real)]
+
+    assert found == pytest.approx([values[name] for name in ("e_least", "e_most", "e")], abs=NEAR * mu)
+    assert abs(view.point("O") - origin) == pytest.approx(radius, abs=NEAR)
+    assert any("e_{min} = 6.24 mm ≤ e = 8.16 mm ≤ e_{max} = 10.09 mm" in text.string for text in case.sheet.texts)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(
+    ("e", "said"), [("3 mm", "e = 3.00 mm < e_{min} = 6.24 mm"), ("11 mm", "e = 11.00 mm > e_{max} = 10.09 mm")]
+)
+def test_a_given_offset_that_is_not_permitted_is_shown_so(e: str, said: str) -> None:
+    case = CamCase((("r_0", "50 mm"), ("e", e)), "A3", "en", only="sizes")
+
+    assert any(text.string == said for text in case.sheet.texts)

@@ -8,12 +8,12 @@ of this kind.
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from kulman import check, note, sweep
+from kulman import note, sweep
+from kulman.drawing.notes.blocks import Steps
 from kulman.plans.cams.cam import ORDERS, Cam
 from kulman.plans.cams.followers import Limits, PlateProfile, Rocker, RollerProfile, Sizes, Straight, turned_back
 from kulman.plans.cams.laws_of_motion import law_of_motion
@@ -31,7 +31,19 @@ from kulman.plans.cams.sizes import (
 from kulman.plans.cams.solve import solve_cam
 from kulman.scales.errors import InputError
 from kulman.tests.support.cam_points import CamCase, c8_plate
-from kulman.tests.support.cams import MADI_LIMITS, SEED, SMOOTH, dense, madi_motion, random_limits, random_motion
+from kulman.tests.support.cams import (
+    MADI,
+    MADI_LIMITS,
+    SEED,
+    SMOOTH,
+    asked,
+    dense,
+    keyed_cam,
+    madi_motion,
+    random_limits,
+    random_motion,
+)
+from kulman.tests.support.printed_numbers import lines_of
 from kulman.variants.kinds.cam import KIND
 
 COUNTS = pytest.mark.parametrize(
@@ -107,25 +119,17 @@ def test_least_transmission_angle_is_exact(two_sided: bool, count: int) -> None:
             assert found.value <= np.min(gamma) + 1e-14
 
 
-def test_apex_is_not_always_the_smallest_cam() -> None:
+def test_apex_is_not_always_the_smallest_cam_and_one_that_turns_the_other_way_is_its_mirror_image() -> None:
     motion = Motion(0.03, 1.2, 0.2, 3.0, law_of_motion("sine"))
     limits = Limits(math.radians(60.0), math.radians(20.0))
 
-    for sense in (1, -1):
-        planes = wedge(motion, limits, sense)
-        smallest, corner = smallest_roller(planes), apex(planes)
-        assert smallest.on == ("rise",)
-        assert corner.on == ("rise", "fall")
-        assert smallest.r_0 < 0.99 * corner.r_0
-        assert smallest.r_0 == pytest.approx(Positions(motion, limits, sense).smallest(0.2), rel=1e-6)
-        assert smallest.e * sense > 0.0  # towards the side to which the cam pushes in the rise
+    one, other = (smallest_roller(wedge(motion, limits, sense)) for sense in (1, -1))
 
-
-def test_cam_turned_the_other_way_is_the_mirror_image() -> None:
-    planes, mirrored = (wedge(madi_motion(), MADI_LIMITS, sense) for sense in (1, -1))
-
-    one, other = smallest_roller(planes), smallest_roller(mirrored)
-
+    corner = apex(wedge(motion, limits, 1))
+    assert (one.on, corner.on) == (("rise",), ("rise", "fall"))
+    assert one.r_0 < 0.99 * corner.r_0
+    assert one.r_0 == pytest.approx(Positions(motion, limits, 1).smallest(0.2), rel=1e-6)
+    assert one.e > 0.0  # towards the side to which the cam pushes in the rise
     assert (other.r_0, other.e, other.s_0, other.on) == (one.r_0, -one.e, one.s_0, one.on)
 
 
@@ -391,19 +395,20 @@ def test_a_given_r_0_under_a_plate_is_held_against_the_least_that_a_scan_finds(n
             assert reach == pytest.approx(1j * (2.0 * least + float(motion.at(phi)[0])), abs=1e-14)
 
 
-def test_a_plate_cam_with_a_given_r_0_is_drawn_told_and_marked(tmp_path: Path) -> None:
-    task, given = "madi-cam", {"r_0_flat": "50 mm"}
-    path, *_ = note(task, set=given, lang="en").save(tmp_path / "note.md")
-    told_of = path.read_text(encoding="utf-8")
-    form = check(task, set=given, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
-    asked = [line.split(",")[0] for line in form.splitlines()]
-    swept = sweep(task, set=given).table("en")
-    drawn = CamCase((*given.items(),), "A2", "en", only="sizes,profile")
+def test_a_plate_cam_with_a_given_r_0_is_drawn_told_and_marked() -> None:
+    given, drawn = {"r_0_flat": "50 mm"}, CamCase((("r_0_flat", "50 mm"),), "A2", "en", only="sizes,profile")
+    of = keyed_cam((*given.items(),))
 
-    assert "given least radius" in told_of
-    assert ("r_0_flat" in asked, "rho_flat_min" in asked) == (False, True)
+    steps = [block for block in note(MADI, set=given, lang="en").document.blocks if isinstance(block, Steps)]
+    swept = sweep(MADI, set=given).table("en")
+
+    assert any("given least radius" in text for block in steps for text in block.texts)
+    assert ("r_0_flat" in asked(of), "rho_flat_min" in asked(of)) == (False, True)
     assert "least radius of curvature under the plate: 21.4039 mm at phi = 195" in swept
     assert [*c8_plate(drawn, drawn.sheet)] == []
+    assert any(
+        line.endswith(" = 10 mm") for line in lines_of(drawn.sheet["equations_plate"])
+    )  # what it is held against
 
 
 MM = 1e-3
@@ -442,27 +447,10 @@ def test_printed_least_radius_is_not_that_of_the_sharpest_place_and_that_under_t
     assert plate.R_plate == pytest.approx(25.8 * MM, rel=0.005)
 
 
-def test_printed_scale_factors_follow_from_the_drawn_travel() -> None:
-    per_mm, pole, omega = math.radians(1.0), 30.0, 200.0
-    mu_s, mu_ds, mu_d2s = 0.168, 0.321, 0.613  # 10^-3 m/mm
-
-    assert mu_ds == pytest.approx(mu_s / (per_mm * pole), rel=1e-3)
-    assert mu_d2s == pytest.approx(mu_ds / (per_mm * pole), rel=1e-3)
-    assert omega * mu_ds == pytest.approx(64.2, rel=1e-3)
-    assert omega**2 * mu_d2s == pytest.approx(24520.0, rel=1e-3)
-    assert math.degrees(math.atan(mu_s / mu_ds)) == pytest.approx(27.6, abs=0.05)
-    assert math.degrees(math.atan(mu_ds / mu_d2s)) == pytest.approx(27.6, abs=0.05)
-    assert 13.0 / mu_s == pytest.approx(77.4, abs=0.05)  # mm of the highest ordinate
-    assert 20.8 / mu_ds == pytest.approx(64.8, abs=0.05)
-    assert [45.696 / mu_s, 7.728 / mu_s] == pytest.approx([272.0, 46.0], abs=0.05)
-
-
 def test_printed_mistakes_are_of_the_size_that_the_document_tells() -> None:
-    motion, mu = madi_motion(), 0.613
-    s = float(motion.at(math.radians(36.0))[0]) / MM  # where the second amplitude begins
-    upper = math.hypot(7.728, math.sqrt(45.696**2 - 7.728**2) + 13.0)
+    s, mu = float(madi_motion().at(math.radians(36.0))[0]) / MM, 0.613  # where the second amplitude begins
 
     assert s == pytest.approx(4.33, abs=0.005)
     assert 55.0 - s / mu == pytest.approx(47.9, abs=0.05)
     assert (55.0 - s / mu) * mu == pytest.approx(29.4, abs=0.05)
-    assert upper == pytest.approx(58.6, abs=0.05)
+    assert math.hypot(7.728, math.sqrt(45.696**2 - 7.728**2) + 1e3 * madi_motion().h) == pytest.approx(58.6, abs=0.05)

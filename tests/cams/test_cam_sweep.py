@@ -15,7 +15,7 @@ from kulman import cli
 from kulman.plans.cams.course import CamCourse
 from kulman.plans.cams.solve import SolvedCam
 from kulman.scales.errors import InputError
-from kulman.tests.support.cam_students import ROCKER
+from kulman.tests.support.cams import ROCKER
 from kulman.variants.sweeps.sweeps import CourseSweep
 
 TASK = "madi-cam"

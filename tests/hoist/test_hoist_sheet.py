@@ -1,4 +1,4 @@
-"""Points H1 to H5 of the examiner's list on sheets of hoists that were drawn and read back."""
+"""Drawings of a hoist on the board, and points H1 to H5 of the examiner's list on sheets that were read back."""
 
 from __future__ import annotations
 
@@ -6,17 +6,165 @@ import math
 import re
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import pytest
 
 from kulman import sheet
+from kulman.plans.hoist.construction import BENT, EXTREMES, FORCES, LIFT_OFF, SCHEME
+from kulman.plans.hoist.forces import course
+from kulman.plans.hoist.hoist import PLANS, Hoist
+from kulman.plans.hoist.model import CIRCLE
+from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
+from kulman.tests.support.cam_points import node, printed_scales
 from kulman.tests.support.hoists import VARIANTS, together, two_sided
 from kulman.tests.support.overlaps import overlaps
 from kulman.tests.support.readback import Sheet, View, read
 from kulman.variants.sheets import Sheet as Drawing
 
-TASK = "karpenko-hoist"
+MM = 1e-3
+PUSHES: dict[str, Any] = {"I_0": 2.7e-6, "a": 0.0}
+
+
+@pytest.fixture(scope="module", params=["V03", "V04", "V07", "V10"])
+def solved(request: pytest.FixtureRequest) -> SolvedHoist:
+    return solve_hoist(Hoist(), VARIANTS[request.param])
+
+
+def place(solved: SolvedHoist, plan: str, mark: str, mus: tuple[str, str]) -> complex:
+    """Return abscissa and ordinate of a mark in SI, by the scale factors that are printed, per millimetre."""
+    x, y = (solved.quantities[mu].value or math.nan for mu in mus)
+    at = solved.point(f"{plan}.{mark}") * (1.0 / MM)
+    return complex(at.real * x, at.imag * y)
+
+
+def test_numbers_of_the_construction_are_those_of_the_forces(solved: SolvedHoist) -> None:
+    assert (solved.status, all(check.ok for check in solved.forces.checks[:3])) == ("ok", True)
+    for name, value in solved.forces.found.items():
+        if name in solved.quantities:
+            assert solved.quantities[name].value == value
+
+
+def test_both_forces_are_drawn_to_their_scales(solved: SolvedHoist) -> None:
+    found, mus = solved.forces.found, ("mu_t", "mu_F")
+    for letter, column, lines in (("S", "F_01", "f"), ("R", "F_12", "f"), ("P", "F_12", "g")):
+        sections = solved.layout.resting if lines == "f" else solved.layout.hanging
+        drawn = np.array([place(solved, FORCES, f"{letter}{i}", mus) for i in range(sections + 1)])
+        inside = drawn[1:-1]  # at the lift-off itself both phases have a say
+
+        other = course(solved.forces, inside.real).columns[column]
+
+        assert np.max(np.abs(inside.imag - other)) < 1e-9 * found["P_st"]
+    first, last = place(solved, FORCES, "S0", mus), place(solved, FORCES, f"S{solved.layout.resting}", mus)
+    assert first == pytest.approx(complex(0.0, -found["P_st"]))
+    assert last == pytest.approx(complex(found["t_1"], 0.0), abs=1e-9 * found["P_st"])
+    joint = place(solved, FORCES, f"R{solved.layout.resting}", mus) - place(solved, FORCES, "P0", mus)
+    assert abs(joint) < 1e-9 * found["P_st"]  # without a jump
+
+
+def test_drawn_roots_are_near_the_calculated_ones(solved: SolvedHoist) -> None:
+    found, roots = solved.forces.found, solved.layout.roots
+    assert roots is not None
+    V, a, k, ratio = found["V_t"], found["a"], found["k"], found["C_01"] / found["C_12"]
+
+    lift_off = place(solved, LIFT_OFF, "X", ("mu_t1", "mu_y")).real
+
+    assert lift_off == pytest.approx(solved.quantities["t_1_drawn"].value, rel=1e-12)
+    assert abs(lift_off - found["t_1"]) < 0.2 * roots.section
+    for n, t in enumerate(roots.times, 1):
+        crossing = place(solved, EXTREMES, f"X{n}", ("mu_t1", "mu_v"))
+
+        assert abs(V * math.cos(k * t) + a / k * math.sin(k * t) + ratio * (V + a * t)) < 1e-9 * V
+        assert solved.quantities[f"t_2_{n}"].value == t
+        assert abs(crossing.real - t) < 0.2 * roots.section
+        assert crossing.imag == pytest.approx(-ratio * (V + a * crossing.real), rel=1e-9)
+    assert (f"{EXTREMES}.X{len(roots.times) + 1}") not in solved.values
+
+
+@pytest.mark.parametrize("i", [0, 2])
+def test_beams_bend_as_their_moments_say(solved: SolvedHoist, i: int) -> None:
+    found, mus = solved.forces.found, ("mu_x", "mu_w")
+    plan, l, b = BENT[i], found[f"l_{i}"], found[f"b_{i}"]
+    load, EI = found["P_st" if i == 0 else "P_12_max"], found[f"E_{i}"] * found[f"I_{i}"]
+
+    drawn = np.array([place(solved, plan, f"w{n}", mus) for n in range(13)])
+
+    x, h = drawn.real, l / 12.0
+    assert np.allclose(x, np.arange(13) * h, rtol=1e-12, atol=1e-12)
+    w, moment = -drawn.imag, np.where(x < b, load * (l - b) / l * x, load * b / l * (l - x))
+    bend = (w[2:] - 2.0 * w[1:-1] + w[:-2]) / h**2
+    mean = (moment[2:] + 4.0 * moment[1:-1] + moment[:-2]) / 6.0  # exact for straight lines
+    smooth = (np.abs(x[1:-1] - b) >= h * (1.0 - 1e-9)) & ((x[1:-1] - b) % h >= 0.0)
+    assert np.allclose(bend[smooth], -mean[smooth] / EI, rtol=1e-6)
+    under = -place(solved, plan, "A", mus).imag
+    assert under == pytest.approx(load / found["C_01" if i == 0 else "C_2"], rel=1e-12)
+    most = place(solved, plan, "M", mus)
+    assert -most.imag == pytest.approx(found[f"w_{i}_max"], rel=1e-12)
+    assert most.real == pytest.approx(l - found[f"x_w{i}"], rel=1e-12)
+    assert -most.imag >= np.max(w)
+
+
+def test_scheme_has_the_nearer_ends_where_they_are_said_to_be() -> None:
+    values = VARIANTS["V03"]
+
+    solved = solve_hoist(Hoist(near_0="left", near_2="right"), values)
+
+    at = {mark: solved.point(f"{SCHEME}.{mark}") for mark in ("O1", "O2", "A0", "A2", "B1", "B2")}
+    assert at["A2"] - at["A0"] == pytest.approx(values["L"] * 1j)
+    assert at["A0"] - at["O1"] == pytest.approx(values["beta_0"] * values["l_0"])
+    assert at["O2"] - at["O1"] == pytest.approx(values["l_0"])
+    assert at["B2"] - at["A2"] == pytest.approx(values["beta_2"] * values["l_2"])
+    assert at["B2"] - at["B1"] == pytest.approx(values["l_2"])
+
+
+def test_what_is_not_there_is_not_drawn() -> None:
+    everything = {SCHEME, FORCES, LIFT_OFF, EXTREMES, CIRCLE, *BENT.values()}
+    for changes, missing in (
+        ({"I_0": math.inf}, {EXTREMES, "beam_0"}),
+        ({"I_0": math.inf, "I_2": math.inf}, {EXTREMES, "beam_0", "beam_2"}),
+        (PUSHES, {LIFT_OFF, EXTREMES}),
+    ):
+        solved = solve_hoist(Hoist(), {**VARIANTS["V04"], **changes})
+
+        assert everything - {*solved.program.plans} == missing
+        assert {*solved.scale_of_plan} == everything - missing
+        assert solved.trouble is None
+
+
+def test_motion_is_drawn_in_the_place_of_formulas_that_are_not_valid() -> None:
+    solved = solve_hoist(Hoist(), {**VARIANTS["V04"], **PUSHES})
+
+    motion = solved.forces.motion
+    assert motion is not None
+    assert "P_12_max" in solved.quantities
+    for i in range(solved.layout.resting + 1):
+        at = place(solved, FORCES, f"R{i}", ("mu_t", "mu_F"))
+        assert at.imag >= 0.0
+        assert at.imag == pytest.approx(motion.force(at.real), abs=1e-6 * motion.C_12)
+
+
+def test_a_load_that_swings_for_long_is_drawn_at_the_end_only() -> None:
+    values = {**VARIANTS["V04"], "V_0": 1e-3, "a": 0.002}
+
+    solved = solve_hoist(Hoist(), values)
+
+    roots, found = solved.layout.roots, solved.forces.found
+    assert found["k"] * found["t_1"] > 24.0 * math.pi
+    assert roots is not None
+    assert roots.begin > 0.5 * found["t_1"]
+    assert solved.quantities["t_1_drawn"].value == pytest.approx(found["t_1"], abs=0.2 * roots.section)
+
+
+def test_every_plan_can_be_had_alone() -> None:
+    whole = solve_hoist(Hoist(), VARIANTS["V04"])
+    for plan in PLANS:
+        solved = solve_hoist(Hoist(), VARIANTS["V04"], (plan,))
+
+        assert len(solved.program.steps) < len(whole.program.steps)
+        assert all(quantity.value == whole.quantities[name].value for name, quantity in solved.quantities.items())
+
+
 NEAR = 0.02  # mm, as far as curves of many points are read
 
 
@@ -35,7 +183,7 @@ class HoistCase:
     @cached_property
     def drawn(self) -> Drawing:
         changes = {name: repr(value) for name, value in self.changes}
-        return sheet(TASK, self.variant, set=changes, format=self.format, lang=self.lang)
+        return sheet("karpenko-hoist", self.variant, set=changes, format=self.format, lang=self.lang)
 
     @cached_property
     def sheet(self) -> Sheet:
@@ -52,12 +200,16 @@ class HoistCase:
         return found | {"m": (self.values["G_1"] + self.values["G_2"] / 3.0) / 9.81}
 
 
+PUSHED = HoistCase(changes=(("I_0", 2.7e-6), ("a", 0.0)))  # the rope would push
+SLACK = HoistCase("V09", (("V_0", 1.0),), lang="en")  # it goes slack in phase 2
+RIGID = HoistCase(changes=(("I_0", math.inf), ("I_2", math.inf)))
+
+
 CASES = (
-    HoistCase(),
-    HoistCase("V02", lang="en"),
-    HoistCase("V03", lang="ru"),
+    *(HoistCase(), HoistCase("V02", lang="en"), HoistCase("V03", lang="ru")),
     *(pytest.param(HoistCase(variant), marks=pytest.mark.soak) for variant in VARIANTS),
 )
+SMALL = [pytest.param(HoistCase(format=format), marks=pytest.mark.soak) for format in ("A3", "A2")]
 every_case = pytest.mark.parametrize("case", CASES, ids=str)
 
 
@@ -67,10 +219,7 @@ def number(text: str) -> float:
 
 def mu(view: View, symbol: str) -> float:
     """The printed scale factor, SI per mm."""
-    heading = " ".join(text.string for text in view.of("heading"))
-    found = re.search(re.escape(f"μ_{{{symbol}}} = ") + r"([\d.,]+)", heading)
-    assert found is not None, heading
-    return number(found[1])
+    return printed_scales(view)[f"μ_{{{symbol}}}"]
 
 
 def printed(view: View, symbol: str) -> float:
@@ -85,18 +234,12 @@ def curve(view: View, name: str) -> np.ndarray:
     return np.array(stroke.points)
 
 
-def node(view: View, name: str) -> complex:
-    (ring,) = [ring for ring in view.rings if ("node", name) in ring.path]
-    return ring.centre
-
-
 @every_case
 def test_scheme_is_drawn_to_its_scale_and_dimensioned(case: HoistCase) -> None:  # H1
     view, values = case.sheet["scheme"], case.values
     scale = mu(view, "l")
 
-    ends = {mark: view.point(mark) for mark in ("O1", "O2", "B1", "B2")}
-    rope = view.lines("rope", "L")[0]
+    (rope,) = view.lines("rope", "L")
 
     for left, right, i in (("O1", "O2", 0), ("B1", "B2", 2)):
         (beam,) = [stroke for stroke in view.inside("link", str(i)) if len(stroke.points) == 2]
@@ -105,10 +248,8 @@ def test_scheme_is_drawn_to_its_scale_and_dimensioned(case: HoistCase) -> None: 
         at = rope.points[-1].real
         assert (at - a.real) * scale == pytest.approx(values[f"beta_{i}"] * values[f"l_{i}"], abs=0.02 * scale)
         assert printed(view, f"l_{{{i}}}") == pytest.approx(values[f"l_{i}"])
-        assert abs(ends[left] - a) < 0.02
-        assert abs(ends[right] - b) < 0.02
-    heading = " ".join(text.string for text in view.of("heading"))
-    ratio = re.search(r"1:([\d.,]+)", heading)
+        assert max(abs(view.point(left) - a), abs(view.point(right) - b)) < 0.02
+    ratio = re.search(r"1:([\d.,]+)", " ".join(text.string for text in view.of("heading")))
     assert ratio is not None
     assert number(ratio[1]) == pytest.approx(scale * 1e3)
     model = [text.string for text in case.sheet["model"].texts]
@@ -148,10 +289,8 @@ def test_forces_over_time_join_and_swing_about_the_mean(case: HoistCase) -> None
 
 @every_case
 def test_drawn_roots_are_crossings_and_the_circle_has_the_swing(case: HoistCase) -> None:  # H3
-    lift_off, extremes, circle, found = (
-        *(case.sheet[name] for name in ("lift_off", "extremes", "circle")),
-        case.forces,
-    )
+    lift_off, extremes, circle = (case.sheet[name] for name in ("lift_off", "extremes", "circle"))
+    found = case.forces
     parabola, wave = curve(lift_off, "parabola"), curve(lift_off, "sinusoid")
     of_t = mu(lift_off, "t1")
 
@@ -246,37 +385,20 @@ def test_verdict_and_flow_chart_are_those_of_the_numbers(case: HoistCase) -> Non
     assert [text for text in beams.of("heading") if re.search("дальшого|дальнего|farther", text.string)]
 
 
-@every_case
-def test_letters_touch_nothing(case: HoistCase) -> None:
-    assert overlaps(case.sheet) == []
-
-
-@pytest.mark.parametrize(
-    "case",
-    [
-        HoistCase(changes=(("I_0", math.inf), ("I_2", math.inf))),
-        pytest.param(HoistCase(changes=(("I_0", 2.7e-6), ("a", 0.0))), id="the rope would push"),
-        pytest.param(HoistCase("V09", (("V_0", 1.0),)), id="slack in phase 2"),
-        pytest.param(HoistCase(format="A3"), marks=pytest.mark.soak),
-        pytest.param(HoistCase(format="A2"), marks=pytest.mark.soak),
-    ],
-    ids=str,
-)
-def test_odd_hoists_have_sheets_too(case: HoistCase) -> None:
+@pytest.mark.parametrize("case", [*CASES, RIGID, PUSHED, SLACK, *SMALL], ids=str)
+def test_letters_touch_nothing_on_usual_and_on_odd_sheets(case: HoistCase) -> None:
     assert overlaps(case.sheet) == []
     assert "forces" in case.sheet.names
 
 
 def test_circle_of_a_rope_that_goes_slack_ends_where_it_would_push() -> None:
-    case = HoistCase("V09", (("V_0", 1.0),), lang="en")
-    circle, checks = case.sheet["circle"], [text.string for text in case.sheet["checks"].of("cell")]
+    circle, checks = SLACK.sheet["circle"], [text.string for text in SLACK.sheet["checks"].of("cell")]
 
-    (slack,) = circle.lines("slack")
-    (zero,) = circle.lines("level", "slack")
+    ((slack,), (zero,)) = circle.lines("slack"), circle.lines("level", "slack")
 
     assert slack.dashed
     centre, of_P = node(circle, "P_m"), mu(circle, "P")
-    mean = case.forces["m"] * (9.81 + case.values["a"])
+    mean = SLACK.forces["m"] * (9.81 + SLACK.values["a"])
     assert (centre - zero.points[0]).real * of_P == pytest.approx(mean, abs=NEAR * of_P)
     assert not any(("node", "P_12_min") in ring.path for ring in circle.rings)
     assert any(text.startswith("would be −") for text in checks)
@@ -284,27 +406,29 @@ def test_circle_of_a_rope_that_goes_slack_ends_where_it_would_push() -> None:
 
 def test_pages_of_a_small_format_have_smaller_diagrams_and_say_so() -> None:
     case = HoistCase("V02", format="A4", lang="en")
+    view, of_F = case.sheet["forces"], mu(case.sheet["forces"], "F")
 
-    view, found = case.sheet["forces"], case.forces
+    lifted, support = curve(view, "P_12"), curve(view, "F_01")
 
     assert len(case.drawn.pages) > 1
     assert overlaps(case.sheet) == []
-    lifted, support = curve(view, "P_12"), curve(view, "F_01")
-    most = np.max((lifted - support[-1]).imag) * mu(view, "F")
-    assert most == pytest.approx(found["P_12_max"], rel=1e-3)
+    assert np.max((lifted - support[-1]).imag) * of_F == pytest.approx(case.forces["P_12_max"], rel=1e-3)
     assert any("usual size" in warning.text("en") for warning in case.drawn.warnings)
-    assert case.drawn.scales["forces"].mu == pytest.approx(mu(view, "F"))
+    assert case.drawn.scales["forces"].mu == pytest.approx(of_F)
 
 
 @pytest.mark.parametrize(
     ("only", "own"),
     [
         ("circle", {"circle"}),
-        ("scheme", {"scheme", "model"}),
+        pytest.param("scheme", {"scheme", "model"}, marks=pytest.mark.soak),
         pytest.param("forces", {"forces", "strength", "checks", "flow"}, marks=pytest.mark.soak),
     ],
 )
 def test_a_sheet_has_what_belongs_to_the_parts_wanted(only: str, own: set[str]) -> None:
-    names = {view.name for view in sheet(TASK, only=only).views}
-
-    assert names == own | {"givens", "note", "results", "scales"}
+    assert {view.name for view in sheet("karpenko-hoist", only=only).views} == own | {
+        "givens",
+        "note",
+        "results",
+        "scales",
+    }

@@ -11,7 +11,7 @@ import pytest
 from kulman import note
 from kulman.drawing.handouts import begun_pages, begun_stages
 from kulman.drawing.hoist.text import BENT, BY_DRAWING, HANGING, REDUCED, SLACK, STARTED
-from kulman.drawing.notes.blocks import Equations, Figure, Steps, Story
+from kulman.drawing.notes.blocks import Equations, Steps, Story
 from kulman.drawing.page import Page
 from kulman.drawing.shapes import Group, Line, Shape, Text
 from kulman.drawing.view import View
@@ -149,10 +149,3 @@ def test_what_a_hoist_has_not_is_not_told() -> None:
     assert "The closed formulas are not valid here" in moved
     assert "P_{12 max} = P_{m} + R" not in moved
     assert "(11)" not in moved.partition("Divide")[0]
-
-
-def test_forces_are_deflections_too() -> None:
-    figures = [block for block in note(TASK, "V03", lang="en").document.blocks if isinstance(block, Figure)]
-
-    under = [line for block in figures for line in block.under]
-    assert "F_{01} is the deflection w_{0} of the support beam, too: 0.0000457 m/mm" in under

@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.model import model
 from kulman.plans.lab.ropes import PRINTED, SIMPLER, Heavy, HoistDepth, Row, depth, rope_of, rope_row
-from kulman.tests.support.hoist_rows import hoist_row
-from kulman.tests.support.hoists import VARIANTS
+from kulman.tests.support.hoists import SEVERAL, VARIANTS, hoist_row
 
 Array = NDArray[np.float64]
 SEED = 20
@@ -64,24 +63,6 @@ def test_forces_of_a_row_are_those_of_its_displacements(masses: int) -> None:
         assert motion.forces(t) == pytest.approx(right, abs=1e-12 * np.abs(right).max() * (1.0 + t))
 
 
-@pytest.mark.parametrize("masses", [1, 2, 5])
-def test_equation_3_holds_at_any_time_and_begins_as_given(masses: int) -> None:
-    row, begin, times = random_row(np.random.default_rng(SEED), masses)
-    start, rates = (row.stiffnesses * (q[:-1] - q[1:]) for q in begin)
-    yielding, c = np.concatenate(([0.0], 1.0 / row.masses, [0.0])), row.stiffnesses  # the ends do not yield
-    beside = yielding[1:-1]
-    matrix = np.diag(c * (yielding[:-1] + yielding[1:])) - np.diag(c[1:] * beside, -1) - np.diag(c[:-1] * beside, 1)
-
-    motion = row.motion(start, rates)
-
-    h = 1e-4
-    for t in times:
-        second = (motion.rates_of_forces(t + h) - motion.rates_of_forces(t - h)) * (0.5 / h)
-        assert second + matrix @ motion.forces(t) == pytest.approx(row.drive, abs=1e-5 * np.abs(second).max())
-    assert motion.forces(0.0) == pytest.approx(start, rel=1e-12)
-    assert motion.rates_of_forces(0.0) == pytest.approx(rates, rel=1e-12)
-
-
 def test_free_row_of_two_masses_swings_with_k_of_the_article() -> None:
     a, c = np.array([2.0, 5.0]), np.array([0.0, 70.0, 0.0])
     row = Row(a, c, np.array([3.0, -4.0]), np.zeros(2))
@@ -95,21 +76,11 @@ def test_free_row_of_two_masses_swings_with_k_of_the_article() -> None:
     assert motion.forces(t) == pytest.approx([0.0, right, 0.0], rel=1e-13)
 
 
-HOISTS = {
-    "m": np.array([5100.0, 2045.0, 3098.0]),
-    "C_01": np.array([3.7e7, 1.1e6, 1.6e7]),
-    "C_12": np.array([1.6e6, 1.9e6, 4.0e5]),
-    "V_t": np.array([0.1, 0.0, 0.5]),
-    "a": np.array([0.15, 0.4, 0.0]),
-    "g": np.full(3, 9.81),
-}
-
-
 def test_hoist_is_the_row_of_one_mass() -> None:
-    m, C_01, C_12, V_0, a, g = (HOISTS[name] for name in ("m", "C_01", "C_12", "V_t", "a", "g"))
+    m, C_01, C_12, V_0, a, g = (SEVERAL[name] for name in ("m", "C_01", "C_12", "V_t", "a", "g"))
     C, k = C_01 * C_12 / (C_01 + C_12), np.sqrt((C_01 + C_12) / m)
 
-    motion = hoist_row(HOISTS)
+    motion = hoist_row(SEVERAL)
 
     for t in np.linspace(0.0, 0.6, 25):
         osc = a / k**2 * (1.0 - np.cos(k * t)) + V_0 / k * np.sin(k * t)
@@ -119,23 +90,8 @@ def test_hoist_is_the_row_of_one_mass() -> None:
         assert np.all(np.abs(-motion.forces(t) - np.stack((F_01, F_12), -1)) <= 1e-12 * size[:, None])
 
 
-def test_force_of_the_support_obeys_the_fourth_order_equation() -> None:
-    m, C_01, C_12 = (HOISTS[name] for name in ("m", "C_01", "C_12"))
-    k2 = (C_01 + C_12) / m
-    motion = hoist_row(HOISTS)
-
-    h = 1e-3 / np.sqrt(k2)
-    t = 0.2
-    rates = [-motion.rates_of_forces(t + s * h)[..., 0] for s in (-2.0, -1.0, 1.0, 2.0)]
-    bend = (rates[2] - rates[1]) / (2.0 * h)
-    fourth = (rates[3] - 2.0 * rates[2] + 2.0 * rates[1] - rates[0]) / (2.0 * h**3)
-
-    driven = C_01 * C_12 / m * HOISTS["a"]
-    assert fourth + k2 * bend == pytest.approx(driven, abs=1e-5 * float(np.abs(k2 * bend).max()))
-
-
 def test_slow_modes_keep_their_digits_beside_stiff_links() -> None:
-    values = {name: value[:1] for name, value in HOISTS.items()} | {"C_01": np.array([1e19])}
+    values = {name: value[:1] for name, value in SEVERAL.items()} | {"C_01": np.array([1e19])}
     m, C_12 = values["m"], values["C_12"]
 
     motion = hoist_row(values)

@@ -23,7 +23,7 @@ from kulman.plans.marking.verdicts import mark
 from kulman.plans.mistakes.book import book, broken
 from kulman.plans.mistakes.explaining import Candidate, explain
 from kulman.plans.mistakes.rules import BY_SCALE, MISTAKES, Broken, Scene
-from kulman.tests.support.cam_students import MADI, ROCKER, keyed_cam
+from kulman.tests.support.cams import MADI, ROCKER, keyed_cam
 from kulman.tests.support.marking_cases import mistakes
 from kulman.tests.support.mechanisms import ORIGIN
 

@@ -95,6 +95,10 @@ def ring(view: View, role: str, name: str) -> tuple[complex, float]:
     return found.centre, found.radius
 
 
+def node(view: View, name: str) -> complex:
+    return ring(view, "node", name)[0]
+
+
 def curve(view: View, name: str) -> list[complex]:
     """All points of a curve, its pieces one after the other."""
     return [p for s in view.inside("curve", name) for p in s.points]
@@ -408,7 +412,7 @@ def c6_inversion(case: CamCase, sheet: Sheet) -> Faults:
         yield from unless(abs(lean) < STEEP, f"position {i} is turned by {lean} degrees")
         offset = cross(foot - centre, up)
         yield from unless(abs(offset - e / mu) < NEAR, f"the line of position {i} has the offset {offset} mm")
-        at, _ = ring(view, "node", str(i))
+        at = node(view, str(i))
         distance = math.hypot(e, s_0 + case.travel(i)) / mu
         yield from unless(abs(abs(at - centre) - distance) < NEAR, f"pitch point {i} is {abs(at - centre)} mm from O")
         yield from unless(abs(cross(at - foot, up)) < NEAR, f"pitch point {i} is not on its line")
@@ -446,7 +450,7 @@ def c7_practical(case: CamCase, sheet: Sheet) -> Faults:
     for mark in ("K", "P"):
         place = view.point(f"{mark}{normal.name}")
         yield from unless(abs(cross((b - a) / abs(b - a), place - a)) < NEAR, f"the normal misses {mark}")
-    at, _ = ring(view, "node", normal.name)
+    at = node(view, normal.name)
     yield from unless(abs(cross((b - a) / abs(b - a), at - a)) < NEAR, "the normal misses the roller's centre")
     words = " ".join(lines_of(sheet["equations_roller"]))
     yield from unless(words.count("≤") >= 2 and re.search(r"0[.,]4·r", words) is not None, "R_rol is not compared")

@@ -1,15 +1,19 @@
-"""Hoists to try, and their forces by a second route: the motion integrated in extended precision, all at once.
+"""Hoists to try, and their forces by other ways than the article's solutions.
 
-The second route knows none of the article's solutions: it has Newton's law, Hooke's law and power series of the motion
-step by step. Stiffnesses and the mass come from integrals over the beams and the rope.
+Forces of hoists come from the motion integrated in extended precision, all at once: Newton's law, Hooke's law and power
+series of the motion step by step; stiffnesses and the mass from integrals over the beams and the rope. Rows of one mass
+are solved by eigenvalues, their lift-off found by halving, their maxima by dense sampling.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+
+from kulman.plans.lab.ropes import Row, RowMotion
 
 Array = np.ndarray[Any, np.dtype[Any]]
 LONG = np.longdouble
@@ -151,20 +155,13 @@ class Extremes:
         """Look for turnings of a curve from 0 to `end`; its times count from `begin`."""
         rate, places = curve.rate(), end * (np.arange(PARTS + 1, dtype=LONG) / PARTS)[:, np.newaxis]
         slopes = rate.at(places)
-        for sign in (1, -1):
+        for sign, best, when in ((1, self.most, self.at_most), (-1, self.least, self.at_least)):
             rows, turns = np.nonzero((sign * slopes[:-1] > 0) & (sign * slopes[1:] <= 0))
             if len(turns):
                 t = rate.some(turns).zero(places[rows, turns], places[rows + 1, turns])
-                value, t = curve.some(turns).at(t), begin[turns] + t
-                for k in np.argsort(rows, kind="stable"):
-                    self.take(turns[k], value[k], t[k], sign)
-
-    def take(self, hoist: int, value: Any, t: Any, sign: int) -> None:
-        """Take a maximum (+1) or a minimum (-1) of one hoist."""
-        if sign > 0 and value > self.most[hoist]:
-            self.most[hoist], self.at_most[hoist] = value, t
-        if sign < 0 and value < self.least[hoist]:
-            self.least[hoist], self.at_least[hoist] = value, t
+                for hoist, value, time in zip(turns, curve.some(turns).at(t), begin[turns] + t, strict=True):
+                    if sign * value > sign * best[hoist]:
+                        best[hoist], when[hoist] = value, time
 
 
 def two_sided(values: Mapping[str, Any]) -> dict[str, Array]:
@@ -224,3 +221,82 @@ def _hanging(at: Mapping[str, Any], e: Any, de: Any, ds: Any) -> dict[str, Any]:
         e, de, s, ds, T = stretch.at(h), stretch.rate().at(h), height.at(h), height.rate().at(h), T + h
     lowest = np.where(np.isfinite(heights.least), heights.least, s)
     return {"P_12_max": forces.most, "T_1": forces.at_most, "P_12_min": forces.least, "s_min": lowest}
+
+
+# plausible cranes and others, among them many swings before lift-off, one, none; speeds and accelerations of zero
+SEVERAL = {
+    "m": np.array([5102.0, 10208.0, 3265.0, 2041.0, 1032.0, 3098.0, 2551.0]),
+    "C_01": np.array([1.2e7, 3.6e7, 1.1e7, 5.2e5, 4.3e5, 6.3e6, 1.6e6]),
+    "C_12": np.array([1.6e6, 1.4e6, 1.5e6, 1.7e6, 6.1e5, 3.9e5, 2.8e6]),
+    "V_t": np.array([0.10, 0.02, 0.13, 0.20, 0.13, 0.50, 0.22]),
+    "a": np.array([0.15, 0.30, 0.10, 0.10, 0.20, 0.30, 0.0]),
+    "g": np.full(7, 9.81),
+}
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Exact:
+    """What integrators are held against, of N hoists."""
+
+    first: RowMotion
+    second: RowMotion
+    t_1: Array
+    period: Array
+    F_12_max: Array
+    P_12_max: Array
+
+    def F_12(self, t: Array) -> Array:
+        """Rope's force at times of shape (rows, N)."""
+        on_support = -self.first.forces(np.minimum(t, self.t_1))[..., 1]
+        later: Array = np.where(t < self.t_1, on_support, -self.second.forces(np.maximum(t - self.t_1, 0.0))[..., 1])
+        return later
+
+
+def hoist_row(values: Mapping[str, Any]) -> RowMotion:
+    """Return phase 1 of a hoist as the row with n = 1: the forces are -F_01 and -F_12.
+
+    Parameters
+    ----------
+    values : mapping of str to float or array
+        `m C_01 C_12 V_t a g`, SI; the stiffnesses finite.
+    """
+    m, C_12, V_t, g, none = np.broadcast_arrays(
+        *(np.asarray(values[name], float) for name in ("m", "C_12", "V_t", "g")), 0.0
+    )
+    return _row(values, values["C_01"]).motion(np.stack((m * g, none), axis=-1), np.stack((none, -C_12 * V_t), axis=-1))
+
+
+def _row(values: Mapping[str, Any], C_01: Any) -> Row:
+    """Return a load between its support and the drum, which winds with the acceleration a."""
+    m, C_12, a, g, low, none = np.broadcast_arrays(
+        *(np.asarray(values[name], float) for name in ("m", "C_12", "a", "g")), C_01, 0.0
+    )
+    return Row(m[..., None], np.stack((low, C_12), axis=-1), (-m * g)[..., None], np.stack((none, a), axis=-1))
+
+
+def exact(values: Mapping[str, Array]) -> Exact:
+    """Solve hoists of finite stiffnesses."""
+    first = hoist_row(values)
+    low, high = np.zeros_like(values["m"]), np.full_like(values["m"], 1e-3)
+    while (resting := -first.forces(high)[..., 0] < 0.0).any():
+        high = np.where(resting, 2.0 * high, high)
+    for _ in range(100):
+        middle = 0.5 * (low + high)
+        off = -first.forces(middle)[..., 0] >= 0.0
+        low, high = np.where(off, low, middle), np.where(off, middle, high)
+    there = np.array([0.0, 1.0])  # what the lower link has is lost
+    second = _row(values, 0.0).motion(first.forces(high) * there, first.rates_of_forces(high) * there)
+    period = 2.0 * np.pi * np.sqrt(values["m"] / values["C_12"])
+    part = np.linspace(0.0, 1.0, 4001)[:, None]
+    maxima = [_top(-motion.forces(part * end)[..., 1]) for motion, end in ((first, high), (second, period))]
+    return Exact(first, second, high, period, *maxima)
+
+
+def _top(values: Array) -> Array:
+    """Largest value of every column, refined by a parabola where it is not at an end."""
+    at, own = values.argmax(axis=0), np.arange(values.shape[1])
+    inner = np.clip(at, 1, len(values) - 2)
+    before, here, after = (values[inner + s, own] for s in (-1, 0, 1))
+    bend = 2.0 * here - before - after
+    found: Array = np.where((inner == at) & (bend > 0.0), here + (after - before) ** 2 / (8.0 * bend), values[at, own])
+    return found
