@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from html import escape
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from ..drawing.formats import format_named
 from ..drawing.words import Words
@@ -64,11 +64,6 @@ class Solution(OfCase):
     def kind(self) -> Kind[Any, Any]:
         """Of which kind the task is."""
         return self.case.kind
-
-    @property
-    def drawn_by_students(self) -> Solved:
-        """What has been solved, as a student draws it."""
-        return cast("Solved", self.kind.as_drawn(self.solved)[0])
 
     def __getitem__(self, name: str) -> Quantity:
         """Return a quantity by its name."""

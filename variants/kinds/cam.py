@@ -22,7 +22,6 @@ from ..task import Given
 if TYPE_CHECKING:
     from ...drawing.cams.scene import CamScene
     from ...drawing.words import Words
-    from ...plans.cams.followers import PlateProfile, RollerProfile
     from ...plans.cams.solve import SolvedCam
     from ...plans.marking.key import Question
 
@@ -133,7 +132,7 @@ class Cams(Kind[cams.Cam, "SolvedCam"]):
                 said = _degrees if check.unit == "rad" else _millimetres
                 found.append(InputError(f"cam-rule-{check.name}", value=said(check.value), limit=said(check.limit)))
         found += _outside(solved)
-        for follower, profile in _profiles(solved):
+        for _, follower, profile in solved.profiles if solved.draws_profiles else ():
             for undercut in profile.undercuts:
                 said_ends = {"start": _degrees(undercut.start), "end": _degrees(undercut.end)}
                 lost = math.degrees(undercut.lost) if follower == cams.ROCKER else undercut.lost * MILLI
@@ -148,7 +147,7 @@ class Cams(Kind[cams.Cam, "SolvedCam"]):
         profile loses, `convex` how sharp the profile under a plate is.
         """
         found: list[Check] = [*self._in("plans", "rules", "rules_of")(solved)]
-        for follower, profile in _profiles(solved):
+        for _, follower, profile in solved.profiles if solved.draws_profiles else ():
             lost = max((undercut.lost for undercut in profile.undercuts), default=0.0)
             ok, of_travel = not profile.undercuts, "rad" if follower == cams.ROCKER else "m"
             name = f"undercut_{follower}"
@@ -204,12 +203,6 @@ class Cams(Kind[cams.Cam, "SolvedCam"]):
 
 
 KIND = Cams()
-
-
-def _profiles(solved: SolvedCam) -> Iterator[tuple[str, RollerProfile | PlateProfile]]:
-    """Go through the profiles that are drawn, each with the follower that it moves."""
-    if solved.draws_profiles:
-        yield from ((follower, profile) for _, follower, profile in solved.profiles)
 
 
 def _outside(solved: SolvedCam) -> Iterator[InputError]:

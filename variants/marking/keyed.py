@@ -361,7 +361,7 @@ class Keyed:
 
 def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> Asked:
     """Return what can be answered in a task, of `names` alone where they are given, but nothing in per cent."""
-    made = frozenset(solution.drawn_by_students.program.names if names is None else names)
+    made = frozenset(solution.kind.as_drawn(solution.solved)[0].program.names if names is None else names)
     quantities = {
         name: q for name, q in solution.quantities.items() if name in made and q.kind != "point" and q.unit != "%"
     }
@@ -379,7 +379,8 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     """
     request = replace(request, variant=variant, settings={**(request.settings or {}), **settings})
     solution = solved(request)
-    kind, drawn = solution.kind, solution.drawn_by_students
+    kind = solution.kind
+    drawn, _ = kind.as_drawn(solution.solved)
     paper = paper_of(drawn, {scale.symbol: scale.mu for scale in solution.scales.values()})
     limits, firm = kind.limits(drawn, paper, rubric.tolerance), rubric.limits
     if not kind.limits_add_up:
