@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import random
 import time
@@ -14,8 +13,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from kulman import check, cli
-from kulman.scales.errors import LANGUAGES, InputError
+from kulman import check
+from kulman.scales.errors import InputError
 from kulman.tests.support.answer_files import HEAD, messages, one, write
 from kulman.variants.marking.cells import LONGEST, rounded, slip_in, split_sense
 from kulman.variants.marking.checks import Check
@@ -304,12 +303,11 @@ def test_words_that_say_per_are_no_senses(text: str, rest: str, sense: int | Non
     assert split_sense(text) == (rest, frozenset() if sense is None else {sense})
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_the_form_of_a_class_asks_for_senses(tmp_path: Path, language: str) -> None:
+def test_the_form_of_a_class_asks_for_senses(tmp_path: Path) -> None:
     roster = write(tmp_path, [["student", "variant"], ["Student 1", "1"]], name="roster")
 
     with_senses, without = (
-        read_grid(check(TASK, roster=roster, lang=language, directions=how).write_form(tmp_path / "form.csv")).rows[0]
+        read_grid(check(TASK, roster=roster, directions=how).write_form(tmp_path / "form.csv")).rows[0]
         for how in (None, "ignored")
     )
 
@@ -340,20 +338,9 @@ def test_directions_are_required_optional_or_ignored(
     marked = of_task.mark(of_task.read(str(write(tmp_path, form("omega_2", cell))))[0]).marked
 
     line = marked.marking["omega_2"]
-    assert (marked.mark, f"{line.verdict} {line.about}".strip()) == (mark, verdict)
-
-
-def test_directions_are_an_option_of_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    rows = [["quantity", "value", "direction"], ["F_3", 3500, "left"], ["omega_2", "28.9 ↺", ""]]
-    file = str(write(tmp_path, rows))
-
-    for choice, verdict in (("optional", "wrong"), ("ignored", "right")):
-        with pytest.raises(SystemExit):
-            cli.main(["check", TASK, "-v", "1", file, "--directions", choice, "--json"])
-        lines = json.loads(capsys.readouterr().out)["lines"]
-        assert {line["verdict"] for line in lines if line["quantity"] in ("F_3", "omega_2")} == {verdict}
     with pytest.raises(InputError, match="maybe"):
         check(TASK, "1", directions="maybe")
+    assert (marked.mark, f"{line.verdict} {line.about}".strip()) == (mark, verdict)
 
 
 @pytest.mark.parametrize(

@@ -429,24 +429,6 @@ def test_the_sheet_of_another_variant_is_told_and_earns_little(task: str) -> Non
     assert max(x.mark for x in outcomes) <= 20.0
 
 
-@pytest.mark.parametrize(
-    ("task", "own", "other"),
-    [
-        ("scheme-09-shaper", "1", "5"),
-        pytest.param("scheme-14-jaw-crusher", "0", "1", marks=pytest.mark.soak),
-    ],
-)
-def test_sizes_of_another_variant_earn_little_on_a_format_that_is_asked_for(task: str, own: str, other: str) -> None:
-    desk = Desk(check(task, format="A3", lang="en"))
-    theirs = desk.keyed(other, {}).key
-    lines = {name: Reply(name, value=abs(theirs[name]), place="form") for name in theirs.questions}
-
-    result = desk.mark(Answers("form", Who(), {"variant": own}, lines, {}, ()))
-
-    assert result.fits == other
-    assert result.mark <= 20.0
-
-
 def test_lines_that_follow_from_mostly_wrong_numbers_are_told_apart() -> None:
     chaos = {name: 3.0 ** math.sin(40.0 * place) for place, name in enumerate(OF.questions)}
     chaos |= {"R_21": chaos["R_12"], "R_23": chaos["R_32"]}

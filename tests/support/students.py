@@ -21,7 +21,6 @@ A mistake is planted only where it moves a line clearly: one within the toleranc
 
 from __future__ import annotations
 
-import csv
 import math
 import random
 import tempfile
@@ -34,6 +33,7 @@ from pathlib import Path
 from kulman import check, load_task
 from kulman.variants.marking.marked import Desk, Marked
 
+from .answer_files import write
 from .drawn_by_hand import Hand, Line, Sheet, Slip, named_value
 from .drawn_mechanisms import MECHANISMS, Givens
 
@@ -441,11 +441,17 @@ def marked(students: Iterable[Student]) -> list[Outcome]:
 
 def _class(task: str, students: list[Student]) -> Iterator[Outcome]:
     with tempfile.TemporaryDirectory() as folder:
-        roster, answers = Path(folder) / "roster.csv", Path(folder) / "class.csv"
         first = next(iter(load_task(task).variants))
         rows = [{"student": f"S{i}", "variant": s.variant or first} for i, s in enumerate(students)]
-        _write(roster, [row | s.data.settings for row, s in zip(rows, students, strict=True)])
-        _write(answers, [row | dict(cells(s)) for row, s in zip(rows, students, strict=True)])
+        tables = {
+            "roster": [row | s.data.settings for row, s in zip(rows, students, strict=True)],
+            "class": [row | dict(cells(s)) for row, s in zip(rows, students, strict=True)],
+        }
+        heads = {name: list(dict.fromkeys(column for row in table for column in row)) for name, table in tables.items()}
+        roster, answers = (
+            write(Path(folder), [head, *([row.get(column, "") for column in head] for row in tables[name])], name=name)
+            for name, head in heads.items()
+        )
         asked = check(task, roster=roster, lang="en")
         desk, handed_in = Desk(asked), {read.who.student: read for read in asked.read(str(answers))}
         for i, student in enumerate(students):
@@ -482,33 +488,10 @@ def cells(student: Student) -> Iterator[tuple[str, str]]:
         if line.mm is not None:
             yield f"{name}.mm", f"{line.mm:.10g}"
         if named_value(name):
-            yield name, _value(line, student.told)
+            size = line.vector is not None or not student.told or not line.value or line.mm is not None
+            yield name, f"{abs(line.value):.10g}" if size else f"{line.value:+.10g}"
         if student.told and line.degrees is not None:
             yield f"{name}.dir", f"{line.degrees:g}"
-
-
-def _value(line: Line, told: bool) -> str:
-    if line.vector is not None or not told or not line.value or line.mm is not None:
-        return f"{abs(line.value):.10g}"
-    return f"{line.value:+.10g}"
-
-
-def _write(file: Path, rows: list[dict[str, str]]) -> None:
-    columns = list(dict.fromkeys(name for row in rows for name in row))
-    with file.open("w", encoding="utf-8", newline="") as stream:
-        writer = csv.DictWriter(stream, columns, delimiter=";", restval="")
-        writer.writeheader()
-        writer.writerows(rows)
-
-
-def swapped_sheets(task: str, count: int, dice: random.Random) -> Iterator[Student]:
-    """Go through students who hand in an honest sheet of another variant of the task."""
-    variants = list(load_task(task).variants)
-    for _ in range(count):
-        own, other = dice.sample(variants, 2)
-        data = printed(task, other)
-        sheet = drawn(task, data.givens, Hand(dice), (), scale_factors(task, data.givens, (), dice))
-        yield Student(task, Data({}, {}), (), sheet, True, {}, own)
 
 
 def printed(task: str, variant: str) -> Data:
@@ -530,6 +513,14 @@ def share(outcomes: Sequence[Outcome], counts: Callable[[Outcome], bool]) -> flo
     return 100.0 * sum(map(counts, outcomes)) / max(len(outcomes), 1)
 
 
+def swapped_sheet(task: str, dice: random.Random) -> Student:
+    """Return a student who hands in an honest sheet of another variant of the task."""
+    own, other = dice.sample(list(load_task(task).variants), 2)
+    data = printed(task, other)
+    sheet = drawn(task, data.givens, Hand(dice), (), scale_factors(task, data.givens, (), dice))
+    return Student(task, Data({}, {}), (), sheet, True, {}, own)
+
+
 def population(group: str, name: str, count: int, dice: random.Random, part: tuple[int, int] = (0, 1)) -> list[Student]:
     """Draw one kind of students: `name` is a mistake, of the groups `one` and `sizes`, or a task.
 
@@ -542,7 +533,7 @@ def population(group: str, name: str, count: int, dice: random.Random, part: tup
         found = [one_mistake(task, name, dice, some[task], group == "one") for task in chosen]
         return [student for student in found if student is not None]
     if group == "other":
-        return list(swapped_sheets(name, count, dice))
+        return [swapped_sheet(name, dice) for _ in range(count)]
     draw = {"honest": honest, "two": two_mistakes, "random": at_random}[group]
     return [draw(name, dice, some[name]) for _ in range(count)]
 
