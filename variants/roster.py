@@ -117,11 +117,6 @@ class _Columns:
         """Return what a row says of the student."""
         return {kind: self.grid.shared(row, column) for kind, column in self.about.items()}
 
-    def other(self, row: int) -> bool:
-        """Whether a row names a task that is none of these; a number may stand for any."""
-        said = self.said(row).get("task", "")
-        return bool(said) and not said.isdigit() and said not in self.schemes.ids
-
 
 def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Roster:
     """Read a roster: CSV or XLSX with a column `student`, and `variant`, `record book`, givens such as `phi [deg]`.
@@ -138,7 +133,8 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
     columns = _columns(grid, header, of)
     rows = [row for row in range(header + 1, len(grid.rows)) if any(grid.rows[row])]
     if isinstance(of, Task):
-        rows = [row for row in rows if not columns.other(row)]
+        tasks = {row: columns.said(row).get("task", "") for row in rows}
+        rows = [row for row, task in tasks.items() if task in ("", of.id) or task.isdigit()]  # a number is any
         columns = replace(columns, about={kind: column for kind, column in columns.about.items() if kind != "task"})
 
     def read(row: int) -> Entry:

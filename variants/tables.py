@@ -258,9 +258,7 @@ def plain(data: Any) -> Any:
 
 def table_bytes(path: Path, rows: Rows, language: str, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:
     """Return rows as the kind of file that the suffix of `path` picks."""
-    if path.suffix.lower() == ".xlsx":
-        return xlsx_bytes(rows, title, bold, frozen)
-    return csv_table(rows, language)
+    return xlsx_bytes(rows, title, bold, frozen) if path.suffix.lower() == ".xlsx" else csv_table(rows, language)
 
 
 def csv_table(rows: Rows, language: str, separator: str | None = None) -> bytes:

@@ -108,7 +108,12 @@ class Sweep(Swept):
         statuses = ["" if status == "ok" else words[f"status.{status}"] for status in cycle.statuses]
         rows = [[str(k), *(_cell(words, column, k) for column in shown), said] for k, said in enumerate(statuses)]
         motions = ("\n".join(_output(cycle, motion, words)) for motion in cycle.motions)
-        parts = aligned([head, *rows], ()), _limits(cycle, words), *motions, _extremes(cycle, self.chosen, words)
+        apart = [(_at(cycle, words, arc.low), _at(cycle, words, arc.high)) for arc in cycle.reach.apart]
+        limits = [words["sweep.apart"].format(low=low, high=high) for low, high in apart]
+        limits += [words["sweep.change"].format(at=_at(cycle, words, x, ROUGHLY)) for x in cycle.reach.changes]
+        limits += [words["sweep.pole"].format(at=_at(cycle, words, x)) for x in cycle.reach.poles]
+        extremes = _extremes(cycle, self.chosen, words)
+        parts = aligned([head, *rows], ()), "\n".join(limits), *motions, extremes
         return "\n\n".join(part for part in parts if part)
 
     def chords(self, of: str | int, language: str | None = None) -> str:
@@ -281,14 +286,6 @@ def _cell(words: Words, column: Columned, k: int) -> str:
 
 def _number(words: Words, value: float) -> str:
     return words.short(float(value) + 0.0, DIGITS) if math.isfinite(value) else "–"
-
-
-def _limits(cycle: Cycle, words: Words) -> str:
-    """Say what has no position, and where the mechanism may change its branch or cannot pass."""
-    apart = [(_at(cycle, words, arc.low), _at(cycle, words, arc.high)) for arc in cycle.reach.apart]
-    lines = [words["sweep.apart"].format(low=low, high=high) for low, high in apart]
-    lines += [words["sweep.change"].format(at=_at(cycle, words, x, ROUGHLY)) for x in cycle.reach.changes]
-    return "\n".join((*lines, *(words["sweep.pole"].format(at=_at(cycle, words, x)) for x in cycle.reach.poles)))
 
 
 def _output(cycle: Cycle, motion: OutputMotion, words: Words) -> Iterable[str]:
