@@ -75,7 +75,6 @@ def test_chords_are_of_second_order_with_jumps_on_lines_and_of_first_between(law
 )
 def test_laws_that_jump_at_the_ends_of_a_phase_only_are_of_second_order(law: str) -> None:
     found = chords(law)
-
     assert [*found.sections] == [NODES]
     for quantity in (V_MAX, S_MAX, R_0):
         assert found.order(NODES, quantity) == pytest.approx(2.0, abs=0.1)
@@ -92,7 +91,6 @@ def test_straight_accelerations_give_the_velocity_without_error_and_constant_vel
 
 def test_a_hand_without_errors_draws_the_chords() -> None:
     found = convergence(cam(), {"steady": Hand(0.0, 0.0, 0.0)}, sections=(12, 24), drawn=(12, 24))
-
     for quantity in found.quantities:
         assert found.hands["steady", quantity] == pytest.approx(np.abs(found.errors[NODES, quantity]), abs=1e-12)
 
@@ -163,7 +161,6 @@ def test_lines_at_jumps_only_are_late_and_err_as_far_as_they_are() -> None:
 def test_errors_that_cancel_in_a_ratio_are_none() -> None:
     drawing = kulman.solve(TASK, only="diagrams", hand="normal").drawing
     assert drawing is not None
-
     assert drawing.expected["mu_s_chord"].errs
     assert not drawing.expected["nu_chord"].errs
     assert drawing.expected["nu_chord"].step is None
@@ -218,8 +215,6 @@ def motion_errors(motion: Motion, way: object, sections: int) -> dict[str, float
 @pytest.mark.parametrize(("way", "order"), [(midpoint, 2.0), (simpson, 4.0)])
 def test_sums_have_their_orders_where_the_law_bends(way: object, order: float) -> None:
     motion = cam("polynomial-345", u="1/2").motion
-
     coarse, fine = (motion_errors(motion, way, n) for n in (12, 24))
-
     for kind in coarse:
         assert np.log2(coarse[kind] / fine[kind]) == pytest.approx(order, abs=0.2)

@@ -1,4 +1,4 @@
-"""Speed against accuracy: errors beside fifty digits come out as the methods' laws say, Newton's beside plans."""
+"""Errors beside fifty digits come out as laws say; stability grows where lines meet flatly; depth of a model."""
 
 import math
 import time
@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from kulman import solve
 from kulman.drawing.charts.race import accuracy_page
 from kulman.drawing.words import Words
 from kulman.plans.boards.exact import run
@@ -17,18 +18,38 @@ from kulman.plans.lab import race as contests
 from kulman.plans.lab.contours import Contours
 from kulman.plans.lab.linkages import DrawnSheet, Rivals, by_hand, contest, kinds_of, places_of, truth
 from kulman.plans.lab.race import Contest, Effort, Entry
+from kulman.plans.lab.stability import (
+    ALL,
+    CHANGE,
+    DEAD,
+    FORCES,
+    INERTIA,
+    LIMIT,
+    MOMENTS,
+    WEIGHTS,
+    Model,
+    Stability,
+    depth,
+    parts_of,
+    spots,
+    stability,
+    without,
+)
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.cycle import Cycle, cycle
 from kulman.plans.linkages.mechanism import Mechanism
 from kulman.plans.linkages.solved import board_givens, solve_linkage
 from kulman.plans.quantities import references
+from kulman.scales.errors import InputError
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.linkages import (
     four_bar,
+    four_bar_values,
     piston_engine,
     random_crank_rockers,
     random_slider_cranks,
     slider_crank,
+    slider_crank_values,
 )
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
@@ -38,12 +59,21 @@ EPS = 2.0**-52
 MOTION = ("velocity", "acceleration")
 PLANS = ("position", *MOTION)
 KINDS = (*MOTION, "forces")
+MUS = {"position": 0.0025, "velocity": 0.2, "acceleration": 20.0, "lever": 0.2, "forces_1": 50.0, "forces_23": 50.0}
+FEW = (  # every kind of dyad, and a slide that drives
+    *("madi-four-bar", "nau-slider-crank", "scheme-09-shaper", "scheme-10-shaper-two-blocks"),
+    *("scheme-18-hydraulic-drive", "scheme-19-scotch-yoke"),
+)
+SCALES = {"position": 0.002, "velocity": 0.01, "acceleration": 0.1}
+NORMAL = preset("normal").hand
+SHAPER = "scheme-09-shaper"
+TASKS = ["nau-slider-crank", "madi-four-bar", SHAPER, "scheme-14-jaw-crusher"]
 
 
 @cache
-def of_task(name: str) -> Cycle:
+def of_task(name: str, *plans: str, positions: int = 12) -> Cycle:
     task = load_task(name)
-    return cycle(task.mechanism, task.values(None, {}), task.plans, 12)
+    return cycle(task.mechanism, task.values(None, {}), plans or task.plans, positions)
 
 
 @pytest.fixture(scope="module", params=["madi-four-bar", "scheme-09-shaper"])
@@ -61,7 +91,6 @@ def errors(race: Contest, method: str, kind: str) -> dict[float | str, float]:
 def test_more_digits_err_less(race: Contest, kind: str) -> None:
     (single,) = errors(race, "plan-single", kind).values()
     (double,) = set(errors(race, "plan", kind).values())  # however many positions at once
-
     assert 1e-9 < single < 1e-3
     assert EPS * 0.01 < double < 1e-13
     assert all(value < double * 1e-2 for value in errors(race, "plan-extended", kind).values())
@@ -97,13 +126,9 @@ def test_the_front_is_beaten_by_nobody(race: Contest) -> None:
 
 def test_contours_are_no_more_than_loops_and_what_newton_does_not_find_is_not_a_number() -> None:
     whole, contours = of_task("madi-four-bar"), Rivals(of_task("scheme-09-shaper")).contours
-
     assert len(contours.closed) == 2
     assert contours.count == 4  # frame and slide, crank, lever and block, rod
     assert np.isnan(Rivals(whole).newton(0.0, places_of(whole, 24), ("V_C",))["V_C"]).all()
-
-
-MUS = {"position": 0.0025, "velocity": 0.2, "acceleration": 20.0, "lever": 0.2, "forces_1": 50.0, "forces_23": 50.0}
 
 
 def drawn(hand: str, factor: float = 1.0) -> list[float]:
@@ -117,7 +142,6 @@ def drawn(hand: str, factor: float = 1.0) -> list[float]:
 
 def test_a_hand_errs_in_per_cents_and_a_computer_less() -> None:
     normal, cad, small = drawn("normal"), drawn("cad"), drawn("normal", 2.0)
-
     assert all(1e-3 < error < 1.0 for error in normal)
     assert all(fine < coarse / 5.0 for fine, coarse in zip(cad, normal, strict=True))
     assert all(large < half for large, half in zip(normal, small, strict=True))
@@ -141,7 +165,6 @@ def test_a_hand_draws_the_plans_of_every_position_as_long() -> None:
 def test_places_of_a_cycle_are_off_its_ends() -> None:
     whole = of_task("scheme-18-hydraulic-drive")
     places = places_of(whole, 10)
-
     low, high = sorted((whole.range.low, whole.range.high))
     assert low < places.min() < places.max() < high
 
@@ -179,7 +202,6 @@ def test_a_crank_that_speeds_up_is_differentiated_with_its_acceleration() -> Non
 
 def test_a_clock_too_coarse_for_every_method_leaves_the_field_empty() -> None:
     race = contest(of_task("madi-four-bar"), 12, lambda: 0.0, ["V_B"], LITTLE)
-
     assert {entry.seconds for entry in race.entries} == {0.0}
     drawn = accuracy_page(race, Words.of("en", "madi"), "", "", "normal", "rad")  # warnings are errors
     assert not drawn.axes[0].lines[-1].get_xdata().size
@@ -201,18 +223,11 @@ def both(whole: Cycle, tolerance: float) -> tuple[Any, Any]:
     return rivals.newton(tolerance, places, names), rivals.plan(places, names)
 
 
-FEW = (  # every kind of dyad, and a slide that drives
-    *("madi-four-bar", "nau-slider-crank", "scheme-09-shaper", "scheme-10-shaper-two-blocks"),
-    *("scheme-18-hydraulic-drive", "scheme-19-scotch-yoke"),
-)
-
-
 @pytest.mark.parametrize(
     "name", [name if name in FEW else pytest.param(name, marks=[pytest.mark.soak]) for name in bundled("mechanism")]
 )
 def test_newton_agrees_with_plans(name: str) -> None:
     found, exact = both(of_task(name), 1e-9)
-
     assert any(name.startswith("a_") for name in exact)
     assert differences(found, exact) < 1e-8
 
@@ -226,7 +241,6 @@ def test_newton_agrees_with_plans(name: str) -> None:
 )
 def test_newton_agrees_with_plans_of_random_mechanisms(mechanism: Mechanism, values: dict[str, float]) -> None:
     found, exact = both(cycle(mechanism, values, PLANS), 1e-9)
-
     assert differences(found, exact) < 1e-9
 
 
@@ -268,5 +282,157 @@ def test_newton_takes_a_driver_that_slides_and_speeds_up() -> None:
     driven = replace(driven, driver=replace(driven.driver, acceleration="a"))
     values = {"gamma": 0.3, "l_AB": 0.5, "l_OA": 0.2, "side": 1.0, "travel": 0.55, "speed": 2.0, "a": 3.0}
     found, exact = both(cycle(driven, values, PLANS, start=0.45, end=0.6), 1e-9)
-
     assert differences(found, exact) < 1e-10
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_leaving_out_nothing_costs_nothing_and_everything_costs_everything(name: str) -> None:
+    model, whole = Model(of_task(name)), of_task(name)
+    loads = [load.name for load in whole.mechanism.acting]
+    nothing, everything = model.cost("", ()), model.cost("", [*parts_of(whole.program), *loads])
+    assert (nothing.balance, nothing.reaction, nothing.balance_rms, nothing.reaction_rms) == (0.0, 0.0, 0.0, 0.0)
+    assert (everything.balance, everything.reaction) == pytest.approx((100.0, 100.0), rel=1e-9)
+
+
+def look(whole: Cycle, *names: str) -> Stability:
+    return stability(whole, names, MUS, NORMAL)
+
+
+def test_condition_is_that_of_a_solution_at_the_same_place() -> None:
+    task = load_task("madi-four-bar")
+    values = task.values(None, {})
+    whole = cycle(task.mechanism, values, task.plans, 12, start=values["phi"])
+    mus = dict.fromkeys(("position", "velocity", "acceleration", "forces_23", "forces_1", "lever"), 1.0)
+
+    found = stability(whole, ("V_C", "a_C", "F_bal"), mus, NORMAL)
+
+    expected = solve("madi-four-bar", condition=True).conditions
+    for name, values_of in found.conditions.items():
+        assert values_of[0] == pytest.approx(expected[name].value, rel=1e-9)
+    assert found.sines[0] == min(expected[name].sine for name in found.conditions)
+
+
+def test_condition_grows_as_one_over_the_square_of_the_sine_towards_a_limit() -> None:
+    """The sine goes with the root of the way to the limit, the velocity with one over the sine."""
+    whole = crank(0.5, 0.5, 0.1)
+    limit, _ = whole.reach.limits  # nothing assembles from the first one to the second
+    near = _at(whole, limit - 10.0 ** -np.arange(2.0, 7.0))
+
+    found = look(near, "V_B")
+
+    products = found.conditions["V_B"] * found.sines**2
+    assert found.sines[-1] < 2e-3
+    assert products.max() / products.min() < 1.01
+    assert (np.diff(found.digits("V_B")) < 0.0).all()
+
+
+def _at(whole: Cycle, places: np.ndarray) -> Cycle:
+    """Return a cycle at other places of its driver."""
+    values, codes = whole.drive.along(whole.program, whole.givens, list(whole.values)).batch(places)
+    return replace(whole, angles=places, times=places * 0.0, values=values, codes=codes)
+
+
+def test_the_hand_misses_more_where_lines_meet_flatly() -> None:
+    found = look(crank(0.48, 0.5, 0.0, positions=72), "V_B")
+    flat, steep = found.angles < 25.0, found.angles > 60.0
+    assert flat.any()
+    assert np.median(found.misses["V_B"][flat]) > 2.0 * np.median(found.misses["V_B"][steep])
+    assert found.in_mm == {"V_B": True}
+    assert set(found.worst) <= {"B", "velocity.B"}  # the worst intersection is named
+
+
+def test_a_number_that_no_plan_shows_misses_by_per_cents() -> None:
+    plans = ("position", "velocity", "acceleration", "lever", "forces_23", "forces_2", "forces_1")
+    found = stability(of_task("nau-slider-crank"), ("M_bal",), dict.fromkeys(plans, 0.001), NORMAL)
+    assert found.in_mm == {"M_bal": False}
+    assert np.nanmax(found.misses["M_bal"]) > 0.0
+
+
+def test_scales_of_the_paper_divide_the_errors_of_drawing_and_a_seed_gives_the_same() -> None:
+    whole = cycle(four_bar(), four_bar_values(0.2, 0.6, 0.5, 0.7), PLANS, 12)
+    coarse = {plan: 2.0 * mu for plan, mu in MUS.items()}
+
+    large, small, same, other = (
+        stability(whole, ("V_B",), mus, NORMAL, seed).misses["V_B"]
+        for mus, seed in ((MUS, 1), (coarse, 1), (MUS, 1), (MUS, 2))
+    )
+
+    assert np.median(small / large) == pytest.approx(1.0, rel=0.3)  # in mm they are alike
+    assert same.tolist() == large.tolist() != other.tolist()
+
+
+def test_change_points_dead_positions_and_limits_are_marked_and_have_no_condition() -> None:
+    parallelogram = cycle(four_bar(), four_bar_values(0.2, 0.5, 0.2, 0.5), PLANS, 4)
+
+    flat, apart, dead = (
+        look(parallelogram, "V_B"),
+        look(crank(0.5, 0.2, 0.0, positions=8), "V_B"),
+        spots(of_task(SHAPER)),
+    )
+
+    assert {spot.kind for spot in flat.spots} >= {CHANGE}
+    at_change = [status == "singular" for status in flat.statuses]
+    assert sum(at_change) == 2
+    assert np.isnan(flat.conditions["V_B"][at_change]).all()
+    assert np.isnan(flat.misses["V_B"][at_change]).all()
+    assert (flat.angles[at_change] == 0.0).all()
+    assert {spot.kind for spot in apart.spots} >= {LIMIT}
+    assert np.isnan(apart.conditions["V_B"][2])
+    assert np.isfinite(apart.conditions["V_B"][0])
+    assert sorted((spot.kind, spot.link) for spot in dead) == [(DEAD, 3), (DEAD, 3), (DEAD, 5), (DEAD, 5)]
+
+
+def crank(*values: float, positions: int = 12) -> Cycle:
+    return cycle(slider_crank(), slider_crank_values(*values), PLANS, positions)
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_costs_are_those_of_a_mechanism_without_that_mass(name: str) -> None:
+    whole, task = of_task(name), load_task(name)
+    model = Model(whole)
+    link = next(link for link in whole.mechanism.links[::-1] if link.mass in whole.givens)
+    parts = [part for part in parts_of(whole.program) if part in (f"F_i{link.number}", f"G_{link.number}")]
+
+    lighter = cycle(task.mechanism, {**whole.givens, link.mass: 0.0}, task.plans, 12)
+
+    change = np.nanmax(np.abs(lighter.values[model.balance] - whole.values[model.balance]))
+    assert parts
+    assert model.cost("", parts).balance == pytest.approx(change / model.largest * 100.0, rel=1e-9, abs=1e-9)
+
+
+def test_simplifications_are_those_of_each_part_and_of_all_of_a_kind() -> None:
+    found, without_weight = depth(of_task(SHAPER), 1.0), depth(of_task("madi-four-bar"), 1.0)
+
+    keys = [cost.key for cost in found.costs]
+    assert keys[:8] == ["F_i3", "G_3", "M_i3", "F_i4", "G_4", "M_i4", "F_i5", "G_5"]
+    assert keys[8:] == [FORCES, MOMENTS, WEIGHTS, INERTIA, ALL]
+    costs = {cost.key: cost for cost in found.costs}
+    assert costs["G_5"].balance < 1e-9  # the ram moves level: its weight does no work
+    assert (costs["G_5"].reaction or 0.0) > 5.0  # but its guide bears it
+    assert all(cost.balance_rms <= cost.balance for cost in found.costs)
+    assert {cost.key for cost in without_weight.costs} & {INERTIA, ALL, WEIGHTS} == {INERTIA}  # all inertia once
+
+
+@pytest.mark.parametrize("tolerance", [0.0, 5.0, 200.0, pytest.param(0.5, marks=pytest.mark.soak)])
+def test_what_may_go_costs_less_than_the_tolerance(tolerance: float) -> None:
+    whole = of_task(SHAPER)
+    found = depth(whole, tolerance)
+    assert {*found.needed, *found.spare} == set(parts_of(whole.program))
+    assert not {*found.needed} & {*found.spare}
+    assert Model(whole).cost("", found.spare).worst <= tolerance
+    assert bool(found.needed) == (tolerance < 100.0)
+
+
+def test_the_lever_alone_gives_the_balance_and_without_forces_there_is_no_depth() -> None:
+    found = depth(of_task("nau-slider-crank", "lever"), 1.0)
+    assert (found.balance, found.reaction) == ("M_bal_lever", None)
+    assert all(cost.reaction is None for cost in found.costs)
+    with pytest.raises(InputError, match="needs the plan of forces"):
+        depth(of_task("nau-slider-crank", "acceleration"), 1.0)
+
+
+def test_a_part_is_left_out_by_a_rewrite_of_its_own_step() -> None:
+    program = of_task("nau-slider-crank").program
+    rewritten = without(program, ["F_i2"])
+    changed = [(a, b) for a, b in zip(program, rewritten, strict=True) if a != b]
+    assert [(a.name, b.operands[0]) for a, b in changed] == [("F_i2", "zero")]

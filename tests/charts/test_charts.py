@@ -55,7 +55,9 @@ LITTLE = {
 
 
 @pytest.fixture(autouse=True)
-def little(monkeypatch: pytest.MonkeyPatch) -> None:
+def little(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Work in an empty folder, with little effort."""
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")
     for place, value in LITTLE.items():
         monkeypatch.setattr(place, value)
@@ -232,9 +234,7 @@ def test_json_holds_everything_in_si(capsys: pytest.CaptureFixture[str]) -> None
 def test_a_chart_that_the_task_cannot_have_is_left_out_with_a_word(capsys: pytest.CaptureFixture[str]) -> None:
     said = "the chart of the model's depth needs the plan of forces or the lever\n"
     assert run(["--only", "velocity", "--positions", "6", "--chart", "depth"], capsys) == (2, "", said)
-
     rigid = chart(HOIST, set={"I_0": "inf"}, lang="en")  # without phase 1
-
     assert [*rigid.charts] == ["depth", "choice"]
     assert {warning.key for warning in rigid.warnings} == {"chart-hoist-rigid"}
 
@@ -242,7 +242,6 @@ def test_a_chart_that_the_task_cannot_have_is_left_out_with_a_word(capsys: pytes
 @pytest.mark.parametrize("plans", ["structure", "position", "velocity"])
 def test_few_plans_have_their_stability(plans: str, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(["--only", plans, "--chart", "stability", "--positions", "6"], capsys)
-
     assert (status, err) == (0, "")
     assert "worst intersection" in out
 
@@ -269,20 +268,12 @@ def test_few_plans_have_their_stability(plans: str, capsys: pytest.CaptureFixtur
     ],
 )
 def test_wrong_arguments_are_answered_in_one_line(
-    task: str,
-    arguments: list[str],
-    told: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    task: str, arguments: list[str], told: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.chdir(tmp_path)
-
     status, out, err = run(arguments, capsys, task)
-
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert told in err
-    assert list(tmp_path.iterdir()) == []
+    assert list(Path().iterdir()) == []
 
 
 @pytest.mark.parametrize(
@@ -306,13 +297,11 @@ def test_what_python_asks_for_in_vain_is_answered_in_one_line(
 ) -> None:
     with pytest.raises(KulmanError) as problem:
         chart(task, **arguments)  # type: ignore[arg-type]
-
     assert problem.value.key == key
 
 
 def test_a_mechanism_that_never_assembles_has_status_3(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = run(["--set", "l_AB=9000"], capsys, "scheme-03-crank-rocker")
-
     assert (status, out, err.count("\n")) == (3, "", 1)
     assert "any position of the crank" in err
 
@@ -335,10 +324,8 @@ def test_a_crank_that_cannot_turn_round_or_hardly_moves_has_its_charts() -> None
 def test_what_the_document_shows_is_what_is_printed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.chdir(tmp_path)
     run_here(monkeypatch, capsys)
     blocks = refresh.BLOCK.findall((refresh.ROOT / "docs" / "accuracy.md").read_text(encoding="utf-8"))
-
     assert len(blocks) == 2
     for block in blocks:
         assert refresh.filled(block, str(tmp_path)) == block
@@ -358,17 +345,14 @@ def test_tables_need_no_picture() -> None:
 
 def test_charts_show_themselves_in_a_notebook() -> None:
     found = only(TASK, "depth")
-
     assert found._repr_html_().startswith("<pre>Depth of the model")
     assert repr(found) == f"<Charts {TASK} {made(TASK).case.variant}: depth>"
 
 
 def test_no_file_is_written_when_one_cannot_be(tmp_path: Path) -> None:
     (tmp_path / "b-depth.csv").mkdir()
-
     with pytest.raises(KulmanError):
         only(TASK, *BOTH).save(tmp_path / "a.csv", tmp_path / "b.csv")
-
     assert [path.name for path in tmp_path.iterdir()] == ["b-depth.csv"]
 
 
@@ -386,14 +370,12 @@ def test_what_changes_nothing_on_a_chart_is_said(
     task: str, asked: list[str], unused: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
     status, _, said = run([*asked, "--positions", "12", "--lang", "en"], capsys, task)
-
     assert status == 0
     assert [line.split("'")[1] for line in said.splitlines() if "changes nothing" in line] == unused
 
 
 def test_tolerance_says_which_ropes_are_light_enough() -> None:
     fine, coarse = (chart(HOIST, "V09", chart="depth", tolerance=part)["depth"].found for part in (0.5, 2.0))
-
     assert fine.enough_to < coarse.enough_to
     assert set(fine.spare) <= set(coarse.spare)
 

@@ -153,9 +153,7 @@ def test_the_first_clear_place_is_clear_and_those_before_are_not(kind: str) -> N
 def test_a_letter_is_written_once_and_keeps_others_away() -> None:
     canvas = Canvas(STYLES["A3"])
     canvas.add(Line(-9 + 0j, 9 + 0j, Pen.THIN), Circle(0j, 1.0, Pen.MAIN))
-
     written = [canvas.write("O", [0j, 4j, 9j, 10 + 10j], 3.5) for _ in range(4)]
-
     letters = [shape for shape in canvas.shapes if isinstance(shape, Text)]
     assert written == [True, True, True, False]
     assert len({letter.at for letter in letters}) == 3
@@ -175,8 +173,6 @@ def test_a_thinned_curve_stays_near_all_its_points(within: float) -> None:
 
 def test_only_curves_of_many_points_are_changed() -> None:
     line, short = Line(0j, 1 + 0j, Pen.THIN), Polyline(CIRCLE[:5], Pen.MAIN)
-
     group = coarser(Group((line, short, Polyline(CIRCLE, Pen.MAIN)), "curve", "s"), 0.1)
-
     assert isinstance(group, Group)
     assert group.shapes == (line, short, Polyline(thinned(CIRCLE, 0.1), Pen.MAIN))

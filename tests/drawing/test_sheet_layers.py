@@ -108,7 +108,6 @@ def test_each_thing_is_in_one_layer(task: str) -> None:
 )
 def test_a_shape_tells_its_layer_by_what_it_is(shape: Shape, layer: Layer) -> None:
     page = Page(210.0, 297.0, (shape,), "", "uk", layers=True)
-
     assert [found for found, _ in parts_of(page)] == [layer]
 
 
@@ -147,28 +146,6 @@ def test_all_that_a_pdf_paints_is_in_a_layer_that_its_page_knows() -> None:
         assert len(painting.findall(stream)) == sum(len(painting.findall(inside)) for _, inside in runs)
 
 
-def test_layers_change_nothing_that_is_seen() -> None:
-    """Where white covers lines, it covers them in layers too, but for lines that end in the circle of a node."""
-    (page,) = sheet(TASK, only="position,velocity,forces", format="A1").pages
-
-    apart, whole = (picture(pdf(drawn)) for drawn in (replace(page, layers=True), page))
-
-    assert np.mean(np.abs(apart.astype(int) - whole) > 32) < 2e-5
-
-
-def test_on_a_sheet_each_view_is_one_group() -> None:
-    drawn = sheet(TASK, only=PLANS)
-    [page] = drawn.pages
-
-    groups = [
-        child.get("data-name") for child in etree.fromstring(svg_text(page).encode()) if child.get("class") == "view"
-    ]
-
-    assert sorted(groups) == sorted({*groups}) == sorted(view.name for view in drawn.views)
-    assert names(page) == []
-    assert "OCProperties" not in PDFDocument(PDFParser(BytesIO(pdf(page)))).catalog
-
-
 @pytest.mark.parametrize("how", [{}, {"grid": True}, {"steps": 2}], ids=str)
 def test_what_students_get_is_given_and_nothing_else(how: dict[str, object]) -> None:
     for page in printed(**how).pages:
@@ -181,7 +158,6 @@ def test_what_students_get_is_given_and_nothing_else(how: dict[str, object]) -> 
 @pytest.mark.parametrize("task", TASKS)
 def test_blank_and_hidden_key_are_the_key_to_the_last_bit(task: str) -> None:
     teacher, blank, key = (printed(task, **how) for how in ({"hidden_key": True}, {}, {"key": True}))
-
     for apart, empty, whole in zip(teacher.pages, blank.pages, key.pages, strict=True):
         answers = [shape for shape in apart.shapes if isinstance(shape, Group) and shape.layer == "key"]
         assert [shape for shape in apart.shapes if shape not in answers] == list(empty.shapes)
@@ -242,3 +218,18 @@ def test_what_does_not_go_together_is_said_in_a_line(
     assert (left.value.code, out, err.count("\n")) == (2, "", 1)
     assert all(option in err for option in clash)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_layers_change_nothing_that_is_seen_and_on_a_sheet_each_view_is_one_group() -> None:
+    """Where white covers lines, it covers them in layers too, but for lines that end in the circle of a node."""
+    drawn = sheet(TASK, only="position,velocity,forces", format="A1")
+    [page] = drawn.pages
+
+    apart, whole = (picture(pdf(one)) for one in (replace(page, layers=True), page))
+
+    root = etree.fromstring(svg_text(page).encode())
+    groups = [child.get("data-name") for child in root if child.get("class") == "view"]
+    assert np.mean(np.abs(apart.astype(int) - whole) > 32) < 2e-5
+    assert sorted(groups) == sorted({*groups}) == sorted(view.name for view in drawn.views)
+    assert names(page) == []
+    assert "OCProperties" not in PDFDocument(PDFParser(BytesIO(pdf(page)))).catalog

@@ -30,6 +30,34 @@ from kulman.variants.kinds import KINDS
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 
+SCALES = {1e-3: "1:1", 5e-4: "2:1", 4e-4: "2.5:1", 2e-4: "5:1", 2e-3: "1:2", 2.5e-3: "1:2.5", 0.15: "1:150"}
+
+
+def test_characters_have_the_glyphs_and_texts_the_widths_that_fonttools_finds(oracle: TTFont) -> None:
+    names, metrics = oracle.getBestCmap(), oracle["hmtx"]
+    known = {code: oracle.getGlyphID(name) for code, name in names.items()}
+    assert [code for code in range(0x10000) if font().glyph(chr(code)) != known.get(code, 0)] == []
+    for text in (LETTERS, SIGNS.strip(), "План швидкостей", "Vector plan"):
+        expected = sum(metrics[names[ord(letter)]][0] for letter in text) / 2048 * SIZE * 3.5
+        assert lay_out(escape(text), 3.5).width == pytest.approx(expected, rel=1e-12)
+
+
+def test_letters_of_marks_symbols_and_scales_are_those_of_the_schools_and_of_drawings() -> None:
+    nau, iso, bauman = Words.of("uk", "nau"), Words.of("en", "iso"), Words.of("ru", "bauman")
+
+    marks = ("velocity.A3", "velocity.S2", "acceleration.A3", "acceleration.n_BA", "acceleration.k_A3A2")
+    assert [nau.mark(mark) for mark in marks] == ["a_{3}", "s_{2}", "a′_{3}", "n", "k"]
+    assert [nau.mark(f"forces_23.{number}") for number in (0, 1, 14, 27)] == ["H", "a", "n", "a_{1}"]
+    assert iso.mark("forces_23.0") == "o"  # the pole, whose letter no other mark has
+    assert "o" not in {iso.mark(f"forces_23.{number}") for number in range(1, 60)}
+    reactions = [bauman.symbol(name) for name in ("R_12", "R_01", "h_21", "M_43")]
+    assert reactions == ["F_{21}", "F_{10}", "h_{12}", "M_{34}"]  # the link on which it acts first
+    assert bauman.scale(Scale("mu_V", 0.05, "m/s")) == "μ_{v} = 20 мм/(м/с)"
+    assert {mu: iso.drawn_at(mu) for mu in SCALES} == {mu: f"M {scale}" for mu, scale in SCALES.items()}
+    cyrillic = {mu: f"М {scale.replace('.', ',')}" for mu, scale in SCALES.items()}
+    assert {mu: nau.drawn_at(mu) for mu in SCALES} == cyrillic
+
+
 KINDS_OF_WORDS = ("", "titleblock.", "cams.", "gears.", "hoist.")
 LETTERS = string.ascii_letters + string.digits + "абвгґдеєжзиіїйклмнопрстуфхцчшщьюяыэъёЙЇ" + "αβγδεζλμπρστφψωΔΣΦΩ"
 SIGNS = " .,;:=+-()/'′″·⊥∥∠√∑→²°№«»"
@@ -55,22 +83,6 @@ def oracle():
     return TTFont(BytesIO(font().data))
 
 
-def test_every_character_of_the_plane_has_the_glyph_that_fonttools_finds(oracle):
-    known = {code: oracle.getGlyphID(name) for code, name in oracle.getBestCmap().items()}
-
-    ours = {code: font().glyph(chr(code)) for code in range(0x10000)}
-
-    assert ours == {code: known.get(code, 0) for code in range(0x10000)}
-
-
-def test_widths_of_text_are_sums_of_fonttools_advances(oracle):
-    names, metrics = oracle.getBestCmap(), oracle["hmtx"]
-
-    for text in (LETTERS, SIGNS.strip(), "План швидкостей", "Vector plan"):
-        expected = sum(metrics[names[ord(letter)]][0] for letter in text) / 2048 * SIZE * 3.5
-        assert lay_out(escape(text), 3.5).width == pytest.approx(expected, rel=1e-12)
-
-
 @pytest.mark.parametrize(("markup", "rules"), [(r"\bar{V}", 1), (r"\u{V_{B}}", 1), (r"\uu{\bar{a}^{n}_{BA}}", 3)])
 def test_bars_and_underlines_clear_the_ink(markup, rules):
     layout = lay_out(markup, 3.5)
@@ -86,14 +98,12 @@ def test_bars_and_underlines_clear_the_ink(markup, rules):
 @given(plain)
 def test_escaped_text_shows_as_it_is(text):
     runs = lay_out(escape(text), 3.5).runs
-
     assert "".join(run.string for run in runs) == text.strip(" ")
 
 
 @given(markups, markups)
 def test_widths_add_up(left, right):
     whole = lay_out(left + r"\u{}" + right, 3.5)  # the empty group keeps two scripts from being stacked
-
     assert whole.width == pytest.approx(lay_out(left, 3.5).width + lay_out(right, 3.5).width, abs=1e-9)
 
 
@@ -102,20 +112,9 @@ def test_a_font_that_is_missing_is_named_by_its_path_as_it_is(language: str, mon
     place = SimpleNamespace(origin="/opt/python 3.11/matplotlib/__init__.py")
     monkeypatch.setattr("kulman.drawing.font.find_spec", lambda name: place)
     font.cache_clear()
-
     with pytest.raises(InputError) as refused:
         font()
-
     assert "python 3.11/matplotlib" in refused.value.text(language)
-
-
-@pytest.mark.parametrize(
-    ("mu_l", "scale"),
-    [(1e-3, "1:1"), (5e-4, "2:1"), (4e-4, "2.5:1"), (2e-4, "5:1"), (2e-3, "1:2"), (2.5e-3, "1:2.5"), (0.15, "1:150")],
-)
-def test_scale_of_lengths_is_written_as_drawings_have_it(mu_l: float, scale: str) -> None:
-    assert Words.of("en", "iso").drawn_at(mu_l) == f"M {scale}"
-    assert Words.of("uk", "nau").drawn_at(mu_l) == f"М {scale.replace('.', ',')}"  # the Cyrillic letter
 
 
 def tables(kind: str) -> dict[str, dict[str, str]]:
@@ -165,7 +164,6 @@ def used(key: str) -> bool:
 @pytest.mark.parametrize("kind", KINDS_OF_WORDS)
 def test_every_language_has_the_same_texts_with_the_same_placeholders(kind: str) -> None:
     texts = tables(kind)
-
     assert texts["uk"].keys() == texts["ru"].keys() == texts["en"].keys()
     if kind in ("", "titleblock."):
         for key in texts["en"]:
@@ -175,7 +173,6 @@ def test_every_language_has_the_same_texts_with_the_same_placeholders(kind: str)
 def test_every_text_and_message_is_used_and_every_table_of_words_is_read() -> None:
     keys = [*tables("")["en"], *tables("titleblock.")["en"], *(key.removesuffix("-like") for key in messages("en"))]
     names = {path.name for path in files(PACKAGE).joinpath("texts").iterdir()}
-
     assert [key for key in keys if not used(key)] == []
     assert [key for key in ("heading.nothing", "given.nothing", "choice.rotation") if used(key)] == []
     assert names == {f"{kind}{language}.toml" for kind in KINDS_OF_WORDS for language in LANGUAGES}
@@ -224,7 +221,6 @@ def test_the_subset_is_small_and_has_the_same_outlines_and_advances(oracle: TTFo
 def test_broken_markup_and_letters_that_the_font_lacks_are_refused(markup: str) -> None:
     with pytest.raises(InputError) as problem:
         lay_out(markup, 3.5)
-
     assert problem.value.key == "markup-broken" or "U+901F" in problem.value.text("en")
 
 
@@ -261,9 +257,7 @@ def test_runs_lie_inside_the_layout_which_grows_with_the_letters(markup: str) ->
 def test_a_box_follows_the_anchor_and_turns_with_its_text(anchor: str, x0: float) -> None:
     height = 14.0 / lay_out("Ap", 1.0).width  # 14 mm wide
     upright, lying = (extent((Text(0j, "Apex", 3.5, anchor, angle=angle),)) for angle in (0.0, math.pi / 2))
-
     x, y, x1, _ = extent((Text(10 + 20j, "Ap", height, anchor),))
-
     assert (x, x1) == pytest.approx((x0, x0 + 14))
     assert y < 20
     assert lying == pytest.approx((-upright[3], upright[0], -upright[1], upright[2]))
@@ -281,19 +275,6 @@ def test_symbols_are_markup_without_names_and_two_quantities_have_two(notation: 
         assert words.symbol(name, bar=True).startswith("\\bar{"), symbol
     names = [name for name in NAMES.split() if "couple" not in name]
     assert len({words.symbol(name) for name in names}) == len(names)
-
-
-def test_letters_of_marks_and_symbols_are_those_of_the_schools() -> None:
-    nau, iso, bauman = Words.of("uk", "nau"), Words.of("en", "iso"), Words.of("ru", "bauman")
-
-    marks = ("velocity.A3", "velocity.S2", "acceleration.A3", "acceleration.n_BA", "acceleration.k_A3A2")
-    assert [nau.mark(mark) for mark in marks] == ["a_{3}", "s_{2}", "a′_{3}", "n", "k"]
-    assert [nau.mark(f"forces_23.{number}") for number in (0, 1, 14, 27)] == ["H", "a", "n", "a_{1}"]
-    assert iso.mark("forces_23.0") == "o"  # the pole, whose letter no other mark has
-    assert "o" not in {iso.mark(f"forces_23.{number}") for number in range(1, 60)}
-    reactions = [bauman.symbol(name) for name in ("R_12", "R_01", "h_21", "M_43")]
-    assert reactions == ["F_{21}", "F_{10}", "h_{12}", "M_{34}"]  # the link on which it acts first
-    assert bauman.scale(Scale("mu_V", 0.05, "m/s")) == "μ_{v} = 20 мм/(м/с)"
 
 
 def test_sheet_of_bauman_has_segments_that_divide_by_its_scale_factors_and_angles_of_vectors() -> None:

@@ -84,28 +84,6 @@ def written(page: Page, *names: str) -> list[Text]:
 
 
 @pytest.mark.parametrize(("name", "norm", "first"), EVERY)
-def test_every_line_of_block_and_frame_is_where_the_standard_has_it(name: str, norm: str, first: bool) -> None:
-    drawn, sheet, (block, table) = page(name, "uk", norm, first), FORMATS[name], BLOCKS[norm, first]
-    x0, y0, x1, y1 = drawing_area(sheet, norm)
-    left, low = block_box(sheet, norm, first)[:2]
-    root = etree.fromstring(svg_text(drawn).encode())
-
-    found = set()
-    for line in root.find(f".//{SVG}g[@data-name='{block}']").iter(f"{SVG}line"):
-        a, b, c, d = (float(line.get(key)) for key in ("x1", "y1", "x2", "y2"))
-        ends = sorted((round(x - left, 2), round(drawn.height - y - low, 2)) for x, y in ((a, b), (c, d)))
-        found.add((*ends, float(line.get("stroke-width")) == drawn.pens.main))
-
-    assert found == table
-    edge, frame, *_ = drawn.shapes
-    assert frame == Polyline((x0 + y0 * 1j, x1 + y0 * 1j, x1 + y1 * 1j, x0 + y1 * 1j), Pen.MAIN, True, role="frame")
-    assert (edge.pen, edge.points[2]) == (Pen.THIN, complex(sheet.width, sheet.height))
-    pens = pens_for(sheet.width, sheet.height, norm)
-    widths = {float(element.get("stroke-width")) for element in root.iter() if element.get("stroke-width")}
-    assert widths == {pens.main, pens.thin}
-
-
-@pytest.mark.parametrize(("name", "norm", "first"), EVERY)
 @pytest.mark.parametrize("language", STAMPS)
 def test_no_text_touches_a_line_or_another_text_and_heights_are_of_the_row(
     name: str, language: str, norm: str, first: bool
@@ -153,7 +131,6 @@ def test_a_long_title_shrinks_and_wraps_and_a_name_that_no_letters_can_fit_is_re
 
 def test_captions_exist_in_every_language_and_are_words_of_it() -> None:
     tables = {language: words(language) for language in STAMPS}
-
     assert tables["uk"].keys() == tables["ru"].keys() == tables["en"].keys()
     assert not set("".join(tables["uk"].values())) & set("ыэъё")
     assert not set("".join(tables["ru"].values())) & set("іїєґ")
@@ -194,29 +171,10 @@ def test_the_designation_stands_turned_in_the_upper_corner(name: str, corner: st
 )
 def test_a_long_name_is_shown_with_initials_before_it_is_refused(name: str, shown: str) -> None:
     [text] = named(name, CELL, (2.5,), "left", "student")
-
     assert text.markup == shown
     assert extent((text,))[2] <= CELL[2]
     with pytest.raises(InputError, match="too long"):
         named("щ" * 60, CELL, (2.5,), "left", "student")
-
-
-@pytest.mark.parametrize(("name", "norm", "first"), EVERY)
-def test_reserved_boxes_lie_in_corners_of_the_frame_and_apart(name: str, norm: str, first: bool) -> None:
-    sheet = FORMATS[name]
-    x0, y0, x1, y1 = drawing_area(sheet, norm)
-
-    boxes = reserved_boxes(sheet, norm, first)
-
-    assert boxes[0] == block_box(sheet, norm, first)
-    assert (boxes[0][2], boxes[0][1]) == (x1, y0)
-    for box in boxes:
-        assert x0 <= box[0] < box[2] <= x1
-        assert y0 <= box[1] < box[3] <= y1
-        assert box[0] == x0 or box[2] == x1
-        assert box[1] == y0 or box[3] == y1
-    if len(boxes) == 2:
-        assert boxes[1][1] > boxes[0][3]
 
 
 def test_formats_are_the_trimmed_sheets_from_the_smallest_with_frames_as_large_as_the_standard_says() -> None:
@@ -237,3 +195,34 @@ def test_a_format_is_found_as_people_write_it_and_an_unknown_one_refused_with_th
         with pytest.raises(InputError) as problem:
             format_named(name)
         assert all("A4, A3, A3-portrait, A2, A1" in problem.value.text(language) for language in STAMPS)
+
+
+@pytest.mark.parametrize(("name", "norm", "first"), EVERY)
+def test_every_line_of_block_and_frame_is_where_the_standard_has_it_in_corners_that_are_reserved(
+    name: str, norm: str, first: bool
+) -> None:
+    drawn, sheet, (block, table) = page(name, "uk", norm, first), FORMATS[name], BLOCKS[norm, first]
+    x0, y0, x1, y1 = drawing_area(sheet, norm)
+    left, low = block_box(sheet, norm, first)[:2]
+    root, boxes = etree.fromstring(svg_text(drawn).encode()), reserved_boxes(sheet, norm, first)
+
+    found = set()
+    for line in root.find(f".//{SVG}g[@data-name='{block}']").iter(f"{SVG}line"):
+        a, b, c, d = (float(line.get(key)) for key in ("x1", "y1", "x2", "y2"))
+        ends = sorted((round(x - left, 2), round(drawn.height - y - low, 2)) for x, y in ((a, b), (c, d)))
+        found.add((*ends, float(line.get("stroke-width")) == drawn.pens.main))
+
+    assert found == table
+    edge, frame, *_ = drawn.shapes
+    assert frame == Polyline((x0 + y0 * 1j, x1 + y0 * 1j, x1 + y1 * 1j, x0 + y1 * 1j), Pen.MAIN, True, role="frame")
+    assert (edge.pen, edge.points[2]) == (Pen.THIN, complex(sheet.width, sheet.height))
+    pens = pens_for(sheet.width, sheet.height, norm)
+    widths = {float(element.get("stroke-width")) for element in root.iter() if element.get("stroke-width")}
+    assert widths == {pens.main, pens.thin}
+    assert boxes[0] == block_box(sheet, norm, first)
+    assert boxes[0][1:3] == (y0, x1)
+    for a, b, c, d in boxes:
+        assert x0 <= a < c <= x1
+        assert y0 <= b < d <= y1
+        assert (a == x0 or c == x1) and (b == y0 or d == y1)  # noqa: PT018
+    assert len(boxes) == 1 or boxes[1][1] > boxes[0][3]

@@ -15,6 +15,35 @@ from kulman.scales.numbers import split_number
 from kulman.scales.scale import SERIES, Fixed, From, Scale, Segment, chooser, rounded, steps
 from kulman.scales.units import ONE, SYMBOLS, Unit, format_unit, parse, unit
 
+GIVEN = {  # scale factors as people give them
+    ("mu_V", "0.05"): 0.05,
+    ("mu_V", "0,05 (м/с)/мм"): 0.05,
+    ("mu_V", "20 mm/(m/s)"): 0.05,
+    ("mu_l", "500 мм/м"): 0.002,
+    ("mu_F_23", "15 Н/мм"): 15.0,
+    ("mu_F_23", "0.04 mm/N"): 25.0,
+}
+
+
+def test_a_given_scale_is_read_and_told_in_either_convention_and_grows_coarser_by_round_steps() -> None:
+    scale, words = Scale("mu_V", 0.05, "m/s"), Words.of("uk", "nau")
+    per_unit = replace(words, notation={**words.notation, "scales": "mm per unit"})
+    ladder = chooser("mu_F_23", "15 N/mm").ladder(lambda name: 1.0)
+
+    for (symbol, text), mu in GIVEN.items():
+        found = chooser(symbol, text, firm=True)
+        assert isinstance(found, Fixed)
+        assert found.mu == pytest.approx(mu, rel=1e-15)
+        assert found.ladder(lambda name: 1.0) == (found.mu,)
+    assert scale.per_unit == 20.0
+    assert words.scale(scale) == "μ_{V} = 0,05 (м/с)/мм"
+    assert per_unit.scale(scale) == "μ_{V} = 20 мм/(м/с)"
+    assert ladder[:5] == (15.0, 20.0, 25.0, 40.0, 50.0)
+    assert all(mu / 10.0 ** len(str(int(mu))[1:]) in SERIES for mu in ladder[1:])
+    assert steps(0.003)[:3] == (0.004, 0.005, 0.01)
+    assert rounded(0.0500691) == 0.0501
+
+
 SPELLED = {  # in Ukrainian and English
     "m/s": ("м/с", "m/s"),
     "m/s^2": ("м/с²", "m/s²"),
@@ -73,19 +102,6 @@ READ = {  # SI value, by the unit that is expected and the text
 FINITE = st.floats(min_value=1e-5, max_value=1e3) | st.floats(min_value=-1e3, max_value=-1e-5)
 
 
-@pytest.mark.parametrize("expected", READ)
-def test_a_quantity_is_read_in_si(expected: str) -> None:
-    for text, value in READ[expected].items():
-        assert parse(text, unit(expected)) == pytest.approx(value, rel=1e-15), text
-
-
-def test_conversion_rounds_no_more_than_the_textbook_formula_and_numbers_alone_take_the_default() -> None:
-    for text, expected in (("55 mm", "m"), ("0.3 mm", "m"), ("765 rpm", "rad/s"), ("123 deg", "deg")):
-        assert parse(text, unit(expected)) == READ[expected][text]
-    assert parse("55,5", unit("m"), unit("mm")) == 0.0555
-    assert parse("0,5", ONE) == 0.5
-
-
 @pytest.mark.parametrize(("key", "expected"), REFUSED)
 def test_what_is_no_quantity_of_the_wanted_kind_is_refused(key: str, expected: str) -> None:
     for text in REFUSED[key, expected]:
@@ -110,7 +126,6 @@ def test_units_are_spelled_as_on_a_sheet_and_no_two_share_a_spelling() -> None:
 def test_every_symbol_is_read_back_in_every_language(value: float, name: str, language: str, space: str) -> None:
     written = unit(name)
     text = f"{value!r}{space}{format_unit(written, language)}".replace(".", "," if language != "en" else ".")
-
     assert parse(text, written) == written.to_si(value)
     assert written.from_si(written.to_si(value)) == pytest.approx(value, rel=1e-15)
 
@@ -126,7 +141,6 @@ def test_every_symbol_is_read_back_in_every_language(value: float, name: str, la
 )
 def test_every_product_of_powers_is_read_back(powers: list[tuple[str, int]], language: str) -> None:
     written = Unit(tuple(powers))
-
     for text in (written.name, format_unit(written, language)):
         if len(text) <= 40:
             read = unit(text)
@@ -147,35 +161,6 @@ def test_thousands_may_stand_apart(value: int) -> None:
         assert split_number(f"{value:,}".replace(",", space) + " Н") == (value, "Н")
 
 
-def test_both_conventions_name_the_same_scale() -> None:
-    scale = Scale("mu_V", 0.05, "m/s")
-    words = Words.of("uk", "nau")
-    per_unit = replace(words, notation={**words.notation, "scales": "mm per unit"})
-
-    assert scale.per_unit == 20.0
-    assert words.scale(scale) == "μ_{V} = 0,05 (м/с)/мм"
-    assert per_unit.scale(scale) == "μ_{V} = 20 мм/(м/с)"
-
-
-@pytest.mark.parametrize(
-    ("symbol", "text", "mu"),
-    [
-        ("mu_V", "0.05", 0.05),
-        ("mu_V", "0,05 (м/с)/мм", 0.05),
-        ("mu_V", "20 mm/(m/s)", 0.05),
-        ("mu_l", "500 мм/м", 0.002),
-        ("mu_F_23", "15 Н/мм", 15.0),
-        ("mu_F_23", "0.04 mm/N", 25.0),
-    ],
-)
-def test_a_given_scale_is_read_in_either_convention(symbol: str, text: str, mu: float) -> None:
-    found = chooser(symbol, text, firm=True)
-
-    assert isinstance(found, Fixed)
-    assert found.mu == pytest.approx(mu, rel=1e-15)
-    assert found.ladder(lambda name: 1.0) == (found.mu,)
-
-
 def test_a_chosen_segment_is_read_by_its_letters_a_scale_to_begin_with_may_be_coarser() -> None:
     assert chooser("mu_a", "p'a'=80 mm") == Segment("a_A", 80.0)
     assert chooser("mu_V", "ps2=6 cm") == Segment("V_S2", 60.0)
@@ -190,16 +175,16 @@ def test_a_chosen_segment_is_read_by_its_letters_a_scale_to_begin_with_may_be_co
 def test_scales_of_the_crank_draw_it_as_its_own_velocity_and_round_ones_come_from_the_series() -> None:
     crank = kulman.solve("nau-slider-crank", "3", scales={"mu_V": "crank", "mu_a": "crank"})
     rounded = kulman.solve("nau-slider-crank", "3", scales={"mu_V": "round 60 mm"})
-
     assert (crank["V_A"].mm, crank["a_A"].mm) == pytest.approx((crank["l_OA"].mm,) * 2, abs=1e-3)
     assert rounded.scales["mu_V"].mu == 0.1
     assert max(rounded[name].mm for name in ("V_A", "V_B", "V_BA", "V_S2")) <= 60.0
 
 
-def test_ladders_grow_coarser_by_round_steps() -> None:
-    ladder = chooser("mu_F_23", "15 N/mm").ladder(lambda name: 1.0)
-
-    assert ladder[:5] == (15.0, 20.0, 25.0, 40.0, 50.0)
-    assert all(mu / 10.0 ** len(str(int(mu))[1:]) in SERIES for mu in ladder[1:])
-    assert steps(0.003)[:3] == (0.004, 0.005, 0.01)
-    assert rounded(0.0500691) == 0.0501
+def test_quantities_are_read_in_si_and_rounded_no_more_than_by_the_textbook_formula() -> None:
+    for expected, texts in READ.items():
+        for text, value in texts.items():
+            assert parse(text, unit(expected)) == pytest.approx(value, rel=1e-15), text
+    for text, expected in (("55 mm", "m"), ("0.3 mm", "m"), ("765 rpm", "rad/s"), ("123 deg", "deg")):
+        assert parse(text, unit(expected)) == READ[expected][text]
+    assert parse("55,5", unit("m"), unit("mm")) == 0.0555  # a number alone takes the default
+    assert parse("0,5", ONE) == 0.5

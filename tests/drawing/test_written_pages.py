@@ -109,7 +109,6 @@ def test_a_vector_is_read_back_with_all_digits(tip: complex) -> None:
 @pytest.mark.parametrize("length", [100.0, 5.1, 3.0, 1.0])
 def test_heads_have_one_size_and_point_along_the_arrow(length: float) -> None:
     group = read(page(Arrow(10 + 10j, 10 + 10j + length * 1j))).find(f"{SVG}g")
-
     tip, left, right = (up(*pair.split(",")) for pair in group.find(f"{SVG}polygon").get("points").split())
     assert abs(tip - (left + right) / 2) == pytest.approx(pens_for(210, 297).arrow, abs=1e-6)
     assert (tip - (left + right) / 2).imag > 0
@@ -119,7 +118,6 @@ def test_heads_have_one_size_and_point_along_the_arrow(length: float) -> None:
 
 def test_shapes_carry_their_role_and_name_and_only_texts_are_transformed() -> None:
     root = read(page(*ONE_OF_EACH))
-
     found = {(element.get("class"), element.get("data-name")) for element in root.iter() if element.get("data-name")}
     names = {("guide", "x"), ("point", "A"), ("angle", "phi"), ("arrow", "rotation"), ("view", "velocity")}
     assert found == names | {("label", "V_B")}
@@ -140,25 +138,6 @@ def test_runs_of_a_text_stand_where_its_layout_says_and_a_squeezed_text_keeps_it
     x, y = float(squeezed.get("x")), float(squeezed.get("y"))
     assert (a * x + c * y + e, b * x + d * y + f) == pytest.approx((x, y), abs=1e-5)
     assert (a, b, c, d) == pytest.approx((0.5, 0, 0, 1), abs=1e-6)
-
-
-@pytest.mark.parametrize("sweep", [0.5, -0.5, 3.0, -6.0])
-def test_arcs_run_the_way_they_are_meant(sweep: float) -> None:
-    path = read(page(Arc(100 + 100j, 20, 0.3, sweep))).find(f"{SVG}path").get("d")
-
-    numbers = [float(part) for part in path.replace("M", "").replace("A", " ").split()]
-    ends = [up(x, y) - (100 + 100j) for x, y in zip(numbers[7::7], numbers[8::7], strict=True)]
-    assert set(numbers[6::7]) == {0 if sweep > 0 else 1}  # y points down in the file
-    assert set(numbers[5::7]) == {0}  # no large arcs
-    assert ends[-1] == pytest.approx(20 * complex(math.cos(0.3 + sweep), math.sin(0.3 + sweep)), abs=2e-6)
-
-
-@pytest.mark.parametrize("sweep", [math.tau, 1e5, -1e5])
-def test_an_arc_covers_a_circle_however_often_it_goes_round(sweep: float) -> None:
-    arc = Arc(1.0 + 2.0j, 5.0, 0.0, sweep)
-
-    assert extent([arc]) == pytest.approx((-4.0, -3.0, 6.0, 7.0), abs=1e-6)
-    assert len(_reach(arc)) <= 7  # not one for every quarter of a turn
 
 
 def test_pens_are_of_two_widths_and_dashed_lines_start_and_end_with_a_dash() -> None:
@@ -190,7 +169,6 @@ def test_what_is_not_a_number_is_refused(bad: float) -> None:
 def test_the_same_page_gives_the_same_bytes_later() -> None:
     first = [svg_text(page(*ONE_OF_EACH)).encode(), pdf(page(*ONE_OF_EACH)).getvalue()]
     time.sleep(1.1)
-
     assert [svg_text(page(*ONE_OF_EACH)).encode(), pdf(page(*ONE_OF_EACH)).getvalue()] == first
 
 
@@ -259,24 +237,6 @@ def test_a_line_is_seen_on_its_tile_and_cut_off_elsewhere() -> None:
 
 
 @pytest.mark.parametrize(
-    ("suffix", "start"), [(".svg", b"<?xml"), (".pdf", b"%PDF"), (".png", b"\x89PNG"), (".PDF", b"%PDF")]
-)
-def test_the_suffix_picks_the_writer(tmp_path: Path, suffix: str, start: bytes) -> None:
-    (written,) = write_pages([sheet("A4")], tmp_path / f"аркуш{suffix}")
-
-    assert written.read_bytes().startswith(start)
-    assert list(tmp_path.iterdir()) == [written]
-    assert set(WRITERS) > set(writers.SEVERAL)  # every file goes through the table
-
-
-def test_several_pages_become_numbered_pictures_or_one_document(tmp_path: Path) -> None:
-    written = write_pages([sheet("A4"), sheet("A3")], tmp_path / "x.svg", tmp_path / "x.pdf")
-
-    assert [path.name for path in written] == ["x-1.svg", "x-2.svg", "x.pdf"]
-    assert len(list(extract_pages(tmp_path / "x.pdf"))) == 2
-
-
-@pytest.mark.parametrize(
     ("names", "tile", "key", "told"),
     [
         (["x.docx"], None, "output-suffix", ".svg, .pdf, .png"),
@@ -291,10 +251,8 @@ def test_what_cannot_be_written_is_refused_and_nothing_is(
     names: list[str], tile: str | None, key: str, told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "pypdfium2", None)
-
     with pytest.raises(InputError) as problem:
         write_pages([sheet()], *(f"{tmp_path}/{name}" for name in names), tile=tile)
-
     assert problem.value.key == key
     assert told in problem.value.text("uk")
     assert not list(tmp_path.iterdir())
@@ -336,3 +294,32 @@ def test_a_full_disk_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.Mon
     assert problem.value.key == "output-refused"
     assert "No space" in problem.value.text("en")
     assert target.read_text() == "old"
+
+
+@pytest.mark.parametrize("sweep", [0.5, -0.5, 3.0, -6.0, math.tau, 1e5, -1e5])
+def test_arcs_run_the_way_they_are_meant_and_cover_a_circle_however_often_they_go_round(sweep: float) -> None:
+    arc = Arc(100 + 100j, 20, 0.3, sweep)
+    path = read(page(arc)).find(f"{SVG}path").get("d")
+
+    numbers = [float(part) for part in path.replace("M", "").replace("A", " ").split()]
+    ends = [up(x, y) - (100 + 100j) for x, y in zip(numbers[7::7], numbers[8::7], strict=True)]
+    assert set(numbers[6::7]) == {0 if sweep > 0 else 1}  # y points down in the file
+    assert set(numbers[5::7]) == {0}  # no large arcs
+    if abs(sweep) < math.tau:
+        assert ends[-1] == pytest.approx(20 * complex(math.cos(0.3 + sweep), math.sin(0.3 + sweep)), abs=2e-6)
+    else:
+        assert extent([arc]) == pytest.approx((80.0, 80.0, 120.0, 120.0), abs=1e-6)
+        assert len(_reach(arc)) <= 7  # not one for every quarter of a turn
+
+
+def test_the_suffix_picks_the_writer_and_several_pages_become_numbered_pictures_or_one_document(tmp_path: Path) -> None:
+    starts = {".svg": b"<?xml", ".pdf": b"%PDF", ".png": b"\x89PNG", ".PDF": b"%PDF"}
+
+    one = write_pages([sheet("A4")], *(tmp_path / f"аркуш{k}{suffix}" for k, suffix in enumerate(starts)))
+    two = write_pages([sheet("A4"), sheet("A3")], tmp_path / "x.svg", tmp_path / "x.pdf")
+
+    assert [path.read_bytes().startswith(start) for path, start in zip(one, starts.values(), strict=True)] == [True] * 4
+    assert [path.name for path in two] == ["x-1.svg", "x-2.svg", "x.pdf"]
+    assert {*tmp_path.iterdir()} == {*one, *two}
+    assert len(list(extract_pages(tmp_path / "x.pdf"))) == 2
+    assert set(WRITERS) > set(writers.SEVERAL)  # every file goes through the table

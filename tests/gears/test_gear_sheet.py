@@ -135,7 +135,6 @@ def test_involutes_are_constructed_by_rolling() -> None:
 def test_meshings_are_drawn_to_scales_of_the_standard(m: float) -> None:
     enlargements = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0, 100.0, 200.0)  # GOST 2.302; from 100:1 on by hundreds
     solved = solve_gear(GearPair(), {"m": m, "z_1": 15.0, "z_2": 20.0, "x_1": 0.2, "x_2": 0.85})
-
     for ladder in (mu_ladder(solved, {}), near_ladder(solved), rolled_ladder(solved)):
         ratios = [1e-3 / mu for mu in ladder if mu < 0.9e-3]
         assert all(any(math.isclose(ratio, known) for known in enlargements) for ratio in ratios)
@@ -233,6 +232,5 @@ SPOILED = [  # one piece of the file of a sheet changed
 def test_the_examiner_sees_a_spoiled_sheet_of_a_pair(point: str, piece: str, other: str) -> None:
     case = WHOLE if point in POINTS else SLIDING
     spoiled = [re.sub(piece, other, page, count=1, flags=re.DOTALL) for page in case.pages]
-
     assert spoiled != [*case.pages]
     assert faults(case, read(*spoiled), point)

@@ -36,19 +36,6 @@ from kulman.variants.reader import load_task
 from kulman.variants.sheets import Sheet
 from kulman.variants.solution import Solution
 
-SOAKED = [pytest.param(language, marks=pytest.mark.soak) for language in LANGUAGES[1:]]
-
-
-@cache
-def whole() -> Case:
-    return solve_case(TASK)
-
-
-@cache
-def drawn(lang: str = "en") -> Sheet:
-    return draw_case(whole(), lang)
-
-
 TASK = "madi-gear"
 PAIRS = ({}, {"z_1": 40, "z_2": 60, "x_1": 0, "x_2": 0}, {"z_1": 8, "z_2": 25, "x_1": 0.5, "x_2": 0})
 # what a mark that has no shape of its own is drawn with
@@ -76,6 +63,17 @@ FOLLOWS = {f"theta_{pair}_{k:02d}" for pair in ("12", "21") for k in range(7, 12
 IDS = [f"M{n}" for n in range(100, 115)]
 DIGITS = 4  # of an answer
 MM = 1e-3
+SOAKED = [pytest.param(language, marks=pytest.mark.soak) for language in LANGUAGES[1:]]
+
+
+@cache
+def whole() -> Case:
+    return solve_case(TASK)
+
+
+@cache
+def drawn(lang: str = "en") -> Sheet:
+    return draw_case(whole(), lang)
 
 
 def parts(things: Iterable[Page | Shape]) -> Iterator[Page | Shape]:
@@ -103,9 +101,7 @@ def test_a_blank_tells_what_is_given_and_no_result(only: str | None) -> None:
 def test_every_stage_draws_something_more(only: str) -> None:
     case = solve_case(TASK, None, None, only, None)
     sheet = draw_case(case, "en")
-
     counts = [len(begun(case, sheet, steps)) for steps in range(max(len(view.stages) for view in sheet.views))]
-
     assert all(a < b for a, b in pairwise([*counts, len([*parts(sheet.pages)])]))
 
 
@@ -268,7 +264,6 @@ def planted(id: str, how: str, at: str = "") -> Mapping[str, Any]:
 def test_what_follows_from_a_wrong_size_is_right(tmp_path: Path) -> None:
     """With s_1 = 9 mm the thickness on the base circle and the common normal are larger by as much."""
     found = verdicts(tmp_path / "class.csv", {"s_1": 9.0, "s_b1": 9.508, "W_1": 24.268}, "cad")
-
     assert found["s_1"] is Verdict.WRONG
     assert (found["s_b1"], found["W_1"]) == (Verdict.CARRIED, Verdict.CARRIED)
 
@@ -327,9 +322,7 @@ def answers(made: Mapping[str, Any]) -> list[Answer]:
 @pytest.mark.parametrize("id", IDS)
 def test_a_planted_mistake_is_the_first_that_is_told(id: str) -> None:
     planted = list(broken(key().paper, key().values, (id,)))[:: 1 if id != "M103" else 6]
-
     told = [explain(mistakes(), mark(key(), answers(values(found)))).candidates for found in planted]
-
     assert [found.place for found, told_of in zip(planted, told, strict=True) if not told_of] == []
     assert [(f.place, t[0].ids) for f, t in zip(planted, told, strict=True) if id not in t[0].ids] == []
 

@@ -62,7 +62,6 @@ def test_printed_numbers_are_right() -> None:
 
 def test_printed_rolling_diameters_follow_from_a_rounded_ratio() -> None:
     a_w, u = 91.99949, 1.333
-
     assert shown("d_w1") == pytest.approx(78.85702, abs=1e-5)  # printed 78.86797
     assert shown("d_w2") == pytest.approx(105.14269, abs=1e-5)  # printed 105.13101
     assert 2.0 * a_w / (u + 1.0) == pytest.approx(78.86797, abs=1e-5)
