@@ -185,7 +185,6 @@ def test_closing_takes_out_a_drift_of_the_velocity_exactly() -> None:
 def test_closing_brings_more_than_care() -> None:
     found = robustness(cam(), {name: preset(name).hand for name in ("careful", "normal")}, (12,))
     steady = robustness(cam("sine"), {"cad": preset("cad").hand})  # no inner jumps: no line to miss
-
     normal, careful = (found.closings[name].errors for name in ("normal", "careful"))
     assert normal[BOTH] < 0.2 * normal["drawn"]
     assert normal[BOTH] < normal["speed"] < normal["drawn"]

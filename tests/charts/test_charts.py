@@ -109,12 +109,10 @@ DEFAULT = ((TASK, "uk"), (CAM, "ru"), (HOIST, "en"))
 )
 def test_pictures_and_tables_speak_every_language(task: str, language: str) -> None:
     spoken = made(task).words.speaking(language)
-
     figures = [one.figure(spoken) for one in made(task).charts.values()]
     for figure in figures:
         figure.draw_without_rendering()  # now axes have their numbers
     said = " ".join(text.get_text() for figure in figures for text in figure.findobj(match=Text))
-
     assert [word for word in SAID[task, language] if word not in said + made(task).table(language)] == []
     assert [words for words in TOLD[task].split("|") if not re.search(words, made(task).table(), re.MULTILINE)] == []
     assert "normal" not in said or language == "en"
@@ -164,7 +162,6 @@ def test_a_pdf_has_a_page_for_each_chart(
     else:  # with their full effort
         monkeypatch.undo()
         assert run(["--lang", "en", "-o", str(path)], capsys, task) == (0, f"{path}\n", "")
-
     assert len(re.findall(rb"/Type /Page\b", path.read_bytes())) == pages
 
 
@@ -337,9 +334,7 @@ def test_tables_need_no_picture() -> None:
         f"found = chart('{TASK}', chart='stability,depth', positions=6)\nfound.table(), found.to_json()\n"
         "print([name for name in ('matplotlib', 'mpmath', 'reportlab') if name in sys.modules])"
     )
-
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-
     assert done.stdout == "[]\n"
 
 

@@ -42,7 +42,6 @@ def within(at: np.ndarray, box: tuple[float, float, float, float]) -> np.ndarray
 
 def test_strokes_cover_what_an_odd_number_of_sides_surrounds() -> None:
     found = strokes(STAR, ALONG, 0.5)
-
     assert all(surrounded(places(line.a, line.b, 50), STAR).all() for line in found)
     assert all((line.b - line.a) / abs(line.b - line.a) == pytest.approx(ALONG) for line in found)
     corner = np.arange(-45.0, 45.0, 0.1)
@@ -162,7 +161,6 @@ def test_a_letter_is_written_once_and_keeps_others_away() -> None:
 @pytest.mark.parametrize("within", [0.02, 0.1, 1.0])
 def test_a_thinned_curve_stays_near_all_its_points(within: float) -> None:
     found = thinned(CIRCLE, within)
-
     line = shapely.LineString([(p.real, p.imag) for p in found])
     assert max(line.distance(shapely.Point(p.real, p.imag)) for p in CIRCLE) <= within + 1e-12
     assert len(found) < 2.0 + math.radians(270) / math.acos(1.0 - within / 40.0)

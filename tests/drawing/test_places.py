@@ -116,9 +116,7 @@ def test_a_hemmed_in_node_gets_a_leader_and_a_label_without_any_place_is_reporte
     request, ends = [Request("A", 5, 5, 0j)], (-4, -2.5, 2.5, 4)
     walls = [(complex(x, -4), complex(x, 4)) for x in ends] + [(complex(-4, y), complex(4, y)) for y in ends]
     full = [(complex(-90, y), complex(90, y)) for y in range(-90, 91, 3)]
-
     nowhere = place(request, Obstacles(segments=full), GAP)
-
     assert list(stand_clear(request, Obstacles(segments=walls)).leaders) == ["A"]
     assert nowhere.failed == ("A",)
     assert "A" in nowhere.corners
@@ -204,9 +202,7 @@ def test_every_letter_of_a_knot_finds_a_place(vectors: int) -> None:
 
 def test_labels_stay_inside_the_bounds_and_none_has_the_name_of_another() -> None:
     requests = [Request("A", 4, 4, 1 + 1j), Request("B", 4, 4, 29 + 19j), Request("V", 6, 4, (1j, 20j))]
-
     labels = place(requests, Obstacles(), GAP, bounds=(0, 0, 30, 20))
-
     assert not labels.failed
     assert all(shapely.box(0, 0, 30, 20).contains(boxes_of(requests, labels)))
     assert place([], Obstacles()) == Labels()
@@ -355,9 +351,7 @@ def test_several_pages_read_in_order_and_none_is_nearly_empty(paper, most):
 
 def test_order_gives_way_only_to_a_fit():
     views = [(60, 40), (100, 100), (60, 40), (100, 100), (60, 10)]
-
     layout = pack(views, (0, 0, 170, 208), gap=APART)
-
     judge(views, layout, (0, 0, 170, 208), [])
     assert read_pages(views, layout) != list(range(len(views)))
     assert pack(views, (0, 0, 170, 208), gap=APART, any_order=False) is None
@@ -367,9 +361,7 @@ def test_order_gives_way_only_to_a_fit():
 
 def test_pages_are_as_few_and_as_full_as_possible_and_what_fits_nowhere_has_no_place():
     views, area = [(100, 100)] * 8, (0, 0, 208, 316)
-
     layout = pack(views, area, gap=APART, pages=None)
-
     assert [p.page for p in layout] == [0, 0, 0, 0, 1, 1, 1, 1]
     assert pack(views, area, gap=APART) is None
     assert pack(views * 2, area, gap=APART, pages=2) is None

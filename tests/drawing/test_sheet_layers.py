@@ -24,7 +24,7 @@ from kulman.drawing.formats import FORMATS, drawing_area, printable, reserved_bo
 from kulman.drawing.page import Layer, Page, parts_of
 from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.pdf import write_tiles
-from kulman.drawing.shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
+from kulman.drawing.shapes import Group, Line
 from kulman.drawing.svg import svg_text
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.readback import SVG
@@ -85,30 +85,6 @@ def test_each_thing_is_in_one_layer(task: str) -> None:
         root = etree.fromstring(svg_text(page).encode())
         for element in root.iter(*DRAWN):
             assert sum(above.get("class") == "layer" for above in element.iterancestors()) == 1
-
-
-@pytest.mark.parametrize(
-    ("shape", "layer"),
-    [
-        (Polyline((0j, 1 + 0j), role="frame"), Layer.FRAME),
-        (Group((Line(0j, 1j),), "titleblock"), Layer.FRAME),
-        (Group((Circle(0j, 1.0, fill="white"),), "pivot", "O"), Layer.GIVEN),
-        (Text(0j, "План", role="heading"), Layer.GIVEN),
-        (Text(0j, "r_{0} = 29,24", role="heading", name="note"), Layer.LABELS),
-        (Line(0j, 1j, Pen.AXIS), Layer.GIVEN),
-        (Line(0j, 1j, Pen.DASHED, role="construction"), Layer.CONSTRUCTION),
-        (Line(0j, 1j, Pen.THIN, role="some ray"), Layer.CONSTRUCTION),
-        (Vector(0j, 1j, "V_B", 1.0, "m/s", 1.0), Layer.RESULT),
-        (Group((Line(0j, 1j, Pen.MAIN),), "link", "2"), Layer.RESULT),
-        (Group((Line(0j, 1j, Pen.THIN), Head(1j, 1j)), "dimension", "r_0"), Layer.LABELS),
-        (Text(0j, "B"), Layer.LABELS),
-        (Group((Group((Text(0j, "5"),), "table"),), "view", "givens"), Layer.GIVEN),
-        (Group((Group((Text(0j, "5"),), "table"),), "view", "results"), Layer.RESULT),
-    ],
-)
-def test_a_shape_tells_its_layer_by_what_it_is(shape: Shape, layer: Layer) -> None:
-    page = Page(210.0, 297.0, (shape,), "", "uk", layers=True)
-    assert [found for found, _ in parts_of(page)] == [layer]
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -210,10 +186,8 @@ def test_what_does_not_go_together_is_said_in_a_line(
     clash: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     words = [*clash, "velocity"] if "--over" in clash else clash
-
     with pytest.raises(SystemExit) as left:
         cli.main(["handout", TASK, *words, "-o", str(tmp_path / "h.pdf")])
-
     out, err = capsys.readouterr()
     assert (left.value.code, out, err.count("\n")) == (2, "", 1)
     assert all(option in err for option in clash)

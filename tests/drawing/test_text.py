@@ -86,7 +86,6 @@ def oracle():
 @pytest.mark.parametrize(("markup", "rules"), [(r"\bar{V}", 1), (r"\u{V_{B}}", 1), (r"\uu{\bar{a}^{n}_{BA}}", 3)])
 def test_bars_and_underlines_clear_the_ink(markup, rules):
     layout = lay_out(markup, 3.5)
-
     ink = [font().ink(letter)[1] * run.size + run.y for run in layout.runs for letter in run.string]
     tops = [font().ink(letter)[2] * run.size + run.y for run in layout.runs[:1] for letter in run.string]
     assert len(layout.rules) == rules
@@ -180,7 +179,6 @@ def test_every_text_and_message_is_used_and_every_table_of_words_is_read() -> No
 
 def test_every_choice_of_a_bundled_task_has_words_that_are_looked_up_by_key() -> None:
     texts: dict[str, Any] = tables("")["en"]
-
     for task in map(load_task, bundled()):
         for one in task.givens.values():
             if one.choices:
@@ -243,7 +241,6 @@ def test_scripts_stand_one_over_the_other_and_are_no_smaller_in_scripts() -> Non
 @given(markups)
 def test_runs_lie_inside_the_layout_which_grows_with_the_letters(markup: str) -> None:
     layout, large = lay_out(markup, 3.5), lay_out(markup, 7.0)
-
     for run in layout.runs:
         assert -1e-9 <= run.x <= run.x + run.width <= layout.width + 1e-9
         low = min(font().ink(letter)[1] for letter in run.string) * run.size + run.y
@@ -267,7 +264,6 @@ def test_a_box_follows_the_anchor_and_turns_with_its_text(anchor: str, x0: float
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_symbols_are_markup_without_names_and_two_quantities_have_two(notation: str, language: str) -> None:
     words = Words.of(language, notation)
-
     for name in NAMES.split():
         symbol = words.symbol(name)
         assert symbol.count("{") == symbol.count("}") == symbol.count("_{") + symbol.count("^{"), symbol

@@ -106,7 +106,6 @@ def test_no_text_touches_a_line_or_another_text_and_heights_are_of_the_row(
 
 def test_fields_are_blank_where_nothing_is_said_and_hold_braces_as_they_are() -> None:
     fields = ("student", "teacher", "designation", "date_value", "title", "scale", "organisation")
-
     for norm in ("gost", "iso"):
         assert written(page("A3", "en", norm, stamp=Stamp(language="en")), *fields) == []
         shown = " ".join(text.markup for text in written(page("A3", "en", norm)))
@@ -179,7 +178,6 @@ def test_a_long_name_is_shown_with_initials_before_it_is_refused(name: str, show
 
 def test_formats_are_the_trimmed_sheets_from_the_smallest_with_frames_as_large_as_the_standard_says() -> None:
     areas = [width * height for width, height in SIZES.values()]
-
     assert {name: (item.width, item.height) for name, item in FORMATS.items()} == SIZES
     assert [item.width * item.height for item in FORMATS.values()] == sorted(areas)
     for norm, frames in FRAMES.items():

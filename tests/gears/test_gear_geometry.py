@@ -99,7 +99,6 @@ def test_common_normal_is_the_distance_of_jaws_that_touch_two_flanks(pairs: dict
 def test_corner_of_the_rack_is_the_printed_one_and_fills_a_narrow_tip() -> None:
     found, steep = geometry(madi()), madi(alpha=math.radians(26.0))
     narrow = geometry(steep)["rho_f"] / steep["m"]
-
     assert found["rho_f"] / found["m"] == pytest.approx(0.38, abs=1e-4)  # GOST 13755-81 rounds 0.379951
     assert found["rho_f"] * (1.0 - math.sin(STANDARD["alpha"])) == pytest.approx(0.25 * found["m"], rel=1e-14)
     tip = 0.25 * math.pi - 1.25 * math.tan(steep["alpha"])  # half the tip without the corner, in modules
@@ -121,9 +120,7 @@ def test_involute_and_its_inverse_are_exact_to_the_last_digits(alpha: float) -> 
 
 def test_inverse_of_the_involute_never_fails() -> None:
     inv = np.logspace(-300, 12, 20_001)
-
     t = tangent_of_involute(inv)
-
     back = np.where(t < 1e-3, t**3 / 3.0, t - np.arctan(t))
     assert np.max(np.abs(back / inv - 1.0)) < 1e-6  # the difference loses digits where it is small
     assert np.all(np.diff(t) > 0.0)
@@ -247,9 +244,7 @@ def test_interference_is_where_wheels_overlap_when_they_roll(
     meshing = meshing_of(values)
     angles = np.linspace(-math.pi / z_1, math.pi / z_1, 16, endpoint=False)
     pairs = (outlines(meshing, float(angle), 100, math.radians(0.3)) for angle in angles)
-
     worst = max(polygon(first).intersection(polygon(second)).area for first, second in pairs)
-
     own = verdicts(values)
     assert {i for i in (1, 2) if not own[f"interference_{i}"].ok} == roots
     assert (worst > 1e-4) == bool(roots)
@@ -344,7 +339,6 @@ def by_second_route(plane: Plane, places: np.ndarray) -> dict[str, np.ndarray]:
 @pytest.mark.parametrize(("z_1", "z_2"), WHEELS)
 def test_points_of_every_curve_are_on_their_limit(z_1: float, z_2: float) -> None:
     of = plane(z_1, z_2)
-
     step = abs(of.high - of.low) / CELLS
     for name in CURVES:
         inside = np.concatenate([run[of.permits(run, others_of(name))] for run in of.curves[name]] or [np.empty(0)])

@@ -102,7 +102,6 @@ def test_sheets_of_random_pairs_satisfy_the_points() -> None:
 def test_all_that_is_drawn_of_madi_is_on_one_a1_with_the_scale_factors_that_it_prints() -> None:
     drawn = {"meshing", "rolling", "action", "sliding", "data", "checks", "points"}
     scales = {name: scale.mu for name, scale in WHOLE.drawn.scales.items()}
-
     assert {view.name for view in WHOLE.sheet.pages[0].views} >= drawn
     assert scales["meshing"] == mu(WHOLE.sheet["meshing"])
     (heading,) = (t.string for t in WHOLE.sheet["sliding"].of("heading") if "μ" in t.string)
@@ -173,7 +172,6 @@ def test_the_rack_touches_the_pinion_that_it_cuts(case: GearCase) -> None:
 def test_only_what_is_left_of_undercut_flanks_is_thick_on_the_line_of_action() -> None:
     case = ODD[0]
     first, last = meshing_of(case.given).touching
-
     for name in ("meshing", "action"):
         view = case.sheet[name]
         (thick,) = view.lines("active", "A1A2")

@@ -39,6 +39,9 @@ NEARLY = {"m": 5.0, "x_1": 0.2, "x_2": 0.85, "alpha": 20.0, "h_a": 1.0, "h_l": 2
 TASK = "madi-gear"
 DOCUMENT = (Path(kulman.__file__).parent / "docs" / "gears.md").read_text(encoding="utf-8")
 TEXT = bundled_text(TASK)
+# modules of GOST 9563-60
+FIRST_ROW = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25)
+SECOND_ROW = (1.125, 1.375, 1.75, 2.25, 2.75, 3.5, 4.5, 5.5, 7, 9, 11, 14, 18, 22)
 BOTH = "x_1 = 0.2\nx_2 = 0.85\n"
 BAD = [
     ("z_1 = 15", "z_1 = 2", "variant.z_1", "from 3 to 10000"),
@@ -78,20 +81,15 @@ def solution() -> Solution:
 
 
 def test_every_calculated_quantity_is_there_in_si_with_its_unit(solution: Solution) -> None:
-    named = {name for name in geometry_program().names if not name.startswith("_")}
-    begin = {
-        "rad": ("alpha_", "tau_", "nu_", "phi_"),
-        "1": ("x_", "inv_", "epsilon_", "theta_", "z_W", "u", "y", "delta_y"),
-    }
-
-    assert named <= set(solution)
+    others = {"mu_rho": "m/mm", "mu_theta": "1/mm"}
+    begin = {"rad": "alpha_ tau_ nu_ phi_", "1": "x_ inv_ epsilon_ theta_ z_W u y delta_y"}
+    assert {name for name in geometry_program().names if not name.startswith("_")} <= set(solution)
     for name, quantity in solution.quantities.items():
         if quantity.unit in begin:
-            assert name.startswith(begin[quantity.unit])
+            assert name.startswith(tuple(begin[quantity.unit].split()))
         else:
-            assert quantity.unit == {"mu_rho": "m/mm", "mu_theta": "1/mm"}.get(name, "m")
+            assert quantity.unit == others.get(name, "m")
     assert solution["d_a1"].value == pytest.approx(0.0854997, abs=5e-8)
-    assert math.degrees(solution["alpha_w"].value or 0.0) == pytest.approx(26.654, abs=5e-4)
     assert (solution["a_w"].mm, solution["a_w"].scale) == (pytest.approx(460.0, abs=1e-3), "mu_l")
 
 
@@ -245,7 +243,6 @@ def test_extremes_are_at_the_ends_of_the_contact_and_ends_of_an_undercut_one_are
     solved = solved_for({}, CCW)
     course, rho_1 = GearCourse(solved), np.linspace(*solved.meshing.touching, 1001)
     fine = {column.name: column.values for column in course.columns(rho_1)}
-
     for one in course.extremes():
         assert (one.most, one.least) == (np.max(fine[one.name]), np.min(fine[one.name]))
     assert {one.name: one.least for one in course.extremes()}["theta_12"] == solved.sizes["theta_12_A1"]
@@ -412,7 +409,7 @@ def test_bad_values_of_a_user_are_told_in_one_line(settings: dict[str, float], m
     ("asked", "modules"),
     [
         pytest.param({}, (4, 4.5, 5, 5.5, 6), id="round that of the task"),
-        pytest.param({"m": "2..3"}, (2, 2.25, 2.5, 2.75, 3), id="a range"),
+        pytest.param({"m": "1..25"}, (*FIRST_ROW, *SECOND_ROW), id="a range"),
         pytest.param({"m": "4..5/0.2"}, (4, 4.2, 4.4, 4.6, 4.8, 5), id="a range with a step"),
     ],
 )
@@ -420,4 +417,4 @@ def test_new_variants_have_modules_of_the_standard_unless_a_step_is_said(
     asked: dict[str, str], modules: tuple[float, ...]
 ) -> None:
     span, luck = _ranges_of(load_task(TASK), asked)["m"], random.Random(5)
-    assert {span.pick(luck) for _ in range(200)} == {f"{m:g} mm" for m in modules}
+    assert {span.pick(luck) for _ in range(2000)} == {f"{m:g} mm" for m in modules}

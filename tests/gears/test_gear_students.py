@@ -175,7 +175,6 @@ def test_letters_on_leaders_keep_them_on_a_blank_and_none_of_a_begun_sheet_ends_
 def test_what_is_laid_off_is_told_on_paper_and_as_it_is(language: str) -> None:
     written = note(TASK, lang=language)
     steps = [text for block in written.document.blocks if isinstance(block, Steps) for text in block.texts]
-
     told = re.compile(r"([\d.,]+) (?:mm|мм) \(\S+ = ([\d.,]+) (?:mm|мм)\)")
     laid_off = [pair for text in steps for pair in told.findall(text)]
     assert len(laid_off) == 8  # s_1, s_2, p, rho_f, p_b, l_N1N2, twice the active line
@@ -217,10 +216,8 @@ def verdicts(path: Path, answers: dict[str, float], preset: str = "normal") -> d
 
 def test_printed_answers_are_wrong_where_the_note_is() -> None:
     asked = check(TASK, preset="careful", lang="en")
-
     (answers,) = asked.read("printed")
     marked = asked.mark(answers).marked
-
     found = {line.name: line.verdict for line in marked.lines}
     assert {name for name, verdict in found.items() if verdict is Verdict.WRONG} == WRONG
     assert {name for name, verdict in found.items() if verdict is Verdict.CARRIED} == FOLLOWS
@@ -304,7 +301,6 @@ def test_a_broken_rule_gives_what_it_says(id: str, how: str, at: str, name: str,
 def test_rows_exchanged_beyond_the_pole_leave_the_others_and_beams_of_a_hoist_are_no_rows() -> None:
     found = planted("M113", "beyond")
     beam = keyed(Request(load_task("karpenko-hoist"), ""), "V01", {}, Rubric(preset("careful").tolerance)).key
-
     for k in range(1, 13):
         first, second = key()[f"y_1_{k:02d}"] if k > 1 else 0.0, key()[f"y_2_{k:02d}"] if k < 12 else 0.0
         expected = (second, first) if k > 6 else (first, second)
@@ -334,9 +330,7 @@ def test_each_of_several_mistakes_is_named(ids: tuple[str, ...]) -> None:
         found = next(iter(broken(paper, made, (id,))))
         made = {**made, **values(found)}
         paper = replace(paper, program=found.program, givens=found.givens)
-
     told = explain(mistakes(), mark(key(), answers(made))).candidates[0]
-
     assert set(ids) <= told.ids
     assert told.left == ()
 

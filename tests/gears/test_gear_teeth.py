@@ -182,10 +182,8 @@ def test_contacts_counted_on_polygons_make_the_contact_ratio(others: dict[str, f
     meshing = mesh(others, sense)
     epsilon = geometry(madi(**others))["epsilon_alpha"]
     pitch = 2.0 * math.pi / meshing.teeth[0].z
-
     angles = (np.arange(STEPS) + 0.37) * pitch / STEPS
     counted = [flanks_touch(meshing, float(angle), TOUCHING) for angle in angles]
-
     assert counted == [len(contacts(meshing, float(angle))) for angle in angles]
     assert np.mean(counted) == pytest.approx(epsilon, abs=1.0 / STEPS + 1e-3)
     assert counted_ratio(meshing) == pytest.approx(epsilon, abs=1.5e-3)
@@ -263,7 +261,6 @@ def test_flanks_touch_on_the_line_of_action_where_the_contact_is_said_to_be(
 def test_wheels_roll_through_a_pitch_without_overlap_and_without_backlash(others: dict[str, float], sense: int) -> None:
     meshing = mesh(others, sense)
     first, second = outlines(meshing, 0.0, 100)
-
     for angle in np.linspace(0.0, 2.0 * math.pi / meshing.teeth[0].z, 8):
         assert overlap(meshing, float(angle)) < 1e-6
     for turn in (1e-3, -1e-3):
@@ -358,7 +355,6 @@ def test_every_mark_is_explained() -> None:
     program = solve_gear(GearPair(), madi()).program
     said = construction.__doc__ or ""
     known = set(re.findall(r"`(\w+?)(?:_\d+|_start|_end|_a)?`", said)) | set(re.findall(r"`(\w+)`", said))
-
     for name in (step.name.partition(".")[2] for step in program if "." in step.name):
         letters = name.rpartition("_")[0]
         first = letters if letters in known else letters.replace("2", "1")  # what is said of one wheel goes for both

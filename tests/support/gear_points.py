@@ -164,6 +164,12 @@ def rows(view: View) -> list[list[str]]:
     return [[string for _, string in sorted(levels[level])] for level in sorted(levels, reverse=True)]
 
 
+def apart(points: Sequence[complex], place: complex) -> float:
+    """How far a place is from a broken line."""
+    line = shapely.LineString([(p.real, p.imag) for p in points])
+    return float(line.distance(shapely.Point(place.real, place.imag)))
+
+
 def near(off: float, what: str) -> Faults:
     """A fault unless a length is nothing, mm."""
     yield from unless(abs(off) < NEAR, f"{what}: {off} mm")
@@ -260,10 +266,8 @@ def z4_teeth(case: GearCase, sheet: Sheet) -> Faults:
     overlap = bodies[0].intersection(bodies[1]).area
     yield from unless(all(body.is_valid for body in bodies), "an outline crosses itself")
     yield from unless(overlap < 1e-4, f"the wheels overlap by {overlap} mm2")
-    pole = shapely.Point(view.point("P").real, view.point("P").imag)
-    for i, body in zip(WHEELS, bodies, strict=True):
-        off = body.exterior.distance(pole)
-        yield from unless(off < NEAR, f"the flank of wheel {i} is {off} mm from the pole")
+    for i in WHEELS:
+        yield from near(apart(outline(view, f"teeth_{i}"), view.point("P")), f"the flank of wheel {i} misses the pole")
     for i, mate in ((1, 2), (2, 1)):
         a, b = tips(view, f"gap_{i}")
         gap = case.given["c"] * case.given["m"] / mu(view)
@@ -321,13 +325,11 @@ def z5_active(case: GearCase, sheet: Sheet) -> Faults:
         yield from near(abs(end - centre) - tip, f"A{i} is off the tip circle of its mate")
         low, own = view.point(f"L{i}"), arc_of(view, f"d_{i}")[0]
         yield from unless(abs(abs(low - own) - abs(end - own)) < NEAR, f"L{i} is not as far from O{i} as A{i}")
-        line = shapely.LineString([(p.real, p.imag) for p in outline(view, f"teeth_{i}")])
-        yield from unless(line.distance(shapely.Point(low.real, low.imag)) < NEAR, f"L{i} is not on the flank")
+        yield from near(apart(outline(view, f"teeth_{i}"), low), f"L{i} is not on the flank")
         yield from unless(bool(view.inside("active", f"flank_{i}")), f"the active flank of wheel {i} is not marked")
         for end_name, at in (("start", first), ("end", last)):
-            line = shapely.LineString([(p.real, p.imag) for p in outline(view, f"{end_name}_{i}")])
-            gap = line.distance(shapely.Point(at.real, at.imag))
-            yield from unless(gap < NEAR, f"the tooth of wheel {i} misses the {end_name} by {gap} mm")
+            gap = apart(outline(view, f"{end_name}_{i}"), at)
+            yield from near(gap, f"the tooth of wheel {i} misses the {end_name}")
     whole = sheet["meshing"]
     n, a = ([whole.point(f"{letter}{i}") for i in WHEELS] for letter in "NA")
     along = (n[1] - n[0]) / abs(n[1] - n[0])
