@@ -22,9 +22,8 @@ from kulman.plans.linkages.chain import PLANS, construct
 from kulman.plans.names import CORIOLIS, NORMAL, Name, mark, role, spelled, vector
 from kulman.plans.quantities import quantities, shown_on
 from kulman.tests.support import screw_jack
-from kulman.tests.support.dyads import KINDS, random_dyads
+from kulman.tests.support.dyads import KINDS, random_dyads, random_triads
 from kulman.tests.support.screw_jack import LAWS_OF_JACK, jack
-from kulman.tests.support.triads import random_triads
 from kulman.variants.shelf import bundled
 
 ROOT = Path(__file__).parents[2]
@@ -205,7 +204,7 @@ def test_jack_runs_on_the_boards_of_all_subjects() -> None:
 
 
 @pytest.mark.usefixtures("laws")
-def test_names_of_the_jack_carry_their_roles() -> None:
+def test_names_of_the_jack_carry_their_roles_and_its_laws_print_themselves() -> None:
     program, words = jack(), Words.of("en", "artobolevsky")
 
     agree(program)
@@ -215,15 +214,10 @@ def test_names_of_the_jack_carry_their_roles() -> None:
     assert shown_on(program)["V_C"] == "velocity"
     assert words.symbol("V_C", bar=True) == "\\bar{v}_{C}"
     assert [words.mark(name) for name in ("velocity.S", "forces_1.1")] == ["s", "a"]
-
-
-@pytest.mark.usefixtures("laws")
-def test_laws_of_the_jack_print_themselves() -> None:
     assert str(form_of("thread_circumference")(Symbol.of("d"))) == "π·d"
     assert str(form_of("thread_moment")(Symbol.of("F"), Symbol.of("r"))) == "F·r"
 
 
-@pytest.mark.usefixtures("laws")
 def test_jack_needs_three_modules_and_changes_none() -> None:
     source = ast.parse(Path(screw_jack.__file__).read_text(encoding="utf-8"))
     imported = {node.module for node in ast.walk(source) if isinstance(node, ast.ImportFrom) and node.module}

@@ -16,6 +16,7 @@ from kulman.plans.boards.printers import ARRAYS as FUNCTIONS
 from kulman.plans.boards.printers import Chunked, Plain, compiled, in_order, plain_names
 from kulman.plans.boards.trace import Real, Trace, TracingBoard, Vector
 from kulman.plans.laws import LAWS, cross, dot
+from kulman.tests.support.mechanisms import SEED, general_slider_crank, random_slider_cranks, solved
 
 ARRAYS = {name: np.array(values) for name, values in {"x": [3.0, -2.0, 0.5], "y": [7.0, 0.25, -8.0]}.items()}
 
@@ -72,78 +73,66 @@ def test_numbers_of_a_trace_are_those_of_the_formula(trace: Trace, formula: Any)
     assert one_by_one(traced) == numbers
 
 
-def test_normal_of_a_direction_is_the_turned_direction(trace: Trace) -> None:
+def test_normal_of_a_direction_is_the_turned_direction_and_costs_nothing(trace: Trace) -> None:
     x, y = trace.given("x"), trace.given("y")
     noted = len(trace.entries)
 
     normal = Vector(x, y) * 1j
 
-    assert len(trace.entries) == noted  # and costs nothing
+    assert len(trace.entries) == noted
     assert worked_out(normal.real).tolist() == (-ARRAYS["y"]).tolist()
     assert worked_out(normal.imag).tolist() == ARRAYS["x"].tolist()
 
 
-@pytest.mark.parametrize(
-    "again",
-    [
-        pytest.param(lambda x, y: (x * y, y * x), id="factors exchanged"),
-        pytest.param(lambda x, y: (x - y, y - x), id="a difference turned round"),
-        pytest.param(lambda x, y: (x * y, -x * y), id="a sign"),
-        pytest.param(lambda x, y: (x * y, (x * y) * 1.0 + 0.0), id="one and zero"),
-        pytest.param(lambda x, y: (dot(Vector(x, y), Vector(y, x)), cross(Vector(x, y), Vector(x, -y))), id="normals"),
-    ],
-)
+AGAIN = {
+    "factors exchanged": lambda x, y: (x * y, y * x),
+    "a difference turned round": lambda x, y: (x - y, y - x),
+    "a sign": lambda x, y: (x * y, -x * y),
+    "one and zero": lambda x, y: (x * y, (x * y) * 1.0 + 0.0),
+    "normals": lambda x, y: (dot(Vector(x, y), Vector(y, x)), cross(Vector(x, y), Vector(x, -y))),
+}
+LOOKS = {
+    "truth": bool,
+    "order": lambda x: 1.0 if x < 1.0 else 0.0,
+    "larger": lambda x: max(x, 0.0),
+    "root of one number": math.sqrt,
+    "function of numpy": np.sin,
+    "product of two vectors": lambda x: Vector(x, x) * Vector(x, x),
+    "product with a complex number": lambda x: Vector(x, x) * 2j,
+}
+
+
+@pytest.mark.parametrize("again", AGAIN.values(), ids=AGAIN)
 def test_what_is_on_the_trace_is_not_noted_again(trace: Trace, again: Any) -> None:
     first, second = again(trace.given("x"), trace.given("y"))
 
     assert first.place == second.place
 
 
-@pytest.mark.parametrize(
-    "look",
-    [
-        pytest.param(bool, id="truth"),
-        pytest.param(lambda x: 1.0 if x < 1.0 else 0.0, id="order"),
-        pytest.param(lambda x: max(x, 0.0), id="larger"),
-        pytest.param(math.sqrt, id="root of one number"),
-        pytest.param(np.sin, id="function of numpy"),
-        pytest.param(lambda x: Vector(x, x) * Vector(x, x), id="product of two vectors"),
-        pytest.param(lambda x: Vector(x, x) * 2j, id="product with a complex number"),
-    ],
-)
+@pytest.mark.parametrize("look", LOOKS.values(), ids=LOOKS)
 def test_number_of_a_trace_cannot_be_looked_at(trace: Trace, look: Any) -> None:
     with pytest.raises(TypeError):
         look(trace.given("x"))
 
 
-STEPS = Program(
-    (
-        Step("place", "P", ("x", "y")),
-        Step("calc", "half", ("P", "y"), "whole"),
-        Step("calc", "size", ("P",), "size"),
-        Step("lay", "Q", ("P", "half", "size")),
-    )
-)
+STEPS = (("place", "P", ("x", "y")), ("calc", "half", ("P", "y"), "whole"), ("calc", "size", ("P",), "size"))
+WHOLE = Program(tuple(Step(*step) for step in (*STEPS, ("lay", "Q", ("P", "half", "size")))))
 
 
 def test_step_that_is_no_arithmetic_is_done_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(LAWS, "whole", lambda P, y: P * np.where(np.asarray(y) > 0.0, 0.5, 0.25))
     monkeypatch.setitem(LAWS, "size", abs)
 
-    results, codes = batch(STEPS, ARRAYS, ["half", "size", "Q", "x"], 2)
+    results, codes = batch(WHOLE, ARRAYS, ["half", "size", "Q", "x"], 2)
 
     for index in range(3):
-        board = run(STEPS, {name: float(array[index]) for name, array in ARRAYS.items()})
+        board = run(WHOLE, {name: float(array[index]) for name, array in ARRAYS.items()})
         assert [results[name][index] for name in results] == [board.values[name] for name in results]
     assert {name: array.dtype.kind for name, array in results.items()} == {"half": "c", "size": "f", "Q": "c", "x": "f"}
     assert not codes.any()
-
-
-def test_error_of_a_step_without_arrays_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(LAWS, "wrong", lambda value: value + "")
-
+    monkeypatch.setitem(LAWS, "size", lambda value: value + "")  # an error of a step without arrays is shown
     with pytest.raises(TypeError):
-        batch(Program((Step("calc", "z", ("one",), "wrong"),)), ARRAYS, ["z"])
+        batch(Program((Step("calc", "z", ("one",), "size"),)), ARRAYS, ["z"])
 
 
 def test_batch_leaves_no_zero_with_a_sign() -> None:
@@ -158,8 +147,6 @@ def test_batch_leaves_no_zero_with_a_sign() -> None:
 
 
 def test_array_board_step_by_step_gives_the_numbers_of_the_batch() -> None:
-    from kulman.tests.support.mechanisms import SEED, general_slider_crank, random_slider_cranks, solved
-
     mechanisms = solved(general_slider_crank(), random_slider_cranks(SEED, 50))
     board = ArrayBoard(mechanisms.values, 50)
     board.values |= {f"|{name}|": mechanisms.values[name] for name in ("F_1", "F_C", "F_B", "F_3")}
@@ -167,12 +154,12 @@ def test_array_board_step_by_step_gives_the_numbers_of_the_batch() -> None:
     with np.errstate(invalid="ignore", divide="ignore"):
         mechanisms.program.run(board)
 
-    different = [name for name in mechanisms.program.names if not np.array_equal(board.values[name], mechanisms[name])]
-    assert [name for name in different if np.ndim(board.values[name])] == []
+    names = [name for name in mechanisms.program.names if np.ndim(board.values[name])]
+    assert [name for name in names if not np.array_equal(board.values[name], mechanisms[name])] == []
 
 
 CHECKS = {  # by the number of operands, which are what they like: not those of a triangle
-    **dict.fromkeys(("_near", "_upright", "_lines_sine", "_apart", "_divisor"), 1),
+    **dict.fromkeys(("_near", "_upright", "_lines_sine", "_apart"), 1),
     **dict.fromkeys(("_clear", "_bears"), 2),
     **{"_reaches": 4, "_holds": 4},
 }

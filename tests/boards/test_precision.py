@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -29,7 +29,6 @@ from kulman.plans.linkages.solved import SolvedLinkage, conditions_of, signs, so
 from kulman.plans.linkages.strokes import output_motions
 from kulman.plans.quantities import plans_of, references, results
 from kulman.tests.support.dyads import random_dyads
-from kulman.tests.support.fifty_digits import differences
 from kulman.tests.support.mechanisms import SEED, general_slider_crank, nau_slider_crank, nau_values, one_of
 from kulman.tests.support.mechanisms import random_slider_cranks as random_cranks
 from kulman.variants.shelf import bundled
@@ -50,6 +49,25 @@ def standing(of: str | int | float) -> SolvedLinkage:
     if isinstance(of, float):
         return near_the_end(of)
     return solve(of).solved if isinstance(of, str) else solve_linkage(general_slider_crank(), one_of(RANDOM, of))
+
+
+STEP = mpf(10) ** -13  # part of a given, more than a right angle is rounded by; the error of a difference is its square
+
+
+def differences(
+    program: Program, givens: Mapping[str, Any], varied: Iterable[str], names: Iterable[str]
+) -> dict[str, list[Any]]:
+    """Return x dQ/dx of `names` for every given x of `varied`, by central differences with fifty digits."""
+    slopes: dict[str, list[Any]] = {name: [] for name in names}
+    with mp.workdps(DIGITS):
+        exact = {name: mpf(value) for name, value in givens.items()}
+        for given in varied:
+            more, less = (
+                fifty_digits(program, {**exact, given: exact[given] * factor}) for factor in (1 + STEP, 1 - STEP)
+            )
+            for name, found in slopes.items():
+                found.append((more[name] - less[name]) / (2 * STEP))
+    return slopes
 
 
 RANDOM = random_cranks(SEED, 100)

@@ -25,11 +25,9 @@ from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.solved import board_givens
 from kulman.plans.marking.key import tolerances
 from kulman.plans.quantities import results
-from kulman.scales.errors import InputError
-from kulman.tests.support.dyads import random_dyads
+from kulman.tests.support.dyads import random_dyads, random_triads
 from kulman.tests.support.linkages import PRESS, PRESS_VALUES
 from kulman.tests.support.mechanisms import SEED, nau_slider_crank, nau_values
-from kulman.tests.support.triads import random_triads
 from kulman.variants.shelf import bundled
 from kulman.variants.solution import Solution
 
@@ -383,10 +381,3 @@ def test_tolerance_of_a_segment_is_millimetres_or_a_part_over_the_sine_and_is_in
     assert found["V_B"] >= 2.0 * example().mus["velocity"]
     assert yoke["h_03"].value is None
     assert failing(yoke, "normal")["h_03"] == 0.0  # what is undefined is not marked
-
-
-def test_a_wrong_hand_is_refused() -> None:
-    with pytest.raises(InputError, match="'normel'; did you mean 'normal'"):
-        preset("normel")
-    with pytest.raises(InputError, match="negative"):
-        Hand(-0.1, 0.0, 0.0)

@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from mpmath import mp
 
 from kulman.plans.gears.blocking import (
     BLOCKING,
@@ -29,7 +30,6 @@ from kulman.plans.gears.solve import SAME_CENTRES, checks, complete, judged
 from kulman.plans.gears.teeth import meshing_of, tooth_of
 from kulman.plans.solved import Check
 from kulman.scales.errors import LANGUAGES, InputError
-from kulman.tests.support.fifty_digits import mp
 from kulman.tests.support.gears import SEED, Flank, madi, outlines, polygon, random_pairs, second_route
 
 FAULTS = [

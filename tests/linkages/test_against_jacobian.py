@@ -38,10 +38,18 @@ from kulman.plans.linkages.mechanism import (
 )
 from kulman.plans.linkages.solved import board_givens, moment_points
 from kulman.plans.linkages.structure import analyse
-from kulman.tests.support.dyads import KINDS, feeder, random_dyads, random_trains, sliding_feeder
+from kulman.tests.support.dyads import (
+    CENTRAL,
+    KINDS,
+    PAIRS,
+    feeder,
+    random_dyads,
+    random_trains,
+    random_triads,
+    sliding_feeder,
+)
 from kulman.tests.support.jacobian_solver import JacobianSolver
 from kulman.tests.support.mechanisms import one_of
-from kulman.tests.support.triads import CENTRAL, PAIRS, random_triads
 
 Array = NDArray[Any]
 TOLERANCE = 1e-10

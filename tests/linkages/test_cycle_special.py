@@ -145,14 +145,6 @@ def test_tasks_move_over_the_whole_cycle_with_links_of_constant_length(name: str
                 assert np.ptp(found) <= 1e-12 * max(found.max(), 1e-3), (variant, first, second)
 
 
-def test_an_output_that_has_no_stroke_is_refused_by_its_number() -> None:
-    values = {**RATES, "l_OA": 1.0, "l_CD": 2.0, "x_C": 0.5}  # C within the circle: the lever goes round and round
-    with pytest.raises(InputError) as caught:
-        cycle(slotted(Stroke(3)), values)
-
-    assert (caught.value.key, caught.value.data["link"]) == ("stroke-none", 3)
-
-
 def test_a_driver_with_a_literal_angle_turns_alone() -> None:
     # 30 degrees of the driver and of a guide may be one constant of the task
     guide, driver = (

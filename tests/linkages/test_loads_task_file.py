@@ -6,44 +6,21 @@ from pathlib import Path
 
 import pytest
 
-from kulman.plans.linkages.mechanism import FORCE, IDLE, STROKE, Couple, Load, SlidingDriver, Stroke
+from kulman.plans.linkages.mechanism import SlidingDriver
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
 from kulman.variants.sweeps.sweeps import sweep
-from kulman.variants.task import Task
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "docs" / "examples"
 PRESS = (EXAMPLES / "crank-press.toml").read_text(encoding="utf-8")
 LIFT = (EXAMPLES / "piston-lift.toml").read_text(encoding="utf-8")
 
 
-def read(text: str) -> Task:
-    task, faults = read_text(text, "mine.toml")
-    assert task is not None, [fault.text() for fault in faults]
-    return task
-
-
-def test_press_is_read_as_it_is_written() -> None:
-    mechanism = read(PRESS).mechanism
-
-    assert mechanism.driver.balance == FORCE  # type: ignore[union-attr]
-    assert mechanism.gravity is not None
-    assert mechanism.stroke == Stroke(3, mechanism.stroke.sense if mechanism.stroke else "")
-    (diagram,) = mechanism.diagrams
-    assert (diagram.name, diagram.over, len(diagram.at), diagram.values[-1]) == ("P", STROKE, 3, "F_max")
-    assert mechanism.loads[0] == Load("F_3", 3, "B", "P", None)
-    assert mechanism.loads[1].stroke == IDLE
-    assert mechanism.couples[0] == Couple("M_f", 2, mechanism.couples[0].magnitude, None)
-    rod = mechanism.link(2)
-    assert (rod.mass, rod.inertia) == ("m_2", "J_S2")
-    assert rod.per_length is not None
-    assert rod.inertia_factor is not None
-
-
 def test_press_is_loaded_by_its_diagram_only_near_the_end_of_its_stroke() -> None:
-    task = read(PRESS)
+    task = task_of(PRESS)
 
     sizes = [solve(task, set={"phi": phi})["F_3"].value for phi in (20, 0, -60, -89.9, -100, -270)]
 
@@ -53,7 +30,7 @@ def test_press_is_loaded_by_its_diagram_only_near_the_end_of_its_stroke() -> Non
 
 
 def test_lift_is_driven_by_a_slider_that_may_go_back() -> None:
-    task = read(LIFT)
+    task = task_of(LIFT)
 
     out, back = solve(task), solve(task, set={"v_1": "-0.2 m/s"})
 
@@ -69,6 +46,8 @@ AT_B = 'link = 3\npoint = "B"\nmagnitude = "60 N"'
 DRIVES = 'link = 1\npoint = "A"\ntravel'
 OVER_ANGLE = '[[mechanism.diagram]]\nname = "P"\nover = "angle"\nat = ["0 deg"]\nvalues = ["0 N"]\n'
 PIVOT = '[[mechanism.pair]]\nkind = "revolute"\npoint = "C"\nlinks = [3, 0]\nat = ["1 mm", "0 mm"]\n'
+BY_STROKE = 'over = "stroke"\nat = [0, 0.7, 1]'
+BY_ANGLE = 'over = "angle"\nat = ["0 deg", "7 deg", "90 deg"]'
 BROKEN = {
     "mass twice": (PRESS, ('per_length = "20 kg/m"', 'per_length = "20 kg/m"\nmass = "2 kg"'), "follows-from"),
     "factor without a mass": (PRESS, ('per_length = "20 kg/m"\n', ""), "key-missing"),
@@ -88,11 +67,7 @@ BROKEN = {
     "places that decrease": (PRESS, ("at = [0, 0.7, 1]", "at = [0, 0.7, 0.6]"), "diagram-stroke"),
     "place behind the end": (PRESS, ("at = [0, 0.7, 1]", "at = [0, 0.7, 1.1]"), "diagram-stroke"),
     "places as lengths": (PRESS, ("at = [0, 0.7, 1]", 'at = [0, "7 mm", 1]'), "value-wrong"),
-    "idle values over an angle": (
-        PRESS,
-        ('over = "stroke"\nat = [0, 0.7, 1]', 'over = "angle"\nat = ["0 deg", "7 deg", "8 deg"]'),
-        "diagram-back",
-    ),
+    "idle values over an angle": (PRESS, (BY_STROKE, BY_ANGLE), "diagram-back"),
     "force with a diagram of moments": (PRESS, ('magnitude = "2 N*m"', 'magnitude = "P"'), "value-wrong"),
     "diagram called like a given": (PRESS, ('name = "P"', 'name = "F_max"'), "id-twice"),
     "resisting at a pivot": (PRESS, (AT_B, AT_B.replace("3", "1").replace("B", "O")), "load-still"),
@@ -109,8 +84,7 @@ BROKEN = {
 
 @pytest.mark.parametrize(("text", "change", "key"), BROKEN.values(), ids=BROKEN)
 def test_fault_is_named_with_its_line(text: str, change: tuple[str, str], key: str) -> None:
-    assert change[0] in text
-    _, faults = read_text(text.replace(change[0], change[1], 1), "mine.toml")
+    _, faults = read_text(with_changes(text, change), "mine.toml")
 
     keys = [getattr(fault, "cause", fault).key.removesuffix("-like") for fault in faults]
     assert key in keys
@@ -127,7 +101,7 @@ NEVER_CLOSED = (
 
 @pytest.mark.parametrize(("text", "changed"), NEVER_CLOSED)
 def test_mechanism_that_never_closes_is_said_to_whatever_its_strokes(text: str, changed: str) -> None:
-    task = read(text)
+    task = task_of(text)
     values = {changed: "1 mm"} if changed else {}
 
     solution, position = solve(task, set=values), solve(task, set=values, only="position")
@@ -145,10 +119,9 @@ def test_mechanism_that_never_closes_is_said_to_whatever_its_strokes(text: str, 
 def test_given_of_a_diagram_may_be_called_like_a_load(over: str) -> None:
     text = PRESS
     if over == "angle":
-        text = text.replace('over = "stroke"\nat = [0, 0.7, 1]', 'over = "angle"\nat = ["0 deg", "7 deg", "90 deg"]')
-        text = text.replace('back = ["0 N", "0 N", "0 N"]\n', "")
-    own, same = read(text), read(text.replace("F_max", "F_3"))
-    swapped = read(text.replace("F_max", "F_f"))
+        text = with_changes(text, (BY_STROKE, BY_ANGLE), ('back = ["0 N", "0 N", "0 N"]\n', ""))
+    own, same = task_of(text), task_of(text.replace("F_max", "F_3"))
+    swapped = task_of(text.replace("F_max", "F_f"))
 
     for phi in (-60, 20, 100):
         expected = solve(own, set={"phi": phi}).to_json()["quantities"]
@@ -161,10 +134,10 @@ def test_load_called_like_the_size_of_another_is_its_vector() -> None:
     friction = 'magnitude = "60 N"\nstroke = "idle"'
     assert friction in given
 
-    plain = solve(read(PRESS), set={"phi": -130})
-    sized = solve(read(given.replace(friction, friction.replace("60 N", "F_f"))), set={"phi": -130})
+    plain = solve(task_of(PRESS), set={"phi": -130})
+    sized = solve(task_of(given.replace(friction, friction.replace("60 N", "F_f"))), set={"phi": -130})
     moved = given.replace('name = "F_f"\nlink', 'name = "F_4"\nlink').replace('name = "F_3"', 'name = "F_f"')
-    other = solve(read(moved.replace(friction, friction.replace("60 N", "F_f"))), set={"phi": -130})
+    other = solve(task_of(moved.replace(friction, friction.replace("60 N", "F_f"))), set={"phi": -130})
 
     assert plain["F_f"].value == sized["F_f"].value == pytest.approx(60.0)
     assert other["F_4"].value == plain["F_f"].value
@@ -186,7 +159,7 @@ def test_places_of_a_diagram_are_checked_in_every_variant_and_setting() -> None:
     given = PRESS.replace("[givens]", '[givens]\nx = { unit = "1" }').replace("at = [0, 0.7, 1]", 'at = [0, "x", 1]')
     second = '\n[[variant]]\nid = "2"\nphi = 20\nn_1 = 60\nF_max = 30\nx = 1.5\n'
 
-    task = read(given + "x = 0.5\n")
+    task = task_of(given + "x = 0.5\n")
     _, faults = read_text(given + "x = 0.5\n" + second, "mine.toml")
 
     assert [getattr(fault, "cause", fault).key for fault in faults] == ["diagram-stroke"]
@@ -195,66 +168,35 @@ def test_places_of_a_diagram_are_checked_in_every_variant_and_setting() -> None:
     assert refused.value.key == "diagram-stroke"
 
 
+def with_parts(links: str, pairs: str) -> str:
+    """Return the press with more links and pairs before the driver."""
+    link = [
+        f"[[mechanism.link]]\nnumber = {n}\npoints = {{ {points} }}\n" for n, points in enumerate(links.split(";"), 4)
+    ]
+    pair = [f'[[mechanism.pair]]\nkind = "revolute"\n{words}\n' for words in pairs.split(";")]
+    return PRESS.replace("[mechanism.driver]", "".join((*link, *pair)) + "[mechanism.driver]")
+
+
 def test_three_links_in_one_joint_are_read_whichever_pairs_are_named() -> None:
-    """A second rod 4 with a slider 5 on the pin of the crank of the press."""
-    more = """[[mechanism.link]]
-number = 4
-points = { A = ["0 mm", "0 mm"], D = ["300 mm", "0 mm"] }
-[[mechanism.link]]
-number = 5
-points = { D = ["0 mm", "0 mm"] }
-[[mechanism.pair]]
-kind = "revolute"
-point = "A"
-links = LINKS
-[[mechanism.pair]]
-kind = "revolute"
-point = "D"
-links = [4, 5]
-[[mechanism.pair]]
-kind = "prismatic"
-point = "D"
-links = [5, 0]
-through = ["0 mm", "0 mm"]
-direction = "180 deg"
-[mechanism.driver]"""
-    found = []
-    for named in ("[1, 4]", "[4, 1]", "[2, 4]", "[4, 2]"):
-        text = PRESS.replace("[mechanism.driver]", more.replace("LINKS", named))
-        found.append(solve(read(text)))
+    """A second rod 4 with a slider 5 on the pin of the crank; a dyad whose rocker shares the pivot of the crank."""
+    links = 'A = ["0 mm", "0 mm"], D = ["300 mm", "0 mm"];D = ["0 mm", "0 mm"]'
+    guide = 'point = "D"\nlinks = [5, 0]\nthrough = ["0 mm", "0 mm"]\ndirection = "180 deg"'
+    pairs = f'point = "A"\nlinks = [1, 4];point = "D"\nlinks = [4, 5];{guide}'
+    second = with_parts(links, pairs).replace(f'"revolute"\n{guide}', f'"prismatic"\n{guide}')
+    shared = with_parts(
+        'O = ["0 mm", "0 mm"], D = ["300 mm", "0 mm"];D = ["0 mm", "0 mm"], B = ["250 mm", "0 mm"]',
+        'point = "O"\nlinks = [4, 1];point = "D"\nlinks = [4, 5]\nbranch = 1;point = "B"\nlinks = [5, 2]',
+    )
 
-    for solution in found:
+    rods = [solve(task_of(second.replace("[1, 4]", named))) for named in ("[1, 4]", "[4, 1]", "[2, 4]", "[4, 2]")]
+    rockers = [
+        solve(task_of(shared.replace("links = [0, 1]\n", f"links = {named}\n"))) for named in ("[0, 1]", "[0, 4]")
+    ]
+
+    for solution in rods:
         assert [group.kind for group in solution.solved.structure.groups] == ["RRP", "RRP"]
-        assert solution["F_bal"].value == pytest.approx(found[0]["F_bal"].value, rel=1e-12)
-        assert solution["R_01"].value == pytest.approx(found[0]["R_01"].value, rel=1e-12)
-
-
-def test_crank_may_share_its_pivot_with_another_link() -> None:
-    """The pair of the crank with the frame need not be named where another one stands in the same joint."""
-    more = """[[mechanism.link]]
-number = 4
-points = { O = ["0 mm", "0 mm"], D = ["300 mm", "0 mm"] }
-[[mechanism.link]]
-number = 5
-points = { D = ["0 mm", "0 mm"], B = ["250 mm", "0 mm"] }
-[[mechanism.pair]]
-kind = "revolute"
-point = "O"
-links = [4, 1]
-[[mechanism.pair]]
-kind = "revolute"
-point = "D"
-links = [4, 5]
-branch = 1
-[[mechanism.pair]]
-kind = "revolute"
-point = "B"
-links = [5, 2]
-[mechanism.driver]"""
-    text = PRESS.replace("[mechanism.driver]", more)
-    swapped = text.replace("links = [0, 1]\n", "links = [0, 4]\n")
-
-    first, second = solve(read(text)), solve(read(swapped))
-
-    assert first.status == second.status == "ok"
-    assert first["F_bal"].value == pytest.approx(second["F_bal"].value, rel=1e-12)
+        assert solution["R_01"].value == pytest.approx(rods[0]["R_01"].value, rel=1e-12)
+    for solution in (*rods, *rockers):
+        first = rods[0] if solution in rods else rockers[0]
+        assert solution["F_bal"].value == pytest.approx(first["F_bal"].value, rel=1e-12)
+    assert {solution.status for solution in rockers} == {"ok"}

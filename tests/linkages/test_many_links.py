@@ -11,11 +11,12 @@ import re
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from kulman import cli, load_task, solve
-from kulman.plans.linkages.mechanism import FRAME, Mechanism, Pair
+from kulman.plans.linkages.mechanism import FRAME, Mechanism
 from kulman.plans.linkages.solved import solve_linkage
 from kulman.tests.support.chains import chain
 from kulman.tests.support.linkage_cases import Oracle
@@ -77,13 +78,6 @@ def test_many_links_move_and_bear_as_their_constraints_say(count: int) -> None:
             assert abs(values[name] - known[name]) <= 1e-9 * largest, name
 
 
-@pytest.mark.parametrize("task", bundled("mechanism"))
-def test_names_of_few_links_are_not_parted(task: str) -> None:
-    names = solve(task).solved.program.names
-
-    assert [name for name in names if re.fullmatch(r"_?[RMh]_\d+_\d.*", name)] == []
-
-
 def run(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     with pytest.raises(SystemExit) as stopped:
         cli.main([*arguments, "--lang", "en"])
@@ -116,26 +110,19 @@ def test_commands_use_one_name_for_one_quantity(count: int, tmp_path: Path, caps
     assert {"R_12_11", "h_2_1", "h_12"} <= {line["quantity"] for line in report["lines"]}
 
 
-def test_indices_of_many_links_are_printed_with_a_comma() -> None:
-    words = solved(12).kind.lettered(solved(12).words, solved(12).solved)
-    printed = {"R_12_11": "R_{12,11}", "R_0_25": "R_{0,25}", "h_2_1": "h_{2,1}", "h_21": "h_{21}", "M_0_25": "M_{0,25}"}
-
-    assert {name: words.symbol(name) for name in printed} == printed
-    assert words.symbol("R_1_2_t") != words.symbol("R_12_11_t")
-    assert "{1,2}" in words.symbol("R_1_2_t")
-
-
-def test_headings_of_force_plans_name_whole_links() -> None:
+def test_indices_of_many_links_are_printed_with_a_comma_and_headings_name_whole_links() -> None:
     solution = solved(12)
-    kind, structure, words = solution.kind, solution.solved.structure, solution.words
+    kind, structure, plain = solution.kind, solution.solved.structure, solution.words
+    words = kind.lettered(plain, solution.solved)
     groups = {f"forces_{group.name}": ", ".join(map(str, group.links)) for group in structure.groups}
-    right = {plan: words["heading.group_forces"].format(links=links) for plan, links in groups.items()}
-    right["forces_24"] = words["heading.link_forces"].format(link=24)
+    right = {plan: plain["heading.group_forces"].format(links=links) for plan, links in groups.items()}
+    right["forces_24"] = plain["heading.link_forces"].format(link=24)
 
-    headings = {plan: kind.plan_heading(solution.solved, plan, words) for plan in right}
-
+    printed = {"R_12_11": "R_{12,11}", "R_0_25": "R_{0,25}", "h_2_1": "h_{2,1}", "h_21": "h_{21}", "M_0_25": "M_{0,25}"}
+    assert {name: words.symbol(name) for name in printed} == printed
+    assert "{1,2}" in words.symbol("R_1_2_t") != words.symbol("R_12_11_t")
     assert "forces_10_11" in groups
-    assert headings == right
+    assert {plan: kind.plan_heading(solution.solved, plan, plain) for plan in right} == right
 
 
 def renumbered(mechanism: Mechanism, by: int = 10) -> Mechanism:
@@ -144,22 +131,21 @@ def renumbered(mechanism: Mechanism, by: int = 10) -> Mechanism:
     def number(link: int) -> int:
         return link + by if link else link
 
-    def pair(one: Pair) -> Pair:
-        return replace(one, links=(number(one.links[0]), number(one.links[1])))
+    def moved(one: Any) -> Any:
+        return replace(one, link=number(one.link))
 
-    def legs(two: tuple[int, int] | None) -> tuple[int, int] | None:
-        return two and (number(two[0]), number(two[1]))
+    def two(links: tuple[int, int] | None) -> Any:
+        return links and tuple(map(number, links))
 
-    stroke = mechanism.stroke
     return replace(
         mechanism,
         links=tuple(replace(link, number=number(link.number)) for link in mechanism.links),
-        pairs=tuple(map(pair, mechanism.pairs)),
-        driver=replace(mechanism.driver, link=number(mechanism.driver.link)),
-        stroke=stroke and replace(stroke, link=number(stroke.link)),
-        loads=tuple(replace(load, link=number(load.link)) for load in mechanism.loads),
-        couples=tuple(replace(couple, link=number(couple.link)) for couple in mechanism.couples),
-        starts=tuple(replace(s, link=number(s.link), legs=legs(s.legs)) for s in mechanism.starts),
+        pairs=tuple(replace(pair, links=two(pair.links)) for pair in mechanism.pairs),
+        driver=moved(mechanism.driver),
+        stroke=mechanism.stroke and moved(mechanism.stroke),
+        loads=tuple(map(moved, mechanism.loads)),
+        couples=tuple(map(moved, mechanism.couples)),
+        starts=tuple(replace(moved(start), legs=two(start.legs)) for start in mechanism.starts),
     )
 
 
@@ -177,3 +163,4 @@ def test_other_numbers_of_links_change_no_value(task: str) -> None:
         assert (one.verb, one.law) == (other.verb, other.law)
         assert few.values[one.name] == pytest.approx(many.values[other.name], rel=1e-12, nan_ok=True), other.name
     assert not any(re.fullmatch(r"R_\d+(_[ntm])?", name) for name in many.quantities)
+    assert [name for name in few.program.names if re.fullmatch(r"_?[RMh]_\d+_\d.*", name)] == []

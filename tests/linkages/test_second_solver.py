@@ -170,14 +170,6 @@ def test_every_quantity_of_an_own_mechanism_agrees_with_the_second_solver(mechan
     assert differing(board, second, quantities(program), 1e-11) == {}
 
 
-def test_mechanism_without_any_load_has_no_reactions() -> None:
-    mechanism = replace(OWN["no masses"], loads=())
-
-    board = run(construct(mechanism)[1], board_givens(mechanism, VALUES))
-
-    assert [board.values[name] for name in ("R_12", "R_03", "R_01", "M_bal", "M_bal_lever")] == [0] * 5
-
-
 def test_guide_without_a_branch_takes_the_position_along_its_direction_and_the_frame_is_no_slider() -> None:
     plain, moving = (replace(NAU, pairs=(*NAU.pairs[:3], Prismatic("B", n, ORIGIN, ZERO))) for n in ((3, 0), (0, 3)))
 

@@ -24,7 +24,6 @@ from kulman.plans.linkages.solved import SolvedLinkage, board_givens, conditions
 from kulman.plans.quantities import references
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.linkages.test_second_solver import differing, quantities
-from kulman.tests.support.both_sides import Limit, limits
 from kulman.tests.support.mechanisms import (
     CRANK,
     ORIGIN,
@@ -40,7 +39,7 @@ from kulman.tests.support.mechanisms import (
     solved,
 )
 from kulman.tests.support.second_solver import SecondSolver
-from kulman.tests.support.singular_cases import CASES, EVERYTHING, Case
+from kulman.tests.support.singular_cases import CASES, EVERYTHING, Case, Limit, limits
 
 Array = NDArray[Any]
 EPS = 2.0**-52
@@ -244,15 +243,6 @@ def test_positions_near_a_right_angle_agree_with_the_second_solver(degrees: floa
         assert abs(board.values["V_BA" if degrees % 180 else "V_B"]) > 0
 
 
-@pytest.mark.parametrize("degrees", [0, 90, 180, 270])
-def test_crank_that_is_off_by_a_rounding_error_stands_at_the_right_angle(degrees: float) -> None:
-    exact = math.radians(degrees)
-
-    boards = [run(PROGRAM, board_givens(NAU, nau_values(phi=phi))) for phi in (exact, math.nextafter(exact, 9))]
-
-    assert boards[0].values["e_OA"] == boards[1].values["e_OA"] == 1j ** (degrees // 90)
-
-
 @pytest.mark.parametrize("side", SIDES)
 @pytest.mark.parametrize(("l_AB", "degrees", "failed"), [(0.04, 60, "B"), (0.04, -60, "B"), (0.05, 90, "velocity.B")])
 def test_what_hangs_on_a_step_that_fails_is_lost_and_nothing_else(
@@ -335,7 +325,8 @@ def test_what_bears_no_load_has_no_arms_and_needs_no_balancing() -> None:
     assert idle.status == "ok"
     assert undefined(PROGRAM, idle.values) == undefined(PROGRAM, massless.values) == set()
     assert idle.values["F_3"] == idle.values["F_i3"] == 0
-    assert [massless.values[name] for name in ("M_bal", "M_bal_lever", "delta_M_bal")] == [0, 0, 0]
+    nothing = ("R_12", "R_03", "R_01", "M_bal", "M_bal_lever", "delta_M_bal")
+    assert [massless.values[name] for name in nothing] == [0] * 6
 
 
 # Random links that come into line, or nearly.
@@ -377,9 +368,10 @@ def together(mechanism: Mechanism, values: dict[str, Array]) -> tuple[dict[str, 
     return results, np.array(STATUSES)[codes]
 
 
-def alone(mechanism: Mechanism, values: dict[str, Array], index: int) -> str:
+def alone(mechanism: Mechanism, values: dict[str, Array], step: int = 1) -> list[str]:
     _, program = construct(mechanism, ("velocity",))
-    return run(program, board_givens(mechanism, one_of(values, index))).status
+    ones = (one_of(values, i) for i in range(0, len(values["phi"]), step))
+    return [run(program, board_givens(mechanism, one)).status for one in ones]
 
 
 def stretched(values: dict[str, Array], results: dict[str, Array]) -> Array:
@@ -421,7 +413,7 @@ def test_statuses_of_links_in_line_are_the_same_alone_and_together() -> None:
 
     _, statuses = together(FOUR_BAR, values)
 
-    assert [alone(FOUR_BAR, values, i) for i in range(len(offs))] == statuses.tolist()
+    assert alone(FOUR_BAR, values) == statuses.tolist()
     assert set(statuses) == set(STATUSES)
 
 
@@ -438,7 +430,7 @@ def test_block_at_the_pivot_is_singular_and_ill_conditioned_near_it(count: int) 
 
         assert set(statuses) == {status}, off
         assert np.isnan(results["omega_3"]).all() == (status == "singular")
-        assert {alone(SLOTTED, there, i) for i in range(0, count, count // 10)} == {status}
+        assert {*alone(SLOTTED, there, count // 10)} == {status}
 
 
 def test_pins_that_coincide_but_for_rounding_settle_no_direction() -> None:
@@ -447,5 +439,5 @@ def test_pins_that_coincide_but_for_rounding_settle_no_direction() -> None:
 
     results, statuses = together(FOUR_BAR, there)
 
-    assert set(statuses) == {"singular"} == {alone(FOUR_BAR, there, i) for i in range(0, 300, 30)}
+    assert set(statuses) == {"singular"} == {*alone(FOUR_BAR, there, 30)}
     assert np.isnan(results["B"]).all()

@@ -25,10 +25,9 @@ from kulman.scales.errors import LANGUAGES
 from kulman.scales.scale import Display
 from kulman.tests.linkages.test_loads import VALUES as LOADED
 from kulman.tests.linkages.test_loads import piston
-from kulman.tests.support.dyads import random_dyads, random_trains
+from kulman.tests.support.dyads import random_dyads, random_trains, random_triads
 from kulman.tests.support.mechanisms import nau_slider_crank, nau_values, one_of, twin, twin_values
 from kulman.tests.support.printed_numbers import calculations, evaluate, half_digit, value
-from kulman.tests.support.triads import random_triads
 from kulman.variants.reader import load_task
 
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")

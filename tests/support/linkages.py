@@ -122,6 +122,12 @@ PARALLELOGRAM = {
 DEAD = math.acos((0.01 + 0.25 - 0.55**2) / 0.1)
 
 
+def _signs(random: np.random.Generator) -> tuple[float, float, float]:
+    """Draw the side, the tilt and the sense of a mechanism."""
+    side, sense = random.choice([-1.0, 1.0], 2)
+    return float(side), random.uniform(-7, 7), float(sense)
+
+
 def random_four_bars(seed: int, count: int) -> Iterator[dict[str, float]]:
     """Go through four-bars of all kinds that have at least some reach, none near a change point."""
     random = np.random.default_rng(seed)
@@ -129,11 +135,9 @@ def random_four_bars(seed: int, count: int) -> Iterator[dict[str, float]]:
         crank, coupler, rocker, frame = 10.0 ** random.uniform(-0.7, 0.3, 4)
         ends = [abs(coupler - rocker), coupler + rocker, abs(frame - crank), frame + crank]
         gaps = np.abs(np.subtract.outer(ends[:2], ends[2:])).min()
-        if gaps < 0.02 * max(ends) or frame + crank < ends[0] or abs(frame - crank) > ends[1]:
-            continue
-        side, sense = random.choice([-1.0, 1.0], 2)
-        yield four_bar_values(crank, coupler, rocker, frame, float(side), random.uniform(-7, 7), float(sense))
-        count -= 1
+        if gaps >= 0.02 * max(ends) and frame + crank >= ends[0] and abs(frame - crank) <= ends[1]:
+            yield four_bar_values(crank, coupler, rocker, frame, *_signs(random))
+            count -= 1
 
 
 def random_crank_rockers(seed: int, count: int) -> Iterator[dict[str, float]]:
@@ -143,11 +147,9 @@ def random_crank_rockers(seed: int, count: int) -> Iterator[dict[str, float]]:
         crank = 10.0 ** random.uniform(-1.0, 0.0)
         coupler, rocker, frame = crank * random.uniform(1.1, 6.0, 3)
         longest = max(coupler, rocker, frame)
-        if crank + longest > 0.98 * (coupler + rocker + frame - longest):
-            continue
-        side, sense = random.choice([-1.0, 1.0], 2)
-        yield four_bar_values(crank, coupler, rocker, frame, float(side), random.uniform(-7, 7), float(sense))
-        count -= 1
+        if crank + longest <= 0.98 * (coupler + rocker + frame - longest):
+            yield four_bar_values(crank, coupler, rocker, frame, *_signs(random))
+            count -= 1
 
 
 def random_slider_cranks(seed: int, count: int) -> Iterator[dict[str, float]]:
@@ -157,8 +159,7 @@ def random_slider_cranks(seed: int, count: int) -> Iterator[dict[str, float]]:
         crank = 10.0 ** random.uniform(-1.5, 0.5)
         offset = crank * random.uniform(-2.0, 2.0)
         rod = (crank + abs(offset)) * random.uniform(1.05, 4.0)
-        side, sense = random.choice([-1.0, 1.0], 2)
-        yield slider_crank_values(crank, rod, offset, float(side), random.uniform(-7, 7), float(sense))
+        yield slider_crank_values(crank, rod, offset, *_signs(random))
 
 
 def reach(mechanism: Mechanism, values: Mapping[str, float]) -> Reach:

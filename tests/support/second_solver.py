@@ -59,10 +59,8 @@ class SecondSolver:
         pivot = next(p for p in self.m.pairs if p.point == driver.pivot)
         assert isinstance(pivot, Revolute)
         assert pivot.at is not None
-        points = {driver.pivot: mp.mpc(v[pivot.at[0]], v[pivot.at[1]])}
-        points[driver.point] = points[driver.pivot] + v[self.m.link(1).points[driver.point][0]] * mp.expj(phi)
-        for name, (x, y) in self.m.link(1).points.items():
-            points[name] = points[driver.pivot] + mp.mpc(v[x], v[y]) * mp.expj(phi)
+        at = mp.mpc(v[pivot.at[0]], v[pivot.at[1]])
+        points = {name: at + mp.mpc(v[x], v[y]) * mp.expj(phi) for name, (x, y) in self.m.link(1).points.items()}
         for _, rod, _, A, B, guide in self.dyads:
             u, length = self._along(guide), v[self.m.link(rod).points[B][0]]
             start = mp.mpc(v[guide.through[0]], v[guide.through[1]]) + 1j * u * v[guide.offset]
