@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import datetime
 import html
+import inspect
 import io
 import json
 import pickle
@@ -18,6 +19,7 @@ import pytest
 
 import kulman
 from kulman import KulmanError, all_variants, chart, solve, sweep
+from kulman.cli import commands
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.commands import Run
 from kulman.variants.solution import Solution
@@ -80,6 +82,22 @@ def test_a_wrong_argument_is_answered_in_one_line(verb: str, name: str) -> None:
 
     assert caught.value.key == key
     assert all(caught.value.text(language).isprintable() for language in LANGUAGES)
+
+
+VERBS = {name: getattr(kulman, name, kulman.all_variants) for name in commands.commands if name not in ("list", "new")}
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_what_is_not_said_is_the_same_from_python_and_the_command_line(verb: str) -> None:
+    options = {option.name: option.default for option in commands.commands[verb].params}
+    shared = {k: v for k, v in inspect.signature(VERBS[verb]).parameters.items() if k in options}
+
+    assert {"task", "variant", "only"} & {*shared}
+    for name, parameter in shared.items():
+        if isinstance(options[name], (str, int, float, tuple)) and not isinstance(options[name], bool):
+            assert str(parameter.default).removesuffix(".0") == str(options[name]), name
+        else:  # nothing; of documents Ukrainian, when no language is said
+            assert parameter.default in (parameter.empty, None, False, "", "uk"), name
 
 
 @pytest.mark.parametrize("value", [40, 40.0, "40", "4 cm", np.float64(40), np.int64(40), np.float32(40)])
