@@ -234,6 +234,16 @@ def test_a_structure_alone_is_drawn_with_its_scheme(task: str) -> None:
     assert {view.name for view in kulman.sheet(task, only="structure").views} == {"givens", "structure", "position"}
 
 
+def test_a_mechanism_on_which_nothing_acts_is_drawn() -> None:
+    nothing = dict.fromkeys(("F_3", "m_2", "m_3", "J_S2"), 0)
+
+    drawn = kulman.sheet("nau-slider-crank", "3", set=nothing, lang="en")
+
+    svg = "".join(drawn.svg(number) for number in range(1, len(drawn.pages) + 1))
+    assert not re.search(r"nan|\binf\b", svg)
+    assert {vector.value for vector in vectors(drawn.pages[0].shapes) if vector.quantity[0] in "FR"} <= {0.0}
+
+
 # Slider-cranks that a user may write: other letters, a crank with a counterweight, a rod without mass.
 @pytest.mark.parametrize(
     ("changes", "there", "missing"),
