@@ -18,7 +18,7 @@ from ...drawing.words import GREEK, Words
 from ...plans.board import with_needs
 from ...plans.boards.exact import SMALL, STATUSES
 from ...plans.lab.linkages import DrawnSheet, by_hand, contest
-from ...plans.lab.race import Contest, Entry
+from ...plans.lab.race import Entry
 from ...plans.lab.stability import DEAD, Cost, Depth, Stability, depth, stability
 from ...plans.linkages.chain import NEEDS
 from ...plans.linkages.cycle import Cycle, cycle
@@ -63,8 +63,16 @@ def _accuracy(scene: Scene) -> AccuracyChart:
     found = contest(whole, len(whole.angles), time.process_time, scene.quantities, charts.EFFORT)
     if not found.kinds:
         raise InputError("chart-no-rivals")
-    found = replace(found, entries=(*found.entries, *_hands(scene, whole, found)))
-    return AccuracyChart(scene, found, _places(whole))
+    case, drawn = scene.case, list[Entry]()
+    for name in SIZES if case.solved.trouble is None else ():  # a hand, on the formats that have room for every plan
+        solved = SolvedLinkage.of(case.solved)
+        try:
+            _, scales = first_scales(solved, case.choosers, case.plans, format_named(name))
+        except InputError:  # too small for a plan, or for a scale factor that was asked for
+            continue
+        sheet = DrawnSheet(name, solved, {plan: scale.mu for plan, scale in scales.items()})
+        drawn += by_hand(whole, sheet, charts.HANDS[scene.hand], found.kinds)
+    return AccuracyChart(scene, replace(found, entries=(*found.entries, *drawn)), _places(whole))
 
 
 def _stability(scene: Scene) -> _StabilityChart:
@@ -79,19 +87,6 @@ def _depth(scene: Scene) -> _DepthChart:
     """Look at what each part of the model is worth."""
     whole = _cycle_of("depth", scene)
     return _DepthChart(scene, depth(whole, scene.tolerance), _places(whole))
-
-
-def _hands(scene: Scene, cycle: Cycle, found: Contest) -> Iterator[Entry]:
-    """Go through the errors of a hand on the sheets of the formats that have room for every plan."""
-    case = scene.case
-    for name in SIZES if case.solved.trouble is None else ():
-        solved = SolvedLinkage.of(case.solved)
-        try:
-            _, scales = first_scales(solved, case.choosers, case.plans, format_named(name))
-        except InputError:  # too small for a plan, or for a scale factor that was asked for
-            continue
-        sheet = DrawnSheet(name, solved, {plan: scale.mu for plan, scale in scales.items()})
-        yield from by_hand(cycle, sheet, charts.HANDS[scene.hand], found.kinds)
 
 
 def _places(cycle: Cycle) -> charts.Places:

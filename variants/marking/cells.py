@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import NamedTuple
@@ -379,7 +380,11 @@ def slip_in(text: str) -> Slip | None:
     if "=" not in text or len(text) > LONGEST:
         return None
     sides = [side.strip() for side in text.split("=")]
-    worked = [(side, _ways(side)) for side in (*sides[:-1], _without_unit(sides[-1]))]
+    last = re.sub(r"^([+\-−–])\s+", r"\1", sides[-1])
+    with suppress(InputError):  # a calculation stays as it is, a number is without its unit
+        rest = split_number(last)[1]
+        last = last[: len(last) - len(rest)].strip() if rest[:1].isalpha() or rest[:2] == "1/" else last
+    worked = [(side, _ways(side)) for side in (*sides[:-1], last)]
     known = [(side, ways) for side, ways in worked if ways]
     for (side, ways), (written, others) in pairwise(known):
         # equal but for rounding, and for the sign: it may stand for a sense
@@ -387,16 +392,6 @@ def slip_in(text: str) -> Slip | None:
         if not any(off <= rounded + ROUNDING * size for off, rounded, size in apart):
             return Slip(quote(side, LONGEST), ways[-1].number, quote(written))
     return None
-
-
-def _without_unit(side: str) -> str:
-    """Return the number of a side that is followed by its unit; a calculation stays as it is."""
-    side = re.sub(r"^([+\-−–])\s+", r"\1", side)
-    try:
-        rest = split_number(side)[1]
-    except InputError:
-        return side
-    return side[: len(side) - len(rest)].strip() if rest[:1].isalpha() or rest[:2] == "1/" else side
 
 
 def _ways(side: str) -> list[_Value]:

@@ -119,18 +119,13 @@ def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[V
         if line is None:
             marks.setdefault(edge.tip, tail + solved.point(edge.tip) - solved.point(edge.tail))
             continue
-        tip = tail + _drawn(line)
+        said, right = complex(line.said), complex(line.right)
+        told = line.answer is not None and line.answer.direction is not None
+        if not told and line.verdict is not Verdict.CARRIED and right:  # it has the direction of the right one
+            said = right * (math.hypot(said.real, said.imag) / math.hypot(right.real, right.imag))
+        tip = tail + said
         marks.setdefault(edge.tip, tip)
         yield Vector(marked.keyed.symbol(line.name), tail, tip, line)
-
-
-def _drawn(line: Line) -> complex:
-    """Return a student's vector; one whose direction is not said has that of the right one, or of what follows."""
-    said, right = complex(line.said), complex(line.right)
-    told = line.answer is not None and line.answer.direction is not None
-    if told or line.verdict is Verdict.CARRIED or not right:
-        return said
-    return right * (math.hypot(said.real, said.imag) / math.hypot(right.real, right.imag))
 
 
 def _svg(vectors: list[Vector], caption: str) -> str:
