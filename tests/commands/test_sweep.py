@@ -78,6 +78,8 @@ def test_json_holds_the_cycle_in_si(swept: Run) -> None:
             all_round = data["quantities"][name]
             assert all_round["unit"] == quantity.unit
             assert all_round["value"][k] == pytest.approx(quantity.value, rel=1e-9, abs=1e-9), name
+    turned = json.loads(swept("--from", "90 deg", "--json", "--only", "position")[1])
+    assert turned["places"][0] == pytest.approx(math.pi / 2)
     output = data["outputs"][0]
     assert (output["link"], output["kind"], output["stroke"]) == (3, "slider", pytest.approx(0.1))
     assert [spot["end"] for spot in output["dead"]] == ["high", "low"]
@@ -107,13 +109,6 @@ def test_chords_stand_beside_plans(swept: Run) -> None:
     velocity, acceleration = out.split("\n\n")
     assert len(velocity.splitlines()) == len(acceleration.splitlines()) == 25
     assert all(float(line.split()[-1]) < 2.0 for line in velocity.splitlines()[1:])
-
-
-def test_the_cycle_may_begin_elsewhere(swept: Run) -> None:
-    data = json.loads(swept("--from", "90 deg", "--json", "--only", "position")[1])
-    plain = json.loads(swept("--from", "90", "--json", "--only", "position")[1])
-
-    assert data["places"][0] == plain["places"][0] == pytest.approx(math.pi / 2)
 
 
 WRONG = {

@@ -270,27 +270,18 @@ def test_place_where_no_file_can_be_written_is_refused(name: str, key: str, fold
 # The customary schemes of course projects: I is the driver, then the groups by class and kind (class III by order) with
 # their links; -> on links of a group before, || on the driver alone.
 FORMULAS = {
-    "scheme-01-compressor": "I -> II2(2,3)",
-    "scheme-02-forging-press": "I -> II2(2,3)",
-    "scheme-03-crank-rocker": "I -> II1(2,3)",
-    "scheme-04-v-engine": "I -> II2(2,3) || II2(4,5)",
+    "scheme-01-compressor": "I -> II2(2,3)", "scheme-02-forging-press": "I -> II2(2,3)",
+    "scheme-03-crank-rocker": "I -> II1(2,3)", "scheme-04-v-engine": "I -> II2(2,3) || II2(4,5)",
     "scheme-05-articulated-rod": "I -> II2(2,3) -> II2(4,5)",
     "scheme-06-opposed-compressor": "I -> II2(2,3) || II2(4,5)",
-    "scheme-07-two-stage-compressor": "I -> II2(2,3) -> II2(4,5)",
-    "scheme-08-planer": "I -> II1(2,3) -> II2(4,5)",
-    "scheme-09-shaper": "I -> II3(2,3) -> II2(4,5)",
-    "scheme-10-shaper-two-blocks": "I -> II3(2,3) -> II4(4,5)",
-    "scheme-11-slotter": "I -> II3(2,3) -> II2(4,5)",
-    "scheme-12-shaking-conveyor": "I -> II1(2,3) -> II2(4,5)",
-    "scheme-13-toggle-press": "I -> II1(2,3) -> II2(4,5)",
-    "scheme-14-jaw-crusher": "I -> II1(2,3) -> II1(4,5)",
-    "scheme-15-lever-shears": "I -> II1(2,3) -> II1(4,5)",
-    "scheme-16-hay-baler": "I -> II1(2,3) -> II2(4,5)",
-    "scheme-17-sewing-machine": "I -> II2(2,3) || II1(4,5)",
-    "scheme-18-hydraulic-drive": "I -> II1(2,3)",
-    "scheme-19-scotch-yoke": "I -> II5(2,3)",
-    "scheme-20-press-automaton": "I -> III3(2,3,4,5)",
-}
+    "scheme-07-two-stage-compressor": "I -> II2(2,3) -> II2(4,5)", "scheme-08-planer": "I -> II1(2,3) -> II2(4,5)",
+    "scheme-09-shaper": "I -> II3(2,3) -> II2(4,5)", "scheme-10-shaper-two-blocks": "I -> II3(2,3) -> II4(4,5)",
+    "scheme-11-slotter": "I -> II3(2,3) -> II2(4,5)", "scheme-12-shaking-conveyor": "I -> II1(2,3) -> II2(4,5)",
+    "scheme-13-toggle-press": "I -> II1(2,3) -> II2(4,5)", "scheme-14-jaw-crusher": "I -> II1(2,3) -> II1(4,5)",
+    "scheme-15-lever-shears": "I -> II1(2,3) -> II1(4,5)", "scheme-16-hay-baler": "I -> II1(2,3) -> II2(4,5)",
+    "scheme-17-sewing-machine": "I -> II2(2,3) || II1(4,5)", "scheme-18-hydraulic-drive": "I -> II1(2,3)",
+    "scheme-19-scotch-yoke": "I -> II5(2,3)", "scheme-20-press-automaton": "I -> III3(2,3,4,5)",
+}  # fmt: skip
 VARIANTS = [  # three of ten by default, others with each scheme
     pytest.param(scheme, str(variant), marks=[] if (number + variant) % 3 == 0 else pytest.mark.soak)
     for number, scheme in enumerate(FORMULAS)

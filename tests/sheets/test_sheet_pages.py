@@ -245,44 +245,28 @@ def test_a_mechanism_on_which_nothing_acts_is_drawn() -> None:
 
 
 # Slider-cranks that a user may write: other letters, a crank with a counterweight, a rod without mass.
-@pytest.mark.parametrize(
-    ("changes", "there", "missing"),
-    [
-        pytest.param(
-            (
-                ('A = ["l_OA"', 'D = ["l_OA"'),
-                ('A = ["0 mm", "0 mm"], B', 'D = ["0 mm", "0 mm"], B'),
-                ('point = "A"', 'point = "D"'),  # of the pair on the frame
-                ('point = "A"', 'point = "D"'),
-                ("pa=80", "pd=80"),
-                ("p'a'=80", "p'd'=80"),
-            ),
-            ("F″", "F′", "h″", 'data-name="h_lever_M_i2_D"'),
-            "F_A",
-            id="a couple has both primes whatever its joints are called",
-        ),
-        pytest.param(
-            (
-                (
-                    'A = ["l_OA", "0 mm"] }\ncentre = "O"',
-                    'A = ["l_OA", "0 mm"], S1 = ["-20 mm", "0 mm"] }\ncentre = "S1"\nmass = "m_2"',
-                ),
-            ),
-            ('data-quantity="F_i1"', 'class="line-of-action" data-name="F_i1"'),
-            "h_lever_M_i2_D",
-            id="the arm of a counterweight is drawn",
-        ),
-        pytest.param(
-            (('centre = "S2"\nmass = "m_2"\ninertia = "J_S2"\n', 'centre = "S2"\n'),),
-            ('data-quantity="R_12"',),
-            'data-quantity="F_i2"',
-            id="a rod without mass is drawn",
-        ),
-    ],
-)
-def test_slider_crank_of_ones_own_is_drawn(
-    changes: tuple[tuple[str, str], ...], there: tuple[str, ...], missing: str
-) -> None:
+AT = ('point = "A"', 'point = "D"')  # once in each pair
+CRANK, HEAVY = 'A = ["l_OA", "0 mm"] }\ncentre = "O"', 'centre = "S1"\nmass = "m_2"'
+OWN = {  # what is changed; what is drawn, and what is not
+    "a couple has both primes whatever its joints are called": (
+        (('A = ["l_OA"', 'D = ["l_OA"'), ('A = ["0 mm", "0 mm"], B', 'D = ["0 mm", "0 mm"], B'), AT, AT,
+         ("pa=80", "pd=80"), ("p'a'=80", "p'd'=80")),
+        ("F″", "F′", "h″", 'data-name="h_lever_M_i2_D"'), "F_A",
+    ),
+    "the arm of a counterweight is drawn": (
+        ((CRANK, 'A = ["l_OA", "0 mm"], S1 = ["-20 mm", "0 mm"] }\n' + HEAVY),),
+        ('data-quantity="F_i1"', 'class="line-of-action" data-name="F_i1"'), "h_lever_M_i2_D",
+    ),
+    "a rod without mass is drawn": (
+        (('centre = "S2"\nmass = "m_2"\ninertia = "J_S2"\n', 'centre = "S2"\n'),),
+        ('data-quantity="R_12"',), 'data-quantity="F_i2"',
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_slider_crank_of_ones_own_is_drawn(name: str) -> None:
+    changes, there, missing = OWN[name]
     svg = kulman.sheet(task_of(with_changes(bundled_text("nau-slider-crank"), *changes)), lang="en", format="A1").svg()
 
     assert [part for part in there if part not in svg] == []
