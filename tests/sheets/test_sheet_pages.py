@@ -245,7 +245,7 @@ def test_a_mechanism_on_which_nothing_acts_is_drawn() -> None:
 
 
 # Slider-cranks that a user may write: other letters, a crank with a counterweight, a rod without mass.
-AT = ('point = "A"', 'point = "D"')  # once in each pair
+AT = ('point = "A"', 'point = "D"')  # of the pair, of the driver
 CRANK, HEAVY = 'A = ["l_OA", "0 mm"] }\ncentre = "O"', 'centre = "S1"\nmass = "m_2"'
 OWN = {  # what is changed; what is drawn, and what is not
     "a couple has both primes whatever its joints are called": (
