@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from .shapes import Group, Line, Pen, Polyline, Shape
+from .shapes import Group, Line, Pen, Polyline, Shape, changed
 from .text import Box
 
 Shapes: TypeAlias = NDArray[Any]  # of shapely
@@ -106,13 +106,13 @@ def _inside(boxes: tuple[Box, ...]) -> shapely.Geometry:
 
 def coarser(shape: Shape, within: float) -> Shape:
     """Return a shape with its curves as broken lines of few points, none of them further than `within` mm away."""
-    match shape:
-        case Polyline(points=points) if len(points) > FEW:
-            return replace(shape, points=thinned(points, within))
-        case Group(shapes=parts):
-            return replace(shape, shapes=tuple(coarser(part, within) for part in parts))
-        case _:
-            return shape
+
+    def thinner(part: Shape) -> Shape:
+        if isinstance(part, Polyline) and len(part.points) > FEW:
+            return replace(part, points=thinned(part.points, within))
+        return part
+
+    return changed(shape, thinner)
 
 
 def thinned(points: Sequence[complex], within: float) -> tuple[complex, ...]:

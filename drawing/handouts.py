@@ -12,7 +12,7 @@ from .areas import beside
 from .figure import GIVEN
 from .formats import Format, Norm, drawing_area, reserved_boxes
 from .page import TASK_VIEWS, Layer, Page, extent
-from .shapes import Group, Line, Pen, Shape, Text, shifted
+from .shapes import Group, Line, Pen, Shape, Text, changed, shifted
 from .view import View, cells
 
 NUMBER = re.compile(r"[−-]?\d+(?:[.,]\d+)?(?: |$)")  # what a cell of units does not begin with
@@ -125,13 +125,7 @@ def _beyond(whole: Group, begun: Group) -> Iterator[Shape]:
         if isinstance(part, Group) and (twin := twins.get((part.role, part.name))) is not None:
             yield replace(part, shapes=tuple(_beyond(part, twin)))
         else:
-            yield _inked(part)
-
-
-def _inked(shape: Shape) -> Shape:
-    if isinstance(shape, Group):
-        return replace(shape, shapes=tuple(map(_inked, shape.shapes)))
-    return replace(shape, colour=ANSWER)
+            yield changed(part, lambda shape: replace(shape, colour=ANSWER))
 
 
 def over_page(view: View, like: Page) -> Page:

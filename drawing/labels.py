@@ -19,8 +19,6 @@ AGAIN = 4  # times that all labels are placed anew when some found no place
 ROUNDS = 3  # times that labels in trouble are looked through
 MANY = 24  # of these, for whom no order helps: the drawing is crowded
 
-__all__ = ["Labels", "Obstacles", "Request", "place"]
-
 
 @dataclass(frozen=True, slots=True)
 class Labels:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from cmath import rect
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import pairwise
-from typing import Literal, TypeAlias, assert_never
+from typing import Any, Literal, TypeAlias, assert_never
 
 Fill: TypeAlias = bool | Literal["white", "black"]
 Anchor: TypeAlias = Literal["left", "middle", "right"]
@@ -162,6 +162,13 @@ def sides_of(shape: Line | Polyline | Arc) -> Iterator[tuple[complex, complex]]:
             yield from pairwise((*points, points[0]) if closed else points)
         case Arc(centre=centre, radius=radius, start=start, sweep=sweep):
             yield from pairwise(centre + rect(radius, start + sweep * k / 8) for k in range(9))
+
+
+def changed(shape: Shape, change: Callable[[Any], Shape]) -> Shape:
+    """Return `shape` with a change of all that is no group."""
+    if isinstance(shape, Group):
+        return replace(shape, shapes=tuple(changed(part, change) for part in shape.shapes))
+    return change(shape)
 
 
 def shifted(shape: Shape, by: complex) -> Shape:

@@ -13,10 +13,10 @@ from typing import NamedTuple, TypeAlias, assert_never
 
 from .areas import coarser
 from .formats import HEAD_HALF_WIDTH, ZERO, Style
-from .labels import Labels, Obstacles, Request, place
+from .labels import Labels, place
 from .page import NOTE, extent
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted, sides_of
-from .spots import first_clear
+from .spots import Obstacles, Request, first_clear
 from .symbols import angle_dimension, dimension, swept, turning_arrow
 from .text import Box, lay_out
 from .words import Given, Words

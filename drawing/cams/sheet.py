@@ -133,7 +133,8 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
             for follower in (follower for follower in (ROLLER, ROCKER, PLATE) if getattr(solved, follower)):
                 if plan == SIZES_PART:
                     yield sizes_view.FIGURES[follower]
-                    block = partial(text.SIZES_OF[follower], width=width if follower == PLATE else narrow)
+                    wide = width if follower == PLATE else narrow
+                    block = partial(text.sizes_block, follower=follower, width=wide)
                     yield Figure(f"equations_{follower}", block)
                 elif plan == PROFILE_PART:
                     yield profile_view.FIGURES[follower]

@@ -90,16 +90,14 @@ def choices_block(scene: CamScene, note: str, width: float) -> View:
     return text_block("choices", words["heading.cam_choices"], lines, scene.style, width)
 
 
-def _roller_block(scene: CamScene, width: float) -> View:
+def _roller_lines(scene: CamScene) -> Lines:
     """Return the sizes of the cam for a roller, with the rules for its radius and the transmission angles."""
     lines = [_worked(scene, "r_0", "hypotenuse", "e", "s_0"), *_tangents(scene, "r_0_tangents", "e_tangents")]
     lines += [(line,) for line in _offsets_line(scene)]
-    return text_block(
-        "equations_roller", scene.words["heading.cam_roller"], [*lines, *_rules(scene)], scene.style, width
-    )
+    return [*lines, *_rules(scene)]
 
 
-def _plate_block(scene: CamScene, width: float) -> View:
+def _plate_lines(scene: CamScene) -> Lines:
     """Return the sizes of the cam for a plate."""
     words, lines = scene.words, _tangents(scene, "r_0_flat_tangent")
     if scene.plate.given:
@@ -108,24 +106,19 @@ def _plate_block(scene: CamScene, width: float) -> View:
         lines.append((*_worked(scene, "rho_flat_min"), more))
     else:
         lines.append(_worked(scene, "r_0_flat"))
-    lines.append(_worked(scene, "R_plate"))
-    return text_block("equations_plate", words["heading.cam_plate"], lines, scene.style, width)
+    return [*lines, _worked(scene, "R_plate")]
 
 
-def _rocker_block(scene: CamScene, width: float) -> View:
+def _rocker_lines(scene: CamScene) -> Lines:
     """Return the sizes of the cam for a rocker, with the rules for its roller and the transmission angles."""
-    words = scene.words
-    lines = [
-        (f"{words['said.cam_arc']}:",),
-        _worked(scene, "h"),
-        (f"{words['said.cam_first_angle']}:",),
-        _worked(scene, "psi_0"),
-        *_rules(scene),
-    ]
-    return text_block("equations_rocker", words["heading.cam_rocker"], lines, scene.style, width)
+    arc, angle = ((f"{scene.words[f'said.cam_{name}']}:",) for name in ("arc", "first_angle"))
+    return [arc, _worked(scene, "h"), angle, _worked(scene, "psi_0"), *_rules(scene)]
 
 
-SIZES_OF = {"roller": _roller_block, "rocker": _rocker_block, "plate": _plate_block}
+def sizes_block(scene: CamScene, follower: str, width: float) -> View:
+    """Return how the sizes of the cam for a follower are calculated."""
+    lines = {"roller": _roller_lines, "rocker": _rocker_lines, "plate": _plate_lines}[follower](scene)
+    return text_block(f"equations_{follower}", scene.words[f"heading.cam_{follower}"], lines, scene.style, width)
 
 
 def _tangents(scene: CamScene, *names: str) -> Lines:

@@ -26,8 +26,6 @@ from ..view import View, note_block, text_block
 from .calculations.equations import PLANS, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
 from .calculations.tables import givens_table, results_parts, results_table, structure_lines
-from .compound import block_name, compound_lines
-from .figures.compound import ACCELERATIONS, VELOCITIES, acceleration_figure, velocity_figure
 from .figures.group import driver_view, group_view, link_view
 from .figures.lever import lever_view
 from .figures.plan import plan_view
@@ -140,6 +138,10 @@ def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> It
 
 
 def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
+    # a sheet without compound motion does not pay for the imports
+    from .compound import block_name, compound_lines
+    from .figures.compound import ACCELERATIONS, VELOCITIES, acceleration_figure, velocity_figure
+
     couplers = hinged(solved.mechanism, solved.structure)
 
     def text(coupler: Coupler, kind: str) -> LinkageFigure:
@@ -168,19 +170,20 @@ def _forces(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
         from .figures.cycle import load_diagram
 
         yield from (Figure(f"load_{d.name}", partial(load_diagram, diagram=d)) for d in solved.mechanism.diagrams)
-    names = {part: f"equations_forces_{part}" if part else "equations_forces" for part in force_parts(solved)}
-    texts = {
-        part: _text(name, partial(force_lines, part=part), width, partial(equations_heading, part=part))
-        for part, name in names.items()
-    }
-    yield from (texts[part] for part in texts if part == LOADS)
+
+    def equations(*parts: str) -> Iterator[LinkageFigure]:
+        for part in (part for part in force_parts(solved) if part in parts):
+            name = f"equations_forces_{part}" if part else "equations_forces"
+            yield _text(name, partial(force_lines, part=part), width, partial(equations_heading, part=part))
+
+    yield from equations(LOADS)
     for group in reversed(solved.structure.groups):
         yield from _group(solved, group)
-        yield from (texts[part] for part in texts if part == group.name)
+        yield from equations(group.name)
     driver = str(solved.structure.driver)
     yield Figure("driver", driver_view, ("mu_l",))
     yield _plan(solved, f"forces_{driver}")
-    yield from (texts[part] for part in texts if part in (WHOLE, driver))
+    yield from equations(WHOLE, driver)
 
 
 def _group(solved: SolvedLinkage, group: Group) -> Iterator[LinkageFigure]:
@@ -266,9 +269,7 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
             if not first:
                 raise
             break
-        if first and any(
-            taken[symbol] > rung for symbol, rung in rungs.items() if fitting.extents.ladders[symbol].fixed
-        ):
+        if first and any(taken[s] > rung and fitting.extents.ladders[s].fixed for s, rung in rungs.items()):
             break
         if (places := placed(views)) is not None:
             return views, taken, places
@@ -385,7 +386,9 @@ class Fitting:
         built = []
         for figure in figures(contents, text_width):
             # of two scale factors the one with the longer lines makes the figure as large as it is
-            symbol = max(figure.ladders, key=lambda s: _reach(solved, s) / mus[s], default="")
+            symbol = next(iter(figure.ladders), "")
+            if len(figure.ladders) > 1:
+                symbol = max(figure.ladders, key=lambda s: _reach(solved, s) / mus[s])
             built.append((self._drawn(sheet, figure, scene), self.extents.root(symbol)))
         return built
 

@@ -20,7 +20,7 @@ from ....plans.linkages.compound import ACCELERATION, TOTAL, VELOCITY, Coupler
 from ....plans.names import mark, spelled
 from ....plans.names import vector as named
 from ...figure import ANSWERS
-from ...shapes import Arrow, Group, Line, Pen, Shape, Vector
+from ...shapes import Arrow, Line, Pen, Shape, Vector, changed
 from ...symbols import clear_ray, turning_arrow, unit
 from ...view import Canvas, View
 from ..calculations.equations import line_of
@@ -169,7 +169,8 @@ def _zeros(points: Sequence[At]) -> Iterator[str]:
 def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Skeleton]:
     start, style = len(canvas.shapes), scene.style
     figures = draw_links(canvas, scene, numbers)
-    canvas.shapes[start:] = map(_thin, canvas.shapes[start:])
+    drawn = canvas.shapes[start:]
+    canvas.shapes[start:] = [changed(shape, _thin) for shape in drawn]
     joints = {point for number in numbers for point in pins_of(scene, number)}
     blocks = [block.at for figure in figures for block in figure.blocks]
     for point in dict.fromkeys(p for number in numbers for p in scene.mechanism.link(number).points):
@@ -184,12 +185,7 @@ def _mechanism(canvas: Canvas, scene: Scene, numbers: Sequence[int]) -> list[Ske
 
 
 def _thin(shape: Shape) -> Shape:
-    match shape:
-        case Group(shapes=parts):
-            return replace(shape, shapes=tuple(map(_thin, parts)))
-        case Line(pen=Pen.MAIN):
-            return replace(shape, pen=Pen.THIN)
-    return shape
+    return replace(shape, pen=Pen.THIN) if isinstance(shape, Line) and shape.pen is Pen.MAIN else shape
 
 
 def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window]]:
