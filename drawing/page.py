@@ -14,7 +14,7 @@ from math import pi, tau
 from typing import TypeAlias, assert_never
 
 from ..scales.packaged import packaged
-from .formats import HEAD_HALF_WIDTH, ZERO, Norm, pens_for
+from .formats import HEAD_HALF_WIDTH, ZERO, Norm, Pens, pens_for
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, sides_of
 from .text import Box, Run, corners, lay_out, placer
 
@@ -35,6 +35,11 @@ class Page:
     language: str
     norm: Norm = "gost"
     layers: bool = False
+
+    @property
+    def pens(self) -> Pens:
+        """Return the widths, dashes and arrowheads of a page of this size."""
+        return pens_for(self.width, self.height, self.norm)
 
 
 def _reach(shape: Shape) -> tuple[complex, ...]:
@@ -161,7 +166,7 @@ class Walk(ABC):
     """Goes through a page, layer by layer, and puts down what can be seen."""
 
     def __init__(self, page: Page) -> None:
-        self.page, self.pens = page, pens_for(page.width, page.height, page.norm)
+        self.page, self.pens = page, page.pens
 
     @abstractmethod
     def stroke(self, shape: Stroke, dashes: tuple[float, ...]) -> None:

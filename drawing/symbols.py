@@ -68,11 +68,6 @@ def rigid_corner(at: complex, u: complex, w: complex, style: Style, pin: bool) -
     return Polyline((*foot, *rim), Pen.THIN, closed=True, fill="black", role="rigid")
 
 
-def bridge(at: complex, u: complex, style: Style) -> Arc:
-    """Return the arc over a pin through which a link runs along the unit direction `u`, without a joint of its own."""
-    return Arc(at, 1.6 * style.pair, cmath.phase(u), math.pi, Pen.MAIN, role="rigid")
-
-
 def block(at: complex, u: complex, name: str, size: tuple[float, float]) -> Group:
     """Return a block of this length and height, turned along the unit direction `u`."""
     length, height = size
@@ -91,11 +86,6 @@ def guide(pieces: tuple[tuple[complex, complex], ...], up: complex, name: str, s
     """Return a guide of the frame: its lines, hatched on the side away from `up`."""
     strokes = (stroke for a, b in pieces for stroke in hatching(a, b, -up, style))
     return Group((*(Line(a, b, Pen.MAIN) for a, b in pieces), *strokes), "guide", name)
-
-
-def centre_of_mass(at: complex, name: str, style: Style) -> Group:
-    """Return a centre of mass: a small filled circle."""
-    return Group((Circle(at, style.centre, Pen.MAIN, fill="black"),), "centre", name)
 
 
 def right_angle(at: complex, u: complex, w: complex, size: float) -> Polyline:

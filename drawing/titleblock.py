@@ -213,7 +213,6 @@ def frame_shapes(sheet: Format, stamp: Stamp, norm: Norm = "gost", first: bool =
 
 
 def _rectangle(box: Box, pen: Pen, role: str) -> Polyline:
-    """Return the outline of a box."""
     x0, y0, x1, y1 = box
     corners = (complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1))
     return Polyline(corners, pen, closed=True, role=role)

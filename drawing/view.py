@@ -6,7 +6,6 @@ import math
 from cmath import phase, rect
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from itertools import accumulate, pairwise
 from math import pi
 from typing import NamedTuple, TypeAlias, assert_never
@@ -387,10 +386,12 @@ def _number(words: Words, value: float) -> str:
     """Return a number as short as it is: a third as a fraction."""
     if math.isinf(value):
         return "∞"
-    simple = Fraction(value).limit_denominator(DENOMINATOR)
-    whole = simple.denominator == 1
-    if len(text := words.short(value)) > LONG and not whole and abs(value - simple) < ROUNDING * abs(value):
-        return f"{simple.numerator}/{simple.denominator}"
+    if len(text := words.short(value)) > LONG:
+        from fractions import Fraction  # few numbers need it
+
+        simple = Fraction(value).limit_denominator(DENOMINATOR)
+        if simple.denominator != 1 and abs(value - simple) < ROUNDING * abs(value):
+            return f"{simple.numerator}/{simple.denominator}"
     return text
 
 

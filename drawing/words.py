@@ -164,8 +164,13 @@ class Words:
         special = table.get(whole) or table.get(re.sub(r"\d+", "#", whole))  # `#` stands for a number
         if special is not None:
             special = special.replace("#", "".join(re.findall(r"\d+", whole)[:1]))
+        elif name.kind == "h" and name.part == LEVER and role(name.of).kind == "M":  # an arm
+            return "h" + ("″" if name in self.seconds else "′"), self._parts(couple(name.of))[1]
+        elif name.kind == "h" and re.match(r"\d", name.of):  # of a reaction
+            above = f"^{{{self._part(name.part)}}}" if name.part else ""
+            return "h", f"{above}_{{{self._links('h', _joined(name.of))}{name.about}}}"
         elif name.kind == "h":
-            return self._arm(name)
+            return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(name.of))}{name.about}}}"
         markup = special or self._composed(spelled(name.kind, name.of) if halved else name)
         at = next((n for n, letter in enumerate(markup) if letter in "_^"), len(markup))
         return markup[:at] + ("″" if name in self.seconds else "′") * halved, markup[at:]
@@ -212,16 +217,6 @@ class Words:
             self.frame if number == "0" else number for number in re.findall(r"\d+" if self.parted else r"\d", index)
         ]
         return parting.join(pair if self.notation["reaction"] == "ij" else reversed(pair))
-
-    def _arm(self, name: Name) -> tuple[str, str]:
-        """Return the symbol of an arm: of a link's own force of inertia, of a reaction or of another force."""
-        if name.part == LEVER and role(name.of).kind == "M":
-            _, rest = self._parts(couple(name.of))
-            return "h" + ("″" if name in self.seconds else "′"), rest
-        if re.match(r"\d", name.of):
-            above = f"^{{{self._part(name.part)}}}" if name.part else ""
-            return "h", f"{above}_{{{self._links('h', _joined(name.of))}{name.about}}}"
-        return "h", f"_{{{re.sub(r'[_^{}]', '', self.symbol(name.of))}{name.about}}}"
 
     def choice(self, name: str, value: str) -> tuple[str, str]:
         """Return what a given that is a choice is about, and the word chosen."""

@@ -120,7 +120,10 @@ def _curves(axes: Axes, x: Array, curves: Mapping[str, tuple[int, Array]], words
         if known.size:
             ends[name] = float(known[-1])
     axes.set_yscale("log")
-    _widen(axes)
+    bottom, top = axes.get_ylim()
+    if top < 10.0**DECADES * bottom:  # at least one power of ten and a bit, so that it has divisions
+        middle, factor = math.sqrt(bottom * top), 10.0 ** (DECADES / 2.0)
+        axes.set_ylim(middle / factor, middle * factor)
     # the symbols of curves stand to the right of the field, with their lines, none over another
     low, high = (math.log10(y) for y in axes.get_ylim())
     apart = 3.6 / (axes.get_position().height * HEIGHT)  # 3.6 mm
@@ -133,14 +136,6 @@ def _curves(axes: Axes, x: Array, curves: Mapping[str, tuple[int, Array]], words
         y, right = height - over, axes.transAxes
         curve(axes, curves[name][0], [1.045, 1.075], [y, y], markevery=[0], clip_on=False, transform=right, **CURVE)
         axes.text(1.082, y, mathtext(words.symbol(name)), va="center", fontsize=TEXT, transform=right)
-
-
-def _widen(axes: Axes) -> None:
-    """Give an axis at least one power of ten and a bit, so that it has divisions."""
-    low, high = axes.get_ylim()
-    if high < 10.0**DECADES * low:
-        middle = math.sqrt(low * high)
-        axes.set_ylim(middle / 10.0 ** (DECADES / 2.0), middle * 10.0 ** (DECADES / 2.0))
 
 
 def _log(axes: Axes, label: str, words: Words | None = None) -> None:

@@ -107,7 +107,6 @@ def _foot(canvas: Canvas, scene: GearScene, wheel: Wheel, inside: complex) -> No
 
 
 def _divisions(scene: GearScene, wheel: Wheel) -> range:
-    """Return the numbers of the divisions."""
     return range(scene.solved.layout.rollings[wheel.number - 1].last + 1)
 
 

@@ -184,5 +184,4 @@ def _text(plain: str) -> str:
 
 
 def _quoted(text: str) -> str:
-    """Return a string literal."""
     return json.dumps(note.printable(text), ensure_ascii=False)

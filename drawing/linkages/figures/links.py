@@ -16,8 +16,8 @@ from typing import NamedTuple
 from ....plans.linkages.mechanism import FRAME, Prismatic, Revolute
 from ....plans.names import role
 from ...figure import GIVEN
-from ...shapes import Group, Line, Pen
-from ...symbols import block, bridge, centre_of_mass, fixed_pivot, guide, revolute, rigid_corner, slider_up, unit
+from ...shapes import Arc, Circle, Group, Line, Pen
+from ...symbols import block, fixed_pivot, guide, revolute, rigid_corner, slider_up, unit
 from ...view import Canvas
 from ..scene import Scene
 
@@ -249,7 +249,8 @@ def draw_links(
         for at, u, w in figure.corners:
             if _room(u, [w]) > STRAIGHT:
                 rays = rays_at(at, figures)  # the arc over a pin stands where no other link leaves the pin
-                canvas.add(bridge(at, u if _room(1j * u, rays) >= _room(-1j * u, rays) else -u, scene.style))
+                along = u if _room(1j * u, rays) >= _room(-1j * u, rays) else -u
+                canvas.add(Arc(at, 1.6 * scene.style.pair, cmath.phase(along), math.pi, Pen.MAIN, role="rigid"))
             else:
                 canvas.add(rigid_corner(at, u, w, scene.style, pin=_is_in(at, figure.pins)))
     held = scene.mechanism.frame_points if framed else ()
@@ -373,7 +374,7 @@ def _letter_beside(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) -
         start = _rim(scene, figure, foot, e)
         if reach > start + radius and not inside:
             canvas.add(Line(foot + e * start, at - e * radius, Pen.THIN, role="tie"))
-        canvas.add(centre_of_mass(at, point, scene.style))
+        canvas.group("centre", point, Circle(at, radius, Pen.MAIN, fill="black"))
     else:
         canvas.add(scene.point(at, point))
     canvas.label(scene.words.mark(point), at, clear=radius + 0.8)
