@@ -46,9 +46,6 @@ def refused(file: Path) -> str:
     return line
 
 
-# --- forms ------------------------------------------------------------------------------------------------------------
-
-
 def test_every_language_has_the_same_texts_with_the_same_placeholders_and_every_mistake_has_words() -> None:
     from kulman.plans.mistakes import book, rules
 
@@ -209,6 +206,8 @@ def test_a_class_is_a_row_for_each_student(tmp_path: Path) -> None:
     assert not second.lines
     assert third.lines["V_B"].value == pytest.approx(2.8)
     assert ["D4, V_B" in text for text in messages(third)] == [True]
+    for text in ("ПІБ;V_B;a_B, м/с²\nОдин;2,7;220\n", "ПІБ,V_B,a_B,курс;рік\nОдин,2.7,220,1;2\n"):  # names tell
+        assert [line.value for line in one(tmp_path, text).lines.values()] == pytest.approx([2.7, 220.0])
 
 
 @settings(max_examples=20, deadline=None)
@@ -228,9 +227,6 @@ def test_an_apostrophe_keeps_a_text_a_text_and_it_comes_back(tmp_path: Path) -> 
     assert read_grid(file).rows[0] == ("x", "=1+1", "-5 mm", "1,5")
     assert [harmless(text) for text in ("=A1", "@x", "+1", "V_B", "")] == ["'=A1", "'@x", "'+1", "V_B", ""]
     assert [letters(column) for column in (0, 25, 26, 701, 702)] == ["A", "Z", "AA", "ZZ", "AAA"]
-
-
-# --- files from elsewhere ---------------------------------------------------------------------------------------------
 
 
 def test_a_formula_is_read_by_its_stored_result_and_a_date_is_told_of(tmp_path: Path) -> None:

@@ -23,8 +23,6 @@ from kulman.variants.spreadsheets.files import read_grid
 
 TASK = "nau-slider-crank"  # variant 1: omega_2 = -28.9 rad/s, M_bal = 89.27 N*m, both seen from the reader
 
-# --- calculations: worked out, held against what stands behind them, and never run ------------------------------------
-
 
 @pytest.mark.parametrize(
     ("text", "makes"),
@@ -124,9 +122,6 @@ def test_slips_of_the_pen_in_the_sources_are_found(task: str, told: list[str]) -
     assert all(part in text and text.startswith("printed: ") for part, text in zip(told, problems, strict=True))
 
 
-# --- numbers: units, scale factors, last digits -----------------------------------------------------------------------
-
-
 def test_units_stand_in_cells(tmp_path: Path) -> None:
     lines = {"12,5 мм": (12.5, 1), "12.5mm": (12.5, 1), "1,25 см": (12.5, 1), " 12,50 ": (12.5, 2), "0": (0.0, 0)}
     for cell, (mm, decimals) in lines.items():
@@ -192,8 +187,6 @@ def test_a_bad_cell_is_told_of_with_its_place_and_the_rest_is_read(
     if what == "unit kg does not fit":  # a value with a wrong unit is taken in that of the form
         assert answers.lines["V_B"].value == pytest.approx(2.76)
 
-
-# --- senses: signs, words and arrows in any cell of any form; directions required, optional, or ignored ---------------
 
 RIGHT_WAY = (
     *("-28,79", "28.79 cw", "28,79 за годинниковою стрілкою", "↻ 28,79", "28,79 1/с по ч. с.", "− 28.79", "28.79 (-)"),

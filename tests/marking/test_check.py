@@ -80,9 +80,6 @@ def rows_of(variant: str) -> str:
     return "".join(f"{one.name};;;{abs(one.value or 0.0):.4g};;\n" for one in right)
 
 
-# --- reports ----------------------------------------------------------------------------------------------------------
-
-
 def test_right_answers_are_right_an_error_counts_once_and_a_mistake_is_named(tmp_path: Path, capsys: Printed) -> None:
     right = marked(capsys, answers(tmp_path))
     assert right["first_wrong"] is None
@@ -182,9 +179,6 @@ def test_what_cannot_be_checked_is_answered_in_one_line(
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert what in err
     assert list(tmp_path.iterdir()) == []
-
-
-# --- which variant it is ----------------------------------------------------------------------------------------------
 
 
 def test_another_variant_and_a_wrong_sheet_id_are_told_of(tmp_path: Path, capsys: Printed) -> None:
@@ -306,9 +300,6 @@ def test_another_variant_is_recognised_on_any_format_without_a_sheet_of_it(
     assert drawn == {"3"}
 
 
-# --- rubrics ----------------------------------------------------------------------------------------------------------
-
-
 def test_a_rubric_weighs_asks_and_requires_directions(tmp_path: Path, capsys: Printed) -> None:
     asked = rubric(tmp_path, 'out_of = 10\nasked = ["V_B", "V_BA", "a_B"]\n[weights]\nV_B = 2\n')
     found = marked(capsys, answers(tmp_path, {"V_BA": 1.0}), "--rubric", asked)
@@ -352,9 +343,6 @@ def test_a_wrong_rubric_is_refused_with_its_key(tmp_path: Path, text: str, what:
         read_rubric(rubric(tmp_path, text), "normal", ASKED)
 
     assert what in caught.value.text("en")
-
-
-# --- answers that are odd as a whole ----------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -413,9 +401,6 @@ def test_a_scale_factor_beside_which_a_mistake_is_beyond_all_floats_is_marked(tm
 
     assert messages(found.marked.answers) == []
     assert "mu_a" in {row.line.name for _, rows in found.parts for row in rows if row.answer}
-
-
-# --- the plans of a student over the right ones -----------------------------------------------------------------------
 
 
 def test_letters_lie_on_no_others_and_beside_their_vector() -> None:

@@ -201,9 +201,6 @@ def test_a_killed_run_leaves_no_process_and_goes_on(tmp_path: Path) -> None:
     assert "200" in done.stdout
 
 
-# --- hands that are too exact, or the same ----------------------------------------------------------------------------
-
-
 def test_calculated_segments_are_too_exact_and_drawn_or_rounded_ones_are_not(tmp_path: Path) -> None:
     assert [result.exact for result in marked(handed_in(tmp_path, 25))] == [False] * 25
     assert marked(handed_in(tmp_path, 1, drawn=False))[0].exact
@@ -277,9 +274,6 @@ def test_honest_hands_seldom_share_their_segments(step: float) -> None:
         pairs += len(list(shared(hands)))
 
     assert pairs <= 1
-
-
-# --- rosters ----------------------------------------------------------------------------------------------------------
 
 
 def test_the_form_of_a_class_has_its_students_and_reports_their_names(

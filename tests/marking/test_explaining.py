@@ -35,9 +35,6 @@ def instead(directions: bool = True, **factors: float) -> Explanation:
     return explained(EXAMPLE, [replace(a, value=(a.value or 0.0) * factors.get(a.name, 1.0)) for a in right])
 
 
-# --- one line or a few ------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("id", "factors"),
     [
@@ -128,9 +125,6 @@ def test_scales_of_the_students_own_are_those_that_count() -> None:
 def test_right_answers_have_no_explanation() -> None:
     for task in FEW:
         assert explained(task, right_answers(key(task))).candidates == ()
-
-
-# --- planted mistakes -------------------------------------------------------------------------------------------------
 
 
 def test_no_number_is_told_twice_and_no_pair_where_one_explains_as_much() -> None:
@@ -230,9 +224,6 @@ def test_planted_mistakes_are_found(tasks: list[str], count: int, directions: bo
     assert sum(one.carried for one in found) >= 0.95 * sum(one.downstream for one in found)
 
 
-# --- two mistakes -----------------------------------------------------------------------------------------------------
-
-
 def test_every_mistake_can_be_made_after_a_force_is_left_out() -> None:
     of = mistakes("scheme-10-shaper-two-blocks")
     left_out = [one for one in of.signatures if one.broken.mistake in ("M58", "M72")]
@@ -266,8 +257,6 @@ def test_two_mistakes_together_are_found_and_each_counts_once(first: str, second
         faulty = [line.name for line in exact.marking.lines if line.verdict.faulty]
         assert (len(faulty), faulty[0]) == (2, exact.marking.first_wrong)
 
-
-# --- any answers at all -----------------------------------------------------------------------------------------------
 
 ODD = [0.0, -0.0, 1e300, -1e300, 1e-300, 5e-324, math.inf, -math.inf, math.nan, 1.0, -1.0, 1e5, -3.0]
 

@@ -68,9 +68,6 @@ def sized(**factors: float) -> list[Answer]:
     return [replace(a, value=(a.value or 0.0) * factors.get(a.name, 1.0)) for a in answers]
 
 
-# --- honest hands -----------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("task", "count", "directions"),
     [
@@ -123,9 +120,6 @@ def test_right_answers_are_right_in_every_line() -> None:
 
         assert {line.verdict for line in marking.lines} == {Verdict.RIGHT}
         assert marking.first_wrong is None
-
-
-# --- an error counts once ---------------------------------------------------------------------------------------------
 
 
 def test_an_error_counts_once_and_what_follows_from_it_is_carried_or_right() -> None:
@@ -213,9 +207,6 @@ def test_moments_on_the_lever_that_are_lost_or_turned_are_found(id: str) -> None
         assert mark(book.key, answers).first_wrong == moved[0]
 
 
-# --- what is free to choose is never wrong ----------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("inverse", [False, True], ids=["value per mm", "mm per unit"])
 def test_the_scale_factor_and_its_convention_are_free(inverse: bool) -> None:
     for factor in (0.4, 0.5, 1.0, 1.7, 2.0):
@@ -259,9 +250,6 @@ def test_the_sense_of_other_rates_is_not_free_and_a_wrong_size_not_called_a_dire
     assert (marking["F_3"].about, marking["V_B"].about) == ("size", "direction")
 
 
-# --- slips of arithmetic, units and scales ----------------------------------------------------------------------------
-
-
 def test_slips_of_arithmetic_units_and_scales_are_told_from_wrong_segments() -> None:
     mu, v = MUS["velocity"], size("V_B")
     slip, segment = (Answer("V_B", mm=mm / mu, mu=mu, value=1.3 * v) for mm in (v, 1.3 * v))
@@ -294,9 +282,6 @@ def test_another_unit_of_a_right_value_is_no_slip_of_arithmetic(names: tuple[str
 
     assert verdicts(mark(EXAMPLE, answers), *names)[0] == "scale"
     assert alone(answers[-1]) == ["scale"]
-
-
-# --- tolerances -------------------------------------------------------------------------------------------------------
 
 
 def test_a_small_plan_makes_no_error_right() -> None:
@@ -373,9 +358,6 @@ def test_a_teachers_tolerance_and_presets_are_those_that_count() -> None:
         assert verdicts(mark(answer_key(EXAMPLE.paper, preset(name).tolerance), [a_B]), "a_B") == [verdict]
 
 
-# --- odd answers ------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("bad", [0.0, 1e300, math.inf, math.nan, -1e-300])
 def test_impossible_answers_stop_nothing(bad: float) -> None:
     of = key("scheme-09-shaper")
@@ -399,9 +381,6 @@ def test_marking_takes_answers_in_any_order_the_first_of_two_and_no_unknown_ones
 
     with pytest.raises(InputError, match="V_BB"):
         mark(EXAMPLE, [Answer("V_BB", value=1.0)])
-
-
-# --- the mark ---------------------------------------------------------------------------------------------------------
 
 
 def handed_in(sizes: Mapping[str, float], task: str = TASK, variant: str = "3") -> Marked:

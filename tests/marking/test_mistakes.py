@@ -154,8 +154,6 @@ def lever_motion(values: Mapping[str, Any]) -> Motion:
     return Motion(values["omega_3"], dot(values["V_A3A2"], u), values["epsilon_3"], dot(values["a_A3A2_r"], u))
 
 
-# --- closed forms -----------------------------------------------------------------------------------------------------
-
 VALUES = ("omega_2", "V_B", "epsilon_2", "a_B"), ("omega_3", "V_A3A2", "epsilon_3", "a_A3A2_r")  # of rod, of lever
 RIGHT, RIGHT_LEVER = rod(), lever()
 
@@ -222,8 +220,6 @@ def test_mistakes_that_answers_cannot_tell_apart_are_reported_together_until_a_s
     assert "M12" in told(found, **senses).ids
     assert "M09" not in {one.mistake for one in told(found, **senses).mistakes if one.change.how == "angle"}
 
-
-# --- single lines: what is broken, where, in which way, and what then becomes of the right values ---------------------
 
 MU_V, MU_A, MU_L = (MUS[plan] for plan in ("velocity", "acceleration", "position"))
 Values = Mapping[str, Any]
@@ -406,9 +402,6 @@ def test_another_given_changes_what_a_mistake_does() -> None:
     for name in ("omega_2", "epsilon_2"):  # the other assembly changes the senses, no sizes
         assert assembled[name] == pytest.approx(-right[name], rel=1e-12)
     assert abs(after(lighter, "M63", at="G_2")["G_2"]) == pytest.approx(2.0, rel=1e-12)  # whatever the task's g
-
-
-# --- which mistakes concern what --------------------------------------------------------------------------------------
 
 
 def test_what_concerns_a_construction_follows_from_its_steps() -> None:

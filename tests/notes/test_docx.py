@@ -127,9 +127,6 @@ def kinds(kind: type[Any]) -> list[Any]:
     return [block for block in document_of().blocks if isinstance(block, kind)]
 
 
-# --- the whole document -----------------------------------------------------------------------------------------------
-
-
 def test_a_document_is_read_by_the_library_with_its_looks() -> None:
     word = word_of(written())
     section = word.sections[0]
@@ -239,9 +236,6 @@ def test_a_class_has_its_notes_of_the_same_bytes_without_a_date(tmp_path: Path) 
     assert file.read_bytes() == docx_bytes(alone)
 
 
-# --- formulas ---------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("markup", "shown"),
     [
@@ -295,9 +289,6 @@ def test_letters_of_one_word_are_all_upright(markup: str, slanted: str, write: C
     assert "".join(c for c in letter if c.isalpha()) == slanted
 
 
-# --- pictures ---------------------------------------------------------------------------------------------------------
-
-
 def test_pictures_are_as_large_as_the_figures() -> None:
     word = word_of(written())
 
@@ -333,9 +324,6 @@ def test_a_figure_too_large_for_a_page_stands_on_a_larger_one() -> None:
     assert disordered(body) == []
     (mark,) = (m.get(f"{W}name") for m in body.iter(f"{W}bookmarkStart") if m.get(f"{W}name").startswith("_Figure"))
     assert f" REF {mark} \\h " in [order.text for order in body.iter(f"{W}instrText")]
-
-
-# --- any words --------------------------------------------------------------------------------------------------------
 
 
 def few_words(**title: str) -> Document:

@@ -155,8 +155,6 @@ def test_what_cannot_be_done_is_said_in_a_line(
     assert list(tmp_path.iterdir()) == []
 
 
-# --- prints, read back from their PDF ---------------------------------------------------------------------------------
-
 COINCIDES = 0.01  # mm
 FIGURES = 3  # of a sheet that are laid over it: each is drawn with its whole sheet
 FEW = {TASK: "velocity", "karpenko-hoist": "scheme"}

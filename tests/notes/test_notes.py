@@ -117,10 +117,8 @@ def test_a_note_says_everything_in_its_language(lang: str) -> None:
 
     assert keys[0] == keys[1] == keys[2]
     assert_everything_is_said(note_of(lang), lang)
-
-
-def test_what_is_measured_recomputes_and_is_what_is_solved() -> None:
-    assert_measured_as_solved(note_of("en"), TASK)
+    if lang == "en":
+        assert_measured_as_solved(note_of(lang), TASK)
 
 
 def test_a_note_becomes_a_document_of_the_same_bytes_every_time(tmp_path: Path) -> None:
@@ -154,9 +152,6 @@ def test_steps_and_equations_stand_before_their_figure() -> None:
     assert isinstance(of_forces, Equations)
     assert any("ΣM" in " ".join(line) for line in of_forces.lines)
     assert [type(block) for block in blocks[-2:]] == [Heading, Steps]  # the conclusions
-
-
-# --- words: of students, of task files, of scale factors --------------------------------------------------------------
 
 
 @cache
@@ -212,9 +207,6 @@ def test_a_word_of_the_task_stands_on_the_sheet_and_in_the_note(
     heading = blocks[said - 1]
     assert isinstance(heading, Heading)
     assert heading.text in ("Примітка", "Примечание", "Note", "Примітки", "Примечания")
-
-
-# --- conclusions of gears and hoists: what they say is what is solved -------------------------------------------------
 
 
 def concluded(case: Case, lang: str = "en") -> tuple[str, ...]:
@@ -281,8 +273,6 @@ def test_scale_of_specific_sliding_is_that_of_the_figure(format: str) -> None:
     assert value[0] in steps.texts[-1]
 
 
-# --- lines in typst: where they may end, which letters are slanted ----------------------------------------------------
-
 TIE = "\u00a0"
 
 
@@ -338,9 +328,6 @@ def test_a_figure_that_would_be_too_small_stands_on_a_larger_sheet_at_the_end() 
     assert 'image("2.svg", width: 204.0000mm)' in folded
     assert 'numbering: _ => "2"' in folded
     assert "reduced to 68 %" in folded
-
-
-# --- the command ------------------------------------------------------------------------------------------------------
 
 
 def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:

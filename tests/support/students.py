@@ -401,9 +401,6 @@ def accepted(id: str) -> set[str]:
     return {id, *ALIKE.get(id, ())}
 
 
-# --- marked ----------------------------------------------------------------------------------------------------------
-
-
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """What became of one student; shares of lines are those that were written."""
