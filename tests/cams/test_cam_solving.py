@@ -65,15 +65,9 @@ def test_given_radius_has_a_range_of_offsets_or_a_reason_why_there_is_none(solut
         at_end = solve(TASK, set={"r_0": "60 mm", "e": f"{wide[name]!r} m"}).solved.values
         slack = [at_end[f"gamma_{phase}_min"] - at_end[f"gamma_{phase}"] for phase in ("rise", "fall")]
         assert min(slack) == pytest.approx(0.0, abs=1e-9)
-
-
-def test_a_follower_that_is_pressed_to_one_side_alone_has_no_more_than_a_right_angle() -> None:
-    assert solve(TASK, set={"e": 100})["gamma_rise_min"].value == pytest.approx(math.pi / 2)
-
-
-def test_the_fall_may_have_another_part(solution: Solution) -> None:
+    aside = solve(TASK, set={"e": 100})  # pressed to one side alone: no more than a right angle
+    assert aside["gamma_rise_min"].value == pytest.approx(math.pi / 2)
     other = solve(TASK, set={"u_fall": 0.6})
-
     assert other["mu_s"].value == solution["mu_s"].value
     assert other["r_0"].value != solution["r_0"].value
 
