@@ -54,7 +54,6 @@ def chords(law: str, u: str = "1/3") -> Convergence:
 )
 def test_chords_are_of_second_order_with_jumps_on_lines_and_of_first_between(law: str, u: str) -> None:
     found = chords(law, u)
-
     for quantity in (S_MAX, R_0):
         second, first = (found.order(where, quantity) for where in (NODES, BETWEEN))
         if law == "constant":  # its velocity is straight: chords find the stroke exactly
@@ -115,9 +114,7 @@ def test_sums_boards_and_closed_forms_err_as_they_should() -> None:
 
 def test_a_better_hand_errs_less_and_takes_more_sections() -> None:
     hands = {name: preset(name).hand for name in ("cad", "lenient")}
-
     found = convergence(cam(), hands, (S_MAX, CLOSED), (12,), (6, 18, 72))
-
     assert (found.hands["cad", CLOSED] < 0.5 * found.hands["cad", S_MAX]).all()
     cad, lenient = (found.hands[name, S_MAX] for name in ("cad", "lenient"))
     assert (cad < 0.3 * lenient).all()
@@ -146,9 +143,7 @@ def test_a_drafting_machine_draws_along_the_edges_without_an_error_of_direction(
 def test_lines_at_jumps_only_are_late_and_err_as_far_as_they_are() -> None:
     solved, found = cam(), robustness(cam(), {}, (12, 24))
     division, middle = solved.motion.division(12), found.beside.index(0.0)
-
     moved = late(solved, division, 0.25).angles - division.angles
-
     assert [*np.flatnonzero(moved)] == [*division.jumps]
     assert np.degrees(moved[list(division.jumps)]) == pytest.approx([2.25, 2.25])
     assert found.missed[12, S_MAX][middle] == pytest.approx(1.0 / 64.0, rel=1e-9)

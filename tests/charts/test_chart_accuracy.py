@@ -161,13 +161,6 @@ def test_a_hand_draws_the_plans_of_every_position_as_long() -> None:
     assert found[0] == pytest.approx(found[1], rel=1e-6)
 
 
-def test_places_of_a_cycle_are_off_its_ends() -> None:
-    whole = of_task("scheme-18-hydraulic-drive")
-    places = places_of(whole, 10)
-    low, high = sorted((whole.range.low, whole.range.high))
-    assert low < places.min() < places.max() < high
-
-
 def test_errors_are_found_to_extended_precision() -> None:
     whole = of_task("madi-four-bar")
     places = places_of(whole, 3)
@@ -300,9 +293,7 @@ def test_condition_is_that_of_a_solution_at_the_same_place() -> None:
     values = task.values(None, {})
     whole = cycle(task.mechanism, values, task.plans, 12, start=values["phi"])
     mus = dict.fromkeys(("position", "velocity", "acceleration", "forces_23", "forces_1", "lever"), 1.0)
-
     found = stability(whole, ("V_C", "a_C", "F_bal"), mus, NORMAL)
-
     expected = solve("madi-four-bar", condition=True).conditions
     for name, values_of in found.conditions.items():
         assert values_of[0] == pytest.approx(expected[name].value, rel=1e-9)
@@ -314,9 +305,7 @@ def test_condition_grows_as_one_over_the_square_of_the_sine_towards_a_limit() ->
     whole = crank(0.5, 0.5, 0.1)
     limit, _ = whole.reach.limits  # nothing assembles from the first one to the second
     near = _at(whole, limit - 10.0 ** -np.arange(2.0, 7.0))
-
     found = look(near, "V_B")
-
     products = found.conditions["V_B"] * found.sines**2
     assert found.sines[-1] < 2e-3
     assert products.max() / products.min() < 1.01
@@ -395,7 +384,6 @@ def test_costs_are_those_of_a_mechanism_without_that_mass(name: str) -> None:
 
 def test_simplifications_are_those_of_each_part_and_of_all_of_a_kind() -> None:
     found, without_weight = depth(of_task(SHAPER), 1.0), depth(of_task("madi-four-bar"), 1.0)
-
     keys = [cost.key for cost in found.costs]
     assert keys[:8] == ["F_i3", "G_3", "M_i3", "F_i4", "G_4", "M_i4", "F_i5", "G_5"]
     assert keys[8:] == [FORCES, MOMENTS, WEIGHTS, INERTIA, ALL]

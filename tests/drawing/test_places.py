@@ -1,5 +1,6 @@
-"""Places: no label covers anything, views stay in the area and apart; distances that shapely measures are the judge."""
+"""Places: no label covers anything, views stay apart, areas are hatched; judged by what many places tell."""
 
+import cmath
 import itertools
 import math
 import random
@@ -8,8 +9,13 @@ import numpy as np
 import pytest
 import shapely
 
-from kulman.drawing.labels import Labels, Obstacles, Request, place
+from kulman.drawing.areas import beside, clipped, coarser, hatched, strokes, thinned
+from kulman.drawing.formats import STYLES
+from kulman.drawing.labels import Labels, Request, place
 from kulman.drawing.packing import Placement, order_kept, pack
+from kulman.drawing.shapes import Circle, Group, Line, Pen, Polyline, Text
+from kulman.drawing.spots import FINE, MAIN, Obstacles, Surroundings, first_clear
+from kulman.drawing.view import Canvas
 
 GAP = 0.6  # mm, of labels
 APART = 8.0  # mm, of views
@@ -27,6 +33,11 @@ COURSEWORK = {
         (111, 95), (132, 43), (358, 96), (76, 105), (104, 81), (175, 90), (148, 60), (148, 67), (301, 108), (416, 102),
         (283, 95), (98, 64), (98, 86), (98, 65), (174, 90), (170, 116), (234, 47), (148, 130), (148, 80)],
 }  # fmt: skip
+STAR = [cmath.rect(40.0, 2.0 * cmath.pi * 2 * k / 5) + 3 - 7j for k in range(5)]  # crosses itself: a hole in the middle
+ALONG = cmath.rect(1.0, 0.7)
+BOXES = [(-4.0, -3.0, 5.0, 2.0), (3.0, 0.0, 9.0, 6.0), (-20.0, 4.0, -10.0, 30.0)]
+SIZE = 6.0, 4.0
+CIRCLE = tuple(cmath.rect(40.0, math.radians(k)) for k in range(0, 271, 1))
 
 
 def turned(length: float, degrees: float) -> complex:
@@ -210,12 +221,6 @@ def test_labels_stay_inside_the_bounds_and_none_has_the_name_of_another() -> Non
         place([Request("A", 4, 4, 0j), Request("A", 4, 4, 9j)], Obstacles())
 
 
-@pytest.mark.soak
-def test_hundreds_of_labels_find_their_places() -> None:
-    nodes = [complex(12 * (k % 20), 12 * (k // 20)) for k in range(200)]
-    stand_clear([Request(str(k), 4, 4, p) for k, p in enumerate(nodes)], Obstacles(circles=[(p, 1.0) for p in nodes]))
-
-
 @pytest.mark.parametrize(("afield", "failed"), [(True, ()), (False, ("A",))])
 def test_a_label_goes_far_afield_only_where_it_may(afield, failed):
     walls = [(complex(-50, y), complex(50, y)) for y in range(-50, 51, 3)]
@@ -368,3 +373,159 @@ def test_pages_are_as_few_and_as_full_as_possible_and_what_fits_nowhere_has_no_p
     assert pack([(50, 50), (300, 50)], (0, 0, 200, 200), gap=APART, pages=None) is None
     assert pack([], (0, 0, 200, 200)) == []
     assert pack([(200, 200)], (0, 0, 200, 200)) == [Placement(0, 0.0, 0.0)]
+
+
+def places(a: complex, b: complex, count: int = 2000) -> np.ndarray:
+    """Places along a line, none of them at its ends."""
+    return a + (b - a) * (np.arange(count) + 0.5) / count
+
+
+def surrounded(at: np.ndarray, outline: list[complex]) -> np.ndarray:
+    """Whether an odd number of sides of a closed line is to the right of each place."""
+    sides = np.zeros(at.shape, dtype=int)
+    for p, q in zip(outline, outline[1:] + outline[:1], strict=True):
+        level = (p.imag > at.imag) != (q.imag > at.imag)
+        x = p.real + (q.real - p.real) * (at.imag - p.imag) / (q.imag - p.imag)
+        sides += level & (x > at.real)
+    return sides % 2 == 1
+
+
+def within(at: np.ndarray, box: tuple[float, float, float, float]) -> np.ndarray:
+    x0, y0, x1, y1 = box
+    return (at.real > x0) & (at.real < x1) & (at.imag > y0) & (at.imag < y1)
+
+
+def test_strokes_cover_what_an_odd_number_of_sides_surrounds() -> None:
+    found = strokes(STAR, ALONG, 0.5)
+    assert all(surrounded(places(line.a, line.b, 50), STAR).all() for line in found)
+    assert all((line.b - line.a) / abs(line.b - line.a) == pytest.approx(ALONG) for line in found)
+    corner = np.arange(-45.0, 45.0, 0.1)
+    area = surrounded(np.add.outer(corner, 1j * corner) + 3 - 7j, STAR).sum() * 0.01
+    assert sum(abs(line.b - line.a) for line in found) * 0.5 == pytest.approx(area, rel=0.01)
+    levels = {round((line.a * ALONG.conjugate()).imag / 0.5, 6) for line in found}
+    assert all(level == round(level) for level in levels)
+
+
+@pytest.mark.parametrize("turn", [0.3, 2.0, 4.5])
+def test_a_box_is_hatched_inside_of_all_sides_only(turn: float) -> None:
+    box, sides = (-20.0, -12.0, 25.0, 9.0), [(cmath.rect(1.0, turn), -6.0), (cmath.rect(1.0, turn + 2.0), -8.0)]
+
+    lines = [line for line in hatched(sides, box, 2.5, "centre").shapes if isinstance(line, Line)]
+
+    def free(at: np.ndarray) -> np.ndarray:
+        return np.logical_and.reduce([within(at, box), *((at * n.conjugate()).real > least for n, least in sides)])
+
+    assert len(lines) > 4
+    for line in lines:
+        u = (line.b - line.a) / abs(line.b - line.a)
+        assert u == pytest.approx((1 + 1j) / 2**0.5)
+        assert free(places(line.a, line.b)).all()
+        assert not free(np.array([line.a - 0.01 * u, line.b + 0.01 * u])).any()
+    levels = sorted((line.a * (1 - 1j)).imag / 2**0.5 for line in lines)
+    assert np.diff(levels) == pytest.approx(2.5)
+    assert hatched([(1 + 0j, 5.0), (-1 + 0j, 5.0)], (-9.0, -9.0, 9.0, 9.0), 2.5, "centre").shapes == ()
+
+
+def test_lines_are_clipped_and_broken_where_boxes_say() -> None:
+    random = np.random.default_rng(3)
+    for a, b in (random.uniform(-25, 25, (60, 2)) + 1j * random.uniform(-25, 25, (60, 2))).tolist():
+        at = places(a, b)
+        inside = within(at, BOXES[0])
+        part, pieces = clipped(a, b, BOXES[0]), beside(a, b, BOXES)
+
+        assert (part is None) == (not inside.any())
+        if part is not None:
+            assert part == pytest.approx((at[inside][0], at[inside][-1]), abs=0.05)
+        hidden = np.logical_or.reduce([within(at, box) for box in BOXES])
+        shown = np.zeros(len(at), dtype=bool)
+        share = ((at - a) / (b - a)).real
+        for first, last in pieces:
+            low, high = (((end - a) / (b - a)).real for end in (first, last))
+            assert low < high
+            shown |= (share > low) & (share < high)
+        assert np.count_nonzero(shown == hidden) <= 2 * len(BOXES)
+    assert (clipped(1j, 1j, BOXES[0]), clipped(9 + 0j, 9 + 0j, BOXES[0])) == ((1j, 1j), None)  # a place as a line
+    assert beside(-9 + 2j, 9 + 2j, BOXES[:1]) == [(-9 + 2j, 9 + 2j)]  # along the side of a box
+
+
+def test_leaders_count_what_they_cross_and_thin_strokes_that_they_run_along() -> None:
+    random = np.random.default_rng(5)
+    main, thin = (random.uniform(-40, 40, (30, 2)) + 1j * random.uniform(-40, 40, (30, 2)) for _ in range(2))
+    starts, heads = (random.uniform(-30, 30, 50) + 1j * random.uniform(-30, 30, 50) for _ in range(2))
+    centres, boxes = [3 + 4j, -20 + 5j], [(10.0, 10.0, 16.0, 14.0)]
+    around = Surroundings(Obstacles(main, thin, [(c, 4.0) for c in centres], boxes), 0.6)
+    along = Surroundings(Obstacles(thin=[(0j, 20 + 0j)]), 0.6)
+
+    found = around.crossed(heads, starts)
+
+    def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
+        return np.sign(((q - p).conj() * (r - p)).imag)
+
+    a, b = main.T
+    p, q = starts[:, np.newaxis], heads[:, np.newaxis]
+    crossed = (side(a, b, p) != side(a, b, q)) & (side(p, q, a) != side(p, q, b))
+    number = crossed.sum(axis=1)
+    for k, (start, head) in enumerate(zip(starts.tolist(), heads.tolist(), strict=True)):
+        at = places(start, head, 20000)
+        number[k] += sum(bool((np.abs(at - centre) < 4.0).any()) for centre in centres)
+        number[k] += bool(within(at, boxes[0]).any()) and not within(np.array([start]), boxes[0])[0]
+    assert np.array_equal(found, number)
+    assert {MAIN, FINE} <= {*around.kind.tolist()}
+    assert along.crossed(np.array([12 + 0.1j, 12 + 3j]), np.array([5 + 0j, 5 + 0.1j])).tolist() == [5, 0]
+
+
+def apart(place: complex, things: np.ndarray) -> float:
+    """How far a box about a place is from the nearest of many places of what is drawn: by formula."""
+    beyond_x = np.maximum(np.abs(things.real - place.real) - 3.0, 0.0)
+    beyond_y = np.maximum(np.abs(things.imag - place.imag) - 2.0, 0.0)
+    return float(np.min(np.hypot(beyond_x, beyond_y)))
+
+
+@pytest.mark.parametrize("kind", ["segments", "thin", "circles", "boxes"])
+def test_the_first_clear_place_is_clear_and_those_before_are_not(kind: str) -> None:
+    random = np.random.default_rng(7)
+    tried = (random.uniform(-30, 30, 200) + 1j * random.uniform(-30, 30, 200)).tolist()
+    ends = random.uniform(-30, 30, (10, 4))
+    discs = np.outer(np.linspace(0.0, 5.0, 40), np.exp(2j * np.pi * np.arange(200) / 200)).ravel()
+    across, up = np.meshgrid(np.linspace(0.0, 9.0, 60), np.linspace(0.0, 7.0, 60))
+    lines = np.concatenate([places(complex(a, b), complex(c, d), 400) for a, b, c, d in ends])
+    firsts = ends[:, 0] + 1j * ends[:, 1]
+    obstacles, things = {
+        "circles": ([(at, 5.0) for at in firsts.tolist()], np.add.outer(firsts, discs).ravel()),
+        "boxes": ([(a, b, a + 9.0, b + 7.0) for a, b, *_ in ends], np.add.outer(firsts, across + 1j * up).ravel()),
+    }.get(kind, (ends[:, ::2] + 1j * ends[:, 1::2], lines))
+
+    found = first_clear(tried, SIZE, Obstacles(**{kind: obstacles}), 1.0)
+
+    assert found is not None
+    first = next(place for place in tried if apart(place, things) > 1.2)
+    assert apart(found, things) > 0.99
+    assert tried.index(found) <= tried.index(first)
+    assert first_clear([0j, 1 + 1j], SIZE, Obstacles(circles=[(0j, 50.0)]), 1.0) is None
+
+
+def test_a_letter_is_written_once_and_keeps_others_away() -> None:
+    canvas = Canvas(STYLES["A3"])
+    canvas.add(Line(-9 + 0j, 9 + 0j, Pen.THIN), Circle(0j, 1.0, Pen.MAIN))
+    written = [canvas.write("O", [0j, 4j, 9j, 10 + 10j], 3.5) for _ in range(4)]
+    letters = [shape for shape in canvas.shapes if isinstance(shape, Text)]
+    assert written == [True, True, True, False]
+    assert len({letter.at for letter in letters}) == 3
+
+
+@pytest.mark.parametrize("within", [0.02, 0.1, 1.0])
+def test_a_thinned_curve_stays_near_all_its_points(within: float) -> None:
+    found = thinned(CIRCLE, within)
+    line = shapely.LineString([(p.real, p.imag) for p in found])
+    assert max(line.distance(shapely.Point(p.real, p.imag)) for p in CIRCLE) <= within + 1e-12
+    assert len(found) < 2.0 + math.radians(270) / math.acos(1.0 - within / 40.0)
+    assert (found[0], found[-1]) == (CIRCLE[0], CIRCLE[-1])
+    assert set(found) <= set(CIRCLE)
+    assert thinned((1j,) * 9, within) == (1j, 1j)  # a closed curve of points in one place
+
+
+def test_only_curves_of_many_points_are_changed() -> None:
+    line, short = Line(0j, 1 + 0j, Pen.THIN), Polyline(CIRCLE[:5], Pen.MAIN)
+    group = coarser(Group((line, short, Polyline(CIRCLE, Pen.MAIN)), "curve", "s"), 0.1)
+    assert isinstance(group, Group)
+    assert group.shapes == (line, short, Polyline(thinned(CIRCLE, 0.1), Pen.MAIN))

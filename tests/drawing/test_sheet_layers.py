@@ -198,9 +198,7 @@ def test_layers_change_nothing_that_is_seen_and_on_a_sheet_each_view_is_one_grou
     """Where white covers lines, it covers them in layers too, but for lines that end in the circle of a node."""
     drawn = sheet(TASK, only="position,velocity,forces", format="A1")
     [page] = drawn.pages
-
     apart, whole = (picture(pdf(one)) for one in (replace(page, layers=True), page))
-
     root = etree.fromstring(svg_text(page).encode())
     groups = [child.get("data-name") for child in root if child.get("class") == "view"]
     assert np.mean(np.abs(apart.astype(int) - whole) > 32) < 2e-5

@@ -190,7 +190,6 @@ def test_every_choice_of_a_bundled_task_has_words_that_are_looked_up_by_key() ->
 def test_every_notation_has_the_same_keys_and_every_task_names_one() -> None:
     tables_of = {name: packaged(PACKAGE, "notations", name) for name in notations()}
     first = next(iter(tables_of.values()))
-
     for school in tables_of.values():
         assert school.keys() == first.keys()
         assert school["letters"].keys() == first["letters"].keys()

@@ -8,7 +8,7 @@ from lxml import etree
 
 from kulman.drawing.formats import FORMATS, block_box, drawing_area, format_named, pens_for, reserved_boxes
 from kulman.drawing.page import Page, extent
-from kulman.drawing.shapes import Group, Line, Pen, Polyline, Text
+from kulman.drawing.shapes import Line, Pen, Polyline, Text
 from kulman.drawing.svg import svg_text
 from kulman.drawing.titleblock import Stamp, frame_shapes, named, words
 from kulman.scales.errors import InputError
@@ -85,9 +85,7 @@ def written(page: Page, *names: str) -> list[Text]:
 
 @pytest.mark.parametrize(("name", "norm", "first"), EVERY)
 @pytest.mark.parametrize("language", STAMPS)
-def test_no_text_touches_a_line_or_another_text_and_heights_are_of_the_row(
-    name: str, language: str, norm: str, first: bool
-) -> None:
+def test_texts_touch_nothing_and_have_heights_of_the_row(name: str, language: str, norm: str, first: bool) -> None:
     drawn = page(name, language, norm, first)
     texts = [(text, shapely.box(*extent((text,)))) for text in written(drawn)]
     strokes = []
@@ -117,9 +115,7 @@ def test_fields_are_blank_where_nothing_is_said_and_hold_braces_as_they_are() ->
 def test_a_long_title_shrinks_and_wraps_and_a_name_that_no_letters_can_fit_is_refused() -> None:
     short = replace(STAMPS["uk"], title="Важільний механізм", document_type="")
     long = replace(short, title=STAMPS["uk"].title + " і ще одного механізму з кулісою")
-
     titles = [written(page("A3", "uk", stamp=stamp), "title") for stamp in (short, long)]
-
     assert [{text.height for text in title} for title in titles] == [{5.0}, {3.5}]
     assert len(titles[1]) == 4
     with pytest.raises(InputError) as problem:
@@ -135,24 +131,6 @@ def test_captions_exist_in_every_language_and_are_words_of_it() -> None:
     assert not set("".join(tables["ru"].values())) & set("іїєґ")
     assert all(caption.isascii() for caption in tables["en"].values())
     assert "Лист" not in " ".join(tables["uk"].values())
-
-
-@pytest.mark.parametrize(
-    ("name", "corner", "angle"), [("A3", "left", 180), ("A4", "left", 180), ("A3-portrait", "right", -90)]
-)
-def test_the_designation_stands_turned_in_the_upper_corner(name: str, corner: str, angle: float) -> None:
-    drawn = page(name, "uk")
-
-    group = next(part for part in drawn.shapes if isinstance(part, Group) and part.name == "column-26")
-
-    (text,) = (part for part in group.shapes if isinstance(part, Text))
-    x0, y0, x1, y1 = extent((text,))
-    frame = drawing_area(FORMATS[name])
-    wide, high = (14, 70) if angle == -90 else (70, 14)
-    inside = (frame[2] - wide, frame[2]) if corner == "right" else (frame[0], frame[0] + wide)
-    assert inside[0] < x0 < x1 < inside[1]
-    assert frame[3] - high < y0 < y1 < frame[3]
-    assert round(text.angle * 57.29577951308232) == angle
 
 
 @pytest.mark.parametrize(
@@ -196,9 +174,7 @@ def test_a_format_is_found_as_people_write_it_and_an_unknown_one_refused_with_th
 
 
 @pytest.mark.parametrize(("name", "norm", "first"), EVERY)
-def test_every_line_of_block_and_frame_is_where_the_standard_has_it_in_corners_that_are_reserved(
-    name: str, norm: str, first: bool
-) -> None:
+def test_blocks_and_frames_are_where_the_standard_has_them(name: str, norm: str, first: bool) -> None:
     drawn, sheet, (block, table) = page(name, "uk", norm, first), FORMATS[name], BLOCKS[norm, first]
     x0, y0, x1, y1 = drawing_area(sheet, norm)
     left, low = block_box(sheet, norm, first)[:2]

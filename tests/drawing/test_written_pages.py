@@ -3,7 +3,6 @@
 import math
 import re
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import replace
 from io import BytesIO
@@ -157,12 +156,6 @@ def test_what_is_not_a_number_is_refused(bad: float) -> None:
                 write(page(shape(bad)))
 
 
-def test_the_same_page_gives_the_same_bytes_later() -> None:
-    first = [svg_text(page(*ONE_OF_EACH)).encode(), pdf(page(*ONE_OF_EACH)).getvalue()]
-    time.sleep(1.1)
-    assert [svg_text(page(*ONE_OF_EACH)).encode(), pdf(page(*ONE_OF_EACH)).getvalue()] == first
-
-
 def test_a_pdf_has_lines_curves_and_texts_where_they_were_drawn_in_the_embedded_font() -> None:
     ends = [(20 + 5j, 415 + 292j), (33.333333 + 7j, 100 + 99.99999j)]
     texts = Text(60 + 200j, "Прискорення точки S_{2}", 5.0), Text(60 + 100j, "Затв.", 2.5, squeeze=0.5)
@@ -276,12 +269,10 @@ def test_a_failed_writer_leaves_the_old_file(
 def test_a_full_disk_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     target = tmp_path / "x.svg"
     target.write_text("old")
-
     with monkeypatch.context() as patch:
         patch.setattr(type(target), "open", lambda path, mode: open("/dev/full", "wb"))  # noqa: SIM115
         with pytest.raises(InputError) as problem:
             write_pages([sheet()], target)
-
     assert problem.value.key == "output-refused"
     assert "No space" in problem.value.text("en")
     assert target.read_text() == "old"

@@ -217,11 +217,9 @@ def test_limit_that_an_error_names_is_the_limit() -> None:
     with pytest.raises(InputError) as caught:
         complete({**BASIC, "a_w": least * 0.999, "x_1": 0.2})
     assert caught.value.data["least"] == f"{least * 1e3:.7g}"
-
     with pytest.raises(InputError) as caught:
         complete({**BASIC, "x_1": 0.0, "x_2": -2.0})
     x_sum = float(caught.value.data["least"])
-
     assert geometry(madi(x_1=0.0, x_2=x_sum + 1e-4), ("alpha_w",))["alpha_w"] > 0.0
     assert not geometry(madi(x_1=0.0, x_2=x_sum - 1e-4), ("alpha_w",))["alpha_w"] >= 0.0
 
@@ -262,9 +260,7 @@ def test_undercut_and_thickness_are_those_of_the_teeth(count: int) -> None:
         assert own["tip_1"].ok == (thickness >= 0.3 * values["m"])
 
 
-def test_sliding_at_the_ends_and_in_the_pole_and_the_distance_of_centres_in_four_other_ways(
-    pairs: dict[str, np.ndarray],
-) -> None:
+def test_sliding_at_the_ends_and_distances_of_centres_in_other_ways(pairs: dict[str, np.ndarray]) -> None:
     found = geometry(pairs)
 
     for own, mate, end, other in (("12", "21", "01", "12"), ("21", "12", "12", "01")):
@@ -300,7 +296,6 @@ def test_standard_rack_is_taken_where_no_other_is_given_and_limits_are_allowed_t
 def test_hardened_tips_are_thicker_what_is_on_its_limit_is_in_order_what_is_undefined_is_not() -> None:
     values = madi(z_1=12.0, x_1=0.6, x_2=0.2)
     soft, hard = (verdicts(values, pair)["tip_1"] for pair in (GearPair(), GearPair(material=HARDENED)))
-
     assert (soft.ok, hard.ok) == (True, False)
     assert (soft.limit, hard.limit) == pytest.approx((0.3 * values["m"], 0.4 * values["m"]))
     assert soft.limit < geometry(values)["s_a1"] < hard.limit

@@ -184,7 +184,6 @@ def test_broken_limits_and_the_contact_ratio_of_cut_flanks_are_told_in_the_table
     undercut = GearCase((("x_1", 0.1), ("x_2", 0.2)), lang="en", only=PARTS)
     cut = GearCase((("z_1", 8), ("z_2", 25), ("x_1", 0), ("x_2", 0)), lang="en", only=PARTS)
     broken, lacking = ({tuple(row[:2]): row[2:] for row in rows(case.sheet["checks"])[1:]} for case in (undercut, cut))
-
     assert faults(undercut, undercut.sheet, "Z7") == faults(cut, cut.sheet, "Z7") == []
     assert broken["Undercutting, z_{1}", "x_{1} ≥ x_{min 1}"][-1] == "not satisfied"
     assert broken["Undercutting, z_{2}", "x_{2} ≥ x_{min 2}"][-1] == "satisfied"

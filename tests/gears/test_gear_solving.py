@@ -349,7 +349,6 @@ def test_numbers_of_the_standard_rack_need_not_be_given_and_may_be_set() -> None
 )
 def test_a_variant_may_give_the_centre_distance_or_the_sum_in_the_place_of_shifts(given: str, shifts: int) -> None:
     solution = solve(task_of(edited((BOTH, given))))
-
     found = [name for name in ("x_1", "x_2") if name in solution]
     assert len(found) == shifts
     for line in given.split("\n")[:-1]:
@@ -387,22 +386,19 @@ def test_what_a_user_sets_stands_in_the_place_of_the_shifts_of_the_variant() -> 
     assert load_task(TASK).resolve("17", {"a_w": 92})["m"] == 0.005
 
 
-@pytest.mark.parametrize(
-    ("settings", "message"),
-    [
+def test_bad_values_of_a_user_are_told_in_one_line() -> None:
+    for settings, message in (
         ({"z_1": 2}, "z_1 = 2: a wheel has a whole number of teeth, from 3 to 10000"),
         ({"alpha": 40}, "alpha = 40°: expected a profile angle of the rack from 10° to 35°"),
         ({"x_1": 3}, "x_1 = 3 leaves wheel 1 no tooth"),
         ({"a_w": 80}, "a_w = 80 mm: the pair cannot mesh"),
         ({"x_sum": 100}, "from x_sum follows x_1 = "),
         ({"m": 0}, "m: '0': must be greater than zero"),
-    ],
-)
-def test_bad_values_of_a_user_are_told_in_one_line(settings: dict[str, float], message: str) -> None:
-    with pytest.raises(InputError) as refused:
-        solve(TASK, set=settings)
-    assert message in refused.value.text("en")
-    assert len({refused.value.text(language) for language in LANGUAGES}) == len(LANGUAGES)
+    ):
+        with pytest.raises(InputError) as refused:
+            solve(TASK, set=settings)
+        assert message in refused.value.text("en")
+        assert len({refused.value.text(language) for language in LANGUAGES}) == len(LANGUAGES)
 
 
 @pytest.mark.parametrize(
@@ -413,7 +409,7 @@ def test_bad_values_of_a_user_are_told_in_one_line(settings: dict[str, float], m
         pytest.param({"m": "4..5/0.2"}, (4, 4.2, 4.4, 4.6, 4.8, 5), id="a range with a step"),
     ],
 )
-def test_new_variants_have_modules_of_the_standard_unless_a_step_is_said(
+def test_new_variants_have_standard_modules_unless_a_step_is_said(
     asked: dict[str, str], modules: tuple[float, ...]
 ) -> None:
     span, luck = _ranges_of(load_task(TASK), asked)["m"], random.Random(5)

@@ -88,7 +88,6 @@ def test_a_blank_tells_what_is_given_and_no_result(only: str | None) -> None:
     views = [view for page in handout(TASK, only=only, lang="en").pages for view in page.shapes]
     shown = leaves(view for view in views if getattr(view, "role", "") == "view")
     said = [text.markup for text in shown if isinstance(text, Text)]
-
     results = solve(TASK, only=only)
     assert only == "sliding" or {"5", "20", "0.85", "0.2", "15"} <= set(said)
     for name in ("a_w", "d_a1", "d_w2", "s_1", "h", "p_b", "rho_p1"):
@@ -107,7 +106,6 @@ def test_every_stage_draws_something_more(only: str) -> None:
 
 def test_stages_draw_something_and_leave_what_the_work_comes_to() -> None:
     views = [view for view in drawn().views if view.stages]
-
     assert [view.name for view in views] == ["meshing", "rolling", "action", "sliding"]
     for view in views:
         assert {*view.stages} <= {*view.parts} <= {*view.stages, ANSWERS, ""}, view.name
@@ -163,7 +161,6 @@ def test_letters_on_leaders_keep_them_on_a_blank_and_none_of_a_begun_sheet_ends_
         {shape.name for shape in shapes if isinstance(shape, Line) and shape.role == "leader"}
         for shapes in (blank, second)
     )
-
     assert "P" in kept
     assert kept <= {"P", "O_{1}", "O_{2}"}
     assert {"d_w1", "d_w2"} <= leaders
