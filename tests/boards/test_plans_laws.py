@@ -78,13 +78,12 @@ def test_plans_keep_the_crank_on_its_circle_the_rod_rigid_and_the_slider_on_its_
     assert vanish(cranks["acceleration.n_BA"] - cranks["a_A"] - cranks["a_BA_n"], size)
 
 
-@pytest.mark.parametrize("plan", ["velocity", "acceleration"])
-def test_points_of_the_rod_form_a_similar_figure_in_the_plan(cranks: Solved, plan: str) -> None:
-    a, b = cranks[f"{plan}.A"], cranks[f"{plan}.B"]
-
-    for point, length in (("S2", "l_AS2"), ("C", "l_AC")):
-        assert vanish(cranks[f"{plan}.{point}"] - a - (b - a) * cranks[length] / cranks["l_AB"], a, b)
-        assert np.array_equal(cranks[f"{'V' if plan == 'velocity' else 'a'}_{point}"], cranks[f"{plan}.{point}"])
+def test_points_of_the_rod_form_a_similar_figure_in_the_plan(cranks: Solved) -> None:
+    for plan, kind in (("velocity", "V"), ("acceleration", "a")):
+        a, b = cranks[f"{plan}.A"], cranks[f"{plan}.B"]
+        for point, length in (("S2", "l_AS2"), ("C", "l_AC")):
+            assert vanish(cranks[f"{plan}.{point}"] - a - (b - a) * cranks[length] / cranks["l_AB"], a, b)
+            assert np.array_equal(cranks[f"{kind}_{point}"], cranks[f"{plan}.{point}"])
 
 
 def test_forces_of_inertia_oppose_the_accelerations_and_loads_are_as_given(cranks: Solved) -> None:
