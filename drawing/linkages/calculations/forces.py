@@ -17,7 +17,7 @@ from ...printed import POINT, Symbol, value_text
 from ...words import Words
 from ..reading import Edge
 from ..scene import Scene
-from . import equations as equations
+from . import equations
 from .equations import Factor, Lines, Product, factor, line_note, noted, segment, size_by_law, size_of, stated, worked
 
 WHOLE, LOADS = "", "loads"
