@@ -127,10 +127,13 @@ def test_a_range_is_read_in_every_usual_form(text: str) -> None:
 
 
 def test_ranges_about_the_only_variant_of_a_task_have_round_steps_some_twenty_of_them() -> None:
-    for name, usual in _ranges_of(load_task("bertyaev-six-bar"), {}).items():
-        if usual.low != usual.high:
-            assert usual.step.normalize().as_tuple().digits in ((1,), (2,), (5,)), name
-            assert 8 <= (usual.high - usual.low) / usual.step <= 21, name
+    ranges = _ranges_of(load_task("bertyaev-six-bar"), {})
+
+    assert ranges
+    for name, usual in ranges.items():
+        assert usual.low < usual.high, name
+        assert usual.step.normalize().as_tuple().digits in ((1,), (2,), (5,)), name
+        assert 8 <= (usual.high - usual.low) / usual.step <= 21, name
 
 
 def test_made_variants_keep_to_ranges_and_steps() -> None:
