@@ -20,6 +20,7 @@ from kulman.plans.hoist.hoist import PLANS as HOIST_PLANS
 from kulman.plans.hoist.hoist import SIDES
 from kulman.plans.linkages.chain import PLANS
 from kulman.scales.packaged import packaged
+from kulman.tests.support.sources import trees
 from kulman.variants import case, reader
 from kulman.variants.checks import basics as checks
 from kulman.variants.checks import mechanism as checks_mechanism
@@ -120,3 +121,16 @@ def test_files_that_the_documents_name_exist() -> None:
         text = path.read_text(encoding="utf-8")
         for name in re.findall(r"`((?:scales|plans|drawing|variants|tests)/[\w/]+\.\w+)`", text):
             assert (DOCS.parent / name).exists(), (path.name, name)
+
+
+def test_map_of_the_house_names_every_file_once_and_no_other() -> None:
+    text, named = (DOCS / "house.md").read_text(encoding="utf-8"), []
+    rooms = re.findall(r"^\*\*(?:`(\S+)/`|The root)\*\*(.*?)\n\n", text, re.DOTALL | re.MULTILINE)
+    for folder, words in rooms:
+        items = [re.split(r"\s–\s", item)[0] for item in words.partition(": ")[2].split(";")]
+        named += [f"{folder}/{name}.py".lstrip("/") for item in items for name in re.findall(r"`(\w+)`", item)]
+    files = {str(path) for path in trees() if path.name not in ("__init__.py", "__main__.py")} | {"__init__.py"}
+
+    assert sorted(named) == sorted(files)
+    for path in re.findall(r"`((?:scales|plans|drawing|variants|tests)/[\w./-]*)`", text):
+        assert (DOCS.parent / path).exists(), path
