@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 LIBRARIES = ("docx", "fontTools", "pypdfium2")  # for the document, the letters and the dots of its pictures
 DPI = 300  # of the pictures for readers that draw no SVG, as large as they are shown
 LONGEST = 255  # characters of a property of a document
-LANGUAGES = {"uk": "uk-UA", "ru": "ru-RU", "en": "en-GB"}
 SPACES = {
     "w": "http://schemas.openxmlformats.org/wordprocessingml/2006/main",
     "m": "http://schemas.openxmlformats.org/officeDocument/2006/math",
@@ -140,7 +139,7 @@ def _dress(word: Word, document: Document) -> None:
     )
     for kind, name in dressed.items():
         text = (home(__package__) / "word" / f"{name}.xml").read_text(encoding="utf-8")
-        filled = parse_xml(text.format(lang=LANGUAGES[document.language], lists=numbers))
+        filled = parse_xml(text.format(lang=packaged(__package__, "texts", document.language)["locale"], lists=numbers))
         parts.part_related_by(kind).element[:] = list(filled)
 
 
@@ -170,7 +169,7 @@ def _sign(word: Word, document: Document) -> None:
     about.title = _short(f"{said['title.note']}. {page.title}")
     about.subject = _short(said["title.variant"].format(variant=page.variant))
     about.author, about.keywords = _short(page.student), _short(page.identity)
-    about.language = LANGUAGES[document.language]
+    about.language = said["locale"]
 
 
 def _short(text: str) -> str:
