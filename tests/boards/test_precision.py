@@ -88,6 +88,10 @@ def test_conditions_are_those_of_differences_with_fifty_digits(of: str | int | f
         if name.startswith("delta_"):  # two routes to one value do not differ, whatever is given
             continue
         expected, total = sum(float(abs(slope)) for slope in slopes), float(np.abs(ours[name]).sum())
+        if math.isnan(expected):  # the arm of a force that is zero: neither route knows it
+            assert math.isnan(total)
+            assert np.isnan(solved.values[name])
+            continue
         assert abs(total - expected) <= 1e-6 * max(expected, 1e-6 * sizes[name]), name
         size = sizes[name] if name in shown else abs(solved.values[name])
         if known[name].value is not None and size:
