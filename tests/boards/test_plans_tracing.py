@@ -60,6 +60,7 @@ FORMULAS = {
     "zeros": lambda x, y: (x == 0.5) + (x - x == 0.0) + y * 0.0,
     "orders": lambda x, y: (x > y) * 1.0 + (-x < 2.0) * 2.0 + (y >= 7.0) * 4.0 + (-y >= 0.5) * 8.0 + (x <= 3.0) * 0.5,
     "turns": lambda x, y: x // 2.0 + y // -x,
+    "powers": lambda x, y: 2.0 ** (x == 0.5) * y,
     "vectors": lambda x, y: dot(complex(1, 2) * x - 1j, x * complex(3, 0)) + cross(1j * y + complex(2, 1), 2j * x),
 }
 

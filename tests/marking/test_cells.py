@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from kulman import check
 from kulman.scales.errors import InputError
 from kulman.tests.support.answer_files import HEAD, messages, one, write
-from kulman.variants.marking.cells import LONGEST, rounded, slip_in, split_sense
+from kulman.variants.marking.cells import LONGEST, Mu, rounded, scale_factor, slip_in, split_sense
 from kulman.variants.marking.checks import Check
 from kulman.variants.marking.marked import Desk
 from kulman.variants.spreadsheets.files import read_grid
@@ -147,6 +147,13 @@ def test_a_scale_factor_is_meant_either_way_unless_its_unit_says_which(
     assert answers.problems == ()
     assert factor is not None
     assert (factor.value, factor.sure) == (pytest.approx(mu), sure)
+
+
+@pytest.mark.parametrize(
+    ("written", "mu"), [("0.5 cm/mm", 5e-3), ("0.5 мм/м", 2.0), ("2 мм/мм", 2e-3), ("2 m/mm", 2.0)]
+)
+def test_a_scale_factor_of_lengths_in_mm_says_which_way_it_is_meant(written: str, mu: float) -> None:
+    assert scale_factor(written, "", "m/mm", "m/mm") == Mu(pytest.approx(mu), sure=True)
 
 
 @pytest.mark.parametrize(
