@@ -20,6 +20,7 @@ from matplotlib.text import Annotation, Text
 
 from kulman import KulmanError, cli, solve
 from kulman.docs import refresh
+from kulman.drawing.charts.cycle import Abscissa
 from kulman.drawing.charts.paper import Label, put
 from kulman.plans.cams.chords import NODES, S_MAX, convergence, robustness
 from kulman.plans.gears.solve import RATIOS, USUAL, ScaleErrors, SolvedGear, compared, scale_errors
@@ -29,6 +30,7 @@ from kulman.plans.lab.hoists import step_limits
 from kulman.plans.lab.integrators import STEPPERS
 from kulman.plans.lab.race import Effort
 from kulman.plans.lab.ropes import depth
+from kulman.plans.linkages.limits import Arc
 from kulman.scales.errors import PositionError
 from kulman.tests.support.documents import run_here
 from kulman.variants.charts.charts import Charts, chart
@@ -421,3 +423,20 @@ def test_labels_stand_at_their_points_with_room_between_them() -> None:
     assert not any(one.overlaps(other) for one, other in combinations(boxes, 2))
     for field in accuracy.figure(made(TASK).words).axes:
         assert {text.xy for text in field.texts if isinstance(text, Annotation)} <= places
+
+
+@pytest.mark.parametrize(
+    ("turns", "arc", "shown"),
+    [
+        *((True, (100.0, 200.0), [(100.0, 200.0)]), (True, (300.0, 420.0), [(300.0, 360.0), (0.0, 60.0)])),
+        *((True, (90.0, 450.0), [(0.0, 360.0)]), (False, (2.0, 5.0), [(2.0, 5.0)])),
+    ],
+)
+def test_where_a_driver_cannot_go_is_cut_at_the_end_of_a_turn_only(
+    turns: bool, arc: tuple[float, float], shown: list[tuple[float, float]]
+) -> None:
+    low, high = (math.radians(end) if turns else end / 1e3 for end in arc)
+
+    stretches = [*Abscissa("", turns, (Arc(low, high),)).stretches()]
+
+    assert stretches == [pytest.approx(ends) for ends in shown]

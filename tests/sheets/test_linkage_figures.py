@@ -14,10 +14,12 @@ import pytest
 import kulman
 from kulman import sheet, solve
 from kulman.drawing.formats import STYLES
+from kulman.drawing.linkages.figures.cycle import _Band
 from kulman.drawing.linkages.figures.group import Arm
 from kulman.drawing.linkages.figures.lever import staggered
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.view import Canvas
+from kulman.scales.scale import Scale
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import Faults, Judged, l1_plan, l5_similarity, l7_senses
 from kulman.tests.support.printed_numbers import lines_of, numbers_of, table
@@ -319,3 +321,15 @@ def test_rates_without_limit_are_cut_off() -> None:
 
     assert scales["ω_{3}"].endswith("μ_{ω} = 0.1 (rad/s)/mm")
     assert any("ω_{3}, ε_{3}" in t.string for t in diagrams.of("heading"))
+
+
+@pytest.mark.parametrize(
+    ("curve", "chords", "ends"),
+    [((0.2, 0.5), None, (0.0, 0.5)), ((-3.0, -1.0), None, (-3.0, 0.0)), ((0.2, math.nan), (-0.1, 0.7), (-0.1, 0.7))],
+)
+def test_axis_of_a_diagram_spans_zero_the_curve_and_its_chords(
+    curve: tuple[float, ...], chords: tuple[float, ...] | None, ends: tuple[float, float]
+) -> None:
+    by_chords = None if chords is None else (np.arange(2.0), np.array(chords))
+
+    assert _Band("V_B", Scale("mu_V", 0.1, "m/s"), np.array(curve), by_chords).ends == ends
