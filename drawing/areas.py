@@ -5,19 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache, reduce
+from itertools import pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
 import shapely
 from numpy.typing import ArrayLike, NDArray
 
-from .shapes import Group, Line, Pen, Polyline, Shape, changed
+from .shapes import Arc, Group, Line, Pen, Polyline, Shape, changed
 from .text import Box
 
 Shapes: TypeAlias = NDArray[Any]  # of shapely
 SLACK = 1e-9  # mm
+HAIR = 0.1  # mm
 Side = tuple[complex, float]  # unit normal into the area, its least component
 SHORTEST = 0.3  # mm: a shorter stroke would be a dot
+STEP = 0.25  # mm along an arc between places at which it may break off
 FEW = 8  # points of a line that is left as it is
 FAR = shapely.Point(1e6, 0.0)  # mm
 
@@ -88,11 +91,48 @@ def clipped(a: complex, b: complex, box: Box) -> tuple[complex, complex] | None:
 
 
 def beside(a: complex, b: complex, boxes: Sequence[Box]) -> list[tuple[complex, complex]]:
-    """Return the pieces of a line from `a` to `b` that lie outside of all boxes, or on their sides."""
+    """Return the pieces of a line from `a` to `b` that lie outside of all boxes, or on their sides.
+
+    No end is cut off that lies inside of a box by less than `HAIR`: an arm is as long as it says.
+    """
     whole, area = lines([a], [b]), _inside(tuple(boxes))
     if not shapely.intersects(area, whole[0]):  # by far faster than what is left of it
         return [(a, b)] if abs(b - a) > SLACK else []
-    return _pieces(shapely.difference(whole, area), b - a, 2 * SLACK)
+    pieces = _pieces(shapely.difference(whole, area), b - a, 2 * SLACK)
+    if pieces and abs(pieces[0][0] - a) < HAIR:
+        pieces[0] = a, pieces[0][1]
+    if pieces and abs(pieces[-1][1] - b) < HAIR:
+        pieces[-1] = pieces[-1][0], b
+    return pieces
+
+
+def around(line: Arc | Polyline, boxes: Sequence[Box]) -> list[Arc | Polyline]:
+    """Return the pieces of an arc, to a quarter of a millimetre, or of a broken line, outside of all boxes."""
+    if isinstance(line, Polyline):
+        points = (*line.points, line.points[0]) if line.closed else line.points
+        struck = shapely.intersects(_inside(tuple(boxes)), lines(points[:-1], points[1:]))
+        if not struck.any():
+            return [line]
+        each = zip(pairwise(points), struck.tolist(), strict=True)
+        sides = (piece for side, hit in each for piece in (beside(*side, boxes) if hit else [side]))
+        ways = list[list[complex]]()
+        for a, b in sides:
+            if ways and abs(ways[-1][-1] - a) < 10 * SLACK:
+                ways[-1].append(b)
+            else:
+                ways.append([a, b])
+        if len(ways) == 1 and abs(ways[0][0] - points[0]) + abs(ways[0][-1] - points[-1]) < 10 * SLACK:
+            return [line]
+        return [replace(line, points=tuple(way), closed=False) for way in ways]
+    count = max(2, round(abs(line.sweep) * line.radius / STEP))
+    turned = line.sweep * np.arange(count + 1) / count
+    places = line.centre + line.radius * np.exp(1j * (line.start + turned))
+    inside = shapely.contains_xy(_inside(tuple(boxes)), places.real, places.imag)
+    if not inside.any():
+        return [line]
+    edges = np.flatnonzero(np.diff(np.concatenate(([True], inside, [True])).astype(int)))
+    ends = ((turned[a], turned[b - 1]) for a, b in zip(edges[::2], edges[1::2], strict=True) if b - a > 1)
+    return [replace(line, start=line.start + float(a), sweep=float(b - a)) for a, b in ends]
 
 
 @lru_cache(maxsize=8)  # many lines are broken at the same boxes

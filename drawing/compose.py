@@ -1,100 +1,175 @@
-"""Composing a sheet: views on pages, in rows, halves, parts or arrangements laid out by hand; frames round them."""
+"""Composing a sheet: views on as few pages as hold them in reading order, and frames round them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import TypeAlias
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import takewhile
 
 from ..scales.scale import Scale
-from .formats import GAPS, Format, Norm, reserved_boxes, usable
-from .packing import Placement, pack
+from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
+from .packing import LEAST, Placement, Size, Slicing, spread
 from .page import Page
-from .rows import SLACK, Size
 from .shapes import Group
 from .titleblock import Stamp, frame_shapes
 from .view import View
 
-BLOCK, TURNED = "block", "turned"  # the title block below the last column, column 26 above the first one
-GAP = 4.0  # mm between views that are laid out by hand
-Place: TypeAlias = tuple[str, float, float]  # of a view: its name, its lower left corner
-SHARES = (0.0, 0.02, -0.02, 0.04, -0.04, 0.06, -0.06, 0.09, -0.09)  # of the width, by which halves may be unequal
+HELD = 9  # of the corners to the views beside them
+SOON = 5  # views from which one may stand on a page before its turn
+ALONE = 0.95  # part of the width of a page that leaves no room for a view beside
+FULL = 0.66  # part of a page that views should take at least before the next one begins
+TEXT, FIGURE, GROUP, PART = range(-1, 3)  # what may begin with a view
+MANY = 3  # pages on which views may come in another order
+
+
+def on_a_page(
+    sizes: Sequence[Size], sheet: Format, norm: Norm, first: bool = True, bonds: Sequence[int] = ()
+) -> list[Placement] | None:
+    """Place views of these sizes on one page of `sheet` in reading order; return None if they do not fit.
+
+    The title block stands in the lower right corner and, on the `first` page, column 26 in an upper one. `bonds` say
+    how much each view belongs to the one before.
+    """
+    (x0, y0, x1, y1), (block, *turned) = usable(sheet, norm), reserved_boxes(sheet, norm, first=first)
+    own, joined, begun = list(sizes), list(bonds or (0 for _ in sizes)), 0
+    for box in turned:
+        if box[0] > x0:  # upright on the right of a tall sheet
+            x1 = box[0] - LEAST
+        else:
+            own, joined, begun = [(box[2] - x0, y1 - box[1]), *own], [0, HELD, *joined[1:]], 1
+    wide, high = x1 - block[0], block[3] - y0
+    if wide < ALONE * (x1 - x0):
+        own, joined = [*own, (wide, high)], [*joined, HELD]
+    else:
+        y0 += high + LEAST
+    room = x1 - x0, y1 - y0
+    page = Slicing(own, room, joined)
+    if not page.fits:
+        return None
+    places = {i: (x, y) for i, x, y in spread(page.cut(), own, (0.0, room[1]), room, len(sizes) + begun)}
+    return [Placement(0, x0 + places[i + begun][0], y0 + places[i + begun][1]) for i in range(len(sizes))]
+
+
+def on_one_page(
+    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = (), first: bool = True
+) -> list[Placement] | None:
+    """Place views of these sizes on the only page, or on the last one; return None if they do not fit.
+
+    Where they do not fit as one reads them, high ones stand before low ones, so that rows have little empty room: first
+    texts and tables alone, behind the figures, then all of them. `begins` are as of `Pages`.
+    """
+    every = range(len(sizes))
+    texts = [i for i in every if begins and begins[i] == TEXT]
+    figures = [i for i in every if i not in texts]
+
+    def low(i: int) -> float:
+        return -sizes[i][1]
+
+    ways = ([*every], [*figures, *sorted(texts, key=low)] if texts else [], sorted(every, key=low))
+    for order in filter(None, ways):
+        if (placed := on_a_page([sizes[i] for i in order], sheet, norm, first)) is not None:
+            return [placed[order.index(i)] for i in every]
+    return None
 
 
 def arrange(
-    sizes: Sequence[Size], sheet: Format, norm: Norm, pages: int | None, any_order: bool = False, first: bool = True
+    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = (), page: int = 0
 ) -> list[Placement] | None:
-    """Place views of these sizes, in reading order, on at most `pages` pages of `sheet`, or on as many as they need.
+    """Place views of these sizes on as few pages of `sheet`, from this one on, as hold them; `begins` as of `Pages`.
 
-    Where they do not fit so, a single page may have them in `any_order`. Without `first` all are following pages.
-    None if they do not fit.
+    Of two or three pages each is a run of the views, and ends where most begins anew, if it is full enough. Of more,
+    and where runs take more pages, a page that has no room for the next view may have texts that `SOON` follow.
+    None if a view has no room on a page.
     """
-    return pack(
-        sizes,
-        usable(sheet, norm),
-        reserved_boxes(sheet, norm, first=first),
-        later=reserved_boxes(sheet, norm, first=False),
-        gap=GAPS[sheet.letters],
-        pages=pages,
-        any_order=any_order,
-    )
+    pages = Pages(sizes, sheet, norm, begins)
+    packed = pages.packed(page)
+    if packed is None or not page < last(packed) < page + MANY:
+        return packed
+    runs = pages.runs(0, page, last(packed))
+    return packed if runs is None or pages.least(runs) < min(FULL, pages.least(packed)) else runs
 
 
-def arrange_closely(sizes: Sequence[Size], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Place views on pages one after the other: on each those that have room beside the ones before, in any order.
+@dataclass(slots=True)
+class Pages:
+    """The ways to part views of these sizes into pages of `sheet`.
 
-    None if one has no room on a page.
+    `begins` say how much begins with each view: a part of the work is more than a group, and that than a figure; a
+    text or a table is nothing of its own. Where nothing is said, all may stand before their turn as these may.
     """
-    places: dict[int, Placement] = {}
-    page = 0
-    while len(places) < len(sizes):
-        own: list[int] = []
-        found: list[Placement] = []
-        for i in range(len(sizes)):
-            if i in places:
-                continue
-            tried = arrange([sizes[k] for k in (*own, i)], sheet, norm, 1, any_order=True, first=not page)
-            if tried is not None:
-                own, found = [*own, i], tried
-        if not own:
-            return None
-        places |= {i: replace(place, page=page) for i, place in zip(own, found, strict=True)}
-        page += 1
-    return [places[i] for i in range(len(sizes))]
+
+    sizes: Sequence[Size]
+    sheet: Format
+    norm: Norm
+    begins: Sequence[int] = ()
+    _tried: dict[tuple[tuple[int, ...], bool], list[Placement] | None] = field(default_factory=dict)
+
+    def tried(self, own: Sequence[int], page: int) -> list[Placement] | None:
+        """Place some of the views, by number, on one page."""
+        key = tuple(own), page == 0
+        if key not in self._tried:
+            x0, y0, x1, y1 = usable(self.sheet, self.norm)
+            sizes = [self.sizes[i] for i in own]
+            fits = sum((w + LEAST) * (h + LEAST) for w, h in sizes) <= (x1 - x0 + LEAST) * (y1 - y0 + LEAST)
+            self._tried[key] = on_a_page(sizes, self.sheet, self.norm, page == 0) if fits else None
+        return [replace(place, page=page) for place in placed] if (placed := self._tried[key]) is not None else None
+
+    def fill(self, own: Iterable[int], page: int) -> float:
+        """Return the part of a page inside its frame that views and title block take."""
+        boxes = reserved_boxes(self.sheet, self.norm, first=page == 0)
+        taken = sum(math.prod(self.sizes[i]) for i in own) + sum((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in boxes)
+        x0, y0, x1, y1 = drawing_area(self.sheet, self.norm)
+        return taken / ((x1 - x0) * (y1 - y0))
+
+    def least(self, places: Sequence[Placement]) -> float:
+        """Return the fill of the page, but for the last one, that is least filled."""
+        begin, end = places[0].page, last(places)
+        return min(self.fill([i for i, p in enumerate(places) if p.page == page], page) for page in range(begin, end))
+
+    def runs(self, begin: int, page: int, most: int) -> list[Placement] | None:
+        """Place the views from this one on in runs on the pages from this one to the last one that there may be."""
+        count = len(self.sizes)
+        if page == most:
+            return self.tried(range(begin, count), page)
+
+        def worth(end: int) -> tuple[int, int]:  # none is half empty for what begins
+            full = self.fill(range(begin, end), page) >= FULL
+            return (2 + (self.begins[end] if self.begins else FIGURE)) * full, end
+
+        ends = (end for end in range(begin + 1, count) if self.fill(range(begin, end), page) <= 1.0)
+        for end in sorted(ends, key=worth, reverse=True):
+            own = self.tried(range(begin, end), page)
+            if own is not None and (others := self.runs(end, page + 1, most)) is not None:
+                return own + others
+        return None
+
+    def packed(self, page: int) -> list[Placement] | None:
+        """Place each view on the first page that has room, but that one that follows soon may stand before it."""
+        places: dict[int, Placement] = {}
+        while rest := [i for i in range(len(self.sizes)) if i not in places]:
+            own, placed = next(
+                ((run, way) for k in range(len(rest), 0, -1) if (way := self.tried(run := rest[:k], page)) is not None),
+                ([], None),
+            )
+            if placed is None:
+                return None
+            for i in rest[len(own) : len(own) + SOON]:
+                free = not self.begins or self.begins[i] == TEXT
+                if free and (more := self.tried([*own, i], page)) is not None:
+                    own, placed = [*own, i], more
+            places |= dict(zip(own, placed, strict=True))
+            page += 1
+        return [places[i] for i in range(len(self.sizes))]
 
 
-def arrange_parts(parts: Sequence[Sequence[Size]], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Place views on as many pages as they need, each part on pages of its own where that takes no more of them."""
-    together = arrange([size for part in parts for size in part], sheet, norm, None)
-    places: list[Placement] = []
-    for part in filter(None, parts):
-        pages = max((place.page + 1 for place in places), default=0)
-        own = arrange(part, sheet, norm, None, first=not pages)
-        if own is None:
-            return together
-        places += [replace(place, page=place.page + pages) for place in own]
-    if together is None or max(p.page for p in places) <= max(p.page for p in together):
-        return places
-    return together
+def begins_of(views: Iterable[View]) -> list[int]:
+    """Return what begins with each view: a figure, or nothing, since it is a text or a table."""
+    return [TEXT if view.rows or view.lines else FIGURE for view in views]
 
 
-def arrange_halves(sizes: Sequence[Size], boundary: int, sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Place views on one page: those before about the `boundary` in its left part, the others in the right one."""
-    (x0, y0, x1, y1), taken, gap = usable(sheet, norm), reserved_boxes(sheet, norm), GAPS[sheet.letters]
-    areas = [(wide + gap) * (high + gap) for wide, high in sizes]
-    for end in (end for end in (boundary, boundary + 1, boundary - 1) if 0 < end < len(sizes)):
-        for share in SHARES:
-            middle = x0 + (sum(areas[:end]) / sum(areas) + share) * (x1 - x0)
-            left, right = (x0, y0, middle - gap / 2, y1), (middle + gap / 2, y0, x1, y1)
-            if min(left[2] - x0, x1 - right[0]) < max(wide for wide, _ in sizes):
-                continue
-            places: list[Placement] = []
-            for part, box in ((sizes[:end], left), (sizes[end:], right)):
-                own = [block for block in taken if block[0] < box[2] and block[2] > box[0]]
-                places += pack(part, box, own, gap=gap, any_order=False) or []
-            if len(places) == len(sizes):
-                return places
-    return None
+def last(places: Sequence[Placement]) -> int:
+    """Return the number of the last page, from 0."""
+    return max((place.page for place in places), default=-1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,9 +183,14 @@ class Drawn:
     views: tuple[View, ...]
     placed: tuple[tuple[Group, ...], ...]
     scales: Mapping[str, Scale]
-    sheet: Format
+    sheets: tuple[Format, ...]
     norm: Norm
     reduction: float = 1.0
+
+    @property
+    def sheet(self) -> Format:
+        """The format of its pages, but that the last of several may be smaller."""
+        return self.sheets[0]
 
     @property
     def format(self) -> str:
@@ -122,8 +202,8 @@ class Drawn:
 
         Raises InputError: the title block cannot hold its words.
         """
-        sheet, pages = self.sheet, []
-        for number, figures in enumerate(self.placed):
+        pages = []
+        for number, (figures, sheet) in enumerate(zip(self.placed, self.sheets, strict=True)):
             own = replace(stamp, sheet=number + 1, sheets=len(self.placed))
             frame = frame_shapes(sheet, own, self.norm, first=number == 0)
             pages.append(Page(sheet.width, sheet.height, (*frame, *figures), stamp.title, stamp.language, self.norm))
@@ -137,88 +217,19 @@ def compose(
     sheet: Format,
     norm: Norm,
     reduction: float = 1.0,
+    smaller: bool = False,
 ) -> Drawn:
-    """Set views at their places on the pages of `sheet`."""
-    pages: list[list[Group]] = [[] for _ in range(max(place.page for place in places) + 1)]
+    """Set views at their places on the pages of `sheet`; the last of several pages may be `smaller`."""
+    pages: list[list[Group]] = [[] for _ in range(last(places) + 1)]
+    sheets = [sheet] * len(pages)
+    if smaller and len(pages) > 1:
+        own = [i for i, place in enumerate(places) if place.page == len(pages) - 1]
+        sizes, begins = [views[i].size for i in own], begins_of([views[i] for i in own])
+        for less in takewhile(lambda less: less is not sheet, FORMATS.values()):
+            if (placed := on_one_page(sizes, less, norm, begins, first=False)) is not None:
+                sheets[-1], moved = less, dict(zip(own, placed, strict=True))
+                places = [replace(moved.get(i, place), page=place.page) for i, place in enumerate(places)]
+                break
     for view, place in zip(views, places, strict=True):
         pages[place.page].append(view.at(place.x, place.y))
-    return Drawn(tuple(views), tuple(map(tuple, pages)), scales, sheet, norm, reduction)
-
-
-@dataclass(frozen=True, slots=True)
-class Nest:
-    """Views, or further nests, side by side from the left (`beside`) or one under another from the top.
-
-    The first and the last stand at the ends of the room, the others evenly between them; what is not among the views
-    is left out.
-    """
-
-    parts: tuple[Nest | str, ...]
-    beside: bool = False
-
-
-def row(*parts: Nest | str) -> Nest:
-    """Return parts side by side."""
-    return Nest(parts, beside=True)
-
-
-def column(*parts: Nest | str) -> Nest:
-    """Return parts one under another."""
-    return Nest(parts)
-
-
-def _size(part: Nest | str, sizes: Mapping[str, Size]) -> Size:
-    if isinstance(part, str):
-        return sizes.get(part, (0.0, 0.0))
-    inner = [size for size in (_size(one, sizes) for one in part.parts) if size != (0.0, 0.0)]
-    if not inner:
-        return 0.0, 0.0
-    widths, heights = [size[0] for size in inner], [size[1] for size in inner]
-    gaps = GAP * (len(inner) - 1)
-    return (sum(widths) + gaps, max(heights)) if part.beside else (max(widths), sum(heights) + gaps)
-
-
-def _placed(part: Nest | str, sizes: Mapping[str, Size], corner: tuple[float, float], room: Size) -> Iterator[Place]:
-    """Go through the views of a part in a room with this upper left corner; a view stands in the middle of its room."""
-    (x, y), (wide, high) = corner, room
-    if isinstance(part, str):
-        own = sizes[part]
-        yield part, x + 0.5 * (wide - own[0]), y - 0.5 * (high + own[1])
-        return
-    inner = [(one, size) for one in part.parts if (size := _size(one, sizes)) != (0.0, 0.0)]
-    needed = sum(size[not part.beside] for _, size in inner)
-    spaces = max(len(inner) - 1, 1)
-    between = ((wide if part.beside else high) - needed) / spaces
-    if len(inner) == 1:
-        yield from _placed(inner[0][0], sizes, corner, room)
-        return
-    for one, size in inner:
-        yield from _placed(one, sizes, (x, y), (size[0], high) if part.beside else (wide, size[1]))
-        if part.beside:
-            x += size[0] + between
-        else:
-            y -= size[1] + between
-
-
-def names(parts: Sequence[Nest | str]) -> Iterator[str]:
-    """Go through the names of the views of parts."""
-    for part in parts:
-        yield from (part,) if isinstance(part, str) else names(part.parts)
-
-
-def zoned(layouts: Sequence[Nest], views: Sequence[View], sheet: Format, norm: Norm) -> list[Placement] | None:
-    """Return the places of the views on one page by the first layout with room for them all; None if none has."""
-    x0, y0, x1, y1 = usable(sheet, norm)
-    block, *turned = reserved_boxes(sheet, norm)
-    sizes = {view.name: view.size for view in views}
-    fitting = [nest for nest in layouts if sizes.keys() <= set(names((nest,)))]
-    sizes[BLOCK] = x1 - block[0], block[3] - y0
-    for box in turned:
-        sizes[TURNED] = box[2] - x0, y1 - box[1]
-    room = x1 - x0, y1 - y0
-    for nest in fitting:
-        wide, high = _size(nest, sizes)
-        if wide <= room[0] + SLACK and high <= room[1] + SLACK:
-            places = {name: Placement(0, x0 + x, y0 + y) for name, x, y in _placed(nest, sizes, (0.0, room[1]), room)}
-            return [places[view.name] for view in views]
-    return None
+    return Drawn(tuple(views), tuple(map(tuple, pages)), scales, tuple(sheets), norm, reduction)

@@ -10,7 +10,7 @@ from ..scales.scale import Scale
 from .shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from .symbols import dimension
 from .text import lay_out
-from .view import Canvas
+from .view import Canvas, over_line
 
 STEPS = (1, 2, 3, 5, 10)  # from one number of a section line to the next
 AT_POLE = 3.0  # mm of an axis beyond the pole
@@ -127,15 +127,17 @@ def rays(canvas: Canvas, field: Field, pole: Pole, ordinates: Iterable[tuple[int
 
 
 def mark_pole(canvas: Canvas, pole: Pole, at: complex, foot: complex, below: float) -> None:
-    """Mark a pole, and dimension its distance `below` mm under the lowest place of its line, its `foot`."""
-    style, level = canvas.style, foot.imag - below
+    """Mark a pole, and dimension its distance at least `below` mm under the lowest place of its line, its `foot`."""
+    style = canvas.style
+    level = foot.imag - max(below, 2.2 * style.text)
     canvas.add(Circle(at, style.node, Pen.MAIN, fill="white", role="pole"))
     canvas.small(pole.letter, at, -1.0 + 1j, 1.0)
     feet = complex(at.real, level), complex(foot.real, level)
     for start, end in zip((at, foot), feet, strict=True):
         canvas.add(Line(start, end - 1.5j, Pen.THIN, role="extension"))
     canvas.add(dimension(*feet, pole.name, style))
-    canvas.small(pole.text, feet, -1j)
+    if not over_line(canvas, feet, pole.text):
+        canvas.small(pole.text, feet, -1j)
 
 
 def numbers(lines: Sequence[float], level: float, height: float, first: int = 0) -> list[Text]:

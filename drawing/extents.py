@@ -10,8 +10,8 @@ many pages as it takes, each part of the work on a page of its own where that is
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from ..scales.choices import SIZES
@@ -20,14 +20,13 @@ from ..scales.scale import Chooser, Scale
 from .formats import FORMATS, GAPS, Format, Norm, printable, room, usable
 
 NORMS: tuple[Norm, ...] = ("gost", "iso")
-# parts of a page that estimates may cover, since views leave gaps: of the only page, of the page of one part of the
-# work, of that when plans that another page made coarser become finer again, of pages that parts share; and of two
-# pages for which plans become smaller before there is a third
-FILL, APART, FULL, SHARED, CLOSELY = 0.79, 0.74, 0.80, 0.70, 0.85
+# parts of a page that estimates may cover, since views leave gaps: of the only page, of each of two, of more
+FILL, TWO, SHARED = 0.84, 0.84, 0.70
+SHARES = (1.0, 0.95, 0.9, 0.85, 0.8)  # of these where what is drawn takes more pages than that
 SMALLER = {"A1": 1.0, "A2": 1.0, "A3": 0.7, "A4": 0.65}  # what letters take, in what they take on the largest format
 BLOCK = 12000.0  # mm^2 of a page that its title block takes
 SHORTEST = 1.0  # mm, the least that the longest segment of a plan may be
-MOST, MORE = 100, 3  # pages that there may be; of more than are expected, for which plans become smaller
+MOST = 100  # pages that there may be
 # parts of the width and of the height of a page that one figure may take, so that others find room beside it
 ONE = {"A1": 0.75, "A2": 0.85, "A3": 1.0, "A4": 1.0}
 Size: TypeAlias = tuple[float, float]
@@ -72,24 +71,22 @@ def not_a_point(symbol: str, mu: float, largest: float, unit: str) -> None:
 class Ladder:
     """The values that a scale factor may take, the wanted one first; one that is fixed stays.
 
-    `longest` is its longest segment in its unit; `weight` is how many times as long as others it may be, `least` the
-    millimetres, by format, below which it is not drawn for want of room. What a task has `chosen` becomes smaller after
-    the others. With a `root` it stands on the rung of another one.
+    `longest` is its longest segment in its unit; `weight` is how many times as long as others it may be, `share` how
+    many times as long it is at least when there is no room. What a task has `chosen` becomes smaller after the others.
+    With a `root` it stands on the rung of another one.
     """
 
     values: tuple[float, ...]
     longest: float
     weight: float = 1.0
-    least: Mapping[str, float] = field(default_factory=dict)
+    share: float = 0.0
     root: str = ""
     fixed: bool = False
     chosen: bool = False
 
-    def next(self, rung: int, sheet: Format) -> bool:
-        """Whether the plan may be drawn at the rung after this one."""
-        if not self.free or rung + 1 >= len(self.values):
-            return False
-        return self.longest >= self.least.get(sheet.letters, 0.0) * self.values[rung + 1]
+    def next(self, rung: int, least: float) -> bool:
+        """Whether the plan may be drawn at the rung after this one, its longest segment being `least` mm of paper."""
+        return self.free and rung + 1 < len(self.values) and self.longest >= self.share * least * self.values[rung + 1]
 
     @property
     def free(self) -> bool:
@@ -117,20 +114,26 @@ class Extents:
         return self.ladders[symbol].values[rungs[self.root(symbol)]] if symbol else 1.0
 
 
-def choose(extents: Extents, longest: Mapping[str, Size], formats: Sequence[Format]) -> tuple[Format, Rungs]:
-    """Return the format, one of `formats` with the smallest first, and the rungs of all scale factors.
+def ways(
+    extents: Extents, segments: Mapping[str, tuple[Size, Size]], formats: Sequence[Format]
+) -> Iterator[tuple[Format, Rungs, int]]:
+    """Go through formats, rungs of all scale factors and numbers of pages, the best first.
 
-    Where there is one format its sheet may have several pages. `longest` is, by format, how long the longest segment of
-    a plan is at the beginning, mm: on one page, and on several.
+    One page is better than several, and of `formats` a smaller one, which come first; only the last may have several
+    pages, and plans are made smaller for it. `segments` are, by format, how long the longest segment of a plan is at
+    least and at most, mm: on one page, and on several. What is drawn may turn out larger than it was estimated: the
+    next way is a smaller one.
     """
     for sheet in formats:
-        rungs, last = _begun(extents, sheet, longest[sheet.letters][0]), sheet is formats[-1]
+        (least, most), several = segments[sheet.letters]
+        rungs, last = _begun(extents, sheet, most), sheet is formats[-1]
         chosen = (symbol for symbol, ladder in extents.ladders.items() if ladder.chosen and ladder.free)
         if not last and any(rungs[symbol] for symbol in chosen):
             continue  # what the task has chosen has no room
-        if _shrunk(extents, rungs, sheet, None, FILL * _page(sheet), last):
-            return sheet, rungs
-    return sheet, _on_pages(extents, sheet, longest[sheet.letters])
+        for share in SHARES if last else SHARES[:1]:
+            if _shrunk(extents, rungs, sheet, share * FILL * _page(sheet), least if last else math.inf):
+                yield sheet, dict(rungs), 1
+    yield from ((sheet, *_on_pages(extents, sheet, several, share)) for share in SHARES)
 
 
 def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:
@@ -155,31 +158,14 @@ def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:
     return rungs
 
 
-def _on_pages(extents: Extents, sheet: Format, longest: Size) -> Rungs:
-    """Return rungs at which plans as long as on one page take as few pages, but are as large as these have room for.
-
-    Two pages have a part each where that is possible.
-    """
-    page, parts = _page(sheet), range(len(extents.texts))
-    large = _begun(extents, sheet, longest[1])
-    apart = dict(large)
-    if all(_shrunk(extents, apart, sheet, part, APART * page, True) for part in parts):
-        for symbol in apart:  # finer again, where that still fits, what only one of its pages asks to be coarser
-            shown = {figure.part for figure in extents.figures if extents.root(figure.symbol) == symbol}
-            while len(shown) > 1 and apart[symbol] > large[symbol]:
-                finer = {**apart, symbol: apart[symbol] - 1}
-                if not all(_shrunk(extents, finer, sheet, p, FULL * page, False) for p in parts):
-                    break
-                apart[symbol] -= 1
-        return apart
-    least = float(SMALLER[sheet.letters] ** 1.5) * sum(extents.texts)
-    least += _area(extents, extents.figures, _begun(extents, sheet, longest[0]), sheet)
-    pages = 2 if least < 2.0 * CLOSELY * page else math.ceil(min(least / (SHARED * page), MOST))
-    for count in range(pages, pages + MORE):
-        together = dict(large)
-        if _shrunk(extents, together, sheet, None, SHARED * count * page, True):
+def _on_pages(extents: Extents, sheet: Format, segments: Size, share: float) -> tuple[Rungs, int]:
+    """Return the rungs at which all takes as few pages, but is as large as these have room for."""
+    (least, most), page = segments, _page(sheet)
+    for count in range(2, MOST):
+        rungs = _begun(extents, sheet, most)
+        if _shrunk(extents, rungs, sheet, share * (TWO if count == 2 else SHARED) * count * page, least):
             break
-    return together
+    return rungs, count
 
 
 def _area(extents: Extents, figures: Iterable[Extent], rungs: Rungs, sheet: Format) -> float:
@@ -189,22 +175,21 @@ def _area(extents: Extents, figures: Iterable[Extent], rungs: Rungs, sheet: Form
     return sum((wide + gap) * (high + gap) for wide, high in sizes)
 
 
-def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, part: int | None, most: float, shrink: bool) -> bool:
-    """Make long and large plans coarser until all has an area of `most`; tell whether it has."""
+def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, most: float, least: float) -> bool:
+    """Make long and large plans coarser, down to `least` mm, until all has an area of `most`; tell whether it has."""
     ladders, letters = extents.ladders, SMALLER[sheet.letters]
     by_symbol: dict[str, list[Extent]] = {}
     for figure in extents.figures:
-        if part is None or figure.part == part:
-            by_symbol.setdefault(extents.root(figure.symbol), []).append(figure)
+        by_symbol.setdefault(extents.root(figure.symbol), []).append(figure)
 
     def worth(symbol: str) -> tuple[bool, float]:
         ladder = ladders[symbol]
         return not ladder.chosen, areas[symbol] * ladder.longest / extents.mu(symbol, rungs) / ladder.weight**2
 
     areas = {symbol: _area(extents, figures, rungs, sheet) for symbol, figures in by_symbol.items()}
-    left = most - letters**1.5 * (sum(extents.texts) if part is None else extents.texts[part])
+    left = most - letters**1.5 * sum(extents.texts)
     while sum(areas.values()) > left:
-        free = [s for s in by_symbol if s and shrink and ladders[s].next(rungs[s], sheet)]
+        free = [s for s in by_symbol if s and ladders[s].next(rungs[s], least)]
         if not free:
             return False
         coarser = max(free, key=worth)

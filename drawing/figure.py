@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, Generic, TypeVar
 
@@ -19,13 +19,13 @@ from ..plans.solved import Solved
 from ..scales.choices import SIZES
 from ..scales.errors import InputError
 from ..scales.scale import Choosers, Scale
-from .compose import Drawn, Nest, arrange, arrange_closely, compose, zoned
+from .compose import Drawn, arrange, begins_of, compose, on_one_page
 from .extents import Rungs, from_format
 from .formats import Format, Norm, Style, room
 from .packing import Placement
 from .printed import DEGREES, value_text
 from .shapes import Circle, Group, Pen
-from .view import Canvas, View
+from .view import Canvas, View, numbered
 from .words import Given, Words
 
 COARSE = 0.1  # mm by which a curve may be simplified for the letters beside it
@@ -44,6 +44,7 @@ class Stage:
 
     Its sentence has the key of the figure, a dot and its `name`. `marks` are what the construction makes in it, `#` for
     numbers, and `verb` how where marks of one name are made in two ways: without such a step the stage falls away.
+    It begins with what other figures have found in the stages that it `needs`, each as `figure.stage`.
     """
 
     name: str
@@ -51,6 +52,13 @@ class Stage:
     verb: str = ""
     when: Callable[[Any], bool] = lambda scene: True  # else what it would draw comes with the stage before it
     variant: Callable[[Any], str] = lambda scene: ""  # what stands after its key in a scene of another sentence
+    needs: tuple[str, ...] = ()
+
+
+def needing(stages: Iterable[Stage], **needs: str | tuple[str, ...]) -> tuple[Stage, ...]:
+    """Return stages of which some, by name, need those of other figures."""
+    wanted = {name: (need,) if isinstance(need, str) else need for name, need in needs.items()}
+    return tuple(replace(stage, needs=wanted.get(stage.name, stage.needs)) for stage in stages)
 
 
 def stages(*names: str, **marks: str) -> tuple[Stage, ...]:
@@ -84,7 +92,8 @@ class Figure(Generic[Scene]):
         keys, parts, last = self.keys(scene), {ANSWERS: ANSWERS}, ""
         for stage in self.stages:
             last = parts[stage.name] = stage.name if stage.name in keys else last
-        return Canvas(scene.style, coarse=coarse, parts=parts, stages=keys)
+        needs = {stage.name: stage.needs for stage in self.stages if stage.name in keys and stage.needs}
+        return Canvas(scene.style, coarse=coarse, parts=parts, stages=keys, needs=needs)
 
 
 @lru_cache(maxsize=8)
@@ -104,10 +113,7 @@ def family(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class SheetContents(Generic[Subject]):
-    """What a sheet shows: a solved subject, the plans wanted, choosers of scales, givens, words, norm.
-
-    `note` is what the task says of its data, in the language of the sheet.
-    """
+    """What a sheet shows: a solved subject, the plans wanted, choosers of scales, givens, words, norm."""
 
     solved: Subject
     plans: tuple[str, ...]
@@ -115,7 +121,6 @@ class SheetContents(Generic[Subject]):
     givens: Mapping[str, Given]
     words: Words
     norm: Norm = "gost"
-    note: str = field(default="", kw_only=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,15 +203,14 @@ class Fitting(ABC, Generic[Subject, Scene]):
 
     def views(self, sheet: Format, rungs: Rungs) -> list[View]:
         """Return the views of a sheet in the order of the work."""
-        return [view for view, _ in self.sized(sheet, rungs)]
+        return numbered(view for view, _ in self.sized(sheet, rungs))
 
-    def placed(self, sheet: Format, rungs: Rungs, layouts: Sequence[Nest] = (), any_order: bool = True) -> Found | None:
-        """Try one page at these rungs: in the zones of a layout, in reading order or, if need be, in `any_order`."""
-        views, norm = self.views(sheet, rungs), self.contents.norm
-        places = zoned(layouts, views, sheet, norm)
-        if places is None and may_fit(views, sheet):
-            places = arrange([view.size for view in views], sheet, norm, 1, any_order)
-        return None if places is None else (rungs, views, places)
+    def placed(self, sheet: Format, rungs: Rungs) -> Found | None:
+        """Try one page at these rungs."""
+        views = self.views(sheet, rungs)
+        sizes = [view.size for view in views]
+        found = on_one_page(sizes, sheet, self.contents.norm, begins_of(views)) if may_fit(views, sheet) else None
+        return None if found is None else (rungs, views, found)
 
     def draw(self, sheet: Format | None = None) -> Drawn:
         """Draw on `sheet`, or on the smallest format of which one page holds everything, from the usual one on.
@@ -221,21 +225,20 @@ class Fitting(ABC, Generic[Subject, Scene]):
             if found is not None:
                 break
         rungs, views, places = found or self.on_pages(candidate)
-        return compose(views, places, self.scales(candidate, rungs), candidate, contents.norm, self.part(rungs))
+        scales, part = self.scales(candidate, rungs), self.part(rungs)
+        return compose(views, places, scales, candidate, contents.norm, part, smaller=sheet is None)
 
     def on_pages(self, sheet: Format) -> Found:
-        """Take several pages in reading order, or fewer on which views stand closely.
+        """Take several pages in reading order.
 
         Raises InputError: a view has no room on any page.
         """
-        norm = self.contents.norm
         for first in (False, True):  # where nothing stands on the first page as it is, all becomes small enough for it
             rungs = self.enlarged(sheet, self.fitted(sheet, self.wanted, first), first)
             views = self.views(sheet, rungs)
-            sizes = [view.size for view in views]
-            ways = [way for way in (arrange(sizes, sheet, norm, None), arrange_closely(sizes, sheet, norm)) if way]
-            if ways:
-                return rungs, views, min(ways, key=pages)
+            places = arrange([view.size for view in views], sheet, self.contents.norm)
+            if places is not None:
+                return rungs, views, places
         raise InputError("sheet-too-small", format=sheet.name)
 
     def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> Rungs:
@@ -269,11 +272,6 @@ class Fitting(ABC, Generic[Subject, Scene]):
     def lower(self, rungs: Rungs, ladder: str) -> Rungs:
         """Return the rungs with the next one of a ladder, where it has one."""
         return rungs | {ladder: rungs[ladder] + self.has_next(rungs, ladder)}
-
-
-def pages(places: Sequence[Placement]) -> int:
-    """Return how many pages are taken."""
-    return max(place.page for place in places)
 
 
 def may_fit(views: Sequence[View], sheet: Format) -> bool:

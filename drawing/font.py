@@ -1,7 +1,7 @@
-"""DejaVu Sans: where it lies, its advances and outlines, and a small subset of it for embedding.
+"""The faces of letters on sheets: our drafting letters, upright and slanted, and DejaVu Sans for what they lack.
 
-The font file is read with `struct` alone, and only the tables that are asked for: opening it costs about a millisecond,
-a tenth of what a general font library costs to import.
+Their advances and outlines, and a small subset for embedding. A font file is read with `struct` alone, and only the
+tables that are asked for: opening it costs about a millisecond, a tenth of what a general font library costs to import.
 """
 
 from __future__ import annotations
@@ -19,22 +19,25 @@ from pathlib import Path
 from ..scales.errors import InputError
 from ..scales.numbers import SHOWN, quote
 
-FAMILY = "DejaVu Sans"
-SIZE = 2048 / 1493  # font size of letters whose capitals are 1 mm high: H has 1493 of 2048 units
+UPRIGHT, SLANTED, SCREEN = "upright", "slanted", "screen"  # faces: drafting letters of GOST 2.304, and DejaVu Sans
+DRAFTING = "Kulman Drafting"
+FAMILIES = {UPRIGHT: DRAFTING, SLANTED: DRAFTING, SCREEN: "DejaVu Sans"}
+CAPITALS = {UPRIGHT: 1000, SLANTED: 1000, SCREEN: 1493}  # height of a capital in units of the font
 
 # Flags of a part of a composite glyph.
 _WORDS, _SCALE, _MORE, _XY_SCALE, _TWO_BY_TWO, _INSTRUCTIONS = 0x1, 0x8, 0x20, 0x40, 0x80, 0x100
 
 
 class _Font:
-    """A TrueType font file, read lazily from its bytes."""
+    """A TrueType font file, read lazily from its bytes; letters of 1 mm height have the font size `size`."""
 
-    def __init__(self, data: bytes) -> None:
-        self.data = data
+    def __init__(self, face: str, data: bytes) -> None:
+        self.face, self.data = face, data
         count = struct.unpack_from(">H", data, 4)[0]
         entries = (struct.unpack_from(">4sLLL", data, 12 + 16 * index) for index in range(count))
         self.tables = {tag.decode(): (offset, length) for tag, _, offset, length in entries}
         self.units: int = struct.unpack_from(">H", self.table("head"), 18)[0]
+        self.size = self.units / CAPITALS[face]
 
     def table(self, tag: str) -> bytes:
         """Return the bytes of one table."""
@@ -68,8 +71,10 @@ class _Font:
 
     @cached_property
     def _places(self) -> array[int]:
-        """Return where each outline starts in the table `glyf` (the font has 32-bit places)."""
-        return self._words("loca", "I")
+        """Return where each outline starts in the table `glyf`."""
+        if struct.unpack_from(">H", self.table("head"), 50)[0]:
+            return self._words("loca", "I")
+        return array("I", (2 * half for half in self._words("loca", "H")))
 
     @cache  # noqa: B019 - one font lives as long as the program
     def glyph(self, character: str) -> int:
@@ -109,6 +114,16 @@ class _Font:
         low, high = struct.unpack_from(">h", outline, 4)[0], struct.unpack_from(">h", outline, 8)[0]
         return advance, low / self.units, high / self.units
 
+    @cache  # noqa: B019
+    def beyond(self, character: str) -> tuple[float, float]:
+        """Return how far the ink of a character begins before its place and ends behind its advance, at least 0."""
+        glyph = self.strict_glyph(character)
+        outline, advance = self.outline(glyph), self.metric(glyph)[0]
+        if not outline:
+            return 0.0, 0.0
+        left, right = struct.unpack_from(">h", outline, 2)[0], struct.unpack_from(">h", outline, 6)[0]
+        return max(0.0, -left / self.units), max(0.0, (right - advance) / self.units)
+
     def outline(self, glyph: int) -> bytes:
         """Return the outline of a glyph as it stands in the file; empty for a space."""
         start = self.tables["glyf"][0]
@@ -125,15 +140,18 @@ class _Font:
 
 
 @cache
-def font() -> _Font:
-    """Return DejaVu Sans from matplotlib's data, without importing matplotlib."""
-    spec = find_spec("matplotlib")
-    if spec is None or spec.origin is None:
-        raise InputError("font-missing", file="DejaVuSans.ttf")
-    path = Path(spec.origin).parent / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf"
+def font(face: str) -> _Font:
+    """Return a face: our letters lie beside this file, DejaVu Sans in matplotlib's data, which is not imported."""
+    if face == SCREEN:
+        spec = find_spec("matplotlib")
+        if spec is None or spec.origin is None:
+            raise InputError("font-missing", file="DejaVuSans.ttf")
+        path = Path(spec.origin).parent / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf"
+    else:
+        path = Path(__file__).with_name(f"letters-{face}.ttf")
     if not path.is_file():
         raise InputError("font-missing", file=quote(path, SHOWN))
-    return _Font(path.read_bytes())
+    return _Font(face, path.read_bytes())
 
 
 def _parts(outline: bytes) -> tuple[list[tuple[int, int]], int]:
@@ -185,9 +203,17 @@ def _character_map(pairs: list[tuple[int, int]]) -> bytes:
     return struct.pack(">HHHHL", 0, 1, 3, 1, 12) + struct.pack(">HHH", 4, 6 + len(body), 0) + body
 
 
-def _name_table() -> bytes:
+def _name_table(face: str) -> bytes:
     """Return the names a font must carry: family, style, identity, full name, version, PostScript name."""
-    texts = [FAMILY, "Regular", FAMILY + " subset", FAMILY, "Version 2.37", "DejaVuSans"]
+    family, style = FAMILIES[face], "Italic" if face == SLANTED else "Regular"
+    texts = [
+        family,
+        style,
+        f"{family} {style} subset",
+        f"{family} {style}",
+        "Version 1.0",
+        family.replace(" ", "") + style,
+    ]
     records, strings = b"", b""
     for number, text in enumerate(texts, start=1):
         encoded = text.encode("utf-16-be")
@@ -245,18 +271,18 @@ def _subset_tables(source: _Font, characters: Iterable[str]) -> dict[str, bytes]
         "hmtx": b"".join(struct.pack(">Hh", *source.metric(glyph)) for glyph in numbers),
         "loca": struct.pack(f">{len(places)}L", *places),
         "maxp": bytes(maxp),
-        "name": _name_table(),
+        "name": _name_table(source.face),
         "post": struct.pack(">L", 0x30000) + source.table("post")[4:32],
     }
 
 
 @lru_cache(maxsize=64)
-def web_subset(characters: str) -> bytes:
-    """Return a font with the glyphs of `characters` only, compressed as web pages have it (WOFF 1), without hinting.
+def web_subset(face: str, characters: str) -> bytes:
+    """Return a face with the glyphs of `characters` only, compressed as web pages have it (WOFF 1), without hinting.
 
     It is always smaller than the plain file of which it has the checksums.
     """
-    plain = _subset_tables(font(), characters)
+    plain = _subset_tables(font(face), characters)
     sums = {tag: _checksum(data) for tag, data in plain.items()}
     power = 1 << (len(plain).bit_length() - 1)
     file = struct.pack(">L4H", 0x10000, len(plain), 16 * power, power.bit_length() - 1, 16 * (len(plain) - power))
@@ -270,7 +296,7 @@ def web_subset(characters: str) -> bytes:
     size = 12 + sum(16 + len(_padded(data)) for data in plain.values())
     at, entries, body = 44 + 20 * len(plain), b"", b""
     for tag, data in whole.items():
-        packed = min(zlib.compress(data, 9), data, key=len)
+        packed = min(data, zlib.compress(data, 9), key=len)  # as it is where it is as short: so readers tell them apart
         entries += struct.pack(">4sLLLL", tag.encode(), at + len(body), len(packed), len(data), sums[tag])
         body += _padded(packed)
     header = struct.pack(">4sLLHHLHH5L", b"wOFF", 0x10000, at + len(body), len(plain), 0, size, 2, 37, 0, 0, 0, 0, 0)

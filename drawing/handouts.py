@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from math import ceil
@@ -12,10 +11,9 @@ from .areas import beside
 from .figure import GIVEN
 from .formats import Format, Norm, drawing_area, reserved_boxes
 from .page import TASK_VIEWS, Layer, Page, extent
-from .shapes import Group, Line, Pen, Shape, Text, changed, shifted
-from .view import View, cells
+from .shapes import Anchor, Group, Line, Pen, Shape, Text, changed, shifted
+from .view import View, cells, left_of
 
-NUMBER = re.compile(r"[−-]?\d+(?:[.,]\d+)?(?: |$)")  # what a cell of units does not begin with
 SQUARE, LIGHT = 5.0, "#d9d9d9"  # of the grid: side in mm, colour
 ANSWER = "#0072B2"  # what the teacher's hand adds is blue
 ROUND = 30.0  # mm of free paper round a plan that stands alone: room for the rulers that prove the print
@@ -28,7 +26,7 @@ class Shown:
     """What a handout shows of a view: the shapes of these `stages`; of a table some rows and columns.
 
     `notes` are the lines under its heading, which may hold results. A table keeps its first `columns`, and the `rows`
-    with these first cells; without any said, its last column where that is one of units.
+    with these first cells; without any said, its columns of units.
     """
 
     stages: frozenset[str] = frozenset((GIVEN,))
@@ -43,8 +41,34 @@ def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str
     Tables keep their heads and first columns. All of it is given to the student, and in that layer.
     """
     by_name = {view.name: view for view in views}
-    shown = {**shown, **{view.name: begun_stages(view, steps) for view in by_name.values() if view.stages}}
-    return [replace(page, shapes=tuple(_page_shape(shape, by_name, shown) for shape in page.shapes)) for page in pages]
+    shown = {**shown, **{name: begun_stages(by_name[name], done) for name, done in _done(by_name, steps).items()}}
+    begun = []
+    for page in pages:
+        unit = packaged(__package__, "texts", page.language)["table.unit"]
+        shapes = tuple(_page_shape(shape, by_name, shown, unit) for shape in page.shapes)
+        begun.append(replace(page, shapes=shapes))
+    return begun
+
+
+def _done(views: Mapping[str, View], steps: int) -> dict[str, int]:
+    """Return how many stages of each view are done: so many `steps`, as far as others have found what these need."""
+
+    def found(need: str) -> bool:
+        name, _, stage = need.partition(".")
+        if name not in done:  # on another sheet, where it is done
+            return True
+        order = list(views[name].stages)
+        return done[name] >= (order.index(stage) if stage in order else len(order) - 1)
+
+    def reached(name: str) -> int:
+        order, needs = list(views[name].stages)[1 : done[name] + 1], views[name].needs
+        return next((n for n, stage in enumerate(order) if not all(map(found, needs.get(stage, ())))), len(order))
+
+    done = {name: min(steps, len(view.stages) - 1) for name, view in views.items() if view.stages}
+    before = dict[str, int]()
+    while done != before:
+        before, done = done, {name: reached(name) for name in done}
+    return done
 
 
 def begun_stages(view: View, steps: int) -> Shown:
@@ -53,7 +77,7 @@ def begun_stages(view: View, steps: int) -> Shown:
     return Shown(drawn, notes=drawn.issuperset({*view.parts, *view.stages} - {""}))
 
 
-def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Shown]) -> Shape:
+def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Shown], unit: str) -> Shape:
     if not isinstance(shape, Group) or shape.role != "view":
         return shape
     shape = replace(shape, layer=Layer.GIVEN.value)
@@ -62,19 +86,26 @@ def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Sho
         return shape
     kept = shown.get(view.name, Shown())
     if view.rows:
-        return replace(shape, shapes=tuple(_table(part, view, kept) for part in shape.shapes))
+        return replace(shape, shapes=tuple(_table(part, view, kept, unit) for part in shape.shapes))
     hidden = frozenset(() if kept.notes else view.notes)
     parts: list[Shape] = []
-    for part, stage in zip(shape.shapes, view.parts or ("",) * len(shape.shapes), strict=True):
+    twins = zip(shape.shapes, view.shapes, strict=True)
+    by = next((a.at - b.at for a, b in twins if isinstance(a, Text) and isinstance(b, Text)), 0j)
+    for k, (part, stage) in enumerate(zip(shape.shapes, view.parts or ("",) * len(shape.shapes), strict=True)):
         if isinstance(part, Text) and part.role == "heading":
             parts += [part] if part.markup not in hidden else []
         elif stage in kept.stages:
-            parts.append(part)
+            whole, before = view.whole.get(k), view.whole.get(k - 1)
+            if whole is None or kept.stages.issuperset(whole.boxes.values()):
+                parts.append(part)
+            elif before is None or whole.shape is not before.shape:  # broken at the letters that are shown
+                boxes = tuple(box for box, of in whole.boxes.items() if of in kept.stages)
+                parts += (shifted(piece, by) for piece in (left_of(whole.shape, boxes) if boxes else [whole.shape]))
     return replace(shape, shapes=tuple(parts))
 
 
-def _table(shape: Shape, view: View, shown: Shown) -> Shape:
-    """Leave out what a table answers: all cells but the head, the first column and that of units, or whole rows."""
+def _table(shape: Shape, view: View, shown: Shown, unit: str) -> Shape:
+    """Leave out what a table answers: all but the head, the first column and those headed `unit`, or whole rows."""
     if not isinstance(shape, Group) or shape.role != "table":
         return shape
     places = [(row, column, end) for row, line in enumerate(view.rows) for column, end, text in cells(line) if text]
@@ -82,12 +113,11 @@ def _table(shape: Shape, view: View, shown: Shown) -> Shape:
     head = view.rows[0]
     half, odd = divmod(len(head), 2)  # of a table whose halves stand side by side under the same head
     width = half if half and not odd and head[:half] == head[half:] else len(head)
-    last = -1 if any(NUMBER.match(row[-1] or "") for row in view.rows[1:]) else width
     kept = []
     for part in shape.shapes:
         if isinstance(part, Text):
             row, column, end = next(texts)
-            given = (end - 1) % width + 1 == last if shown.rows is None else view.rows[row][0] in shown.rows
+            given = head[end - 1] == unit if shown.rows is None else view.rows[row][0] in shown.rows
             if row and column % width >= shown.columns and not given:
                 continue
         kept.append(part)
@@ -140,11 +170,18 @@ def over_page(view: View, like: Page) -> Page:
 
 def marked(page: Page) -> Page:
     """Return a page in layers with a ruler under the frame and one beside it."""
-    start, word = complex(24.0, 6.0), packaged(__package__, "texts", page.language)["print.whole"]
-    text = Text(start + RULER + 4.0, word, 2.5, role="stamp", name="print")
-    across = Group((*_ruler(start, 1 + 0j), text), "ruler", "across")
-    up = Group(tuple(_ruler(complex(12.0, 60.0), 1j)), "ruler", "up")
+    texts = packaged(__package__, "texts", page.language)
+    start, side = complex(24.0, 6.0), complex(12.0, 60.0)
+    whole = f"{RULER} {texts['unit.mm']}; {texts['print.whole']}"
+    below = _said(start - 1.0, "0", "right"), _said(start + RULER + 2.0, whole, "left")
+    across = Group((*_ruler(start, 1 + 0j), *below), "ruler", "across")
+    ends = _said(side - 3.5j, "0", "middle"), _said(side + 1j * (RULER + 1.0), str(RULER), "middle")
+    up = Group((*_ruler(side, 1j), *ends), "ruler", "up")
     return replace(page, shapes=(*page.shapes, across, up), layers=True)
+
+
+def _said(at: complex, text: str, anchor: Anchor) -> Text:
+    return Text(at, text, 2.5, anchor, role="stamp", name="print")
 
 
 def _ruler(start: complex, along: complex) -> Iterator[Line]:

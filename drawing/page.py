@@ -8,7 +8,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from cmath import rect
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from math import pi, tau
 from typing import TypeAlias, assert_never
@@ -16,14 +16,15 @@ from typing import TypeAlias, assert_never
 from ..scales.packaged import packaged
 from .formats import HEAD_HALF_WIDTH, ZERO, Norm, Pens, pens_for
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, sides_of
-from .text import Box, Run, corners, lay_out, placer
+from .text import LETTERING, Box, Run, corners, lay_out, lettered, placer
 
 
 @dataclass(frozen=True, slots=True)
 class Page:
     """A sheet of paper of `width` x `height` mm with shapes on it, ready for any writer.
 
-    `language` is the language of its words ("uk", "ru", "en"); `norm` picks the widths of its lines. With `layers` a
+    `language` is the language of its words ("uk", "ru", "en"); `norm` picks the widths of its lines, `lettering`
+    its letters. With `layers` a
     file keeps what is given, construction, results and letters apart, so that a reader can hide any of them; without
     them each view is one group.
     """
@@ -35,6 +36,7 @@ class Page:
     language: str
     norm: Norm = "gost"
     layers: bool = False
+    lettering: str = field(default_factory=lambda: LETTERING.get().name)
 
     @property
     def pens(self) -> Pens:
@@ -79,7 +81,7 @@ def extent(shapes: Iterable[Shape]) -> Box:
 
 
 NOTE = "note"  # the name of lines under a heading, which may hold results
-TASK_VIEWS = ("givens", "data", "choices", "note", "structure", "scales")  # of the task, and of how it is drawn
+TASK_VIEWS = ("givens", "data", "choices", "scales")  # of the task, and of how it is drawn
 
 
 class Layer(Enum):
@@ -190,13 +192,14 @@ class Walk(ABC):
 
     def whole(self) -> None:
         """Go through the page. Raises ValueError: a coordinate is not a finite number."""
-        for layer, shapes in parts_of(self.page):
-            if layer is not None:
-                self.begin(layer)
-            for shape in shapes:
-                self.draw(shape)
-            if layer is not None:
-                self.end(layer)
+        with lettered(self.page.lettering, self.page.language):
+            for layer, shapes in parts_of(self.page):
+                if layer is not None:
+                    self.begin(layer)
+                for shape in shapes:
+                    self.draw(shape)
+                if layer is not None:
+                    self.end(layer)
 
     def draw(self, shape: Shape) -> None:
         """Put down a shape."""

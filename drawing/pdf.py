@@ -17,7 +17,7 @@ from zlib import compress
 
 from ..scales.errors import InputError
 from ..scales.numbers import quote
-from .font import font
+from .font import UPRIGHT, font
 from .page import BLACK, Layer, Page, Part, Stroke, Walk, filled
 from .shapes import Arc, Arrow, Circle, Group, Line, Pen, Polyline, Shape, Text, Vector
 from .text import Box, Run
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 POINT = 72 / 25.4  # points in a millimetre
-FONT = "DejaVuSans"
+FONT = "letters"
 QUICK = 4  # how hard zlib tries
 PAPERS = {"A4": (210.0, 297.0), "A3": (297.0, 420.0)}  # small paper, mm
 MARGIN = 10.0  # of small paper, mm: no printer reaches its edge
@@ -47,14 +47,14 @@ class _Document:
     def __init__(self, page: Page) -> None:
         from reportlab.pdfgen.canvas import Canvas
 
-        _font()
+        _font(UPRIGHT)
         self.canvas = Canvas(
             BytesIO(),
             pagesize=(page.width * POINT, page.height * POINT),
             invariant=1,
             pageCompression=1,
             lang=page.language,
-            initialFontName=FONT,
+            initialFontName=f"{FONT}-{UPRIGHT}",
             pdfVersion=(1, 5),  # the first with layers
         )
         self.canvas.setTitle(page.title)
@@ -116,14 +116,14 @@ def write(pages: Sequence[Page], stream: BinaryIO) -> None:
 
 
 @cache
-def _font() -> TTFont:
-    """Return reportlab's view of the font, registered once for the life of the program."""
+def _font(name: str) -> TTFont:
+    """Return reportlab's view of a face, registered once for the life of the program."""
     from reportlab import rl_config
     from reportlab.pdfbase.pdfmetrics import registerFont
     from reportlab.pdfbase.ttfonts import TTFont
 
-    with closing(BytesIO(font().data)) as data:
-        face = TTFont(FONT, data)
+    with closing(BytesIO(font(name).data)) as data:
+        face = TTFont(f"{FONT}-{name}", data)
     registerFont(face)
     rl_config.useA85 = 0  # its base 85, in Python, takes longer than all the rest of a page
     return face
@@ -165,12 +165,11 @@ class _Walk(Walk):
         super().__init__(page)
         self.put = canvas.addLiteral
         self.document = canvas._doc
-        self.font = _font()
         self.layers: list[Layer] = []
         self.inked: tuple[object, ...] = ()
         self.filled = ""
         self.lettered = ""
-        self.codes: dict[tuple[str, float], list[tuple[str, str]]] = {}
+        self.codes: dict[tuple[str, float, str], list[tuple[str, str]]] = {}
 
     def stroke(self, shape: Stroke, dashes: tuple[float, ...]) -> None:
         """Put down a path, in the pen and the colour of areas that it wants."""
@@ -209,7 +208,7 @@ class _Walk(Walk):
         turn, words = _turn(text.angle, text.squeeze), ["BT"]
         for run, at in runs:
             words += (turn, _place(at), "Tm")
-            for face, shown in self.shown(run.string, run.size):
+            for face, shown in self.shown(run.string, run.size, run.face):
                 if face != self.lettered:
                     self.lettered = face
                     words.append(face)
@@ -217,14 +216,14 @@ class _Walk(Walk):
         words.append("ET")
         self.put(" ".join(words))
 
-    def shown(self, string: str, size: float) -> list[tuple[str, str]]:
+    def shown(self, string: str, size: float, face: str) -> list[tuple[str, str]]:
         """Return what sets the font and what shows characters of one size, for each subset of the font they are in."""
-        codes = self.codes.get((string, size))
+        codes = self.codes.get((string, size, face))
         if codes is None:
-            faces, big = self.font.getSubsetInternalName, f"{size * POINT:.5f}"
-            split = self.font.splitString(string, self.document)
+            font, big = _font(face), f"{size * POINT:.5f}"
+            faces, split = font.getSubsetInternalName, font.splitString(string, self.document)
             codes = [(f"{faces(subset, self.document)} {big} Tf", f"<{code.hex()}> Tj") for subset, code in split]
-            self.codes[string, size] = codes
+            self.codes[string, size, face] = codes
         return codes
 
     def begin(self, part: Part) -> None:

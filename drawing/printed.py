@@ -9,10 +9,11 @@ numbers are known. A vector is its size: a turn by 90 degrees leaves it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
+from itertools import combinations
 from operator import add, mul, sub, truediv
 from typing import Any, NamedTuple
 
@@ -26,12 +27,16 @@ CONSTANTS = {math.pi: "π", 0.5 * math.pi: "π/2", 2.0 * math.pi: "2π"}
 HALF = 0.5  # as a factor it is 2 below the line
 DEGREES = 180.0 / math.pi  # in a radian
 DIGITS = 4  # significant digits of a printed value
+ONE_WITH = 6  # digits of one input that is printed with more than the others
 MOST = 10  # more digits than that would be rounding noise
 FEWEST = 2  # significant digits of what small segments show
-HUNDREDTHS = 2  # decimals of a segment, mm: a ruler reads no more
-# digits of a result, most digits of what goes into it, whether segments may have more than hundredths of a millimetre
-TRIES = ((DIGITS, 6, False), (3, 6, False), (FEWEST, 6, False), (DIGITS, DIGITS + MOST, True))
+HUNDREDTHS, LONG = 2, 100.0  # decimals of a segment, mm: a ruler reads no more; from where on it has one less
+# digits of a result, and most digits of what goes into it, where segments of the sheet do and where none does
+MEASURED, FREE = ((DIGITS, 6), (3, 6), (FEWEST, 6)), ((DIGITS, DIGITS + MOST),)
+AS_TOLD = 0  # instead of a number of digits: as many as the sheet prints elsewhere
+AS_PRINTED = -1  # instead of decimals of a result: what the printed numbers give, with a digit more than usual
 FINEST = 12  # decimals; what is smaller still is 0
+READABLE = 1.0  # mm; of a shorter segment hundredths may be too few to tell its value
 POINT = 1e-6  # mm; a shorter segment is a point, and its quantity 0
 
 
@@ -248,9 +253,9 @@ def _written(factor: Factor) -> str:
 class Input:
     """A number that goes into a printed calculation.
 
-    One that is `exact` (a given, a scale factor) is printed as it is; one measured on the sheet has at most `places`
-    decimals, as many as its ruler shows. In a formula it is called by its `name`, a `sign` follows its number, and its
-    law takes one of `times` of it.
+    One that is `exact` (a given, a scale factor) is printed as it is; one measured on the sheet has `places`
+    decimals, as many as its ruler shows; what the sheet prints elsewhere stands there as `told`. In a formula it is
+    called by its `name`, a `sign` follows its number, and its law takes one of `times` of it.
     """
 
     value: float
@@ -259,13 +264,27 @@ class Input:
     name: str = ""
     sign: str = ""
     times: float = 1.0
+    told: str = ""
 
-    def decimals(self, digits: int, free: bool) -> int | None:
-        """Return how many decimals show it with so many digits; `free` lets a segment have more than its ruler."""
+    def decimals(self, digits: int) -> int | None:
+        """Return how many decimals show it with so many digits."""
         if self.exact:
             return None
-        wanted = decimals_for(self.value, digits)
-        return wanted if free or self.places is None else min(wanted, self.places)
+        return self.places if self.places is not None else decimals_for(self.value, digits or DIGITS)
+
+    def printed(self, digits: int) -> float:
+        """Return it as it is printed with so many digits, or as it is `AS_TOLD`."""
+        if self.told and digits == AS_TOLD:
+            return number_of(self.told)
+        decimals = self.decimals(digits)
+        return self.value if decimals is None else round(self.value, decimals)
+
+    def text(self, words: Words, digits: int) -> str:
+        """Return its number with so many digits, or as it is `AS_TOLD`."""
+        decimals = self.decimals(digits)
+        if self.told and digits == AS_TOLD:
+            return self.told
+        return words.short(self.value) if decimals is None else words.number(self.value, decimals)
 
 
 def decimals_for(value: float, digits: int = DIGITS) -> int:
@@ -276,53 +295,124 @@ def decimals_for(value: float, digits: int = DIGITS) -> int:
     return max(0, min(first + digits - 1, FINEST)) if first + DIGITS - 1 <= FINEST else 0
 
 
-def value_text(words: Words, value: float) -> str:
+def value_text(words: Words, value: float, digits: int = DIGITS) -> str:
     """Return a value with the usual digits; what is rounding noise of a millionth of a millionth is 0."""
-    return words.number(value, decimals_for(value))
+    return words.number(value, decimals_for(value, digits))
 
 
-def ruler_decimals(words: Words) -> int:
-    """Return the decimals of a segment that show hundredths of a millimetre in the unit of segments."""
-    return HUNDREDTHS if words.display.paper == "mm" else HUNDREDTHS + 1  # of a centimetre
+def ruler_decimals(words: Words, segment: float) -> int:
+    """Return the decimals of a segment in the unit of segments: hundredths of a mm, from 100 mm on tenths."""
+    centimetres = words.display.paper != "mm"
+    long = round(abs(segment) * (10.0 if centimetres else 1.0), HUNDREDTHS) >= LONG
+    return HUNDREDTHS - long + centimetres
 
 
-def segment_decimals(value: float, mu: float, least: int = HUNDREDTHS) -> tuple[int, int]:
-    """Return decimals for a segment and for its value so that segment * mu is the value to its last printed digit.
+def segment_text(words: Words, segment: float) -> str:
+    """Return a length on paper, in the unit of segments, as a ruler shows it."""
+    return words.number(segment, ruler_decimals(words, segment))
 
-    `least` decimals, hundredths of a millimetre, for no ruler reads more, and as many digits of the value as they show;
-    only of a segment that shows less than `FEWEST` digits so, there are more.
+
+def read_off(
+    words: Words, value: float, mu: float, readable: float = READABLE, fewest: int = FEWEST
+) -> tuple[str, str]:
+    """Return a segment that shows a value at the scale factor `mu`, and the value, so that segment * mu is the value.
+
+    The value has as many digits as the segment shows; where even its units are more than that, it is their product. Of
+    what is shorter than `readable` and too short for the `fewest` digits there is no segment.
     """
-    size, usual = abs(value), decimals_for(value)
-    if size < POINT * mu:
-        return HUNDREDTHS, 0
-    for places in range(least, least + MOST):
-        for digits in range(DIGITS, FEWEST - 1, -1):
-            decimals = decimals_for(value, digits)
-            if round(round(size / mu, places) * mu, decimals) == round(size, decimals):
-                return places, decimals
-    return least + MOST, usual
+    segment = abs(value) / mu
+    if segment < POINT:
+        return segment_text(words, 0.0), words.number(0.0, 0)
+    read = round(segment, ruler_decimals(words, segment)) * mu
+    shown, decimals = _agreed(abs(value), read)
+    if segment < readable and (shown == read or decimals < decimals_for(value, fewest)):
+        return "", value_text(words, abs(value))
+    return segment_text(words, segment), words.number(shown, decimals)
+
+
+def laid_off(words: Words, value: float, mu: float, known: str) -> str:
+    """Return the segment of a value whose number is `known`, so that segment * mu is that number; else nothing.
+
+    It has hundredths of a mm where a ruler's tenths are too coarse for the number.
+    """
+    segment = abs(value) / mu
+    for decimals in (ruler_decimals(words, segment), ruler_decimals(words, 0.0)):
+        if abs(round(segment, decimals) * mu - number_of(known)) <= half_digit(known):
+            return words.number(segment, decimals)
+    return ""
+
+
+def number_of(text: str) -> float:
+    """Return a printed number as a number."""
+    return float(text.replace("−", "-").replace(",", "."))
+
+
+def half_digit(text: str) -> float:
+    """Return half a unit of the last digit of a printed number, and a little for ties."""
+    return 0.5 * 10.0 ** -len(text.replace(",", ".").partition(".")[2]) * (1.0 + 1e-9)
+
+
+def _agreed(value: float, reckoned: float, digits: int = DIGITS) -> tuple[float, int]:
+    """Return a value, and its decimals, so that it is as `reckoned` from printed numbers: with fewer digits, or that.
+
+    It has at most so many significant `digits`.
+    """
+    most = decimals_for(value, digits)
+    for decimals in range(most, -1, -1):
+        if _agree(reckoned, value, decimals):
+            return value, decimals
+    return reckoned, 0
+
+
+def _agree(reckoned: float, value: float, decimals: int) -> bool:
+    """Whether a value with so many decimals is what printed numbers give, to its last digit."""
+    return abs(reckoned - round(value, decimals)) <= 0.5 * 10.0**-decimals * (1.0 + 1e-9)
 
 
 def calculation(
-    words: Words, law: Callable[..., float], inputs: Sequence[Input], wanted: int | None = None
+    words: Words,
+    law: Callable[..., float],
+    inputs: Sequence[Input],
+    wanted: int | None = None,
+    read: float | None = None,
 ) -> tuple[list[str], str]:
     """Return the printed inputs and the printed result of a calculation, such that it recomputes.
 
-    Inputs get as many digits as it takes for the result to come out to its last printed digit; where segments of the
-    sheet do not allow that, the result has fewer digits. It may have a `wanted` number of decimals.
+    Inputs are as the sheet tells them, or have as many digits as it takes for the result to come out to its last
+    printed digit; where segments of the sheet do not allow that, the result has fewer digits, or is what the printed
+    numbers give. It has the digits with which a plan shows it where what is `read` there is said, or a `wanted` number
+    of decimals, or is `AS_PRINTED`.
     """
-    values = [one.value for one in inputs]
+    values, digits = [one.value for one in inputs], [AS_TOLD] * len(inputs)
+    if wanted == AS_PRINTED:
+        return _texts(words, inputs, digits), value_text(words, as_printed(law, inputs), DIGITS + 1)
     result = law(*values)
-    measured = any(one.places is not None for one in inputs)
-    for last, most, free in TRIES if measured else TRIES[-1:]:
+    measured = read is not None or any(one.places is not None for one in inputs)
+    for last, most in MEASURED if measured else FREE:
         decimals = decimals_for(result, last) if wanted is None else wanted
-        for digits in range(DIGITS, most + 1):
-            places = [one.decimals(digits, free) for one in inputs]
-            shown = [x if cut is None else round(x, cut) for x, cut in zip(values, places, strict=True)]
+        if read is not None and not _agree(read, abs(result), decimals):
+            continue
+        for digits in _digits(inputs, most):
             with suppress(ArithmeticError, ValueError):  # numbers that are rounded to nothing may give none at all
-                if round(law(*shown), decimals) == round(result, decimals):
-                    return _texts(words, values, places), words.number(result, decimals)
-    return _texts(words, values, places), words.number(result, decimals)
+                if _agree(law(*_printed(inputs, digits)), result, decimals):
+                    return _texts(words, inputs, digits), words.number(result, decimals)
+    if read is not None:  # no digits of it agree
+        return calculation(words, law, inputs, wanted)
+    with suppress(ArithmeticError, ValueError):
+        reckoned = law(*_printed(inputs, digits))
+        result, decimals = _agreed(result, reckoned, FEWEST) if wanted is None else (reckoned, wanted)
+        ways = (own for own in _digits(inputs, most) if _agree(law(*_printed(inputs, own)), result, decimals))
+        digits = next(ways, digits)  # the fewest that give as much
+    return _texts(words, inputs, digits), words.number(result, decimals)
+
+
+def as_printed(law: Callable[..., float], inputs: Sequence[Input]) -> float:
+    """Return what the printed numbers of a calculation give, with a digit more than usual."""
+    try:
+        reckoned = law(*(one.printed(AS_TOLD) for one in inputs))
+    except ArithmeticError:  # a divisor that is rounded to nothing
+        reckoned = law(*(one.value for one in inputs))
+    return float(round(reckoned, decimals_for(reckoned, DIGITS + 1)))
 
 
 class Shown(NamedTuple):
@@ -349,6 +439,22 @@ def worked(words: Words, name: str, law: str, inputs: Sequence[Input], shown: Sh
     return f"{words.symbol(name)} = {formula}", f"= {reckoned}", said
 
 
-def _texts(words: Words, values: Sequence[float], places: Sequence[int | None]) -> list[str]:
-    pairs = zip(values, places, strict=True)
-    return [words.short(value) if cut is None else words.number(value, cut) for value, cut in pairs]
+def _digits(inputs: Sequence[Input], most: int) -> Iterator[list[int]]:
+    """Go through the digits of inputs: as they are told, one or two with more digits than the others, all with more."""
+    count = len(inputs)
+    yield [AS_TOLD] * count
+    free = [i for i, one in enumerate(inputs) if not one.exact and one.places is None]
+    for some in (1, 2):
+        for more in range(DIGITS + 1, ONE_WITH + 1):
+            yield from ([more if i in finer else AS_TOLD for i in range(count)] for finer in combinations(free, some))
+        yield [DIGITS] * count
+    yield from ([more] * count for more in range(DIGITS + 1, most + 1))
+
+
+def _printed(inputs: Sequence[Input], digits: Sequence[int]) -> list[float]:
+    """Return inputs as they are printed with so many digits each."""
+    return [one.printed(own) for one, own in zip(inputs, digits, strict=True)]
+
+
+def _texts(words: Words, inputs: Sequence[Input], digits: Sequence[int]) -> list[str]:
+    return [one.text(words, own) for one, own in zip(inputs, digits, strict=True)]

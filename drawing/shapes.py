@@ -7,8 +7,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
 from itertools import pairwise
+from math import ceil
 from typing import Any, Literal, TypeAlias, assert_never
 
+BESIDE = 0.1  # mm between an arc and chords that stand for it
 Fill: TypeAlias = bool | Literal["white", "black"]
 Anchor: TypeAlias = Literal["left", "middle", "right"]
 HeadPlace: TypeAlias = Literal["tip", "middle", "none"]
@@ -90,7 +92,8 @@ class Text:
     """One line of text in the markup of `text.py`.
 
     `at` lies on the baseline, at the end or middle that `anchor` names; `height` is the height of a capital letter in
-    mm; `angle` turns the text about `at` (radians); `squeeze` below 1 makes the letters narrower.
+    mm; `angle` turns the text about `at` (radians); `squeeze` below 1 makes the letters narrower. A letter is `of` a
+    node, or of the line from one point to another.
     """
 
     at: complex
@@ -102,6 +105,7 @@ class Text:
     name: str = ""
     colour: str | None = None
     squeeze: float = 1.0
+    of: tuple[complex, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,14 +158,15 @@ Shape: TypeAlias = Line | Polyline | Circle | Arc | Head | Text | Vector | Arrow
 
 
 def sides_of(shape: Line | Polyline | Arc) -> Iterator[tuple[complex, complex]]:
-    """Go through the straight pieces of a line; an arc is taken for eight chords."""
+    """Go through the straight pieces of a line; an arc is taken for chords, a tenth of a mm beside it."""
     match shape:
         case Line(a=a, b=b):
             yield a, b
         case Polyline(points=points, closed=closed):
             yield from pairwise((*points, points[0]) if closed else points)
         case Arc(centre=centre, radius=radius, start=start, sweep=sweep):
-            yield from pairwise(centre + rect(radius, start + sweep * k / 8) for k in range(9))
+            count = max(8, ceil(abs(sweep) * (radius / (8.0 * BESIDE)) ** 0.5))
+            yield from pairwise(centre + rect(radius, start + sweep * k / count) for k in range(count + 1))
 
 
 def changed(shape: Shape, change: Callable[[Any], Shape]) -> Shape:
@@ -176,8 +181,9 @@ def shifted(shape: Shape, by: complex) -> Shape:
     match shape:  # the most numerous ones without the detour of `replace`
         case Line(a=a, b=b):
             return Line(a + by, b + by, shape.pen, shape.role, shape.name, shape.colour)
-        case Text(at=at, markup=markup, height=height, anchor=anchor, angle=angle):
-            return Text(at + by, markup, height, anchor, angle, shape.role, shape.name, shape.colour, shape.squeeze)
+        case Text(at=at, markup=markup, height=height, anchor=anchor, angle=angle, squeeze=squeeze):
+            of = tuple([point + by for point in shape.of])
+            return Text(at + by, markup, height, anchor, angle, shape.role, shape.name, shape.colour, squeeze, of)
         case Group(shapes=shapes, role=role, name=name, title=title, layer=layer):
             return Group(tuple([shifted(part, by) for part in shapes]), role, name, title, layer)
         case Head(tip=tip, direction=direction, colour=colour):

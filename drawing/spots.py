@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 import shapely
@@ -25,20 +25,34 @@ Reals: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 Numbers: TypeAlias = NDArray[np.intp]
 
-# Costs. Only their order matters: covering something is worse than any sum of the rest.
-COVER, AMBIGUOUS, THIN, CROWDED, STEP, TURN, SLIDE, CROSSING = 1e4, 30.0, 300.0, 1.5, 1.0, 1.5, 4.0, 40.0
+# Costs. Only their order matters: covering something, or being read as the name of another, is worse than all the rest.
+COVER, AMBIGUOUS, THIN, CROWDED, STEP, TURN, SLIDE, CROSSING = 1e4, 30.0, 300.0, 1.5, 1.0, 1.5, 4.0, 120.0
 CLOSE = 6.0  # for each mm that something is nearer than it should be to leave no doubt
 ROOM = 2.5  # mm around a label that should be empty where there is a choice
 BARE = 2.5  # mm around a label: a thin line nearer than this looks like a bar over or under the letter
 DOUBT = 1.0  # mm by which a label should be nearer to its own anchor than to anything else with a name
+SURELY = 0.3  # mm by which it must be nearer than to another node, beside a segment than to another segment
+WIDE = 3.0  # mm: a larger circle stands for no node
+EVEN = 1e-6  # mm by which it may be further from it than from another one in the same place
 NEAR = (0.0, 0.8, 2.0, 3.5)  # mm added to the distance that was asked for
-FAR = (5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 25.0, 30.0)  # the same for a label on a leader
-AFIELD, PITCH = 75.0, 5.0  # mm, how far a label may go when it has no place nearer, and how dense its places are then
+FAR = np.array([5.0, 8.0, 11.0, 14.0, 17.0, 20.0, 25.0, 30.0])  # mm, how long leaders are
+AFIELD = np.array([35.0, 42.0, 50.0, 60.0, 75.0])  # mm, how long where there is no place nearer
 ALONG = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78, 0.86])  # places along a segment
+STARTS = np.array([0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92])  # the same for the start of a leader
+STEEP = np.exp(1j * np.radians([*range(30, 151, 15), *range(-150, -29, 15)]))  # a level leader would be a bar or a dash
+FROM_RIGHT = complex(np.exp(1j * np.radians(105.0)))  # a steeper line would be read from the left
+ACROSS, GRAZING = 0.42, 0.2  # sines of the least angle between a leader and its own segment, and any other line
+BEGIN = 1.6  # mm from its start on which a leader is not yet looked at by cells
+CELL = 0.4  # mm: cells of the raster of all that no label may cover
+MOST = 2200  # cells side by side: more than on A1; those of a drawing beyond all sheets are larger
 TOUCH = 0.3  # mm: a stroke that comes so near to a node ends there
+LEAVES, PASSING = 0.2, 0.45  # mm at which a leader has left its node, and that it keeps from the circle of another one
+KNEES = np.arange(3.0, 25.0, 2.0)  # mm from its start at which a leader may bend
+ROUND_ABOUT = np.exp(1j * np.radians(np.arange(0.0, 360.0, 10.0)))  # where it may run before it bends
+AFTER = ROUND_ABOUT[abs(ROUND_ABOUT.imag) > 0.49]  # and then: neither a bar nor a dash
+BEND, SHARPEST = 12.0, -0.3  # what a bend costs; cosine of the sharpest
 SLACK = 1e-9  # mm, for rounding
 ROUND = 64  # corners of what stands for a circle where a leader may run through it
-MERGED = 5  # boxes through which a leader would rather run than along a stroke
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +72,9 @@ class Request:
     `clear` is the distance wanted between the box and its anchor, `prefer` the side where it should stand;
     where two labels want the same place, the one with the higher `priority` chooses first. A `strict` label, such as
     that of a dimension, stands rather on a leader than nearer to something else. One that may go `afield` takes a long
-    leader, through whatever is drawn, where it has no place nearer.
+    leader where it has no place nearer, through whatever is drawn where it must. One that may run `along` its segment
+    is turned with it before it is set apart. An `optional` one runs along it rather than not, gives way to all others,
+    and is left out where there is no room.
     """
 
     name: str
@@ -70,6 +86,8 @@ class Request:
     priority: int = 0
     strict: bool = False
     afield: bool = True
+    along: bool = True
+    optional: bool = False
 
 
 # sixteen sides of a box: where its centre lies in half sizes, and along what normal it leaves the anchor
@@ -108,12 +126,6 @@ class Wanted(NamedTuple):
         strict = np.array([r.strict for r in requests], dtype=bool)
         return cls(a, b, numbers[0], numbers[1], np.maximum(numbers[2], rim + gap), rim, prefer, numbers[3], strict)
 
-    def feet(self, centre: Points) -> Points:
-        """Where leaders from boxes around `centre` should end: on the node, or on the middle part of the segment."""
-        along = self.b - self.a
-        square = np.where(along == 0, 1, (along * along.conj()).real)
-        return self.a + along * _within(((centre - self.a) * along.conj()).real / square, 0.2, 0.8)
-
     def candidates(self, steps: Reals) -> tuple[Points, Reals, Reals]:
         """Return centres (L, K), distances from the anchor (L, K) and the cost of standing there for its own sake."""
         centre = np.empty((len(self.a), 16, len(steps)), dtype=complex)
@@ -142,14 +154,57 @@ class Wanted(NamedTuple):
         own = np.broadcast_to(away[:, None], centre.shape).reshape(shape)
         return centre.reshape(shape), own, (taste[:, :, None] + STEP * steps).reshape(shape)
 
-    def lattice(self) -> tuple[Points, Reals, Reals]:
-        """Return the same of places all round the middle of the anchors, a lattice as wide as leaders may be long."""
-        across = np.arange(-AFIELD, AFIELD + PITCH / 2, PITCH)
-        around = np.ravel(across[:, None] + 1j * across)
-        centre = (self.a + self.b)[:, None] / 2 + around
-        near = (np.abs(around.real) < self.hw[:, None] + FAR[0]) & (np.abs(around.imag) < self.hh[:, None] + FAR[0])
-        own = np.broadcast_to(np.abs(around), centre.shape)
-        return centre, own, STEP * own + COVER * near
+    def leads(self, i: int, lengths: Reals, ways: Points = STEEP) -> tuple[Points, Reals]:
+        """Return leaders of label i, shape (4, K), the cheapest first, and what each costs for its own sake.
+
+        The four are the middle of the label, head and start of the leader, and the way from the start to the head.
+        """
+        a, along = self.a[i], self.b[i] - self.a[i]
+        share, way, length = (STARTS, ways, lengths) if along else (STARTS[:1], ways, lengths)
+        if along:  # beside a segment it should not be taken for a part of it
+            way = way[abs((way * np.conj(along)).imag) >= ACROSS * abs(along)]
+        wish = self.prefer[i] if self.prefer[i] != 0 else 0.3 * HEADING[2]
+        cost = SLIDE * abs(share - 0.5)[:, None, None] + TURN * (1.0 - (np.conj(wish) * way).real)[:, None]
+        start = (a + along * share)[:, None, None] + (way * self.rim[i])[:, None]
+        head = start + way[:, None] * length
+        at = head + self.beside_head(i, way)[:, None]
+        shape = len(share), len(way), len(length)
+        leads = np.array([np.broadcast_to(part, shape).ravel() for part in (at, head, start, way[:, None])])
+        costs = np.broadcast_to(cost + STEP * length, shape).ravel()
+        order = np.argsort(costs, kind="stable")
+        return leads[:, order], costs[order]
+
+    def beside_head(self, i: int, way: Points) -> Points:
+        """Return where the middle of label i is from the heads of leaders that come in these directions."""
+        side: Points = np.clip(1.5 * way.real, -1.0, 1.0) * self.hw[i] + 1j * np.sign(way.imag) * self.hh[i]
+        return side
+
+    def bent(self, i: int, knees: Points, ways: Points, costs: Reals) -> tuple[Points, Reals, Numbers]:
+        """Return leaders of label i, as `leads` does, from knees to which others run; the number of each knee."""
+        length, way, k = (grid.ravel() for grid in np.meshgrid(FAR, AFTER, np.arange(len(knees)), indexing="ij"))
+        turn = (np.conj(way) * ways[k]).real
+        kept = (turn > SHARPEST) & (turn < 0.99)
+        length, way, k = length[kept].real, way[kept], k[kept]
+        head = knees[k] + way * length
+        leads = np.array([head + self.beside_head(i, way), head, knees[k], way])
+        return leads, costs[k] + STEP * length + BEND, k
+
+    def turned(self, i: int) -> tuple[Points, complex, Reals]:
+        """Return middles of label i where it runs along its segment, its direction, and what each place costs.
+
+        It is read from below or from the right.
+        """
+        along = self.b[i] - self.a[i]
+        e = along / abs(along)
+        e = -e if (e / FROM_RIGHT).imag > SLACK else e
+        sides, steps = np.array([1j, -1j]) * e, np.array(NEAR[:3])
+        wish = self.prefer[i] if self.prefer[i] != 0 else 0.1j * e
+        cost = SLIDE * abs(ALONG - 0.5)[:, None, None] + STEP * steps
+        cost = cost + TURN * (1.0 - (np.conj(wish) * sides).real)[:, None]
+        out = sides[:, None] * (self.hh[i] + self.clear[i] + steps)
+        at = (self.a[i] + along * ALONG)[:, None, None] + out
+        order = np.argsort(cost.ravel(), kind="stable")
+        return at.ravel()[order], complex(e), cost.ravel()[order]
 
 
 class Grid(NamedTuple):
@@ -206,6 +261,83 @@ class Convex(NamedTuple):
         return dx
 
 
+class Cells(NamedTuple):
+    """Cells of a raster with anything in them: their lower left corner, which they are, how many are below and left.
+
+    From such sums any number of boxes are known to be free at once.
+    """
+
+    side: float
+    corner: complex
+    filled: Flags
+    total: NDArray[np.int32]
+
+    @classmethod
+    def of(cls, *columns: Any) -> Cells:
+        """Return the cells of things; they are a little larger than these."""
+        middle, along, hx, hy, _, radius = columns
+        if not len(middle):
+            return cls(CELL, 0j, np.zeros((0, 0), dtype=bool), np.zeros((1, 1), dtype=int))
+        reach = np.maximum(abs(along.real), hx) + radius + 1j * (np.maximum(abs(along.imag), hy) + radius)
+        low, high = middle - reach, middle + reach
+        corner = complex(low.real.min(), low.imag.min())
+        size = complex(high.real.max(), high.imag.max()) - corner
+        side = max(CELL, size.real / MOST, size.imag / MOST)
+        corner -= side * (1 + 1j)
+        cells = np.zeros((int(size.imag / side) + 4, int(size.real / side) + 4), dtype=bool)
+        # strokes by points that are denser than cells
+        of, part, count = _counted(np.ceil(4 * abs(along) / side).astype(int) + 1)
+        places = [middle[of] + along[of] * (2 * part / np.maximum(count - 1, 1) - 1)]
+        wide = (along == 0) & (hx + hy + radius > 0)
+        for at, x, y, r in zip(*(column[wide].tolist() for column in (middle, hx, hy, radius)), strict=True):
+            across, upward = (np.arange(-reach - r, reach + r + side / 2, side / 2) for reach in (x, y))
+            within = (across + 1j * upward[:, None]).ravel()
+            places.append(at + (within[abs(within) < r + side] if r else within))
+        filled = (np.concatenate(places) - corner) / side
+        cells[filled.imag.astype(int), filled.real.astype(int)] = True
+        total = np.zeros((cells.shape[0] + 1, cells.shape[1] + 1), dtype=np.int32)
+        cells.cumsum(axis=0, out=total[1:, 1:])
+        total.cumsum(axis=1, out=total)
+        return cls(side, corner, cells, total)
+
+    def free(self, at: Points, half: complex, gap: float) -> Flags:
+        """Tell which boxes of one half size about places have nothing in them, nor nearer than a gap."""
+        (rows, columns), reach = self.total.shape, half + (gap + self.side / 4) * (1 + 1j)
+        low, high = (at - reach - self.corner) / self.side, (at + reach - self.corner) / self.side + (1 + 1j)
+        x0, x1 = (_within(np.floor(x), 0, columns - 1).astype(int) for x in (low.real, high.real))
+        y0, y1 = (_within(np.floor(y), 0, rows - 1).astype(int) for y in (low.imag, high.imag))
+        clear: Flags = self.total[y1, x1] - self.total[y0, x1] - self.total[y1, x0] + self.total[y0, x0] == 0
+        return clear
+
+    def at(self, points: Points) -> Flags:
+        """Tell which points are in cells with anything."""
+        rows, columns = self.filled.shape
+        x, y = (points.real - self.corner.real) / self.side, (points.imag - self.corner.imag) / self.side
+        inside = (x >= 0) & (y >= 0) & (x < columns) & (y < rows)
+        found: Flags = inside.copy()
+        found[inside] = self.filled[y[inside].astype(int), x[inside].astype(int)]
+        return found
+
+    def barred(self, starts: Points, heads: Points) -> Flags:
+        """Tell which leaders run through such cells, where they begin excepted."""
+        length = abs(heads - starts)
+        step = (starts - heads) / length * self.side
+        count = _within(np.ceil((length - BEGIN) / self.side), 0, np.inf).astype(int) + 1
+        found = np.zeros(len(starts), dtype=bool)
+        for every in (4, 1):  # some cells tell of most leaders that they are barred
+            left = (~found).nonzero()[0]
+            of, part, _ = _counted((count[left] - 1) // every + 1)
+            hit = self.at(heads[left[of]] + step[left[of]] * (every * part))
+            found[left] = np.bincount(of, hit, len(left)) > 0
+        return found
+
+
+def _counted(count: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+    """Return for as many as are counted of each its number, its rank among its own, and how many they are."""
+    of = np.repeat(np.arange(len(count)), count)
+    return of, np.arange(len(of)) - np.repeat(np.cumsum(count) - count, count), count[of]
+
+
 class Surroundings:
     """What is drawn, and the nodes and segments to be labelled; labels keep `gap` mm from all of it.
 
@@ -252,16 +384,15 @@ class Surroundings:
         """The middles of all things."""
         return np.asarray(shapely.points(pairs(self.things.middle)))
 
-    def grid(self, wanted: Wanted, steps: Sequence[float], led: bool = False) -> Grid:
-        """Weigh all places of labels at the given steps, or all round (`steps` empty): these may leave the bounds.
-
-        A label on a leader (`led`) may be nearer to another thing.
-        """
-        centre, own, cost = wanted.candidates(np.asarray(steps)) if len(steps) else wanted.lattice()
+    def grid(self, wanted: Wanted, steps: Sequence[float]) -> Grid:
+        """Weigh all places of labels beside their nodes and segments at the given steps."""
+        centre, own, cost = wanted.candidates(np.asarray(steps))
         x, y = centre.real.copy(), centre.imag.copy()
         hw, hh = wanted.hw[:, None], wanted.hh[:, None]
         all_round = (x - hw).min(axis=1), (y - hh).min(axis=1), (x + hw).max(axis=1), (y + hh).max(axis=1)
-        i, j = self.tree.query(shapely.box(*all_round), predicate="dwithin", distance=ROOM)
+        i, j = self.tree.query(
+            shapely.box(*all_round), predicate="dwithin", distance=np.maximum(ROOM, wanted.clear + steps[-1] + SURELY)
+        )
         order = np.lexsort((j, i))
         i, j = i[order], j[order]
         near = Convex._make(column[j, None] for column in self.things)
@@ -274,19 +405,58 @@ class Surroundings:
         belongs = self._belongs(wanted, i, j)
         r = ((self.kind[j] == FINE) & ~(belongs & (wanted.a != wanted.b)[i])).nonzero()[0]
         price[r] += CLOSE * _within(BARE - distance[r], 0.0, BARE)
-        if not led:
-            r = (self.rival[j] & ~belongs).nonzero()[0]
-            lead = distance[r] - own[i[r]]
-            doubtful = np.where(wanted.strict[i[r]], THIN, AMBIGUOUS)[:, None]
-            price[r] += np.where(lead < 0.1, doubtful, CLOSE * _within(DOUBT - lead, 0.0, DOUBT))
+        r = (self.rival[j] & ~belongs).nonzero()[0]
+        lead, same = distance[r] - own[i[r]], self._same_kind(wanted, i[r], j[r])
+        doubtful = np.where(same, COVER, np.where(wanted.strict[i[r]], THIN, AMBIGUOUS))[:, None]
+        price[r] += np.where(lead < np.where(same, SURELY, 0.1)[:, None], doubtful, 0.0)
+        price[r] += CLOSE * _within(DOUBT - lead, 0.0, DOUBT)
+        price += np.where(self._foreign(wanted, i, j, belongs, distance, own[i]), COVER, 0.0)
         cost = cost.copy()
         crowded, starts = np.unique(i, return_index=True)
         if len(crowded):
             cost[crowded] += np.add.reduceat(price, starts, axis=0)
-        if self.bounds is not None and len(steps):
-            x0, y0, x1, y1 = self.bounds
-            cost += COVER * ((x - hw < x0) | (x + hw > x1) | (y - hh < y0) | (y + hh > y1))
+        if self.bounds is not None:
+            cost += COVER * self._beyond(centre, hw + 1j * hh)
         return Grid(x, y, cost)
+
+    def _foreign(self, wanted: Wanted, i: Numbers, j: Numbers, belongs: Flags, distance: Reals, own: Reals) -> Flags:
+        """Tell which places of labels i are nearer to things j in the place of their own, or to circles of others.
+
+        Of two vectors in one place, or nearly so, a letter stands on the side of its own.
+        """
+        lead, is_circle = distance - own, (self.kind[j] == CIRCLE) & (self.things.radius[j] < WIDE)
+        lead += np.where(is_circle, wanted.rim[i], 0.0)[:, None]
+        other = is_circle & (wanted.a == wanted.b)[i] & (abs(self.things.middle[j] - wanted.a[i]) > SLACK)
+        foreign = np.where(belongs & (other | self._same_kind(wanted, i, j)), -EVEN, np.where(other, SURELY, -np.inf))
+        nearer: Flags = lead < foreign[:, None]
+        return nearer
+
+    def _same_kind(self, wanted: Wanted, i: Numbers, j: Numbers) -> Flags:
+        """Tell which things j could be what labels i name: other nodes, or other segments."""
+        same: Flags = self.kind[j] == np.where(wanted.a == wanted.b, NODE, NAMED)[i]
+        return same
+
+    def _beyond(self, at: Points, reach: complex | Points) -> Flags:
+        """Tell which boxes about places, of half sizes `reach`, leave the bounds."""
+        x0, y0, x1, y1 = self.bounds or (-np.inf, -np.inf, np.inf, np.inf)
+        low, high = at - reach, at + reach
+        beyond: Flags = (low.real < x0) | (high.real > x1) | (low.imag < y0) | (high.imag > y1)
+        return beyond
+
+    def free(self, at: Points, hw: float, hh: float, beyond: bool) -> Flags:
+        """Tell which boxes of one size about places cover nothing; without `beyond` they stay in the bounds, too."""
+        clear = self.cells.free(at, complex(hw, hh), self.gap)
+        return clear if beyond else clear & ~self._beyond(at, complex(hw, hh))
+
+    @cached_property
+    def cells(self) -> Cells:
+        """All that no label may cover, by cells."""
+        return Cells.of(*(column[self.hard] for column in self.things))
+
+    @cached_property
+    def fine(self) -> Cells:
+        """Thin strokes, by cells."""
+        return Cells.of(*(column[self.kind == FINE] for column in self.things))
 
     def _belongs(self, wanted: Wanted, i: Numbers, j: Numbers) -> Flags:
         """Tell which things j are part of what labels i name: they end in the node, or lie along the segment."""
@@ -300,17 +470,20 @@ class Surroundings:
         slope = abs((half * self.things.normal[j].conj()).real)
         aligned = is_node | (is_stroke & (slope < 0.05 * abs(half)))
         at_end = ~is_node & ~is_stroke & (reach < TOUCH)  # a node on the vector itself is no rival
-        result: Flags = ((reach < wanted.rim[i] + TOUCH) & aligned) | at_end
+        rim = np.where(self.kind[j] == NODE, 0.0, wanted.rim[i])
+        result: Flags = ((reach < rim + TOUCH) & aligned) | at_end
         return result
 
     def crossed(self, heads: Points, starts: Points) -> Numbers:
-        """Count what leaders cross or run through, and `MERGED` times the strokes along which they run.
+        """Count what leaders cross, run through or along, or leave at so small an angle that they seem to belong to it.
 
-        A box in which one begins is that of the arrow which it names, and does not count; strokes that it runs along
-        do, thin ones too: along an axis a leader cannot be seen.
+        A box in which one begins is that of the arrow which it names, and does not count; thin strokes count only where
+        it runs along them: along an axis a leader cannot be seen.
         """
+        low, high = np.minimum(starts.real, heads.real), np.maximum(starts.real, heads.real)
+        under, over = np.minimum(starts.imag, heads.imag), np.maximum(starts.imag, heads.imag)
+        k, j = self.tree.query(shapely.box(low - PASSING, under - PASSING, high + PASSING, over + PASSING))
         leaders = lines(starts, heads)
-        k, j = self.tree.query(leaders, predicate="dwithin", distance=TOUCH)
         q, v, hx, hy, m, radius = (column[j] for column in self.things)
         p, u, _, _, n, _ = (column[k] for column in Convex.of(starts, heads))
         kind, is_stroke, d = self.kind[j], v != 0, q - p
@@ -320,14 +493,47 @@ class Surroundings:
 
         # by determinants, since leaders begin on rims and on strokes: there rounding decides, and should not change
         crosses = is_stroke & self.hard[j] & (across(d, n) < across(v, n)) & (across(d, m) < across(u, m))
-        part = _within((d * u.conj()).real / (u * u.conj()).real, -1, 1)
-        crosses |= (kind == CIRCLE) & (abs(d - part * u) < radius)
+        runs = is_stroke & (kind != NAMED) & (across(u, m) < GRAZING * abs(u))
+        # nodes on the way, but for the first half of a millimetre, where the leader leaves its own
+        begin = starts + (heads - starts) * np.minimum(LEAVES / np.maximum(abs(heads - starts), SLACK), 0.5)
+        half, d = (heads - begin)[k] / 2, q - (heads + begin)[k] / 2
+        near = abs(d - _within((d * half.conj()).real / (half * half.conj()).real, -1, 1) * half)
+        crosses |= ((kind == CIRCLE) | (kind == NODE)) & (near < radius + PASSING)
         begins = (abs((starts[k] - q).real) < hx + TOUCH) & (abs((starts[k] - q).imag) < hy + TOUCH)
-        crosses |= (kind == BOX) & ~begins & shapely.intersects(self.shapes[j], leaders[k])
-        beside = is_stroke & (across(d, m) + across(u, m) < TOUCH)  # both its ends
-        merged = beside & (across(d, v) / np.where(is_stroke, abs(v), 1) < abs(v) + abs(u) - TOUCH)
-        count: Numbers = np.bincount(k, crosses + MERGED * merged, len(starts))
+        for which, reach in ((runs & ~crosses, TOUCH), ((kind == BOX) & ~begins, 0.0)):
+            few = which.nonzero()[0]
+            crosses[few] = shapely.dwithin(self.shapes[j[few]], leaders[k[few]], reach)
+        count: Numbers = np.bincount(k, crosses, len(starts))
         return count
+
+    def struck(self, boxes: Sequence[Box]) -> list[bool]:
+        """Tell which boxes thin strokes run through."""
+        k, j = self.tree.query(shapely.box(*np.array(boxes, dtype=float).reshape(-1, 4).T), predicate="intersects")
+        through: list[bool] = (np.bincount(k, self.kind[j] == FINE, len(boxes)) > 0).tolist()
+        return through
+
+    def along(self, wanted: Wanted, i: int, at: Points, e: complex) -> Flags:
+        """Tell at which places label i, turned into the direction `e`, covers nothing and names its own segment."""
+        (hw, hh), near = (wanted.hw[i], wanted.hh[i]), self.gap / 2
+        across, upward = (np.arange(-size - near, size + near + CELL, CELL) for size in (hw, hh))
+        rows = (across + 1j * upward[:, None]) * e
+        free = np.ones(len(at), dtype=bool)
+        for inside in (rows[::4], rows):  # some rows tell of most places that they are taken
+            left = free.nonzero()[0]
+            free[left] = ~self.cells.at(at[left, None] + inside.ravel()).any(axis=1)
+        half = abs((hw * e).real) + abs((hh * e).imag) + 1j * (abs((hw * e).imag) + abs((hh * e).real))
+        free &= ~self._beyond(at, half)
+        left = free.nonzero()[0]
+        corners = np.array([s * hw + t * 1j * hh for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]) * e
+        boxes = shapely.polygons(pairs(at[left, None] + corners))
+        k, j = self.tree.query(boxes, predicate="dwithin", distance=float(wanted.clear[i]) + NEAR[2] + SURELY)
+        distance = shapely.distance(boxes[k], self.shapes[j])
+        far, one = abs(((at - wanted.a[i]) / e).imag) - hh, np.full(len(j), i)  # from its own segment
+        lead = np.where(self._belongs(wanted, one, j), -EVEN, SURELY)
+        bad = (distance < self.gap - SLACK) & (self.kind[j] != NAMED)
+        bad |= self._same_kind(wanted, one, j) & (distance < far[left[k]] + lead)
+        free[left] &= np.bincount(k, bad, len(left)) == 0
+        return free
 
 
 def _within(values: Reals, least: float, most: float) -> Reals:
@@ -345,3 +551,21 @@ def first_clear(
     away = Surroundings(obstacles, gap).things.distance(at.real[:, None], at.imag[:, None], wide, high)
     clear = (away >= gap).all(axis=1)
     return complex(at[int(np.argmax(clear))]) if clear.any() else None
+
+
+def shelf(
+    centre: complex, radius: float, size: tuple[float, float], obstacles: Obstacles, gap: float = 1.0
+) -> tuple[complex, complex, complex]:
+    """Return the leader of a letter on a shelf, from a circle: its start, its knee and the end of the shelf.
+
+    Leader and letter, of this width and height, are clear of all that is drawn where that is possible.
+    """
+    around, (wide, high) = Surroundings(obstacles, gap), 0.5 * np.array(size)
+    way, length = (grid.ravel() for grid in np.meshgrid(STEEP[abs(STEEP.real) > SLACK], FAR))
+    starts, knees = centre + radius * way, centre + (radius + length) * way
+    ends = knees + 2.0 * wide * np.sign(way.real)
+    middles = 0.5 * (knees + ends) + 1j * high
+    near = around.things.distance(middles.real[:, None], middles.imag[:, None], wide, high) < gap
+    cost = THIN * (near.sum(axis=1) + around.crossed(knees, starts)) + length - TURN * (way * (1.0 - 1.0j)).real
+    best = int(cost.argmin())
+    return complex(starts[best]), complex(knees[best]), complex(ends[best])

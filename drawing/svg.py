@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from base64 import b64encode
 from cmath import rect
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from math import cos, degrees, isfinite, pi, sin
 from typing import Any, BinaryIO, assert_never
 from xml.etree import ElementTree
 
-from .font import FAMILY, web_subset
+from .font import DRAFTING, FAMILIES, SCREEN, SLANTED, web_subset
 from .page import BLACK, Layer, Page, Part, Stroke, Walk, filled
 from .shapes import Arc, Arrow, Circle, Group, Line, Polyline, Text, Vector
 from .text import Run
@@ -38,22 +39,26 @@ def svg_text(page: Page, with_font: bool = True) -> str:
     drawing = Drawing(
         size=(f"{width}mm", f"{height}mm"),
         viewBox=f"0 0 {width} {height}",
-        font_family=f"{FAMILY}, sans-serif",
+        font_family=f"{DRAFTING}, {FAMILIES[SCREEN]}, sans-serif",
         debug=False,  # else it refuses names of data
         **{"xml:lang": page.language, **of_layers},
     )
     drawing.set_desc(title=page.title)
     walk = _Walk(page, drawing)
     walk.whole()
-    face = ""
-    if with_font and walk.characters:  # so that every reader sees the same letters
-        font = b64encode(web_subset("".join(sorted(walk.characters)))).decode()
-        face = f"@font-face{{font-family:'{FAMILY}';src:url(data:font/woff;base64,{font})}}\n"
-    drawing.embed_stylesheet(f"\n{face}{LETTERS}\n")
+    faces = "".join(_embedded(face, walk.characters[face]) for face in sorted(walk.characters)) if with_font else ""
+    drawing.embed_stylesheet(f"\n{faces}{LETTERS}\n")
     tree = drawing.get_xml()
     ElementTree.indent(tree, "")  # a line for each element: drawings are compared as texts
     text = ElementTree.tostring(tree, "unicode")
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{_FORBIDDEN.sub("", text)}\n'
+
+
+def _embedded(face: str, characters: set[str]) -> str:
+    """Return the rule that embeds a face, so that every reader sees the same letters."""
+    font = b64encode(web_subset(face, "".join(sorted(characters)))).decode()
+    style = "font-style:italic;" if face == SLANTED else ""
+    return f"@font-face{{font-family:'{FAMILIES[face]}';{style}src:url(data:font/woff;base64,{font})}}\n"
 
 
 @lru_cache(maxsize=8192)
@@ -81,7 +86,7 @@ class _Walk(Walk):
     def __init__(self, page: Page, drawing: Any) -> None:
         super().__init__(page)
         self.new, self.groups = drawing, [drawing]
-        self.characters: set[str] = set()
+        self.characters: defaultdict[str, set[str]] = defaultdict(set)
 
     def places(self, *points: complex) -> list[tuple[str, str]]:
         """Return the coordinates of points as they are written."""
@@ -123,12 +128,20 @@ class _Walk(Walk):
 
     def letters(self, text: Text, runs: Sequence[tuple[Run, complex]], alone: bool) -> None:
         """Add a `text` element for each run; one that is alone carries what a group would."""
-        identity = {"class": text.role, "data-name": text.name} if alone else {}
+        identity = self.identity(text) if alone else {}
         for run, at in runs:
-            self.characters.update(run.string)
+            self.characters[run.face].update(run.string)
             ((x, y),) = self.places(at)
-            looks = {"font-size": _number(run.size), "fill": text.colour, "transform": self.turn(text, at)}
+            face = {"font-style": "italic" if run.face == SLANTED else None}
+            if run.face == SCREEN:
+                face["font-family"] = FAMILIES[SCREEN]
+            looks = {"font-size": _number(run.size), "fill": text.colour, "transform": self.turn(text, at), **face}
             self.add(self.new.text(run.string), {**identity, **looks, "x": x, "y": y})
+
+    def identity(self, text: Text) -> dict[str, str | None]:
+        """Return what a text is, and the node or the line that it letters."""
+        of = " ".join(map(",".join, self.places(*text.of))) or None
+        return {"class": text.role, "data-name": text.name, "data-of": of}
 
     def turn(self, text: Text, at: complex) -> str | None:
         """Return the transform of a turned or squeezed text, which keeps the point `at` in its place."""
@@ -154,7 +167,9 @@ class _Walk(Walk):
                 identity = {"class": "vector", "data-quantity": quantity, "data-unit": unit, **values}
             case Arrow(name=name):
                 identity = {"class": "arrow", "data-name": name}
-            case Group(role=role, name=name) | Text(role=role, name=name):
+            case Text():
+                identity = self.identity(part)
+            case Group(role=role, name=name):
                 identity = {"class": role, "data-name": name}
             case _:
                 assert_never(part)

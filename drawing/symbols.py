@@ -14,6 +14,7 @@ from .shapes import Arc, Circle, Group, Head, Line, Pen, Polyline, Shape
 # radii of a revolute pair: what a filled corner reaches at most, and how far apart sides at a sharper angle must be
 SHARPEST, PARTED = 2.6, 0.7
 COILS = 5
+NEAREST = 2.0  # arrowheads from the vertex of an angle within which no head stands on its arc
 GUIDE = 0.75  # length of a guide in sliders
 OF_CAM = 0.2  # largest radius of the shaft in least radii of the cam
 OF_OFFSET, NEAR = 0.65, (0.6, 1.5)  # radius of the shaft in offsets where that of the circle is near, in shaft radii
@@ -156,32 +157,31 @@ def arc_between(
 
 
 def angle_dimension(centre: complex, radius: float, start: float, sweep: float, name: str, style: Style) -> Group:
-    """Return a dimensioned angle: an arc between two arrowheads, or the plain arc where they have no room."""
+    """Return a dimensioned angle: an arc between two arrowheads, which stand outside where they have no room between.
+
+    So close to the vertex that they would not stand on the arc there are none.
+    """
     parts: list[Shape] = [Arc(centre, radius, start, sweep, Pen.THIN)]
-    if abs(sweep) * radius > 2.5 * style.arrow:
+    inside, sign, end = abs(sweep) * radius > 2.5 * style.arrow, math.copysign(1.0, sweep), start + sweep
+    if inside or (radius > NEAREST * style.arrow and abs(sweep) * radius > style.node):
         lean = style.arrow / 2 / radius
-        sign = math.copysign(1.0, sweep)
-        end = start + sweep
-        parts.append(Head(centre + rect(radius, end), rect(sign, end + math.pi / 2 - sign * lean)))
-        parts.append(Head(centre + rect(radius, start), rect(-sign, start + math.pi / 2 + sign * lean)))
+        for at, turn in ((end, sign), (start, -sign)):  # outwards, or inwards on the arc drawn on
+            turn = turn if inside else -turn
+            parts.append(Head(centre + rect(radius, at), rect(turn, at + math.pi / 2 - turn * lean)))
+            if not inside:
+                parts.append(Arc(centre, radius, at, -turn * 4.0 * lean, Pen.THIN, role="tail"))
     return Group(tuple(parts), "dimension", name)
 
 
-def clear_ray(direction: complex, lines: list[complex], arrows: list[complex]) -> complex:
+def clear_ray(direction: complex, lines: Sequence[complex]) -> complex:
     """Return the ray on which an arrow along `direction` lies at its point: along which it points or the other one.
 
-    Lines of links must not be covered; another arrow may be, for then this one stands beyond it.
+    Lines of links, which leave the point in these directions, must not be covered.
     """
-    outward, inward = room_on(direction, lines, arrows), room_on(-direction, lines, arrows)
+    outward, inward = (
+        min((abs(cmath.phase(other / ray)) for other in lines), default=math.pi) for ray in (direction, -direction)
+    )
     return direction if outward >= inward - 0.1 else -direction
-
-
-def room_on(ray: complex, lines: list[complex], arrows: list[complex]) -> float:
-    """Return the angle between a ray and what leaves the same point, radians."""
-    to_lines = min((abs(cmath.phase(other / ray)) for other in lines), default=math.pi)
-    to_arrows = min((abs(cmath.phase(other / ray)) for other in arrows), default=math.pi)
-    # better beyond another arrow on its own line than at a small angle to it
-    return min(to_lines, 0.5 + (to_arrows if to_arrows > 0.02 else 0.25))
 
 
 def dimension(a: complex, b: complex, name: str, style: Style) -> Group:

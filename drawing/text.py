@@ -7,20 +7,42 @@ twice: known by direction, known in full); it may be nested. `\{ \} \\ \_ \^` st
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass
 from functools import lru_cache
-from math import cos, inf, sin
+from itertools import groupby
+from math import cos, inf, pi, sin, tan
 from typing import NamedTuple, TypeAlias
 
 from ..scales.errors import InputError, Written
-from .font import SIZE, font
+from ..scales.names import unknown
+from .font import SCREEN, SLANTED, UPRIGHT, font
 from .shapes import Text
 
 SCRIPT = 5 / 7  # size of sub- and superscripts; a script of a script is no smaller, or nobody could read it
 DROP, LIFT = 0.35, 0.62  # of a script's baseline, in heights of its parent
+CLEAR, BEHIND = 0.08, 0.14  # before a superscript, and behind scripts, in heights of their parent
 GAP = 0.22  # between text and a bar or an underline, and between two underlines, in heights
 RULES = {"bar": 0, "u": 1, "uu": 2}
+FACES = {"gost": (UPRIGHT, SLANTED), "gost-slanted": (SLANTED, SLANTED), "dejavu": (SCREEN, SCREEN)}  # words, symbols
+SLOPE = tan(pi / 12)  # of slanted letters, by which a superscript stands farther to the right
+_FUNCTION = r"(?:(?:arc)?(?:sin|cos|tg|tan|ctg)|inv|ln|exp|max|min)"
+_UNIT = "[cmk]?m|min|s|kg|[kM]?N|[kMG]?Pa|rad|deg|rpm|Hz|J|k?W"
+_LETTERS = re.compile(r"[A-Za-zΑ-Ωα-ω′″]+")
+_PRIMES = re.compile("[′″]")
+_CYRILLIC = re.compile(r"[А-Яа-яЄєІіЇїҐґЁё]")
+# letters between < and > that are no symbols: functions, Roman numbers, sheet ids (4S7-31W), what stands behind an
+# apostrophe, formats, scales, variants (V01), articles, initials of people
+_WORDS = re.compile(
+    rf"<{_FUNCTION}>|<([IVX]{{2,}}|I|V(?=> клас))>|(^| )(?=[A-Z<>-]*\d)(?=.*-)[0-9A-Z<>-]{{7,}}(?!\w)|['’]<|<A>[0-4]\b|"
+    r"<[A-Z]>-[а-яіїєґё]|: (?=[0-9A-Z<>]{3,5}-[0-9A-Z<>]{3,5}$)|"
+    r"(^| )<M> ?\d|<[A-Z]>\d\d|<a> [a-z]|^<A> |(^|[A-Z]\. ?|[A-Z][a-z]+ )<[A-Z]>\.( ?[A-Z]|$)"
+)
+_BEHIND_FUNCTION = re.compile(rf"{_FUNCTION} $")
+_UNITS_BEFORE = re.compile(rf"(?:\d ?|[(/ ]|(?:^|[ (\d])(?:{_UNIT})[·/])$")
+_OPERATORS = "=·/+−–⊥∥≤≥≈"
 ESCAPED = "\\{}_^"
 _PLAIN = re.compile(r"(?:[^\\{}_^]|\\[\\{}_^]|[_^](?!\{))+")
 _SHARES = {"left": 0.0, "middle": 0.5, "right": 1.0}  # of its width, how much of a text stands before its point
@@ -31,24 +53,35 @@ Box: TypeAlias = tuple[float, float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """Characters of one size whose baseline starts at `x`, `y` (mm); `size` is the font size in mm."""
+    """Characters of one face and size whose baseline starts at `x`, `y` (mm); `size` is the font size in mm."""
 
     x: float
     y: float
     size: float
     string: str
     width: float
+    face: str
 
 
 @dataclass(frozen=True, slots=True)
 class _TextLayout:
-    """Runs and rules (bars, underlines) of one line of text, from `x = 0` on the baseline `y = 0`, mm."""
+    """Runs and rules (bars, underlines) of one line of text, from `x = 0` on the baseline `y = 0`, mm.
+
+    Letters that lean may reach beyond it: from `left`, at most 0, to `right`, at least its width.
+    """
 
     runs: tuple[Run, ...]
     rules: tuple[Box, ...]
     width: float
     top: float
     bottom: float
+    left: float
+    right: float
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of all that it covers."""
+        return self.right - self.left, self.top - self.bottom
 
 
 # Width, top and bottom of what has been laid out; top < bottom where there is no ink.
@@ -106,17 +139,102 @@ def _broken(markup: str, at: int) -> InputError:
     return InputError("markup-broken", text=Written(markup), position=at + 1)
 
 
-@lru_cache(maxsize=8192)
-def lay_out(markup: str, height: float) -> _TextLayout:
-    """Lay a line of markup out with capitals of `height` mm.
+class Lettering(NamedTuple):
+    """How text is set: in one of `LETTERINGS`, and whether single Latin letters may be units (`m`, `N`)."""
 
-    Raises InputError: the markup is broken, or the font lacks a character.
+    name: str = "gost"
+    latin_units: bool = True
+
+
+_USUAL = Lettering()
+LETTERING: ContextVar[Lettering] = ContextVar("lettering", default=_USUAL)  # of all that is drawn
+
+
+@contextmanager
+def lettered(lettering: str, language: str = "en") -> Iterator[None]:
+    """Lay text of a language out in one of `LETTERINGS` meanwhile. Raises InputError: there is no such lettering."""
+    if lettering not in FACES:
+        raise unknown("lettering-unknown", lettering, FACES)
+    before = LETTERING.set(Lettering(lettering, language == "en"))
+    try:
+        yield
+    finally:
+        LETTERING.reset(before)
+
+
+def lay_out(markup: str, height: float) -> _TextLayout:
+    """Lay a line of markup out with capitals of `height` mm, in the lettering of now.
+
+    Raises InputError: the markup is broken, or the fonts lack a character.
     """
-    pen = _Pen()
+    return _lay_out(markup, height, LETTERING.get())
+
+
+@lru_cache(maxsize=8192)
+def _lay_out(markup: str, height: float, lettering: Lettering) -> _TextLayout:
+    pen = _Pen(lettering)
     width, top, bottom = pen.line(read(markup), 0.0, 0.0, height, height)
     if top < bottom:
         top = bottom = 0.0
-    return _TextLayout(tuple(pen.runs), tuple(pen.rules), width, top, bottom)
+    left = min((run.x - font(run.face).beyond(run.string[0])[0] * run.size for run in pen.runs), default=0.0)
+    ends = (run.x + run.width + font(run.face).beyond(run.string[-1])[1] * run.size for run in pen.runs)
+    return _TextLayout(tuple(pen.runs), tuple(pen.rules), width, top, bottom, min(0.0, left), max(width, *ends, 0.0))
+
+
+def told_apart(pieces: list[Piece], latin_units: bool = True) -> Iterator[tuple[Piece, bool]]:
+    """Go through the pieces of a line, cut where symbols of quantities begin and end; tell which these are.
+
+    A symbol is a Latin or Greek letter or two that are no word, no unit and no function: whatever stands under a bar or
+    has a script or a prime, stands at an operator, or is alone; all Latin letters in a Ukrainian or Russian line.
+    """
+    line = "".join(piece if isinstance(piece, str) else "\1" for piece in pieces)
+    local, at, before = not latin_units or bool(_CYRILLIC.search(line)), 0, False
+    for index, piece in enumerate(pieces):
+        if isinstance(piece, Ruling):
+            before = piece.kind == "bar"
+            yield piece, before
+            at += 1
+        elif isinstance(piece, dict):
+            yield piece, before
+            at += 1
+        else:
+            behind = pieces[index + 1] if index + 1 < len(pieces) else ""
+            script = "".join(behind) if isinstance(behind, dict) else ""
+            end = 0
+            for found in _LETTERS.finditer(piece):
+                if found.start() > end:
+                    yield piece[end : found.start()], False
+                end = found.end()
+                before = _is_symbol(
+                    found.group(),
+                    line[: at + found.start()],
+                    line[at + end :],
+                    local,
+                    script if end == len(piece) else "",
+                    latin_units,
+                )
+                yield found.group(), before
+            if end < len(piece):
+                before = False
+                yield piece[end:], False
+            at += len(piece)
+
+
+def _is_symbol(letters: str, before: str, after: str, local: bool, script: str, latin_units: bool) -> bool:
+    """Whether letters in a line, with a script behind them or none, stand for a quantity or a point."""
+    if letters[0] in "′″" and before[-1:].isdigit():  # of a number of a formula, of minutes
+        return False
+    if ("_" in script and not re.fullmatch("[IVX]{2,}", letters)) or letters[0] >= "Α" or _PRIMES.search(letters):
+        return True
+    if _WORDS.search(f"{before[-24:]}<{letters}>{after[:8]}"):
+        return False
+    if latin_units and re.fullmatch(_UNIT, letters) and (not before or _UNITS_BEFORE.search(before)):
+        return False
+    if len(letters) > 3 and letters[1:].islower():
+        return False
+    near, beyond = before.rstrip(" ")[-1:], after.lstrip(" ")[:1]
+    at_operator = (near and near in _OPERATORS) or (beyond and beyond in _OPERATORS)
+    return bool(script or local or len(letters) == 1 or at_operator or _BEHIND_FUNCTION.search(before))
 
 
 class _Pen:
@@ -125,40 +243,47 @@ class _Pen:
     Each method lays out from the place (x, y) with capitals of `height`; scripts are measured from `base`.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, lettering: Lettering) -> None:
+        self.faces, self.latin_units = FACES[lettering.name], lettering.latin_units
         self.runs: list[Run] = []
         self.rules: list[Box] = []
 
-    def line(self, pieces: list[Piece], x: float, y: float, height: float, base: float) -> _Span:
-        """Lay out pieces one after the other."""
+    def line(self, pieces: list[Piece], x: float, y: float, height: float, base: float, leaning: bool = False) -> _Span:
+        """Lay out pieces one after the other; all of them lean that stand at a symbol, as its scripts do."""
         start, (top, bottom) = x, _NO_INK
-        for piece in pieces:
-            if isinstance(piece, str):
-                width, high, low = self.word(piece, x, y, height * SIZE)
-            elif isinstance(piece, Ruling):
-                width, high, low = self.ruled(piece, x, y, height, base)
-            else:
-                width, high, low = self.scripts(piece, x, y, height, base)
-            x, top, bottom = x + width, max(top, high), min(bottom, low)
+        told = ((piece, leaning or is_symbol) for piece, is_symbol in told_apart(pieces, self.latin_units))
+        for (plain, leans), alike in groupby(told, lambda one: (isinstance(one[0], str), one[1])):
+            parts = [piece for piece, _ in alike]
+            for piece in ("".join(map(str, parts)),) if plain else parts:
+                if isinstance(piece, str):
+                    width, high, low = self.word(piece, x, y, height, self.faces[leans])
+                elif isinstance(piece, Ruling):
+                    width, high, low = self.ruled(piece, x, y, height, base, leans)
+                else:
+                    width, high, low = self.scripts(piece, x, y, height, base, leans)
+                x, top, bottom = x + width, max(top, high), min(bottom, low)
         return x - start, top, bottom
 
-    def word(self, string: str, x: float, y: float, size: float) -> _Span:
+    def word(self, string: str, x: float, y: float, height: float, face: str) -> _Span:
         """Lay plain characters out; spaces at the ends become distance, since SVG would drop them."""
-        ink = font().ink
-        letters = [ink(letter) for letter in string]
-        width = sum([letter[0] for letter in letters]) * size
-        inner = string.strip(" ")
-        if not inner:
-            return width, *_NO_INK
-        spaces = len(string) - len(string.lstrip(" "))
-        start, letters = x + ink(" ")[0] * size * spaces, letters[spaces : spaces + len(inner)]
-        self.runs.append(Run(start, y, size, inner, sum([letter[0] for letter in letters]) * size))
-        top, bottom = max([letter[2] for letter in letters]), min([letter[1] for letter in letters])
-        return width, y + top * size, y + bottom * size
+        start, (top, bottom) = x, _NO_INK
+        for other, letters in groupby(string, lambda letter: face if font(face).glyph(letter) else SCREEN):
+            part, size = "".join(letters), height * font(other).size
+            ink = [font(other).ink(letter) for letter in part]
+            width, inner = sum([letter[0] for letter in ink]) * size, part.strip(" ")
+            if inner:
+                spaces = len(part) - len(part.lstrip(" "))
+                inked = ink[spaces : spaces + len(inner)]
+                at = x + font(other).ink(" ")[0] * size * spaces
+                self.runs.append(Run(at, y, size, inner, sum([letter[0] for letter in inked]) * size, other))
+                top = max(top, y + max([letter[2] for letter in inked]) * size)
+                bottom = min(bottom, y + min([letter[1] for letter in inked]) * size)
+            x += width
+        return x - start, top, bottom
 
-    def ruled(self, group: Ruling, x: float, y: float, height: float, base: float) -> _Span:
+    def ruled(self, group: Ruling, x: float, y: float, height: float, base: float, leans: bool) -> _Span:
         """Lay out a group with a vector bar over it, or one or two lines under it."""
-        width, top, bottom = self.line(group.pieces, x, y, height, base)
+        width, top, bottom = self.line(group.pieces, x, y, height, base, leans)
         if top < bottom:
             top = bottom = y
         gap = GAP * height
@@ -172,14 +297,19 @@ class _Pen:
             self.rules.append((x, bottom, x + width, bottom))
         return width, top, bottom
 
-    def scripts(self, scripts: dict[str, list[Piece]], x: float, y: float, height: float, base: float) -> _Span:
+    def scripts(
+        self, scripts: dict[str, list[Piece]], x: float, y: float, height: float, base: float, leans: bool
+    ) -> _Span:
         """Lay out a subscript, a superscript, or both one over the other."""
         width, (top, bottom) = 0.0, _NO_INK
         for mark, pieces in scripts.items():
-            shift = -DROP * height if mark == "_" else LIFT * height
-            wide, high, low = self.line(pieces, x, y + shift, SCRIPT * base, base)
-            width, top, bottom = max(width, wide), max(top, high), min(bottom, low)
-        return width + 0.06 * height, top, bottom
+            shift, aside = -DROP * height, 0.0
+            if mark == "^":
+                shift = LIFT * height
+                aside = CLEAR * height + (SLOPE * shift if self.faces[leans] == SLANTED else 0.0)
+            wide, high, low = self.line(pieces, x + aside, y + shift, SCRIPT * base, base, leans)
+            width, top, bottom = max(width, aside + wide), max(top, high), min(bottom, low)
+        return width + BEHIND * height, top, bottom
 
 
 def placer(text: Text) -> Callable[[float, float], complex]:

@@ -27,7 +27,8 @@ PITCH = 1.5  # from baseline to baseline, in heights of a capital
 FALL = 0.3  # of p and y below the baseline, in heights of a capital
 SHOWN = 60  # characters of a text in a message
 NARROWEST = 40  # per cent of a letter's own width
-LEGIBLE = 0.5  # letters that are made narrower than that cannot be read
+# how narrow letters of a name may be made: of a full one, which initials may stand for, and of any that one can read
+ROOMY, LEGIBLE = 0.75, 0.5
 _PATRONYMIC = re.compile(r"\w+(вич|івна|ївна|ична|овна|евна|vych|vich|ivna|yivna|ovna|evna)", re.IGNORECASE)
 Ruling: TypeAlias = tuple[tuple[float, float, float, float, Pen], ...]  # ends and pens of lines
 
@@ -36,7 +37,8 @@ Ruling: TypeAlias = tuple[tuple[float, float, float, float, Pen], ...]  # ends a
 class Stamp:
     """What the title block says; an empty field stays blank on the sheet.
 
-    `identity` stands under the frame: what tells sheets of one task from one another.
+    Where no `designation` is said, one is composed of the `code` of the work and the number of the sheet; a further
+    `series` of sheets counts from 101. `identity` stands under the frame: what tells the data of a sheet from others.
     """
 
     title: str = ""
@@ -52,6 +54,13 @@ class Stamp:
     scale: str = ""
     language: str = "uk"
     identity: str = ""
+    code: str = ""
+    series: int = 0
+
+    @property
+    def designated(self) -> str:
+        """The designation of this sheet."""
+        return self.designation or (f"{self.code}.{100 * self.series + self.sheet:03d}" if self.code else "")
 
 
 # From the bottom left corner of the block: level and ends of horizontal lines, place and ends of vertical ones, mm.
@@ -113,7 +122,7 @@ def _form_1(stamp: Stamp) -> list[Shape]:
     name_cell = (65.0, 22.0 if stamp.document_type else 15.0, 135.0, 40.0)
     owner = ", ".join(part for part in (stamp.organisation, stamp.group) if part)
     for key, plain, cell, heights in (
-        ("designation", stamp.designation, (65.0, 40.0, 185.0, 55.0), (7.0, 5.0, 3.5, 2.5)),
+        ("designation", stamp.designated, (65.0, 40.0, 185.0, 55.0), (7.0, 5.0, 3.5, 2.5)),
         ("title", stamp.title, name_cell, (5.0, 3.5, 2.5)),
         ("document_type", stamp.document_type, (65.0, 15.0, 135.0, 22.5), (3.5, 2.5)),
         ("organisation", owner, (135.0, 0.0, 185.0, 15.0), (5.0, 3.5, 2.5)),
@@ -133,7 +142,10 @@ def _form_2a(stamp: Stamp) -> list[Shape]:
     """Return form 2a, 185 x 15 mm, for the sheets after the first."""
     caption = words(stamp.language)
     filled: list[Shape] = [*_changes(caption, 0.0)]
-    filled += _fitted(stamp.designation, (65.0, 0.0, 175.0, 15.0), (7.0, 5.0, 3.5, 2.5), name="designation")
+    who = ", ".join(part for part in (stamp.student, stamp.group) if part)
+    level = 5.5 if who else 0.0
+    filled += _fitted(stamp.designated, (65.0, level, 175.0, 15.0), (7.0, 5.0, 3.5, 2.5), name="designation")
+    filled += _fitted(who, (65.0, 0.0, 175.0, level), (3.5, 2.5), name="student")
     filled += _fitted(caption["row_sheet"], (175.0, 8.0, 185.0, 15.0), CAPTION, name="sheet_caption")
     filled += _fitted(str(stamp.sheet), (175.0, 0.0, 185.0, 8.0), (3.5, 2.5), name="sheet")
     return [*_ruled(FORM_2A), *filled]
@@ -160,7 +172,7 @@ def _iso_block(stamp: Stamp) -> list[Shape]:
     for key, value, (x0, y0, x1, y1) in (
         ("title", stamp.title, (0.0, 24.0, 80.0, 36.0)),
         ("document_type", stamp.document_type, (0.0, 12.0, 80.0, 24.0)),
-        ("identification", stamp.designation, (0.0, 0.0, 80.0, 12.0)),
+        ("identification", stamp.designated, (0.0, 0.0, 80.0, 12.0)),
         ("creator", creator, (80.0, 24.0, 140.0, 36.0)),
         ("approver", stamp.teacher, (80.0, 12.0, 140.0, 24.0)),
         ("owner", stamp.organisation, (140.0, 12.0, 180.0, 36.0)),
@@ -170,7 +182,7 @@ def _iso_block(stamp: Stamp) -> list[Shape]:
         ("sheet", f"{stamp.sheet}/{stamp.sheets}", (160.0, 0.0, 180.0, 12.0)),
     ):
         parts += _fitted(caption[f"iso_{key}"], (x0, y1 - 4.6, x1, y1), CAPTION, "left", f"{key}_caption")
-        parts += _fitted(value, (x0, y0, x1, y1 - 3.95), (3.5, 2.5), "left", key)
+        parts += _fitted(value, (x0, y0, x1, y1 - 3.69), (3.5, 2.5), "left", key)
     return parts
 
 
@@ -238,7 +250,7 @@ def _turned(sheet: Format, stamp: Stamp) -> Group:
     bend = complex(near, y0)
     lines = Polyline((complex(far, y0), bend, complex(near, y1)), T, role="cell")
     middle, turn, angle = complex((x0 + x1) / 2, (y0 + y1) / 2), (-1j if tall else -1), (-pi / 2 if tall else pi)
-    texts = _fitted(stamp.designation, (-35.0, -7.0, 35.0, 7.0), (7.0, 5.0, 3.5, 2.5), name="designation_turned")
+    texts = _fitted(stamp.designated, (-35.0, -7.0, 35.0, 7.0), (7.0, 5.0, 3.5, 2.5), name="designation_turned")
     turned = (replace(text, at=middle + text.at * turn, angle=angle) for text in texts)
     return Group((lines, *turned), "titleblock", "column-26")
 
@@ -316,14 +328,17 @@ def named(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor, name:
     """
     found: list[list[Text]] = []
     refused: list[InputError] = []
-    for way in dict.fromkeys((plain, with_initials(plain), surname(plain))):
+    full = {} if plain == with_initials(plain) else {plain: ROOMY}
+    for way, least in {surname(plain): LEGIBLE, with_initials(plain): LEGIBLE, **full}.items():
         try:
-            found.append(_fitted(way, cell, heights, anchor, name))
+            texts = _fitted(way, cell, heights, anchor, name)
         except InputError as error:
             refused.append(error)
+        else:
+            found.insert(0 if all(text.squeeze >= least for text in texts) else len(found), texts)
     if not found:
-        raise refused[0]
-    return next((texts for texts in found if all(text.squeeze >= LEGIBLE for text in texts)), found[0])
+        raise refused[-1]
+    return found[0]
 
 
 def surname(plain: str) -> str:

@@ -5,3 +5,5 @@ from __future__ import annotations
 HANDS = ("cad", "careful", "normal", "lenient")  # presets of `plans.hands`
 SIZES = ("A4", "A3", "A2", "A1")  # of `drawing.formats`, the smallest first
 SHEETS = ("svg", "pdf", "png")  # kinds of files of sheets, each with a module of its name in `drawing`
+# of `drawing.text`: words upright and symbols slanted, all slanted, a screen font
+LETTERINGS = ("gost", "gost-slanted", "dejavu")

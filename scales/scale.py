@@ -1,6 +1,6 @@
 """Scale factors: value per millimetre of the sheet; how one is chosen, and in which units results are shown.
 
-One is chosen by a given mu, a chosen segment such as pa = 80 mm, a round mu, or the crank scale. Each chooser gives a
+One is chosen by a given mu, the length of a segment such as pa = 80 mm, a round mu, or the crank scale. Each gives a
 ladder of scale factors, the wanted one first, then coarser and coarser: the sheet takes the first that fits. What a
 user has fixed has one rung.
 """
@@ -18,11 +18,11 @@ from .units import SYMBOLS, Unit, parse, unit
 
 # GOST 2.302 and its reciprocals give the same customary mantissas
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
-SEGMENTS = (1.0, 1.25, 1.6, 2.0, 2.5, 3.2, 4.0, 5.0, 6.3, 8.0)  # preferred numbers R10, for chosen segments
+EXACT, SEEN = 6, 0.005  # digits of a scale factor at most, for a segment that is so long to so many mm
 
 RUNGS = 16
 CRANK = {"V": 1, "a": 2}
-UNITS = {"l": "m", "s": "m", "V": "m/s", "a": "m/s^2", "F": "N"}
+UNITS = {"l": "m", "s": "m", "V": "m/s", "a": "m/s^2", "F": "N", "h": "m/s"}  # arms on the lever are velocities
 # a segment by its letters on the plan, and the quantity that it shows: pa is V_A, p'a' is a_A, OA is l_OA
 SEGMENT_OF = {
     "a": re.compile(r"[pπ]['′]?([a-z])(\d*)['′](\d*)"),
@@ -114,20 +114,23 @@ class From:
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """The segment of quantity `quantity` is `millimetres` long: mu = value / segment, rounded to three digits."""
+    """The segment of quantity `quantity` is about `millimetres` long, at a round mu; it is exactly so where firm."""
 
     quantity: str
     millimetres: float
     firm: bool = False
 
     def ladder(self, value: Callable[[str], float]) -> tuple[float, ...]:
-        """Return mu for the segment wanted, then for shorter ones of the preferred numbers."""
+        """Return the mu of the customary series with the nearest length, then coarser ones."""
         size = value(self.quantity)
-        if self.firm:
-            return (rounded(size / self.millimetres),)
-        shorter = [10.0**e * m for e in (2, 1, 0) for m in reversed(SEGMENTS)]
-        lengths = [self.millimetres, *(mm for mm in shorter if mm < self.millimetres * 0.999)]
-        return tuple(rounded(size / mm) for mm in lengths)[:RUNGS]
+        if self.firm:  # as few digits as the length needs
+            rough = (rounded(size / self.millimetres, digits) for digits in range(3, EXACT))
+            exact = rounded(size / self.millimetres, EXACT)
+            return (next((mu for mu in rough if abs(size / mu - self.millimetres) < SEEN), exact),)
+        finer = [mu for mu in steps(size / self.millimetres / 10.0) if mu * self.millimetres < size * (1.0 - 1e-9)]
+        series = (finer[-1], *steps(size / self.millimetres))
+        first = int(abs(size / series[1] - self.millimetres) < abs(size / series[0] - self.millimetres))
+        return series[first : first + RUNGS]
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,9 +171,10 @@ def chooser(symbol: str, text: str, firm: bool = False) -> Chooser:
     Parameters
     ----------
     text : str
-        `15 N/mm`, `20 mm/(m/s)` or `0.05` (a given mu), `pa=80 mm` (a chosen segment), `round` or `round 120 mm`
-        (the customary series, the longest segment at most so long), `crank` (the crank scale), `from 15 N/mm` (this mu,
-        or a coarser one of the series where there is little room).
+        `15 N/mm`, `20 mm/(m/s)` or `0.05` (a given mu), `pa=80 mm` (the mu of the customary series at which the segment
+        is nearest to that), `exactly pa=80 mm`, `round` or `round 120 mm` (the customary series, the longest segment at
+        most so long), `crank` (the crank scale), `from 15 N/mm` (this mu, or a coarser one of the series where there is
+        little room).
     firm : bool
         Said by the user: no other scale factor will do.
 
@@ -185,10 +189,12 @@ def chooser(symbol: str, text: str, firm: bool = False) -> Chooser:
     name, equals, rest = text.partition("=")
     if equals:
         millimetres = _positive(parse(rest, unit("mm"), unit("mm")) * 1e3, text)
-        letters = SEGMENT_OF[kind].fullmatch(name.strip()) if kind in SEGMENT_OF else None
-        if letters is None:
+        exactly, _, named = name.strip().rpartition(" ")
+        letters = SEGMENT_OF[kind].fullmatch(named) if kind in SEGMENT_OF else None
+        if letters is None or exactly.strip() not in ("", "exactly"):
             raise InputError("scale-segment", text=quote(name.strip()))
-        return Segment(f"{kind}_{''.join(letters.groups()).upper()}", millimetres, firm)  # what it shows
+        quantity = f"{kind}_{''.join(letters.groups()).upper()}"  # what it shows
+        return Segment(quantity, millimetres, firm or bool(exactly))
     word, _, rest = text.strip().partition(" ")
     if word == "round":
         return Round(symbol, _positive(parse(rest, unit("mm"), unit("mm")) * 1e3, text) if rest else 100.0, firm)

@@ -59,6 +59,7 @@ class Request:
     format: str | Format | None = None
     norm: Norm = "gost"
     block: Mapping[str, str] = field(default_factory=dict)
+    lettering: str = "gost"
 
     def case(self) -> Case:
         """Solve what is asked for; what there is not, or is of the wrong kind, is refused."""
@@ -251,8 +252,7 @@ class Kind(Generic[Subject, Answer]):
         """Draw the sheet of a case; on the smallest format that holds everything where `paper` is not said."""
         from ..drawing.figure import SheetContents
 
-        note = case.task.note_in(words.language)
-        contents = SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm, note=note)
+        contents = SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm)
         return cast("Drawn", self._in("drawing", "sheet", f"{self.table.title()}Fitting")(contents).draw(paper))
 
     def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:

@@ -19,7 +19,20 @@ from ..scales.names import cyrillic, latin, of_kind, unknown
 from ..scales.numbers import quote
 from ..scales.scale import ANGLES, LENGTHS, METRE, PAPER, chooser
 from .case import Kind, kind_of
-from .checks.basics import Checker, EnoughError, Field, Path, Places, array_of, as_is, label, one_of, record, text
+from .checks.basics import (
+    Checker,
+    EnoughError,
+    Field,
+    Path,
+    Places,
+    array_of,
+    as_is,
+    label,
+    one_of,
+    record,
+    text,
+    whole_number,
+)
 from .checks.names import Names, Settings, read_choices, read_givens, read_variants
 from .kinds import table_in
 from .shelf import bundled, bundled_text
@@ -204,6 +217,7 @@ _IN_UNITS = {
 }
 _FIELDS = {  # and the table of its kind
     "id": Field(label),
+    "number": Field(whole_number, required=False),
     "source": Field(text),
     "notation": Field(one_of("notation-unknown", notations)),
     "title": Field(lambda checker, path, raw: record(checker, path, raw, _SAID)),
@@ -254,6 +268,7 @@ def _task(checker: Checker, raw: dict[str, Any], thorough: bool) -> Task | None:
         kind=table,
         instead=kind.instead,
         note=head.get("note", {}),
+        number=head.get("number", 0),
     )
     kind.varies(checker, task)
     if thorough:

@@ -6,6 +6,7 @@ import hashlib
 import io
 import json
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,6 +16,7 @@ from ..drawing.compose import Drawn
 from ..drawing.formats import Norm, format_named, printable
 from ..drawing.handouts import begun_pages, gridded, keyed, marked, over_page
 from ..drawing.page import Page
+from ..drawing.text import lettered
 from ..drawing.titleblock import Stamp
 from ..drawing.view import View
 from ..drawing.writers import write_pages
@@ -27,10 +29,11 @@ from .reader import load_task
 from .task import AnyTask, Task
 
 # what a title block says beside what the task does
-BLOCK = ("student", "group", "teacher", "department", "designation", "date")
+BLOCK = ("student", "group", "teacher", "department", "designation", "work", "date")
 LETTERS = "0123456789ABCDEFGHJKMNPQRSTVWXYZ"  # of base 32 without I, L, O, U, which are misread
 LENGTH = 6
 _MISREAD = str.maketrans({"O": "0", "I": "1", "L": "1", "І": "1", " ": None, "-": None, "–": None, "−": None})
+_NUMBERED = re.compile("[A-Za-z]{0,3}[0-9]{1,6}[a-z]?")
 PAPER = "A4"
 APART = (  # what is not asked for together
     ("--hidden-key", "--key"),
@@ -99,6 +102,7 @@ def sheet(
     scales: Settings | None = None,
     format: str | None = None,
     norm: Norm = "gost",
+    lettering: str = "gost",
     notation: str | None = None,
     lang: str = "uk",
     student: str = "",
@@ -106,6 +110,7 @@ def sheet(
     teacher: str = "",
     department: str = "",
     designation: str = "",
+    work: str = "",
     date: str = "",
 ) -> Sheet:
     """Draw the sheet of one variant of a task to scale.
@@ -119,10 +124,13 @@ def sheet(
         sheet has several pages.
     norm : {"gost", "iso"}
         Lines, frame and title block by GOST, or by ISO 5457 and 7200.
+    lettering : {"gost", "gost-slanted", "dejavu"}
+        Letters of GOST 2.304, type B, words upright and symbols slanted, or all slanted; or a screen font.
     lang : {"uk", "ru", "en"}
         Language of all words on the sheet.
-    student, group, teacher, department, designation, date : str
-        For the title block; what is left out stays blank.
+    student, group, teacher, department, designation, work, date : str
+        For the title block; what is left out stays blank, but for the designation, which is composed (`designation`),
+        and the kind of work, in which `КР` or `КП` may stand for `РГР`.
 
     Raises
     ------
@@ -133,8 +141,9 @@ def sheet(
         The position has no plan.
     """
     block = {"student": student, "group": group, "teacher": teacher, "department": department}
-    block |= {"designation": designation, "date": date}
-    return draw_case(Request(load_task(task), variant, set, only, scales, notation, lang, format, norm, block).case())
+    block |= {"designation": designation, "work": work, "date": date}
+    how = set, only, scales, notation, lang, format, norm, block, lettering
+    return draw_case(Request(load_task(task), variant, *how).case())
 
 
 def draw_case(case: Case) -> Sheet:
@@ -150,7 +159,8 @@ def drawing_of(case: Case) -> Drawn:
     error = case.solved.error()
     if error is not None:
         raise error
-    return case.kind.draw(case, case.words(), case.norm, paper)
+    with lettered(case.lettering, case.language):
+        return case.kind.draw(case, case.words(), case.norm, paper)
 
 
 def said_of(block: Mapping[str, str]) -> dict[str, str]:
@@ -171,10 +181,22 @@ def stamp_of(case: Case) -> Stamp:
         teacher=said["teacher"],
         date=said["date"],
         title=case.task.title[case.language],
-        document_type=case.words()["sheet.document"],
+        document_type=said["work"] or case.words()["sheet.document"],
         language=case.language,
         identity=sheet_id(case.task, case.variant, case.settings),
+        code=work_code(case),
     )
+
+
+def work_code(case: Case) -> str:
+    """Return what designations of the sheets of a case begin with: subject, number of the task, variant (`ТММ.14.03`).
+
+    A variant whose name is no number, nor letters and a number, is known by its place among the others.
+    """
+    variant = case.variant
+    if _NUMBERED.fullmatch(variant) is None:
+        variant = str([*case.task.variants].index(variant) + 1)
+    return f"{case.words()['sheet.subject']}.{case.task.number:02d}.{variant.zfill(2)}"
 
 
 def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
@@ -196,7 +218,9 @@ def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
     if changed:
         said = {"format": drawn.sheet.letters, "usual": paper.name}
         warnings.append(InputError("scales-changed", changes=", ".join(changed.values()), **said))
-    return Sheet(drawn.pages(stamp), drawn.scales, drawn.format, tuple(warnings), drawn.views)
+    with lettered(case.lettering, case.language):
+        pages = drawn.pages(stamp)
+    return Sheet(pages, drawn.scales, drawn.format, tuple(warnings), drawn.views)
 
 
 def sheet_id(task: Task, variant: str, settings: Mapping[str, str | float] | None = None) -> str:
@@ -239,6 +263,7 @@ def handout(
     scales: Settings | None = None,
     format: str = PAPER,
     norm: Norm = "gost",
+    lettering: str = "gost",
     notation: str | None = None,
     lang: str = "uk",
     block: Mapping[str, str] | None = None,
@@ -247,11 +272,11 @@ def handout(
 
     Parameters
     ----------
-    task, variant, set, only, scales, format, norm, notation, lang
+    task, variant, set, only, scales, format, norm, lettering, notation, lang
         As for `sheet`.
     steps : int
-        How many steps of every plan are done, as the note numbers them; poles, pivots, guides are always there. Where
-        nothing that is drawn has steps, a warning says so.
+        How many steps of every plan are done, as the note numbers them; poles, pivots, guides are always there. None is
+        drawn from what an earlier plan has yet to find. Where nothing that is drawn has steps, a warning says so.
     key : bool
         Draw the whole work, to be laid on the blank.
     hidden_key : bool
@@ -276,7 +301,8 @@ def handout(
     for first, second in APART:
         if asked[first] and asked[second]:
             raise InputError("handout-apart", first=first, second=second)
-    case = Request(load_task(task), variant, set, only, scales, notation, lang, format, norm, block or {}).case()
+    how = set, only, scales, notation, lang, format, norm, block or {}, lettering
+    case = Request(load_task(task), variant, *how).case()
     drawing = drawing_for_print(case)
     if over is None and not key:
         drawn = begun_of_case(case, drawing, steps)

@@ -104,6 +104,7 @@ class Task:
     `choices` says which values each word of a choice sets, `constants` holds the literals of the subject;
     `file` is what was read, as the user named it, `None` for a bundled task; `display` are the units of results.
     `note` is what a user should know of the data, by language;
+    `number` is its own in designations of sheets, 0 where the file says none;
     `instead` says of which givens, once a user has set them, others of the variant no longer hold.
     """
 
@@ -123,6 +124,7 @@ class Task:
     kind: str = "mechanism"
     instead: Instead = ()
     note: Mapping[str, str] = field(default_factory=dict)
+    number: int = 0
 
     def note_in(self, language: str) -> str:
         """Return what a user should know of the data, in a language; nothing where the task says nothing."""

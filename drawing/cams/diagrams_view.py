@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import groupby, pairwise
+from itertools import accumulate, groupby, pairwise
 
 from ...plans.cams.construction import ACCELERATION, DIAGRAMS, TRAVEL, VELOCITY
 from ...plans.cams.course import courses, diagram, permitted
@@ -12,7 +12,7 @@ from ...plans.names import role
 from ...scales.scale import Scale, steps
 from ..areas import beside
 from ..diagram import AT_POLE, Axis, Field, Pole, axes, divisions, mark_pole, numbers, small
-from ..figure import Figure, Stage, stages
+from ..figure import Figure, Stage, needing, stages
 from ..page import extent
 from ..printed import DEGREES
 from ..shapes import Group, Line, Pen, Polyline, Text
@@ -29,6 +29,8 @@ PAST = 1.6  # heights of letters by which axes run past their curves
 RAISED = 3.3  # mm between the numbers of section lines and what is below or above them
 SAME = 1e-6  # mm, of ends of a jump
 APART = 1.2  # heights of letters between the numbers of rays under one another
+ONE, COLUMNS = 0.1, 3  # mm within which rays coincide, and columns of their numbers at most
+APART_CHORDS = 0.2  # mm by which the greatest ordinate of chords has a dimension of its own
 AROUND = 0.5  # mm between a number and the broken lines beside it
 RUN = 3  # how many numbers in a row are written with a dash
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # of the line of a limit at which its text may stand
@@ -72,7 +74,8 @@ def _diagrams_view(scene: CamScene) -> View:
     for phase in solved.motion.phases[:3]:  # in degrees under the lowest diagram, clear of the numbers
         below = field.y.low - field.y.scale.measured(3.5 + scene.style.text)
         ends, name = (field.at(phase.start, below), field.at(phase.end, below)), f"phi_{phase.name}"
-        linear(canvas, ends, -1j * (2.0 * scene.style.text), scene.angle(name, phase.length), name)
+        text, out = scene.angle(name, phase.length), -2j * scene.style.text
+        linear(canvas, ends, out, text, name, chained=True)
     heading = (scene.words["heading.cam_diagrams"], f"{scene.factor(scene.across)}  ({scene.axis})")
     return canvas.finish("diagrams", heading)
 
@@ -165,18 +168,38 @@ def _amplitudes(canvas: Canvas, scene: CamScene, plan: str, field: Field) -> Non
         canvas.thin("extension", "", field.at(extreme.phi, extreme.value), peak)
         symbol = words.symbol("V_max" if name == "V_min" else name)
         linear(canvas, (foot, peak), 14.0, f"{symbol} = {words.short(round(abs(peak - foot), 2))}", name)
+    drawn = [field.origin + scene.mm(f"{plan}.{i}") for i in _nodes(scene, plan)] if plan == TRAVEL else []
+    top = max(drawn, key=lambda node: node.imag, default=field.origin)
+    if drawn and abs(top.imag - peak.imag) > APART_CHORDS:  # of the chords, at the node where they are highest
+        level = complex(peak.real, top.imag)
+        canvas.thin("extension", "", top, level)
+        text = f"{scene.symbol('S_max_chord')} = {words.short(round(abs(level - foot), 2))}"
+        linear(canvas, (foot, level), 14.0 + 3.2 * scene.style.text, text, "S_max_chord")
 
 
 def _grouped(ordinates: Iterable[tuple[int, float]], height: float) -> list[Number]:
-    """Return the numbers of rays to these ordinates, mm, from below; those too near to one another stand together."""
+    """Return the numbers of rays to these ordinates, mm, from below; those that coincide stand together.
+
+    Of so many rays that their numbers take more columns than there may be, those nearest to one another do, too.
+    """
     groups = sorted(([y], [i]) for i, y in ordinates)
     while True:
         means = [sum(ys) / len(ys) for ys, _ in groups]
         gaps = [b - a for a, b in pairwise(means)]
-        if not gaps or min(gaps) >= APART * height:
+        if not gaps or (min(gaps) >= ONE and max(_columns(means, height)) < COLUMNS):
             return [(_joined(rays), mean) for (_, rays), mean in zip(groups, means, strict=True)]
         k = gaps.index(min(gaps))
         groups[k : k + 2] = [(groups[k][0] + groups[k + 1][0], groups[k][1] + groups[k + 1][1])]
+
+
+def _columns(levels: Iterable[float], height: float) -> list[int]:
+    """Return for rising levels of numbers the columns, side by side, in which none stands over another."""
+    columns, lasts = list[int](), list[float]()
+    for level in levels:
+        column = next((k for k, last in enumerate(lasts) if level - last >= APART * height), len(lasts))
+        lasts[column : column + 1] = [level]
+        columns.append(column)
+    return columns
 
 
 def _joined(rays: Iterable[int]) -> str:
@@ -195,8 +218,17 @@ def _aside(ordinates: Sequence[Sequence[tuple[int, float]]], text: float) -> flo
     """Return how far to the left of the ordinates the rays of several diagrams end: there is room for all numbers."""
     height = small(text)
     every = (_grouped(diagram, height) for diagram in ordinates)
-    wide = (lay_out(ray[0], height).width for rays in every for ray in rays if ray is not _shelved(rays, height))
-    return max(wide, default=0.0) + 4.0 * AROUND + 1.0
+    beside = ([ray for ray in rays if ray is not _shelved(rays, height)] for rays in every)
+    wide = (sum(_widths(rays, height)) for rays in beside)
+    return max(wide, default=0.0) + 2.0 * AROUND + 1.0
+
+
+def _widths(rays: Sequence[Number], height: float) -> list[float]:
+    """Return how wide the columns of numbers are, with the room on both sides of them."""
+    widths = dict[int, float]()
+    for column, (text, _) in zip(_columns((level for _, level in rays), height), rays, strict=True):
+        widths[column] = max(widths.get(column, 0.0), lay_out(text, height).width + 2.0 * AROUND)
+    return [widths[column] for column in sorted(widths)]
 
 
 def _fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, complex]], away: float) -> None:
@@ -233,9 +265,11 @@ def _fan(canvas: Canvas, field: Field, pole: Pole, means: Sequence[tuple[int, co
 
 
 def _written(canvas: Canvas, rays: Sequence[Number], middle: complex, height: float) -> Iterator[Box]:
-    """Write numbers in the middle of the strip, go through the boxes that they fill."""
-    for text, level in rays:
-        at = middle + 1j * (level - 0.5 * height)
+    """Write numbers in columns about the middle of the strip, go through the boxes that they fill."""
+    widths = _widths(rays, height)
+    starts = [*accumulate(widths, initial=-0.5 * sum(widths))]
+    for column, (text, level) in zip(_columns((level for _, level in rays), height), rays, strict=True):
+        at = middle + complex(starts[column] + 0.5 * widths[column], level - 0.5 * height)
         half = 0.5 * lay_out(text, height).width + AROUND
         canvas.add(Text(at, text, height, "middle", role="number"))
         yield at.real - half, at.imag - AROUND, at.real + half, at.imag + height + AROUND
@@ -316,4 +350,10 @@ def _pressure_limit(
     return None
 
 
-PRESSURE_FIGURE = Figure("pressure", _pressure_view, ("reduction",), stages("axes", "curve", "limits"), "cam.pressure")
+PRESSURE_FIGURE = Figure(
+    "pressure",
+    _pressure_view,
+    ("reduction",),
+    needing(stages("axes", "curve", "limits"), curve=("sizes.centre", "rocker_sizes.centre")),
+    "cam.pressure",
+)

@@ -16,7 +16,7 @@ from ..printed import DEGREES, decimals_for
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import angle_dimension, polar, shaft, shaft_radius, swept, turning_arrow, unit
 from ..text import lay_out
-from ..view import View
+from ..view import View, above
 from .scene import CamScene
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles
@@ -25,14 +25,16 @@ LOST = 3  # significant digits of a travel that is lost
 TURNS = [0.1 * k - 1.2 for k in range(25)]  # rad from the middle of the dwell, for the letter of the centre
 SIDEWAYS = 0.3  # sine of the angle below the horizontal from which on the support is there
 BESIDE = 0.15  # rad between the middle of the lower dwell and the letter of the centre
-RADIUS, ARROW = 0.35, 1.2  # rad from that middle towards the rod to the radius dimensioned, and to the arrow of omega
+RADIUS, ARROW = 0.35, 1.4  # rad from that middle towards the rod to the radius dimensioned, and to the arrow of omega
 SMALLEST = 7.0  # least radius of a cam, in heights of letters, that has room for letters inside
 REACH, BEYOND = 6.5, 4.0  # heights of letters from the roller's centre to the arc of theta; mm of the normal beyond it
 # of the radius of an arc that may be taken instead of it
 PARTS = (1.0, 0.9, 1.1, 0.8, 1.2, 0.7, 1.3, 0.6, 1.4, 0.5, 1.5)
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7)  # of an arc at which its letter may stand
 ASIDE = 0.5  # rad between a position and the radius dimensioned in it
+OVER_KEY = 1.5  # radii of the shaft that clear its key
 FLAT = 1e-6  # rad, of an angle that is not shown
+ALONG, BESIDE_ARC = 24, 1.0  # places along an arc, and mm between it and a number
 NUMBERS, PHASES = 1.7, 2.8  # heights of letters from the outermost roller to the numbers, and to the arcs of the phases
 EDGE = 1.2  # heights of letters from these arcs to the edge
 
@@ -55,6 +57,7 @@ class Inversion(ABC):
     def __init__(self, scene: CamScene, profile: Envelope, *circles: str, outer: float) -> None:
         self.scene, self.profile, self.outer, self.sense = scene, profile, outer, scene.solved.cam.sense
         self.canvas, self.style, self.lines = self.figure.canvas(scene), scene.style, scene.division.lines
+        self.canvas.breaks = {"position": True, "transverse": True, "axis": False}
         self.circles = dict(zip(circles, scene.sizes(*circles), strict=True))
         self.r_0, self.arcs = self.circles[circles[0]], outer + self.phased * scene.style.label
         self.edge = self.axis = self.top = self.arcs + EDGE * scene.style.label  # also of the upright axis, of letters
@@ -180,7 +183,7 @@ class Inversion(ABC):
         """
         canvas, style, (size,) = self.canvas, self.style, self.scene.sizes(name)
         ray, (whole,) = polar(1.0, angle), self.scene.lettered(name)
-        low, high = max(shaft_radius(size, style), free[0]) + 1.0, min(free[1], size - style.arrow)
+        low, high = max(OVER_KEY * shaft_radius(size, style), free[0]) + 1.0, min(free[1], size - style.arrow)
         text = whole if lay_out(whole, style.text).width < high - low else self.scene.symbol(name)
         self.left += [whole] if text != whole else []
         wide = lay_out(text, style.text).width
@@ -194,7 +197,7 @@ class Inversion(ABC):
             return
         middle = 0.5 * (low + high) if inside else free[2] + 0.5 * wide + 1.5
         turn = 1.0 if ray.real > -1e-9 else -1.0
-        at = ray * complex(middle, turn)
+        at = ray * complex(middle, turn * above(text, style.text))
         canvas.add(Text(at, text, style.text, "middle", swept(1.0 + 0j, ray * turn), role="label", name=name))
 
 
@@ -248,6 +251,10 @@ class RollerInversion(Inversion):
         at = self.mark("B", i)
         return at + unit(at - self.mark("K", i)) * (REACH * self.style.label + BEYOND)
 
+    def axis_end(self, i: int) -> complex:
+        """Return how far the line in which the follower rises is drawn in a position."""
+        return self.mark("B", i)
+
     def normal(self, i: int) -> None:
         """Draw the normal of one position with the point of contact, the pressure and the transmission angle."""
         canvas, scene, reach = self.canvas, self.scene, REACH * self.style.label
@@ -259,34 +266,48 @@ class RollerInversion(Inversion):
         canvas.thin("transverse", f"P{i}", 0j, pole)
         for mark, place, part in (("K", touch, "profile"), ("P", pole, "normal")):
             canvas.part(part, scene.node(place, f"{mark}{i}", "point", pen=Pen.MAIN))
-            canvas.small(f"{mark}_{{{i}}}", place, place * 1j)
+            canvas.label(f"{mark}_{{{i}}}", place, prefer=place * 1j, height=self.style.text, strict=True)
         across = up * -1j if swept(out, up) > 0.0 else up * 1j
         for name, rays, far in (("theta", (out, up), reach), ("gamma", (out, across), 0.5 * reach)):
             if abs(swept(*rays)) > FLAT:
-                self._angle(f"{scene.symbol(name)}_{{{i}}}", f"{name}_{i}", at, rays, far)
+                radius = self._angle(f"{scene.symbol(name)}_{{{i}}}", f"{name}_{i}", at, rays, far)
+                if name == "theta":  # both sides of it are drawn beyond its arrowheads
+                    self._drawn_on((at, out), self.normal_end(i), radius, "normal", str(i))
+                    self._drawn_on((at, up), self.axis_end(i), radius, "position", str(i))
 
-    def _angle(self, text: str, name: str, at: complex, rays: tuple[complex, complex], far: float) -> None:
-        """Dimension the angle between two rays near a radius at which its letter is clear of all lines."""
+    def _drawn_on(self, ray: tuple[complex, complex], end: complex, radius: float, role: str, name: str) -> None:
+        """Draw a ray on from where it ends until it is beyond a radius."""
+        (at, along), beyond = ray, radius + BEYOND
+        if ((end - at) / along).real < beyond:
+            self.canvas.thin(role, name, end, at + along * beyond)
+
+    def _angle(self, text: str, name: str, at: complex, rays: tuple[complex, complex], far: float) -> float:
+        """Dimension the angle between two rays near a radius at which its letter is clear of all lines; return it."""
         canvas, style, height = self.canvas, self.style, self.style.text
-        start, sweep, reach = swept(1.0 + 0j, rays[0]), swept(*rays), self.style.arrow
+        start, sweep = swept(1.0 + 0j, rays[0]), swept(*rays)
         boxes = [extent((shape,)) for shape in canvas.shapes if isinstance(shape, Text)]
+        boxes = [(x0 - BESIDE_ARC, y0 - BESIDE_ARC, x1 + BESIDE_ARC, y1 + BESIDE_ARC) for x0, y0, x1, y1 in boxes]
 
-        def is_free(places: list[complex]) -> bool:  # whether arrowheads there are clear of all numbers
-            beside = ((x0 - reach, y0 - reach, x1 + reach, y1 + reach) for x0, y0, x1, y1 in boxes)
-            return not any(x0 < p.real < x1 and y0 < p.imag < y1 for x0, y0, x1, y1 in beside for p in places)
+        def is_free(radius: float) -> bool:  # whether the arc with its arrowheads is clear of all numbers
+            past = 0.0 if abs(sweep) * radius > 2.5 * style.arrow else 2.0 * style.arrow / radius
+            past = past if sweep > 0.0 else -past
+            first, whole = start - past, sweep + 2.0 * past
+            arc = [at + polar(radius, first + whole * k / ALONG) for k in range(ALONG + 1)]
+            return not any(x0 < p.real < x1 and y0 < p.imag < y1 for x0, y0, x1, y1 in boxes for p in arc)
 
-        free = [far * part for part in PARTS if is_free([at + ray * (far * part) for ray in rays])]
+        free = [far * part for part in PARTS if is_free(far * part)]
         for radius in free:
             beside = (radius + away * height for away in (1.0, -1.0, 1.2, -1.3))
             places = [at + polar(away, start + share * sweep) for away in beside for share in SHARES]
             canvas.add(angle_dimension(at, radius, start, sweep, name, style))
             if canvas.write(text, places, height):
-                return
+                return radius
             canvas.shapes.pop()
         far = next(iter(free), far)
         middle = at + polar(far, start + 0.5 * sweep)
         canvas.add(angle_dimension(at, far, start, sweep, name, style))
         canvas.small(text, middle, middle - at)
+        return far
 
     def roller_radius(self) -> None:
         """Dimension the radius of the roller about its centre in a position on the side of a dwell."""

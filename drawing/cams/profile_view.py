@@ -5,8 +5,7 @@ from __future__ import annotations
 from ...plans.cams.construction import PLATE_PROFILE, PROFILE
 from ...plans.cams.course import on_circle, rests, turning, up_at
 from ..figure import Figure, Stage, stages
-from ..page import extent
-from ..shapes import Arc, Group, Line, Pen, Polyline, Text
+from ..shapes import Arc, Group, Line, Pen, Polyline
 from ..symbols import Rod, fixed_pivot, polar, revolute, swept, unit
 from ..text import lay_out
 from ..view import angle, linear
@@ -19,7 +18,6 @@ OVER = 4.0  # mm of the roller's arcs beyond its extreme places
 SAME = 1e-4  # part of the greatest velocity within which that of the fall is the same
 ANALOGUE = "|s′|"  # letter of the velocity analogue where there is little room
 ABOVE = 2.2, 4.6  # heights of letters from the plate to its dimensions
-STEPS = 60  # along a line, to see what it runs through
 THICK = 0.5  # thickness of the plate, in heights of letters
 ROOM = 16.0  # mm for letters above a rod
 
@@ -44,14 +42,18 @@ class _Roller(RollerInversion):
 
     def position(self, i: int) -> None:
         """Draw the follower's line and the roller; the line touches the circle of the offset."""
-        canvas, reach = self.canvas, self.outer + (NUMBERS - 0.9) * self.style.label
+        canvas = self.canvas
         canvas.part("lines")
-        line = self.mark("E", i), on_circle(self.e, reach, up_at(self.scene.solved, i))
-        canvas.thin("position", str(i), *line)
+        canvas.thin("position", str(i), self.mark("E", i), self.axis_end(i))
         if i:
             canvas.part("profile")
             self.roller(i)
         canvas.part("pitch", self.scene.node(self.mark("B", i), str(i)))
+
+    def axis_end(self, i: int) -> complex:
+        """Return the outer end of the follower's line in a position."""
+        reach = self.outer + (NUMBERS - 0.9) * self.style.label
+        return on_circle(self.e, reach, up_at(self.scene.solved, i))
 
     def rising(self, i: int) -> tuple[complex, complex]:
         """Return the instant centre, on the normal to the line through the cam's centre, and the line's direction."""
@@ -196,12 +198,12 @@ class _Plate(Inversion):
         canvas.part("circles")
         self.radius_at("r_0_flat", self.quiet - RADIUS * self.sense, (0.0, self.r_0, self.r_0))
         canvas.part("follower")
-        self._over((level, level - self.sense * R), ABOVE[1] * up, scene.symbol("R_plate"), "R_plate")
+        linear(canvas, (level, level - self.sense * R), ABOVE[1] * up, scene.symbol("R_plate"), "R_plate")
         right, left = (motion.maximum(0.0, side, 0.0).value for side in (1.0, -1.0))
         for far, name in ((right, "ds_right"), (-left, "ds_left")):
             ends = level, level + scene.drawn(far)
             if (far < 0.0) == (self.sense > 0):  # where the lower dwell leaves room
-                self._over(ends, ABOVE[0] * up, ANALOGUE, name)
+                linear(canvas, ends, ABOVE[0] * up, ANALOGUE, name)
             else:
                 same = abs(right - left) < SAME * right
                 linear(canvas, ends, ABOVE[0] * up, "" if same else ANALOGUE, name)
@@ -213,19 +215,6 @@ class _Plate(Inversion):
         analogues = ", ".join(dict.fromkeys(scene.length(value) for value in (right, left)))
         greatest = f"{ANALOGUE} = |{scene.symbol('ds')}|_{{max}} = {analogues}"
         return [*self.left, *scene.lettered("h", "R_plate"), greatest]
-
-    def _over(self, ends: tuple[complex, complex], out: complex, text: str, name: str) -> None:
-        """Dimension a level distance on a line moved upwards by `out`, the text on the line."""
-        canvas, height = self.canvas, self.style.text
-        over = Text(0.5 * (ends[0] + ends[1]) + out + 0.5j * height, text, height, "middle", role="label")
-        narrow = abs(ends[1] - ends[0]) < lay_out(text, height).width + 1.0
-        x0, y0, x1, y1 = extent((over,))
-        ways = ((line.a, line.b - line.a) for line in canvas.shapes if isinstance(line, Line))  # of a plate or an axis
-        points = (a + way * (k / STEPS) for a, way in ways for k in range(STEPS + 1))
-        taken = narrow or any(x0 < point.real < x1 and y0 < point.imag < y1 for point in points)
-        linear(canvas, ends, out, text if taken else "", name)
-        if not taken:
-            canvas.add(over)
 
 
 def _central(scene: CamScene) -> str:
@@ -240,7 +229,7 @@ _Roller.figure = Figure(
     ("mu_l",),
     (
         Stage("shaft", "profile.O"),
-        Stage("circles", "_axis#", variant=_central),
+        Stage("circles", "_axis#", variant=_central, needs=("sizes.centre",)),
         Stage("lines", "profile.E#", variant=_central),
         *stages(pitch="profile.B#", normal="profile.P#", profile="profile.K#"),
         *LAST,
@@ -252,7 +241,9 @@ _Rocker.figure = Figure(
     lambda scene: _Rocker(scene).view(),
     ("mu_l",),
     (
-        *stages(shaft="profile.O", pivots="profile.A#", pitch="profile.B#", normal="profile.D#", profile="profile.K#"),
+        Stage("shaft", "profile.O"),
+        Stage("pivots", "profile.A#", needs=("rocker_sizes.centre",)),
+        *stages(pitch="profile.B#", normal="profile.D#", profile="profile.K#"),
         *LAST,
     ),
     "cam.rocker_profile",
@@ -262,7 +253,9 @@ _Plate.figure = Figure(
     lambda scene: _Plate(scene).view(),
     ("mu_l",),
     (
-        *stages(shaft="plate_profile.O", circles="_axis#", centres="plate_profile.B#", profile="plate_profile.K#"),
+        Stage("shaft", "plate_profile.O"),
+        Stage("circles", "_axis#", needs=("plate_sizes.centre",)),
+        *stages(centres="plate_profile.B#", profile="plate_profile.K#"),
         Stage("follower"),
     ),
     "cam.plate_profile",

@@ -10,7 +10,6 @@ from itertools import product
 from ...plans.cams.cam import DIAGRAMS_PART, PLATE, PRESSURE_PART, PROFILE_PART, ROCKER, ROLLER, SIZES_PART
 from ...plans.cams.solve import EQUAL, SolvedCam, reduced
 from ...scales.scale import Choosers, Fixed, From, Scale, rounded, steps
-from ..compose import BLOCK, TURNED, column, row
 from ..extents import Rungs, not_a_point, smallest, visible
 from ..figure import Figure, Fitting, Found, SheetContents, may_fit
 from ..formats import STYLES, Format, room
@@ -23,23 +22,6 @@ RUNGS = 2  # by how many rungs
 LEGIBLE = {"mu_s_ds": 60.0, "mu_s_d2s": 50.0}
 REDUCTIONS = (1.0, 0.8, 0.5, 0.4, 0.25, 0.2, 0.1)  # of the lengths that the task has on the diagrams
 NARROW = 0.65  # part of the width of lines that those on the sizes of a cam may have
-LAYOUT = row(
-    column(TURNED, "diagrams", "equations_plate"),
-    column(
-        row("profile", "plate_profile", "sizes"),
-        row(
-            column("motion", "equations_roller"),
-            column("givens", "choices", "pressure"),
-            column("plate_sizes", "equations_scales", BLOCK),
-        ),
-    ),
-)
-ROCKER_LAYOUT = row(
-    column(TURNED, "diagrams"),
-    column("profile", row("motion", column("givens", "choices"))),
-    column("rocker_sizes", "equations_rocker", "pressure", "equations_scales", BLOCK),
-)
-LAYOUTS = LAYOUT, ROCKER_LAYOUT
 MU_L = 0.001  # m/mm, M 1:1
 SMALL = 0.030  # m, the least radius below which a cam is drawn at M 2:1 where nothing is said
 COARSER = (1.0, 2.0, 2.5, 4.0, 5.0, 8.0, 10.0, 20.0, 25.0)  # of a plan with equal scale factors, in the finest one
@@ -119,25 +101,33 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
         """Go through the figures of a sheet in the order of the work; lines of text are at most `width` mm long."""
         from . import diagrams_view, profile_view, sizes_view, text
 
-        solved, narrow, note = self.contents.solved, NARROW * width, self.contents.note
+        solved, narrow = self.contents.solved, NARROW * width
         numbers = {name: given for name, given in scene.givens.items() if not isinstance(given.value, str)}
-        for plan in self.contents.plans:
-            if plan == DIAGRAMS_PART:
-                yield Figure("givens", lambda scene: givens_view(numbers, scene.words, scene.style))
-                yield Figure("choices", partial(text.choices_block, note=note, width=narrow), ("reduction",))
-                yield Figure("motion", text.motion_table)
-                yield diagrams_view.DIAGRAMS_FIGURE
-                yield Figure("equations_scales", partial(text.scales_block, width=width), ("reduction",))
-            elif plan == PRESSURE_PART and solved.rolling is not None:
-                yield diagrams_view.PRESSURE_FIGURE
-            for follower in (follower for follower in (ROLLER, ROCKER, PLATE) if getattr(solved, follower)):
-                if plan == SIZES_PART:
-                    yield sizes_view.FIGURES[follower]
-                    wide = width if follower == PLATE else narrow
-                    block = partial(text.sizes_block, follower=follower, width=wide)
-                    yield Figure(f"equations_{follower}", block)
-                elif plan == PROFILE_PART:
-                    yield profile_view.FIGURES[follower]
+        plans = self.contents.plans
+        drawn = DIAGRAMS_PART in plans
+        followers = [follower for follower in (ROLLER, ROCKER, PLATE) if getattr(solved, follower)]
+        wide = {PLATE: width}
+        equations = {
+            own: Figure(f"equations_{own}", partial(text.sizes_block, follower=own, width=wide.get(own, narrow)))
+            for own in (followers if SIZES_PART in plans else ())
+        }
+        if drawn:
+            yield diagrams_view.DIAGRAMS_FIGURE
+        for follower in followers if PROFILE_PART in plans else ():
+            yield profile_view.FIGURES[follower]
+        yield from (sizes_view.FIGURES[own] for own in equations if own != PLATE)
+        yield from (figure for own, figure in equations.items() if own == PLATE)
+        if drawn:
+            yield Figure("motion", text.motion_table)
+        yield from (figure for own, figure in equations.items() if own != PLATE)
+        if drawn:
+            yield Figure("givens", lambda scene: givens_view(numbers, scene.words, scene.style))
+            yield Figure("choices", partial(text.choices_block, width=narrow), ("reduction",))
+        if PRESSURE_PART in plans and solved.rolling is not None:
+            yield diagrams_view.PRESSURE_FIGURE
+        yield from (sizes_view.FIGURES[own] for own in equations if own == PLATE)
+        if drawn:
+            yield Figure("equations_scales", partial(text.scales_block, width=width), ("reduction",))
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
@@ -163,10 +153,10 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
     def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Try one page as large as wanted, then with plans and, on the `last` format, diagrams and profiles smaller."""
         wanted, *smaller = self._ways(last)
-        found = self.placed(sheet, wanted, LAYOUTS)
+        found = self.placed(sheet, wanted)
         if found is not None or not smaller or not may_fit(self.views(sheet, smaller[-1]), sheet):
             return found
-        tried = (self.placed(sheet, rungs, LAYOUTS) for rungs in smaller if self._legible(sheet, rungs))
+        tried = (self.placed(sheet, rungs) for rungs in smaller if self._legible(sheet, rungs))
         return next((page for page in tried if page is not None), None)
 
     def _ways(self, last: bool) -> list[Rungs]:

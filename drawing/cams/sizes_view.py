@@ -16,7 +16,7 @@ from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.sizes import apex, wedge
 from ..areas import hatched
 from ..diagram import small
-from ..figure import Figure, Stage, stages
+from ..figure import Figure, Stage, needing, stages
 from ..shapes import Arc, Circle, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, arc_between, at_level, fixed_pivot, nearer, swept, unit
 from ..text import lay_out
@@ -190,7 +190,7 @@ def _plate_sizes_view(scene: CamScene) -> View:
     touch = scene.drawn(course.touch_of_plate(solved), PLATE_SIZES)
     canvas.thin("limit", "convex", touch + ALONG * TANGENT, low - ALONG * TANGENT)
     canvas.add(scene.node(touch, "convex", "touch", filled=True))
-    angle(canvas, low, (1j, ALONG), 3.0 * scene.style.label, "tangent", "45°")
+    angle(canvas, low, (1j, ALONG), 3.5 * scene.style.label, "tangent", "45°")
     canvas.part("points")
     marks = [
         (i, end, f"{PLATE_SIZES}.{i}_{end}") for i, _ in solved.layout.division.on_lines for end in ("before", "after")
@@ -308,7 +308,7 @@ FIGURES = {
         _sizes_view,
         ("mu_s_ds", "reduction"),
         (
-            *stages(axes="sizes.#", points="sizes.#_rise"),
+            *needing(stages(axes="sizes.#", points="sizes.#_rise"), points="diagrams.scales"),
             *(Stage(f"tangent_{limit}", f"sizes.T_{limit}") for limit in PHASE_OF),
             Stage("permitted", "sizes.A"),
             Stage("centre", "sizes.C", variant=given("r_0", "e")),
@@ -321,7 +321,10 @@ FIGURES = {
         _plate_sizes_view,
         ("mu_s_d2s", "reduction"),
         (
-            *stages(axes="plate_sizes.#", points="plate_sizes.#_before", tangent="plate_sizes.T"),
+            *needing(
+                stages(axes="plate_sizes.#", points="plate_sizes.#_before", tangent="plate_sizes.T"),
+                points="diagrams.scales",
+            ),
             Stage("centre", variant=given("r_0_flat")),
         ),
         "cam.plate_sizes",
@@ -331,7 +334,12 @@ FIGURES = {
         _rocker_sizes_view,
         ("mu_l",),
         (
-            *stages(pivot="rocker_sizes.#", positions="rocker_sizes.B#", analogues="rocker_sizes.D#", limits="_limit#"),
+            *needing(
+                stages(
+                    pivot="rocker_sizes.#", positions="rocker_sizes.B#", analogues="rocker_sizes.D#", limits="_limit#"
+                ),
+                positions="diagrams.scales",
+            ),
             Stage("centre", "rocker_sizes.C", variant=given("l_OC", "r_0")),
             Stage("pressure"),
         ),

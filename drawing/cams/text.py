@@ -18,7 +18,7 @@ from ...plans.cams.solve import SCALES, unit_of
 from ...scales.scale import Scale
 from ..handouts import Shown as Begun
 from ..notes.blocks import Sentences, Story
-from ..printed import DEGREES, Input, Shown, calculation, segment_decimals, worked
+from ..printed import DEGREES, Input, Shown, calculation, read_off, ruler_decimals, worked
 from ..symbols import swept
 from ..view import View, table, text_block, words_of
 from .inversion import undercut_notes
@@ -71,8 +71,8 @@ def _worked(scene: CamScene, name: str, law: str = "", *operands: str | Input) -
     return worked(scene.words, name, law or step.law, inputs, shown)
 
 
-def choices_block(scene: CamScene, note: str, width: float) -> View:
-    """Return the choices that the task makes in words, what the lines of the diagrams are, and the task's note."""
+def choices_block(scene: CamScene, width: float) -> View:
+    """Return the choices that the task makes in words, and what the lines of the diagrams are."""
     words, mm, lines = scene.words, scene.words.unit("mm"), Lines()
     for name, given in scene.givens.items():
         if isinstance(given.value, str):
@@ -86,7 +86,6 @@ def choices_block(scene: CamScene, note: str, width: float) -> View:
         drawn = (f"{scene.symbol(name)} = {length} {mm};" for name, length in lengths)
         part = words["said.cam_smaller"].format(part=words.short(scene.reduction))
         lines.append((*words_of(part), *drawn, scene.axis))
-    lines += [words_of(note)] if note else []
     return text_block("choices", words["heading.cam_choices"], lines, scene.style, width)
 
 
@@ -162,7 +161,8 @@ def transfer(scene: CamScene, plan: str) -> tuple[str, ...]:
     if plan == SIZES:  # of the straight line that projects one diagram to the scale of the other
         _, over, under = FACTORS["nu"]
         angle = scene.degrees(swept(1.0 + 0j, complex(scene.mu(under), scene.mu(over))))
-        lines.append(f"tg {scene.symbol('nu')} = {_ratio(scene, over, under)};  {scene.symbol('nu')} = {angle}")
+        tan, nu = scene.symbol("tan"), scene.symbol("nu")
+        lines.append(f"{tan} {nu} = {_ratio(scene, over, under)};  {nu} = {angle}")
     return tuple(lines)
 
 
@@ -256,7 +256,7 @@ def _said(scene: CamScene, texts: Texts) -> Said:
 
 def _on_paper(scene: CamScene, mm: float) -> str:
     """Return a length on paper with its unit, without zeros at the end."""
-    return f"{scene.words.short(round(mm, PAPER))} {scene.words.unit('mm')}"
+    return f"{scene.words.short(round(mm, ruler_decimals(scene.words, mm)))} {scene.words.unit('mm')}"
 
 
 def _closing(scene: CamScene, name: str) -> str:
@@ -268,8 +268,8 @@ def _read(scene: CamScene, plan: str, name: str) -> str:
     """Return a size as it is read from a plan: its millimetres times the scale factor."""
     words, mu = scene.words, float(f"{scene.scale(plan).mu:.{MU_DIGITS}g}")
     metres = scene.value_of(name)
-    places, decimals = segment_decimals(metres, mu)
-    product = f"{words.number(metres / mu, places)}·{words.short(mu)} = {words.number(metres, decimals)}"
+    segment, value = read_off(words, metres, mu)
+    product = f"{segment}·{words.short(mu)} = {value}"
     return f"{scene.symbol(name)} = {product} {words.unit('m')} = {scene.length(metres)} {words.unit('mm')}"
 
 

@@ -13,7 +13,7 @@ from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale
 from ..areas import strokes
 from ..diagram import Axis, Field, axes, curve, divisions, numbers
-from ..figure import ANSWERS, Figure, stages
+from ..figure import ANSWERS, Figure, needing, stages
 from ..printed import DEGREES, Input, calculation
 from ..shapes import Group, Line, Pen, Polyline, Text
 from ..symbols import unit
@@ -26,7 +26,7 @@ LEVEL = 2.2  # heights of letters for each pair that touches
 ROW = 1.8  # heights of letters between dimension lines
 FIRST = 3.0  # heights of letters from the line to the first of them
 # in which points of the line are marked; all others with the pitches
-STAGE = {"P": "pole", "N1": "line_of_action", "N2": "line_of_action", "A1": "active_line", "A2": "active_line"}
+STAGE = {"N1": "start", "P": "line_of_action", "N2": "line_of_action", "A1": "active_line", "A2": "active_line"}
 REDUCTIONS = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1, 0.05, 0.02, 0.01)  # of the ordinates of velocities
 TALLEST = {5.0: 130.0, 3.5: 75.0}  # mm of the highest ordinate, by the height of letters
 BETWEEN = 4.4  # heights of letters between the diagrams
@@ -34,7 +34,7 @@ SIDES = {1: 1.0, 2: -1.0}  # of the pole, on which a wheel's profile is the fast
 PAST = 1.6  # heights of letters by which axes run past their ends
 APART = 1.6  # heights of letters between lines of text
 ALONG = {1: unit(1.0 + 1.0j), 2: unit(-1.0 + 1.0j)}  # of the strokes under each curve
-HATCH = 2.5  # mm between strokes
+HATCH, STROKES, DENSEST = 2.5, 8, 1.0  # mm between strokes; where fewer than these fit in they are denser, down to this
 
 
 def _action_view(overall: GearScene) -> View:
@@ -125,7 +125,15 @@ def _dimensions(canvas: Canvas, scene: GearScene) -> None:
 
 
 ACTION_FIGURE = Figure(
-    "action", _action_view, ("rolled",), stages("pole", "line_of_action", "active_line", "pitches"), "gear.action"
+    "action",
+    _action_view,
+    ("rolled",),
+    needing(
+        stages("start", "line_of_action", "active_line", "pitches"),
+        line_of_action="meshing.line_of_action",
+        active_line="meshing.active_line",
+    ),
+    "gear.action",
 )
 
 
@@ -185,7 +193,8 @@ def _sections(canvas: Canvas, scene: GearScene, above: Field, below: Field) -> N
     canvas.add(*numbers(lines, foot - 0.8 - height, height, first=1))
     for name, rho in scene.places.items():
         at = above.at(rho, 0.0)
-        canvas.part("active_line" if name in ("A1", "A2") else "axes", scene.node(at, name, "point", pen=Pen.MAIN))
+        part = {"N1": "axes", "A1": "active_line", "A2": "active_line"}.get(name, "pole")
+        canvas.part(part, scene.node(at, name, "point", pen=Pen.MAIN))
         canvas.label(indexed(name), at, prefer=-0.6 - 1j if name == "N1" else 0.6 - 1j, clear=1.0, priority=1)
 
 
@@ -231,7 +240,9 @@ def _theta_diagram(canvas: Canvas, scene: GearScene, field: Field) -> None:
         canvas.add(*(scene.node(field.at(*tip), f"{name}_{point}") for point, tip in tips.items() if tip[1] >= low))
         outline = [field.at(*place) for place in active_area(scene.solved, i, low)]
         if outline:
-            canvas.add(Group(tuple(strokes(outline, ALONG[i], HATCH)), "active", name))
+            across = [(place * ALONG[i].conjugate()).imag for place in outline]
+            apart = max(DENSEST, min(HATCH, (max(across) - min(across)) / STROKES))
+            canvas.add(Group(tuple(strokes(outline, ALONG[i], apart)), "active", name))
         beyond = [field.at(*tip) for tip in tips.values() if (tip[0] - pole) * SIDES[i] >= 0.0]
         canvas.label(scene.words.symbol(name), _widest(beyond, field.at(pole, 0.0)), prefer=1j, clear=1.0)
     canvas.part(ANSWERS)
@@ -279,5 +290,13 @@ def _spread(levels: Sequence[float], axis: float, apart: float) -> list[float]:
 
 
 SLIDING_FIGURE = Figure(
-    "sliding", _sliding_view, ("part",), stages("axes", "pole", "velocities", "active_line", "sliding"), "gear.sliding"
+    "sliding",
+    _sliding_view,
+    ("part",),
+    needing(
+        stages("axes", "pole", "velocities", "active_line", "sliding"),
+        pole="meshing.line_of_action",
+        active_line="meshing.active_line",
+    ),
+    "gear.sliding",
 )

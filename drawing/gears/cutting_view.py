@@ -14,7 +14,7 @@ from ...plans.gears.teeth import Wheel
 from ...scales.scale import Scale, steps
 from ..areas import freest, thinned
 from ..diagram import Axis, Field, divisions
-from ..figure import ANSWERS, GIVEN, Figure, stages
+from ..figure import ANSWERS, GIVEN, Figure, needing, stages
 from ..page import extent
 from ..shapes import Anchor, Arc, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import HALF_TURN, right_angle, unit
@@ -44,7 +44,7 @@ def _rolling_view(overall: GearScene) -> View:
     lasts = ((f"N{wheel.number}", f"D{wheel.number}_{_divisions(scene, wheel)[-1]}") for wheel in pair)
     first, last = (max(map(scene.mm, names), key=abs) for names in lasts)
     canvas.part("line_of_action", Line(first - PAST * along, last + PAST * along, Pen.THIN, role=LINE, name="N1N2"))
-    canvas.part("pole")
+    canvas.part("start")
     node(canvas, scene, "P", 1j * along)
     heading = scene.words["heading.gear_rolling"], scene.factor
     return canvas.finish("rolling", heading, tuple(scene.words["said.gear_rolling"].split("|")))
@@ -114,7 +114,10 @@ FIGURE = Figure(
     "rolling",
     _rolling_view,
     ("rolled",),
-    stages("pole", "line_of_action", "parts", "arcs", "tangents", "involutes"),
+    needing(
+        stages("start", "line_of_action", "parts", "arcs", "tangents", "involutes"),
+        line_of_action="meshing.line_of_action",
+    ),
     "gear.rolling",
 )
 
@@ -228,6 +231,7 @@ def _field(scene: GearScene, plane: Plane) -> Field:
 def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
     """Draw the sides of the window with divisions below and on the left, the axes where they pass through it."""
     x, y, height = field.x, field.y, scene.style.text
+    before = canvas.part(GIVEN)
     corners = tuple(field.at(*at) for at in ((x.low, y.low), (x.high, y.low), (x.high, y.high), (x.low, y.high)))
     canvas.add(Polyline(corners, Pen.THIN, closed=True, role="window"))
     sides: tuple[tuple[Axis, complex, complex, Anchor], ...]
@@ -238,12 +242,10 @@ def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
                 foot = field.at(value, y.low) if axis is x else field.at(x.low, value)
                 canvas.add(Line(foot, foot + 0.4 * height * inward, Pen.THIN, role="division"))
                 canvas.add(Text(foot - height * outward, text, height, anchor, role="number"))
-    before = canvas.part(GIVEN)
     if y.low < 0.0 < y.high:
         canvas.add(Line(field.at(x.low, 0.0), field.at(x.high, 0.0), Pen.AXIS, role="axis"))
     if x.low < 0.0 < x.high:
         canvas.add(Line(field.at(0.0, y.low), field.at(0.0, y.high), Pen.AXIS, role="axis"))
-    canvas.part(before)
     label = scene.style.label
     for end, along, letter, aside in (
         (corners[1], 1 + 0j, x.letter, complex(0.0, 0.6 * label)),
@@ -252,6 +254,7 @@ def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
         tip = end + BEYOND * label * along
         canvas.add(Line(end, tip, Pen.THIN, role="axis"), Head(tip, along))
         canvas.add(Text(tip + aside, letter, label, "middle" if along == 1 else "left"))
+    canvas.part(before)
     canvas.bounds = (corners[0].real, corners[0].imag, corners[2].real, corners[2].imag)
 
 

@@ -18,6 +18,9 @@ from ..words import indexed
 from .scene import TOOTH, GearScene
 
 PENS = {"a": Pen.THIN, "w": Pen.EXTREME, "": Pen.AXIS, "b": Pen.DASHED, "f": Pen.THIN}
+# lines that break off at letters, and whether letters take no heed of them
+BREAKS = dict.fromkeys(("circle", "tangent", "ray", "axis", "extension", "swing", "position"), True)
+BREAKS |= {"line-of-action": False}
 PAST = 8.0  # mm of a line beyond what it goes to
 PITCH = 1.9  # heights of letters between diameters written under one another
 SHELF = 5.0  # mm from the longest arc to the diameters
@@ -78,13 +81,13 @@ def _centres(canvas: Canvas, scene: GearScene, pair: Pair, left: float) -> None:
     below, above = (scene.mm(f"O{wheel.number}") for wheel in pair)
     canvas.part("centres", Line(below - 2j * PAST, above + 2j * PAST, Pen.AXIS, role="axis", name="O1O2"))
     for wheel, at in zip(pair, (below, above), strict=True):
+        canvas.part("centres" if wheel.number == 2 else "start")
         canvas.add(fixed_pivot(at, f"O{wheel.number}", style, -wheel.up))
         canvas.label(f"O_{{{wheel.number}}}", at, prefer=complex(1.0, 0.3), clear=style.pair + 0.8)
         turns, name = float(sense if wheel.number == 1 else -sense), f"omega_{wheel.number}"
         canvas.part(ANSWERS)
-        radius, middle = TURNING * style.label, wheel.direction + turns * 0.5 * HALF_TURN
+        radius, middle = TURNING * style.label, 0.0  # on the right: the extension lines run to the left
         turning(canvas, wheel.centre, radius, middle, 0.9, turns, name, scene.words.symbol(name))
-        canvas.part("centres")
     canvas.part(ANSWERS)
     linear(canvas, (below, above), complex(left, 0.0), scene.stated("a_w"), "a_w")
 
@@ -171,6 +174,7 @@ def _on(wheel: Wheel, ends: Ends, radius: float) -> Ends:
 def _meshing_view(scene: GearScene) -> View:
     """Draw the pair about its centres while a pair of teeth touches at the pole."""
     canvas, pair = FIGURE.canvas(scene, coarse=0.0), scene.wheels()
+    canvas.breaks = BREAKS
     left, right = _circles(canvas, scene, pair, to_end=True)
     _centres(canvas, scene, pair, extent(canvas.shapes)[0] - BESIDE)
     _tangent(canvas, left, right)
@@ -200,6 +204,7 @@ def _near_view(overall: GearScene) -> View:
     """Draw the middle of the meshing apart, larger."""
     scene = replace(overall, mu_l=overall.near, close=True)
     canvas, pair = NEAR.canvas(scene, coarse=0.0), scene.wheels()
+    canvas.breaks = BREAKS
     _tangent(canvas, *_circles(canvas, scene, pair, to_end=False))
     low, high = (wheel.on(wheel.radius("f") - PAST, 0.0) for wheel in pair)
     canvas.part("centres", Line(low, high, Pen.AXIS, role="axis", name="O1O2"))
@@ -305,7 +310,15 @@ def _spread(last: int, steps: int) -> list[int]:
 
 
 STAGES = stages(
-    "centres", "rolling_circles", "line_of_action", "circles", "active_line", "teeth", "lowest_points", "single_contact"
+    "start",
+    "centres",
+    "rolling_circles",
+    "line_of_action",
+    "circles",
+    "active_line",
+    "teeth",
+    "lowest_points",
+    "single_contact",
 )
 FIGURE = Figure(MESHING, _meshing_view, ("mu_l",), STAGES, "gear.meshing")
 NEAR = Figure("near", _near_view, ("near",), STAGES)  # told with the meshing

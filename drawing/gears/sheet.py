@@ -2,44 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Iterator, Mapping
 from functools import partial
-from itertools import chain, product
+from itertools import product
 from typing import Any
 
-from ...plans.gears.construction import MESHING
 from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
 from ...plans.gears.solve import SolvedGear
 from ...scales.errors import InputError
 from ...scales.scale import Scale
-from ..compose import BLOCK, TURNED, Nest, arrange, column, names, row, zoned
+from ..compose import arrange, last
 from ..extents import Rungs
-from ..figure import Figure, Fitting, Found, SheetContents, pages
-from ..formats import STYLES, Format, room
-from ..view import note_block
+from ..figure import Figure, Fitting, Found, SheetContents
+from ..formats import FORMATS, STYLES, Format, room
 from .scene import GearScene, first_scales, lettered, mu_ladder, near_ladder, parts_of, rolled_ladder
 
 BESIDE = ("rolled", "part")  # ladders of what stands beside the meshing
 # rungs further at which a page is tried
 SMALLER = [dict(zip(BESIDE, steps, strict=True)) for steps in sorted(product(range(3), repeat=len(BESIDE)), key=sum)]
-LEAST = 0.25  # part of the area that what stands beside the meshing keeps at the last of these
-FULL = 0.75  # part of a format that views may cover
 GearFigure = Figure[GearScene]
-
-
-def _page(*below: Nest) -> Nest:
-    """Return a page with the meshing on the left, and so much below the involutes and the data."""
-    return row(column(TURNED, "meshing"), column(row("rolling", "data"), row(*below)))
-
-
-# everything on one page, for sheets without the worked formulas
-LAYOUTS = (_page(column("action", "sliding"), column("points", "checks", "contour", BLOCK)),)
-# what is drawn, where the calculations need a further page; where it has no room, the meshing with what belongs to it
-FIRST_PAGES = (
-    _page(column("action", "checks", "points"), column("sliding", BLOCK)),
-    _page(column("action", "contour"), column("checks", BLOCK)),
-)
 
 
 class GearFitting(Fitting[SolvedGear, GearScene]):
@@ -66,25 +47,25 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
         """Go through the figures of a sheet in the order of the work; lines of text are at most `width` mm long."""
         from . import action_view, cutting_view, meshing_view, text
 
-        note, plans = self.contents.note, self.contents.plans
-        if note:
-            yield Figure("note", lambda scene: note_block(scene.words, note, scene.style, width))
-        if GEOMETRY_PART in plans:
-            yield Figure("data", text.data_table)
+        plans = self.contents.plans
         if MESHING_PART in plans:
             yield meshing_view.FIGURE
             if scene.apart:
                 yield meshing_view.NEAR
-            yield from (cutting_view.FIGURE, action_view.ACTION_FIGURE)
+            yield cutting_view.FIGURE
+        if GEOMETRY_PART in plans:
+            yield Figure("data", text.data_table)
+        if MESHING_PART in plans:
+            yield action_view.ACTION_FIGURE
         if GEOMETRY_PART in plans:
             yield Figure("checks", text.checks_table)
+        if SLIDING_PART in plans:
+            yield from (Figure("points", text.points_table), action_view.SLIDING_FIGURE)
+        if GEOMETRY_PART in plans:
             yield Figure("contour", cutting_view.contour_view)
             yield Figure("rack", cutting_view.rack_view, ("near",))
             for name in text.CALCULATED:
                 yield Figure(f"equations_{name}", partial(text.calculations_block, name=name, width=width))
-        if SLIDING_PART in plans:
-            yield action_view.SLIDING_FIGURE
-            yield Figure("points", text.points_table)
 
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
@@ -93,52 +74,33 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
 
     def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Place everything on one page as large as wanted; on the `last` format it is tried with several pages."""
-        return None if last else self.placed(sheet, self.wanted, LAYOUTS, any_order=False)
+        return None if last else self.placed(sheet, self.wanted)
 
     def on_pages(self, sheet: Format) -> Found:
-        """Take one page, with what is beside the meshing smaller where it must be, or several."""
-        wide, high = room(sheet, self.contents.norm)
-        rungs, sizes = dict(self.wanted), self.contents.solved.sizes
+        """Take as few pages as there can be, with what is beside the meshing smaller where that helps."""
+        # the pages of a handout, with another frame, have what those of the sheet have
+        (wide, high), usual = room(sheet, self.contents.norm), FORMATS[sheet.name]
+        first, sizes = dict(self.wanted), self.contents.solved.sizes
         # the first rungs at which the lines that size the views have room, before any view is drawn
         lines = {"mu_l": (sizes["a_w"], high), "near": (2.0 * sizes["p"], wide), "rolled": (sizes["l_N1N2"], wide)}
         for name, (length, most) in lines.items():
-            rungs[name] = next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
-        first = self.fitted(sheet, rungs)
-        last = {ladder: len(self.ladders[ladder]) - 1 for ladder in BESIDE}
-        smaller = [
-            first | {ladder: min(first[ladder] + steps[ladder], last[ladder]) for ladder in BESIDE} for steps in SMALLER
-        ]
-        area = 0.0  # of the views at the last of these
-        for view, figure in self.sized(sheet, first):
-            area += view.size[0] * view.size[1] * (LEAST if {*figure.ladders} & {*BESIDE} else 1.0)
-        one = smaller if area < FULL * sheet.width * sheet.height else []
-        on_one = (self.placed(sheet, rungs, LAYOUTS, any_order=False) for rungs in one)
-        on_more = (self._on_the_first(layout, sheet, rungs) for layout in FIRST_PAGES for rungs in smaller)
-        placed = next(filter(None, chain(on_one, on_more)), None)
-        while placed is None:  # the first page has less room than the others
-            placed = self._in_order(sheet, first)
-            if placed is None and not self.has_next(first, "mu_l"):
+            first[name] = next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
+        first = self.fitted(sheet, first)
+        while True:
+            ways = [own for steps in SMALLER if (own := self._in_order(usual, self._lowered(first, steps)))]
+            rungs = min(ways, key=lambda found: last(found[2]))[0] if ways else first
+            if ways and (found := self._in_order(sheet, rungs)):
+                return found
+            if not self.has_next(first, "mu_l"):
                 raise InputError("sheet-too-small", format=sheet.name)
-            first = self.lower(first, "mu_l")
-        return placed
+            first = self.lower(first, "mu_l")  # the first page has less room than the others
+
+    def _lowered(self, rungs: Rungs, steps: Mapping[str, int]) -> Rungs:
+        """Return rungs so many steps further, as far as there are any."""
+        return rungs | {name: min(rungs[name] + step, len(self.ladders[name]) - 1) for name, step in steps.items()}
 
     def _in_order(self, sheet: Format, rungs: Rungs) -> Found | None:
-        """Place views on as many pages as they need, the data before or after the meshing."""
-        views, ways = self.views(sheet, rungs), []
-        for order in (views, sorted(views, key=lambda view: view.name != MESHING)):
-            places = arrange([view.size for view in order], sheet, self.contents.norm, None)
-            if places is not None:
-                by_name = {view.name: place for view, place in zip(order, places, strict=True)}
-                ways.append([by_name[view.name] for view in views])
-        return (rungs, views, min(ways, key=pages)) if ways else None
-
-    def _on_the_first(self, layout: Nest, sheet: Format, rungs: Rungs) -> Found | None:
-        """Place what a layout names in its zones, the rest on following pages."""
-        views, norm, names_there = self.views(sheet, rungs), self.contents.norm, {*names((layout,))}
-        here, rest = ([view for view in views if (view.name in names_there) is there] for there in (True, False))
-        own = zoned((layout,), here, sheet, norm) if here and rest else None
-        others = arrange([view.size for view in rest], sheet, norm, None, first=False) if own is not None else None
-        if own is None or others is None:
-            return None
-        places = iter(own), (replace(place, page=place.page + 1) for place in others)
-        return rungs, views, [next(places[view.name not in names_there]) for view in views]
+        """Place views on as many pages as they need."""
+        views = self.views(sheet, rungs)
+        places = arrange([view.size for view in views], sheet, self.contents.norm)
+        return None if places is None else (rungs, views, places)

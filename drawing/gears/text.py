@@ -39,7 +39,7 @@ INV = Shown("", 1.0, 6)  # of the involute function
 SHORT = 4  # decimals of a number that is printed as it is
 NOISE = 1e-9  # by which it may differ
 PAPER = 1  # decimals of segments on paper
-SIZES = ("g_alpha", "p", "p_b", "rho_f", "l_N1N2", "PW", *(f"s_{i}" for i in WHEELS))
+SIZES = ("a_w", "g_alpha", "p", "p_b", "rho_f", "l_N1N2", "PW", *(f"s_{i}" for i in WHEELS))
 LAID_OFF = tuple(name for name in SIZES if name != "PW")  # at the scale of the meshing; PW is a segment itself
 ANGLES = ("alpha_w", *(f"phi_alpha{i}" for i in WHEELS))
 RADII = tuple(f"{circle}{i}" for circle in ("w", "b", "a", "f", "") for i in WHEELS)
@@ -207,11 +207,12 @@ def _printed(name: str) -> Shown:
 
 def _input(scene: GearScene, name: str) -> Input:
     """Return a quantity with its number as it is printed; a short one as it is."""
-    unit, times, _ = _printed(name)
+    unit, times, decimals = _printed(name)
     value = scene.size(name) * times
     short = round(value, SHORT)
     exact = abs(value - short) < NOISE
-    return Input(short if exact else value, exact, name=name, sign="°" * (unit == "deg"), times=times)
+    told = "" if exact else scene.words.number(value, decimals or 0)
+    return Input(short if exact else value, exact, name=name, sign="°" * (unit == "deg"), times=times, told=told)
 
 
 def story(scene: GearScene, scales: Mapping[str, Scale], texts: Mapping[str, str]) -> Story:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 from ...plans.hoist.construction import EXTREMES, FORCES, LIFT_OFF, Roots
@@ -11,20 +12,31 @@ from ...plans.hoist.solve import POINTS, equation, forces_over
 from ...plans.solved import PAPER_MM
 from ..areas import clipped
 from ..diagram import Axis, Field, divisions, drawn_through
-from ..figure import Figure, Stage, stages
+from ..figure import Figure, Stage, needing, stages
 from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import arc_between
-from ..view import Canvas, View, angle
+from ..text import Box
+from ..view import Canvas, View, angle, linear
 from .scene import HoistScene
 
 MANY, BESIDE_CROSSING = 48, 4  # section lines
 BELOW = 1.08  # times the least ordinate, the foot of the diagram
 FEW = 4  # crossings with their times beside them, and times in a line
 CURVES = {"parabola": "Y", "sinusoid": "O"}  # of (11), and the letters of their marks
+LETTERS = {"parabola": "y − mg/C", "sinusoid": "δ"}
+LEVELS = {"P_st": Pen.AXIS, "P_m": Pen.THIN}  # of the load at rest and of its mean force, often close together
 BESIDE = 24.0  # mm from a diagram to what is magnified of it
 TICK = 1.4  # mm
 PAST = 6.0  # mm by which an axis runs past its end
 TIMES, HALF = 10.0, 16.0  # how many times as large the crossing is, and half the side of its square, mm
+LARGER = (50.0, 20.0, 10.0, 5.0, 2.0)  # times as large as the jump of the article's curve may be
+JUMP = 0.7  # of the square's side, that the jump takes at most
+LETTER = 5.0  # mm from the ends of a curve in the square to where its letter may stand
+ARTICLE = "(14)"  # the formula of its curve
+LEAST = 2.5  # mm of a jump in a detail
+SEEN = 10.0  # mm of a jump that is seen as it is
+FREE = 8.0  # mm about a detail inside of a diagram
+DETAILS = {LIFT_OFF: "I", FORCES: "II"}  # numerals of details, over the square and at its place
 TALLEST = 1.05
 BROKEN = complex("nan+nanj")  # where a curve is interrupted
 RESTING, HANGING = "resting", "hanging"  # stages: until the lift-off, after it
@@ -50,8 +62,8 @@ def _lift_off_view(scene: HoistScene) -> View:
         marks = (f"{letter}{i}" for i in _shown(roots, (roots.lift_off,)))
         canvas.add(*(scene.node(scene.mm(f"{LIFT_OFF}.{mark}"), mark) for mark in marks))
     canvas.part("curves")
-    for text, name, prefer in (("y − mg/C", "parabola", -1j), ("osc", "sinusoid", 1j)):
-        canvas.small(text, curves[name][POINTS // 4], prefer, 1.5)
+    for name, prefer in (("parabola", -1j), ("sinusoid", 1j)):
+        canvas.small(LETTERS[name], curves[name][POINTS // 4], prefer, 1.5)
     canvas.part("crossing")
     _crossing(canvas, scene, LIFT_OFF, "X", "t_1_drawn")
     _magnified(canvas, scene, complex(field.at(field.x.high, 0.0).real + BESIDE, field.at(0.0, field.y.low).imag))
@@ -66,7 +78,7 @@ def _extremes_view(scene: HoistScene) -> View:
     left, right = (scene.mm(f"{EXTREMES}.L{i}") for i in range(2))
     heights = [place.imag for place in wave]
     least = BELOW * min(left.imag, right.imag, *heights)
-    field = _field(scene, words.unit("m/s"), "mu_v", (least, max(heights)))
+    field = _field(scene, f"V, {words.unit('m/s')}", "mu_v", (least, max(heights)))
     canvas.part("axes")
     _ruled(canvas, field)
     canvas.part("curves")
@@ -90,7 +102,13 @@ def _extremes_view(scene: HoistScene) -> View:
 LIFT_OFF_FIGURE = Figure(
     "lift_off", _lift_off_view, ("part",), stages("axes", "points", "curves", "crossing"), "hoist.lift_off"
 )
-EXTREMES_FIGURE = Figure("extremes", _extremes_view, ("part",), stages("axes", "curves", "crossing"), "hoist.extremes")
+EXTREMES_FIGURE = Figure(
+    "extremes",
+    _extremes_view,
+    ("part",),
+    needing(stages("axes", "curves", "crossing"), crossing="lift_off.crossing"),
+    "hoist.extremes",
+)
 
 
 def _roots(scene: HoistScene) -> Roots:
@@ -103,7 +121,7 @@ def _field(scene: HoistScene, letter: str, symbol: str, heights: Sequence[float]
     """Return the axes of a diagram whose ordinates have these heights, mm; times count from where it begins."""
     roots, scale = _roots(scene), scene.scale(symbol)
     low, high = (scale.measured(end(*heights, 0.0)) for end in (min, max))
-    up = {y: scene.words.short(round(y, 9)) for y in divisions(high, low, scale.mu, 12.0)}
+    up = {y: scene.words.short(round(y, 9)) for y in (0.0, *divisions(high, low, scale.mu, 12.0))}
     x = _times_axis(scene, "mu_t1", roots.begin, roots.sections * roots.section)
     return Field(0j, x, Axis(letter, scale, low, high, up))
 
@@ -146,25 +164,84 @@ def _crossing(canvas: Canvas, scene: HoistScene, plan: str, mark: str, name: str
     canvas.small(text, at, 1.0 - 1j, 1.2)
 
 
+@dataclass(frozen=True, slots=True)
+class _Detail:
+    """A place of a diagram drawn again in a square, so many `times` as large; `corner` is the lower left one, mm."""
+
+    canvas: Canvas
+    scene: HoistScene
+    plan: str
+    centre: complex
+    corner: complex
+    times: float
+
+    @property
+    def box(self) -> Box:
+        """The square."""
+        return self.corner.real, self.corner.imag, self.corner.real + 2.0 * HALF, self.corner.imag + 2.0 * HALF
+
+    def at(self, place: complex) -> complex:
+        """Return where a place of the diagram is in the square."""
+        return self.corner + complex(HALF, HALF) + self.times * (place - self.centre)
+
+    def has(self, place: complex) -> bool:
+        """Whether a place of the square is in it, with room for a letter."""
+        x0, y0, x1, y1 = self.box
+        return x0 <= place.real <= x1 and y0 + LETTER <= place.imag <= y1 - LETTER
+
+    def line(self, a: complex, b: complex, pen: Pen, role: str = "", name: str = "") -> list[Shape]:
+        """Return what the square has of a line between two places of the diagram."""
+        ends = clipped(self.at(a), self.at(b), self.box)
+        return [Line(*ends, pen, role, name)] if ends else []
+
+    def curve(self, places: Iterable[complex], pen: Pen, name: str) -> list[Shape]:
+        """Return what the square has of a curve."""
+        ends = (clipped(self.at(a), self.at(b), self.box) for a, b in pairwise(places))
+        pieces = [part for part in ends if part]
+        whole = (*(a for a, _ in pieces), pieces[-1][1]) if pieces else ()
+        return [Group((Polyline(whole, pen),), "curve", name)] if pieces else []
+
+    def level(self, name: str, height: complex, text: str) -> None:
+        """Draw a level through the square, if it is there, with its letter beside it on the right."""
+        line = self.line(height - 2.0 * HALF, height + 2.0 * HALF, LEVELS[name], "level", f"{name}_magnified")
+        self.canvas.add(*line)
+        if line:
+            self.canvas.small(text, complex(self.box[2], self.at(height).imag), 1.0 + 0j, 0.8)
+
+    def moment(self) -> None:
+        """Draw the line of t_1 through the middle, with its letter under it."""
+        self.canvas.add(*self.line(self.centre - 2j * HALF, self.centre + 2j * HALF, Pen.THIN, "time", "t_1"))
+        self.canvas.small(self.scene.words.symbol("t_1"), complex(self.at(self.centre).real, self.box[1]), -1j, 0.8)
+
+    def framed(self, *shapes: Shape) -> None:
+        """Draw the square round its `shapes`, its letter and scale above, and mark the place in the diagram."""
+        canvas, h, (x0, y0, x1, y1) = self.canvas, self.scene.style.text, self.box
+        square = complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
+        frame = Group((Polyline(square, Pen.THIN, closed=True),), "frame", "magnified")
+        canvas.add(Group(shapes, "magnified", "X"), frame)
+        title = f"{DETAILS[self.plan]} ({self.scene.words.short(self.times)}:1)"
+        canvas.add(Text(complex(x0 + HALF, y1 + 0.6 * h), title, h, "middle", role="magnified"))
+        canvas.detail(DETAILS[self.plan], self.centre, abs(complex(HALF, HALF)) / self.times, "magnified")
+
+
 def _magnified(canvas: Canvas, scene: HoistScene, corner: complex) -> None:
     """Draw the crossing with its chords, larger, in a square whose lower left corner is given."""
-    centre, middle, h = scene.mm(f"{LIFT_OFF}.X"), corner + complex(HALF, HALF), scene.style.text
-    box = corner.real, corner.imag, corner.real + 2.0 * HALF, corner.imag + 2.0 * HALF
-    curves: list[Shape] = []
-    chords: list[Shape] = []
-    for letter in CURVES.values():
+    centre = scene.mm(f"{LIFT_OFF}.X")
+    detail = _Detail(canvas, scene, LIFT_OFF, centre, corner, TIMES)
+    shapes: list[Shape] = []
+    for name, letter in CURVES.items():
         dense = scene.places(equation(scene.solved, letter, centre.real, HALF / TIMES))
-        places = [middle + TIMES * (place - centre) for place in dense]
-        curves += (Polyline(part, Pen.MAIN) for ends in pairwise(places) if (part := clipped(*ends, box)))
-        nodes = (scene.mm(f"{LIFT_OFF}.{letter}{_roots(scene).lift_off + n}") for n in (0, 1))
-        a, b = (middle + TIMES * (node - centre) for node in nodes)
-        chord = clipped(a - (b - a), b + (b - a), box)
-        chords += [Line(*chord, Pen.THIN)] if chord else []
-    square = tuple(middle + HALF * complex(x, y) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
-    frame = Group((Polyline(square, Pen.THIN, closed=True),), "frame", "magnified")
-    canvas.add(Group((*curves, *chords), "magnified", "X"), frame, scene.node(middle, "magnified"))
-    at = middle + 1j * (HALF + 0.6 * h)
-    canvas.add(Text(at, f"{scene.words.short(TIMES)}:1", h, "middle", role="magnified"))
+        shapes += detail.curve(dense, Pen.MAIN, f"{name}_magnified")
+        a, b = (scene.mm(f"{LIFT_OFF}.{letter}{_roots(scene).lift_off + n}") for n in (0, 1))
+        shapes += detail.line(a - (b - a), b + (b - a), Pen.THIN)
+    detail.moment()
+    shapes += detail.line(complex(centre.real - HALF, 0.0), complex(centre.real + HALF, 0.0), Pen.THIN, "axis")
+    detail.framed(*shapes)
+    canvas.add(scene.node(detail.at(centre), "magnified"))
+    for name, letter in CURVES.items():
+        every = map(detail.at, scene.places(equation(scene.solved, letter, centre.real, HALF / TIMES)))
+        inside = sorted(filter(detail.has, every), key=lambda place: place.real)
+        canvas.small(LETTERS[name], inside[len(inside) // 5], 1j if name == "sinusoid" else -1j, 1.0)
 
 
 def _forces_view(scene: HoistScene) -> View:
@@ -174,15 +251,19 @@ def _forces_view(scene: HoistScene) -> View:
     canvas.part("axes")
     _ruled(canvas, field)
     canvas.part("levels")
-    for name in ("P_st", "P_m"):
+    for name in LEVELS:
         ends = field.at(0.0, scene.size(name)), field.at(field.x.high, scene.size(name))
-        canvas.add(Line(*ends, Pen.AXIS, role="level", name=name))
+        canvas.add(Line(*ends, LEVELS[name], role="level", name=name))
         if name == "P_st" or scene.size("P_m") != scene.size("P_st"):
-            canvas.label(scene.stated(name), ends[1], prefer=1.0 + (0.6j if name == "P_m" else -0.6j), clear=1.5)
-    _curves(canvas, scene, field)
+            said = scene.stated(name).replace(" = ", " = mg + ma = " if name == "P_m" else " = ", 1)
+            canvas.small(said, ends[1], 1.0 + (0.6j if name == "P_m" else -0.6j), 1.0)
+    curves = _curves(canvas, scene, field)
     _times(canvas, scene, field)
     _values(canvas, scene)
-    notes = [words["hoist.article"]]
+    canvas.part("article")
+    _jump(canvas, scene, field, curves)
+    jump = abs(scene.size("P_st") - scene.size("F_12_t1"))  # it begins as if the load hung at rest
+    notes = [words["hoist.article"].format(jump=f"{scene.value(jump)} {words.unit('N')}")]
     if 0 in scene.solved.layout.bent:
         mu = words.short(float(f"{scene.solved.size('_mu_w_0') * PAPER_MM:.3g}"))
         unit = words.unit("m/mm")
@@ -201,7 +282,7 @@ def _forces_field(scene: HoistScene) -> Field:
     words, force = scene.words, scene.scale("mu_F")
     high = TALLEST * max(scene.size("F_max"), scene.size("P_12_max_printed"))
     low = min(-TALLEST * scene.size("P_st"), 0.0)
-    up = {F: words.short(round(F, 6)) for F in divisions(high, low, force.mu, 14.0)}
+    up = {F: words.short(round(F, 6)) for F in (0.0, *divisions(high, low, force.mu, 14.0))}
     x = _times_axis(scene, "mu_t", 0.0, scene.solved.forces.end)
     return Field(0j, x, Axis(f"F, {words.unit('N')}", force, low, high, up))
 
@@ -209,12 +290,64 @@ def _forces_field(scene: HoistScene) -> Field:
 def _times_axis(scene: HoistScene, symbol: str, begin: float, last: float) -> Axis:
     """Return an axis of times from `begin` on, where it has its zero, as long as `last`."""
     words, scale = scene.words, scene.scale(symbol)
-    times = (t for t in divisions(begin + last, begin, scale.mu, 16.0) if t >= begin)
+    times = (t for t in (0.0, *divisions(begin + last, begin, scale.mu, 16.0)) if t >= begin)
     return Axis(f"t, {words.unit('s')}", scale, 0.0, last, {t - begin: words.short(round(t, 9)) for t in times})
 
 
-def _curves(canvas: Canvas, scene: HoistScene, field: Field) -> None:
-    """Draw the forces in both phases, and the article's as far as the axis goes."""
+def _jump(canvas: Canvas, scene: HoistScene, field: Field, curves: Mapping[str, list[complex]]) -> None:
+    """Dimension the jump of the article's curve, in a detail where it is small on the diagram."""
+    words, t_1 = scene.words, scene.size("t_1")
+    at = {name: field.at(t_1, scene.size(name)) for name in ("F_12_t1", "P_st", "P_m")}
+    text = f"{scene.value(abs(scene.size('P_st') - scene.size('F_12_t1')))} {words.unit('N')}"
+    jump = abs(at["P_st"] - at["F_12_t1"])
+    shown = [*at.values()]  # in the detail, with both levels where the jump is large enough then
+    times = _times_as_large(shown)
+    if jump < LEAST / times:
+        shown = [at["P_st"], at["F_12_t1"]]
+        times = _times_as_large(shown)
+    last = max(field.at(t, 0.0).real for t in (t_1, t_1 + scene.size("T_1")) if t <= field.x.high)
+    if jump > SEEN or times == 1.0:  # on the left, or beyond the lines of times where the axis is near
+        out = -SEEN if at["P_st"].real > 2.0 * SEEN else last + FREE - at["P_st"].real
+        linear(canvas, (at["F_12_t1"], at["P_st"]), complex(out), text, "jump")
+        return
+    corner = complex(last + FREE, field.at(0.0, 0.0).imag - 2.0 * HALF - FREE)
+    if (
+        corner.real + 2.0 * HALF + FREE > field.at(field.x.high, 0.0).real
+        or corner.imag < field.at(0.0, field.y.low).imag
+    ):
+        corner = complex(field.at(field.x.high, 0.0).real + BESIDE, field.at(0.0, field.y.low).imag)
+    detail = _Detail(canvas, scene, FORCES, _middle(shown), corner, times)
+    detail.moment()
+    for name in [*LEVELS][: 1 + (at["P_m"] != at["P_st"])]:
+        detail.level(name, at[name], words.symbol(name))
+    pens = {"F_12": Pen.MAIN, "P_12": Pen.MAIN, "printed": Pen.DASHED}
+    shapes = [shape for name, pen in pens.items() for shape in detail.curve(curves[name], pen, f"{name}_magnified")]
+    shapes += detail.line(at["F_12_t1"], at["P_st"], Pen.DASHED)
+    detail.framed(*shapes)
+    canvas.add(scene.node(detail.at(at["F_12_t1"]), "magnified", filled=True))
+    linear(canvas, (detail.at(at["F_12_t1"]), detail.at(at["P_st"])), complex(-HALF - 0.5 * FREE), text, "jump")
+    # letters at the ends of the curves, that of P_12 in the middle: the levels have theirs beside its end
+    for name, share, prefer in (("F_12", 0.0, -1.0 - 1j), ("P_12", 0.5, 1.0 - 1j), ("printed", 1.0, 1.0 + 0.5j)):
+        inside = [place for place in map(detail.at, curves[name]) if detail.has(place)]
+        if inside:
+            said = ARTICLE if name == "printed" else words.symbol(name)
+            canvas.small(said, inside[round(share * (len(inside) - 1))], prefer, 1.0)
+
+
+def _times_as_large(places: Sequence[complex]) -> float:
+    """Return how many times as large upright distances may be in a detail."""
+    heights = [place.imag for place in places]
+    return next((times for times in LARGER if times * (max(heights) - min(heights)) <= JUMP * 2.0 * HALF), 1.0)
+
+
+def _middle(places: Sequence[complex]) -> complex:
+    """Return the middle between the lowest and the highest of places over one another."""
+    heights = [place.imag for place in places]
+    return complex(places[0].real, 0.5 * (min(heights) + max(heights)))
+
+
+def _curves(canvas: Canvas, scene: HoistScene, field: Field) -> dict[str, list[complex]]:
+    """Draw the forces in both phases, and the article's as far as the axis goes; return them."""
     curves = {name: scene.places(places) for name, places in forces_over(scene.solved).items()}
     foot, printed = field.at(0.0, field.y.low).imag, curves["printed"]
     stage = {"F_01": RESTING, "F_12": RESTING, "P_12": HANGING}
@@ -224,14 +357,17 @@ def _curves(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     canvas.part("article")
     drawn_through(canvas, (p if p.imag >= foot else BROKEN for p in printed), "printed", Pen.DASHED)
     canvas.add(Line(curves["P_12"][0], printed[0], Pen.DASHED, role="jump", name="printed"))
+    apart = max(range(len(printed)), key=lambda k: abs(printed[k] - curves["P_12"][k]))
+    canvas.small(ARTICLE, printed[apart], printed[apart] - curves["P_12"][apart], 1.2)
     for name, k in (("F_01", POINTS // 3), ("F_12", POINTS // 3), ("P_12", 3 * POINTS // 5)):
         canvas.part(stage[name])
         canvas.label(scene.words.symbol(name), curves[name][k], prefer=1j, clear=1.5)
+    return curves
 
 
 def _times(canvas: Canvas, scene: HoistScene, field: Field) -> None:
     """Draw upright lines at the lift-off, the maxima before it, and the greatest force after it."""
-    marked = {"t_1": scene.size("t_1"), "t_P12_max": scene.size("t_1") + scene.size("T_1")}
+    marked = {"t_1": scene.size("t_1"), "t_P12_max": scene.sum_of("t_1", "T_1")}
     roots, shown = scene.solved.layout.roots, scene.solved.quantities
     times = enumerate(roots.times, 1) if roots else ()
     marked |= {name: t for n, t in times if n % 2 and (name := f"t_2_{n}") in shown}  # the maxima
@@ -244,7 +380,9 @@ def _times(canvas: Canvas, scene: HoistScene, field: Field) -> None:
         canvas.part(HANGING if name == "t_P12_max" else RESTING)
         foot, end = field.at(t, field.y.low), complex(field.at(t, 0.0).real, level + height)
         canvas.add(Line(foot, end, Pen.THIN, role="time", name=name))
-        canvas.add(Text(complex(end.real + 0.5, level), scene.stated(name, t, "s"), height, "left", role="time"))
+        canvas.add(
+            Text(complex(end.real + 0.4 * height, level), scene.stated(name, t, "s"), height, "left", role="time")
+        )
         rows += 1
 
 
@@ -265,7 +403,10 @@ FORCES_FIGURE = Figure(
     "forces",
     _forces_view,
     ("part",),
-    (Stage("axes"), MOVED, *stages("levels", RESTING, HANGING, "article")),
+    needing(
+        (Stage("axes"), MOVED, *stages("levels", RESTING, HANGING, "article")),
+        **{RESTING: "lift_off.crossing", HANGING: "circle.ends"},
+    ),
     "hoist.forces",
 )
 
@@ -273,6 +414,7 @@ FORCES_FIGURE = Figure(
 def _circle_view(scene: HoistScene) -> View:
     """Draw the circle with its start, its diameter and the angle run through."""
     canvas, words = CIRCLE_FIGURE.canvas(scene), scene.words
+    canvas.breaks = {"axis": False}
     centre = scene.mm(f"{CIRCLE}.C")  # the origin of the view
     start, right, left = (scene.mm(f"{CIRCLE}.{mark}") - centre for mark in ("1", "max", "min"))
     radius = right.real
@@ -295,7 +437,7 @@ def _circle_view(scene: HoistScene) -> View:
         if abs(reached.get(name, scene.size(name)) - scene.size(name)) > SAME * scene.size("R"):
             continue  # the rope goes slack before, or the load comes back
         canvas.part("ends" if name in reached else "start", scene.node(at, name, filled=True))
-        canvas.small(scene.stated(name), at, (at or -1j) - 0.6j, 1.2)
+        canvas.small(scene.stated(name), at, (at or -1.0 - 0.4j) - 0.6j, 1.2)
     notes = (scene.stated("R"), *([words["hoist.slack"]] if scene.solved.layout.slack else []))
     return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")), notes)
 
@@ -316,5 +458,9 @@ def _circle(canvas: Canvas, scene: HoistScene, ends: tuple[complex, complex]) ->
 # a rope that goes slack need not reach the ends of the diameter: they are no step of their own
 ENDS = Stage("ends", when=lambda scene: scene.solved.forces.motion is None)
 CIRCLE_FIGURE = Figure(
-    "circle", _circle_view, ("mu_F_circle",), (*stages("axes", "start", "circle"), ENDS), "hoist.circle"
+    "circle",
+    _circle_view,
+    ("mu_F_circle",),
+    needing((*stages("axes", "start", "circle"), ENDS), start="lift_off.crossing"),
+    "hoist.circle",
 )

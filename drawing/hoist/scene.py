@@ -18,10 +18,11 @@ from ...scales.scale import Choosers, From, Scale, steps
 from ..extents import smallest, visible
 from ..figure import SubjectScene
 from ..formats import Format
+from ..printed import decimals_for
 from ..words import Words
 
 LEAST = 1e-3  # part of the mean force that the circle is taken for at least
-SPAN, ROPE, DIAMETER = 160.0, 350.0, 110.0  # mm of paper that the longer beam, the rope and the circle may take
+SPAN, ROPE, DIAMETER = 220.0, 350.0, 150.0  # mm of paper that the longer beam, the rope and the circle may take
 # mm^2 of A1: of figures with their texts, and of tables that every sheet has
 AREAS = {SCHEME_PART: 2e4, FORCES_PART: 1.25e5, ROOTS_PART: 9e4, CIRCLE_PART: 3e4, BEAMS_PART: 3e4}
 TABLES = 4e4
@@ -37,6 +38,10 @@ class HoistScene(SubjectScene[SolvedHoist]):
     def size(self, name: str) -> float:
         """Return a quantity or a given, SI."""
         return float(self.solved.forces.found[name])
+
+    def sum_of(self, *names: str) -> float:
+        """Return the sum of quantities as they are printed, SI."""
+        return sum(round(size, decimals_for(size)) for size in map(self.size, names))
 
     def scale(self, symbol: str) -> Scale:
         """Return a scale factor as it is drawn."""
@@ -74,7 +79,7 @@ def lettered(words: Words, roots: int = 0) -> Words:
 def ladder(solved: SolvedHoist, choosers: Choosers, symbol: str) -> tuple[float, ...]:
     """Return the values of a scale factor that may be chosen, one of `UNITS`, the one wanted first.
 
-    Where nothing is said, beams take 160 mm at most and a rope 350, a circle 110.
+    Where nothing is said, beams take 220 mm at most and a rope 350, a circle 150.
     """
     if symbol == SCALES[SCHEME]:
         span, rope = max(solved.size(f"l_{i}") for i in BENT), solved.size("L")

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
 from ...plans.hoist.construction import BENT, FORCE, LETTERS, SCHEME, SECTIONS
 from ...plans.hoist.forces import STRENGTH
 from ...plans.hoist.solve import OF_BEAM, bent
-from ..figure import Figure, stages
+from ..figure import Figure, needing, stages
 from ..page import Layer
-from ..shapes import Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
-from ..symbols import COILS, coils, fixed_pivot, hatching, revolute, unit
+from ..shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
+from ..symbols import COILS, HALF_TURN, coils, fixed_pivot, hatching, revolute, unit
 from ..text import lay_out
 from ..view import Canvas, View, linear
 from .scene import HoistScene
+from .text import formula
 
 LOAD = 0.45  # of the rope's length, the height of the load at most
 BOX = 12.0  # mm, the load's height at most
@@ -24,20 +25,24 @@ SPRING, HALF = 26.0, 4.0  # mm: length of a spring, half its width
 MASS = 11.0, 13.0  # mm: half the width and the height of the mass
 LEG = 4.0  # mm, straight ends of a spring
 ARROW = 13.0  # mm, an arrow
+OF_ROLLER = 0.14  # radius of the rollers of a support, in its heights
+ROW_OF_DIMENSIONS = 3.2  # heights of letters from dimension to dimension
 STAGE_OF_BEAM = {"0": "support", "2": "bridge"}  # stages
 APART = 14.0  # mm between the beams
 SAME = 0.5  # mm
-STEP = 5.4  # heights of letters from block to block
-TALL = 2.0  # heights of letters of a block
-PAD = 1.6
-POINTED = 2.4  # heights of other blocks that a diamond has
-KINDS = {"begin": "round", "end": "round", "data": "slanted", "places": "slanted"}
-KINDS |= {"larger": "diamond", "strong": "diamond"}
+TALL, RHOMBUS = 3.0, 5.6  # heights of letters of a block, and of a question
+GAP, JOINED = 2.0, 1.6  # heights of letters between blocks, and more of them where two ways meet
+ASIDE = 2.4  # heights of letters from a question to the way beside it
+PAD = 0.9  # heights of letters on both sides of the text of a block
+LEAN = 1.5  # heights of letters by which the sides of data lean
+KINDS = {"begin": "terminator", "end": "terminator", "data": "data", "places": "data"}
+KINDS |= {"larger": "decision", "strong": "decision"}
 
 
 def _scheme_view(scene: HoistScene) -> View:
     """Draw the scheme with its dimensions."""
     canvas, words, style = SCHEME_FIGURE.canvas(scene), scene.words, scene.style
+    canvas.breaks = {"extension": False}
     at = {mark: scene.mm(f"{SCHEME}.{mark}") for mark in ("O1", "O2", "A0", "A2", "B1", "B2")}
     rope = abs(at["A2"] - at["A0"])
     canvas.part("support")
@@ -67,17 +72,26 @@ def _scheme_view(scene: HoistScene) -> View:
 
 def _dimensions(canvas: Canvas, scene: HoistScene, at: dict[str, complex]) -> None:
     """Dimension spans, the places of load and drum from the nearer ends, and the rope."""
-    layout, drop = scene.solved.layout, -1j * (scene.style.pivot[1] + 2.0 * scene.style.pair + 8.0)
-    step = -1j * 3.2 * scene.style.text
-    for i, ends, mark in ((0, ("O1", "O2"), "A0"), (2, ("B1", "B2"), "A2")):
+    style, layout = scene.style, scene.solved.layout
+    low = (1.0 + 2.0 * OF_ROLLER) * style.pivot[1] + style.pair + style.hatch[0]  # of the lowest strokes of a support
+    for i, ends, mark, side, bodies in (
+        (0, ("O1", "O2"), "A0", -1j, (low + 1.0, 1.0)),
+        (2, ("B1", "B2"), "A2", 1j, (style.pair + 1.0, DRUM + 1.0)),
+    ):
         canvas.part(STAGE_OF_BEAM[str(i)])
-        near = ends[0] if layout.near[i // 2] == "left" else ends[1]
-        pair = tuple(sorted((at[near], at[mark]), key=lambda p: p.real))
-        linear(canvas, (pair[0], pair[1]), drop, scene.stated(f"b_{i}", unit="m"), f"b_{i}")
-        linear(canvas, (at[ends[0]], at[ends[1]]), drop + step, scene.stated(f"l_{i}", unit="m"), f"l_{i}")
+        first, step = side * (max(bodies) + 2.0 * style.text), side * ROW_OF_DIMENSIONS * style.text
+        near, gaps = ends[0] if layout.near[i // 2] == "left" else ends[1], bodies
+        pair = at[near], at[mark]
+        if pair[0].real > pair[1].real:
+            pair, gaps = pair[::-1], bodies[::-1]
+        linear(canvas, pair, first, scene.stated(f"b_{i}", unit="m"), f"b_{i}", bodies=gaps)
+        whole = at[ends[0]], at[ends[1]]
+        linear(canvas, whole, first + step, scene.stated(f"l_{i}", unit="m"), f"l_{i}", bodies=(bodies[0], bodies[0]))
     canvas.part("rope")
-    far = max(at["O2"].real, at["B2"].real) + scene.style.pivot[2]
-    linear(canvas, (at["A0"], at["A2"]), complex(far - at["A0"].real), scene.stated("L", unit="m"), "L")
+    far = max(at["O2"].real, at["B2"].real) + style.pivot[2]
+    bodies = (at["O2"].real - at["A0"].real + style.pair + 1.0, at["B2"].real - at["A2"].real + style.pair + 1.0)
+    rope, out = (at["A0"], at["A2"]), complex(far - at["A0"].real)
+    linear(canvas, rope, out, scene.stated("L", unit="m"), "L", bodies=bodies)
 
 
 def _rolling_support(at: complex, name: str, scene: HoistScene) -> Group:
@@ -85,7 +99,7 @@ def _rolling_support(at: complex, name: str, scene: HoistScene) -> Group:
     width, height, base = scene.style.pivot
     pivot = fixed_pivot(at, name, scene.style)
     foot = at - 1j * (height + scene.style.pair)
-    radius = 0.14 * height
+    radius = OF_ROLLER * height
     below = foot - 2j * radius
     rollers = tuple(Circle(foot + complex(x * 0.3 * width, -radius), radius, Pen.THIN) for x in (-1, 0, 1))
     ends = below - 0.5 * base, below + 0.5 * base
@@ -121,7 +135,10 @@ def _model_view(scene: HoistScene) -> View:
     canvas.add(Line(axis, axis + end, Pen.THIN, role="axis"), Head(axis + end, 1j))
     canvas.add(Line(axis - 2.0, axis + 2.0, Pen.THIN))
     canvas.label("s", axis + end, prefer=1.0 + 0j, clear=1.2)
-    return canvas.finish("model", (words["heading.hoist_model"],))
+    said = " ".join(formula(scene, "V_t"))  # the speed with which the rope becomes taut
+    if not scene.size("slack"):
+        said = scene.stated("V_t", unit="m/s").replace(" = ", f" = {words.symbol('V_0')} = ")
+    return canvas.finish("model", (words["heading.hoist_model"],), (said, words["said.arrows"]))
 
 
 def _arrow(canvas: Canvas, tail: complex, tip: complex, letter: str) -> None:
@@ -180,7 +197,9 @@ def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
     return top + min(scene.mm(f"{plan}.M").imag, 0.0)
 
 
-BEAMS_FIGURE = Figure("beams", _beams_view, ("part",), stages("axes", "bent", "greatest"), "hoist.beams")
+BEAMS_FIGURE = Figure(
+    "beams", _beams_view, ("part",), needing(stages("axes", "bent", "greatest"), bent="circle.ends"), "hoist.beams"
+)
 
 
 def flow_view(scene: HoistScene) -> View:
@@ -201,74 +220,109 @@ def flow_view(scene: HoistScene) -> View:
         "strong": f"[σ]/{s('sigma_max')} ≥ K?",
         "end": words["hoist.end"],
     }
-    widest = max(lay_out(text, h).width for text in texts.values()) + 2.0 * PAD * h + 2.0 * TALL * h
-    boxes = max(lay_out(f"{s('F_max')} = {s(name)}", h).width for name in ("F_12_max", "P_12_max")) + 1.4 * h
-    widest = max(widest, 2.0 * boxes + 4.0 * h)
-    order = [*texts]
-    beyond = order.index("stress")  # a level more, for the two boxes before it
-    levels = {name: -(k + (k >= beyond)) * STEP * h for k, name in enumerate(order)}
+    wide = max(_width(text, KINDS.get(name, ""), h) for name, text in texts.items())
+    chosen = {name: f"{s('F_max')} = {s(name)}" for name in ("F_12_max", "P_12_max")}
+    narrow = max(_width(text, "", h) for text in chosen.values())
+    levels, low = {}, 0.0
+    for name in texts:
+        low -= (TALL + GAP + JOINED) * h * (name == "stress")  # below the two boxes before it
+        up = _half(name, h)
+        levels[name] = low - up
+        low -= 2.0 * up + GAP * h
     for name, text in texts.items():
-        _block(canvas, name, text, (1j * levels[name], widest), h)
-    _ways(canvas, scene, levels, widest, found["F_12_max"] > found["P_12_max"], ok)
+        _block(canvas, name, text, (1j * levels[name], wide), h)
+    _ways(canvas, scene, levels, wide, ok)
+    left = _choice(canvas, scene, levels, chosen, (wide, narrow), found["F_12_max"] > found["P_12_max"])
+    _back(canvas, scene, levels, wide, left - GAP * h, not ok)
     return canvas.finish("flow", (words["heading.hoist_flow"],), (words["hoist.taken"],))
 
 
+def _half(name: str, h: float) -> float:
+    """Return half the height of a block."""
+    return 0.5 * h * (RHOMBUS if KINDS.get(name) == "decision" else TALL)
+
+
+def _width(text: str, kind: str, h: float) -> float:
+    """Return how wide a block must be for its text: a rhombus is narrower above and below its middle."""
+    wide = lay_out(text, h).width + 2.0 * PAD * h
+    if kind == "decision":
+        return wide / (1.0 - 2.0 * PAD / RHOMBUS)
+    return wide + {"data": LEAN, "terminator": TALL / 2.0}.get(kind, 0.0) * h
+
+
 def _block(canvas: Canvas, name: str, text: str, place: tuple[complex, float], h: float) -> None:
-    """Draw a block about its middle, as wide: rounded, slanted, a diamond or a rectangle, with its text."""
-    at, wide = place
-    half, up, lean = 0.5 * wide, 0.5 * TALL * h, TALL * h
-    kind = KINDS.get(name, "")
-    corners = {
-        "": ((-half, -up), (half, -up), (half, up), (-half, up)),
-        "slanted": ((-half, -up), (half - lean, -up), (half, up), (-half + lean, up)),
-        "round": ((-half + up, -up), (half - up, -up), (half, 0.0), (half - up, up), (-half + up, up), (-half, 0.0)),
-        "diamond": ((-half - lean, 0.0), (0.0, -POINTED * up), (half + lean, 0.0), (0.0, POINTED * up)),
-    }[kind]
-    outline = tuple(at + complex(*corner) for corner in corners)
-    canvas.group("block", name, Polyline(outline, Pen.MAIN, closed=True, fill="white"))
+    """Draw a block about its middle, as wide, as GOST 19.701 has it: terminator, data, decision or process."""
+    (at, wide), up, lean, kind = place, _half(name, h), 0.5 * LEAN * h, KINDS.get(name, "")
+    half = 0.5 * wide
+    if kind == "terminator":
+        straight = complex(half - up, 0.0)
+        sides = (Line(at + i - straight, at + i + straight, Pen.THIN) for i in (1j * up, -1j * up))
+        ends = ((at + straight, -0.5 * HALF_TURN), (at - straight, 0.5 * HALF_TURN))
+        canvas.group("block", name, *sides, *(Arc(end, up, turn, HALF_TURN, Pen.THIN) for end, turn in ends))
+    else:
+        corners = {
+            "": ((-half, -up), (half, -up), (half, up), (-half, up)),
+            "data": ((-half - lean, -up), (half - lean, -up), (half + lean, up), (lean - half, up)),
+            "decision": ((-half, 0.0), (0.0, -up), (half, 0.0), (0.0, up)),
+        }[kind]
+        outline = tuple(at + complex(*corner) for corner in corners)
+        canvas.group("block", name, Polyline(outline, Pen.THIN, closed=True))
     canvas.add(Text(at - 0.5j * h, text, h, "middle", role="block"))
 
 
-def _ways(canvas: Canvas, scene: HoistScene, levels: dict[str, float], wide: float, resting: bool, ok: bool) -> None:
-    """Draw the ways between the blocks; the one that is taken thick, the others thin."""
-    words, h = scene.words, scene.style.text
-    up, corner = 0.5 * TALL * h, 0.5 * wide + TALL * h
+def _ways(canvas: Canvas, scene: HoistScene, levels: dict[str, float], wide: float, ok: bool) -> None:
+    """Draw the ways from block to block; what is taken is thick, all else thin."""
+    h = scene.style.text
     for before, after in pairwise(levels):
-        if before == "larger":
-            continue
-        reach = {name: up * (POINTED if KINDS.get(name) == "diamond" else 1.0) for name in (before, after)}
-        ends = 1j * (levels[before] - reach[before]), 1j * (levels[after] + reach[after])
-        _way(canvas, ends, before != "strong" or ok, f"{before}-{after}")
-    _choice(canvas, scene, levels, corner, resting)
-    left = -corner - 2.2 * h
-    strong, places = levels["strong"], levels["places"]
-    corners = (-corner, strong), (left, strong), (left, places), (-0.5 * wide + TALL * h * 0.5, places)
-    back = [complex(*at) for at in corners]
-    _way(canvas, back, not ok, "strong-places")
-    canvas.add(Text(complex(left + 0.4 * h, strong + 0.4 * h), words["hoist.no"], h, role="answer"))
-    below = strong - POINTED * up - 1.4 * h
-    canvas.add(Text(complex(0.8 * h, below), words["hoist.yes"], h, role="answer"))
+        if before != "larger":
+            ends = 1j * (levels[before] - _half(before, h)), 1j * (levels[after] + _half(after, h))
+            _way(canvas, ends, before != "strong" or ok, f"{before}-{after}")
+    below = levels["strong"] - _half("strong", h) - 1.3 * h
+    canvas.add(Text(complex(0.7 * h, below), scene.words["hoist.yes"], h, role="answer"))
 
 
-def _choice(canvas: Canvas, scene: HoistScene, levels: dict[str, float], corner: float, resting: bool) -> None:
-    """Draw both ways out of the question which force is the larger, with what each takes, until they meet."""
-    words, h = scene.words, scene.style.text
-    up, level, low = 0.5 * TALL * h, levels["larger"], levels["stress"]
-    middle = level - STEP * h
-    answers = {True: words["hoist.yes"], False: words["hoist.no"]}
-    for side, name, taken in ((-1, "F_12_max", resting), (1, "P_12_max", not resting)):
-        text = f"{words.symbol('F_max')} = {words.symbol(name)}"
-        half = 0.5 * lay_out(text, h).width + 0.7 * h
-        at = complex(side * (half + 0.8 * h), middle)
-        _block(canvas, name, text, (at, 2.0 * half), h)
-        first = complex(side * corner, level), complex(side * corner, middle), at + side * half
+def _choice(
+    canvas: Canvas,
+    scene: HoistScene,
+    levels: dict[str, float],
+    texts: Mapping[str, str],
+    widths: tuple[float, float],
+    resting: bool,
+) -> float:
+    """Draw both ways out of the question which force is the larger, with what each takes, until they meet.
+
+    The `widths` are those of the question and of the boxes that follow; returned is how far they reach to the left.
+    """
+    words, h, (wide, narrow) = scene.words, scene.style.text, widths
+    level, low, up = levels["larger"], levels["stress"] + _half("stress", h), 0.5 * TALL * h
+    corner, beside = 0.5 * wide, 0.5 * wide + ASIDE * h
+    answers = {-1: words["hoist.yes"], 1: words["hoist.no"]}
+    beside = max(beside, 0.5 * narrow + 0.5 * GAP * h)
+    middle = level - _half("larger", h) - GAP * h - up
+    for (name, text), side, taken in zip(texts.items(), answers, (resting, not resting), strict=True):
+        at = complex(side * beside, middle)
+        _block(canvas, name, text, (at, narrow), h)
+        first = complex(side * corner, level), complex(side * beside, level), at + 1j * up
         _way(canvas, first, taken, f"larger-{name}")
-        joint = complex(at.real, low + up + 1.6 * h)
-        _way(canvas, (at - 1j * up, joint, complex(0.0, joint.imag), 1j * (low + up)), taken, f"{name}-stress")
-        beside = complex(side * (corner - 0.4 * h), level - 2.2 * h)
-        canvas.add(Text(beside, answers[side < 0], h, "right" if side > 0 else "left", role="answer"))
+        joint = complex(at.real, low + (GAP + 0.5 * JOINED) * h)
+        _way(canvas, (at - 1j * up, joint, joint - at.real, 1j * low), taken, f"{name}-stress")
+        place = complex(side * (corner + 0.3 * h), level + 0.5 * h)
+        canvas.add(Text(place, answers[side], h, "left" if side > 0 else "right", role="answer"))
+    return -beside - 0.5 * narrow
+
+
+def _back(canvas: Canvas, scene: HoistScene, levels: dict[str, float], wide: float, left: float, taken: bool) -> None:
+    """Draw the way back from the question of strength to other places of load and drum."""
+    h, strong, places = scene.style.text, levels["strong"], levels["places"]
+    corners = (-0.5 * wide, strong), (left, strong), (left, places), (-0.5 * wide, places)
+    _way(canvas, [complex(*corner) for corner in corners], taken, "strong-places")
+    at = complex(-0.5 * wide - 0.3 * h, strong + 0.5 * h)
+    canvas.add(Text(at, scene.words["hoist.no"], h, "right", role="answer"))
 
 
 def _way(canvas: Canvas, places: Sequence[complex], taken: bool, name: str) -> None:
-    line = Polyline(tuple(places), Pen.MAIN if taken else Pen.THIN)
-    canvas.add(Group((line,), "taken" if taken else "way", name), Head(places[-1], places[-1] - places[-2]))
+    """Draw a way; its line ends inside of the arrowhead, lest it blunt the tip."""
+    *_, before, end = places
+    inside = end - unit(end - before) * (0.6 * canvas.style.arrow)
+    line = Polyline((*places[:-1], inside), Pen.MAIN if taken else Pen.THIN)
+    canvas.add(Group((line,), "taken" if taken else "way", name), Head(end, end - before))

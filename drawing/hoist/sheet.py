@@ -10,7 +10,6 @@ from ...scales.scale import Scale
 from ..extents import Rungs
 from ..figure import Figure, Fitting, SheetContents
 from ..formats import STYLES, Format
-from ..view import note_block
 from .scene import UNITS, HoistScene, first_scales, ladder, lettered
 
 PARTS = 1.0, 0.8, 0.63, 0.5, 0.4  # of the usual size of diagrams
@@ -53,8 +52,6 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
         contents = self.contents
         layout, plans = contents.solved.layout, contents.plans
         yield Figure("givens", text.data_table)
-        if contents.note:
-            yield Figure("note", lambda scene: note_block(scene.words, contents.note, scene.style, text.WIDTH))
         if SCHEME_PART in plans:
             yield from (scheme_view.SCHEME_FIGURE, scheme_view.MODEL)
         yield Figure("results", text.results_table)

@@ -15,7 +15,7 @@ from ...scales.scale import Scale
 from ..handouts import Shown
 from ..notes.blocks import Story
 from ..printed import Input, Symbol, calculation
-from ..view import View, givens_view, table, text_block
+from ..view import View, givens_view, table, text_block, words_of
 from ..words import Given, Words
 from .scene import HoistScene
 
@@ -25,7 +25,7 @@ READING = 0.3  # mm by which a drawing is read
 WIDTH = 120.0  # mm of lines of text
 MM = 1e3
 Texts = Mapping[str, str]
-LARGE, SMALL, DIGITS, PAPER = 1e8, 1e-3, 4, 1  # sizes from which on a number has a power of ten; decimals
+LARGE, SMALL, DIGITS, PAPER = 1e6, 1e-3, 4, 1  # sizes from which on a number has a power of ten; decimals
 
 
 def data_table(scene: HoistScene) -> View:
@@ -46,7 +46,10 @@ def results_table(scene: HoistScene) -> View:
         if section_of(name) == DRAWN or name in SCALED:
             continue
         times, unit = USUAL.get(unit_of(name), (1.0, unit_of(name)))
-        value = words["table.calculated"] if quantity.value is None else scene.value(quantity.value * times)
+        value = words["table.calculated"]
+        if quantity.value is not None:
+            size = quantity.value * times
+            value = _number(scene, size) if abs(size) >= LARGE else scene.value(size)
         cells.append([words.symbol(name), value, "" if unit == "1" else words.unit(unit)])
     half = (len(cells) + 1) // 2
     head = _head(words, "symbol", "value", "unit")
@@ -102,8 +105,8 @@ def strength_block(scene: HoistScene) -> View:
         (f"{words.symbol('dynamic_factor')} = {scene.value(scene.size('dynamic_factor'))}",),
     ]
     printed = strength({"safety": scene.solved.size("_safety_printed"), "K": found["K"]})
-    if printed.ok != ok:
-        lines.append((words["hoist.disagrees"].format(safety=scene.value(printed.value)),))
+    safely = f"[σ]/{words.symbol('sigma_max')} = {scene.value(printed.value)}"
+    lines.append(words_of(words["hoist.agrees" if printed.ok == ok else "hoist.disagrees"].format(safety=safely)))
     return text_block("strength", words["heading.hoist_safety"], lines, scene.style, WIDTH)
 
 
@@ -185,8 +188,8 @@ def _lift_off(scene: HoistScene) -> tuple[tuple[str, ...], ...]:
     height = f"= {_number(scene, scene.size('P_st') / scene.size('C'))} {scene.words.unit('m')}"
     return (
         (f"y(t) = {wound}",),
-        (f"osc(t) = (a/k^{{2}})·(1 − cos kt) + ({V}/k)·sin kt",),
-        ("y(t) − osc(t) = mg/C", height, "(11)"),
+        (f"δ(t) = (a/k^{{2}})·(1 − cos kt) + ({V}/k)·sin kt",),
+        ("y(t) − δ(t) = mg/C", height, "(11)"),
         (scene.stated("t_1", unit="s"),),
     )
 
@@ -194,7 +197,7 @@ def _lift_off(scene: HoistScene) -> tuple[tuple[str, ...], ...]:
 def _resting(scene: HoistScene) -> tuple[tuple[str, ...], ...]:
     words = scene.words
     V, ratio = words.symbol("V_t"), f"({words.symbol('C_01')}/{words.symbol('C_12')})"
-    force = f"F_{{12}}(t) = C·[({words.symbol('C_12')}/{words.symbol('C_01')})·osc(t) + y(t)]"
+    force = f"F_{{12}}(t) = C·[({words.symbol('C_12')}/{words.symbol('C_01')})·δ(t) + y(t)]"
     return (
         (f"(a/k)·sin kt + {V}·cos kt = −{ratio}·({V} + a·t)", "(12)"),
         (force, "(10)"),

@@ -13,10 +13,19 @@ from ...plans.linkages.mechanism import ZERO
 from ...plans.names import POLE, Name, between, rate, role, spelled, vector
 from ...plans.quantities import unit_of
 from ..printed import Input, calculation
-from .calculations.equations import Factor, Product, factor, line_of, noted, operand, sensed, size_by_law, worked
-from .calculations.tables import printed_segment
+from .calculations.equations import (
+    Factor,
+    Product,
+    factor,
+    noted,
+    operand,
+    printed_segment,
+    sensed,
+    size_by_law,
+    worked,
+)
 from .figures.compound import At
-from .scene import Scene
+from .scene import Scene, line_of
 from .telling import Teller, Told
 
 Line = tuple[str, ...]

@@ -2,46 +2,55 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from ...plans.board import POSITION
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
-from ...plans.linkages.mechanism import Driver, Prismatic
+from ...plans.linkages.mechanism import FRAME, Driver, Prismatic
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import TRIAD, Group
-from ...plans.names import FORCES, role
+from ...plans.names import FORCES, LEVER, role, scale_factor
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import UNITS, Choosers, CrankScale, Fixed, From, Round, Scale, steps
-from ..extents import Extent, Extents, Ladder, Rungs, Size, choose, visible
+from ..extents import Extent, Extents, Ladder, Rungs, Size, visible, ways
 from ..formats import FORMATS, Format
 
 DRIVER = "driver"  # the figure of the driver apart, among the plans that have scale factors
-# mm, the longest segment of a plan of forces at the beginning, on one page and on several, by format; that of other
-# plans may be so many times as long
-LONGEST = {"A1": (140.0, 190.0), "A2": (140.0, 190.0), "A3": (130.0, 190.0), "A4": (130.0, 160.0)}
-WEIGHTS = {"l": 1.4, "V": 1.5, "a": 1.3, "F": 1.0}
-# mm below which no plan is made smaller for want of room, by format, and how many times that by kind of plan
-LEAST = {"A1": 60.0, "A2": 60.0, "A3": 45.0, "A4": 40.0}
-LARGER = {"l": 2.2, "V": 1.4, "a": 1.4, "F": 0.9}
+ARMS = scale_factor("h")  # of Zhukovsky's lever: what is found as on the velocity plan is drawn larger
+# mm, how long the longest segment of a plan of forces is at least and at most, on one page and on several, by format
+SEGMENTS = {
+    "A1": ((50.0, 220.0), (40.0, 240.0)),
+    "A2": ((40.0, 160.0), (40.0, 200.0)),
+    "A3": ((45.0, 130.0), (45.0, 190.0)),
+    "A4": ((40.0, 130.0), (40.0, 160.0)),
+}
+# those of other plans may be so many times as long, and are so many times as long at least
+WEIGHTS = {"l": 1.4, "V": 1.25, "a": 1.25, "F": 1.0, "h": 1.5}
+LARGER = {"l": 2.8, "V": 1.4, "a": 1.4, "F": 0.9, "h": 2.6}
+ALIKE = 3.0  # times as long as the longest force of another plan, at most, where both are drawn to one scale factor
 CRANK = 45.0  # mm, the least length of a crank drawn apart
 ARROW = 0.7  # of the crank, where the arrow of its rotation stands
 MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
 KINEMATICS, KINETOSTATICS = 0, 1  # parts of the work
 # mm that letters and the heading add to the lines of a figure, and what it takes at least
-PLAN, MECHANISM, GROUP, LEVER = (28.0, 34.0), (40.0, 60.0), (62.0, 82.0), (75.0, 100.0)
+PLANS = ((30.0, 48.0), (34.0, 52.0))  # of motion, and of forces
+MECHANISM, GROUP, AROUND_LEVER = (44.0, 54.0), (56.0, 84.0), (70.0, 98.0)
 GROUPS = {TRIAD: (62.0, 142.0)}  # arms about its special point take more
 SPLIT = (150.0, 130.0)  # accelerations of compound motion, which stand on the mechanism
 HEADING = (72.0, 42.0)
-APART, INSET = (85.0, 110.0), (55.0, 70.0)  # a slider or the driver; of insets, for each force that would be a point
+# a slider, the driver; of insets, for each force that would be a point
+APART, CRANKS, INSET = (64.0, 90.0), (86.0, 108.0), (55.0, 70.0)
 POINT, ZERO = 0.035, 1e-4  # parts of the longest vector below which another is a point, and is not drawn
 # mm^2 of equations and tables: for the structure, a link, a quantity of a plan, the equations of moments of a group,
 # a load diagram
-STRUCTURE, LINK, DIAGRAM, HEADINGS = 15000.0, 1700.0, 13500.0, 4000.0
-TEXTS = {"velocity": 3300.0, "acceleration": 3300.0, "forces": 4700.0, "lever": 2000.0}
+STRUCTURE, LINK, DIAGRAM, HEADINGS = 13500.0, 1500.0, 12500.0, 3600.0
+TEXTS = {"velocity": 3000.0, "acceleration": 3000.0, "forces": 4200.0, "lever": 1800.0}
 TEXTS |= {VELOCITY: 8000.0, ACCELERATION: 8000.0}
-MOMENTS = {"RRR": 16000.0, TRIAD: 45000.0}
+MOMENTS = {"RRR": 16000.0, TRIAD: 95000.0}
 
 
 def first_scales(
@@ -49,13 +58,13 @@ def first_scales(
 ) -> tuple[Format, dict[str, Scale]]:
     """Return the format and the scale factors by plan, as the sheet has them; on `paper` where that is said."""
     extents = extents_of(solved, choosers, plans)
-    sheet, rungs = chosen(extents, paper)
+    sheet, rungs, _ = next(ways_of(extents, paper))
     return sheet, by_plan(solved, mus_of(extents, rungs))
 
 
-def chosen(extents: Extents, paper: Format | None) -> tuple[Format, Rungs]:
-    """Return the format, `paper` where that is said, and the rungs of the scale factors."""
-    return choose(extents, LONGEST, [FORMATS[name] for name in SIZES] if paper is None else [paper])
+def ways_of(extents: Extents, paper: Format | None) -> Iterator[tuple[Format, Rungs, int]]:
+    """Go through formats, `paper` alone where that is said, rungs of the scale factors and numbers of pages."""
+    return ways(extents, SEGMENTS, [FORMATS[name] for name in SIZES] if paper is None else [paper])
 
 
 def mus_of(extents: Extents, rungs: Rungs) -> dict[str, float]:
@@ -80,12 +89,13 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
             raise InputError("scale-of-zero", quantity=name)
         return size
 
-    longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys(solved.scale_of_plan.values())}
+    own = [ARMS] if LEVER in solved.scale_of_plan else []
+    longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys([*solved.scale_of_plan.values(), *own])}
     ladders: dict[str, Ladder] = {}
     for symbol, size in longest.items():
         chooser, kind = choosers.get(symbol), role(symbol).of
         if chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
-            values = Round(symbol, WEIGHTS[kind] * max(LONGEST["A1"])).ladder(value) if size > 0.0 else (1.0,)
+            values = Round(symbol, WEIGHTS[kind] * SEGMENTS["A1"][1][1]).ladder(value) if size > 0.0 else (1.0,)
         elif isinstance(chooser, CrankScale):
             values = chooser.ladder(value, ladders["mu_l"].values)
         else:
@@ -95,18 +105,25 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
             values,
             size,
             weight=WEIGHTS[kind],
-            least={name: LARGER[kind] * mm for name, mm in LEAST.items()},
+            share=LARGER[kind],
             root="mu_l" if isinstance(chooser, CrankScale) else "",
             # of what the task or the user has fixed several pages are better than a coarser one
             fixed=isinstance(chooser, Fixed) or (chooser is not None and chooser.firm),
             chosen=chooser is not None and not isinstance(chooser, From),
         )
+    forces = {
+        s: ladder for s, ladder in ladders.items() if role(s).of == "F" and s not in choosers and ladder.longest > 0.0
+    }
+    if forces:  # nearly as long as one another, they are drawn to one scale factor
+        root, ladder = max(forces.items(), key=lambda item: item[1].longest)
+        alike = [s for s in forces if s != root and ladder.longest <= ALIKE * forces[s].longest]
+        ladders |= {s: replace(forces[s], values=ladder.values, root=root) for s in alike}
     return ladders
 
 
 def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
     """Go through the figures that scale factors size."""
-    symbols, whole = solved.scale_of_plan, _mechanism(solved)
+    symbols, whole, slots = solved.scale_of_plan, _mechanism(solved), _slots(solved)
     if POSITION in plans or "structure" in plans:
         yield Extent("mu_l", whole, MECHANISM)
     for plan in ("velocity", "acceleration"):
@@ -118,23 +135,26 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
             Extent(symbols[p], _around(marks_on(solved, p)), SPLIT) for p in symbols if role(p).kind == ACCELERATION
         )
     if "forces" in plans:
-        apart = Extent("", (0.0, 0.0), APART, part=KINETOSTATICS)
+        apart = Extent("", (0.0, 0.0), CRANKS, part=KINETOSTATICS)
         for group in solved.structure.groups:
-            links = (link for link in solved.mechanism.links if link.number in group.links)
-            size = _around([solved.point(point) for link in links for point in link.points])
+            links = [link for link in solved.mechanism.links if link.number in group.links]
+            places = [solved.point(point) for link in links for point in link.points]
+            size = _around([*places, *(place for link in links for place in slots.get(link.number, ()))])
             yield Extent("mu_l", size, GROUPS.get(group.kind, GROUP), part=KINETOSTATICS)
-            yield from (apart for _ in links_apart(solved, group))
+            for n in links_apart(solved, group):  # a yoke is as long as its slot, which its block goes through twice
+                own = [*(solved.point(p) for p in solved.mechanism.link(n).points), *slots.get(n, ())]
+                yield Extent("mu_l", _around(own), APART, part=KINETOSTATICS)
         for plan in (plan for plan in symbols if role(plan).kind == FORCES):
             yield from _plan(solved, plan, KINETOSTATICS)
         yield apart
     if "lever" in plans:
-        high, wide = _around(marks_on(solved, "velocity"))
-        yield Extent("mu_V", (wide, high), LEVER, HEADING, part=KINETOSTATICS)
+        high, wide = _around(_images(solved))
+        yield Extent(ARMS, (wide, high), AROUND_LEVER, HEADING, part=KINETOSTATICS)
 
 
 def _plan(solved: SolvedLinkage, plan: str, part: int) -> Iterator[Extent]:
     """Return the figure of a plan, and insets for the forces in it that would be points."""
-    yield Extent(solved.scale_of_plan[plan], _around(marks_on(solved, plan)), PLAN, HEADING, part)
+    yield Extent(solved.scale_of_plan[plan], _around(marks_on(solved, plan)), PLANS[part], HEADING, part)
     sizes = [abs(q.value or 0.0) for name, q in solved.quantities.items() if solved.shown_on.get(name) == plan]
     points = sum(ZERO * max(sizes) < size < POINT * max(sizes) for size in sizes)
     if part == KINETOSTATICS and points > 1:
@@ -158,17 +178,38 @@ def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> tuple[float, float]:
 
 def _mechanism(solved: SolvedLinkage) -> Size:
     places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
+    places += [place for ends in _slots(solved).values() for place in ends]
     if isinstance(driver := solved.mechanism.driver, Driver):
-        pivot = solved.point(driver.pivot)
-        radius = abs(solved.point(driver.point) - pivot)
-        places += [pivot + ARROW * radius * way for way in (1, 1j, -1, -1j)]
+        places += [solved.point(driver.pivot) + ARROW * _crank(solved) * way for way in (1, 1j, -1, -1j)]
     return _around(places)
+
+
+def _slots(solved: SolvedLinkage) -> dict[int, list[complex]]:
+    """Return by the moving links on which sliders run where their ways may end: as long as a crank drives them."""
+    ends: dict[int, list[complex]] = {}
+    for pair in solved.mechanism.pairs:
+        if isinstance(pair, Prismatic) and pair.links[1] != FRAME:
+            way = _crank(solved) * solved.point(solved.guide_name(pair))
+            ends.setdefault(pair.links[1], []).extend(solved.point(pair.point) + side * way for side in (-1.0, 1.0))
+    return ends
+
+
+def _crank(solved: SolvedLinkage) -> float:
+    """Return the length of the crank that drives, or zero."""
+    driver = solved.mechanism.driver
+    return abs(solved.point(driver.point) - solved.point(driver.pivot)) if isinstance(driver, Driver) else 0.0
 
 
 def marks_on(solved: SolvedLinkage, plan: str) -> list[complex]:
     """Return the places of the marks of a plan, but of an instant centre: where it is far its figure says so."""
     drawn = (step.name for step in solved.program.on(plan) if step.verb in MARKS)
     return [solved.point(name) for name in drawn if not role(name).hidden and role(name).kind != "P"]
+
+
+def _images(solved: SolvedLinkage) -> list[complex]:
+    """Return the ends of the velocity plan of all lettered points, and its pole: the corners of the lever."""
+    points = (f"velocity.{point}" for link in solved.mechanism.links for point in link.points)
+    return [*marks_on(solved, "velocity"), *(solved.point(point) for point in points if point in solved.values)]
 
 
 def _around(places: Sequence[complex]) -> Size:
@@ -191,6 +232,8 @@ def links_apart(solved: SolvedLinkage, group: Group) -> tuple[int, ...]:
 def _largest(solved: SolvedLinkage, symbol: str) -> float:
     """Return the largest quantity on the plans of a scale factor, the size of the mechanism on its own plan."""
     plans, shown = solved.scale_of_plan, solved.shown_on
+    if symbol == ARMS:  # of the whole velocity plan, turned
+        return math.hypot(*_around(_images(solved)))
     if symbol == plans[POSITION]:  # on which all lengths are
         return solved.extent
     on = {name: POSITION if role(name).kind == "l" else shown.get(name, "") for name in solved.quantities}
@@ -200,13 +243,15 @@ def _largest(solved: SolvedLinkage, symbol: str) -> float:
 
 def by_plan(solved: SolvedLinkage, mus: Mapping[str, float]) -> dict[str, Scale]:
     """Return the scale factors of the plans from their values by symbol."""
-    plans, driver = solved.scale_of_plan.items(), solved.mechanism.driver
+    plans = solved.scale_of_plan.items()
     scales = {plan: Scale(symbol, mus[symbol], UNITS[role(symbol).of]) for plan, symbol in plans}
+    if LEVER in scales:
+        scales[LEVER] = Scale(ARMS, mus[ARMS], UNITS[role(ARMS).of])
     if POSITION not in scales:  # of a structure alone nothing is drawn to scale
         return scales
-    scale = scales[DRIVER] = scales[POSITION]
-    crank = abs(solved.point(driver.point) - solved.point(driver.pivot)) if isinstance(driver, Driver) else 0.0
+    scale, crank = scales[POSITION], _crank(solved)
+    scales[DRIVER] = scale
     if 0.0 < crank < CRANK * scale.mu:  # short on the plan: drawn apart, it is larger
         finer = [mu for mu in steps(crank / CRANK / 10.0) if mu <= crank / CRANK]
-        scales[DRIVER] = Scale(f"{scale.symbol}_{driver.link}", finer[-1], scale.unit)
+        scales[DRIVER] = Scale(f"{scale.symbol}_{solved.mechanism.driver.link}", finer[-1], scale.unit)
     return scales

@@ -165,3 +165,13 @@ def _link_of(reading: Reading, mark: str) -> str:
     rates = [name for name in names if role(name).kind == "omega"]
     rates += [user.name for name in names for user in reading.users(name) if user.law == "turning"]
     return role(rates[0]).of if rates else ""
+
+
+def ends_of(reading: Reading, direction: str) -> tuple[str, str]:
+    """Return the two points of which a direction is the line."""
+    step = reading.made[direction]
+    if step.verb in ("direction", "tangent"):
+        return step.operands[0], step.operands[1]
+    # the crank is turned to its angle: its end is laid off along this direction
+    lay = next(s for s in reading.users(direction) if s.verb == "lay" and s.plan == POSITION)
+    return lay.operands[0], lay.name

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...plans.board import POSITION, Program, Step
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
+from ...plans.linkages.legs import guide_letters
 from ...plans.linkages.mechanism import FRAME, Driver, Mechanism, Prismatic, Revolute
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import Structure
@@ -15,12 +16,12 @@ from ...plans.names import FORCES, inertia, rate, role
 from ...plans.quantities import Quantity, unit_of
 from ...scales.scale import Scale
 from ..figure import ANSWERS, SubjectScene
-from ..printed import segment_decimals
+from ..printed import segment_text
 from ..shapes import Group, Pen, Vector
 from ..view import Canvas
 from ..words import Words
 from .ladders import DRIVER
-from .reading import Edge, Reading, read
+from .reading import Edge, Reading, ends_of, read
 
 if TYPE_CHECKING:
     from ...plans.linkages.cycle import Runs
@@ -153,10 +154,10 @@ class Scene(SubjectScene[SolvedLinkage]):
         size = self.solved.size(name) if name in self.values else abs(b - a) * scale.mu
         return Vector(a, b, name, size, scale.unit, scale.mu, title=name)
 
-    def segment(self, name: str) -> str:
-        """Return the printed millimetres of a quantity that a plan shows."""
-        value, mu = self.quantities[name].value or 0.0, self.scales[self.figure_of(name)].mu
-        return self.words.number(abs(value) / mu, segment_decimals(value, mu)[0])
+    def segment(self, name: str, plan: str = "") -> str:
+        """Return the printed millimetres of a quantity on a plan, the one that shows it if none is said."""
+        size = abs(self.quantities[name].value or 0.0) / self.scales[plan or self.figure_of(name)].mu
+        return segment_text(self.words, self.words.display.segment(size))
 
     def figure_of(self, name: str) -> str:
         """Return the plan, or the figure with a scale factor of its own, on which a quantity is a segment, or ""."""
@@ -198,6 +199,14 @@ def _arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
     moments = solved.program.which(("moment",))
     taken = {s.name for s in moments if s.operands[0] in forces and s.operands[2] == driver.pivot}
     return frozenset(s.name for s in solved.program.which(("arm",)) if s.operands[0] in taken)
+
+
+def line_of(scene: Scene, direction: str) -> str:
+    """Return a line by the name of its direction: ∥ AB, ⊥ AB, ∥ x–x."""
+    step = scene.made[direction]
+    sign, along = ("⊥", step.operands[0]) if step.verb == "normal" else ("∥", direction)
+    letters = guide_letters(scene.program).get(along)
+    return f"{sign} {letters or ''.join(map(scene.words.mark, ends_of(scene.reading, along)))}"
 
 
 def is_at_point(plan: str) -> bool:

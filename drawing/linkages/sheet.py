@@ -11,18 +11,17 @@ from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import Coupler
 from ...plans.linkages.cycle import slider_runs
 from ...plans.linkages.solved import SolvedLinkage
-from ...plans.linkages.structure import Group, Structure
+from ...plans.linkages.structure import Group
 from ...plans.names import role, scale_factor
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import UNITS, Scale, steps
-from ..compose import Drawn, arrange, arrange_halves, arrange_parts, compose
-from ..extents import Rungs, from_format
+from ..compose import GROUP, PART, Drawn, arrange, begins_of, compose, last, on_one_page
+from ..extents import Rungs
 from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, printable, room
-from ..packing import Placement, pack
-from ..text import Box
-from ..view import View, note_block, text_block
+from ..packing import Placement
+from ..view import View, numbered, text_block
 from .calculations.equations import PLANS, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
 from .calculations.tables import givens_table, results_parts, results_table, structure_lines
@@ -30,7 +29,7 @@ from .figures.group import driver_view, group_view, link_view
 from .figures.lever import lever_view
 from .figures.plan import plan_view
 from .figures.scheme import scheme
-from .ladders import by_plan, chosen, extents_of, links_apart, marks_on, mus_of
+from .ladders import ARMS, by_plan, extents_of, links_apart, marks_on, mus_of, ways_of
 from .reading import lettered
 from .scene import Scales, Scene
 
@@ -38,25 +37,11 @@ if TYPE_CHECKING:
     from ...plans.linkages.cycle import Cycle
 
 LinkageFigure = Figure[Scene]
-# views with which the part of the forces begins
+# views with which the part of the forces, and then one of its groups, begins
 OF_FORCES = ("load_", "equations_forces_loads", "group_", "driver", "lever")
 
 Found = tuple[list[View], Rungs, list[Placement]]
-# mm from the left bottom corner of the trimmed sheet
-ZONES: dict[str, Box] = {
-    "positions": (25.0, 330.0, 355.0, 572.0),
-    "velocity": (365.0, 330.0, 600.0, 584.0),
-    "acceleration": (610.0, 330.0, 831.0, 584.0),
-    "diagrams": (25.0, 12.0, 285.0, 325.0),
-    "last": (295.0, 12.0, 468.0, 325.0),
-    "first": (475.0, 12.0, 645.0, 325.0),
-    "driver": (651.0, 65.0, 831.0, 325.0),
-}
-# what may become coarser for the sake of a zone: the plan's own scale factor, not one that other zones share
-OWN = {"positions": "l", "velocity": "V", "acceleration": "a", "last": "F", "first": "F", "driver": "F"}
-BOTH = (295.0, 12.0, 645.0, 325.0)  # of a mechanism with one group
-GAP = 5.0
-PATIENCE = 5  # rungs by which a scale factor may become coarser for the sake of its zone
+GROUPS_APART = 2  # from so many groups on each plan has equations and tables of its own
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 SURELY = 0.85  # part of the excess of a view that certainly comes from what is drawn to scale
 
@@ -66,6 +51,7 @@ class Contents(SheetContents[SolvedLinkage]):
     """What the sheet of a linkage shows; its whole cycle, too, where that is wanted."""
 
     cycle: Cycle | None = None
+    dead: Sequence[SolvedLinkage] = ()  # where the working stroke begins, and where it ends
 
 
 def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
@@ -74,9 +60,11 @@ def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
     The ladders of a figure are the scale factors that size it; vectors that stand on the mechanism have two.
     """
     solved, plans = contents.solved, contents.plans
-    if contents.note:
-        yield Figure("note", lambda scene: note_block(scene.words, contents.note, scene.style, width))
-    yield from _kinematics(solved, plans, width)
+    yield from _kinematics(solved, plans, width, contents.dead)
+    own, forces = (tuple(kind for kind in part if kind in plans) for part in (PLANS, ("forces", "lever")))
+    single = len(solved.structure.groups) < GROUPS_APART and contents.cycle is None  # all tables together
+    if not single:
+        yield from _results(solved, own)
     if "compound" in plans:
         yield from _compound(solved, width)
         yield from _results(solved, ("compound",))
@@ -92,10 +80,10 @@ def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
     if "forces" in plans:
         yield from _forces(solved, width)
     if "lever" in plans:
-        yield Figure("lever", lever_view, ("mu_V",))
+        yield Figure("lever", lever_view, (ARMS,))
         lines = partial(lever_lines, with_loads="forces" not in plans)
         yield _text("equations_lever", lines, width, "heading.equations_lever")
-    yield from _results(solved, [kind for kind in ("forces", "lever") if kind in plans])
+    yield from _results(solved, (*own, *forces) if single else forces)
 
 
 def _text(
@@ -119,22 +107,23 @@ def _plan(solved: SolvedLinkage, plan: str) -> LinkageFigure:
     return Figure(plan, partial(plan_view, plan=plan), (solved.scale_of_plan[plan],))
 
 
-def _kinematics(solved: SolvedLinkage, plans: Sequence[str], width: float) -> Iterator[LinkageFigure]:
+def _kinematics(
+    solved: SolvedLinkage, plans: Sequence[str], width: float, dead: Sequence[SolvedLinkage]
+) -> Iterator[LinkageFigure]:
     """Go through what is given, the mechanism, its plans, and their equations: for each plan where groups are many."""
     if "structure" in plans:
         yield Figure("givens", givens_table)
         yield _text("structure", structure_lines, width, "heading.structure")
-    if "position" in plans:
-        yield Figure("position", scheme, ("mu_l",))
+    if "position" in plans or dead:
+        yield Figure("position", partial(scheme, dead=dead), ("mu_l",))
     drawn = [plan for plan in PLANS if plan in plans]
     yield from (_plan(solved, plan) for plan in drawn)
-    single = len(solved.structure.groups) < 2
+    single = len(solved.structure.groups) < GROUPS_APART
     for i, plan in enumerate(drawn[:1] if single else drawn):
         own = drawn if single else [plan]
         about, heading = ("kinematics" if whole else plan for whole in (single, len(own) > 1))
         lines = partial(kinematics_text, plans=own, before=drawn[:i])
         yield _text(f"equations_{about}", lines, width, f"heading.equations_{heading}")
-    yield from _results(solved, drawn)
 
 
 def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
@@ -207,51 +196,47 @@ def _group(solved: SolvedLinkage, group: Group) -> Iterator[LinkageFigure]:
 def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     """Draw the sheet at the scale factors that follow from its extents, on `sheet` or on the format that does.
 
-    Where views have no room on one page of a smaller format than the largest, the next one is taken; where one has no
-    room on a page of its own, its scale factor becomes coarser.
+    Where what is drawn takes more pages than was estimated, it becomes smaller, or the format larger, some times; where
+    a view has no room on a page of its own, its scale factor becomes coarser.
 
     Raises InputError: a plan cannot fit at the scale factor that was asked for; it names what would fit.
     """
-    fitting = Fitting(contents)
-    usual, rungs = chosen(fitting.extents, sheet)
-    found, candidate = None, FORMATS["A1"]
-    if contents.cycle is not None and {*PLANS} <= {*contents.plans} and sheet in (None, candidate):
-        found = _zoned(fitting, candidate, rungs)
-    formats = [] if found else [sheet] if sheet is not None else from_format(usual)
-    for candidate in formats:
-        found = _single(fitting, candidate, rungs, candidate is formats[-1])
-        if found is not None:
-            break
-    found = found or _on_pages(fitting, candidate, rungs)
-    if found is None:
-        raise InputError("sheet-too-small", format=candidate.name)
-    views, rungs, places = found
-    return compose(views, places, fitting.scales(rungs), candidate, contents.norm)
+    fitting, fewest = Fitting(contents), None
+    for way, rungs, pages in ways_of(fitting.extents, sheet):
+        try:
+            found = (_on_a_page if pages == 1 else _on_pages)(fitting, way, rungs)
+        except InputError:
+            if sheet is not None or way.name == SIZES[-1]:
+                raise
+            continue  # a larger format may hold it
+        if found is not None and (fewest is None or last(found[2]) < last(fewest[1][2])):
+            fewest = way, found
+            if last(found[2]) < pages:
+                break
+    if fewest is None:
+        raise InputError("sheet-too-small", format=way.name)
+    way, (views, rungs, places) = fewest
+    return compose(views, places, fitting.scales(rungs), way, contents.norm, smaller=sheet is None)
 
 
-def _single(fitting: Fitting, sheet: Format, rungs: Rungs, last: bool) -> Found | None:
-    """Try one page: in reading order, with kinematics on the left and forces on the right, at last in any order."""
-    try:
-        views, taken = fitting.fitted(sheet, rungs)
-    except InputError:
-        if last:
-            raise
-        return None
-    if taken != rungs and not last:
-        return None  # a larger format may hold them
-    sizes, norm = [view.size for view in views], fitting.contents.norm
-    places = arrange(sizes, sheet, norm, 1) or arrange_halves(sizes, _forces_begin(views), sheet, norm)
-    places = places or arrange(sizes, sheet, norm, 1, any_order=True)
+def _on_a_page(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
+    """Try one page."""
+    views, taken = fitting.fitted(sheet, rungs)
+    places = on_one_page([view.size for view in views], sheet, fitting.contents.norm, begins_of(views))
     return None if places is None else (views, taken, places)
 
 
-def _forces_begin(views: Sequence[View]) -> int:
-    """Return how many views come before the part of the forces."""
-    return next((i for i, view in enumerate(views) if view.name.startswith(OF_FORCES)), len(views))
+def _begins(views: Sequence[View]) -> list[int]:
+    """Return for each view what begins with it: the part of the forces, one of its groups, or its own."""
+    found, forces = begins_of(views), PART
+    for i, view in enumerate(views):
+        if view.name.startswith(OF_FORCES):
+            found[i], forces = forces, GROUP
+    return found
 
 
 def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
-    """Place the views on several pages: kinematics on the first ones, forces on the others.
+    """Place the views on several pages: forces begin on one of their own where that leaves none half empty.
 
     They come in reading order, the larger ones smaller if the first page cannot hold them; where a fixed plan is too
     large for it, the first view that it can hold begins.
@@ -259,8 +244,7 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     norm = fitting.contents.norm
 
     def placed(views: Sequence[View]) -> list[Placement] | None:
-        sizes, forces = [view.size for view in views], _forces_begin(views)
-        return arrange_parts((sizes[:forces], sizes[forces:]), sheet, norm)
+        return arrange([view.size for view in views], sheet, norm, _begins(views))
 
     for first in (False, True):
         try:
@@ -279,54 +263,6 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     views = [begin, *(view for view in views if view is not begin)] if begin is not None else []
     places = placed(views) if views else None
     return None if places is None else (views, taken, places)
-
-
-def _zoned(fitting: Fitting, sheet: Format, first: Rungs) -> Found | None:
-    """Return views, rungs and places in zones, or None where the plan of positions has no room in its own.
-
-    The zones of the groups are one where there is one group.
-    """
-    structure = fitting.contents.solved.structure
-    boxes = ZONES if len(structure.groups) > 1 else {**ZONES, "first": BOTH, "last": BOTH}
-    crowded, rungs = set[str](), dict(first)
-    while True:
-        built = fitting.build(sheet, rungs)
-        zones, placed, tight = [_zone_of(view.name, structure) for view, _ in built], dict[int, Placement](), set[str]()
-        for zone, box in boxes.items():  # as many views as go in, from the first on
-            own = [i for i, name in enumerate(zones) if name == zone]
-            for count in range(len(own), 0, -1):
-                if (packed := pack([built[i][0].size for i in own[:count]], box, gap=GAP)) is not None:
-                    placed |= dict(zip(own, packed, strict=False))
-                    break
-                tight.add(zone)
-        sizing = ((s, zone) for (_, s), zone in zip(built, zones, strict=True) if s and zone in tight - crowded)
-        coarser = {s: zone for s, zone in sizing if role(s).of == OWN[zone] and not fitting.extents.ladders[s].fixed}
-        if not coarser:
-            break
-        for symbol, zone in coarser.items():
-            rungs[symbol] += 1
-            if rungs[symbol] > min(first[symbol] + PATIENCE, len(fitting.extents.ladders[symbol].values) - 1):
-                rungs[symbol] = first[symbol]
-                crowded.add(zone)
-    rest = [i for i in range(len(built)) if i not in placed]  # what has no zone is put on the pages that follow
-    sizes, norm = [built[i][0].size for i in rest], fitting.contents.norm
-    places = None if "positions" in tight else arrange(sizes, sheet, norm, None, first=False)
-    if places is None:
-        return None
-    placed |= {i: Placement(p.page + 1, p.x, p.y) for i, p in zip(rest, places, strict=True)}
-    return [view for view, _ in built], rungs, [placed[i] for i in range(len(built))]
-
-
-def _zone_of(name: str, structure: Structure) -> str:
-    """Return the zone of a view by its name, or ""."""
-    if name in ("positions", "velocity", "acceleration", "diagrams"):
-        return name
-    if name in ("driver", "lever", f"forces_{structure.driver}"):
-        return "driver"
-    for group in structure.groups:
-        if name in {f"{kind}_{own}" for kind in ("group", "forces", "link") for own in (group.name, *group.links)}:
-            return "last" if group is structure.groups[-1] else "first"
-    return ""
 
 
 class Fitting:
@@ -357,7 +293,7 @@ class Fitting:
             sized = [(s, view, max(view.size[0] / rooms[s][0], view.size[1] / rooms[s][1])) for view, s in built if s]
             too_large = {symbol: (view, excess) for symbol, view, excess in sized if excess > 1.0}
             if not too_large:
-                return [view for view, _ in built], rungs
+                return numbered(view for view, _ in built), rungs
             for symbol, (view, excess) in too_large.items():
                 rungs[symbol] = self._next(symbol, rungs[symbol], excess)
                 if rungs[symbol] >= len(self.extents.ladders[symbol].values):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 from ...plans.board import POSITION
 from ...plans.boards.exact import SMALL
@@ -15,10 +15,9 @@ from ...plans.quantities import point_of
 from ..figure import GIVEN
 from ..handouts import Shown
 from ..notes.blocks import Block, Equations, Heading, Story
-from ..printed import value_text
-from .calculations.equations import kinematics_lines, rate_of, sensed, size_of, stated
-from .calculations.forces import LOADS, force_lines, force_parts, lines_by_plan
-from .calculations.tables import printed_segment
+from ..printed import DIGITS, value_text
+from .calculations.equations import kinematics_lines, printed_segment, rate_of, sensed, size_of, stated
+from .calculations.forces import LOADS, balance, differ, force_lines, force_parts, lines_by_plan
 from .compound import block_name, compound_lines, compound_told
 from .figures.compound import figures_of
 from .figures.plan import ENLARGED
@@ -78,23 +77,61 @@ def _plan(teller: Teller, plan: str) -> Iterator[Told]:
             yield Told(step, text, before=step.verb in SET)
 
 
-def begun(scene: Scene, steps: int) -> dict[str, Shown]:
-    """Return for every view what its first steps draw, as the note numbers them; poles and pivots are there before."""
+def begun(scene: Scene, steps: int, plans: Collection[str]) -> dict[str, Shown]:
+    """Return for every view what its first steps draw, as the note numbers them; poles and pivots are there before.
+
+    None is drawn before the views of the `plans` have found what it takes: an acceleration before its velocities.
+    """
     teller = Teller.of(scene)
-    return {view: _begun(teller, view, steps) for view in drawn_views(teller)}
+    every = {view: list(told_of(teller, view)) for view in drawn_views(teller)}
+    parts = {
+        view: FORCES if role(view).kind == FORCES else view if view in scene.scales else "compound" for view in every
+    }
+    done = dict.fromkeys(every, steps) | {view: len(every[view]) for view in every if parts[view] not in plans}
+    before: dict[str, int] = {}
+    while done != before:
+        drawn = {view: _drawn(teller, view, every[view], done[view]) for view in every}
+        found = _found(teller, drawn)
+        before, done = (
+            done,
+            {
+                view: next(
+                    (n for n, told in enumerate(every[view][: done[view]]) if told.step.name not in found), done[view]
+                )
+                for view in every
+            },
+        )
+    seen = {view: [name for name, is_drawn in drawn[view].items() if is_drawn] for view in every}
+    known = found.union(*seen.values()) - ({*teller.made} - found)
+    return {view: _shown(known.intersection(seen[view]), len(every[view]) <= done[view]) for view in every}
 
 
-def _begun(teller: Teller, view: str, steps: int) -> Shown:
-    every, before, drawn = list(told_of(teller, view)), "", dict[str, bool]()
+def _drawn(teller: Teller, view: str, every: Sequence[Told], steps: int) -> dict[str, bool]:
+    """Return for the steps of a view by name whether they are among the first ones."""
+    drawn, before = dict[str, bool](), ""
     for number, told in enumerate(every, 1):
         drawn |= dict.fromkeys((told.step.name, *told.others), told.before or number <= steps)
     for step in teller.program.on(view):  # what nothing is said of is drawn with what stands before it
         before = step.name if step.name in drawn else before
-        drawn.setdefault(step.name, drawn.get(before, False))
-    whole = len(every) <= steps
+        drawn.setdefault(step.name, drawn.get(before, True))  # before all of them: it is given
+    return drawn
+
+
+def _found(teller: Teller, drawn: Mapping[str, Mapping[str, bool]]) -> set[str]:
+    """Return what is known when so much is drawn: what is drawn, or calculated, from what is known."""
+    known = dict[str, bool]()
+    for marks in drawn.values():
+        known |= {name: is_drawn and known.get(name, True) for name, is_drawn in marks.items()}
+    found = set[str]()
+    for step in teller.program:
+        if known.get(step.name, True) and all(name in found or name not in teller.made for name in step.operands):
+            found.add(step.name)
+    return found
+
+
+def _shown(drawn: set[str], whole: bool) -> Shown:
     # what is zero, or too short, is told when all is drawn, and drawn larger
-    done = {name for name, is_drawn in drawn.items() if is_drawn} | ({GIVEN, ENLARGED} if whole else {GIVEN})
-    return Shown(frozenset(done), notes=whole)
+    return Shown(frozenset(drawn | ({GIVEN, ENLARGED} if whole else {GIVEN})), notes=whole)
 
 
 def conclusions(teller: Teller) -> Iterator[str]:
@@ -169,15 +206,14 @@ def _balance(teller: Teller, name: str) -> Iterator[str]:
 
 
 def _compared(teller: Teller, name: str) -> Iterator[str]:
-    words, quantities = teller.words, teller.quantities
-    by_plans, by_lever = quantities.get(name), quantities.get(f"{name}_lever")
-    if by_plans is None or by_lever is None or not by_plans.value or by_lever.value is None:
+    words, quantities, found = teller.words, teller.quantities, balance(teller)
+    by_lever = f"{name}_lever"
+    if name not in found or by_lever not in found or found[name] == found[by_lever] == 0.0:
         return
-    said = {"symbol": words.symbol(name), "other": words.symbol(f"{name}_lever")}
-    for key, item in (("value", by_plans), ("lever", by_lever)):
-        said[key] = f"{value_text(words, abs(item.value or 0.0))} {words.unit(item.unit)}"
-    part = abs(by_plans.value - by_lever.value) / abs(by_plans.value)
-    yield teller.texts["note.balance"].format(part=words.number(100.0 * part, 2), **said)
+    said = {"symbol": words.symbol(name), "other": words.symbol(by_lever)}
+    for key, one in (("value", name), ("lever", by_lever)):
+        said[key] = f"{value_text(words, found[one], DIGITS + 1)} {words.unit(quantities[one].unit)}"
+    yield teller.texts["note.balance"].format(part=differ(teller, found)[0], **said)
 
 
 def _angles(teller: Teller) -> Iterator[str]:

@@ -13,11 +13,19 @@ from ...plans.linkages.legs import guide_letters
 from ...plans.names import ORIGIN, role
 from ...scales.packaged import packaged
 from .. import notes
-from ..printed import HUNDREDTHS, POINT, Input, Symbol, calculation
-from .calculations.equations import Product, ends_of, factor, is_given, line_of, paper, size_of, triangles
-from .calculations.tables import printed_segment
+from ..printed import POINT, Input, Symbol, calculation, ruler_decimals, segment_text
+from .calculations.equations import (
+    Product,
+    factor,
+    is_given,
+    paper,
+    printed_segment,
+    size_of,
+    triangles,
+)
 from .figures.lever import hung_on_lever, letter_of, moments_on_lever
-from .scene import Scene
+from .reading import ends_of
+from .scene import Scene, line_of
 
 DOWN = 270.0  # degrees
 FIRST_PATH, OF_PATH = 6, 4  # where the paths of a template's joints begin among its operands, operands of a path
@@ -68,14 +76,15 @@ class Teller(Scene):
         value, mu = factor(self, name), paper(words, scale)
         length = Product((value, replace(mu, power=-mu.power)))
         inputs = [Input(value.value, value.exact), Input(mu.value, exact=True)]
-        texts, result = calculation(words, lambda *x: length.of(x), inputs, HUNDREDTHS)
+        places = ruler_decimals(words, length.of([value.value, mu.value]))
+        texts, result = calculation(words, lambda *x: length.of(x), inputs, places)
         numbers, unit = length.of([*map(Symbol.of, texts)]), words.unit(words.display.paper)
         return f"{length.in_letters} = {numbers} = {result} {unit}"
 
     def on_paper(self, mm: float) -> str:
         """Return a length on paper with its unit."""
         words = self.words
-        return f"{words.number(words.display.segment(mm), 2)} {words.unit(words.display.paper)}"
+        return f"{segment_text(words, words.display.segment(mm))} {words.unit(words.display.paper)}"
 
     def line(self, direction: str, back: bool = False) -> str:
         """Return a line by its direction, with the sense in which a normal part is laid off."""

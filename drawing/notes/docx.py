@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...scales.errors import InputError
 from ...scales.packaged import home, packaged
-from ..font import font
+from ..font import SCREEN, SLANTED, UPRIGHT, font
 from ..formats import FORMATS
 from ..pdf import write_png
 from ..text import lay_out
@@ -205,9 +205,10 @@ def outlined(svg: bytes) -> bytes:
 
     root = etree.fromstring(svg)
     for text in root.findall(f".//{_SHAPES}text"):
-        size = float(text.get("font-size")) / font().units
+        face = SCREEN if text.get("font-family") else SLANTED if text.get("font-style") else UPRIGHT
+        size = float(text.get("font-size")) / font(face).units
         place = f"translate({text.get('x')} {text.get('y')}) scale({size:.8f} {-size:.8f})"
-        path = etree.Element(f"{_SHAPES}path", d=_path(text.text or ""))
+        path = etree.Element(f"{_SHAPES}path", d=_path(text.text or "", face))
         path.set("transform", f"{text.get('transform', '')} {place}".strip())
         for name in ("class", "data-name", "fill"):
             if text.get(name) is not None:
@@ -220,20 +221,20 @@ def outlined(svg: bytes) -> bytes:
 
 
 @cache
-def _glyphs() -> tuple[dict[int, str], Any]:
+def _glyphs(face: str) -> tuple[dict[int, str], Any]:
     from fontTools.ttLib import TTFont
 
-    found = TTFont(BytesIO(font().data), lazy=True)
+    found = TTFont(BytesIO(font(face).data), lazy=True)
     return found.getBestCmap(), found.getGlyphSet()
 
 
 @lru_cache(maxsize=4096)
-def _path(string: str) -> str:
-    """Return letters as commands of a path, in units of the font, y up."""
+def _path(string: str, face: str) -> str:
+    """Return letters of a face as commands of a path, in units of the font, y up."""
     from fontTools.pens.svgPathPen import SVGPathPen
     from fontTools.pens.transformPen import TransformPen
 
-    names, glyphs = _glyphs()
+    names, glyphs = _glyphs(face)
     pen, at = SVGPathPen(glyphs), 0
     for letter in string:
         glyph = glyphs[names[ord(letter)]]

@@ -21,7 +21,7 @@ _TOKENS = re.compile(
     r"(?P<space>\s+)|(?P<number>\d+(?:[.,]\d+)*[°%]?)|(?P<word>[^\W\d_]+(?:[-’'][^\W\d_]+)*[′″]*)"
     r"|(?P<dot>·)|(?P<stroke>/)|(?P<root>√)|(?P<open>[(\[])|(?P<close>[)\]])|(?P<sign>.)"
 )
-_FUNCTIONS = frozenset(("sin", "cos", "tg", "ctg", "tan", "cot", "arcsin", "arccos", "arctg", "arctan", "inv", "osc"))
+_FUNCTIONS = frozenset(("sin", "cos", "tg", "ctg", "tan", "cot", "arcsin", "arccos", "arctg", "arctan", "inv"))
 _ROMAN = re.compile(r"[IVX]{2,}")
 PAIRS = {"(": ")", "[": "]"}
 _NAMED = frozenset("ΔΣ")

@@ -27,6 +27,7 @@ from .structure import KINDS, TRIAD, Structure, analyse
 NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, with those they are built on
     "structure": (),
     "position": (),
+    "dead": ("position",),
     "velocity": ("position",),
     "acceleration": ("velocity",),
     "compound": ("acceleration",),
@@ -35,7 +36,7 @@ NEEDS: dict[str, tuple[str, ...]] = {  # all plans in order of construction, wit
     "cycle": ("acceleration",),
 }
 PLANS = tuple(NEEDS)
-USUAL = tuple(plan for plan in PLANS if plan not in ("compound", "cycle"))  # without a word on which are wanted
+USUAL = tuple(plan for plan in PLANS if plan not in ("dead", "compound", "cycle"))  # without a word on which are wanted
 _CONSTRUCTED = Kept[tuple[Structure, Program]](16)
 _BODIES = Kept[Bodies](16)
 Ends = tuple[str, str, str, str]  # two points that turn together, the normal to their line, their distance

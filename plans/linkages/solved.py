@@ -115,7 +115,7 @@ def _scale_of_plan(structure: Structure, program: Program) -> dict[str, str]:
 def scale_symbols(structure: Structure, program: Program) -> tuple[str, ...]:
     """Return the symbols of all scale factors that a task or a user may choose."""
     forces = (scale_factor("F", part, links) for part, links in structure.parts.items())
-    symbols = (*map(scale_factor, ("l", "V", "a")), *forces, *_scale_of_plan(structure, program).values())
+    symbols = (*map(scale_factor, ("l", "V", "a", "h")), *forces, *_scale_of_plan(structure, program).values())
     return tuple(dict.fromkeys(symbols))
 
 

@@ -158,6 +158,16 @@ def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
     raise InputError("stroke-none", link=FRAME if wanted is None else wanted)
 
 
+def working_stroke(mechanism: Mechanism, values: Mapping[str, float]) -> tuple[float, float]:
+    """Return the driver's places at which the working stroke begins, the zero position, and ends.
+
+    Raises InputError: when no output moves to and fro on the frame.
+    """
+    travel = stroke_of(mechanism, values)
+    ends = travel.angle_low, travel.angle_high
+    return ends if _working_sense(mechanism, values) > 0.0 else ends[::-1]
+
+
 def _working_sense(mechanism: Mechanism, values: Mapping[str, float]) -> float:
     """Return the sense in which the output moves in its working stroke: +1 along its guide or counter-clockwise."""
     sense = mechanism.stroke.sense if mechanism.stroke else ZERO

@@ -8,6 +8,7 @@ import re
 from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import pairwise
+from random import Random
 
 import numpy as np
 import pytest
@@ -17,6 +18,7 @@ from kulman import sheet, solve
 from kulman.plans.cams.cam import LAWS
 from kulman.plans.laws import LAWS as LAWS_OF_BOARD
 from kulman.scales.errors import LANGUAGES
+from kulman.tests.sheets.judge import thin_faults
 from kulman.tests.support.cam_points import (
     NEAR,
     POINTS,
@@ -45,6 +47,60 @@ CASES = (MADI, pytest.param(OTHER, marks=pytest.mark.soak), pytest.param(JUMPS, 
 @pytest.mark.parametrize("case", CASES, ids=str)
 def test_sheet_of_a_cam_satisfies_the_points(case: CamCase, point: str) -> None:
     assert [*POINTS[point](case, case.sheet)] == []
+
+
+@pytest.mark.parametrize("settings", [{}, {"rotation": "cw"}, {"R_roller": "10 mm"}, {"phi_rise": "95 deg"}], ids=str)
+@pytest.mark.parametrize("paper", ["A3", "A4"])
+def test_both_sides_of_the_pressure_angle_reach_its_arrowheads(settings: dict[str, str], paper: str) -> None:
+    (view,) = (
+        view
+        for page in read(sheet("madi-cam", set=settings, format=paper, only="profile").svg()).pages
+        for view in page.all
+        if view.name == "profile"
+    )
+    tips = [
+        tip for tip in view.tips if any(role == "dimension" and name.startswith("theta_") for role, name in tip.path)
+    ]
+    rays = [[(p.real, p.imag) for p in s.points] for s in view.strokes if s.role in ("normal", "position")]
+
+    assert len(tips) == 2
+    for tip in tips:
+        at = shapely.Point(tip.corners[0].real, tip.corners[0].imag)
+        assert min(shapely.LineString(ray).distance(at) for ray in rays) < 0.1
+
+
+@pytest.mark.parametrize("paper", ["A1", "A3", "A4"])
+def test_rays_that_do_not_coincide_have_numbers_of_their_own(paper: str) -> None:
+    view = read(sheet("madi-cam", format=paper, only="diagrams").svg())["diagrams"]
+    rays = view.lines("ray")
+
+    for text in (text for text in view.of("number") if re.fullmatch(r"[\d,– ]+", text.string)):
+        middle = 0.5 * (text.box[1] + text.box[3])
+        first = [int(part.split("–")[0]) for part in text.string.split(", ")]
+        if len(first) == 1 or text.box[2] < rays[0].points[0].real:  # on the shelf beyond the pole
+            continue
+        feet = [ray.points[1].imag for ray in rays if {*ray.name.split()} & {*map(str, first)}]
+        own = [foot for foot in feet if abs(foot - middle) < 3.0]
+        assert max(own) - min(own) < 1.0, text.string
+
+
+@pytest.mark.parametrize("paper", ["A1", "A3", "A4"])
+def test_greatest_ordinates_are_measured_at_the_curve_and_at_the_nodes_of_chords(paper: str) -> None:
+    view = read(sheet("madi-cam", format=paper, only="diagrams").svg())["diagrams"]
+    nodes = [ring.centre.imag for ring in view.rings if any(role == "node" for role, _ in ring.path)]
+    exact = [p.imag for s in view.inside("curve", "diagram_s") for p in s.points]
+    zero = min(exact)
+
+    assert measured(view, "S_max") == pytest.approx(max(exact) - zero, abs=0.01)
+    assert min(abs(zero + measured(view, "S_max_chord") - node) for node in nodes) < 0.01
+    assert measured(view, "S_max_chord") > measured(view, "S_max")
+
+
+def test_an_english_sheet_of_a_cam_says_tan() -> None:
+    views = {lang: read(sheet("madi-cam", only="sizes", lang=lang).svg())["sizes"] for lang in ("en", "uk")}
+    said = {lang: " ".join(text.string for text in view.texts) for lang, view in views.items()}
+
+    assert ("tg ν" in said["uk"], "tg ν" in said["en"], "tan ν" in said["en"]) == (True, False, True)
 
 
 def test_the_whole_sheet_of_madi_is_one_a1_or_three_pages_of_a3() -> None:
@@ -114,6 +170,24 @@ def test_sheets_of_all_laws_satisfy_the_points(law: str) -> None:
     points = [point for point in POINTS if point != "G5" and (point != "C8" or case.solved.plate is not None)]
 
     assert {point: found for point in points if (found := [*POINTS[point](case, case.sheet)])} == {}
+
+
+@pytest.mark.parametrize("seed", [*range(6), *(pytest.param(seed, marks=pytest.mark.soak) for seed in range(6, 30))])
+def test_no_line_runs_through_a_letter_among_the_positions_of_a_cam(seed: int) -> None:
+    chance = Random(seed)
+    changes = {
+        "h": f"{chance.uniform(8.0, 25.0):.1f} mm",
+        "phi_rise": f"{chance.randrange(70, 120, 5)} deg",
+        "R_roller": f"{chance.uniform(4.0, 8.0):.1f} mm",
+        "rotation": chance.choice(("cw", "ccw")),
+    }
+    drawn = sheet("madi-cam", set=changes, only="profile", lang=chance.choice(("uk", "ru", "en")), format="A1")
+    views = [v for page in read(*(drawn.svg(n + 1) for n in range(len(drawn.pages)))).pages for v in page.all]
+
+    struck = [(v.name, text.string, line.role) for v in views if v.name for text, line in thin_faults(v)]
+
+    assert {view.name for view in views} >= {"profile", "plate_profile"}
+    assert struck == []
 
 
 @pytest.mark.parametrize("notation", ["bauman", pytest.param("iso", marks=pytest.mark.soak)])

@@ -81,8 +81,14 @@ JUMPS = {
 }
 
 
-@pytest.mark.parametrize("u", PARTS)
-@pytest.mark.parametrize("name", SMOOTH)
+@pytest.mark.parametrize(
+    ("name", "u"),
+    [
+        pytest.param(name, u, marks=() if (i + j) % 3 == 0 else pytest.mark.soak)
+        for i, name in enumerate(SMOOTH)
+        for j, u in enumerate(PARTS)
+    ],
+)
 def test_amplitudes_are_as_the_lengths_of_lobes_and_the_acceleration_jumps_where_the_law_says(
     name: str, u: float
 ) -> None:

@@ -55,7 +55,7 @@ FILES = {
     "point by an unknown name": ('A = ["l_OA", "0 mm"]', 'A = ["l_0A", "0 mm"]', "value-unknown-like"),
     "no points": ('points = { B = ["0 mm", "0 mm"] }', "points = {}", "type-table"),
     "link zero": ("number = 1\n", "number = 0\n", "link-number"),
-    "link negative": ("number = 3\n", "number = -3\n", "type-link-number"),
+    "link negative": ("number = 3\n", "number = -3\n", "type-whole-number"),
     "centre of another link": ('centre = "S2"', 'centre = "O"', "point-unknown"),
     "mass in newtons": ('mass = "m_2"', 'mass = "F_3"', "value-wrong"),
     "links one table": ("[[mechanism.pair]]", "[mechanism.pair]", "toml-twice"),

@@ -6,6 +6,7 @@ import ast
 import subprocess
 import sys
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -44,6 +45,7 @@ def circles(imports: Mapping[str, set[str]]) -> list[set[str]]:
     return [set(circle) for circle in dict.fromkeys(within) if len(circle) > 1]
 
 
+@cache
 def modules() -> dict[str, set[str]]:
     """Return the modules of the package, `plans.laws`, with those that each imports."""
     named = {".".join(path.with_suffix("").parts).removesuffix(".__init__"): path for path in trees()}

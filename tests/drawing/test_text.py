@@ -3,9 +3,11 @@
 import ast
 import math
 import string
+import tomllib
 from functools import cache
 from importlib.resources import files
 from io import BytesIO
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -15,10 +17,11 @@ from fontTools.ttLib import TTFont
 from hypothesis import given
 from hypothesis import strategies as st
 
-from kulman.drawing.font import SIZE, font, web_subset
+from kulman.drawing import letters
+from kulman.drawing.font import FAMILIES, SCREEN, SLANTED, UPRIGHT, font, web_subset
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Text
-from kulman.drawing.text import DROP, SCRIPT, escape, lay_out
+from kulman.drawing.text import CLEAR, DROP, LIFT, SCRIPT, escape, lay_out, lettered
 from kulman.drawing.words import Words, notations
 from kulman.scales.errors import LANGUAGES, InputError, messages
 from kulman.scales.packaged import packaged
@@ -33,12 +36,17 @@ from kulman.variants.shelf import bundled
 SCALES = {1e-3: "1:1", 5e-4: "2:1", 4e-4: "2.5:1", 2e-4: "5:1", 2e-3: "1:2", 2.5e-3: "1:2.5", 0.15: "1:150"}
 
 
-def test_characters_have_the_glyphs_and_texts_the_widths_that_fonttools_finds(oracle: TTFont) -> None:
+@pytest.mark.parametrize("face", FAMILIES)
+def test_characters_have_the_glyphs_that_fonttools_finds(face: str) -> None:
+    oracle = TTFont(BytesIO(font(face).data))
+    known = {code: oracle.getGlyphID(name) for code, name in oracle.getBestCmap().items()}
+    assert [code for code in range(0x10000) if font(face).glyph(chr(code)) != known.get(code, 0)] == []
+
+
+def test_texts_have_the_widths_that_fonttools_finds(oracle: TTFont) -> None:
     names, metrics = oracle.getBestCmap(), oracle["hmtx"]
-    known = {code: oracle.getGlyphID(name) for code, name in names.items()}
-    assert [code for code in range(0x10000) if font().glyph(chr(code)) != known.get(code, 0)] == []
     for text in (LETTERS, SIGNS.strip(), "План швидкостей", "Vector plan"):
-        expected = sum(metrics[names[ord(letter)]][0] for letter in text) / 2048 * SIZE * 3.5
+        expected = sum(metrics[names[ord(letter)]][0] for letter in text) / 1000 * 3.5
         assert lay_out(escape(text), 3.5).width == pytest.approx(expected, rel=1e-12)
 
 
@@ -60,7 +68,7 @@ def test_letters_of_marks_symbols_and_scales_are_those_of_the_schools_and_of_dra
 
 KINDS_OF_WORDS = ("", "titleblock.", "cams.", "gears.", "hoist.")
 LETTERS = string.ascii_letters + string.digits + "абвгґдеєжзиіїйклмнопрстуфхцчшщьюяыэъёЙЇ" + "αβγδεζλμπρστφψωΔΣΦΩ"
-SIGNS = " .,;:=+-()/'′″·⊥∥∠√∑→²°№«»"
+SIGNS = " .,;:=+-()/'′″·⊥∥∠√∑→°№«»"
 plain = st.text(alphabet=LETTERS + SIGNS + "\\{}_^", max_size=12)
 markups = st.recursive(
     plain.map(escape),
@@ -76,18 +84,19 @@ R_12 R_12_n R_01 M_43 J_S2 m_2 F_i2 M_i2 F_3 F_i2_couple F_i2_couple_B F_3_coupl
 h_lever_F_i2 h_lever_M_i2_B h_lever_M_3_C h_lever_G_2 mu_V mu_a mu_F_23 mu_l F_bal M_bal F_bal_lever
 delta_F_bal l_AP2"""
 PACKAGE = "kulman.drawing"
+PLACE = Path(letters.__file__).parent
 
 
 @pytest.fixture(scope="module")
 def oracle():
-    return TTFont(BytesIO(font().data))
+    return TTFont(BytesIO(font(UPRIGHT).data))
 
 
 @pytest.mark.parametrize(("markup", "rules"), [(r"\bar{V}", 1), (r"\u{V_{B}}", 1), (r"\uu{\bar{a}^{n}_{BA}}", 3)])
 def test_bars_and_underlines_clear_the_ink(markup, rules):
     layout = lay_out(markup, 3.5)
-    ink = [font().ink(letter)[1] * run.size + run.y for run in layout.runs for letter in run.string]
-    tops = [font().ink(letter)[2] * run.size + run.y for run in layout.runs[:1] for letter in run.string]
+    ink = [font(run.face).ink(letter)[1] * run.size + run.y for run in layout.runs for letter in run.string]
+    tops = [font(run.face).ink(letter)[2] * run.size + run.y for run in layout.runs[:1] for letter in run.string]
     assert len(layout.rules) == rules
     for _, level, _, _ in layout.rules:
         assert level > max(tops) if level > 0 else level < min(ink)
@@ -97,7 +106,7 @@ def test_bars_and_underlines_clear_the_ink(markup, rules):
 @given(plain)
 def test_escaped_text_shows_as_it_is(text):
     runs = lay_out(escape(text), 3.5).runs
-    assert "".join(run.string for run in runs) == text.strip(" ")
+    assert "".join(run.string for run in runs).replace(" ", "") == text.replace(" ", "")
 
 
 @given(markups, markups)
@@ -112,7 +121,7 @@ def test_a_font_that_is_missing_is_named_by_its_path_as_it_is(language: str, mon
     monkeypatch.setattr("kulman.drawing.font.find_spec", lambda name: place)
     font.cache_clear()
     with pytest.raises(InputError) as refused:
-        font()
+        font(SCREEN)
     assert "python 3.11/matplotlib" in refused.value.text(language)
 
 
@@ -200,7 +209,7 @@ def test_every_notation_has_the_same_keys_and_every_task_names_one() -> None:
 
 
 def test_the_subset_is_small_and_has_the_same_outlines_and_advances(oracle: TTFont) -> None:
-    data = web_subset(LETTERS + SIGNS)
+    data = web_subset(UPRIGHT, LETTERS + SIGNS)
     small = TTFont(BytesIO(data), checkChecksums=2)
 
     assert len(data) < 12_000
@@ -212,6 +221,131 @@ def test_the_subset_is_small_and_has_the_same_outlines_and_advances(oracle: TTFo
         small_set[name].draw(pens[1])
         assert pens[0].value == pens[1].value
         assert small["hmtx"][name] == oracle["hmtx"][oracle.getBestCmap()[code]]
+
+
+@pytest.mark.parametrize("face", FAMILIES)
+def test_a_table_of_a_subset_that_cannot_be_shorter_is_read_as_it_is(face: str) -> None:
+    whole = TTFont(BytesIO(font(face).data))
+    for count in range(2, 32):
+        small = TTFont(BytesIO(web_subset(face, LETTERS[count : 2 * count])))
+        for code, name in small.getBestCmap().items():
+            assert small["hmtx"][name] == whole["hmtx"][whole.getBestCmap()[code]]
+
+
+@pytest.mark.parametrize(
+    "markup", ["d", "F_{T}", "\\bar{R}^{n}_{1f}", "j", "p′_{y}", "W = f", "А", "μ_{l} = 0,5 м/мм", ""]
+)
+def test_ink_that_leans_over_is_inside_of_the_size_of_a_text(markup: str) -> None:
+    ends, layout = [0.0], lay_out(markup, 5.0)
+    for run in layout.runs:
+        whole, x = TTFont(BytesIO(font(run.face).data)), run.x
+        for letter in run.string:
+            name = whole.getBestCmap()[ord(letter)]
+            glyph, unit = whole["glyf"][name], run.size / whole["head"].unitsPerEm
+            ends += [x + edge * unit for edge in (glyph.xMin, glyph.xMax)] if glyph.numberOfContours else []
+            x += whole["hmtx"][name][0] * unit
+    ends.append(layout.width)
+    assert (layout.left, layout.right) == pytest.approx((min(ends), max(ends)), abs=1e-6)
+    assert layout.size == pytest.approx((max(ends) - min(ends), layout.top - layout.bottom))
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize(("face", "slanted"), [(UPRIGHT, False), (SLANTED, True)])
+def test_fonts_are_what_the_strokes_give(face: str, slanted: bool) -> None:
+    assert letters.built(slanted) == font(face).data
+
+
+def test_letters_have_the_heights_and_widths_of_the_standard() -> None:
+    """GOST 2.304, type B, in h/10: how wide letters are, and how high capitals, digits and small letters."""
+    wide = {8: "ЖФШЪ", 7: "АДМХЫЮ", 5: "ГЕЗС2567890", 6: "БВИЙКЛНОПРТУЧЬЭЯ4"}
+    for width, which in wide.items():
+        assert {letter for letter in which if abs(letters.glyphs()[letter].width - width) > 0.61} == set()
+    for letter in "АБВГЕЖЗИКЛМНОПРСТУФХЧШЪЫЬЭЮЯ0123456789ABCDEFGHIJKLMNOPRSTUVWXYZ":
+        _, low, high = font(UPRIGHT).ink(letter)
+        assert (low * 1370, high * 1370) == pytest.approx((0.0, 1000.0), abs=30.5), letter
+    for letter in "авгежзиклмнопстхчшъыьэюяacemnorsuvwxz":
+        _, low, high = font(UPRIGHT).ink(letter)
+        assert (low * 1370, high * 1370) == pytest.approx((0.0, 700.0), abs=30.5), letter
+
+
+def test_a_letter_leans_by_75_degrees_and_is_as_wide_as_upright() -> None:
+    upright, slanted = (TTFont(BytesIO(font(face).data)) for face in (UPRIGHT, SLANTED))
+    assert upright["hmtx"].metrics.keys() == slanted["hmtx"].metrics.keys()
+    for name, (advance, _) in upright["hmtx"].metrics.items():
+        assert slanted["hmtx"][name][0] == advance
+    stem = slanted["glyf"][slanted.getBestCmap()[ord("I")]]
+    assert (stem.xMax - stem.xMin - 100) / (1000 - 100) == pytest.approx(math.tan(math.radians(15)), abs=0.02)
+
+
+def test_all_words_of_sheets_are_set_in_drafting_letters() -> None:
+    """What is not is drawn by the screen font: nothing that the texts of sheets, notations and tasks have."""
+    files = (*PLACE.glob("texts/*.toml"), *PLACE.glob("notations/*.toml"), *PLACE.parent.glob("variants/tasks/*.toml"))
+    shown = set("".join(str(tomllib.loads(file.read_text(encoding="utf-8"))) for file in files)) - set(
+        "#₀₁₂"
+    )  # of sources
+    assert {letter for letter in shown if letter > " " and not font(UPRIGHT).glyph(letter)} == set()
+
+
+@pytest.mark.parametrize(
+    ("markup", "leaning"),
+    [
+        ("pa", ["pa"]),
+        ("i, j, m", ["i", "j", "m"]),
+        ("0,3m", ["m"]),
+        ("N", ["N"]),
+        ("a′b′", ["a′b′"]),
+        ("max", []),
+        ("Механізм V-подібного двигуна", []),
+        ("Код аркуша: DSV-EGB", []),
+    ],
+)
+def test_latin_letters_are_symbols_where_words_and_units_have_others(markup: str, leaning: list[str]) -> None:
+    with lettered("gost", "uk"):
+        assert [run.string for run in lay_out(markup, 5.0).runs if run.face == SLANTED] == leaning
+
+
+@pytest.mark.parametrize(
+    ("markup", "leaning"),
+    [
+        ("V_{B} = 5,622 м/с", ["V", "B"]),
+        ("μ_{l} = 0,0008 м/мм", ["μ", "l"]),
+        ("група Ассура II класу", []),
+        ("ланка 2, точка B", ["B"]),
+        ("R_{12} sin φ = 40 N", ["R", "12", "φ"]),
+        ("mass 5 kg", []),
+        ("Velocity plan", []),
+        ("\\bar{a}^{n}_{BA} = 3 m/s^{2}", ["a", "n", "BA"]),
+        ("4S7-31W", []),
+        ("O. Lys", []),
+        ("Format A4", []),
+        ("V_{t} cos kt + (a/k) sin kt", ["V", "t", "kt", "a", "k", "kt"]),
+        ("a point of link 2", []),
+        ("V клас", []),
+        ("ТММ.26.V01.001", []),
+        ("I(0, 1) → II_{2}(2, 3)", []),
+        ("Zabolotna O. V.", []),
+        ("сила в точці B. Далі", ["B"]),
+        ("a′s′_{2} = a′b′·AS_{2}/AB", ["a′s′", "2", "a′b′", "AS", "2", "AB"]),
+        ("a′", ["a′"]),
+    ],
+)
+def test_symbols_of_quantities_lean_and_words_units_and_functions_do_not(markup: str, leaning: list[str]) -> None:
+    runs = lay_out(markup, 5.0).runs
+    assert [run.string for run in runs if run.face == SLANTED] == leaning
+    with lettered("gost-slanted"):
+        assert {run.face for run in lay_out(markup, 5.0).runs} == {SLANTED}
+    with lettered("dejavu"):
+        assert {run.face for run in lay_out(markup, 5.0).runs} == {SCREEN}
+
+
+def test_drafting_letters_take_less_room_than_those_of_screens_and_an_unknown_lettering_is_refused() -> None:
+    heading, scale = "План прискорень механізму", "μ_{a} = 10,7 (м/с^{2})/мм"
+    with lettered("dejavu"):
+        wide = lay_out(heading, 5.0).width, lay_out(scale, 5.0).width
+    assert lay_out(heading, 5.0).width < 0.8 * wide[0]
+    assert lay_out(scale, 5.0).width < 0.85 * wide[1]
+    with pytest.raises(InputError, match="gost-slanted"), lettered("gost-slantd"):
+        pass
 
 
 @pytest.mark.parametrize("markup", ["a{b", "a}b", "a_{b", r"\bar{a", r"\x{a}", "\\", r"\bar", r"\u a", "{}", "速"])
@@ -226,7 +360,8 @@ def test_scripts_stand_one_over_the_other_and_are_no_smaller_in_scripts() -> Non
     _, _, after = lay_out("V_{B} = 5", 3.5).runs
 
     base, above, below = layout.runs
-    assert above.x == below.x == base.width
+    assert below.x == base.width
+    assert above.x == pytest.approx(base.width + 5.0 * (CLEAR + LIFT * math.tan(math.radians(15))))  # along the slope
     assert above.y > 0 > below.y == -5.0 * DROP
     assert above.size == below.size == pytest.approx(SCRIPT * base.size)
     assert layout.width >= base.width + below.width
@@ -242,8 +377,8 @@ def test_runs_lie_inside_the_layout_which_grows_with_the_letters(markup: str) ->
     layout, large = lay_out(markup, 3.5), lay_out(markup, 7.0)
     for run in layout.runs:
         assert -1e-9 <= run.x <= run.x + run.width <= layout.width + 1e-9
-        low = min(font().ink(letter)[1] for letter in run.string) * run.size + run.y
-        high = max(font().ink(letter)[2] for letter in run.string) * run.size + run.y
+        low = min(font(run.face).ink(letter)[1] for letter in run.string) * run.size + run.y
+        high = max(font(run.face).ink(letter)[2] for letter in run.string) * run.size + run.y
         assert layout.bottom - 1e-9 <= low <= high <= layout.top + 1e-9
     twice = (2 * layout.width, 2 * layout.top, 2 * layout.bottom)
     assert (large.width, large.top, large.bottom) == pytest.approx(twice, abs=1e-9)
@@ -276,12 +411,13 @@ def test_sheet_of_bauman_has_segments_that_divide_by_its_scale_factors_and_angle
     sheet, velocity = drawn(BAUMAN), solved(BAUMAN)["V_B"]
     results = {name: table(sheet[name]) for name in sheet.names if name.startswith("results_")}
 
-    shown = [row for rows in results.values() for row in rows if row[1] != "–"]
+    shown = [row for name, rows in results.items() if name != "results_lever" for row in rows if row[1] != "–"]
     assert len(shown) > 20
     for symbol, mm, scale, printed, *_ in shown:
         assert abs(value(mm) / value(scale) - value(printed)) <= half_digit(printed), symbol
     assert equation_faults(sheet)[1] == []
     rows = {row[0]: row for row in results["results_velocity"]}
     assert velocity.x is not None
-    assert rows["v_{B}"][-1] == ("0,0" if velocity.x > 0 else "180,0")
-    assert rows["ω_{2}"][-1] == "–"
+    assert rows["v_{B}"][-2:] == ["0,0" if velocity.x > 0 else "180,0", "–"]
+    assert rows["ω_{2}"][-2] == "–"
+    assert rows["ω_{2}"][-1] in ("по час. стр.", "против час. стр.")

@@ -165,11 +165,53 @@ def test_a_chosen_segment_is_read_by_its_letters_a_scale_to_begin_with_may_be_co
     assert chooser("mu_a", "p'a'=80 mm") == Segment("a_A", 80.0)
     assert chooser("mu_V", "ps2=6 cm") == Segment("V_S2", 60.0)
     assert chooser("mu_l", "AB=13 cm") == Segment("l_AB", 130.0)
+    assert chooser("mu_V", "exactly pa=80 mm") == chooser("mu_V", "pa=80 mm", firm=True) == Segment("V_A", 80.0, True)
     assert chooser("mu_F_23", "from 15 N/mm") == From(15.0)
     assert chooser("mu_V", "from 20 mm/(m/s)").ladder(lambda name: 1.0)[:3] == (0.05, 0.1, 0.2)
-    for text in ("from", "from pa=80", "abc", "-5", "0", "20 mm/s", "pa=0", "qa=5", "1e400", ""):
+    for text in (
+        "from",
+        "from pa=80",
+        "abc",
+        "-5",
+        "0",
+        "20 mm/s",
+        "pa=0",
+        "qa=5",
+        "1e400",
+        "",
+        "nearly pa=80",
+        "exactly",
+    ):
         with pytest.raises(InputError):
             chooser("mu_V", text)
+
+
+@given(st.floats(1e-6, 1e6), st.floats(5.0, 300.0))
+def test_a_wished_length_takes_the_round_scale_nearest_to_it_and_an_exact_one_has_it(
+    size: float, wished: float
+) -> None:
+    ladder = chooser("mu_V", f"pa={wished!r} mm").ladder(lambda name: size)
+    decade = 10.0 ** math.floor(math.log10(size / wished))
+    nearest = min(abs(size / (m * e) - wished) for m in SERIES for e in (decade / 10.0, decade, decade * 10.0))
+
+    assert all(any(math.isclose(mu / 10.0 ** math.floor(math.log10(mu) + 1e-9), m) for m in SERIES) for mu in ladder)
+    assert list(ladder) == sorted(set(ladder))
+    assert abs(size / ladder[0] - wished) == pytest.approx(nearest, abs=1e-6)
+    for exact in (chooser("mu_V", f"exactly pa={wished!r} mm"), chooser("mu_V", f"pa={wished!r} mm", firm=True)):
+        (mu,) = exact.ladder(lambda name: size)
+        assert size / mu == pytest.approx(wished, abs=0.005)
+        assert len(f"{mu:e}".split("e")[0].rstrip("0")) <= 7  # six digits and their point
+
+
+def test_a_task_has_round_scales_of_which_the_example_has_those_of_its_guide_and_a_user_asks_for_exact_ones() -> None:
+    example = kulman.solve("nau-slider-crank", "example")
+    assert (example.scales["mu_V"].mu, round(example["V_A"].mm, 2)) == (0.05, 80.11)
+    assert (example.scales["mu_a"].mu, round(example["a_A"].mm, 2)) == (4.0, 80.22)
+    for variant in "0123456789":
+        scales = kulman.solve("nau-slider-crank", variant).scales
+        assert all(scales[s].mu == steps(scales[s].mu)[0] for s in ("mu_l", "mu_V", "mu_a")), variant
+    exact = kulman.solve("nau-slider-crank", "example", scales={"pa": 80})
+    assert exact["V_A"].mm == pytest.approx(80.0, abs=0.005)
 
 
 def test_scales_of_the_crank_draw_it_as_its_own_velocity_and_round_ones_come_from_the_series() -> None:

@@ -7,10 +7,13 @@ import re
 import pytest
 import shapely
 
+from kulman import sheet
+from kulman.drawing.gears.meshing_view import BREAKS
 from kulman.drawing.gears.scene import mu_ladder, near_ladder, rolled_ladder
 from kulman.plans.gears.gear import GearPair
 from kulman.plans.gears.solve import solve_gear
 from kulman.plans.gears.teeth import meshing_of
+from kulman.tests.sheets.judge import overlaps, thin_faults, view_faults
 from kulman.tests.support.gear_points import (
     POINTS,
     SLIDING_POINTS,
@@ -24,7 +27,6 @@ from kulman.tests.support.gear_points import (
     rows,
     scale,
 )
-from kulman.tests.support.overlaps import overlaps, view_faults
 from kulman.tests.support.readback import polygon, read
 
 SEED = 1532
@@ -65,6 +67,21 @@ ASKED = [
 @pytest.mark.parametrize(("case", "point"), ASKED, ids=str)
 def test_sheet_of_a_pair_satisfies_the_points(case: GearCase, point: str) -> None:
     assert faults(case, case.sheet, point) == []
+
+
+@pytest.mark.parametrize(
+    "case", [WHOLE, *(pytest.param(case, marks=pytest.mark.soak) for case in MESHING_CASES)], ids=str
+)
+def test_speeds_stand_away_from_the_dimension_of_the_distance_of_centres(case: GearCase) -> None:
+    meshing = case.sheet["meshing"]
+    (dimension,) = (s for s in meshing.inside("dimension", "a_w") if abs(s.points[1] - s.points[0]) > 20.0)
+    axis = meshing.lines("axis", "O1O2")[0].points[0].real
+    speeds = [text for text in meshing.texts if re.match("ω_", text.string)]
+
+    assert len(speeds) == 2
+    for text in speeds:
+        x0, _, x1, _ = text.box
+        assert (x0 - axis) * (dimension.points[0].real - axis) < 0.0 > (x1 - axis) * (dimension.points[0].real - axis)
 
 
 @pytest.mark.parametrize(
@@ -231,3 +248,26 @@ def test_the_examiner_sees_a_spoiled_sheet_of_a_pair(point: str, piece: str, oth
     spoiled = [re.sub(piece, other, page, count=1, flags=re.DOTALL) for page in case.pages]
     assert spoiled != [*case.pages]
     assert faults(case, read(*spoiled), point)
+
+
+@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.soak) for seed in range(4, 20))])
+def test_no_circle_or_ray_runs_through_a_letter_of_the_meshing_of_a_random_pair(seed: int) -> None:
+    chance = random.Random(seed)
+    changes = {
+        "z_1": chance.randrange(13, 22),
+        "z_2": chance.randrange(18, 34),
+        "x_1": round(chance.uniform(0.2, 0.6), 2),
+    }
+    language = chance.choice(("uk", "ru", "en"))
+    drawn = sheet("madi-gear", set=changes, only="meshing", lang=language, format="A1")
+    views = [v for page in read(*(drawn.svg(n + 1) for n in range(len(drawn.pages)))).pages for v in page.all]
+
+    struck = [
+        (view.name, text.string, line.role)
+        for view in views
+        if view.name in ("meshing", "near")
+        for text, line in thin_faults(view)
+        if {line.role, *(role for role, _ in line.path)} & {*BREAKS}
+    ]
+
+    assert struck == []

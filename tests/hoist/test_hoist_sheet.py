@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 
 from kulman import sheet
 from kulman.plans.hoist.construction import BENT, EXTREMES, FORCES, LIFT_OFF, SCHEME
@@ -17,10 +18,11 @@ from kulman.plans.hoist.forces import course
 from kulman.plans.hoist.hoist import PLANS, Hoist
 from kulman.plans.hoist.model import CIRCLE
 from kulman.plans.hoist.solve import SolvedHoist, solve_hoist
+from kulman.tests.sheets.judge import overlaps, thin_faults
 from kulman.tests.support.cam_points import node, printed_scales
 from kulman.tests.support.hoists import VARIANTS, together, two_sided
-from kulman.tests.support.overlaps import overlaps
-from kulman.tests.support.readback import Sheet, View, read
+from kulman.tests.support.printed_numbers import half_digit
+from kulman.tests.support.readback import Sheet, Stroke, View, read
 from kulman.variants.sheets import Sheet as Drawing
 
 MM = 1e-3
@@ -320,6 +322,19 @@ def test_drawn_roots_are_crossings_and_the_circle_has_the_swing(case: HoistCase)
 
 
 @every_case
+def test_moment_of_the_greatest_force_is_the_sum_of_times_as_they_are_printed(case: HoistCase) -> None:
+    cells = [cell.string for cell in case.sheet["results"].of("cell")]
+    first, swing = (number(cells[cells.index(name) + 1]) for name in ("t_{1}", "T_{1}"))
+    texts = (text.string for text in case.sheet["forces"].of("time"))
+
+    marked = [text.split(" = ")[1].split(" ")[0] for text in texts if text.startswith("t_{1} + T_{1} = ")]
+
+    assert len(marked) == 1
+    for text in marked:
+        assert abs(number(text) - (first + swing)) <= half_digit(text)
+
+
+@every_case
 def test_formula_of_the_article_is_dashed_and_jumps(case: HoistCase) -> None:  # H4
     view, found, values = case.sheet["forces"], case.forces, case.values
     support, lifted = curve(view, "F_01"), curve(view, "P_12")
@@ -342,7 +357,14 @@ def test_formula_of_the_article_is_dashed_and_jumps(case: HoistCase) -> None:  #
     exact = max(found["F_12_max"], found["P_12_max"])
     verdicts = [values["sigma"] * values["S"] / force >= values["K"] for force in (exact, most)]
     strength = " ".join(text.string for text in case.sheet["strength"].texts)
-    assert ("(14)" in strength) == (verdicts[0] != verdicts[1])
+    same = ("висновок той самий", "вывод тот же", "verdict is the same")
+    assert "(14)" in strength
+    assert any(words in strength for words in same) == (verdicts[0] == verdicts[1])
+    exactly = ("за точною кривою", "по точной кривой", "by the exact curve")
+    assert any(words in strength for words in exactly)
+    heading = " ".join(text.string for text in view.of("heading"))
+    (said,) = re.findall(r"(?:стрибком|скачком|jump of) ([\d.,]+) [НN]", heading)
+    assert float(said.replace(",", ".")) == pytest.approx(abs(points[0] - lifted[0]) * of_F, abs=0.5 + NEAR * of_F)
 
 
 @every_case
@@ -383,6 +405,102 @@ def test_verdict_and_flow_chart_are_those_of_the_numbers(case: HoistCase) -> Non
         assert l - most.real * of_x == pytest.approx(math.sqrt((l * l - b * b) / 3.0), abs=NEAR * of_x)
         assert b <= l / 2.0  # so that this is the distance from the farther end, and the view says so
     assert [text for text in beams.of("heading") if re.search("дальшого|дальнего|farther", text.string)]
+
+
+@pytest.mark.parametrize("case", [*CASES, *SMALL], ids=str)
+def test_dimensions_of_the_scheme_run_through_no_body_and_no_letter(case: HoistCase) -> None:
+    scheme = case.sheet["scheme"]
+    bodies = [s for s in scheme.strokes if s.path and s.path[-1][0] in ("link", "pivot", "rollers")]
+    solid = shapely.MultiLineString([[(p.real, p.imag) for p in s.points] for s in bodies])
+    letters = shapely.MultiPolygon([shapely.box(*text.box) for text in scheme.texts])
+
+    lines = [s for s in scheme.strokes if s.role in ("extension", "shelf") or ("dimension", s.name) in s.path]
+    lines += [s for s in scheme.strokes if any(role == "dimension" for role, _ in s.path)]
+
+    assert len(lines) >= 15
+    for line in (shapely.LineString([(p.real, p.imag) for p in stroke.points]) for stroke in lines):
+        assert line.distance(letters) > 0.5 - 1e-6  # lines break off half a millimetre from letters
+        assert line.distance(solid) > 0.2
+
+
+@pytest.mark.parametrize(
+    "variant", [*VARIANTS][:4] + [pytest.param(v, marks=pytest.mark.soak) for v in [*VARIANTS][4:]]
+)
+def test_no_axis_and_no_extension_line_runs_through_a_letter_of_a_hoist(variant: str) -> None:
+    drawn = sheet("karpenko-hoist", variant, only="scheme,circle", format="A1", lang="uk")
+    views = [view for page in read(drawn.svg()).pages for view in page.all if view.name in ("scheme", "circle")]
+
+    struck = [(text.string, line.role) for view in views for text, line in thin_faults(view)]
+
+    assert len(views) == 2
+    assert [fault for fault in struck if fault[1] in ("axis", "extension")] == []
+
+
+@pytest.mark.parametrize("case", [*CASES, *SMALL], ids=str)
+def test_detail_of_the_crossing_has_its_letter_at_its_place(case: HoistCase) -> None:
+    view = case.sheet["lift_off"]
+    (window,) = view.lines("window", "magnified")
+    assert window.arc is not None
+    centre, radius, _ = window.arc
+    (title,) = (text.string for text in view.texts if text.role == "magnified")
+    letter = title.partition(" ")[0]
+    (mark,) = (text for text in view.texts if text.string == letter)
+
+    assert abs(centre - node(view, "X")) < 0.01
+    assert title == f"{letter} (10:1)"
+    (leader,) = (line for line in view.lines("leader", letter))
+    near = min(leader.points, key=lambda p: abs(p - centre))
+    assert abs(abs(near - centre) - radius) < 0.01  # from the ring to the shelf under the letter
+    assert shapely.box(*mark.box).distance(shapely.LineString([(p.real, p.imag) for p in leader.points])) < 2.0
+
+
+@pytest.mark.parametrize("case", [*CASES, *SMALL], ids=str)
+def test_jump_of_the_article_can_be_seen_and_measured(case: HoistCase) -> None:
+    view, found = case.sheet["forces"], case.forces
+    of_F, jump = mu(view, "F"), abs(found["m"] * 9.81 - found["F_12_t1"])
+    times = [float(t.string.split("(")[1].split(":")[0]) for t in view.texts if t.role == "magnified"]
+    ends = [p for s in view.strokes if ("dimension", "jump") in s.path and len(s.points) == 2 for p in s.points]
+    drawn = max(abs(a - b) for a in ends for b in ends if abs((a - b).real) < NEAR)
+
+    assert len(times) <= 1
+    assert not {t.string for t in view.texts} & {
+        t.string for t in case.sheet["lift_off"].texts if t.role == "magnified"
+    }
+    assert jump / of_F * max(times, default=1.0) >= 2.0
+    assert drawn >= jump / of_F * max(times, default=1.0) - NEAR  # arrows of a short one stand outside
+    assert any(text.string == "(14)" for text in view.texts)
+    said = [text.string for text in view.texts if text.string.startswith("P_{m} = ")]
+    levels = [view.lines("level", name)[0] for name in ("P_st", "P_m")]
+    assert levels[0].dashed != levels[1].dashed or abs((levels[0].points[0] - levels[1].points[0]).imag) > 3.0
+    assert not said or said[0].startswith("P_{m} = mg + ma = ")
+
+
+@pytest.mark.parametrize("case", [*CASES, *SMALL], ids=str)
+def test_flow_chart_has_thin_symbols_about_their_texts_and_the_taken_way_thick(case: HoistCase) -> None:
+    flow = case.sheet["flow"]
+    kinds: dict[str, list[Stroke]] = {}
+    for stroke in flow.strokes:
+        kinds.setdefault(stroke.path[-1][0] if stroke.path else stroke.role, []).append(stroke)
+    main = max(stroke.width for stroke in flow.strokes)
+
+    assert {stroke.width < main for stroke in (*kinds["block"], *kinds["way"])} == {True}
+    assert {stroke.width for stroke in kinds["taken"]} == {main}
+    outlines: dict[str, list[complex]] = {}
+    for stroke in kinds["block"]:
+        outlines.setdefault(stroke.path[-1][1], []).extend(stroke.points)
+    areas = {name: shapely.MultiPoint([(p.real, p.imag) for p in points]) for name, points in outlines.items()}
+    areas = {name: points.convex_hull for name, points in areas.items()}
+    rhombi = ("larger", "strong")
+    for name, area in areas.items():  # a rhombus is half of the box about it, a rectangle all, others in between
+        low, high = {True: (0.49, 0.51), False: (0.8, 1.01)}[name in rhombi]
+        assert low < area.area / area.envelope.area < high
+        assert any(area.contains(shapely.box(*text.box)) for text in flow.texts), name
+    answers = [text for text in flow.texts if text.role == "answer"]
+    assert len(answers) == 4
+    for text in answers:  # each beside the question that it answers, and no block over it
+        near = min(areas, key=lambda name: areas[name].distance(shapely.box(*text.box)))
+        assert near in (*rhombi, "end")
+        assert not any(area.intersects(shapely.box(*text.box)) for area in areas.values())
 
 
 @pytest.mark.parametrize("case", [*CASES, RIGID, PUSHED, SLACK, *SMALL], ids=str)
@@ -428,7 +546,6 @@ def test_pages_of_a_small_format_have_smaller_diagrams_and_say_so() -> None:
 def test_a_sheet_has_what_belongs_to_the_parts_wanted(only: str, own: set[str]) -> None:
     assert {view.name for view in sheet("karpenko-hoist", only=only).views} == own | {
         "givens",
-        "note",
         "results",
         "scales",
     }

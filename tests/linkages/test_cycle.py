@@ -13,7 +13,7 @@ from kulman.plans.linkages.cycle import cycle
 from kulman.plans.linkages.limits import Arc, limiting_places, reach_of, size_of, swept
 from kulman.plans.linkages.mechanism import Mechanism, Stroke
 from kulman.plans.linkages.solved import solve_linkage
-from kulman.plans.linkages.strokes import OutputMotion, output_motions, stroke_of
+from kulman.plans.linkages.strokes import OutputMotion, output_motions, stroke_of, working_stroke
 from kulman.plans.zeros import Stretch, zeros
 from kulman.scales.errors import InputError
 from kulman.tests.support.linkages import (
@@ -193,6 +193,24 @@ def test_the_working_stroke_says_where_the_cycle_begins_and_which_time_is_long(s
     assert np.all(moving[1:first] > 0.0)
     assert np.all(moving[first:] < 0.0)
     assert done.motions[0].ratio == pytest.approx(first / (360 - first), rel=0.02)
+
+
+@pytest.mark.parametrize("working", [-1.0, 1.0])
+def test_a_working_stroke_runs_between_positions_with_crank_and_coupler_in_line(working: float) -> None:
+    mechanism = four_bar(Stroke(3, "working"))
+    for values in random_crank_rockers(seed=11, count=60):
+        given = {**values, "working": working}
+        ends = working_stroke(mechanism, given)
+
+        stands = [solve_linkage(mechanism, {**given, "phi": end}, ("position",)) for end in ends]
+
+        arms = []
+        for stand in stands:
+            O, A, B = (stand.point(name) for name in "OAB")
+            assert abs(((B - O) / (A - O)).imag) < 1e-6  # the angle is known better than 1e-12
+            arms.append(stand.point("B") - stand.point("C"))
+        turned = math.remainder(math.atan2((arms[1] / arms[0]).imag, (arms[1] / arms[0]).real), math.tau)
+        assert turned * working > 0.0
 
 
 def test_without_a_stroke_the_cycle_begins_at_the_zero_of_the_crank_or_where_it_is_said() -> None:

@@ -211,7 +211,7 @@ def plantings(task: str, count: int, directions: bool) -> Iterator[Planted]:
 @pytest.mark.parametrize("directions", [True, False], ids=["directions", "sizes"])
 @pytest.mark.parametrize(
     ("tasks", "count"),
-    [pytest.param(FEW, 6, id="few"), pytest.param(LINKAGES, 6, id="all", marks=pytest.mark.soak)],
+    [pytest.param(FEW, 6, id="few"), pytest.param(LINKAGES, 10, id="all", marks=pytest.mark.soak)],
 )
 def test_planted_mistakes_are_found(tasks: list[str], count: int, directions: bool) -> None:
     found = [one for task in tasks for one in plantings(task, count, directions)]

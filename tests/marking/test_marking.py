@@ -41,7 +41,7 @@ TASK = "nau-slider-crank"
 EXAMPLE, OF = key(TASK, "example"), key(TASK, "3")
 MUS = EXAMPLE.paper.mus
 VELOCITIES = ("V_A", "V_BA", "V_B", "V_S2")
-DRAWN = {"V_BA": 1.03, "V_S2": 0.98, "a_B": 1.03, "a_S2": 0.97, "h_2": 0.95, "h_lever_F_i2": 1.04, "h_21": 1.05}
+DRAWN = {"V_BA": 1.03, "V_S2": 0.98, "a_B": 1.03, "a_S2": 0.97, "h_2": 0.95, "h_lever_F_i2": 1.04, "h_21": 1.06}
 
 
 def verdicts(marking: Marking, *names: str) -> list[str]:

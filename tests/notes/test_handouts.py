@@ -13,26 +13,37 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 from numpy.typing import NDArray
 from pdfminer.high_level import extract_pages
-from pdfminer.layout import LAParams, LTCurve
+from pdfminer.layout import LAParams, LTChar, LTCurve
 
 from kulman import cli, handout, note
+from kulman.drawing.cams.diagrams_view import DIAGRAMS_FIGURE
+from kulman.drawing.cams.profile_view import FIGURES as PROFILE_FIGURES
+from kulman.drawing.cams.sizes_view import FIGURES as SIZE_FIGURES
 from kulman.drawing.compose import Drawn
+from kulman.drawing.figure import family
 from kulman.drawing.formats import FORMATS
+from kulman.drawing.handouts import _done, begun_stages
 from kulman.drawing.notes.blocks import Figure, Steps
 from kulman.drawing.page import extent
 from kulman.drawing.pdf import MARGIN, tiles, write_tiles
 from kulman.drawing.pdf import write as write_pdf
-from kulman.drawing.shapes import Group, Shape, Text, Vector
+from kulman.drawing.shapes import Group, Line, Shape, Text, Vector
 from kulman.scales.errors import LANGUAGES
-from kulman.tests.support.shapes import leaves
-from kulman.variants.case import Case
+from kulman.tests.support.shapes import leaves, line_of
+from kulman.variants.case import Case, Request
+from kulman.variants.kinds.linkage import placed
+from kulman.variants.reader import load_task
 from kulman.variants.sheets import Sheet, drawing_for_print
 from kulman.variants.shelf import bundled
 
 TASK = "nau-slider-crank"
-GIVEN = ("givens", "data", "choices", "note", "structure", "scales")  # what a blank may show in full
+GIVEN = ("givens", "data", "choices", "scales")  # what a blank may show in full
+ASKED = ("table.quantity", "table.symbol", "table.unit", "table.check", "table.condition", "gear.point")
+ASKED += ("table.cam_row",)  # columns in which a table asks
+EVERY_KIND = (TASK, "madi-gear", "madi-cam", "karpenko-hoist")
 PLANS = ("velocity", "acceleration", "forces_", "lever")
 LINKAGES = ("madi-four-bar", "scheme-09-shaper", "scheme-18-hydraulic-drive", "scheme-20-press-automaton")
 TASKS = [name if name == TASK else pytest.param(name, marks=pytest.mark.soak) for name in bundled()]
@@ -46,6 +57,14 @@ def views_of(sheet: Sheet) -> Iterator[Group]:
     """Go through the views as they stand on the pages."""
     for page in sheet.pages:
         yield from (shape for shape in page.shapes if isinstance(shape, Group) and shape.role == "view")
+
+
+def all_groups(group: Group) -> Iterator[Group]:
+    """Go through the groups in a group."""
+    for part in group.shapes:
+        if isinstance(part, Group):
+            yield part
+            yield from all_groups(part)
 
 
 def plans(sheet: Sheet) -> dict[str, set[Shape]]:
@@ -70,17 +89,30 @@ def drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("drawn_once")
 @pytest.mark.parametrize("task", TASKS)
 def test_a_handout_grows_step_by_step_into_the_key(task: str) -> None:
-    def drawn(**how: Any) -> list[set[Shape]]:
-        return [set(leaves(page.shapes)) for page in handout(task, **how).pages]
+    def drawn(**how: Any) -> list[set[object]]:
+        return [{line_of(shape) for shape in leaves(page.shapes)} for page in handout(task, **how).pages]
 
     key = drawn(key=True)
-    before: list[set[Shape]] = [set() for _ in key]
+    before: list[set[object]] = [set() for _ in key]
     for steps in (0, 1, 2, 5, 1000):
         now = drawn(steps=steps)
         assert len(now) == len(key)
         for own, earlier, whole in zip(now, before, key, strict=True):
             assert earlier <= own <= whole  # the same places, to the last bit
         before = now
+
+
+@pytest.mark.usefixtures("drawn_once")
+@pytest.mark.parametrize("task", [pytest.param("madi-cam", marks=pytest.mark.soak), "madi-gear"])
+def test_lines_break_off_only_at_letters_that_a_begun_handout_shows(task: str) -> None:
+    for view in (view for steps in (1, 2, 3) for view in views_of(handout(task, steps=steps))):
+        parts = [*leaves(view.shapes)]
+        boxes = [shapely.box(*extent((text,))).buffer(1.0) for text in parts if isinstance(text, Text)]
+        lines = [line for line in parts if isinstance(line, Line) and line.role in ("position", "ray", "tangent")]
+        for a, b in pairwise(lines):
+            if a.name and line_of(a) == line_of(b):  # two pieces: a letter stands between
+                gap = shapely.LineString([(p.real, p.imag) for p in (a.b, b.a)])
+                assert any(box.intersects(gap) for box in boxes), (view.name, a.name)
 
 
 @pytest.mark.parametrize("task", TASKS)
@@ -99,12 +131,124 @@ def test_a_blank_has_no_answers(task: str) -> None:
 
 
 @pytest.mark.usefixtures("drawn_once")
-@pytest.mark.parametrize("task", [LINKAGES[0], *(pytest.param(task, marks=pytest.mark.soak) for task in LINKAGES[1:])])
+@pytest.mark.parametrize("task", EVERY_KIND)
+def test_a_table_of_a_blank_asks_and_a_text_has_only_its_heading(task: str) -> None:
+    case = Request(load_task(task)).case()
+    texts = case.words().texts
+    asked = {texts[key] for key in ASKED if key in texts}
+    blank = handout(task, lang=case.language)
+    key = {view.name: view for view in blank.views}
+
+    for shown in views_of(blank):
+        if shown.name in GIVEN:
+            continue
+        view, texts = key[shown.name], [t for t in leaves(shown.shapes) if isinstance(t, Text) and t.role != "heading"]
+        if view.lines:
+            assert texts == [], view.name
+        elif view.rows:
+            head = dict(enumerate(view.rows[0]))
+            columns = {at for at, text in head.items() if text in asked}
+            assert columns, view.name
+            known = {row[at] for row in view.rows for at in columns} | {*head.values()}
+            assert {text.markup for text in texts} <= known, view.name
+
+
+@pytest.mark.usefixtures("drawn_once")
+def test_no_distance_can_be_measured_on_a_blank_of_gears() -> None:
+    for view in views_of(handout("madi-gear")):
+        points = [part.name for part in all_groups(view) if part.role in ("point", "pivot")]
+        assert len(points) <= 1, (view.name, points)
+
+
+@pytest.mark.usefixtures("drawn_once")
+@pytest.mark.parametrize(
+    "task", [pytest.param(task, marks=() if task == "scheme-09-shaper" else pytest.mark.soak) for task in LINKAGES]
+)
 def test_all_steps_of_plans_draw_all_that_they_show(task: str) -> None:
     whole, done = (plans(handout(task, format="A1", **how)) for how in ({"key": True}, {"steps": 1000}))
 
     assert {"velocity", "lever"} <= set(whole)
     assert done == whole
+
+
+def shown_after(case: Case, drawn: Drawn, steps: int) -> dict[str, set[str]]:
+    """Return by view the stages that a handout shows; those of a plan have the names of its steps."""
+    shown = case.kind.begun(case, drawn.scales, case.words("en"), steps)
+    staged = {view.name: view for view in drawn.views if view.stages}
+    counts = _done(staged, steps)
+    return {
+        **{name: set(begun_stages(view, counts[name]).stages) for name, view in staged.items()},
+        **{name: set(one.stages) for name, one in shown.items() if name in {view.name for view in drawn.views}},
+    }
+
+
+def finders(case: Case, drawn: Drawn) -> dict[str, tuple[str, str]]:
+    """Return the view and the stage in which a step of the program is drawn, by its name, where one is."""
+    found: dict[str, tuple[str, str]] = {}
+    if case.task.kind == "mechanism":
+        every = case.kind.begun(case, drawn.scales, case.words("en"), 1000)
+        own = {view: one for view, one in every.items() if view in {view.name for view in drawn.views}}
+        steps = {step.name for step in placed(case).program}
+        return {name: (view, name) for view, one in own.items() for name in steps & one.stages}
+    for view in drawn.views:
+        for stage in CAM_STAGES.get(view.name, ())[1:]:  # the first is there before any step
+            if stage.name in view.stages and stage.marks:
+                for step in case.solved.program:
+                    if family(step.name) == stage.marks and stage.verb in ("", step.verb):
+                        found.setdefault(step.name, (view.name, stage.name))
+    return found
+
+
+CAM_FIGURES = (DIAGRAMS_FIGURE, *SIZE_FIGURES.values(), *PROFILE_FIGURES.values())
+CAM_STAGES = {figure.name: figure.stages for figure in CAM_FIGURES}
+
+
+FEW_STEPS = ("scheme-09-shaper", "scheme-18-hydraulic-drive", TASK, "madi-cam")
+OTHERS = [name for name in bundled() if name not in (*FEW_STEPS, "madi-gear", "karpenko-hoist")]
+
+
+@pytest.mark.parametrize("task", [*FEW_STEPS, *(pytest.param(name, marks=pytest.mark.soak) for name in OTHERS)])
+def test_nothing_is_drawn_from_what_an_earlier_plan_has_yet_to_find(task: str) -> None:
+    case = Request(load_task(task), "0" if task == TASK else None).case()
+    drawn, program = drawing_for_print(case), {step.name: step for step in case.solved.program}
+    if case.task.kind == "mechanism":
+        program = {step.name: step for step in placed(case).program}
+    found = finders(case, drawn)
+    behind: dict[str, set[str]] = {}  # what a step is made of, however far back
+    for name, step in program.items():
+        behind[name] = {*step.operands}.union(*(behind.get(operand, set()) for operand in step.operands))
+    assert len({view for view, _ in found.values()}) > 2
+
+    grown = 0
+    for steps in range(25):
+        shown = shown_after(case, drawn, steps)
+        for name, (view, stage) in found.items():
+            if stage in shown[view]:
+                grown += 1
+                late = {on for on in behind[name] & {*found} if found[on][1] not in shown[found[on][0]]}
+                assert not late, (steps, view, name, late)
+    assert grown > 100
+
+
+NEEDS = {  # of gears and hoists, whose figures show what formulas give: what must be found before a stage
+    ("madi-gear", "action", "active_line"): ("meshing", "active_line"),
+    ("madi-gear", "rolling", "line_of_action"): ("meshing", "line_of_action"),
+    ("karpenko-hoist", "circle", "start"): ("lift_off", "crossing"),
+    ("karpenko-hoist", "forces", "resting"): ("lift_off", "crossing"),
+    ("karpenko-hoist", "forces", "hanging"): ("circle", "circle"),
+    ("karpenko-hoist", "beams", "bent"): ("circle", "circle"),
+}
+
+
+@pytest.mark.parametrize("task", ["madi-gear", "karpenko-hoist"])
+def test_figures_of_formulas_wait_for_what_others_find(task: str) -> None:
+    case = Request(load_task(task), None).case()
+    drawn = drawing_for_print(case)
+    for steps in range(12):
+        shown = shown_after(case, drawn, steps)
+        for (_, view, stage), (other, need) in ((key, at) for key, at in NEEDS.items() if key[0] == task):
+            assert stage not in shown[view] or need in shown[other], (steps, view, stage)
+    assert all(stage in shown[view] for own, view, stage in NEEDS if own == task)
 
 
 def test_steps_are_those_that_the_note_numbers() -> None:
@@ -156,6 +300,7 @@ def test_what_cannot_be_done_is_said_in_a_line(
 
 
 COINCIDES = 0.01  # mm
+AT_LETTER = 1.5  # mm from the box of a letter, in which lines may break off
 FIGURES = 3  # of a sheet that are laid over it: each is drawn with its whole sheet
 FEW = {TASK: "velocity", "karpenko-hoist": "scheme"}
 WHOLE = (TASK, "madi-cam", "madi-gear", "karpenko-hoist", "bertyaev-six-bar", "scheme-20-press-automaton")
@@ -170,11 +315,12 @@ def printed_tasks(*few: str) -> list[Any]:
 
 @dataclass(frozen=True, slots=True)
 class Print:
-    """A page as a printer gets it: its size in mm and all that is stroked or filled on it."""
+    """A page as a printer gets it: its size in mm, all that is stroked or filled on it, boxes of letters."""
 
     width: float
     height: float
     strokes: tuple[Stroke, ...]
+    letters: tuple[shapely.Polygon, ...]
 
     def straight(self, along: complex) -> list[Stroke]:
         """Return the straight lines in a direction, 1 or 1j, from their lower or left end."""
@@ -187,31 +333,50 @@ class Print:
 def prints(pdf: bytes) -> list[Print]:
     """Return the pages of a PDF."""
 
-    def parts(element: Any) -> Iterator[LTCurve]:
-        if isinstance(element, LTCurve):
+    def parts(element: Any) -> Iterator[LTCurve | LTChar]:
+        if isinstance(element, LTCurve | LTChar):
             yield element
         for child in getattr(element, "_objs", ()):
             yield from parts(child)
 
     found = []
     for page in extract_pages(BytesIO(pdf), laparams=LAParams(boxes_flow=None)):
-        strokes = (np.array([complex(*point) * MM for point in part.pts]) for part in parts(page))
-        found.append(Print(page.width * MM, page.height * MM, tuple(stroke for stroke in strokes if len(stroke))))
+        drawn = [*parts(page)]
+        pens = (part for part in drawn if isinstance(part, LTCurve))
+        strokes = (np.array([complex(*point) * MM for point in part.pts]) for part in pens)
+        boxes = tuple(shapely.box(*(MM * side for side in part.bbox)) for part in drawn if isinstance(part, LTChar))
+        found.append(
+            Print(page.width * MM, page.height * MM, tuple(stroke for stroke in strokes if len(stroke)), boxes)
+        )
     return found
 
 
-def farthest(these: Iterable[Stroke], those: Iterable[Stroke]) -> float:
-    """Return by how many mm the one of `these` that fits worst misses the nearest of `those`; inf without any."""
+def misses(these: Iterable[Stroke], those: Iterable[Stroke]) -> list[tuple[float, Stroke]]:
+    """Return each of `these` with the mm by which it misses the nearest of `those`; inf without any."""
     by_count: dict[int, list[Stroke]] = {}
     for stroke in those:
         by_count.setdefault(len(stroke), []).append(stroke)
     tables = {count: np.array(strokes) for count, strokes in by_count.items()}
-    worst = 0.0
-    for stroke in these:
-        if len(stroke) not in tables:
-            return float("inf")
-        worst = max(worst, float(abs(tables[len(stroke)] - stroke).max(axis=1).min()))
-    return worst
+    return [
+        (float(abs(tables[len(stroke)] - stroke).max(axis=1).min()) if len(stroke) in tables else np.inf, stroke)
+        for stroke in these
+    ]
+
+
+def farthest(these: Iterable[Stroke], those: Iterable[Stroke]) -> float:
+    """Return by how many mm the one of `these` that fits worst misses the nearest of `those`."""
+    return max((by for by, _ in misses(these, those)), default=0.0)
+
+
+def broken_at_letters(line: Stroke, whole: Print) -> bool:
+    """Whether a straight line is on a print but for gaps, in each of which one of its letters stands."""
+    if len(line) != 2:
+        return False
+    pieces = [shapely.LineString([(p.real, p.imag) for p in stroke]) for stroke in whole.strokes if len(stroke) == 2]
+    drawn = shapely.union_all(pieces).buffer(COINCIDES)
+    gaps = shapely.get_parts(shapely.LineString([(p.real, p.imag) for p in line]).difference(drawn))
+    at = shapely.union_all(whole.letters).buffer(AT_LETTER)
+    return all(gap.within(at) for gap in gaps)
 
 
 @lru_cache(maxsize=16)
@@ -231,6 +396,19 @@ def ruler(page: Print, along: complex) -> tuple[Stroke, list[float]]:
     ends = [(end - base[0]) / along for line in page.straight(1j if along == 1 else 1) for end in line]
     places = sorted({round(float(end.real), 3) for end in ends if abs(end.imag) < 1e-3})
     return base, [place for place in places if -1.0 < place < 101.0]
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_rulers_say_their_length_and_pivots_come_with_their_letters(lang: str) -> None:
+    blank = handout(TASK, lang=lang)
+
+    for page in blank.pages:
+        said = [text.markup for text in leaves(page.shapes) if isinstance(text, Text) and text.name == "print"]
+        mm = "mm" if lang == "en" else "мм"
+        assert (said.count("0"), said.count("100"), sum(text.startswith(f"100 {mm};") for text in said)) == (2, 1, 1)
+    driver = next(view for view in views_of(blank) if view.name == "driver")
+    assert [group.name for group in all_groups(driver) if group.role == "pivot"] == ["O"]
+    assert "O" in [text.markup for text in leaves(driver.shapes) if isinstance(text, Text)]
 
 
 @pytest.mark.parametrize(("task", "only"), printed_tasks(TASK))
@@ -268,7 +446,8 @@ def test_the_key_on_top_of_a_blank_coincides(task: str, only: str | None) -> Non
 
     for page, whole in zip(blank, key, strict=True):
         assert (page.width, page.height) == (whole.width, whole.height)
-        assert farthest(page.strokes, whole.strokes) <= COINCIDES
+        missed = [stroke for by, stroke in misses(page.strokes, whole.strokes) if by > COINCIDES]
+        assert all(broken_at_letters(stroke, whole) for stroke in missed)  # where only the key has the letters
     assert sum(len(page.strokes) for page in key) > sum(len(page.strokes) for page in blank)
 
 

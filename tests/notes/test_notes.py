@@ -26,7 +26,7 @@ from kulman.variants.case import Case, Settings
 from kulman.variants.notes import Note
 from kulman.variants.shelf import bundled, bundled_text
 
-TASK, GEAR, HOIST = "nau-slider-crank", "madi-gear", "karpenko-hoist"
+TASK, CAM, GEAR, HOIST = "nau-slider-crank", "madi-cam", "madi-gear", "karpenko-hoist"
 MEASURED = re.compile(r"= ([\d.,]+) [^:=]+: ([^=]+) = ([\d.,]+)([·/])([\d.,]+) = ([\d.,]+) (\S+)\.$")
 
 
@@ -96,7 +96,9 @@ def assert_measured_as_solved(written: Note, task: str) -> None:
         assert product == pytest.approx(number(value), abs=1.001 * half(value))
         if symbol in symbols:
             near = min(symbols[symbol], key=lambda right: abs(right - number(value)))
-            assert number(value) == pytest.approx(near, abs=1.01 * half(value))
+            # the segment is printed to its last digit, and what is reckoned from it knows no more
+            by = half(segment) * number(mu) ** (1.0 if sign == "·" else -1.0)
+            assert number(value) == pytest.approx(near, abs=1.01 * (half(value) + by))
 
 
 def assert_it_becomes_a_document(written: Note, folder: Path) -> None:
@@ -185,10 +187,9 @@ def test_a_note_says_what_scale_factors_are_for(notation: str, by: str) -> None:
 OWN = {"uk": "слово про дані", "ru": "слово о данных", "en": "a word on the data"}
 
 
-@pytest.mark.parametrize("lang", ["uk", *(pytest.param(lang, marks=pytest.mark.soak) for lang in ("ru", "en"))])
-@pytest.mark.parametrize(("task", "only"), [(TASK, "position"), (GEAR, "sliding"), (HOIST, "scheme")])
-def test_a_word_of_the_task_stands_on_the_sheet_and_in_the_note(
-    task: str, only: str, lang: str, tmp_path: Path
+@pytest.mark.parametrize(("task", "only"), [(TASK, "position"), (CAM, "sizes"), (GEAR, "sliding"), (HOIST, "scheme")])
+def test_a_word_of_the_task_on_its_data_stands_with_the_results_not_on_a_students_sheet_or_note(
+    task: str, only: str, tmp_path: Path
 ) -> None:
     head, _, rest = bundled_text(task).partition("\n[givens]")
     before, _, after = head.partition("\n[note]")
@@ -197,16 +198,13 @@ def test_a_word_of_the_task_stands_on_the_sheet_and_in_the_note(
     own = tmp_path / "own.toml"
     own.write_text(f"{before}\n[note]\n{words}{tables}\n[givens]{rest}", encoding="utf-8")
 
-    view = next(view for view in sheet(own, only=only, lang=lang).views if view.name == "note")
-    blocks = note(own, only=only, lang=lang).document.blocks
+    views = sheet(own, only=only, lang="uk").views
+    blocks = note(own, only=only, lang="uk").document.blocks
 
-    assert [" ".join(line) for line in view.lines] == [OWN[lang]]
-    (said,) = (
-        n for n, block in enumerate(blocks) if isinstance(block, Equations) and " ".join(block.lines[0]) == OWN[lang]
-    )
-    heading = blocks[said - 1]
-    assert isinstance(heading, Heading)
-    assert heading.text in ("Примітка", "Примечание", "Note", "Примітки", "Примечания")
+    assert solve(own, lang="uk").to_json()["note"] == OWN["uk"]
+    said = [" ".join(line) for view in views for line in view.lines]
+    said += [" ".join(line) for block in blocks if isinstance(block, Equations) for line in block.lines]
+    assert not any(word in text for text in said for word in (OWN["uk"], "Примітка"))
 
 
 def concluded(case: Case, lang: str = "en") -> tuple[str, ...]:

@@ -10,22 +10,26 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+import shapely
 
 import kulman
 from kulman import sheet, solve
-from kulman.drawing.formats import STYLES
+from kulman.drawing.formats import STYLES, Style
 from kulman.drawing.linkages.figures.cycle import _Band
-from kulman.drawing.linkages.figures.group import Arm
-from kulman.drawing.linkages.figures.lever import staggered
+from kulman.drawing.linkages.figures.group import STEP, Arm, staggered
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.view import Canvas
+from kulman.plans.linkages.mechanism import Revolute
 from kulman.scales.scale import Scale
+from kulman.tests.sheets.judge import detached
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import Faults, Judged, l1_plan, l5_similarity, l7_senses
 from kulman.tests.support.printed_numbers import lines_of, numbers_of, table
-from kulman.tests.support.readback import Sheet, View, parallel, read
+from kulman.tests.support.readback import Arrow, Sheet, View, parallel, read
 from kulman.tests.support.sheet_geometry import NEAR, crosses, same
+from kulman.variants.reader import load_task
 from kulman.variants.sheets import Sheet as Drawn
+from kulman.variants.shelf import bundled
 
 STYLE = STYLES["A1"]
 FORCES = "velocity,acceleration,forces"
@@ -114,6 +118,66 @@ def test_compass_arcs_can_be_seen_beside_carried_vectors(task: str) -> None:
                 assert all(abs(end.imag) > 1.2 for end in ends)
 
 
+def misplaced(task: str, variant: str, paper: str) -> list[object]:
+    """Forces that stand far from their nodes, that lie on others, or beside their lines where that need not be."""
+    found = sheet(task, variant, only="velocity,acceleration,forces,lever", format=paper)
+    views = read(*(found.svg(number) for number in range(1, len(found.pages) + 1))).views
+    faults: list[object] = []
+    for view in (v for v in views if v.name.startswith(("group_", "link_", "driver", "lever"))):
+        faults += [fault for fault in detached(view) if fault]
+        faults += [fault for arrow in view.arrows if arrow.aside for fault in offset(view, arrow, STYLES[paper])]
+        for one, other in combinations(view.arrows, 2):
+            line, near = segment(one.tail, one.tip), segment(other.tail, other.tip)
+            if line.intersection(near.buffer(0.5)).length > 0.5 * line.length:
+                faults.append((view.name, one.name, other.name))
+    return faults
+
+
+def segment(a: complex, b: complex) -> shapely.Geometry:
+    return shapely.LineString([(a.real, a.imag), (b.real, b.imag)])
+
+
+def offset(view: View, arrow: Arrow, style: Style) -> list[object]:
+    """What is wrong with an arrow beside its line: not led from its point, or one of the two on that line is free."""
+    leads = [line for line in view.lines("extension") if line.name]
+    ends = arrow.tail, arrow.tip
+    ((node, end),) = [
+        s.points for s in leads if s.name == arrow.name and any(same(s.points[-1], p, 0.02) for p in ends)
+    ]
+    others = [segment(o.tail, o.tip) for o in view.arrows if o.name != arrow.name]
+    strokes = [s for s in view.strokes if len(s.points) == 2 and s.path and s.path[-1][0] in ("link", "pivot")]
+    main = [segment(*s.points) for s in (*strokes, *view.lines("lever"))]
+    main += [segment(s.points[-1], s.points[-1]) for s in leads if s.name != arrow.name]
+    gap = min((other.distance(segment(end, end)) for other in others), default=math.inf)
+    faults = list[object]()
+    if abs(arrow.aside) >= 2.0 * style.label:
+        faults.append((arrow.name, "stands far beside its line"))
+    if abs(end - node) < 0.7 * style.label or gap < 0.25 * style.label:
+        faults.append((arrow.name, "has no leader that is seen"))
+    for ray in (arrow.unit, -arrow.unit):
+        first = segment(node + ray * 0.1 * style.force, node + ray * 0.35 * style.force)
+        if any(first.distance(line) < 0.2 * style.label for line in main):
+            continue  # it would lie on the beginning of a line
+        ahead = segment(node + ray * 0.35 * style.force, node + ray * style.force)
+        if min((ahead.distance(thing) for thing in (*others, *main)), default=9.0) > 0.5 * style.label:
+            faults.append((arrow.name, "could stand on its line"))
+    return [(view.name, *fault) for fault in faults]
+
+
+def test_forces_within_a_large_block_lie_side_by_side() -> None:
+    assert misplaced("scheme-10-shaper-two-blocks", "0", "A1") == []
+
+
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(k, marks=pytest.mark.soak) for k in range(2, 50))])
+def test_random_forces_act_at_their_points(seed: int) -> None:
+    """Each at its node, none on another; what stands beside its line is led there from its point."""
+    random = np.random.default_rng(seed)
+    for _ in range(2):
+        task = random.choice([name for name in bundled("mechanism") if name != "bertyaev-six-bar"])
+        variant, paper = random.choice([*load_task(task).variants]), random.choice(["A1", "A3"])
+        assert misplaced(str(task), str(variant), str(paper)) == [], (task, variant, paper)
+
+
 def test_forces_on_one_line_stay_near_their_slider() -> None:
     view = drawn("scheme-13-toggle-press", FORCES)[1]["group_45"]
     pin = view.point("D")
@@ -168,6 +232,126 @@ def test_arcs_of_one_link_stand_apart(mu: str) -> None:
         assert min(abs(a - b) for a in arcs[0][0].points for b in arcs[1][0].points) > 3.0
 
 
+FLATTEST = 0.3  # rad, the least that an arc turns to be seen as one
+
+
+def misturned(task: str, variant: str, paper: str) -> list[object]:
+    """Arcs of omega and epsilon that turn about the wrong point, cannot be read as arcs, or lie on one another."""
+    case = Linkage(task, variant, format=paper, only=("position", "velocity", "acceleration"))
+    view, style, faults = case.sheet["position"], STYLES[paper], list[object]()
+    arcs = {name: s for s in view.strokes if s.arc for kind, name in s.path if kind == "arrow"}
+    lines = {name: shapely.LineString([(p.real, p.imag) for p in arc.points]) for name, arc in arcs.items()}
+    first = dict[str, complex]()
+    for name, arc in arcs.items():
+        assert arc.arc is not None
+        (centre, radius, sweep), number = arc.arc, name.rpartition("_")[2]
+        turning = {p.point for p in case.oracle.m.pairs if isinstance(p, Revolute) and int(number) in p.links}
+        pivots = [view.point(pin) for pin in turning & {*case.oracle.still}]
+        if not any(same(centre, at, 0.02) for at in pivots or [first.setdefault(number, centre)]):
+            faults.append((name, "turns about a moving joint, or not about that of the other"))
+        if radius * abs(sweep) < 2.0 * style.arrow or abs(sweep) < FLATTEST:
+            faults.append((name, "is all arrowhead, or looks straight"))
+        ends = [end for line in view.inside("link", number) for end in line.points]
+        if radius > max(1.2 * style.force, *(abs(end - centre) for end in ends)):
+            faults.append((name, "stands beyond its link"))
+        others = [other for other in arcs if other != name and other.endswith(f"_{number}")]
+        faults += [(name, other) for other in others if lines[name].distance(lines[other]) < 0.5 * style.label]
+    return faults
+
+
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(k, marks=pytest.mark.soak) for k in range(2, 30))])
+def test_random_arcs_turn_about_the_fixed_pivots(seed: int) -> None:
+    """A link that has none turns about one of its joints, for omega and epsilon the same."""
+    random = np.random.default_rng(seed)
+    for _ in range(3):
+        task = random.choice([name for name in bundled("mechanism") if name != "bertyaev-six-bar"])
+        variant, paper = random.choice([*load_task(task).variants]), random.choice(["A1", "A3"])
+        assert misturned(str(task), str(variant), str(paper)) == [], (task, variant, paper)
+
+
+def test_arcs_of_slotted_links_and_triads_turn_about_the_fixed_pivots() -> None:
+    """Seen from the free end of its link an arc shows the opposite sense."""
+    for task, variant in (("scheme-11-slotter", "4"), ("scheme-20-press-automaton", "0")):
+        assert misturned(task, variant, "A1") == []
+
+
+def unread(task: str, variant: str, paper: str) -> list[tuple[str, ...]]:
+    """Arms that lie on a force, and those whose letters do not stand on their figures, more than two on a sheet."""
+    found = sheet(task, variant, only="velocity,acceleration,forces,lever", format=paper)
+    faults, lost, style = list[tuple[str, ...]](), list[tuple[str, ...]](), STYLES[paper]
+    views = read(*(found.svg(number) for number in range(1, len(found.pages) + 1))).views
+    for view in (view for view in views if view.name.startswith(("group_", "driver", "lever"))):
+        told = [t.string for t in view.of("heading") if re.match("h.*[=] [^0]", t.string)]
+        sizes = [(part, numbers_of(part.split("=")[-1], "uk")[0]) for text in told for part in text.split("; ")]
+        lost += [(view.name, part) for part, mm in sizes if mm > 2.0 * style.text]
+        forces = [(a.name, segment(a.tail, a.tip).buffer(0.2 * style.label)) for a in view.arrows]
+        for line in (s for s in view.strokes if s.path and s.path[-1][0] == "arm" and s.role == "thin"):
+            on = [force for force, ink in forces if ink.intersection(segment(*line.points)).length > 1.5 * style.label]
+            faults += [(view.name, line.path[-1][1], "lies on", force) for force in on]
+    return faults + lost * (len(lost) > 2)
+
+
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(k, marks=pytest.mark.soak) for k in range(2, 30))])
+def test_random_arms_lie_on_no_force(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    for _ in range(2):
+        task = random.choice([name for name in bundled("mechanism") if name != "bertyaev-six-bar"])
+        variant = random.choice([*load_task(task).variants])
+        faults = unread(str(task), str(variant), "A1")
+        assert [fault for fault in faults if "lies on" in fault] == [], (task, variant)
+
+
+def test_arms_of_crowded_groups_are_lettered_on_them() -> None:
+    assert unread("scheme-15-lever-shears", "3", "A1") == []
+    assert unread("scheme-17-sewing-machine", "9", "A3") == []
+
+
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(k, marks=pytest.mark.soak) for k in range(2, 30))])
+def test_random_vectors_to_and_fro_have_their_heads_apart(seed: int) -> None:
+    """A line with heads at both ends looks like a dimension."""
+    random = np.random.default_rng(seed)
+    for _ in range(2):
+        task = str(random.choice([name for name in bundled("mechanism") if name != "bertyaev-six-bar"]))
+        variant = str(random.choice([*load_task(task).variants]))
+        case = Linkage(task, variant, format="A1", only=("velocity", "acceleration", "forces"))
+        for view in (view for view in case.sheet.views if view.name.startswith("forces_")):
+            heads = {tip.path[-1][1]: tip.corners[0] for tip in view.tips if tip.path}
+            assert heads
+            for one, other in combinations(view.vectors, 2):
+                if same(one.tail, other.tip) and same(one.tip, other.tail) and abs(one.span) > 3 * STYLE.arrow:
+                    away = [min(abs(heads[v.quantity] - end) for end in (one.tail, one.tip)) for v in (one, other)]
+                    assert max(away) > STYLE.arrow, (task, variant, view.name, one.quantity, other.quantity)
+
+
+def test_link_whose_triangle_is_named_has_three_main_sides() -> None:
+    """Two of its sides were main lines and the third, drawn for similarity, a thin one."""
+    view = drawn("scheme-18-hydraulic-drive", "position,velocity,acceleration")[1]["position"]
+    sides = [s for s in view.inside("link", "3") if len(s.points) == 2]
+
+    assert len(sides) == 3
+    assert len({s.width for s in sides}) == 1
+    letters = [view.point(letter) for letter in "BCD"]
+    thin = [s for s in view.lines("similarity") if all(min(abs(p - at) for at in letters) < 3.0 for p in s.points)]
+    assert thin == []
+
+
+@pytest.mark.parametrize(
+    "task", ["scheme-20-press-automaton", "scheme-13-toggle-press", "scheme-06-opposed-compressor"]
+)
+@pytest.mark.parametrize("variant", ["0", "6"])
+def test_letters_of_guides_stand_at_the_ends_of_their_axes(task: str, variant: str) -> None:
+    """Amid an axis that is drawn on, the letters stood upon another line."""
+    view = Linkage(task, variant, format="A1", only=("position", "velocity", "acceleration")).sheet["position"]
+    axes = [s.points for s in view.strokes if s.dashed and len(s.points) == 2]
+    letters = [t for t in view.texts if re.fullmatch("([xyz])–\\1", t.string)]
+
+    assert letters
+    for (at,) in (t.of for t in letters):
+        on = [ends for ends in axes if segment(*ends).distance(segment(at, at)) < 0.05]
+        assert on
+        assert not any(segment(a + (b - a) * 0.02, b - (b - a) * 0.02).distance(segment(at, at)) < 0.05 for a, b in on)
+
+
 def arm_to(foot: complex, along: complex = 1j) -> Arm:
     return Arm(["F"], ["h_F"], foot, along, foot)
 
@@ -175,27 +359,33 @@ def arm_to(foot: complex, along: complex = 1j) -> Arm:
 def test_arms_side_by_side_are_staggered_away_from_the_figure() -> None:
     arms = [arm_to(40 + 0j), arm_to(20 + 0j), arm_to(60 + 0j), arm_to(-30 + 0j), arm_to(25j, 1 + 0j)]
 
-    shifts = staggered(0j, arms, 10 + 50j, 8.0)
+    step = STEP * STYLE.text
 
-    assert shifts == {0: -8j, 2: -16j}
+    shifts = staggered(0j, arms, 10 + 50j, STYLE)
+
+    assert shifts == {0: -1j * step, 2: -2j * step}
+    upon = staggered(0j, arms, 10 + 50j, STYLE, [1 + 0.05j])  # nor does the first stay on a line from the pole
+    assert upon == {1: -1j * step, 0: -2j * step, 2: -3j * step}
 
 
 def test_random_arms_that_make_small_angles_do_not_meet() -> None:
     random = np.random.default_rng(5)
     for _ in range(200):
-        turns = random.uniform(-0.1, 0.1, 5)
+        turns = random.uniform(-0.09, 0.09, 5)
         ways = np.exp(1j * turns)
         arms = [arm_to(complex(w * r), complex(1j * w)) for w, r in zip(ways, random.uniform(10, 60, 5), strict=True)]
 
-        shifts = staggered(0j, arms, 40j, 9.0)
+        shifts = staggered(0j, arms, 40j, STYLE)
 
-        assert sorted(round(abs(shift), 9) for shift in shifts.values()) == [9.0, 18.0, 27.0, 36.0]
+        assert sorted(round(abs(shift), 9) for shift in shifts.values()) == [
+            round(STEP * STYLE.text * k, 9) for k in (1, 2, 3, 4)
+        ]
         assert all(shift.imag < 0.0 for shift in shifts.values())
         drawn = [(shifts.get(i, 0j), each.foot + shifts.get(i, 0j)) for i, each in enumerate(arms)]
         assert not any(crosses(one, other) for one, other in combinations(drawn, 2))
 
 
-# Forces of very different size on one plan: the small ones stand in insets, enlarged, and can be measured there.
+# Forces of very different size on one plan: the small ones stand in an inset, enlarged, and can be measured there.
 NUMERALS = ("I", "II", "III", "IV", "V")
 INSETS = [
     Linkage("scheme-13-toggle-press", "1", format="A1"),
@@ -211,27 +401,34 @@ def test_small_forces_stand_in_insets_and_can_be_measured_there(case: Linkage) -
     printed = {(mm[0], mu[0]) for mm, mu in cells if mm and mu}
     plans = [view for view in case.sheet.views if view.name.startswith("forces_")]
 
-    assert [inset for plan in plans for inset in plan.insets]
+    numerals = list[str]()
     for plan in plans:
         enlarged = [v for inset in plan.insets for v in inset.vectors if abs(v.span) >= STYLE.arrow]
         short = {v.quantity for v in plan.vectors if NEAR < abs(v.span) < STYLE.arrow}
-        frames = [s.name for view in (plan, *plan.insets) for s in view.lines("window")]
-        letters = [t.string for view in (plan, *plan.insets) for t in view.of("label")]
-        assert len(short - {v.quantity for v in enlarged}) <= 1, plan.name  # at most one force of a plan is a point
-        assert sorted(frames) == sorted(inset.name for inset in plan.insets)
-        assert sum(letter in NUMERALS for letter in letters) == len(frames)
+        frames, said = [s.name for s in plan.lines("window")], " ".join(text.string for text in plan.texts)
+        points = [abs(plan.vector(name).span) for name in short - {v.quantity for v in enlarged}]
+        assert all(f"{length:.2f}".replace(".", ",") in said for length in points if length < 2.0), plan.name
+        assert len(plan.insets) == (len(short) > 1)
+        assert frames == [inset.name for inset in plan.insets]
+        numerals += [t.string for t in plan.of("label") if t.string in NUMERALS]
         for inset in plan.insets:
-            (heading,) = [text.string for text in inset.of("heading")]
+            heading, name = sorted(
+                (text.string for text in inset.of("heading") if text.name != "note"), key=lambda line: "=" not in line
+            )
+            assert name == f"Виносний елемент {numerals[-1]}"
+            assert f"елемент {numerals[-1]}" in said
             mu = numbers_of(heading.partition("=")[2], case.lang)[0]
             for vector in inset.vectors:
                 on_plan = plan.vector(vector.quantity)
                 assert (vector.mu, vector.value) == (pytest.approx(mu), on_plan.value)
                 assert abs(vector.span) * mu == pytest.approx(on_plan.value, abs=NEAR * mu)
                 assert abs(on_plan.span) < NEAR or parallel(vector.span, on_plan.span, 0.01)
-        for name in ("F_i2", "F_i3", "F_i4", "R_12_t", "R_34_t", "G_2", "G_4"):
-            large = [v for v in enlarged if v.quantity == name]
-            if large and abs(plan.vector(name).span) < STYLE.arrow:
-                assert any((round(abs(v.span), 2), v.mu) in printed for v in large), name
+    drawn_as = [v for plan in plans for view in (plan, *plan.insets) for v in view.vectors]
+    readable = {v.quantity for v in drawn_as if abs(v.span) >= STYLE.arrow}
+    for name in readable & {"F_i2", "F_i3", "F_i4", "R_12_t", "R_34_t", "G_2", "G_4"}:
+        assert any((round(abs(v.span), 2), v.mu) in printed for v in drawn_as if v.quantity == name), name
+    assert numerals == [*NUMERALS[: len(numerals)]]
+    assert numerals
 
 
 # Load diagrams and factors of inertia that a task gives.
@@ -289,6 +486,31 @@ def test_positions_are_numbered_as_points_and_show_how_the_crank_turns() -> None
 
 
 @pytest.mark.parametrize(
+    "lang", ["uk", pytest.param("ru", marks=pytest.mark.soak), pytest.param("en", marks=pytest.mark.soak)]
+)
+def test_dead_positions_stand_thin_on_the_plan_of_the_mechanism_from_the_zero_on(lang: str) -> None:
+    view = drawn("madi-four-bar", "dead", lang)[1]["position"]
+    main, mu, last = max(s.width for s in view.strokes), 2.5, {"uk": "к", "ru": "к", "en": "e"}[lang]
+    lines = [s for s in view.strokes if s.role == "dead-position"]
+
+    assert [round(abs(s.points[-1] - s.points[0]) * mu, 3) for s in lines] == 2 * [120.0, 480.0, 380.0]
+    assert all(s.width < main and s.dashed for s in lines)
+    letters = {text.string: shapely.box(*text.box) for text in view.texts}
+    for n, index in enumerate(("0", last)):
+        crank, coupler, _ = (s.points for s in lines[3 * n : 3 * n + 3])
+        assert abs(((coupler[-1] - crank[0]) / (crank[-1] - crank[0])).imag) < 1e-4  # in one line
+        for letter, place in (("B", crank[-1]), ("C", coupler[-1])):
+            gaps = {text: box.distance(shapely.Point(place.real, place.imag)) for text, box in letters.items()}
+            assert min(gaps, key=lambda text: gaps[text]) == f"{letter}_{{{index}}}"
+    notes = " ".join(t.string for t in sorted(view.of("heading"), key=lambda text: -text.baseline))
+    angles = [float(text.replace(",", ".")) for text in re.findall(r"φ = ([\d,.]+)°", notes)]
+    for angle, (a, b) in zip(angles, (lines[0].points, lines[3].points), strict=True):
+        assert math.degrees(np.angle(b - a)) % 360.0 == pytest.approx(angle, abs=0.01)
+    swing = [np.angle(s.points[-1] - s.points[0]) for s in (lines[2], lines[5])]
+    assert (swing[1] - swing[0]) * (solve("madi-four-bar")["omega_3"].value or 0.0) > 0.0  # it works in the given one
+
+
+@pytest.mark.parametrize(
     ("task", "slider", "before"),
     [
         pytest.param("nau-slider-crank", "B", -60.0, id="a stroke"),
@@ -333,3 +555,14 @@ def test_axis_of_a_diagram_spans_zero_the_curve_and_its_chords(
     by_chords = None if chords is None else (np.arange(2.0), np.array(chords))
 
     assert _Band("V_B", Scale("mu_V", 0.1, "m/s"), np.array(curve), by_chords).ends == ends
+
+
+@pytest.mark.parametrize("task", ["scheme-10-shaper-two-blocks", "scheme-14-jaw-crusher", "nau-slider-crank"])
+def test_no_link_stands_between_the_hatching_of_the_driver_and_the_zero_of_the_frame(task: str) -> None:
+    view = Linkage(task, "0", format="A1").sheet["position"]
+    (zero,) = [text for text in view.of("label") if text.string == "0"]
+    links = [shapely.LineString([(p.real, p.imag) for p in s.points]) for s in view.inside("link")]
+    hatching = [shapely.LineString([(p.real, p.imag) for p in s.points]) for s in view.lines("hatch")]
+
+    near = min(hatching, key=zero.area.distance)
+    assert zero.area.distance(near) < min(zero.area.distance(link) for link in links)

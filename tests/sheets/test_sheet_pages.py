@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-import html
 import re
+from base64 import b64decode
+from collections import Counter
 from collections.abc import Iterator
 from functools import lru_cache
+from io import BytesIO
+from pathlib import Path
 
 import pytest
+from fontTools.ttLib import TTFont
+from pypdfium2 import PdfDocument
 
 import kulman
 from kulman.drawing.page import Page, extent
-from kulman.drawing.shapes import Group, Shape, Vector
+from kulman.drawing.shapes import Group, Shape, Text, Vector
 from kulman.drawing.words import Words
 from kulman.plans.board import POINTS
 from kulman.plans.hands.shaky import preset
@@ -19,6 +24,7 @@ from kulman.plans.linkages.solved import conditions_of, worst_condition
 from kulman.plans.quantities import plans_of
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.printed_numbers import decimal
+from kulman.tests.support.readback import read
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.case import Request
 from kulman.variants.marking.keyed import Rubric, keyed
@@ -28,10 +34,10 @@ from kulman.variants.shelf import bundled, bundled_text
 from kulman.variants.solution import Solution
 
 TASKS = bundled()
-QUICK = ("nau-slider-crank", "madi-cam", "karpenko-hoist", "scheme-13-toggle-press")
+QUICK = ("nau-slider-crank", "karpenko-hoist", "scheme-13-toggle-press")
 EVERY = [task if task in QUICK else pytest.param(task, marks=pytest.mark.soak) for task in TASKS]
 SAME = 0.01  # mm
-MADI = {"mu_l": 0.0025, "mu_V": 0.189, "mu_a": 21.318, "mu_F_23": 33.154, "mu_F_1": 54.373}
+MADI = {"mu_l": 0.0025, "mu_V": 0.189, "mu_a": 21.318, "mu_h": 0.189, "mu_F_23": 33.154, "mu_F_1": 54.373}
 KINEMATICS = {"givens", "structure", "position", "velocity", "acceleration", "equations_kinematics"}
 
 
@@ -70,6 +76,16 @@ def same_scales(solution: Solution, sheet: Sheet) -> bool:
     return all(drawn[symbol] == mu for symbol, mu in mus(solution).items())
 
 
+def as_drawn(solution: Solution, sheet: Sheet) -> Solution:
+    """What a sheet shows: what is solved, or, where it is smaller so as to have no more pages and says so, on it."""
+    if same_scales(solution, sheet):
+        return solution
+    (warning,) = [warning for warning in sheet.warnings if warning.key == "scales-changed"]
+    changed = {symbol for symbol, mu in mus(solution).items() if mu != mus(sheet)[symbol]}
+    assert set(re.findall(r"mu_\w+", warning.text("en"))) == changed
+    return kulman.solve(solution.task.id, solution.variant, format=sheet.format)
+
+
 @pytest.mark.parametrize("task", EVERY)
 def test_segments_solved_are_those_of_sheet_note_form_and_handout(task: str) -> None:
     solution, sheet = kulman.solve(task), kulman.sheet(task)
@@ -77,11 +93,12 @@ def test_segments_solved_are_those_of_sheet_note_form_and_handout(task: str) -> 
     form = keyed(Request(load_task(task), solution.variant), solution.variant, {}, rubric).solution
     blank, on_a4 = kulman.handout(task, key=True), kulman.solve(task, format="A4")
 
-    assert sheet.format == solution.format
-    assert same_scales(solution, sheet)
-    assert sheet.warnings == solution.warnings
-    assert other_lengths(solution, sheet) == {}
     assert (mus(form), form.format) == (mus(solution), solution.format)
+    shown = as_drawn(solution, sheet)
+    assert sheet.format == shown.format
+    assert same_scales(shown, sheet)
+    assert [one for one in sheet.warnings if one.key != "scales-changed"] == [*solution.warnings]
+    assert other_lengths(shown, sheet) == {}
     assert mus(kulman.note(task).sheet) == mus(sheet)
     assert same_scales(on_a4, blank)
     assert other_lengths(on_a4, blank) == {}
@@ -89,13 +106,17 @@ def test_segments_solved_are_those_of_sheet_note_form_and_handout(task: str) -> 
 
 @pytest.mark.soak
 @pytest.mark.parametrize("task", TASKS)
-def test_every_variant_is_drawn_as_it_is_solved(task: str) -> None:
+def test_every_variant_is_drawn_as_it_is_solved_or_says_how_else(task: str) -> None:
+    others = 0
     for variant in load_task(task).variants:
-        solution, sheet = kulman.solve(task, variant), kulman.sheet(task, variant)
+        usual, sheet = kulman.solve(task, variant), kulman.sheet(task, variant)
+        solution = as_drawn(usual, sheet)
+        others += solution is not usual
 
         assert same_scales(solution, sheet), variant
         assert sheet.format == solution.format, variant
         assert other_lengths(solution, sheet) == {}, variant
+    assert others <= 3
 
 
 @pytest.mark.parametrize("format", ["A3", pytest.param("A4", marks=pytest.mark.soak)])
@@ -175,7 +196,7 @@ def used(page: Page) -> float:
     return sum((c - a) * (d - b) for a, b, c, d in boxes) / (page.width * page.height)
 
 
-@pytest.mark.parametrize(("symbol", "mu"), [("mu_F_23", 15.0), pytest.param("mu_a", 8.0, marks=pytest.mark.soak)])
+@pytest.mark.parametrize(("symbol", "mu"), [("mu_F_23", 15.0), pytest.param("mu_a", 5.0, marks=pytest.mark.soak)])
 def test_scale_factors_that_task_and_user_fix_are_kept_on_more_pages(symbol: str, mu: float) -> None:
     usual = kulman.sheet("madi-four-bar")
     drawn = kulman.sheet("madi-four-bar", scales={symbol: mu}, format="A1")
@@ -203,9 +224,7 @@ def two_pages(task: str) -> Sheet:
     return kulman.sheet(task, "6", format="A1")
 
 
-@pytest.mark.parametrize(
-    "task", ["scheme-10-shaper-two-blocks", pytest.param("scheme-04-v-engine", marks=pytest.mark.soak)]
-)
+@pytest.mark.parametrize("task", ["scheme-09-shaper", pytest.param("scheme-15-lever-shears", marks=pytest.mark.soak)])
 def test_two_pages_are_read_in_order_and_used(task: str) -> None:
     drawn = two_pages(task)
 
@@ -214,12 +233,12 @@ def test_two_pages_are_read_in_order_and_used(task: str) -> None:
     assert KINEMATICS & {*names[0]}
     assert not KINEMATICS & {*names[1]}
     assert names[0][:2] == ["givens", "structure"]
-    assert all(used(page) > 0.4 for page in drawn.pages)
+    assert all(used(page) > 0.35 for page in drawn.pages)
 
 
 def test_plans_are_drawn_larger_where_pages_have_room() -> None:
-    drawn = mus(two_pages("scheme-10-shaper-two-blocks"))
-    solved = kulman.solve("scheme-10-shaper-two-blocks", "6")
+    drawn = mus(two_pages("scheme-09-shaper"))
+    solved = kulman.solve("scheme-09-shaper", "6")
 
     longest = {
         symbol: max(q.mm or 0.0 for name, q in solved.quantities.items() if q.scale == symbol and q.kind == "vector")
@@ -227,6 +246,35 @@ def test_plans_are_drawn_larger_where_pages_have_room() -> None:
     }
     assert {symbol: drawn[symbol] for symbol in longest} == {s: mu for s, mu in mus(solved).items() if s in longest}
     assert all(80.0 < millimetres < 300.0 for millimetres in longest.values())
+
+
+@pytest.mark.parametrize("task", ["scheme-14-jaw-crusher", "bertyaev-six-bar", "madi-gear", "karpenko-hoist"])
+def test_figures_are_numbered_in_order_and_headings_have_common_baselines(task: str) -> None:
+    numbers, above = list[str](), set[float]()
+    for view in kulman.sheet(task, lang="uk").views:
+        (first,) = [s for s in view.shapes if isinstance(s, Text) and s.markup.endswith(view.heading[0])]
+        numbers += re.findall(r"^(\d+)\. ", first.markup)
+        assert bool(view.rows or view.lines) is (first.markup == view.heading[0])
+        above.add(round(view.box[3] - first.at.imag, 6))
+    assert numbers == [str(number + 1) for number in range(len(numbers))]
+    assert len(numbers) > 3
+    assert len(above) == 1
+
+
+def test_force_plans_of_like_forces_have_one_scale_factor() -> None:
+    one, several = 0, 0
+    for task in (task for task in bundled() if task.startswith("scheme")):
+        for variant in [*load_task(task).variants][:3]:
+            solved, longest = kulman.solve(task, variant), dict[str, float]()
+            for quantity in solved.quantities.values():
+                if (quantity.scale or "").startswith("mu_F"):
+                    longest[quantity.scale] = max(longest.get(quantity.scale, 0.0), abs(quantity.value or 0.0))
+            most, scales = max(longest, key=longest.__getitem__), mus(solved)
+            alike = {symbol for symbol in longest if longest[most] <= 2.999 * longest[symbol]}
+            assert {scales[symbol] for symbol in alike} == {scales[most]}, (task, variant)
+            one += len(alike) > 1
+            several += len({scales[symbol] for symbol in longest}) > 1
+    assert min(one, several) > 5
 
 
 @pytest.mark.parametrize("task", ["nau-slider-crank", "madi-four-bar", "bertyaev-six-bar", "scheme-20-press-automaton"])
@@ -286,10 +334,8 @@ POSITIONS = {
 def texts_of(task: str, language: str, **settings: str | float) -> list[str]:
     """Return the lines of text of a sheet, letters with their indices."""
     drawn = kulman.sheet(task, set=settings, only=PLANS, lang=language)
-    pages = "".join(drawn.svg(number) for number in range(1, len(drawn.pages) + 1))
-    return [
-        html.unescape(re.sub("<[^>]+>", "", text)) for text in re.findall(r"<text[^>]*>.*?</text>", pages, re.DOTALL)
-    ]
+    pages = read(*(drawn.svg(number) for number in range(1, len(drawn.pages) + 1))).pages
+    return [text.string for page in pages for view in page.all for text in view.texts]
 
 
 def beginning(language: str, key: str) -> str:
@@ -357,3 +403,26 @@ def test_joints_that_nearly_coincide_are_named() -> None:
 
     assert (warning.key, warning.data["first"], warning.data["second"]) == ("ill-conditioned-pins", "C", "A")
     assert sum(line.startswith("Ill-conditioned position: the joints C and A nearly coincide") for line in lines) == 1
+
+
+@pytest.mark.parametrize(
+    ("task", "language"), [("nau-slider-crank", "ru"), ("madi-cam", "en"), ("karpenko-hoist", "uk")]
+)
+def test_letters_of_a_pdf_can_be_selected_and_faces_of_an_svg_are_whole_fonts(
+    task: str, language: str, tmp_path: Path
+) -> None:
+    drawn = kulman.sheet(task, lang=language)
+    drawn.save(tmp_path / "sheet.pdf")
+    svgs = [drawn.svg(number + 1) for number in range(len(drawn.pages))]
+    pages = (page.get_textpage().get_text_range() for page in PdfDocument(tmp_path / "sheet.pdf"))
+    runs = (run.string for text in read(*svgs).texts for run in text.runs)
+    selected, written = (Counter("".join("".join(parts).split())) for parts in (pages, runs))
+
+    assert selected == written
+    for svg in svgs:
+        faces = re.findall(r"base64,([\w+/=]+)", svg)
+        assert len(faces) == 2
+        for face in faces:
+            font = TTFont(BytesIO(b64decode(face)), lazy=False, checkChecksums=2)
+            font.ensureDecompiled()
+            assert {"OS/2", "cmap", "glyf", "head", "hhea", "hmtx", "loca", "maxp", "name", "post"} <= {*font.keys()}

@@ -16,10 +16,9 @@ import shapely
 
 from kulman import sheet, solve
 from kulman.plans.cams.solve import SolvedCam
-from kulman.tests.support.glyphs import advance
-from kulman.tests.support.overlaps import TINY, view_faults
+from kulman.tests.sheets.judge import text_faults, view_faults
 from kulman.tests.support.printed_numbers import equation_faults, lines_of
-from kulman.tests.support.readback import CAP, Sheet, Stroke, Text, View, angle, cross, polygon, read, thick
+from kulman.tests.support.readback import Sheet, Stroke, View, angle, cross, polygon, read
 
 NEAR, STEEP = 0.01, 0.05  # mm, degrees
 Faults = Iterator[str]
@@ -75,7 +74,7 @@ def unless(good: bool, fault: str) -> Faults:
 def apart(case: CamCase, sheet: Sheet) -> Faults:
     """Views stand apart within the frame."""
     for page in sheet.pages:
-        yield from view_faults(page)
+        yield from (f"{fault.view}: {fault.said}" for fault in view_faults(page))
 
 
 # What is drawn in a view.
@@ -179,7 +178,7 @@ def c1_three_diagrams(case: CamCase, sheet: Sheet) -> Faults:
         yield from unless(abs(xs[-1] - first.at(phi, 0).real) < 0.02, f"section line {i} is not at its angle")
         through = max(p.imag for p in places) > first.origin.imag and min(p.imag for p in places) < last.origin.imag
         yield from unless(through, f"section line {i} does not run through all diagrams")
-    upright = [s for i in solved.layout.division.lines for s in view.inside("section", str(i))]
+    upright = [s for s in view.pieces if any(("section", str(i)) in s.path for i in solved.layout.division.lines)]
     lines = shapely.MultiLineString([[(p.real, p.imag) for p in s.points] for s in upright])
     crossed = [t.string for t in view.texts if shapely.box(*t.box).intersects(lines) and not t.turned]
     yield from unless(not crossed, f"section lines run through {crossed}")
@@ -405,8 +404,8 @@ def c6_inversion(case: CamCase, sheet: Sheet) -> Faults:
     yield from unless(pitch.dashed, "the pitch curve is not dash-dot")
     line = shapely.LineString([(p.real, p.imag) for p in pitch.points])
     for i, phi in enumerate(solved.angles):
-        (position,) = [s for s in view.lines("position") if s.name == str(i)]
-        foot, end = position.points
+        pieces = [s for s in view.lines("position") if s.name == str(i)]  # it is broken at letters
+        foot, end = pieces[0].points[0], pieces[-1].points[-1]
         up = (end - foot) / abs(end - foot)
         lean = angle(cmath.rect(1.0, math.pi / 2 - case.sense * float(phi)), up)
         yield from unless(abs(lean) < STEEP, f"position {i} is turned by {lean} degrees")
@@ -445,8 +444,10 @@ def c7_practical(case: CamCase, sheet: Sheet) -> Faults:
         yield from unless(bool(view.inside(role, name)), f"no {name} is drawn")
     sharpest = any(k == "sharpest" for r in view.rings for k, _ in r.path)
     yield from unless(sharpest or roller.profile.rho_min == 0.0, "the place of rho_min is not marked")
-    (normal,) = view.lines("normal")
+    normal, *pieces = view.lines("normal")  # far from one another, where it breaks off at what stands on it
     a, b = normal.points
+    whole = all(abs(cross((b - a) / abs(b - a), end - a)) < NEAR for piece in pieces for end in piece.points)
+    yield from unless(whole, "there are several normals")
     for mark in ("K", "P"):
         place = view.point(f"{mark}{normal.name}")
         yield from unless(abs(cross((b - a) / abs(b - a), place - a)) < NEAR, f"the normal misses {mark}")
@@ -493,35 +494,7 @@ def c8_plate(case: CamCase, sheet: Sheet) -> Faults:
 def touching(case: CamCase, sheet: Sheet) -> Faults:
     """Letters that touch a letter, a main line, an arrowhead, or a mark."""
     for view in sheet.views:
-        areas = np.array([_ink(text) for text in view.texts])
-        tree = shapely.STRtree(areas)
-        for i, j in tree.query(areas, predicate="intersects").T.tolist():
-            if i < j and shapely.area(shapely.intersection(areas[i], areas[j])) > TINY:
-                yield f"{view.name}: {view.texts[i].string!r} on {view.texts[j].string!r}"
-        main = max((s.width for s in view.strokes), default=0.0)
-        things = [(thick(s), f"main line {s.path} {s.role}") for s in view.strokes if s.width == main]
-        things += [(polygon(t.corners), f"arrowhead {t.path}") for t in view.tips]
-        marks = [r for r in view.rings if r.radius < 3.0]
-        things += [(shapely.Point(r.centre.real, r.centre.imag).buffer(r.radius), f"mark {r.path}") for r in marks]
-        for thing, name in things:
-            for i in tree.query(thing, predicate="intersects").tolist():
-                yield f"{view.name}: {view.texts[i].string!r} on {name}"
-
-
-def _ink(text: Text) -> shapely.Geometry:
-    """The box of a text, turned with it."""
-    if not text.turned:
-        return shapely.box(*text.box)
-    first, last = text.runs[0], text.runs[-1]
-    along = last.at - first.at if len(text.runs) > 1 else 1j
-    base = max(text.runs, key=lambda run: run.size)
-    same = [run.at for run in text.runs if run.size == base.size]
-    along = same[-1] - same[0] if len(same) > 1 else along
-    along /= abs(along)
-    end = last.at + along * advance(last.string) * last.size
-    wide = ((end - same[0]) * along.conjugate()).real
-    up = along * 1j * CAP * base.size
-    return polygon((same[0], same[0] + along * wide, same[0] + along * wide + up, same[0] + up))
+        yield from (f"{fault.view}: {fault.said}" for fault in text_faults(view))
 
 
 POINTS: dict[str, Callable[[CamCase, Sheet], Faults]] = {

@@ -99,7 +99,7 @@ def _line(text: Text) -> str:
 
 def arc_of(view: View, name: str) -> tuple[complex, float]:
     """Centre and radius of the arc of a circle."""
-    (arc,) = [s.arc for s in view.inside("circle", name) if s.arc is not None]
+    arc, *_ = [s.arc for s in view.inside("circle", name) if s.arc is not None]  # it is broken at letters
     return arc[0], arc[1]
 
 
@@ -113,9 +113,8 @@ def centres(view: View) -> tuple[complex, complex]:
 
 
 def outline(view: View, name: str) -> list[complex]:
-    """A drawn profile."""
-    (line,) = view.lines("profile", name)
-    return list(line.points)
+    """A drawn profile; one that letters break off is joined again."""
+    return [point for line in view.lines("profile", name) for point in line.points]
 
 
 def crossings(points: Sequence[complex], centre: complex, radius: float) -> list[complex]:
@@ -134,9 +133,10 @@ def turned(centre: complex, a: complex, b: complex) -> float:
 
 
 def one(strokes: Sequence[Stroke]) -> tuple[complex, complex]:
-    """The ends of the only stroke."""
-    (stroke,) = strokes
-    return stroke.points[0], stroke.points[-1]
+    """The ends of the only line, whose pieces beside letters are in one line."""
+    a, b = strokes[0].points[0], strokes[-1].points[-1]
+    assert all(abs(cross(b - a, p - a)) < NEAR * abs(b - a) for stroke in strokes for p in stroke.points)
+    return a, b
 
 
 def number(text: str) -> float:
@@ -216,7 +216,7 @@ def z2_circles(case: GearCase, sheet: Sheet) -> Faults:
                 yield from unless(abs(centre - about[0]) < NEAR, f"{view.name}: {full} has another centre")
                 number = printed(sheet["meshing"], f"d_{{{name}{i}}}")
                 yield from unless(abs(number - 2e3 * radius * mu(view)) < 0.00501, f"{full} is printed as {number}")
-            (dashes,) = {tuple(s.dashed for s in view.inside("circle", f"d_{name}{i}")) for name in ("w", "", "b")}
+            (dashes,) = {(any(s.dashed for s in view.inside("circle", f"d_{name}{i}")),) for name in ("w", "", "b")}
             yield from unless(dashes == (True,), f"the circles of wheel {i} cannot be told apart")
             yield from near(abs(pole - about[0]) - arc_of(view, f"d_w{i}")[1], f"{view.name}: d_w{i} misses the pole")
         yield from unless(any(t.string == "P" for t in view.texts), f"{view.name}: P has no letter")
@@ -347,8 +347,11 @@ def _ratios(case: GearCase, sheet: Sheet) -> Iterator[str]:
     for text in words:
         yield from unless(abs(number(text.rpartition("= ")[2]) - epsilon) < 0.0006, f"printed is {text}")
     for i, centre in zip(WHEELS, centres(view), strict=True):
-        rays = [s.points for s in view.lines("ray", f"phi_alpha{i}")]
-        a, b = (points[int(np.argmax(np.abs(np.array(points) - centre)))] for points in rays)
+        ends = [point for s in view.lines("ray", f"phi_alpha{i}") for point in s.points]
+        rays = {
+            round(cmath.phase(p - centre), 6): p for p in sorted(ends, key=lambda p: abs(p - centre)) if p != centre
+        }
+        a, b = rays.values()  # of each ray the farthest place
         phi = abs(turned(centre, a, b))
         yield from unless(abs(math.degrees(phi) - printed(view, f"φ_{{α{i}}}")) < 0.006, f"phi_alpha{i} is {phi}")
         tau = math.radians(printed(view, f"τ_{{{i}}}"))

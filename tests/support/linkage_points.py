@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 from kulman.plans.linkages.mechanism import FRAME, Driver, Prismatic, Revolute
+from kulman.tests.sheets.judge import overlaps
 from kulman.tests.support.linkage_cases import Linkage, Oracle
-from kulman.tests.support.overlaps import overlaps
-from kulman.tests.support.printed_numbers import equation_faults, lines_of, numbers_of, table_faults
+from kulman.tests.support.printed_numbers import equation_faults, lines_of, numbers_of, shows, table, table_faults
 from kulman.tests.support.readback import Sheet, View, cross, parallel
 from kulman.tests.support.sheet_cases import Case
 from kulman.tests.support.sheet_geometry import NEAR, closed_chain, crosses, past, runs_along, same, unless
@@ -101,12 +101,13 @@ def _vectors(case: Judged, view: View) -> Faults:
 
 
 def _meetings(view: View, plan: str) -> Faults:
-    """Two construction lines run past every point that they find, dashed, by 3 mm or more."""
+    """Two construction lines, solid and thin, run past every point that they find by 3 mm or more."""
     ends: dict[str, list[tuple[complex, ...]]] = {}
     for line in view.lines("construction"):
         if re.fullmatch(rf"{plan}\.\w+_[12]", line.name):
             ends.setdefault(line.name[:-2], []).append(line.points)
-            yield from unless(line.dashed, f"{line.name} is not dashed")
+            main = max(stroke.width for stroke in view.strokes)
+            yield from unless(not line.dashed and line.width < main, f"{line.name} is not solid and thin")
     yield from unless(bool(ends), f"{plan}: no construction lines")
     for name, lines in ends.items():
         yield from unless(len(lines) == 2, f"{name} has {len(lines)} lines")
@@ -212,7 +213,7 @@ def _arrows(case: Judged, view: View, oracle: Oracle) -> Faults:
         yield from unless(parallel(arrow.unit, wanted, 0.05), f"{view.name}: {arrow.name} points elsewhere")
         at = _applied(oracle, arrow.name)
         if at and view.has(at):
-            off = abs(cross(arrow.unit, view.point(at) - arrow.tail))
+            off = abs(cross(arrow.unit, view.point(at) - arrow.on))
             yield from unless(off < NEAR, f"{view.name}: {arrow.name} misses {at} by {off:.3f} mm")
 
 
@@ -233,20 +234,24 @@ def _applied(oracle: Oracle, name: str) -> str | None:
 
 def l9_arms(case: Judged, sheet: Sheet) -> Faults:
     """Every arm is normal to the line of its force, is drawn from the centre of moments, and its mm are printed."""
+    rows = [row for view in sheet.views if view.name.startswith("results_") for row in table(view)]
     for view in sheet.views:
         if not (view.name.startswith("group_") or view.name in ("driver", "lever")):
             continue
-        texts = [t.string for place in ("label", "heading") for t in view.of(place) if "=" in t.string]
+        texts = [t.string for place in ("label", "heading") for t in view.of(place)]
         printed = [x for t in texts for part in t.split("=")[1:] for x in numbers_of(part, case.lang)]
+        letters = {letter for t in texts if "," not in t for letter in t.split(" = ")}  # their mm stand in a table
+        beside = (cell for row in rows for letter, cell in pairwise(row) if letter in letters)
+        printed += [x for cell in beside for x in numbers_of(cell, case.lang)[:1]]
         lines = [s for s in view.strokes if any(kind == "arm" for kind, _ in s.path) and s.role == "thin"]
         for line in lines:
             a, b = line.points
             yield from unless(_begins(view, a), f"{view.name}: the arm {line.path[-1]} begins nowhere")
-            normal = [x for x in view.arrows if abs(cross(x.unit, b - x.tail)) < NEAR]
+            normal = [x for x in view.arrows if abs(cross(x.unit, b - x.on)) < NEAR]
             square = [x for x in normal if abs((x.unit.conjugate() * (b - a)).real) < NEAR * max(1.0, abs(b - a))]
             yield from unless(bool(square), f"{view.name}: the arm {line.path[-1]} is not normal to a force")
             yield from unless(
-                any(abs(x - abs(b - a)) < NEAR for x in printed), f"{view.name}: {abs(b - a):.2f} mm is not printed"
+                any(shows(x, abs(b - a), NEAR) for x in printed), f"{view.name}: {abs(b - a):.2f} mm is not printed"
             )
 
 
@@ -306,7 +311,7 @@ def l12_lever(case: Judged, sheet: Sheet) -> Faults:
             yield from unless(parallel(arrow.unit, wanted, 0.05), f"lever: {arrow.name} is turned")
         name = arrow.name.lstrip("_")
         size = abs(numbers.solved.values.get(arrow.name, numbers.solved.values.get(name, 0.0)))
-        moment = size * cross(arrow.tail - p, arrow.unit)
+        moment = size * cross(arrow.on - p, arrow.unit)
         total, largest = total + moment, max(largest, abs(moment))
     hung = {f"_M_{arrow.name}_p" for arrow in view.arrows}  # moments of what hangs there as an arrow
     for name, value in numbers.solved.values.items():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from decimal import Decimal
 from itertools import pairwise
 
@@ -61,36 +61,73 @@ def lines_of(view: View) -> list[str]:
     return lines
 
 
-def _shows_three_digits(mu: float, printed: float) -> bool:
-    """Whether a hundredth of a millimetre is no more than a unit of the third digit of a value."""
-    return printed != 0.0 and 0.01 * mu <= 10.0 ** (math.floor(math.log10(abs(printed))) - 2)
+def ruled(mm: str, paper: str, long: float = 100.0) -> bool:
+    """Whether a segment is printed as a ruler shows it: to 0.01 mm, from 100 mm on to 0.1 mm; in cm to as much."""
+    centimetres = paper in ("cm", "см")
+    return len(re.split("[.,]", mm)[-1]) == (1 if value(mm) * (10 if centimetres else 1) >= long else 2) + centimetres
 
 
-def _needless(mm: str, most: int, mu: float, printed: str) -> bool:
-    """Whether a segment has more decimals than a ruler shows, though with so many its value would be as printed."""
-    decimals = re.split("[.,]", mm)[-1]
-    if len(decimals) <= most or decimals[most] == "5":  # which way it was rounded cannot be told
-        return False
-    return abs(round(value(mm), most) * mu - value(printed)) < half_digit(printed) * (1 - 1e-6)
+def shows(printed: float, millimetres: float, near: float = 0.005001) -> bool:
+    """Whether a printed length is one on paper: within `near`, from 100 mm on within half a tenth."""
+    return abs(printed - millimetres) < (near if millimetres < 100.0 else max(near, 0.050001))
+
+
+def lever_faults(view: View, lang: str) -> Iterator[str]:
+    """Rows of the lever's table of which the force times the arm in mm is not the moment to its last digit."""
+    for symbol, force, _, arm, moment, sense in table(view):
+        numbers_of(" ".join((force, arm, moment)), lang)
+        if "–" not in (force, arm) and abs(value(force) * value(arm) - value(moment)) > half_digit(moment):
+            yield f"{symbol}: {force}·{arm} is not {moment}"
+        if (sense == "–") != (value(moment) == 0.0):
+            yield f"{symbol}: the sense of {moment} is {sense}"
+
+
+def read_to(row: Sequence[str]) -> float:
+    """Return how far a printed value may be from the exact one: by half its last digit, or as its millimetres say."""
+    _, mm, mu, printed = row[:4]
+    near = half_digit(printed)
+    return near if mm == "–" else max(near, half_digit(mm) * value(mu) + near * (value(printed) > 100.0))  # in units
+
+
+def reactions(rows: Iterable[Sequence[str]]) -> list[tuple[tuple[str, str], tuple[str, str]]]:
+    """Return the pairs of an action and its reaction among rows, each by its symbol and its printed value."""
+    found = {row[0]: row[3] for row in rows}
+    pairs = list[tuple[tuple[str, str], tuple[str, str]]]()
+    for symbol in found:
+        index = re.fullmatch(r"([A-Z])_\{(\d)(\d)\}|([A-Z])_\{(\d+),(\d+)\}", symbol)
+        if index is not None:
+            letter, first, second = filter(None, index.groups())
+            other = f"{letter}_{{{second}{',' if index[4] else ''}{first}}}"
+            if letter != "M" and first < second and other in found:
+                pairs.append(((symbol, found[symbol]), (other, found[other])))
+    return pairs
 
 
 def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[str]:
     """Rows in which mm times mu is not the value to its last digit, or which `values` (by symbol) contradict."""
+    forces = [row for name in sheet.names if name.startswith("results_forces") for row in table(sheet[name])]
+    pairs, reading = reactions(forces), {row[0]: read_to(row) for row in forces}
+    for (symbol, printed), (other, its) in pairs:
+        if printed != its:
+            yield f"{symbol} = {printed}, {other} = {its}"
+    carried = {symbol: other for (one, _), (two, _) in pairs for symbol, other in ((one, two), (two, one))}
     for name in sheet.names:
-        if not name.startswith("results_"):
+        if name.startswith("results_lever"):
+            yield from lever_faults(sheet[name], lang)
+        if not name.startswith("results_") or name.startswith("results_lever"):
             continue
-        most = 3 if any(re.search(r", (cm|см)$", cell.string) for cell in sheet[name].of("cell")) else 2
+        (head,) = [c.string for c in sheet[name].of("cell") if re.search(r", (mm|мм|cm|см)$", c.string)]
         for row in table(sheet[name]):
             symbol, mm, mu, printed = row[:4]
-            if mm != "–" and abs(value(mm) * value(mu) - value(printed)) > half_digit(printed):
-                yield f"{symbol}: {mm}·{mu} is not {printed}"
-            # of hundreds and thousands the units are printed, which a hundredth of a millimetre may not show
-            longer = mm != "–" and value(mm) > 2.0 and len(re.split("[.,]", mm)[-1]) > most
-            if longer and abs(value(printed)) < 100.0 and _shows_three_digits(value(mu), value(printed)):
-                yield f"{symbol}: no ruler reads {mm} mm"
-            if mm != "–" and _needless(mm, most, value(mu), printed):
-                yield f"{symbol}: {mm} mm has more decimals than it takes"
-            if symbol in values and abs(abs(value(printed)) - abs(values[symbol])) > half_digit(printed) + 1e-9:
+            near = half_digit(printed)
+            if mm != "–":
+                if abs(value(mm) * value(mu) - value(printed)) > near:
+                    yield f"{symbol}: {mm}·{mu} is not {printed}"
+                finer = symbol in carried and ruled(mm, head.split()[-1], math.inf)  # laid off: a number, not a reading
+                if not finer and not ruled(mm, head.split()[-1]):
+                    yield f"{symbol}: no ruler reads {mm} mm"
+            near = max(read_to(row), reading.get(carried.get(symbol, ""), 0.0))  # a reaction is read as its action is
+            if symbol in values and abs(abs(value(printed)) - abs(values[symbol])) > near + 1e-9:
                 yield f"{symbol}: {printed} is not {values[symbol]}"
             numbers_of(" ".join(row), lang)
 

@@ -1,6 +1,6 @@
 """The reader of drawn sheets: an SVG parsed with lxml, y turned up, lengths in mm; it imports nothing that draws.
 
-The boxes of letters are measured with fontTools on the glyphs that the SVG names, not with the layout that placed them.
+The boxes of letters are measured with fontTools on the fonts that the SVG embeds, not with the layout that placed them.
 """
 
 from __future__ import annotations
@@ -8,18 +8,18 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import shapely
 from lxml import etree
 
-from kulman.tests.support.glyphs import Box, advance, ink
+from kulman.tests.support.glyphs import Box, Lettering, advance, ink
 
 SVG = "{http://www.w3.org/2000/svg}"
-CAP = 0.729  # cap height of DejaVu Sans in ems
 MARKED = ("pair", "pivot", "centre", "point")  # groups whose circle is a point
+APART = 30.0  # mm between pieces of a line that is broken at a letter
 Path = tuple[tuple[str, str], ...]
 Rules = tuple[tuple[complex, complex], ...]
 
@@ -76,9 +76,17 @@ class Vec:
 
 @dataclass(frozen=True)
 class Arrow:
+    """An arrow as it is drawn; `aside` is by how much it stands beside its own line, to which a thin line leads."""
+
     name: str
     tail: complex
     tip: complex
+    aside: complex = 0j
+
+    @property
+    def on(self) -> complex:
+        """A place on the line of the force."""
+        return self.tail - self.aside
 
     @property
     def unit(self) -> complex:
@@ -90,7 +98,9 @@ class Run:
     at: complex
     size: float
     string: str
-    box: Box
+    corners: tuple[complex, ...]  # of its ink
+    advance: float  # mm
+    cap: float  # mm, the height of its capitals
 
 
 @dataclass(frozen=True)
@@ -104,26 +114,83 @@ class Text:
     string: str
     path: Path
     turned: bool
+    of: tuple[complex, ...] = ()  # the node, or the ends of the line, that it letters
+
+    @property
+    def corners(self) -> list[complex]:
+        """Corners of its runs and of the ink of its rules."""
+        rules = [end + half for rule in self.rules for end in rule for half in (-0.1j, 0.1j)]
+        return [*(corner for run in self.runs for corner in run.corners), *rules]
 
     @property
     def box(self) -> Box:
-        boxes = [run.box for run in self.runs]
-        boxes += [(min(a.real, b.real), a.imag - 0.1, max(a.real, b.real), a.imag + 0.1) for a, b in self.rules]
-        x0, y0, x1, y1 = zip(*boxes, strict=True)
-        return min(x0), min(y0), max(x1), max(y1)
+        xs, ys = [p.real for p in self.corners], [p.imag for p in self.corners]
+        return min(xs), min(ys), max(xs), max(ys)
+
+    @property
+    def area(self) -> shapely.Geometry:
+        """Its box, turned with it."""
+        if not self.turned:
+            return shapely.box(*self.box)
+        return shapely.MultiPoint([(p.real, p.imag) for p in self.corners]).convex_hull
 
     @property
     def baseline(self) -> float:
         return max(self.runs, key=lambda run: run.size).at.imag
 
 
+def joined(strokes: Iterable[Stroke]) -> list[Stroke]:
+    """Strokes, pieces in a row of one line or arc with a name, at most so many mm apart, as the whole of it."""
+    wholes: list[Stroke] = []
+    for stroke in strokes:
+        before = wholes[-1] if wholes else stroke
+        alike = replace(before, points=stroke.points, arc=stroke.arc) == stroke and (stroke.name or stroke.path)
+        apart = 0.01 < abs(stroke.points[0] - before.points[-1]) < APART
+        if wholes and alike and apart and (stroke.arc is None) == (before.arc is None) and _in_line(before, stroke):
+            arc = stroke.arc and (*stroke.arc[:2], _swept(before, stroke))
+            wholes[-1] = replace(
+                before, points=(*before.points, *stroke.points) if arc else _ends(before, stroke), arc=arc
+            )
+        else:
+            wholes.append(stroke)
+    return wholes
+
+
+def _ends(first: Stroke, last: Stroke) -> tuple[complex, complex]:
+    return first.points[0], last.points[-1]
+
+
+def _in_line(first: Stroke, second: Stroke) -> bool:
+    """Whether the second stroke goes on where the first ends."""
+    if first.arc and second.arc:
+        same = abs(first.arc[0] - second.arc[0]) < 0.01 and abs(first.arc[1] - second.arc[1]) < 0.01
+        return same and first.arc[2] * second.arc[2] > 0
+    if len(first.points) != 2 or len(second.points) != 2:
+        return False
+    way = first.points[1] - first.points[0]
+    on = [(end - first.points[0]) / way for end in second.points]
+    return 1.0 < on[0].real < on[1].real and all(abs(at.imag * way) < 0.02 for at in on)
+
+
+def _swept(first: Stroke, last: Stroke) -> float:
+    assert first.arc is not None
+    assert last.arc is not None
+    centre, _, sweep = first.arc
+    gap = cmath.phase((last.points[0] - centre) / (first.points[-1] - centre))
+    return sweep + gap + last.arc[2]
+
+
 @dataclass
 class View:
-    """All that stands in one group: a view, or what is outside of all views (frame and title block)."""
+    """All that stands in one group: a view, or what is outside of all views (frame and title block).
+
+    Of a line that is broken at letters the whole is in `strokes`, what is drawn of it in `pieces`.
+    """
 
     name: str
     page: int
     strokes: list[Stroke] = field(default_factory=list)
+    pieces: list[Stroke] = field(default_factory=list)
     rings: list[Ring] = field(default_factory=list)
     tips: list[Tip] = field(default_factory=list)
     vectors: list[Vec] = field(default_factory=list)
@@ -151,6 +218,11 @@ class View:
 
     def marked(self, name: str) -> list[Ring]:
         return [ring for ring in self.rings if any(k in MARKED and n == name for k, n in ring.path)]
+
+    @property
+    def nodes(self) -> list[Ring]:
+        """Circles of joints, centres of mass, points of loads, ends of vectors; in a group of points the innermost."""
+        return [ring for ring in self.rings if ring.path and ring.path[-1][0] in MARKED]
 
     def point(self, name: str) -> complex:
         """Centre of the circle in the group (pair, pivot, centre, point) called `name`."""
@@ -233,7 +305,7 @@ def _page(number: int, svg: str | bytes) -> Page:
     root = etree.fromstring(svg.encode() if isinstance(svg, str) else svg)
     _, _, width, height = map(float, root.get("viewBox").split())
     views: dict[str, View] = {}
-    rest, reader = View("", number), _Reader(height)
+    rest, reader = View("", number), _Reader(height, Lettering(root))
     layers = [child for child in root if child.get("class") == "layer"]
     layers.sort(key=lambda layer: layer.get("id") != "layer-given")  # there every view has its heading
     for child in (*(child for layer in layers for child in layer), *(child for child in root if child not in layers)):
@@ -242,7 +314,20 @@ def _page(number: int, svg: str | bytes) -> Page:
             reader.inside(child, views.setdefault(name, View(name, number)), ())
         else:
             reader.element(child, rest, ())
-    return Page(width, height, root, list(views.values()), rest)
+    page = Page(width, height, root, list(views.values()), rest)
+    for view in page.all:
+        view.pieces, view.strokes = view.strokes, joined(view.strokes)
+        view.arrows = [_beside(view, arrow) for arrow in view.arrows]
+    return page
+
+
+def _beside(view: View, arrow: Arrow) -> Arrow:
+    """An arrow with what the line says that leads from its point to its end, where it stands beside its own line."""
+    for line in view.lines("extension", arrow.name):
+        lead = line.points[-1] - line.points[0]
+        if min(abs(line.points[-1] - end) for end in (arrow.tail, arrow.tip)) < 0.01:
+            return replace(arrow, aside=1j * arrow.unit * (lead / arrow.unit).imag)
+    return arrow
 
 
 @dataclass(frozen=True)
@@ -250,6 +335,7 @@ class _Reader:
     """Reads elements of a page of this height into views; `path` are classes and names of the groups around them."""
 
     height: float
+    lettering: Lettering
 
     def inside(self, group: etree._Element, view: View, path: Path) -> None:
         for child in group:
@@ -260,7 +346,7 @@ class _Reader:
         if kind == "g":
             self.group(e, view, path)
         elif kind == "text":
-            view.texts.append(self.text([e], (), role, name, path))
+            view.texts.append(self.text(e, [e], (), path))
         elif kind == "circle":
             width, fill = float(e.get("stroke-width", "0")), e.get("fill", "")
             view.rings.append(Ring(self.at(e.get("cx"), e.get("cy")), float(e.get("r")), width, fill, path))
@@ -278,7 +364,7 @@ class _Reader:
             view.insets.append(View(name, view.page))
             self.inside(e, view.insets[-1], ())
         elif texts and runs and len(texts) + len(lines) == len(e) and role not in ("table", "text"):
-            view.texts.append(self.text(texts, tuple(map(self.ends, lines)), role, name, path))
+            view.texts.append(self.text(e, texts, tuple(map(self.ends, lines)), path))
         else:
             if role == "vector":
                 facts = float(e.get("data-value")), e.get("data-unit"), float(e.get("data-mu"))
@@ -323,27 +409,34 @@ class _Reader:
             total += sweep
         return tuple(points), (centre, radius, total)
 
-    def text(self, texts: Sequence[etree._Element], rules: Rules, role: str, name: str, path: Path) -> Text:
+    def text(self, owner: etree._Element, texts: Sequence[etree._Element], rules: Rules, path: Path) -> Text:
         runs = []
         for e in texts:
             at, size, string = self.at(e.get("x"), e.get("y")), float(e.get("font-size")), e.text or ""
-            runs.append(Run(at, size, string, ink(string, at, size, e.get("transform"), self.height)))
-        role, name = (role, name) if role else (texts[0].get("class", ""), texts[0].get("data-name", ""))
-        turned = any(e.get("transform") for e in texts)
-        return Text(role, name, tuple(runs), rules, _joined(runs), path, turned)
+            faces = self.lettering.of(e)
+            corners = ink(string, faces, at, size, e.get("transform"), self.height)
+            runs.append(Run(at, size, string, corners, advance(string, faces) * size, faces[0].cap * size))
+        turn = re.match(r"rotate\((-?[\d.]+)", texts[0].get("transform") or "")
+        level = cmath.rect(1.0, math.radians(float(turn[1]))) if turn else 1.0
+        e = owner if owner.get("class") else texts[0]
+        of, turned = self.places(e.get("data-of", "")), any(t.get("transform") for t in texts)
+        return Text(
+            e.get("class", ""), e.get("data-name", ""), tuple(runs), rules, _joined(runs, level), path, turned, of
+        )
 
 
-def _joined(runs: Sequence[Run]) -> str:
-    """Write the runs as one line, the small ones as scripts."""
+def _joined(runs: Sequence[Run], level: complex = 1.0) -> str:
+    """Write the runs as one line, the small ones as scripts; `level` turns a turned text back."""
     main = max(run.size for run in runs)
-    (base, *_) = [run.at.imag for run in runs if run.size == main]
-    out, end = "", runs[0].at.real
+    (base, *_) = [(run.at * level).imag for run in runs if run.size == main]
+    out, end = "", (runs[0].at * level).real
     for run in runs:
-        script = "" if run.size > 0.9 * main else "_" if run.at.imag < base else "^"
-        if not script and out and run.at.real - end > 0.2 * main:
+        at = run.at * level
+        script = "" if run.size > 0.9 * main else "_" if at.imag < base else "^"
+        if not script and out and at.real - end > 0.2 * main:
             out += " "
         out += f"{script}{{{run.string}}}" if script else run.string
-        end = run.at.real + advance(run.string) * run.size
+        end = at.real + run.advance
     return out
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 
+from kulman.tests.sheets.judge import overlaps
 from kulman.tests.support import linkage_points
-from kulman.tests.support.overlaps import overlaps
-from kulman.tests.support.printed_numbers import lines_of, numbers_of, table
+from kulman.tests.support.printed_numbers import lines_of, numbers_of, shows, table
 from kulman.tests.support.readback import Arrow, Sheet, Stroke, View, angle, cross, parallel
 from kulman.tests.support.sheet_cases import Case
 from kulman.tests.support.sheet_geometry import NEAR, along, on, past, same, unless
@@ -47,7 +47,7 @@ def _angle(case: Case, view: View, o: complex) -> Faults:
     phi = math.degrees(case.given("phi")) % 360
     (text,) = [t.string for t in view.of("label") if t.string.startswith("φ")]
     yield from unless(abs(numbers_of(text, case.lang)[0] - phi) < 1e-6, f"phi is printed as {text}")
-    arcs = [s for s in view.inside("dimension", "phi") if s.arc]
+    arcs = [s for s in view.inside("dimension", "phi") if s.arc and s.role != "tail"]
     if phi > 5:
         (arc,) = arcs
         assert arc.arc is not None
@@ -111,7 +111,7 @@ def l7_carried_vectors(case: Case, sheet: Sheet) -> Faults:
         arrow = view.arrow(vector)
         about = turning is not None and any(same(turning[0], joint, 0.02) for joint in (a, b))
         yield from unless(about, f"{arc} is not an arc about a joint of link 2")
-        yield from unless(parallel(arrow.tip - arrow.tail, carried.span, 0.05), f"{vector} at B is not parallel")
+        yield from unless(parallel(arrow.tip - arrow.on, carried.span, 0.05), f"{vector} at B is not parallel")
         yield from unless(same(arrow.tail, b), f"{vector} is not carried to B")
         sense = math.copysign(1.0, cross(b - a, carried.span))
         yield from unless(turning is not None and turning[1] == sense, f"{arc} turns against {vector}")
@@ -140,7 +140,7 @@ def l8_group_apart(case: Case, sheet: Sheet) -> Faults:
         side = sheet["forces_23"].vector(arrow.name)
         yield from unless(abs(cross(arrow.unit, side.span)) < 0.02, f"{arrow.name} is not parallel to its side")
         at = {"F_i2": view.point("S2"), "R_12_n": a, "R_12_t": a}.get(arrow.name, b)
-        yield from unless(abs(cross(arrow.unit, at - arrow.tail)) < NEAR, f"{arrow.name} misses its point")
+        yield from unless(abs(cross(arrow.unit, at - arrow.on)) < NEAR, f"{arrow.name} misses its point")
     for name, line in zip(REACTIONS, ((b - a) / abs(b - a), (b - a) / abs(b - a) * 1j, 1j), strict=True):
         across = abs(cross(sheet["forces_23"].vector(name).span, line))
         yield from unless(across < NEAR, f"{name} has another line")
@@ -155,11 +155,14 @@ def l9_arms(case: Case, sheet: Sheet) -> Faults:
     for name, arm, force, about in (("group_23", "h_2", "F_i2", "B"), ("driver", "h_21", "R_21", "O")):
         view = sheet[name]
         arrow, centre = view.arrow(force), view.point(about)
-        foot = arrow.tail + arrow.unit * ((centre - arrow.tail) / arrow.unit).real
+        foot = arrow.on + arrow.unit * ((centre - arrow.on) / arrow.unit).real
         reach = abs(foot - centre)
         lines = [s for s in view.strokes if any(k == "arm" for k, _ in s.path) and s.role == "thin"]
-        drawn = any(same(s.points[0], centre) and same(s.points[1], foot) for s in lines)
-        yield from unless(reach < 0.05 or drawn, f"{arm} is not the perpendicular to the line of {force}")
+        extended = [s for s in view.lines("extension") if s.name.startswith("h_")]
+        starts = [centre, *(a for s in extended for a in _on(s.points, centre, arrow.unit, lines))]
+        drawn = [s for s in lines for a in starts if same(s.points[0], a) and same(s.points[1], foot + a - centre)]
+        yield from unless(reach < 0.05 or bool(drawn), f"{arm} is not the perpendicular to the line of {force}")
+        foot = drawn[0].points[1] if drawn else foot
         marks = [m for m in view.lines("right-angle") if any(same(p, foot, 3.0) for p in m.points)]
         yield from unless(reach < 4.0 or bool(marks), f"{arm} has no right-angle mark")
         extension = [s.points for s in view.lines("line-of-action")]
@@ -193,18 +196,18 @@ def l11_driver(case: Case, sheet: Sheet) -> Faults:
     arrow, o = view.arrow("R_21"), view.point("O")
     # the driver may be drawn larger than the mechanism, to a scale factor of its own
     (mu,) = numbers_of(_heading(view, "μ_{l}") or _heading(view, "μ_{l1}"), case.lang)
-    moment = cross(arrow.tail - o, arrow.unit) * mu * abs(r21.span) * r21.mu
+    moment = cross(arrow.on - o, arrow.unit) * mu * abs(r21.span) * r21.mu
     yield from unless(same(view.point("A"), arrow.tail) or same(view.point("A"), arrow.tip), "R_21 is not at A")
     reaction = view.arrow("R_01")
     yield from unless(
-        parallel(reaction.unit, -arrow.unit) and abs(cross(reaction.unit, o - reaction.tail)) < NEAR, "R_01"
+        parallel(reaction.unit, -arrow.unit) and abs(cross(reaction.unit, o - reaction.on)) < NEAR, "R_01"
     )
     turning = view.turning("M_bal")
     rows = {row[0]: row for row in table(sheet["results_forces"])}
     (printed,) = [row for name, row in rows.items() if name.startswith("M_{") and name not in ("M_{i2}", "M_{03}")]
     (value,) = numbers_of(printed[3], case.lang)
     yield from unless(abs(abs(value) - abs(moment)) <= 1e-3 * abs(moment) + 5e-4, f"M_bal {value}, measured {moment}")
-    if abs(cross(arrow.tail - o, arrow.unit)) > 0.01:
+    if abs(cross(arrow.on - o, arrow.unit)) > 0.01:
         against = -math.copysign(1.0, moment)
         yield from unless(turning is not None and turning[1] == against, "M_bal does not oppose R_21")
         words = " ".join(t.string for t in sheet["equations_forces"].of("line"))
@@ -223,7 +226,7 @@ def l12_lever(case: Case, sheet: Sheet) -> Faults:
     yield from unless({a.name for a in view.arrows} <= set(wanted), "a reaction hangs on the lever")
     for arrow in view.arrows:
         at = view.point(f"lever.{wanted[arrow.name]}")
-        yield from unless(abs(cross(arrow.unit, at - arrow.tail)) < NEAR, f"{arrow.name} does not hang at its image")
+        yield from unless(abs(cross(arrow.unit, at - arrow.on)) < NEAR, f"{arrow.name} does not hang at its image")
         if arrow.name in ("F_i2", "F_i3", "F_3"):
             yield from unless(parallel(arrow.unit, group.arrow(arrow.name).unit), f"{arrow.name} is turned")
         if "couple" in arrow.name:
@@ -237,23 +240,39 @@ def l12_lever(case: Case, sheet: Sheet) -> Faults:
         yield from unless(moment is not None and sense == moment[1], "the couple turns against M_i2")
     for arrow in view.arrows:
         if arrow.name != "_F_bal":
-            yield from _lever_arm(case, view, arrow, p)
+            yield from _lever_arm(case, sheet, arrow, p)
+    own = [part for part in _written(view) if part.strip().startswith("pa =")]
+    printed = [h for part in own for h in numbers_of(part, case.lang)]
+    drawn = any(shows(h, abs(view.point("lever.A") - p), NEAR) for h in printed)
+    yield from unless(drawn, "the arm pa of the balancing force is not printed as it is drawn")
     yield from _lever_sum(case, sheet, view, p)
 
 
-def _lever_arm(case: Case, view: View, arrow: Arrow, p: complex) -> Faults:
-    """An arm runs from p, or, as a dimension, from a line that extends p along the force."""
-    foot = arrow.tail + arrow.unit * ((p - arrow.tail) / arrow.unit).real
+def _lever_arm(case: Case, sheet: Sheet, arrow: Arrow, p: complex) -> Faults:
+    """An arm runs from p, or, as a dimension, from a line that extends p along the force; its mm are in the table.
+
+    Its letter stands on the lever, with these mm where there are few arms.
+    """
+    view = sheet["lever"]
+    foot = arrow.on + arrow.unit * ((p - arrow.on) / arrow.unit).real
     if abs(foot - p) < 0.05:
         return
     arms = [s for s in view.strokes if any(k == "arm" for k, _ in s.path) and s.role == "thin"]
     starts = [p, *(a for s in view.lines("extension") for a in _on(s.points, p, arrow.unit, arms))]
     drawn = [s for s in arms for a in starts if same(s.points[0], a) and same(s.points[1], foot + a - p)]
     yield from unless(bool(drawn), f"{arrow.name} has no arm")
-    written = [part for place in ("label", "heading") for t in view.of(place) for part in t.string.split(";")]
-    own = [part for part in written if ARMS[arrow.name] in part and "=" in part]
-    printed = [h for part in own for h in numbers_of(part.rpartition("=")[2], case.lang)[:1]]
-    yield from unless(any(abs(h - abs(foot - p)) < NEAR for h in printed), f"the mm of {arrow.name} are not printed")
+    own = [part for part in _written(view) if ARMS[arrow.name] in part]
+    yield from unless(bool(own), f"the arm of {arrow.name} has no letter")
+    rows = [row[3] for row in table(sheet["results_lever"]) if row[2] == ARMS[arrow.name]]
+    said = [part.rpartition("=")[2] for part in own if "=" in part and part.rpartition("=")[2].strip()[:1].isdigit()]
+    printed = [h for part in (*rows, *said) for h in numbers_of(part, case.lang)[:1]]
+    right = [shows(h, abs(foot - p), NEAR) for h in printed]
+    yield from unless(bool(rows) and all(right), f"the mm of {arrow.name} are not printed")
+
+
+def _written(view: View) -> list[str]:
+    """What letters and notes of a view say, each by itself."""
+    return [part for place in ("label", "heading") for t in view.of(place) for part in t.string.split(";")]
 
 
 def _on(extension: tuple[complex, ...], p: complex, along: complex, arms: list[Stroke]) -> Iterator[complex]:
@@ -266,8 +285,8 @@ def _on(extension: tuple[complex, ...], p: complex, along: complex, arms: list[S
 
 def _lever_sum(case: Case, sheet: Sheet, view: View, p: complex) -> Faults:
     """The signs of the printed sum are those of the moments as drawn, and F h with these signs adds up to zero."""
-    signs = {a.name: math.copysign(1.0, cross(a.tail - p, a.unit)) for a in view.arrows}
-    sizes = {a.name: abs(cross(a.tail - p, a.unit)) for a in view.arrows}
+    signs = {a.name: math.copysign(1.0, cross(a.on - p, a.unit)) for a in view.arrows}
+    sizes = {a.name: abs(cross(a.on - p, a.unit)) for a in view.arrows}
     (line,) = [t for t in lines_of(sheet["equations_lever"]) if t.startswith("ΣM")]
     terms = line.partition("0:")[2].rpartition("=")[0].replace("− ", "−").replace("+ ", "+").split()
     printed = {ON_LEVER.get(t.lstrip("+−").partition("·")[0], "_F_bal"): -1.0 if t[0] == "−" else 1.0 for t in terms}

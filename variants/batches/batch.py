@@ -215,7 +215,7 @@ class Making:
     def _files(self, work: _Work, case: Case, drawn: Sheet, kind: str, stem: str) -> Iterator[tuple[str, bytes]]:
         """Go through the files of one kind: their names and what they hold."""
         if kind in NOTES:
-            block = {name: text for name, text in case.block.items() if name != "designation"}
+            block = {name: text for name, text in case.block.items() if name not in ("designation", "work")}
             document = Document(title_page(replace(case, block=block)), work.body, case.language)
             data = pdf_bytes(document, work.written) if kind == NOTE else docx_bytes(document, work.drawings)
             yield f"{stem}-note{NOTES[kind]}", data
@@ -299,6 +299,7 @@ def batch(
     scales: Settings | None = None,
     format: str | None = None,
     norm: Norm = "gost",
+    lettering: str = "gost",
     notation: str | None = None,
     lang: str = "uk",
     block: Mapping[str, str] | None = None,
@@ -316,7 +317,7 @@ def batch(
     ----------
     task : str, PathLike, Task, or several of them
         Of several the first is scheme 1; one may stand there more than once.
-    set, only, scales, format, norm, notation, lang
+    set, only, scales, format, norm, lettering, notation, lang
         As for `sheet`; what the roster says of a student goes before `set`.
     roster : str or PathLike
         A .csv or .xlsx with a student in each row: name, group, variant or record book, givens of one's own; of several
@@ -329,7 +330,7 @@ def batch(
         How many last digits of the record book give the variant, where the roster has none; or what each of them is
         for, from left to right: `"variant,scheme"`, which is usual for several tasks.
     block : mapping of str to str, optional
-        What is said in every title block: `teacher`, `department`, `designation`, `date`.
+        What is said in every title block: `teacher`, `department`, `designation`, `work`, `date`.
     jobs : int, optional
         Processes; as many as there are cores when left out. With 1 all is done in this one, and dies with it.
     dask : str, optional
@@ -345,7 +346,7 @@ def batch(
     tasks = _tasks(task)
     all_known("batch-kind", kinds, FORMS)
     wanted, block = only if only is None or isinstance(only, str) else tuple(only), dict(block or {})
-    how = by_name("set", set), wanted, by_name("scales", scales), notation, lang, format, norm, block
+    how = by_name("set", set), wanted, by_name("scales", scales), notation, lang, format, norm, block, lettering
     once = _once(tasks)
     making = Making({one.id: _asked_of(Request(one, None, *how)) for one in once}, tuple(dict.fromkeys(kinds)))
     usual = VARIANT if len(tasks) == 1 else f"{VARIANT},{SCHEME}"

@@ -43,7 +43,9 @@ def _cycle_of(name: str, scene: Scene) -> Cycle:
     """Return the cycle with the plans of the case: that of so many positions is looked at once for all charts."""
     case, count = scene.case, scene.positions or POSITIONS[name]
     if count not in scene.cycles:
-        plans = (plan for plan in with_needs((*case.plans, "position"), NEEDS) if plan not in ("cycle", "compound"))
+        plans = (
+            plan for plan in with_needs((*case.plans, "position"), NEEDS) if plan not in ("cycle", "compound", "dead")
+        )
         values = case.values
         scene.cycles[count] = cycle(case.task.mechanism, values, tuple(plans), count)
         if not scene.cycles[count].reach.stretches:

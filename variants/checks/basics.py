@@ -274,11 +274,11 @@ def label(raw: object) -> str:
 
 
 @trying
-def link_number(raw: object) -> int:
-    """Read the number of a link, 0 for the frame."""
+def whole_number(raw: object) -> int:
+    """Read a whole number from 0 to 99: of a link, where 0 is the frame, or of a task."""
     if isinstance(raw, int) and not isinstance(raw, bool) and 0 <= raw < 100:
         return raw
-    raise InputError("type-link-number")
+    raise InputError("type-whole-number")
 
 
 def array_of(read: Read, length: int | None = None) -> Read:

@@ -14,7 +14,7 @@ from ...scales.givens import Bound
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import ONE, unit
-from .basics import Checker, Field, Path, array_of, as_is, link_number, name, one_of, record, record_of, rows
+from .basics import Checker, Field, Path, array_of, as_is, name, one_of, record, record_of, rows, whole_number
 from .names import Names
 
 _RAD, _RAD_S, _RAD_S2 = unit("rad"), unit("rad/s"), unit("rad/s^2")
@@ -45,15 +45,15 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> model.Mechani
     before, value = len(checker.faults), names.value
     driver = raw.get("driver") if isinstance(raw, dict) else None
     slides = isinstance(driver, dict) and "travel" in driver
-    legs = array_of(link_number, 2)
-    loaded = _must(name=name, link=link_number)
+    legs = array_of(whole_number, 2)
+    loaded = _must(name=name, link=whole_number)
 
     def named(make: Callable[..., Any]) -> Callable[..., Any]:
         """Make a load; a literal magnitude is called like it."""
         return lambda **read: make(**{**read, "magnitude": names.called(read["name"], read["magnitude"])})
 
     made: dict[str, tuple[Callable[..., Any], Fields]] = {
-        "stroke": (model.Stroke, _must(link=link_number) | _may(sense=names.sign)),
+        "stroke": (model.Stroke, _must(link=whole_number) | _may(sense=names.sign)),
         # without a direction or a sense it resists the motion of its point, the turning of its link
         "load": (
             named(model.Load),
@@ -66,7 +66,7 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> model.Mechani
         # the driver stands at an angle, or at its travel where it slides
         "start": (
             model.Start,
-            _must(link=link_number, x=value(_M), y=value(_M), angle=value(_RAD), driver=value(_M if slides else _RAD))
+            _must(link=whole_number, x=value(_M), y=value(_M), angle=value(_RAD), driver=value(_M if slides else _RAD))
             | _may(legs=legs),
         ),
     }
@@ -111,7 +111,7 @@ def _link(checker: Checker, path: Path, raw: object, names: Names) -> model.Link
                 names.bounds.update((model.positive(length), Bound.POSITIVE) for length in at)
         return None if None in letters or None in lettered.values() else names.on_axis(lettered)
 
-    fields = _must(number=link_number, points=points) | _may(
+    fields = _must(number=whole_number, points=points) | _may(
         centre=name, mass=names.value(_KG), inertia=names.value(_KG_M2),
         per_length=names.above_zero(_KG_M), inertia_factor=names.above_zero(ONE),
     )  # fmt: skip
@@ -146,7 +146,7 @@ def _pair(checker: Checker, path: Path, raw: object, names: Names) -> model.Pair
         checker.fault((*path, "kind"), InputError("pair-kind", text=quote(kind), known=", ".join(kinds)))
         return None
     pair, own = kinds[kind]
-    fields = _must(kind=as_is, point=name, links=array_of(link_number, 2)) | own | _may(branch=names.sign)
+    fields = _must(kind=as_is, point=name, links=array_of(whole_number, 2)) | own | _may(branch=names.sign)
     return record_of(checker, path, raw, fields, lambda kind, **read: pair(**read))
 
 
@@ -156,7 +156,7 @@ def _driver(checker: Checker, path: Path, raw: object, names: Names) -> model.Dr
         checker.fault(path, InputError("driver-twice"))
         return None
     before, value = len(checker.faults), names.value
-    fields = _must(link=link_number, point=name)
+    fields = _must(link=whole_number, point=name)
     slides = isinstance(raw, dict) and "travel" in raw
     if slides:
         fields |= _must(travel=value(_M), speed=value(_M_S)) | _may(acceleration=value(_M_S2))

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from ...scales.choices import SIZES
+from ...scales.choices import LETTERINGS, SIZES
 from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
 from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 CLOSED = 1
 LONGEST = 10_000  # characters of a word of the command line: longer is no name, number or path
 # what the title blocks of a class have in common, but for the group that the roster says
-BLOCK = ("group", "teacher", "department", "designation", "date")
+BLOCK = ("group", "teacher", "department", "designation", "work", "date")
 VARIANTS = (__package__ or "").rpartition(".")[0]
 Command = TypeVar("Command", bound=Callable[..., Any])
 if TYPE_CHECKING:
@@ -239,8 +239,9 @@ _about_task: tuple[Any, ...] = (
 )
 of_task = _stacked(click.argument("task"), *_about_task)
 of_tasks = _stacked(click.argument("tasks", metavar="TASK...", nargs=-1, required=True), *_about_task)
-of_norm = click.option(
-    "--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block."
+of_norm = _stacked(
+    click.option("--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block."),
+    click.option("--lettering", type=Word(*LETTERINGS), default=LETTERINGS[0], show_default=True, help="Its letters."),
 )
 tiled = click.option("--tile", type=Word("A4", "A3"), help="Cut a PDF into pages of this format for a small printer.")
 
@@ -293,8 +294,12 @@ def processes(ctx: click.Context, param: click.Parameter, value: str | None) -> 
 
 def titled(*names: str) -> Callable[[Command], Command]:
     """Return what adds `names`, which a title block or a title page says."""
-    none = {"date": "; none is invented"}
-    return _stacked(*(click.option(f"--{name}", help=f"For the title block{none.get(name, '')}.") for name in names))
+    more = {
+        "date": "; none is invented",
+        "designation": "; without it ТММ, task, variant, sheet: ТММ.14.03.001",
+        "work": ": КР, КП, ...; without it РГР",
+    }
+    return _stacked(*(click.option(f"--{name}", help=f"For the title block{more.get(name, '')}.") for name in names))
 
 
 def without_none(options: Mapping[str, Any]) -> dict[str, Any]:

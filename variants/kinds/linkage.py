@@ -30,6 +30,7 @@ from ..task import Given, Task
 if TYPE_CHECKING:
     from ...drawing.compose import Drawn
     from ...drawing.formats import Format, Norm
+    from ...drawing.handouts import Shown
     from ...drawing.linkages.scene import Scene
     from ...drawing.notes.blocks import Story
     from ...drawing.words import Words
@@ -49,7 +50,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
     """Linkages of any structure that the plans know."""
 
     table, room, plans, moves = "mechanism", "linkages", PLANS, False
-    elsewhere: ClassVar[Mapping[str, str]] = {"first_scales": "ladders", "conditions_of": "solved", "begun": "steps"}
+    elsewhere: ClassVar[Mapping[str, str]] = {"first_scales": "ladders", "conditions_of": "solved"}
     form_notes: ClassVar[Mapping[str, str]] = {"lever": "arms"}  # how arms on the lever are written
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Mechanism | None:
@@ -165,8 +166,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             whole = cycle(case.task.mechanism, values, ("position", "velocity", "acceleration"))
         solved = placed(case)
         plans = case.plans if solved is case.solved else (*case.plans, POSITION)
-        note = case.task.note_in(words.language)
-        contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole, note=note)
+        contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole, _dead(case))
         return draw(contents, paper)
 
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
@@ -174,6 +174,12 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         from ...drawing.linkages.steps import story
 
         return story(self.scene(case, scales, words), texts)
+
+    def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
+        """Return what is drawn of the plans after their first steps."""
+        from ...drawing.linkages.steps import begun
+
+        return begun(self.scene(case, scales, words), steps, case.plans)
 
     def scene(self, case: Case, scales: Scales, words: Words) -> Scene:
         """Return what is drawn with its letters and scale factors."""
@@ -274,6 +280,18 @@ def _hindered(mechanism: Mechanism, values: Mapping[str, float], lined: bool = F
 def _short(value: float) -> str:
     """Return a number with three digits, a large one with a power of ten."""
     return f"{float(f'{value:.3g}'):g}" if value < 1e6 else f"{value:.1e}".replace("e+0", "e").replace("e+", "e")
+
+
+def _dead(case: Case) -> tuple[SolvedLinkage, ...]:
+    """Return the mechanism where its working stroke begins and ends, if the task wants it."""
+    if "dead" not in case.plans:
+        return ()
+    from ...plans.linkages.limits import swept  # drawing a single position does not import them
+    from ...plans.linkages.strokes import working_stroke
+
+    drive, ends = swept(case.task.mechanism, case.values), working_stroke(case.task.mechanism, case.values)
+    places = ({**case.values, drive.variable: place} for place in ends)
+    return tuple(solve_linkage(drive.mechanism, values, (POSITION,)) for values in places)
 
 
 def _short_vectors(case: Case) -> set[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import tomllib
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
@@ -232,9 +232,12 @@ def sections(solution: Solution, questions: Iterable[Question], words: Words) ->
         by_key.setdefault(current, []).append(question)
     found, taken = [], set[str]()
     for key, own in by_key.items():
-        plans = (question.plan for question in own if drawn(question))
-        symbols = dict.fromkeys(solved.scale_of_plan[plan] for plan in plans if plan in solved.scale_of_plan)
-        fresh = tuple(symbol for symbol in symbols if symbol not in taken and symbol not in solution)
+        measured = [question for question in own if drawn(question)]
+        symbols = [solved.scale_of_plan[q.plan] for q in measured if q.plan in solved.scale_of_plan]
+        # the sheet may show them larger, at another one
+        shown = (solution.quantities[question.name].scale for question in measured)
+        symbols += [symbol for symbol in shown if symbol in solution.scales and symbol is not None]
+        fresh = tuple(symbol for symbol in dict.fromkeys(symbols) if symbol not in taken and symbol not in solution)
         taken.update(fresh)
         asked = tuple(question for question in own if kind.asks(solved, question))
         found.append(Section(kind.plan_heading(solved, key, words), fresh, tuple(own), asked))
@@ -311,9 +314,14 @@ class Keyed:
         """What every mistake would give: costs more than the key, and is needed where an answer is wrong."""
         return book(self.key)
 
-    def scale_of(self, name: str) -> str:
-        """Return the scale factor of the plan on which a quantity stands; nothing where there is none."""
-        question = self.key.questions.get(name)
+    def scale_of(self, name: str, written: Container[str] = ()) -> str:
+        """Return the scale factor of the plan on which a quantity stands; nothing where there is none.
+
+        Where that of the figure on which the sheet shows it is `written`, it is that.
+        """
+        question, item = self.key.questions.get(name), self.solution.quantities.get(name)
+        if item is not None and item.scale in written:
+            return item.scale or ""
         return "" if question is None else self.solution.solved.scale_of_plan.get(question.plan, "")
 
     @cached_property

@@ -59,7 +59,7 @@ def _misfits(answers: Answers, key: Keyed) -> Iterator[Misfit]:
     """
     by_symbol: dict[str, list[tuple[str, float, float]]] = {}
     for line in answers.lines.values():
-        symbol, mm = key.scale_of(line.name), line.mm or 0.0
+        symbol, mm = key.scale_of(line.name, answers.scales), line.mm or 0.0
         if symbol in answers.scales and line.factor is None and mm >= SHORT and line.value:
             by_symbol.setdefault(symbol, []).append((line.name, mm, line.value))
     for symbol, lines in by_symbol.items():
@@ -255,7 +255,7 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
     given, notes = list[Answer](), list[KulmanError]()
     for line in answers.lines.values():
         if line.name in key.key.questions:
-            symbol, own = key.scale_of(line.name), line.factor
+            symbol, own = key.scale_of(line.name, answers.scales), line.factor
             written = own or answers.scales.get(symbol)
             mu = None if written is None else fits.get(symbol, written.value) if own is None else own.value
             elsewhere = own is None and _on_other_drawing(line, symbol, answers, key)

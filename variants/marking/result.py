@@ -205,7 +205,10 @@ def result_of(marked: Marked, language: str) -> Result:
     ours, answers = marked.marking.key.paper.mus, marked.answers
     mus = {**ours}  # the student's scale factors, in whichever convention they are meant; ours where none is written
     for name, line in answers.lines.items():
-        question, mu = key.key.questions.get(name), line.factor or answers.scales.get(key.scale_of(name))
+        question, mu = (
+            key.key.questions.get(name),
+            line.factor or answers.scales.get(key.scale_of(name, answers.scales)),
+        )
         if question is not None and mu is not None and question.plan in ours:
             mus[question.plan] = mu.nearest(ours[question.plan])
     segments = measured(answers, marked.marking.key, mus, follows)

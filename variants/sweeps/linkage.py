@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...drawing.linkages.sheet import Contents, draw
-from ...drawing.titleblock import Stamp
 from ...drawing.words import Words
 from ...drawing.writers import Files, page_files
 from ...plans.linkages.cycle import Curve, Cycle, Diagrams, cycle, diagrams
@@ -26,7 +25,7 @@ from ...scales.names import all_known, names_of, of_kind
 from ...scales.units import parse, unit
 from ..case import Case, positions_of
 from ..kinds.linkage import placed
-from ..sheets import Sheet, sheet_of
+from ..sheets import Sheet, sheet_of, stamp_of
 from ..tables import FILES, Result, Swept, aligned, ends_data
 from ..task import LocatedError, Task, plain_number
 
@@ -172,9 +171,8 @@ class Sweep(Swept):
         error = case.solved.error()
         if error is not None:
             raise error
-        title, kind = self.task.title[words.language], words["sheet.document"]
         contents = Contents(placed(case), ("cycle",), case.choosers, case.givens, words, "gost", self.cycle)
-        return sheet_of(case, draw(contents), Stamp(title=title, document_type=kind, language=words.language))
+        return sheet_of(case, draw(contents), replace(stamp_of(case), identity="", series=1))
 
     def __repr__(self) -> str:
         """Return task, variant and the number of positions."""

@@ -10,16 +10,31 @@ from typing import Any
 from ....plans.board import POSITION, Step
 from ....plans.laws import form_of
 from ....plans.linkages.compound import found_here
-from ....plans.linkages.legs import guide_letters
-from ....plans.linkages.mechanism import ZERO
+from ....plans.linkages.mechanism import ZERO, positive
 from ....plans.linkages.parts import SYMBOLS
 from ....plans.names import CORIOLIS, NORMAL, POLE, role, vector
-from ....plans.quantities import unit_of
+from ....plans.quantities import Quantity, unit_of
 from ....scales.scale import Scale
-from ...printed import POINT, Input, Symbol, calculation, ruler_decimals, value_text
+from ...printed import (
+    AS_TOLD,
+    DIGITS,
+    FEWEST,
+    POINT,
+    READABLE,
+    Input,
+    Symbol,
+    as_printed,
+    calculation,
+    laid_off,
+    number_of,
+    read_off,
+    ruler_decimals,
+    value_text,
+)
 from ...words import Words
+from ..figures.plan import enlarged
 from ..reading import Reading
-from ..scene import Scene
+from ..scene import Scene, line_of
 
 Lines = list[tuple[str, ...]]
 DIRECTIONS = ("direction", "turn", "normal", "incline", "decline")  # verbs that make them
@@ -28,13 +43,14 @@ TOLD = ["circular_speed", "centripetal", "circular_acceleration", "normal_part",
 TOLD += ["transport_speed", "transport_normal", "transport_tangential"]
 STAGES = {"V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 BEFORE_MEETING = ("normal_part", "coriolis")
+RATES = ("omega", "epsilon")
 
 
 @dataclass(frozen=True, slots=True)
 class Factor:
     """A factor of a product: its symbol, its size as it is printed, whether that is exact, its power 1, 2 or -1.
 
-    A segment of the sheet has at most `places` decimals.
+    A segment of the sheet has at most `places` decimals; a number that the sheet tells elsewhere is as `told`.
     """
 
     symbol: str
@@ -42,12 +58,27 @@ class Factor:
     exact: bool = False
     power: int = 1
     places: int | None = None
+    told: str = ""
 
     @property
     def letter(self) -> Symbol:
         """Its symbol in a formula: the exponent of a square stands over the letter, before its index."""
         base, underscore, index = self.symbol.partition("_")
         return Symbol.of(self.symbol, *((f"({self.symbol})",) if "^" in self.symbol else (base, underscore + index)))
+
+    @property
+    def input(self) -> Input:
+        """What goes into a calculation."""
+        return Input(self.value, self.exact, self.places, told=self.told)
+
+    @property
+    def printed(self) -> float:
+        """Its number as it is printed."""
+        return self.input.printed(AS_TOLD)
+
+    def text(self, words: Words) -> str:
+        """Return its number as it is printed."""
+        return self.input.text(words, AS_TOLD)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,32 +100,71 @@ class Product:
 
 
 def worked(
-    words: Words, head: str, products: Iterable[Product], unit: str, divisor: Product | None = None, turn: float = 1.0
+    words: Words,
+    head: str,
+    products: Iterable[Product],
+    unit: str,
+    divisor: Product | None = None,
+    *,
+    turn: float = 1.0,
+    wanted: int | None = None,
+    read: float | None = None,
 ) -> tuple[str, ...]:
-    """Return `head = formula = numbers = result unit` of a sum of products, all of them turned, perhaps divided."""
+    """Return `head = formula = numbers = result unit` of a sum of products, all of them turned, perhaps divided.
+
+    The result may be `AS_PRINTED`, or have the digits with which it is `read` off a plan.
+    """
     turned = (replace(product, sign=product.sign * turn) for product in products)
-    return _by_law(words, head, lambda *x: sum(x[1:]) / x[0], (divisor or Product(()), *turned), unit)
+    return _by_law(words, head, _quotient, (divisor or Product(()), *turned), unit, wanted, read)
+
+
+def _quotient(divisor: Any, *terms: Any) -> Any:
+    return sum(terms) / divisor
+
+
+def reckoned(products: Sequence[Product], divisor: Product | None = None) -> float:
+    """Return how large a sum of products, perhaps divided, is as its printed numbers give it."""
+    operands = (divisor or Product(()), *products)
+    return abs(as_printed(_of_factors(_quotient, operands), _inputs(operands)))
+
+
+def _inputs(operands: Sequence[Product]) -> list[Input]:
+    return [factor.input for product in operands for factor in product.factors]
+
+
+def _of_factors(law: Callable[..., Any], operands: Sequence[Product]) -> Callable[..., Any]:
+    """Return a law of products as one of all their factors."""
+
+    def found(*x: Any) -> Any:
+        rest = iter(x)
+        return law(*(operand.of([next(rest) for _ in operand.factors]) for operand in operands))
+
+    return found
 
 
 def _by_law(
-    words: Words, head: str, law: Callable[..., Any], operands: Sequence[Product], unit: str
+    words: Words,
+    head: str,
+    law: Callable[..., Any],
+    operands: Sequence[Product],
+    unit: str,
+    wanted: int | None = None,
+    read: float | None = None,
 ) -> tuple[str, ...]:
     """Return `head = formula = numbers = result unit` of a law of operands each of which is a product.
 
     The numbers are printed with as many digits as it takes for the result to come out to its last one.
     """
     factors = [factor for operand in operands for factor in operand.factors]
-
-    def found(*x: Any) -> Any:
-        rest = iter(x)
-        return law(*(operand.of([next(rest) for _ in operand.factors]) for operand in operands))
-
-    texts, result = calculation(words, found, [Input(factor.value, factor.exact, factor.places) for factor in factors])
+    found, inputs = _of_factors(law, operands), _inputs(operands)
+    if unit == words.display.paper:
+        wanted = ruler_decimals(words, found(*(factor.value for factor in factors)))
+    texts, result = calculation(words, found, inputs, wanted, read)
     formula, reckoned = found(*(factor.letter for factor in factors)).chunks, found(*map(Symbol.of, texts)).chunks
     formula[0] = f"{head} = {formula[0]}"
-    for chunks in (formula, reckoned):
-        chunks[-1] += " ="
-    return (*formula, *reckoned, f"{result} {words.unit(words.display.unit(unit))}".rstrip())
+    formula[-1] += " ="
+    reckoned[-1] += f" = {result} {words.unit(words.display.unit(unit))}".rstrip()  # no line breaks before the result
+    return (*formula, *reckoned)
 
 
 def operand(scene: Scene, name: str) -> Product:
@@ -116,7 +186,8 @@ def size_by_law(
         value = form_of(step.law)(*x)
         return value.size if isinstance(value, Symbol) else abs(value)
 
-    return _by_law(scene.words, head, size, [operand(scene, name) for name in step.operands], unit)
+    operands = [operand(scene, name) for name in step.operands]
+    return _by_law(scene.words, head, size, operands, unit, read=reading_of(scene, step.name))
 
 
 def distance(scene: Scene, start: str, end: str) -> Product:
@@ -143,16 +214,88 @@ def rate_of(scene: Scene, name: str) -> float:
 
 
 def factor(scene: Scene, name: str, power: int = 1) -> Factor:
-    """Return a value of the construction as a factor in the units shown; a given is exact."""
+    """Return a value of the construction as a factor in the units shown, without its sign; a given is exact."""
+    name = positive(name)
     words, plain = scene.words, role(name).shown
     value = words.display.value(size_of(scene, name), unit_of(plain))
-    return Factor(words.symbol(plain), value, is_given(scene, name), power)
+    item = scene.quantities.get(plain)
+    read = item is not None and (drawn_on(scene, item) in scene.scales or opposed(scene, plain) is not None)
+    told = printed_segment(scene, item)[-1] if read and item is not None and not is_given(scene, name) else ""
+    return Factor(words.symbol(plain), value, is_given(scene, name), power, told=told)
 
 
 def segment(scene: Scene, symbol: str, plan: str, size: float) -> Factor:
     """Return what a plan shows as a factor in the paper's unit, without its scale factor."""
     measured = scene.words.display.segment(size / scene.scales[plan].mu)
-    return Factor(symbol, measured, places=ruler_decimals(scene.words))
+    return Factor(symbol, measured, places=ruler_decimals(scene.words, measured))
+
+
+def value_shown(scene: Scene, q: Quantity) -> float:
+    """Return a result in the unit in which it is shown."""
+    turning = role(q.name).kind in RATES
+    return rate_of(scene, q.name) if turning else scene.words.display.value(q.value or 0.0, q.unit)
+
+
+def drawn_on(scene: Scene, q: Quantity) -> str:
+    """Return the plan or figure on which a result is a segment, or nothing."""
+    return POSITION if role(q.name).kind == "l" else scene.figure_of(q.name)
+
+
+def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str, str]:
+    """Return how a segment on a plan, its own if none is said, its scale factor and its value are printed.
+
+    One that is too short to be read, or on no plan, is no text. A reaction has the number of the one that it opposes.
+    """
+    words, value, plan = scene.words, value_shown(scene, q), plan or drawn_on(scene, q)
+    acting = opposed(scene, q.name)
+    known = "" if acting is None else printed_segment(scene, acting)[-1]
+    if plan not in scene.scales:
+        return "", "", known
+    scale = scene.scales[plan]
+    short = abs(q.value or 0.0) < scene.style.arrow * scale.mu  # what is longer is in no inset
+    times = enlarged(scene, q.name, plan) if short else 1.0
+    number = words.factor(Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit))
+    mu = 1.0 / number if words.per_unit else number
+    if known:
+        return laid_off(words, value, mu, known), words.short(number), known
+    # of an arm nothing is known but its segment; what was laid off has its value all the same
+    readable = 0.0 if role(q.name).kind == "h" else READABLE
+    mm, value_read = read_off(words, value, mu, readable, DIGITS - 1 if is_laid(scene, q.name) else FEWEST)
+    return mm, words.short(number), value_read
+
+
+def is_laid(scene: Scene, name: str) -> bool:
+    """Whether a vector is laid off on its plan by a number that has been calculated."""
+    step = scene.made.get(role(name).size) or scene.made.get(name)
+    return step is not None and step.verb == "calc"
+
+
+def reading_of(scene: Scene, name: str) -> float | None:
+    """Return what the printed millimetres of a vector give that is laid off by its number; None if none are printed."""
+    item = scene.quantities.get(role(name).shown)
+    if item is None or drawn_on(scene, item) not in scene.scales:
+        return None
+    mm, mu, _ = printed_segment(scene, item)
+    if not mm:
+        return None
+    return number_of(mm) / number_of(mu) if scene.words.per_unit else number_of(mm) * number_of(mu)
+
+
+def opposed(scene: Scene, name: str) -> Quantity | None:
+    """Return the reaction that one, found on another plan, is the opposite of, where it was read off a plan."""
+    step = scene.made.get(name)
+    if step is None or step.law != "opposite" or role(name).kind != "R":
+        return None
+    acting = scene.quantities.get(step.operands[0])
+    return acting if acting is not None and drawn_on(scene, acting) in scene.scales else None
+
+
+def measured(scene: Scene, name: str) -> Factor:
+    """Return a value as the tables print it, one that was read off a plan as its millimetres say."""
+    item = scene.quantities.get(name)
+    if item is None or (drawn_on(scene, item) not in scene.scales and opposed(scene, name) is None):
+        return factor(scene, name)
+    return Factor(scene.words.symbol(name), number_of(printed_segment(scene, item)[-1]), exact=True)
 
 
 def is_given(scene: Scene, name: str) -> bool:
@@ -226,28 +369,10 @@ def line_note(scene: Scene, vector: str, direction: str) -> str:
     return f"{scene.letter(vector)} {line_of(scene, direction)}"
 
 
-def line_of(scene: Scene, direction: str) -> str:
-    """Return a line by the name of its direction: ∥ AB, ⊥ AB, ∥ x–x."""
-    step = scene.made[direction]
-    sign, along = ("⊥", step.operands[0]) if step.verb == "normal" else ("∥", direction)
-    letters = guide_letters(scene.program).get(along)
-    return f"{sign} {letters or ''.join(map(scene.words.mark, ends_of(scene.reading, along)))}"
-
-
 def _line_through(scene: Scene, point: str, direction: str) -> str:
     """Return the line through a point: AB, or (B ⊥ x–x)."""
     line = line_of(scene, direction)
     return line.removeprefix("∥ ") if line.startswith("∥ ") else f"({scene.words.mark(point)} {line})"
-
-
-def ends_of(reading: Reading, direction: str) -> tuple[str, str]:
-    """Return the two points of which a direction is the line."""
-    step = reading.made[direction]
-    if step.verb in ("direction", "tangent"):
-        return step.operands[0], step.operands[1]
-    # the crank is turned to its angle: its end is laid off along this direction
-    lay = next(s for s in reading.users(direction) if s.verb == "lay" and s.plan == POSITION)
-    return lay.operands[0], lay.name
 
 
 def kinematics_text(scene: Scene, plans: Sequence[str], before: Sequence[str]) -> Lines:

@@ -3,24 +3,44 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Sequence
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain
+from typing import NamedTuple
 
 from ....plans.board import Step
 from ....plans.linkages.mechanism import ZERO, Driver, Revolute
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.structure import Group
-from ....plans.names import FORCES, role
+from ....plans.names import FORCES, by_lever, role
+from ....plans.quantities import F_BAL, M_BAL, unit_of
 from ....scales.scale import AS_INSIDE
-from ...printed import POINT, Symbol, value_text
+from ...printed import AS_PRINTED, DIGITS, POINT, Symbol, decimals_for, value_text
 from ...words import Words
-from ..reading import Edge
+from ..reading import Edge, ends_of
 from ..scene import Scene
 from . import equations
-from .equations import Factor, Lines, Product, factor, line_note, noted, segment, size_by_law, size_of, stated, worked
+from .equations import (
+    Factor,
+    Lines,
+    Product,
+    factor,
+    line_note,
+    measured,
+    noted,
+    reading_of,
+    reckoned,
+    segment,
+    size_by_law,
+    size_of,
+    stated,
+    worked,
+)
 
 WHOLE, LOADS = "", "loads"
+BALANCING = (M_BAL, F_BAL, by_lever(M_BAL), by_lever(F_BAL))
+FAINT = 0.02  # part of the largest moment on the lever alone; what balances less is told beside it, not in parts
 
 
 def force_parts(solved: SolvedLinkage) -> tuple[str, ...]:
@@ -112,10 +132,15 @@ def _load(scene: Scene, step: Step) -> Lines:
     return [noted((stated(words, words.symbol(step.name), size, unit),), *notes)]
 
 
+def _decimals(name: str) -> int | None:
+    """Return what decimals a result has: of what balances the driver what printed numbers give, to be compared."""
+    return AS_PRINTED if name in BALANCING else None
+
+
 def _solved_for(scene: Scene, moment: str, products: Iterable[Product], sign: float) -> tuple[str, ...]:
     """Return a moment as the sum of others, with numbers and its sense; `sign` is that of the sum in it."""
-    words, value = scene.words, scene.values[moment]
-    line = worked(words, words.symbol(moment), products, "N*m", turn=math.copysign(sign, sign * value))
+    words, value, turn = scene.words, scene.values[moment], math.copysign(sign, sign * scene.values[moment])
+    line = worked(words, words.symbol(moment), products, "N*m", turn=turn, wanted=_decimals(moment))
     return noted(line, equations.sensed(words, value))
 
 
@@ -140,6 +165,18 @@ def _force(scene: Scene, step: Step) -> Lines:
     return []
 
 
+def result_of(scene: Scene, name: str) -> str:
+    """Return the size of a vector as the equation prints it that it is laid off by; nothing where there is none."""
+    step = scene.made.get(role(name).size) or scene.made.get(name)
+    line: tuple[str, ...] = ()
+    if step is not None and step.law in equations.TOLD:
+        line = size_by_law(scene, "", step, unit_of(name))
+    elif step is not None and step.law in SIGNS and step.name not in BALANCING:
+        line = next(reversed(_force(replace(scene, words=scene.words.showing(AS_INSIDE)), step)), ())
+    found = re.search(r" = (\d+(?:[.,]\d+)?)[^=]*$", " ".join(line))
+    return found[1] if found is not None else ""
+
+
 SIGNS = {"moment_equation": -1.0, "closing_force": 1.0}  # of the force's own moment in the sum
 
 
@@ -151,10 +188,11 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
     """Tell the moments about a joint, solved for a force: drawn as it acts, its moment turns against the others."""
     words, reading, values = scene.words, scene.reading, scene.values
     length, *moments = step.operands
-    name, known, point, made = reading.visible(step.name), _terms(scene, moments), _about(scene, step), scene.made
+    name, point, made = reading.visible(step.name), _about(scene, step), scene.made
+    known = _terms(scene, moments, _taken(name))
     laid = next((s for s in reading.users(step.name) if s.verb in ("lay", "back")), None)
     if laid is not None and not any(map(_is_sum, moments)):
-        point = equations.ends_of(reading, made[laid.operands[1]].operands[0])[laid.verb == "lay"]
+        point = ends_of(reading, made[laid.operands[1]].operands[0])[laid.verb == "lay"]
     if length not in made or made[length].verb == "measure":
         arm = Product((factor(scene, length),))
     else:  # measured from the point to the line of the force
@@ -169,19 +207,23 @@ def _for_a_force(scene: Scene, step: Step) -> Lines:
         own = Symbol.of(words.symbol(name)) * arm.in_letters
         return [(head, f"{own} = 0,", f"{words.symbol(name)} = 0")]
     sign = math.copysign(SIGNS[step.law], SIGNS[step.law] * values[length]) * math.copysign(1.0, values[step.name])
-    return _moments(words, head, name, arm, known, sign)
+    return _moments(scene, head, name, arm, known, sign)
 
 
-def _moments(words: Words, head: str, force: str, arm: Product, known: Sequence[Product], sign: float) -> Lines:
+def _moments(scene: Scene, head: str, force: str, arm: Product, known: Sequence[Product], sign: float) -> Lines:
     """Return the sum of the moment of a force, with its sign, and of others, and that solved for the force."""
+    words, read = scene.words, reading_of(scene, force)
     own = Symbol.of(words.symbol(force)) * arm.in_letters
     line = (head, *sum((product.in_letters for product in known), own * sign).chunks, "= 0")
-    return [line, worked(words, words.symbol(force), known, "N", arm, -sign)] if known else [line]
+    if not known:
+        return [line]
+    found = worked(words, words.symbol(force), known, "N", arm, turn=-sign, wanted=_decimals(force), read=read)
+    return [line, found]
 
 
 def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> tuple[str, ...]:
     """Tell the moments about a joint, solved for a moment: of a guide's reaction, or the balancing one."""
-    symbol, known = scene.words.symbol, _terms(scene, sum_of.operands)
+    symbol, known = scene.words.symbol, _terms(scene, sum_of.operands, _taken(step.name))
     head = f"ΣM_{{{scene.words.mark(_about(scene, sum_of))}}}({_link_of(scene, step.name)}) = 0:"
     if known:
         return (head, *_solved_for(scene, step.name, known, -1.0))
@@ -190,24 +232,29 @@ def _for_a_moment(scene: Scene, step: Step, sum_of: Step) -> tuple[str, ...]:
     return (head, *zeros[:-1], f"{zeros[-1]} = 0")
 
 
-def _terms(scene: Scene, names: Iterable[str]) -> list[Product]:
+def _taken(name: str) -> Callable[[Scene, str], Factor]:
+    """Return how values go into an equation for a quantity: into that of what balances the driver as they were read."""
+    return measured if name in BALANCING else factor
+
+
+def _terms(scene: Scene, names: Iterable[str], taken: Callable[[Scene, str], Factor] = factor) -> list[Product]:
     """Return the moments that are not zero, each with its sign, counter-clockwise positive."""
     found = []
     for name in names:
         value = 0.0 if name == ZERO else scene.values[name]
-        factors = _factors(scene, name) if value != 0.0 else ()
+        factors = _factors(scene, name, taken) if value != 0.0 else ()
         # a force whose line passes through the point has no moment but rounding
         if factors and min(factor.value for factor in factors if not factor.exact) >= POINT:
             found.append(Product(factors, math.copysign(1.0, value)))
     return found
 
 
-def _factors(scene: Scene, name: str) -> tuple[Factor, ...]:
+def _factors(scene: Scene, name: str, taken: Callable[[Scene, str], Factor] = factor) -> tuple[Factor, ...]:
     """Return what makes a moment: a force and its arm, a couple's power, or a couple that is known."""
     step = scene.made.get(name)
     if step is not None and step.verb == "moment":
         arm = next(user.name for user in scene.reading.users(name) if user.verb == "arm")
-        return factor(scene, step.operands[0]), *_on_arm(scene, arm)
+        return taken(scene, step.operands[0]), *_on_arm(scene, arm)
     if step is not None and step.law == "couple_on_lever":
         scale = equations.paper(scene.words, scene.scales["lever"])
         over = Factor(scale.symbol, scale.value, scale.exact, -scale.power)
@@ -312,28 +359,117 @@ def _zero(scene: Scene, knowns: Sequence[str], lines: Sequence[str], unknown: st
 def lever_lines(scene: Scene, with_loads: bool = False) -> Lines:
     """Return the moments on Zhukovsky's lever and what balances the driver by it; where that is wanted, loads first."""
     lines = force_lines(scene, LOADS) if with_loads else []
-    scene = replace(scene, words=scene.words.showing(AS_INSIDE))  # N and kg go with metres
+    scene, symbol = replace(scene, words=scene.words.showing(AS_INSIDE)), scene.words.symbol  # N and kg go with metres
     for step in scene.program:
-        symbol = scene.words.symbol
         if step.law == "couple" and scene.defined(step.name):
             pair = [s.name for s in scene.program if role(s.name).whole == step.name != s.name]
             lines.append(size_by_law(scene, " = ".join(dict.fromkeys(map(symbol, pair))), step, "N"))
         elif step.law == "moment_equation" and role(step.operands[0]).kind == "V":
-            speed, *moments = step.operands  # each force times its arm in mm, solved for the balancing force
-            laid = next(s for s in scene.reading.users(speed) if s.verb in ("lay", "back"))
-            letters = scene.words.mark(laid.operands[0]) + scene.words.mark(laid.name)
-            arm = Product((segment(scene, letters, "lever", size_of(scene, speed)),))
-            # the balancing force along the line of its point's velocity has the moment -F * V, with the signs of both
-            sign = -math.copysign(1.0, scene.values[step.name] * scene.values[speed])
-            head = f"ΣM_{{{scene.words.mark('lever.p')}}} = 0:"
-            lines += _moments(scene.words, head, step.name, arm, _terms(scene, moments), sign)
+            # each force times its arm in mm, solved for the balancing force: that has along the line of its point's
+            # velocity the moment -F * V, with the signs of both
+            sign = -math.copysign(1.0, scene.values[step.name] * scene.values[step.operands[0]])
+            head, terms = f"ΣM_{{{scene.words.mark('lever.p')}}} = 0:", _terms(scene, step.operands[1:])
+            lines += _moments(scene, head, step.name, Product((_own_arm(scene, step),)), terms, sign)
         elif step.law == "crank_moment":
-            lines.append(size_by_law(scene, symbol(step.name), step, "N*m"))
-        elif step.law == "difference" and scene.values[step.operands[0]] != 0.0:
-            (a, b), (first, second) = zip(
-                *((value_text(scene.words, abs(scene.values[n])), symbol(n)) for n in step.operands), strict=True
-            )
-            head = f"{symbol(step.name)} = ({first} − {second})/{first}·100 % ="
-            result = scene.words.number(scene.values[step.name], 2)
-            lines.append((head, f"({a} − {b})/{a}·100 % =", f"{result} %"))
+            product = _crank_moment(scene, step, balance(scene))
+            lines.append(worked(scene.words, symbol(step.name), [product], "N*m", wanted=AS_PRINTED))
+        elif step.law == "difference":
+            lines += _difference(scene, step, balance(scene))
     return lines
+
+
+def _own_arm(scene: Scene, step: Step) -> Factor:
+    """Return the arm of the balancing force on the lever, the velocity of its point turned."""
+    laid = next(s for s in scene.reading.users(step.operands[0]) if s.verb in ("lay", "back"))
+    letters = scene.words.mark(laid.operands[0]) + scene.words.mark(laid.name)
+    return segment(scene, letters, "lever", size_of(scene, step.operands[0]))
+
+
+def _crank_moment(scene: Scene, step: Step, found: Mapping[str, float]) -> Product:
+    force, length = step.operands
+    return Product((Factor(scene.words.symbol(force), found[force], exact=True), factor(scene, length)))
+
+
+def _difference(scene: Scene, step: Step, found: Mapping[str, float]) -> Lines:
+    """Tell by how much both ways differ as printed."""
+    words, names = scene.words, step.operands
+    (a, b), (first, second) = (value_text(words, found[name], DIGITS + 1) for name in names), map(words.symbol, names)
+    if found[names[0]] == found[names[1]] == 0.0:
+        return []
+    (difference, relative), head = differ(scene, found), f"{words.symbol(step.name)} = "
+    if relative:
+        return [(f"{head}({first} − {second})/{first}·100 % =", f"({a} − {b})/{a}·100 % =", difference)]
+    return [(f"{head}{first} − {second} =", f"{a} − {b} =", difference)]
+
+
+def differ(scene: Scene, found: Mapping[str, float]) -> tuple[str, bool]:
+    """Return by how much both ways differ as printed, with its unit, and whether that is in parts of the first.
+
+    It is not where what balances is small beside what the loads would take alone, as near a dead position.
+    """
+    words, (name, other) = scene.words, next(step.operands for step in scene.program if step.law == "difference")
+    lever = next(step for step in scene.program if step.law == "moment_equation" and step.name in BALANCING)
+    arm = Product((_own_arm(scene, lever),))
+    largest = max((reckoned([term], arm) for term in _terms(scene, lever.operands[1:])), default=0.0)
+    a, b = found[name], found[other]
+    if found[lever.name] > FAINT * largest:
+        return f"{words.number((a - b) / a * 100.0, 2)} %", True
+    places = max(decimals_for(size, DIGITS + 1) for size in (a, b))
+    return f"{words.number(a - b, places)} {words.unit(scene.quantities[other].unit)}", False
+
+
+def balance(scene: Scene) -> dict[str, float]:
+    """Return what balances the driver, by the plans and by the lever, as the numbers give it that are printed."""
+    scene, found = replace(scene, words=scene.words.showing(AS_INSIDE)), dict[str, float]()
+    for step in (step for step in scene.program if step.name in BALANCING):
+        first, *others = step.operands
+        if step.law == "closing_moment":
+            found[step.name] = reckoned(_terms(scene, step.operands, _taken(step.name)))
+        elif step.law == "closing_force":
+            arm = Product((factor(scene, first),))
+            found[step.name] = reckoned(_terms(scene, others, _taken(step.name)), arm)
+        elif step.law == "moment_equation":
+            found[step.name] = reckoned(_terms(scene, others), Product((_own_arm(scene, step),)))
+        elif step.law == "crank_moment":
+            found[step.name] = reckoned([_crank_moment(scene, step, found)])
+        elif step.law == "component":
+            found[step.name] = measured(scene, step.name).printed
+    return found
+
+
+class OnLever(NamedTuple):
+    """A row of the lever's table: what acts, its arm, its moment from the printed numbers, counter-clockwise positive.
+
+    A couple of which only the power is known has no arm; `name` is the quantity by which it is looked up.
+    """
+
+    name: str
+    symbol: str
+    size: str
+    arm: Factor | None
+    moment: float
+
+
+def on_lever(scene: Scene) -> Iterator[OnLever]:
+    """Go through what acts on the lever, with what balances it."""
+    scene = replace(scene, words=scene.words.showing(replace(AS_INSIDE, paper=scene.words.display.paper)))
+    words, found = scene.words, balance(scene)
+    balanced = next(step for step in scene.program if step.law == "moment_equation" and step.name in BALANCING)
+    for name in balanced.operands[1:]:
+        factors, turn = _factors(scene, name), math.copysign(1.0, scene.values[name])
+        arms = [user.name for user in scene.reading.users(name) if user.verb == "arm"]
+        moment = math.prod(factor.printed**factor.power for factor in factors)
+        if moment != moment or min(factor.value for factor in factors) < POINT:
+            moment = 0.0
+        yield OnLever(arms[0] if arms else balanced.name, *_named(words, factors), turn * moment)
+    force = Factor(words.symbol(balanced.name), found[balanced.name], exact=True)
+    arm = _own_arm(scene, balanced)
+    sign = -math.copysign(1.0, scene.values[balanced.name] * scene.values[balanced.operands[0]])
+    size = value_text(words, force.value, DIGITS + 1)
+    yield OnLever(balanced.name, force.symbol, size, arm, sign * force.value * arm.printed)
+
+
+def _named(words: Words, factors: Sequence[Factor]) -> tuple[str, str, Factor | None]:
+    """Return the symbol and the size of a force, and its arm where it has one."""
+    force, *rest = factors
+    return force.symbol, force.text(words), rest[0] if len(rest) == 1 else None

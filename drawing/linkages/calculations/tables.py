@@ -7,24 +7,21 @@ import re
 from itertools import combinations, groupby, pairwise
 from typing import NamedTuple, TypeAlias
 
-from ....plans.board import POSITION
 from ....plans.linkages.compound import found_here
 from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.structure import KINDS as GROUPS
 from ....plans.linkages.structure import Group, Structure
 from ....plans.names import COUPLE, role
 from ....plans.quantities import Quantity
-from ....scales.scale import Scale
-from ...printed import ruler_decimals, segment_decimals, value_text
+from ...printed import DIGITS, decimals_for, half_digit, number_of, value_text
 from ...view import View, givens_view, table
-from ..figures.plan import enlarged
 from ..reading import read
 from ..scene import Scene
-from .equations import Lines, rate_of
+from .equations import RATES, Lines, drawn_on, opposed, printed_segment, reading_of, value_shown
+from .forces import BALANCING, balance, on_lever, result_of
 
 KINDS = ("velocity", "acceleration", "compound", "forces", "lever")
 HEADS = {"l": "velocity", "V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
-RATES = ("omega", "epsilon")
 ROWS = 30  # most rows of a table
 PAIR = 2  # links of a reaction
 NUMBERS = r"(?<![A-Za-hj-z\d])\d+"  # of links of two digits, not of points: 12 and 10 of `12_10`, 12 of `i12`
@@ -142,22 +139,48 @@ def results_table(scene: Scene, part: Part) -> View:
     elif part.links:
         key = "table.of_link" if part.links.isdigit() else "table.of_links"
         heading = words[key].format(heading=heading, link=part.links, links=part.links)
+    rows = _lever_rows(scene, part) if part.kind == "lever" else _rows(scene, part)
+    return table(part.name, heading, rows, scene.style)
+
+
+def _rows(scene: Scene, part: Part) -> list[list[str]]:
+    """Return quantities with what was measured; the senses of those that turn stand in a column of their own."""
+    words = scene.words
     head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
     head[1] = head[1].format(unit=words.unit(words.display.paper))
     head += [words["table.angle"]] if words.notation["angles"] else []
-    quantities = scene.quantities
-    rows = [_row(scene, quantities[name]) for name in part.names]
-    return table(part.name, heading, [head, *rows], scene.style)
+    rows = [_row(scene, scene.quantities[name]) for name in part.names]
+    senses = [_sense(scene, name) for name in part.names]
+    if any(senses):
+        none = words["table.calculated"]
+        rows = [[*row, sense or none] for row, sense in zip(rows, senses, strict=True)]
+        head.append(words["table.sense"])
+    return [head, *rows]
+
+
+def _sense(scene: Scene, name: str) -> str:
+    """Return the sense of a turning or of a moment in short words; nothing for others, and for zero."""
+    item, kind = scene.quantities[name], role(name).kind
+    value = value_shown(scene, item) if kind in (*RATES, "M") else 0.0
+    return _turning(scene, value)
+
+
+def _turning(scene: Scene, value: float) -> str:
+    return "" if value == 0.0 else scene.words["choice.ccw" if value > 0.0 else "choice.cw"]
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:
-    words, kind, value = scene.words, role(q.name).kind, _value(scene, q)
-    none, printed = words["table.calculated"], list[str]()
-    if _plan(scene, q) in scene.scales:
-        printed = [*printed_segment(scene, q)]
-    else:  # the magnitude of a force; a difference that is rounding noise is 0
-        size = abs(value) if kind == "F" else 0.0 if kind == "delta" and abs(value) < 1e-6 else value
-        printed = [none, none, value_text(words, size)]
+    words, none, printed = scene.words, scene.words["table.calculated"], list[str]()
+    if drawn_on(scene, q) in scene.scales or opposed(scene, q.name) is not None:
+        mm, *printed = printed_segment(scene, q)
+        read, told = reading_of(scene, q.name), result_of(scene, q.name)
+        if 0 < len(told) < len(printed[-1]) and (not read or abs(read - number_of(told)) <= half_digit(told)):
+            printed[-1] = told  # fewer digits are all that its equation gives
+        printed = [mm, *printed] if mm else [none, none, printed[-1]]
+    else:  # sizes, words tell the sense; what balances the driver as it is calculated
+        found = balance(scene).get(q.name) if q.name in BALANCING else None
+        size = value_text(words, abs(value_shown(scene, q))) if found is None else value_text(words, found, DIGITS + 1)
+        printed = [none, none, size]
     row = [words.symbol(q.name), *printed, words.unit(words.display.unit(q.unit))]
     if not words.notation["angles"]:
         return row
@@ -166,23 +189,18 @@ def _row(scene: Scene, q: Quantity) -> list[str]:
     return [*row, words.number(math.degrees(math.atan2(q.y, q.x)) % 360.0, 1)]
 
 
-def _value(scene: Scene, q: Quantity) -> float:
-    turning = role(q.name).kind in RATES
-    return rate_of(scene, q.name) if turning else scene.words.display.value(q.value or 0.0, q.unit)
-
-
-def _plan(scene: Scene, q: Quantity) -> str:
-    return POSITION if role(q.name).kind == "l" else scene.figure_of(q.name)
-
-
-def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str, str]:
-    """Return how a segment on a plan, its own if none is said, its scale factor and its value are printed."""
-    words, value, plan = scene.words, _value(scene, q), plan or _plan(scene, q)
-    scale, times = scene.scales[plan], enlarged(scene, q.name, plan)
-    number = words.factor(Scale(scale.symbol, float(f"{scale.mu / times:.12g}"), scale.unit))
-    mu = 1.0 / number if words.per_unit else number
-    places, decimals = segment_decimals(value, mu, ruler_decimals(words))
-    return words.number(abs(value) / mu, places), words.short(number), words.number(abs(value), decimals)
+def _lever_rows(scene: Scene, part: Part) -> list[list[str]]:
+    """Return the forces on the lever, their arms in mm, the moments of these as printed, and how they turn."""
+    words, none = scene.words, scene.words["table.calculated"]
+    newtons, paper = words.unit("N"), words.unit(words.display.paper)
+    head = [words["table.quantity"], f"F, {newtons}", words["table.arm"], f"h, {paper}", f"F·h, {newtons}·{paper}"]
+    rows, hung = [[*head, words["table.sense"]]], list(on_lever(scene))
+    decimals = decimals_for(max(abs(one.moment) for one in hung), DIGITS + 1)
+    for one in (one for one in hung if one.name in part.names):
+        arm = [none, none] if one.arm is None else [one.arm.symbol, one.arm.text(words)]
+        sense = _turning(scene, round(one.moment, decimals)) or none
+        rows.append([one.symbol, one.size, *arm, words.number(abs(one.moment), decimals), sense])
+    return rows
 
 
 def structure_lines(scene: Scene) -> Lines:

@@ -23,9 +23,8 @@ from ...figure import ANSWERS
 from ...shapes import Arrow, Line, Pen, Shape, Vector, changed
 from ...symbols import clear_ray, turning_arrow, unit
 from ...view import Canvas, View
-from ..calculations.equations import line_of
 from ..reading import Edge
-from ..scene import Scene, is_at_point
+from ..scene import Scene, is_at_point, line_of
 from . import plan as plans
 from .links import Skeleton, draw_links, pins_of, rays_at, rays_of
 from .plan import ConstructionLine, Plan, Window, headed, length_of, with_insets
@@ -33,8 +32,7 @@ from .scheme import free_arc
 
 SIZES, SPREAD, UP = (0.5, 0.75, 1.0), 1.2, 0.5 * math.pi  # of arcs of turning: radii beyond the joint in arrows, angles
 FAR = 0.75  # part of the mechanism's size within which an instant centre is drawn
-SHORT, NARROWEST = 1.25, 60.0  # arrowheads: a shorter vector cannot be read; mm, the least side of an inset
-PAST = 8.0  # mm by which a construction line runs past the point that it finds
+SHORT, NARROWEST = 1.05, 60.0  # arrowheads: a shorter vector cannot be read; mm, the least side of an inset
 VELOCITIES, ACCELERATIONS = "compound_velocity", "compound_a_"  # names of the views
 
 
@@ -78,7 +76,7 @@ class At(Plan):
             tail, end = (self.scene.mm(mark) + self.place for mark in (start, step.name))
             e = self.scene.solved.point(direction)
             sense = 1.0 if ((end - tail) / e).real >= 0 else -1.0
-            yield tail, end, end + e * sense * PAST, line_of(self.scene, direction).replace(" ", "")
+            yield tail, end, end + e * sense * plans.PAST, line_of(self.scene, direction)
 
     def marks(self) -> Mapping[str, complex]:
         """Return where the point itself stands."""
@@ -89,7 +87,7 @@ class At(Plan):
         return [self.point]
 
     def windows(self) -> list[Window]:
-        """Return what insets show: short vectors, enlarged to be read, each with those beside it that find room."""
+        """Return what the inset shows: as many short vectors as one of them, enlarged to be read, has beside it."""
         arrow, windows = self.scene.style.arrow, list[Window]()
         vectors = sorted((v for v in self.vectors() if length_of(v) > 1e-6), key=length_of)
         for short in (v for v in vectors if length_of(v) < SHORT * arrow):
@@ -102,7 +100,8 @@ class At(Plan):
                 if plans.hangs(other, ends) and max(plans.size_of(wider)) * times <= plans.WIDEST:
                     ends = wider
             windows.append(Window.about(ends, times, NARROWEST))
-        return windows
+        small = [v for v in vectors if length_of(v) < SHORT * arrow]
+        return sorted(windows, key=lambda window: -sum(window.shows(v.tail, v.tip) for v in small))[:1]
 
 
 def figures_of(scene: Scene) -> dict[str, list[At]]:
@@ -147,7 +146,7 @@ def acceleration_figure(scene: Scene, coupler: Coupler, point: str) -> View:
     windows, name = _at_points(canvas, [at]), f"V_{at.letter}_r"
     if e := scene.direction(name):
         lines = rays_at(at.place, figures) + rays_of(at.place, ((v.tail, v.tip) for v in at.vectors()))
-        side = clear_ray(e, lines, [])
+        side = clear_ray(e, lines)
         near, far = (at.place + side * (scene.style.pair + out) for out in (0.0, 0.6 * scene.style.force))
         canvas.part(ANSWERS, Arrow(*((near, far) if side == e else (far, near)), name=name))
         canvas.label(scene.letter(name), ((near + far) / 2, far), clear=0.9)
@@ -188,7 +187,7 @@ def _thin(shape: Shape) -> Shape:
     return replace(shape, pen=Pen.THIN) if isinstance(shape, Line) and shape.pen is Pen.MAIN else shape
 
 
-def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window]]:
+def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window, str]]:
     """Draw the arms, the construction lines and the vectors at points; return the insets, where some have letters."""
     for at in points:
         start, end, rim = at.scene.mm(at.coupler.pivot), at.place, at.scene.style.pair
@@ -199,9 +198,9 @@ def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window]
     for at in points:
         canvas.part(mark(at.plan, at.letter))
         for i, (tail, point, end, text) in enumerate(at.lines()):
-            canvas.add(Line(tail, end, Pen.DASHED, role="construction", name=f"{at.plan}_{i + 1}"))
+            canvas.thin("construction", f"{at.plan}_{i + 1}", tail, end)
             if not any(window.shows(point) for window in shown[at.plan]):
-                canvas.label(text, (point, end), clear=0.8)
+                plans.name_line(canvas, text, point, end)
     for at in points:
         reading = at.scene.reading
         # what the closed figure shows has steps of its own
@@ -210,7 +209,8 @@ def _at_points(canvas: Canvas, points: Sequence[At]) -> list[tuple[Plan, Window]
             canvas.part(drawn_with.get(vector.quantity, vector.quantity))
             seen = any(window.shows(vector.tail, vector.tip) for window in shown[at.plan])
             _vector(canvas, at.scene, vector, lettered=not seen)
-    return [(at, window) for at in points for window in shown[at.plan]]
+    every = [(at, window) for at in points for window in shown[at.plan]]
+    return [(at, window, numeral) for (at, window), numeral in zip(every, plans.NUMERALS, strict=False)]
 
 
 def _vector(canvas: Canvas, scene: Scene, vector: Vector, lettered: bool = True) -> None:

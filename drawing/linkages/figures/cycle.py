@@ -24,7 +24,7 @@ from ...shapes import Circle, HeadPlace, Line, Pen, Polyline, Vector
 from ...symbols import slider_up
 from ...view import Canvas, View
 from ..scene import Scene
-from .links import draw_links, letter_links, skeleton
+from .links import draw_links, lay_down, letter_links
 from .scheme import turning_of_driver
 
 DENSE = 240  # places through which a path is drawn
@@ -61,9 +61,9 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
     motion = main_output(cycle)
     dead = sorted({spot.angle for spot in motion.dead}) if motion else []
     for number, stand in stands.items():
-        _lay_down(canvas, stand, Pen.THIN, f"position_{number}")
+        lay_down(canvas, stand, Pen.THIN, f"position_{number}")
     for _, stand in _stands(scene, cycle, dead):
-        _lay_down(canvas, stand, Pen.EXTREME, "dead-position")
+        lay_down(canvas, stand, Pen.EXTREME, "dead-position")
     _number(canvas, scene, stands, cycle.mechanism.driver.point)
     _number(canvas, scene, stands, _output_point(cycle))
     scene = replace(scene, runs={**scene.runs, **_ways(scene, stands.values())})
@@ -90,15 +90,6 @@ def _stands(scene: Scene, cycle: Cycle, places: Iterable[float]) -> Iterator[tup
         if solved.trouble is None:
             # a guide on a moving link is drawn as far as the slider: its run is counted from the calculated position
             yield number, replace(scene, solved=solved, runs={})
-
-
-def _lay_down(canvas: Canvas, scene: Scene, pen: Pen, role: str) -> None:
-    pins: dict[complex, None] = {}
-    for number in scene.numbers:
-        figure = skeleton(scene, number)
-        canvas.add(*(Line(a, b, pen, role=role, name=str(number)) for a, b in figure.strokes))
-        pins |= dict.fromkeys(complex(round(at.real, 4), round(at.imag, 4)) for at in figure.nodes)
-    canvas.add(*(Circle(at, scene.style.node, Pen.THIN, fill="white", role=role) for at in pins))
 
 
 def _paths(scene: Scene, cycle: Cycle) -> Iterator[tuple[str, tuple[complex, ...]]]:

@@ -7,17 +7,24 @@ from __future__ import annotations
 
 import math
 from cmath import phase, rect
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise, product
 from typing import NamedTuple
+
+import numpy as np
+import shapely
 
 from ....plans.board import POSITION
 from ....plans.laws import cross
 from ....plans.linkages.mechanism import FRAME, Driver, Pair, Prismatic
 from ....plans.linkages.structure import Group as LinkGroup
 from ....plans.names import role
+from ...areas import Shapes, lines
+from ...formats import Style
 from ...shapes import Arrow, Group, Head, Line, Pen, Shape
-from ...symbols import arm, clear_ray, room_on, turning_arrow, unit
+from ...symbols import arm as drawn_arm
+from ...symbols import turning_arrow, unit
 from ...view import Canvas, View
 from ..ladders import DRIVER
 from ..scene import Scene
@@ -26,9 +33,19 @@ from .scheme import special_points
 
 LEAST = 0.05  # mm: a shorter arm is none
 PAST = 4.0  # mm by which the line of a force runs past what it meets
-SHORTER = 0.6  # part of its length that an arrow beyond another one has
-SPARE, ALONG = 1.2, 2.5  # mm between two arrows on a line, and beside one another where they count as on one
-FARTHEST = 2.5  # lengths of an arrow that it may stand from its point
+SHORTER = 0.75  # part of its length that an arrow beside another one has
+BESIDE, LED = 0.8, (0.9, 1.3)  # heights of a letter between two arrows side by side, and from the point along one
+REACH = 0.345  # lengths of an arrow: from a point farther within a block it begins at the point itself
+# heights of a letter around the outer part of an arrow that are enough, and that are no better; what it costs that an
+# arrow pushes, that it stands beside its line, and there towards the middle of the figure, or far
+CLEAR, WIDE, PUSHED, ASIDE, INWARD = 0.56, 0.8, 0.08, 0.42, 0.1
+CLOSE = math.cos(math.radians(12.0))  # arms that make a smaller angle run into one another
+UPON = math.cos(math.radians(5.0))  # an arm that makes a smaller angle with a line from its centre lies upon it
+STEP, TRIES = 2.4, 6  # heights of an arm's letters between arms that are staggered; how often one is moved
+TURNING = 2.0  # rad, the arrow of a couple
+OF_FOOT = 2  # steps by which an arm is moved past the foot of a pivot
+LEANS = [0.14 * k for k in range(-5, 6)]  # rad from the middle of a foot, in which its lines leave the pivot
+MANY = 3  # arms of a figure; of more the drawing has letters alone, and their millimetres stand in the table
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88)  # places on a link where a couple may stand
 
 
@@ -41,20 +58,28 @@ class Arm(NamedTuple):
     along: complex
     foot: complex
 
-    def draw(self, canvas: Canvas, scene: Scene, about: complex, shift: complex = 0j) -> None:
-        """Draw the line of the forces, thin, from their arrow past its foot, and the arm from `about`, both shifted."""
-        start, foot, reach, name = about + shift, self.foot + shift, 0.6 * scene.style.force, self.names[0]
-        ends = sorted((-reach, reach, ((foot - self.at) / self.along).real))
-        line = (self.at + self.along * (ends[0] - PAST), self.at + self.along * (ends[-1] + PAST))
+    def draw(self, canvas: Canvas, scene: Scene, about: complex, shift: complex = 0j, alone: bool = False) -> None:
+        """Draw the line of the forces, thin, from their point past its foot, and the arm from `about`, both shifted.
+
+        Its letter may stand `alone`.
+        """
+        start, foot, name = about + shift, self.foot + shift, self.names[0]
+        reach = ((foot - self.at) / self.along).real
+        beyond = math.copysign(PAST, reach)
+        line = (self.at - self.along * (beyond if abs(reach) < PAST else 0.0), foot + self.along * beyond)
         canvas.add(Line(*line, Pen.THIN, role="line-of-action", name=" ".join(self.forces)))
         if abs(self.foot - about) >= LEAST:
             if shift:
-                beyond = about + shift * (1 + 1.5 / abs(shift))
-                canvas.add(Line(about, beyond, Pen.THIN, role="extension", name=name))
-            canvas.add(arm(start, foot, name, self.along, scene.style))
+                end = about + shift * (1 + 1.5 / abs(shift))
+                canvas.add(Line(about, end, Pen.THIN, role="extension", name=name))
+            canvas.add(drawn_arm(start, foot, name, self.along, scene.style))
             # smaller than a node's letter: a number with its symbol is long, and arms lie close together
-            text = " = ".join([*map(scene.words.symbol, dict.fromkeys(self.names)), scene.segment(name)])
-            canvas.label(text, (start, foot), clear=0.9, height=scene.style.text, strict=True, spare=text)
+            letters = " = ".join(map(scene.words.symbol, dict.fromkeys(self.names)))
+            text, small = f"{letters} = {scene.segment(name)}", scene.style.text
+            if alone:
+                canvas.label(letters, (start, foot), clear=0.9, height=small, strict=True, last=text)
+            else:
+                canvas.label(text, (start, foot), clear=0.9, height=small, strict=True, spare=text)
 
 
 Moment = tuple[str, str, complex, complex]  # a force, the name of its arm, where it acts, about which point, mm
@@ -77,8 +102,42 @@ def arms_of(scene: Scene, moments: Iterable[Moment]) -> list[tuple[complex, Arm]
     return arms
 
 
+def staggered(
+    pole: complex, arms: Sequence[Arm], middle: complex, style: Style, rays: Sequence[complex] = (), past: int = 1
+) -> Mapping[int, complex]:
+    """Return by how much arms are moved along the lines of their forces; the shortest of those side by side stays.
+
+    Arms are side by side when they make a small angle; each is moved away from the middle of the figure. None stays
+    upon a line that leaves the pole in one of the directions `rays`, but is moved by `past` steps and more.
+    """
+    shifts, bundles = dict[int, complex](), dict[complex, int]()  # how many, by the direction of the shortest of them
+    for reach, i in sorted((abs(own.foot - pole), i) for i, own in enumerate(arms) if abs(own.foot - pole) >= LEAST):
+        way = (arms[i].foot - pole) * (1.0 / reach)
+        first = next((other for other in bundles if (way.conjugate() * other).real > CLOSE), way)
+        if first not in bundles and any((way.conjugate() * ray).real > UPON for ray in rays):
+            bundles[first] = past
+        if first in bundles:
+            shifts[i] = outward(arms[i], pole, middle) * STEP * style.text * bundles[first]
+        bundles[first] = bundles.get(first, 0) + 1
+    return shifts
+
+
+def outward(arm: Arm, pole: complex, middle: complex) -> complex:
+    """Return the direction along the line of a force in which its arm is moved: away from the middle of the figure."""
+    return arm.along * (-1.0 if (arm.along.conjugate() * (middle - pole)).real > 0 else 1.0)
+
+
+def _as_lines(strokes: Sequence[Stroke]) -> Shapes:
+    return lines(*np.array(strokes, dtype=complex).reshape(-1, 2).T)
+
+
 def _place(at: complex) -> complex:
     return complex(round(at.real, 2), round(at.imag, 2))
+
+
+def _chords(centre: complex, middle: complex) -> list[Stroke]:
+    """Return the arrow of a couple about a centre, whose middle stands there, as chords."""
+    return list(pairwise(centre + middle * rect(1.0, 0.25 * TURNING * k) for k in range(-2, 3)))
 
 
 @dataclass(slots=True)
@@ -90,15 +149,37 @@ class Sketch:
     strokes: Sequence[Stroke]
     figures: Sequence[Skeleton] = ()
     zero: list[str] = field(default_factory=list)  # forces, couples and arms that the figure cannot show
+    alone: bool = False  # letters of arms
     _hung: list[str] = field(default_factory=list)
-    _ends: dict[complex, list[complex]] = field(default_factory=dict)  # of arrows at each place, from there
     _lying: list[Stroke] = field(default_factory=list)
+    _led: list[Stroke] = field(default_factory=list)  # ends of lines that lead to arrows beside theirs
     _barred: dict[complex, list[complex]] = field(default_factory=dict)
-    _turning: list[complex] = field(default_factory=list)  # places of couples
+    _turning: list[Stroke] = field(default_factory=list)  # arrows of couples, as chords
 
     def bar(self, at: complex, directions: Iterable[complex]) -> None:
         """Let no arrow leave a place in these directions."""
         self._barred.setdefault(_place(at), []).extend(directions)
+
+    def shifts(self, pole: complex, arms: Sequence[Arm], middle: complex, past: int = 1) -> Mapping[int, complex]:
+        """Return by how much arms about a point are moved along the lines of their forces: as far as no force lies."""
+        style, rays = self.scene.style, [*self._barred.get(_place(pole), ()), *rays_of(pole, self.strokes)]
+        shifts = dict(staggered(pole, arms, middle, style, rays, past))
+        for i, arm in enumerate(arms):
+            if abs(arm.foot - pole) < LEAST:
+                continue
+            step = outward(arm, pole, middle) * STEP * style.text
+            others = [(pole + by, arms[k].foot + by) for k, by in shifts.items() if k != i]
+            tries = (shifts.get(i, 0j) + k * step for k in range(TRIES))
+            shifts[i] = next(
+                (by for by in tries if not self._upon(pole + by, arm.foot + by, others)), shifts.get(i, 0j)
+            )
+        return {i: by for i, by in shifts.items() if by}
+
+    def _upon(self, a: complex, b: complex, arms: Sequence[Stroke]) -> bool:
+        """Whether a line runs along a force or one of these arms."""
+        letter, things = self.scene.style.label, _as_lines([*self._lying, *arms])
+        along = shapely.intersection(shapely.buffer(things, 0.25 * letter), lines([a], [b])[0])
+        return bool((shapely.length(along) > 0.9 * letter).any())
 
     def hang(self, name: str, at: complex) -> None:
         """Draw the arrow of a force at a point, or beyond what stands there, and letter it; once.
@@ -112,21 +193,74 @@ class Sketch:
         if e == 0:
             self.zero.append(name)
             return
-        gap, length = self._gap(at, e), self.scene.style.force
-        arrows = self._ends.setdefault(_place(at), [])
-        lines = [*rays_of(at, self.strokes), *self._barred.get(_place(at), ())]
-        ray = clear_ray(e, lines, arrows)
-        start, other = self._start(at, ray, gap), self._start(at, -ray, gap)
-        if start - other > 0.6 * length and room_on(-ray, lines, arrows) > 0.35:
-            ray, start = -ray, other
-        if start >= gap + FARTHEST * length:  # far from its point it would not be found: then it lies on the link
-            start = gap
-        near, far = at + ray * start, at + ray * (start + length * (SHORTER if start > gap else 1.0))
-        arrows.append(far - at)
+        near, far = self._free(at, e)
         self._lying.append((near, far))
+        ray = unit(far - near)
+        if abs(((near - at) / ray).imag) > NEAR:  # beside its line: a short line leads to its point
+            self.canvas.thin("extension", name, at, near)
+            self._led.append((near, near))
         self.canvas.add(Arrow(*((near, far) if abs(ray - e) < 1.0 else (far, near)), Pen.MAIN, name=name))
         # its letter stands beside its outer half
-        self.canvas.label(self.scene.letter(name), (far - ray * 0.55 * length, far), clear=0.9)
+        self.canvas.label(self.scene.letter(name), (far - 0.55 * (far - near), far), clear=0.9)
+
+    def _free(self, at: complex, e: complex) -> Stroke:
+        """Return where an arrow along `e` lies at a point: its end there, and its outer one.
+
+        It begins or ends at the point, whichever leaves it more room. Where links and other arrows take both, it stands
+        beside its own line.
+        """
+        letter, length = self.scene.style.label, self.scene.style.force
+        long = [(at, at + ray * length) for ray in self._barred.get(_place(at), ())]
+        around, forces = map(_as_lines, ([*self.strokes, *self._edges(at), *self._lying, *long], self._lying))
+        ends = [end for stroke in self.strokes for end in stroke]
+        middle = sum(ends) / len(ends) if ends else at
+        best: tuple[float, Stroke] = (-math.inf, (at, at))
+        for beside, lead in ((0.0, 0.0), *((k * BESIDE, led) for k, led in product((1.0, -1.0, 2.0, -2.0), LED))):
+            cost = ASIDE * (beside != 0.0) + INWARD * (abs(beside) > BESIDE)
+            cost += INWARD * (beside * cross(e, middle - at) > 0.0)
+            for ray in (e, -e):
+                stroke = self._lies(at, ray, lead * letter, 1j * e * beside * letter)
+                worth = self._room(stroke, around, forces, beside != 0.0) - PUSHED * (ray != e) - cost
+                if worth > best[0]:
+                    best = worth, stroke
+            if best[0] >= CLEAR - PUSHED:
+                break
+        return best[1]
+
+    def _lies(self, at: complex, ray: complex, lead: float, aside: complex) -> Stroke:
+        """Return where an arrow lies on a ray from a point, moved along it and aside: never far from the point.
+
+        The line that leads to its point leans, and can be seen.
+        """
+        length = self.scene.style.force
+        most = math.sqrt(max((REACH * length) ** 2 - abs(aside) ** 2, 0.0))
+        near = at + ray * min(max(self._gap(at, ray), lead), most) + aside
+        return near, near + ray * length * (SHORTER if aside else 1.0)
+
+    def _room(self, stroke: Stroke, around: Shapes, forces: Shapes, aside: bool) -> float:
+        """Return the heights of a letter free around the outer part of an arrow; less if it lies on another.
+
+        One that stands aside begins on no other force.
+        """
+        (near, far), letter = stroke, self.scene.style.label
+        start = near + 0.35 * (far - near)
+        room = float(shapely.distance(around, lines([start], [far])).min(initial=WIDE * letter)) / letter
+        from_ends = shapely.distance(forces[:, None], lines([start, far], [start, far]))
+        lies = from_ends.max(axis=1).min(initial=letter) < 0.3 * letter
+        whole = lines([near], [far])  # where a line leads to an arrow beside its own one, no other arrow begins or runs
+        lies |= shapely.distance(_as_lines(self._led), whole).min(initial=letter) < 0.3 * letter
+        lies |= aside and shapely.distance(forces, whole).min(initial=letter) < 0.45 * letter
+        return room - float(lies)
+
+    def _edges(self, at: complex) -> list[Stroke]:
+        """Return the sides of the blocks that do not hold a point."""
+        sides = list[Stroke]()
+        blocks = (block for figure in self.figures for block in figure.blocks)
+        for block in (own for own in blocks if (away := abs(at - own.at)) > NEAR and away > own.rim(unit(at - own.at))):
+            x, y = block.u * block.size[0] / 2, 1j * block.u * block.size[1] / 2
+            corners = [block.at + x + y, block.at - x + y, block.at - x - y, block.at + x - y]
+            sides += zip(corners, [*corners[1:], corners[0]], strict=True)
+        return sides
 
     def _gap(self, at: complex, e: complex) -> float:
         """Return where an arrow along `e` may begin beside a block at its point."""
@@ -136,20 +270,7 @@ class Sketch:
             if abs(((at - block.at) / block.u).imag) < NEAR and away < self.scene.style.slider[0] / 2:
                 ahead = 2 * away if abs((e / block.u).real) > abs((e / block.u).imag) else 0.0
                 gaps.append(block._replace(size=(length + ahead, height)).rim(e))
-        return max(gaps)
-
-    def _start(self, at: complex, ray: complex, start: float) -> float:
-        """Return where on a ray there is room for an arrow: beyond links and arrows that lie along it."""
-        first, taken, length = start, [], self.scene.style.force
-        lying = [(stroke, self.scene.style.pair + 1.0, 0.5) for stroke in self.strokes]
-        for stroke, spare, aside in [*lying, *((stroke, SPARE, ALONG) for stroke in self._lying)]:
-            ends = [(end - at) / ray for end in stroke]
-            if all(abs(end.imag) < aside for end in ends):
-                taken.append((*sorted(end.real for end in ends), spare))
-        for low, high, spare in sorted(taken):
-            if low < start + length * (SHORTER if start > first else 1.0) - 0.5 and high > start + 0.5:
-                start = high + spare
-        return start
+        return gap if (gap := max(gaps)) <= REACH * self.scene.style.force else 0.0
 
     def couple(self, name: str, figure: Skeleton) -> None:
         """Draw the turning arrow of a couple about the middle of a link, round those that stand there already."""
@@ -157,27 +278,36 @@ class Sketch:
         if scene.vanishes(name):
             self.zero.append(name)
             return
-        at, along = self._free_place(figure)
-        radius = scene.style.force * (0.5 + 0.25 * self._turning.count(at))
-        self._turning.append(at)
-        self.canvas.add(turning_arrow(at, radius, phase(along), 2.0, math.copysign(1.0, value), name))
+        at, along, radius = self._free_place(figure)
+        sense = math.copysign(1.0, value)
+        self.canvas.add(turning_arrow(at, radius, phase(along), TURNING, sense, name))
         # that of a guide on link 3 is written M_43, also where it was a sum
         couple = role(name)
         written = scene.mechanism.pair("M", couple.links[0], figure.number) if couple.hidden else name
-        self.canvas.label(scene.words.symbol(written), at + along * radius, clear=1.2)
+        beside = along * rect(1.0, -0.6 * sense)  # not where the arc crosses the link
+        self.canvas.label(scene.words.symbol(written), at + beside * radius, prefer=beside, clear=1.2)
 
-    def _free_place(self, figure: Skeleton) -> tuple[complex, complex]:
-        """Return the place on a link farthest from its joints, forces and couples so far, and the link's direction."""
-        if not figure.strokes:
-            return figure.blocks[0][:2] if figure.blocks else (figure.pins[0], 1 + 0j)
-        a, b = max(figure.strokes, key=lambda stroke: round(abs(stroke[1] - stroke[0]), 3))
-        busy = [*((other, 2.0) for other in (*figure.nodes, *self._ends)), *((other, 1.0) for other in self._turning)]
+    def _free_place(self, figure: Skeleton) -> tuple[complex, complex, float]:
+        """Return where the arrow of a couple stands: its centre on a link, the direction of its middle, its radius.
 
-        def room(at: complex) -> float:
-            return round(min(times * abs(other - at) / self.scene.style.force for other, times in busy), 3)
-
-        places = (a + (b - a) * share for share in SHARES)
-        return max(places, key=lambda at: min(room(at), 1.5)), unit(b - a)
+        It is clear of joints, forces, and couples so far.
+        """
+        a, b = max(figure.strokes, key=lambda stroke: round(abs(stroke[1] - stroke[0]), 3), default=(0j, 0j))
+        centres, along = [a + (b - a) * share for share in SHARES], unit(b - a) if a != b else 1 + 0j
+        if a == b:
+            at, along = figure.blocks[0][:2] if figure.blocks else (figure.pins[0], along)
+            centres = [at]
+        nodes = [(node, node) for own in self.figures for node in own.nodes]
+        taken = lines(*np.array([*nodes, *self._lying, *self._turning], dtype=complex).T)
+        best, found = -math.inf, (centres[0], along, 0.0)
+        for part, at, way in product((0.5, 0.75), centres, (along, -along)):
+            chords = _chords(at, way * part * self.scene.style.force)
+            room = float(shapely.distance(lines(*np.array(chords).T)[:, None], taken).min())
+            off = a != b and not 0.0 <= ((at + way * part * self.scene.style.force - a) / (b - a)).real <= 1.0
+            if (worth := round(min(room, WIDE * self.scene.style.label), 2) - part - off) > best:
+                best, found = worth, (at, way, part * self.scene.style.force)
+        self._turning += _chords(found[0], found[1] * found[2])
+        return found
 
     def contact(self, pin: str, pair: Prismatic, number: int) -> tuple[complex, str]:
         """Draw how far from a pin along the guide the reaction on a link acts, with its millimetres.
@@ -204,6 +334,7 @@ class Sketch:
             self.canvas.add(Group(tuple(parts), "arm", name))
             text = f"{scene.words.symbol(name)} = {scene.segment(name)}"
             self.canvas.label(text, (start, end), clear=0.9, height=scene.style.text, strict=True, spare=text)
+            self.canvas.add(scene.point(end, name))
         elif scene.defined(name) and scene.direction(reaction) != 0:
             self.zero.append(name)
         return end, ""
@@ -213,8 +344,14 @@ class Sketch:
         mm = self.scene.mm
         acting = [(f, arm, mm(at), mm(about)) for f, arm, at, about in moments if self.scene.direction(f) != 0]
         self.zero += [arm for _, arm, *_ in acting if self.scene.vanishes(arm)]
-        for about, own in arms_of(self.scene, acting):
-            own.draw(self.canvas, self.scene, about)
+        arms = arms_of(self.scene, acting)
+        self.alone = len(arms) > MANY
+        nodes = [node for figure in self.figures for node in figure.nodes]
+        for about in dict.fromkeys(about for about, _ in arms):
+            own = [arm for centre, arm in arms if centre == about]
+            shifts = self.shifts(about, own, sum(nodes) / len(nodes), OF_FOOT if _place(about) in self._barred else 1)
+            for i, arm in enumerate(own):
+                arm.draw(self.canvas, self.scene, about, shifts.get(i, 0j), self.alone)
 
     def letter_others(self, points: Iterable[str]) -> None:
         """Letter the points of other links at which their forces act on these: pins that slide along their guides."""
@@ -227,15 +364,21 @@ class Sketch:
     def finish(self, name: str, heading: tuple[str, ...]) -> View:
         """Letter the links, and close the view; it says that arrows have no scale, and what is zero."""
         letter_links(self.canvas, self.scene, self.figures)
-        return self.canvas.finish(name, heading, (self.scene.words["said.arrows"], *zeros(self.scene, self.zero)))
+        said = (self.scene.words[key] for key in ("said.arrows", *["said.arms"] * self.alone))
+        return self.canvas.finish(name, heading, (*said, *zeros(self.scene, self.zero)))
 
 
 def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
-    """Say in one line which of these forces, couples and arms are zero: the figure cannot show them."""
+    """Say in one line which of these forces, moments and arms, each kind apart, are zero: no figure can show them."""
     words, couples = scene.words, {couple.name for couple in scene.mechanism.couples}
-    gone = [role(name) for name in dict.fromkeys(names) if scene.defined(name) and scene.vanishes(name)]
-    symbols = [words.symbol(name.shown, bar=name.kind not in ("M", "h") and name not in couples) for name in gone]
-    return (f"{' = '.join(symbols)} = 0",) if symbols else ()
+    kinds: dict[str, list[str]] = {"": [], "M": [], "h": []}
+    for name in (role(name) for name in dict.fromkeys(names) if scene.defined(name) and scene.vanishes(name)):
+        kind = "M" if name in couples else name.kind if name.kind in kinds else ""
+        kinds[kind].append(words.symbol(name.shown, bar=not kind))
+    said = {kind: f"{' = '.join(symbols)} = 0" for kind, symbols in kinds.items() if symbols}
+    if "h" in said:
+        said["h"] = words["said.no_arm"].format(zero=said["h"])
+    return ("; ".join(said.values()),) if said else ()
 
 
 Hung = list[tuple[str, str]]  # force, mark of the point where it acts
@@ -320,6 +463,7 @@ def link_view(scene: Scene, group: LinkGroup, number: int) -> View:
     for pair in (pair for pair in group.inner if number in pair.links):
         other = next(n for n in pair.links if n != number)
         _react(sketch, group.pin(pair), pair, number, [f"R_{scene.mechanism.index(other, number)}"])
+        sketch.letter_others([group.pin(pair)])
     _load(sketch, (number,))
     for reaction in _reactions(scene, group):
         if reaction[2] == number:
@@ -358,10 +502,11 @@ def driver_view(scene: Scene) -> View:
         if point not in still:
             sketch.hang(name, scene.mm(point))
     sketch.letter_others(point for _, point in loads)
-    sketch.arms(_moments(scene, (number,)))
     if isinstance(driver, Driver):
         o, foot = scene.mm(driver.pivot), foot_of(scene, driver.pivot, sketch.figures)
-        sketch.bar(o, (foot * rect(1.0, lean) for lean in (-0.5, 0.0, 0.5)))
+        sketch.bar(o, (foot * rect(1.0, lean) for lean in LEANS))
+    sketch.arms(_moments(scene, (number,)))
+    if isinstance(driver, Driver):
         sketch.hang(frame, o)
         for name, point in _loads(scene, number):
             if point in still:

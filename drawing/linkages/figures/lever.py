@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from itertools import combinations, pairwise
-from math import cos, radians
 
 from ....plans.board import Step
 from ....plans.names import COUPLE, lever_arm, role, spelled
@@ -12,13 +11,11 @@ from ...shapes import Line
 from ...view import View
 from ..reading import Edge
 from ..scene import Scene
-from .group import LEAST, Arm, Sketch, arms_of, zeros
+from .group import MANY, Sketch, arms_of, zeros
 from .links import rays_of
 from .plan import letter_marks
 
 BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
-BESIDE = cos(radians(12.0))  # arms that make a smaller angle run into one another
-STEP = 2.4  # heights of an arm's letters between arms that are staggered
 
 
 def lever_view(scene: Scene) -> View:
@@ -43,18 +40,19 @@ def lever_view(scene: Scene) -> View:
         sketch.hang(name, at)
     moments = [(name, _arm_of(name), _image(scene, mark), pole) for name, mark in hung if name not in BALANCE]
     arms = [own for _, own in arms_of(scene, moments)]
-    shifts = staggered(pole, arms, sum(places.values()) / len(places), STEP * scene.style.text)
+    alone = len(arms) > MANY
+    shifts = sketch.shifts(pole, arms, sum(places.values()) / len(places))
     for number, own in enumerate(arms):
         canvas.part(scene.last(canvas.parts[force] for force in own.forces))
-        own.draw(canvas, scene, pole, shifts.get(number, 0j))
+        own.draw(canvas, scene, pole, shifts.get(number, 0j), alone)
     balance, mark = hung[-1]
     canvas.part(balance)  # the velocity of the driver's point is the arm of the force that balances
-    text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{driven}')} = {scene.segment(f'V_{driven}')}"
+    text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{driven}')} = {scene.segment(f'V_{driven}', 'lever')}"
     canvas.label(text, (pole, _image(scene, mark)), clear=0.9, height=scene.style.text, spare=text)
     letters = {mark: letter_of(scene, mark) for mark in marks} | {"lever.p": words.mark("lever.p")}
     letter_marks(canvas, scene, letters, places, ("lever.p",))
     gone = [_arm_of(name) for name, _ in hung if scene.direction(name) != 0]
-    notes = (words["said.lever"], *zeros(scene, [*sketch.zero, *gone]))
+    notes = (words["said.lever"], *[words["said.arms"]] * alone, *zeros(scene, [*sketch.zero, *gone]))
     return canvas.finish("lever", scene.heading("heading.lever", "lever"), notes)
 
 
@@ -79,7 +77,8 @@ def letter_of(scene: Scene, mark: str) -> str:
 
 def _image(scene: Scene, mark: str) -> complex:
     """Return a mark of the lever, mm: that of the velocity plan turned by +90 degrees where nothing hangs on it."""
-    return scene.mm(mark) if mark in scene.values else scene.mm(f"velocity.{role(mark).of}") * 1j
+    at = scene.solved.point(mark if mark in scene.values else f"velocity.{role(mark).of}")
+    return (at if mark in scene.values else at * 1j) * (1.0 / scene.scales["lever"].mu)
 
 
 def _joints(scene: Scene) -> Iterator[list[str]]:
@@ -129,19 +128,3 @@ def _arm_of(force: str) -> str:
     if acting.part != COUPLE:
         return lever_arm(force)
     return lever_arm(spelled("M", acting.of, links=acting.links), acting.about)
-
-
-def staggered(pole: complex, arms: Sequence[Arm], middle: complex, step: float) -> Mapping[int, complex]:
-    """Return by how much arms are moved along the lines of their forces; the shortest of those side by side stays.
-
-    Arms are side by side when they make a small angle; each is moved away from the middle of the figure.
-    """
-    shifts, bundles = dict[int, complex](), dict[complex, int]()  # how many, by the direction of the shortest of them
-    for reach, i in sorted((abs(own.foot - pole), i) for i, own in enumerate(arms) if abs(own.foot - pole) >= LEAST):
-        way, outward = (arms[i].foot - pole) * (1.0 / reach), arms[i].along
-        first = next((other for other in bundles if (way.conjugate() * other).real > BESIDE), way)
-        outward *= -1.0 if (outward.conjugate() * (middle - pole)).real > 0 else 1.0
-        if first in bundles:
-            shifts[i] = outward * step * bundles[first]
-        bundles[first] = bundles.get(first, 0) + 1
-    return shifts

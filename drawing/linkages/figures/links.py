@@ -107,7 +107,11 @@ def _skeleton(scene: Scene, number: int) -> Skeleton:
         at, u, (low, high) = scene.mm(pair.point), guide_of(scene, pair), scene.run_of(pair)
         rails.append((at + u * (low - spare), at + u * (high + spare)))
     nodes = _apart([*pins, *(b.at for b in blocks), *(scene.mm(p) for p in link.points if p != link.centre)])
-    held = next((scene.mm(point) for point in letters if point in scene.mechanism.frame_points), None)
+    joints = {*letters, *(point for point in link.points if point != link.centre)}
+    # a triangle that similarity names has three sides; else a lever has but its arms
+    triangle = any({*scene.reading.on_link(marks)} <= joints for marks in scene.reading.triangles("velocity"))
+    still = (scene.mm(point) for point in letters if point in scene.mechanism.frame_points)
+    held = None if triangle else next(still, None)
     guides, bars, corners = _on_rails(rails, nodes) if rails else ([], *_between(nodes, held))
     strokes = [*guides, *bars]
     for pin in _apart(pins):  # a line of the link that runs through is a corner of 180 degrees
@@ -325,8 +329,9 @@ def letter_links(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> N
     for figure in figures:
         for point in scene.mechanism.link(figure.number).points:
             first.setdefault(point, figure)
+    pivots = {shape.name for shape in canvas.shapes if isinstance(shape, Group) and shape.role == "pivot"}
     for point, figure in first.items():
-        canvas.part(point)
+        canvas.part(GIVEN if point in pivots else point)  # a pivot comes with its letter
         pins = pins_of(scene, figure.number)
         if point in (*pins, *(pair.point for pair in _sliding(scene, figure.number))):
             links = ",".join(map(str, several.get(point, ())))
@@ -350,7 +355,7 @@ def _letter_joint(canvas: Canvas, scene: Scene, point: str, mark: str, figures: 
     (length, height), u, figure = max(around, key=lambda block: block[0])
     up, half = _up(scene, figure.number, at, u, figures), u * (length / 2)
     edge = at + up * (height / 2)
-    canvas.label(mark, (edge - half, edge + half), prefer=up, priority=1)
+    canvas.label(mark, (edge - half, edge + half), prefer=up, priority=1, along=False)
 
 
 def _up(scene: Scene, number: int, at: complex, u: complex, figures: Sequence[Skeleton]) -> complex:
@@ -380,6 +385,16 @@ def _letter_beside(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) -
     canvas.label(scene.words.mark(point), at, clear=radius + 0.8)
 
 
+def lay_down(canvas: Canvas, scene: Scene, pen: Pen, role: str) -> None:
+    """Draw the mechanism in another position, its links as plain lines between small circles."""
+    pins: dict[complex, None] = {}
+    for number in scene.numbers:
+        figure = skeleton(scene, number)
+        canvas.add(*(Line(a, b, pen, role=role, name=str(number)) for a, b in figure.strokes))
+        pins |= dict.fromkeys(complex(round(at.real, 4), round(at.imag, 4)) for at in figure.nodes)
+    canvas.add(*(Circle(at, scene.style.node, Pen.THIN, fill="white", role=role) for at in pins))
+
+
 def letter_point(canvas: Canvas, scene: Scene, point: str) -> None:
     """Draw and letter a point that is no point of the links drawn."""
     canvas.add(scene.point(scene.mm(point), point))
@@ -395,7 +410,7 @@ def _number(canvas: Canvas, scene: Scene, figure: Skeleton, figures: Sequence[Sk
         pieces += [(a + e * low, a + e * high) for low, high in pairwise(stops)]
     if pieces:
         longest = max(pieces, key=lambda piece: round(abs(piece[1] - piece[0]), 3))
-        canvas.label(str(figure.number), longest, clear=0.8)
+        canvas.label(str(figure.number), longest, clear=0.8, along=False)
     elif figure.blocks:
         at, u, (length, height) = figure.blocks[0]
         up = _up(scene, figure.number, at, u, figures)

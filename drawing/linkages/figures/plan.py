@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import cycle
+from itertools import product
 from typing import NamedTuple
 
 from ....plans.board import POSITION, Step
@@ -20,20 +20,22 @@ from ...areas import clipped
 from ...page import extent
 from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
 from ...text import Box
-from ...view import Canvas, View, write_above
+from ...view import ELSEWHERE, Canvas, View, write_above
 from ..reading import Edge
-from ..scene import Scene, plan_heading
+from ..scene import Scene, line_of, plan_heading
 from .links import NEAR, Stroke
 
-READABLE = 1.7  # arrowheads: the least length of a vector in an inset
+READABLE = 1.4  # arrowheads: the least length of a vector in an inset
 TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
 WIDEST, NARROWEST = 85.0, 45.0  # mm, the largest side of what an inset shows, the least side of an inset of forces
 MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
-LEAST_FRAME = 5.0  # mm, the least side of the frame around what an inset shows
+LEAST_PLACE = 3.0  # mm, the least radius of the circle around what an inset shows
 TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
+EMPTY: Mapping[str, str] = {}
 NUMERALS = ["I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X"]
 ENLARGED = "enlarged"  # the stage of insets: all that a figure has is there before them
-PAST = 6.0  # mm by which a construction line runs past the point that it finds
+PAST = 10.0  # mm by which a construction line runs past the point that it finds
+LONGER = 5.0  # mm by which its name may reach past the end of such a line
 FEW = 1  # forces too short to be read that a plan shows as points, said in words
 ConstructionLine = tuple[complex, complex, complex, str]  # whence, the point that it finds, its end, what is said of it
 
@@ -83,6 +85,18 @@ def headed(vector: Vector, least: float) -> Vector:
     return replace(vector, head="none") if length_of(vector) < least else vector
 
 
+def told_apart(vectors: Iterable[Vector]) -> Iterator[Vector]:
+    """Go through vectors; of two to and fro between two places the second has its head in the middle.
+
+    A line with a head at both ends would be read as a dimension.
+    """
+    seen = set[tuple[complex, ...]]()
+    for vector in vectors:
+        ends = tuple(complex(round(at.real, 3), round(at.imag, 3)) for at in (vector.tail, vector.tip))
+        yield replace(vector, head="middle") if ends[::-1] in seen else vector
+        seen.add(ends)
+
+
 @dataclass(frozen=True, slots=True)
 class Plan:
     """A plan; its insets show what is too short for an arrowhead, where that is more than one force."""
@@ -99,7 +113,7 @@ class Plan:
     def lines(self) -> Iterable[ConstructionLine]:
         """Go through the construction lines."""
         for step, _, start, along in self.scene.reading.meetings(self.plan):
-            yield (*construction_line(self.scene, step, start, along), "")
+            yield (*construction_line(self.scene, step, start, along), line_of(self.scene, along))
 
     def marks(self) -> Mapping[str, complex]:
         """Return the places of the pole and of all ends of vectors."""
@@ -111,22 +125,21 @@ class Plan:
         return [step.name for step in self.scene.program.on(self.plan) if step.verb == "pole"]
 
     def windows(self) -> list[Window]:
-        """Return what the insets show, the coarser ones first; none where a single force is too short."""
-        if role(self.plan).kind != FORCES:
-            return []
+        """Return what the inset shows: as many of the forces that are too short as one enlargement lets be read.
+
+        There is none where a single force is too short.
+        """
         short = self._short(1.0)
-        windows, left = list[Window](), _clusters(short) if len(short) > FEW else []
-        while left:
-            cluster, times = left.pop(0), self._times
-            ends = {end for vector in cluster for end in (vector.tail, vector.tip)}
-            least = READABLE * self.scene.style.arrow / min(map(length_of, cluster))
-            readable = next((m for m in times if m >= least), times[-1])
-            fitting = [m for m in times if max(size_of(ends)) * m <= WIDEST] or times[:1]
-            windows.append(Window.about(ends, min(readable, fitting[-1]), NARROWEST))
-            enlarged = windows[-1].times
-            finer = [vector for vector in cluster if vector in self._short(enlarged)]
-            left += _clusters(finer) if len(finer) < len(cluster) or enlarged < times[-1] else []
-        return windows
+        if role(self.plan).kind != FORCES or len(short) <= FEW:
+            return []
+        best, most, clusters = list[Window](), (0, 0), _clusters(short)
+        for times, first in product(self._times, clusters):
+            shown = _together(first, clusters, WIDEST / times)
+            arrows = [length_of(vector) * times / self.scene.style.arrow for vector in shown]
+            read = sum(size >= 1.0 for size in arrows), sum(size >= READABLE for size in arrows)
+            if read > most:
+                best, most = [Window.about(_ends(shown), times, NARROWEST)], read
+        return best
 
     def _short(self, times: float) -> list[Vector]:
         return [vector for vector in self.vectors() if length_of(vector) * times < self.scene.style.arrow]
@@ -164,27 +177,43 @@ def _clusters(vectors: Sequence[Vector]) -> list[list[Vector]]:
     return clusters
 
 
+def _ends(vectors: Iterable[Vector]) -> set[complex]:
+    return {end for vector in vectors for end in (vector.tail, vector.tip)}
+
+
+def _together(first: list[Vector], clusters: Sequence[list[Vector]], widest: float) -> list[Vector]:
+    """Return vectors that hang together, and the nearest others with which they take no more than so many mm."""
+    shown = list[Vector]() if max(size_of(_ends(first))) > widest else [*first]
+    for other in sorted(clusters, key=lambda c: max(size_of(_ends([*first, *c])))):
+        if shown and max(size_of(_ends([*shown, *other]))) <= widest:
+            shown += [vector for vector in other if vector not in shown]
+    return shown
+
+
+def details(plans: Iterable[Plan]) -> int:
+    """Count the insets of plans."""
+    return sum(len(plan.windows()) for plan in plans)
+
+
 def with_insets(
-    canvas: Canvas, name: str, heading: tuple[str, ...], notes: tuple[str, ...], shown: Sequence[tuple[Plan, Window]]
+    canvas: Canvas,
+    name: str,
+    heading: tuple[str, ...],
+    notes: tuple[str, ...],
+    shown: Sequence[tuple[Plan, Window, str]],
 ) -> View:
-    """Finish a figure: frame the surroundings of short vectors in it, and put each enlarged beside it.
+    """Finish a figure: mark the surroundings of short vectors in it with numerals, and put each enlarged beside it.
 
     The insets stand to the right of the figure, or under it, whichever takes less room; the heading over all.
     """
     if not shown:
         return canvas.finish(name, heading, notes)
-    frames: dict[Window | None, list[tuple[Box, str]]] = {}  # by the inset in which they stand, else in the figure
-    for (_, window), numeral in zip(shown, cycle(NUMERALS), strict=False):
-        x0, y0, x1, y1 = window.box
-        around = [w for _, w in shown if w.times < window.times and w.shows(complex(x0 + x1, y0 + y1) / 2)]
-        host = max(around, key=lambda other: other.times, default=None)  # the finest of the coarser ones
-        frames.setdefault(host, []).append((window.box, numeral))
-    insets = [
-        _inset(plan, window, name, numeral, frames.get(window, ()))
-        for (plan, window), numeral in zip(shown, cycle(NUMERALS), strict=False)
-    ]
+    insets = [_inset(plan, window, name, numeral) for plan, window, numeral in shown]
     canvas.part(ENLARGED)
-    _framed(canvas, name, frames.get(None, ()), 1.0)
+    for _, (box, _), numeral in shown:
+        x0, y0, x1, y1 = box
+        radius = max(LEAST_PLACE, abs(complex(x1 - x0, y1 - y0)) / 2)
+        canvas.detail(numeral, complex(x0 + x1, y0 + y1) / 2, radius, f"{name}_{numeral}")
     figure = canvas.finish(name)
     ways = []
     for right in (True, False):
@@ -204,23 +233,13 @@ def with_insets(
     return View(name, tuple(shapes), (x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0), heading, notes, parts=parts)
 
 
-def _framed(canvas: Canvas, name: str, frames: Iterable[tuple[Box, str]], times: float) -> None:
-    """Draw the frames of what the insets of a figure show, with their numerals."""
-    for box, numeral in frames:
-        x0, y0, x1, y1 = (side * times for side in box)
-        wide, high = (max(0.0, LEAST_FRAME - size) / 2 for size in (x1 - x0, y1 - y0))
-        corners = _corners((x0 - wide, y0 - high, x1 + wide, y1 + high))
-        canvas.add(Polyline(corners, Pen.THIN, closed=True, role="window", name=f"{name}_{numeral}"))
-        canvas.label(numeral, corners[2:], prefer=1j, clear=0.8)
-
-
 def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
     """Return the corners of a box, counter-clockwise; the last two are the upper ones."""
     x0, y0, x1, y1 = box
     return complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
 
 
-def _inset(plan: Plan, window: Window, figure: str, numeral: str, framed: Iterable[tuple[Box, str]]) -> View:
+def _inset(plan: Plan, window: Window, figure: str, numeral: str) -> View:
     """Draw what stands in the window, enlarged: vectors to a scale factor of their own, those that leave it cut off."""
     name = f"{figure}_{numeral}"
     scene, times, (x0, y0, x1, y1) = plan.scene, window.times, window.box
@@ -230,13 +249,15 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str, framed: Iterab
     for i, (tail, point, end, text) in enumerate(plan.lines()):
         cut, past = (clipped(start * times, end * times, bounds) for start in (tail, point))
         if cut is not None:
-            canvas.add(Line(*cut, Pen.DASHED, role="construction", name=f"{name}_{i + 1}"))
-        if past is not None and text:
-            canvas.label(text, past, clear=0.8)
+            canvas.thin("construction", f"{name}_{i + 1}", *cut)
+        if past is not None:
+            name_line(canvas, text, *past)
     letters: dict[tuple[complex, complex], dict[str, None]] = {}  # of vectors from one place to another
     for vector in plan.vectors():
         letters.setdefault((vector.tail, vector.tip), {})[scene.letter(vector.quantity)] = None
-    for vector in plan.vectors():
+    edges = [*scene.reading.on(plan.plan)] if role(plan.plan).kind == FORCES else []
+    said = {scene.ends(edge): _ends_of(scene, edge, edges) for edge in edges}
+    for vector in told_apart(plan.vectors()):
         tail, tip, names = vector.tail * times, vector.tip * times, letters.pop((vector.tail, vector.tip), ())
         cut = clipped(tail, tip, bounds)
         if cut is None or abs(cut[1] - cut[0]) < 1e-6:
@@ -245,18 +266,18 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str, framed: Iterab
             canvas.add(headed(replace(vector, tail=tail, tip=tip, mu=own.mu), scene.style.arrow))
         else:
             parts: list[Shape] = [Line(*cut)]
-            parts += [Head(tip, tip - tail)] if abs(cut[1] - tip) < 1e-6 else []
+            parts += [Head(tip, tip - tail)] if abs(cut[1] - tip) < 1e-6 and vector.head == "tip" else []
             canvas.add(Group(tuple(parts), "cut", vector.quantity))
         if names:
-            canvas.label(" = ".join(names), cut, clear=0.9, strict=True)
-    _framed(canvas, figure, framed, times)
+            spare = said.get((vector.tail, vector.tip), "")
+            canvas.label(" = ".join(names), cut, clear=0.9, strict=True, last=spare)
     places = {mark: place * times for mark, place in plan.marks().items()}
     seen = {mark: place for mark, place in places.items() if clipped(place, place, bounds) is not None}
-    letter_marks(
-        canvas, scene, {mark: scene.words.mark(mark) for mark in seen}, seen, [p for p in plan.poles() if p in seen]
-    )
+    marks, poles = {mark: scene.words.mark(mark) for mark in seen}, [p for p in plan.poles() if p in seen]
+    tips = {edge.tip: said[scene.ends(edge)] for edge in reversed(edges)}
+    letter_marks(canvas, scene, marks, seen, poles, tips)
     canvas.add(Polyline(_corners(bounds), Pen.THIN, closed=True, role="inset", name=name))
-    return canvas.finish(name, (f"{numeral}:  {scene.words.scale(own)}",))
+    return canvas.finish(name, (scene.words["heading.detail"].format(numeral=numeral), scene.words.scale(own)))
 
 
 def construction_line(scene: Scene, step: Step, start: str, direction: str) -> tuple[complex, complex, complex]:
@@ -268,10 +289,25 @@ def construction_line(scene: Scene, step: Step, start: str, direction: str) -> t
     return tail, point, point + e * PAST if along > 0 else point - e * PAST
 
 
+def name_line(canvas: Canvas, text: str, point: complex, end: complex) -> None:
+    """Say along a construction line what it is, past the point that it finds."""
+    if abs(end - point) > NEAR:
+        beyond = end + (end - point) * (LONGER / abs(end - point))
+        canvas.label(text.replace(" ", ""), (point, beyond), clear=0.6, height=canvas.style.text, optional=True)
+
+
 def letter_marks(
-    canvas: Canvas, scene: Scene, letters: Mapping[str, str], places: Mapping[str, complex], poles: Collection[str]
+    canvas: Canvas,
+    scene: Scene,
+    letters: Mapping[str, str],
+    places: Mapping[str, complex],
+    poles: Collection[str],
+    said: Mapping[str, str] = EMPTY,
 ) -> None:
-    """Draw poles and points with their letters outside of the figure; marks that coincide share one letter."""
+    """Draw poles and points with their letters outside of the figure; marks that coincide share one letter.
+
+    Of some it is `said` in the notes, or elsewhere, which they are, if there is no room for their letters.
+    """
     if not places:
         return
     middle, at = sum(places.values()) / len(places), dict[complex, list[str]]()
@@ -282,7 +318,9 @@ def letter_marks(
         canvas.part(mark, scene.point(places[mark], mark))
     for place, marks in at.items():
         canvas.part(scene.last(canvas.parts.get(mark, mark) for mark in marks))
-        canvas.label(", ".join(letters[mark] for mark in marks), place, prefer=place - middle, priority=1)
+        texts = dict.fromkeys(said.get(mark, "") for mark in marks)
+        last = next(iter(texts)) if len(texts) == 1 else ""
+        canvas.label(", ".join(letters[m] for m in marks), place, prefer=place - middle, priority=1, last=last)
     for mark in letters:
         if mark not in poles:
             canvas.part(mark, Group((Circle(places[mark], 0.3, Pen.THIN, fill="black"),), "point", mark))
@@ -299,29 +337,35 @@ def plan_view(scene: Scene, plan: str) -> View:
     shown = forces.windows()
     left = [edge for edge in vectors if not in_inset(scene, shown, scene.ends(edge))]
     for step, number, start, direction in scene.reading.meetings(plan):
-        begin, _, end = construction_line(scene, step, start, direction)
-        canvas.part(step.name, Line(begin, end, Pen.DASHED, role="construction", name=f"{step.name}_{number}"))
+        begin, point, end = construction_line(scene, step, start, direction)
+        canvas.part(step.name, Line(begin, end, Pen.THIN, role="construction", name=f"{step.name}_{number}"))
+        name_line(canvas, line_of(scene, direction), point, end)
     draw_sides(canvas, scene, plan, map(scene.ends, vectors))
     _vectors(canvas, scene, vectors, left)
     ends, poles = {mark for edge in left for mark in (edge.tail, edge.tip)}, forces.poles()
     marks = *poles, *(edge.tip for edge in vectors if edge.tip in ends)
-    letter_marks(canvas, scene, {m: words.mark(m) for m in marks}, {m: scene.mm(m) for m in marks}, poles)
+    said = {edge.tip: _ends_of(scene, edge, vectors) for edge in reversed(left)}
+    places = {m: scene.mm(m) for m in marks}
+    said |= {m: ELSEWHERE for m, place in places.items() if any(window.shows(place) for window in shown)}
+    letter_marks(canvas, scene, {m: words.mark(m) for m in marks}, places, poles, said)
     notes = [*said_flat(scene, plan)]
-    for vector in map(scene.vector, dict.fromkeys(left)):
-        if (length := length_of(vector)) < SHORT:
+    read = {quantity for window in shown for quantity in forces.read_in(window)}
+    for vector in map(scene.vector, dict.fromkeys(vectors)):
+        if (length := length_of(vector)) < SHORT and vector.quantity not in read:
             short = words["said.zero" if length < 1e-6 else "said.short"]
             notes.append(short.format(vector=scene.letter(vector.quantity), mm=words.number(length, 2)))
-    for numeral, window in zip(NUMERALS, shown, strict=False):
+    kin = [p for p in scene.solved.program.plans if role(p).kind == FORCES]  # a sheet has each numeral once
+    numeral = NUMERALS[details(Plan(scene, other) for other in kin[: kin.index(plan)])] if shown else ""
+    for window in shown:
         if symbols := dict.fromkeys(map(scene.letter, forces.read_in(window))):
             notes.append(words["said.inset"].format(vectors=", ".join(symbols), inset=numeral))
     heading = plan_heading(words, scene.solved.structure, plan), words.scale(scene.scales[plan])
-    return with_insets(canvas, plan, heading, tuple(notes), [(forces, window) for window in shown])
+    return with_insets(canvas, plan, heading, tuple(notes), [(forces, window, numeral) for window in shown])
 
 
 def _vectors(canvas: Canvas, scene: Scene, vectors: Sequence[Edge], lettered: Sequence[Edge]) -> None:
     named = set[frozenset[complex]]()
-    for edge in vectors:
-        vector = scene.vector(edge)
+    for edge, vector in zip(vectors, told_apart(map(scene.vector, vectors)), strict=True):
         canvas.part(scene.reading.drawn_with(edge))
         canvas.add(headed(vector, SHORT))  # else an arrowhead would be longer than the vector
         names = list(dict.fromkeys(other.name for other in vectors if (other.tail, other.tip) == (edge.tail, edge.tip)))
@@ -334,8 +378,14 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: Sequence[Edge], lettered: Se
         side = (-across if (across / (0.3 + 1j)).real > 0 else across) if ends in named else 0j
         named.add(ends)
         text = " = ".join(map(scene.letter, names))
-        ends_of = f"{text} = {scene.words.mark(edge.tail)}{scene.words.mark(edge.tip)}"
-        canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9, strict=True, spare=ends_of)
+        spare = _ends_of(scene, edge, vectors)
+        canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9, strict=True, spare=spare)
+
+
+def _ends_of(scene: Scene, edge: Edge, vectors: Sequence[Edge]) -> str:
+    """Say by the letters of its ends which vector is drawn there."""
+    names = dict.fromkeys(other.name for other in vectors if (other.tail, other.tip) == (edge.tail, edge.tip))
+    return " = ".join([*map(scene.letter, names), scene.words.mark(edge.tail) + scene.words.mark(edge.tip)])
 
 
 def draw_sides(canvas: Canvas, scene: Scene, plan: str, drawn: Iterable[Stroke]) -> None:

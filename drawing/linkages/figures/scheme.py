@@ -1,6 +1,6 @@
 """The plan of the mechanism: links, pairs, guides, how joints are found, the angle of the driver, senses of turning.
 
-The arcs of these stand where they are least in the way: about each joint of a link radii are tried all at once, and of
+The arcs of these stand where they are least in the way: about the pivot of a link radii are tried all at once, and of
 each radius arcs of several lengths.
 """
 
@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 from cmath import phase, rect
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -18,26 +19,43 @@ from ....plans.board import POSITION, Step
 from ....plans.linkages.compound import is_relative
 from ....plans.linkages.legs import guide_letters
 from ....plans.linkages.mechanism import FRAME, ZERO, Driver, Prismatic
+from ....plans.linkages.solved import SolvedLinkage
 from ....plans.names import role
 from ...figure import ANSWERS, GIVEN
 from ...shapes import Arc, Arrow, Circle, Group, Line, Pen, Polyline, Shape, Vector, sides_of
-from ...symbols import angle_dimension, turning_arrow
+from ...symbols import angle_dimension, turning_arrow, unit
 from ...view import Canvas, View
 from ..scene import Scene
-from .links import NEAR, Skeleton, Stroke, draw_links, foot_of, guide_of, guide_up, letter_links, letter_point, skeleton
+from .links import (
+    NEAR,
+    Skeleton,
+    Stroke,
+    draw_links,
+    foot_of,
+    guide_of,
+    guide_up,
+    lay_down,
+    letter_links,
+    letter_point,
+    pins_of,
+    rays_of,
+    skeleton,
+)
 from .plan import draw_sides, said_flat
 
-FAR = 40.0  # mm from the pivot at which the arrow of omega_1 stands
+SHORT = 0.8  # lengths of the arrow of a force: across a shorter crank the arrow of omega_1 has no room
+ACROSS = 0.7, 0.6, 0.8, 0.3, 0.25  # parts of a longer one at which it stands
 PAST = 16.0  # mm by which the axis of a guide runs past its slider and a pivot
 LEAVES, LONGEST = 1.6, 34.0  # mm by which the end of an arc leaves its tangent, unless the arc would be too long
 CROSS = 8.0  # mm by which arcs and lines run past the joint that they find
 
 
-def scheme(scene: Scene) -> View:
-    """Draw the plan of the mechanism in the given position."""
+def scheme(scene: Scene, dead: Sequence[SolvedLinkage] = ()) -> View:
+    """Draw the plan of the mechanism in the given position, and thin those at the ends of the working stroke."""
     canvas, driver = scene.canvas(), scene.mechanism.driver
     canvas.part(GIVEN)
     _axes(canvas, scene)
+    notes = _dead_positions(canvas, scene, dead)
     for step in scene.program.on(POSITION):
         if step.name in scene.points or step.verb == "tangent":
             _found_by(canvas, scene, step)
@@ -57,9 +75,35 @@ def scheme(scene: Scene) -> View:
         canvas.label(scene.letter(f"V_{driver.point}"), (tail, tip))
     senses(canvas, scene, figures)
     canvas.part(GIVEN)
+    _letter_axes(canvas, scene)
     _letter_frame(canvas, scene, figures)
     letter_links(canvas, scene, figures)
-    return canvas.finish("position", scene.heading("heading.position", "position"), tuple(said_flat(scene, POSITION)))
+    return canvas.finish(
+        "position", scene.heading("heading.position", "position"), (*notes, *said_flat(scene, POSITION))
+    )
+
+
+def _dead_positions(canvas: Canvas, scene: Scene, dead: Sequence[SolvedLinkage]) -> tuple[str, ...]:
+    """Draw the mechanism where the working stroke begins, its zero position, and ends; return what the notes say."""
+    words, places = scene.words, list[str]()
+    canvas.part(ANSWERS)
+    joints = dict.fromkeys(pair.point for pair in scene.mechanism.pairs if FRAME not in pair.links)
+    for solved, index in zip(dead, ("0", words["dead.end"]), strict=False):
+        stand = replace(scene, solved=solved, runs={})
+        lay_down(canvas, stand, Pen.EXTREME, "dead-position")
+        for point in joints:
+            at = stand.mm(point)
+            away = at - scene.mm(point)
+            canvas.small(f"{words.mark(point)}_{{{index}}}", at, away, scene.style.node + 0.6)
+        driver = solved.mechanism.driver
+        place = solved.values[driver.coordinate]
+        turned = f"{words.number(math.degrees(place), 2)}°"
+        places.append(turned if isinstance(driver, Driver) else f"{words.number(place * 1e3, 2)} {words.unit('mm')}")
+    canvas.part(GIVEN)
+    symbol = words.symbol(scene.mechanism.driver.coordinate)
+    return (
+        tuple(words["said.dead_ends"].format(symbol=symbol, begin=places[0], end=places[1]).split("|")) if dead else ()
+    )
 
 
 def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
@@ -78,10 +122,14 @@ def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
         canvas.label(text, middle, prefer=rect(1.0, phi / 2), clear=1.2)
     else:
         canvas.label(text, o + radius, prefer=1j, clear=1.2)
-    radius = min(crank_mm * 0.78, FAR) if crank_mm > 24.0 else radius + 5.0
-    wanted = phi + math.pi * 0.78 if phi < math.pi else phi / 2 + math.pi * 0.86
-    radii = tuple(radius * part for part in (1.0, 0.75, 1.3, 1.6))
-    turning_of_driver(canvas, scene, driver, radii, 1.0, wanted)
+    if crank_mm > max(SHORT * style.force, 2.0 * radius):  # across the crank, else beyond it on its other side
+        reach, wanted = min(crank_mm, CURVED / ACROSS[0]), phi
+        radii = tuple(reach * part for part in ACROSS if reach * part > NEAREST * style.force)
+    else:
+        wanted = phi + math.pi * 0.78 if phi < math.pi else phi / 2 + math.pi * 0.86
+        radii = tuple((radius + 5.0) * part for part in (1.0, 0.75, 1.3, 1.6))
+    spread = min(1.0, max(TURNED[0], 1.1 * style.force / radii[0]))
+    turning_of_driver(canvas, scene, driver, radii, spread, wanted)
 
 
 def _letter_frame(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
@@ -102,7 +150,11 @@ def _letter_frame(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> 
         pivot, down = scene.mm(driver.pivot), foot_of(scene, driver.pivot, figures)
         foot, crank = pivot + down * (style.pivot[1] + style.pair), scene.mm(driver.point) - pivot
         base, across = style.pivot[2], 1j * down * (-1.0 if crank.real > 0 > crank.imag else 1.0)
-        canvas.label(zero, foot + across * base / 2 + down * 0.5 * style.hatch[0], prefer=across)
+        # beside the end of the hatching that lines of links leave freer: another would stand at a link
+        corners = {side: foot + side * base / 2 + down * 0.5 * style.hatch[0] for side in (across, -across)}
+        room = {side: _clear_of(end, (line for f in figures for line in f.strokes)) for side, end in corners.items()}
+        across = max(corners, key=lambda side: min(room[side], base / 2))
+        canvas.label(zero, corners[across], prefer=across)
     for pair in (pair for pair in mechanism.pairs if isinstance(pair, Prismatic) and FRAME not in pair.links):
         letter, u, at = letters.get(scene.solved.guide_name(pair)), guide_of(scene, pair), scene.mm(pair.point)
         figure = next(figure for figure in figures if figure.number == pair.links[1])
@@ -112,18 +164,30 @@ def _letter_frame(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> 
             canvas.label(letter, far)
 
 
+def _clear_of(at: complex, lines: Iterable[Stroke]) -> float:
+    """Return how far a place is from lines, mm."""
+    return min((float(_gaps(np.array([at]), np.array([a]), np.array([b]))[0]) for a, b in lines), default=math.inf)
+
+
 def _axes(canvas: Canvas, scene: Scene) -> None:
     """Draw the axes of the frame's guides: past the slider, and past a pivot that is near the same line."""
-    pairs = scene.sliding()
-    joints = {scene.mm(pair.point) for pair in scene.mechanism.pairs}  # near them is the less room for a letter
-    letters = guide_letters(scene.program)
-    for pair in pairs:
+    for pair in scene.sliding():
         at, u = scene.mm(pair.point), guide_of(scene, pair)
         feet = [(scene.mm(point) - at) / u for point in scene.mechanism.frame_points]
         near = [foot.real for foot in feet if abs(foot.imag) < 0.3 * abs(foot.real)]
         way = near[:1] or scene.run_of(pair)
-        line = at + u * (min(0.0, *way) - PAST), at + u * (max(0.0, *way) + PAST)
-        canvas.add(Line(*line, Pen.AXIS))
+        canvas.add(Line(at + u * (min(0.0, *way) - PAST), at + u * (max(0.0, *way) + PAST), Pen.AXIS))
+
+
+def _letter_axes(canvas: Canvas, scene: Scene) -> None:
+    """Letter the axes of the frame's guides at one end of all that is drawn on them: that with more room."""
+    pairs, letters = scene.sliding(), guide_letters(scene.program)
+    joints = {scene.mm(pair.point) for pair in scene.mechanism.pairs}  # near them is the less room for a letter
+    axes = [(line.a, line.b) for line in canvas.shapes if isinstance(line, Line) and line.pen is Pen.AXIS]
+    for pair in pairs:
+        at, u = scene.mm(pair.point), guide_of(scene, pair)
+        own = [end for line in axes if all(abs(((end - at) / u).imag) < NEAR for end in line) for end in line]
+        line = [choose(own, key=lambda end: ((end - at) / u).real) for choose in (min, max)]
         # of several axes the far ends meet at one pivot
         crowd = {end: len([joint for joint in joints if abs(joint - end) < 1.2 * scene.style.force]) for end in line}
         sign = 1.0 if len(pairs) > 1 else -1.0
@@ -184,18 +248,19 @@ def special_points(canvas: Canvas, scene: Scene, wanted: Iterable[str] | None = 
             letter_point(canvas, scene, step.name)
 
 
-PLACES = {"omega": 0.30, "epsilon": 0.45}  # parts of the link at which its arcs stand
+PLACES = {"omega": 0.40, "epsilon": 0.55}  # parts of the link at which its arcs stand
 CLEAR = 3.5  # mm that should be left between an arc and what it passes
 CROSSED, CROSSING = 1.2, 3.0  # mm between points of an arc that crosses a line and the line; what that costs
 APART = 0.25  # lengths of the arrow of a force between two arcs about one joint
-NEAREST, STEP = 14.0, 1.0  # mm from the joint: the least radius, and between radii that are tried
-FARTHEST = 1200.0  # mm: on no sheet two points are so far apart
+NEAREST, STEP = 0.5, 1.0  # of these from the joint: the least radius; mm between radii that are tried
+CURVED = 60.0  # mm: a larger arc looks straight
 ALONG = np.linspace(-0.5, 0.5, 13)  # parts of an arc from its middle where its neighbours are looked for
 MIDDLE = len(ALONG) // 2
-LENGTHS, SHORTER = (1.0, 0.6, 0.4), 0.3  # of an arc, and the cost of each step shorter
+LENGTHS, SHORTER = (1.0, 0.75, 0.5), 0.3  # of an arc, and the cost of each step shorter
+TURNED = 0.4, 1.3  # rad, the least and the largest spread of an arc that is seen as one
 LIGHT = 0.35  # how much a thin line counts beside a main one
-KEPT = 24  # places of each arc, the cheapest, that are looked at together
 AWAY, OTHER = 1.5, 0.4  # cost of a place a whole link away from the wanted one, and of a line that was not wanted
+PASSED, TAKEN = 10.0, 1e3  # cost of a place beyond the end of the link, and of one where the other arc is
 Obstacle = tuple[complex, complex, float, float]  # ends, how far it reaches about itself, how much it counts
 
 
@@ -235,23 +300,41 @@ def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
         canvas.label(scene.letter(vector), (end + e * (length * 0.6), end + e * length))
     for figure in figures:
         if figure.number in turns:
-            _arcs(canvas, scene, turns[figure.number], figure)
+            rates = {turn.rate: scene.values[turn.rate] for turn in turns[figure.number]}
+            _arcs(canvas, scene, rates, _arms(scene, turns[figure.number][0], figure), figure)
 
 
-def _arcs(canvas: Canvas, scene: Scene, turns: Sequence[_Turn], figure: Skeleton) -> None:
-    rays = [ray for line in figure.strokes for ray in (line, line[::-1])]
-    if turns[0].start in scene.mechanism.link(figure.number).points or not rays:
-        rays.insert(0, (scene.mm(turns[0].start), scene.mm(turns[0].end)))
+def _arcs(canvas: Canvas, scene: Scene, rates: Mapping[str, float], rays: Sequence[Stroke], figure: Skeleton) -> None:
+    """Draw the senses of rates of a link across its lines, about the starts of these."""
     # centres of mass are drawn with their letters, later; a joint counts for each of its links
     marks = [scene.mm(point) for link in scene.mechanism.links for point in link.points]
     busy = [*_obstacles(canvas.shapes), *((at, at, scene.style.centre, 2.0) for at in marks)]
-    wanted = [PLACES[role(turn.rate).kind] for turn in turns]
+    wanted = [PLACES[role(rate).kind] for rate in rates]
     places = _places(rays, wanted, busy, scene.style.force, figure.strokes)
-    for (rate, *_), (centre, along, radius, spread) in zip(turns, places, strict=True):
-        sense = math.copysign(1.0, scene.values[rate])
+    for (rate, value), (centre, along, radius, spread) in zip(rates.items(), places, strict=True):
+        sense = math.copysign(1.0, value)
         canvas.add(turning_arrow(centre, radius, along, spread, sense, rate))
         tip = centre + rect(radius, along + sense * spread / 2)
         canvas.label(scene.words.symbol(rate), tip, prefer=rect(sense, along + math.pi / 2), clear=1.4)
+
+
+def _arms(scene: Scene, turn: _Turn, figure: Skeleton) -> list[Stroke]:
+    """Return the lines of a link from the point about which its arcs are drawn, the usual one first.
+
+    That is its fixed pivot: about a joint that moves arcs would show the opposite sense beside the vectors of the link.
+    Without a pivot it is the joint about which the vector is carried, or that of the link nearest to it.
+    """
+    start, end, pins = scene.mm(turn.start), scene.mm(turn.end), pins_of(scene, figure.number)
+    still = [scene.mm(pin) for pin in pins if pin in scene.mechanism.frame_points]
+    about = min(still or figure.nodes, key=lambda node: abs(node - start))
+    way = next((unit(at - about) for at in (end, start) if abs(at - about) > NEAR), 1.0 + 0.0j)
+    rays = sorted(rays_of(about, figure.strokes), key=lambda ray: abs(phase(ray / way)))
+    return [(about, about + ray * _reach(about, ray, figure.strokes)) for ray in rays] or [(about, end)]
+
+
+def _reach(start: complex, e: complex, lines: Iterable[Stroke]) -> float:
+    """Return how far the ends of lines on a ray are from its start, mm."""
+    return max(((end - start) / e).real for line in lines for end in line if abs(((end - start) / e).imag) < NEAR)
 
 
 def _places(
@@ -266,41 +349,34 @@ def _places(
     """
     tries = []
     for number, (start, end) in enumerate(rays):
-        reach, angle = abs(end - start), phase(end - start)
-        every = np.arange(NEAREST, min(max(reach - CLEAR, NEAREST + 3 * APART * force), FARTHEST), STEP)
-        # long enough to be seen as arcs
-        spreads = np.array(LENGTHS) * np.minimum(0.9, 1.1 * force / every)[:, None]
+        reach, angle, near = abs(end - start), phase(end - start), NEAREST * force
+        every = np.arange(near, min(max(reach - CLEAR, near + 3 * APART * force), CURVED), STEP)
+        spreads = np.clip(np.array(LENGTHS) * 1.1 * force / every[:, None], *TURNED)
         radii = np.repeat(every[:, None], len(LENGTHS), axis=1)
         points = _points(start, radii, angle, spreads)
         # the line of the link itself along a ray is crossed by all arcs about its start
         along = [line for line in own if _on(line, (start, end))]
         costs = _crowd(points, [thing for thing in busy if not any(_on(line, thing[:2]) for line in along)])
-        costs += SHORTER * np.arange(len(LENGTHS)) + 10.0 * (radii > reach)
-        columns = (number, start, angle, reach, radii, spreads, costs)
-        tries.append([*(np.broadcast_to(c, costs.shape).ravel() for c in columns), points.reshape(-1, len(ALONG))])
-    numbers, centres, angles, reaches, radii, spreads, costs, points = map(np.concatenate, zip(*tries, strict=True))
-    kept, totals = [], []
-    for share in wanted:
-        cost = np.round(costs + AWAY * np.abs(radii - share * reaches) / reaches, 6)
-        kept.append(np.argsort(cost, kind="stable")[:KEPT])
-        totals.append((cost + OTHER * (numbers != 0))[kept[-1]])
-    total: Any = sum(np.ix_(*totals))  # together the cheapest: about the usual joint, or both about another
-    for i, j in combinations(range(len(kept)), 2):
-        one, other = kept[i][:, None], kept[j]
-        gaps = np.abs(points[one][..., None] - points[other][:, None]).min(axis=(2, 3))
-        apart = np.where(centres[one] == centres[other], np.abs(radii[one] - radii[other]), gaps)
-        both = (numbers[one] == numbers[other]) & (numbers[other] != 0)
-        pair = 10.0 * (apart < APART * force - NEAR) - OTHER * both
-        total = total + np.expand_dims(pair, [axis for axis in range(len(kept)) if axis not in (i, j)])
-    best = np.unravel_index(int(np.round(total, 6).argmin()), total.shape)
-    chosen = [own_kept[k] for own_kept, k in zip(kept, best, strict=True)]
+        costs += SHORTER * np.arange(len(LENGTHS)) + PASSED * (radii > reach) + OTHER * (number != 0)
+        columns = start, angle, min(reach, CURVED), radii, spreads, costs
+        tries.append([np.broadcast_to(column, costs.shape).ravel() for column in columns])
+    centres, angles, reaches, radii, spreads, costs = map(np.concatenate, zip(*tries, strict=True))
+    totals = [costs + AWAY * np.abs(radii - share * reaches) / reaches for share in wanted]
+    total: Any = sum(np.ix_(*totals))
+    taken = TAKEN * (np.abs(radii[:, None] - radii) < APART * force - NEAR)
+    for i, j in combinations(range(len(wanted)), 2):
+        total = total + np.expand_dims(taken, [axis for axis in range(len(wanted)) if axis not in (i, j)])
+    chosen = np.unravel_index(int(np.round(total, 6).argmin()), total.shape)
     return [(complex(centres[k]), float(angles[k]), float(radii[k]), float(spreads[k])) for k in chosen]
 
 
 def free_arc(
     centre: complex, radii: Sequence[float], spread: float, wanted: float, shapes: Iterable[Shape]
 ) -> tuple[float, float]:
-    """Return radius and middle direction of an arc about a point, off all that is drawn, near `wanted`."""
+    """Return radius and middle direction of an arc about a point, off all that is drawn, near `wanted`.
+
+    The first of the radii is the usual one.
+    """
     middles = wanted + np.arange(-12, 12) * (np.pi / 12)
     radius, middle = (grid.reshape(-1, 1) for grid in np.meshgrid(radii, middles, indexing="ij"))
     far = 0.1 * np.abs(middle - wanted) + 0.2 * (radius != radii[0])
@@ -313,14 +389,21 @@ def turning_of_driver(
     canvas: Canvas, scene: Scene, driver: Driver, radii: Sequence[float], spread: float, wanted: float
 ) -> None:
     """Draw the arrows of omega_1 and epsilon_1 about the pivot where there is room, near the direction `wanted`."""
-    o, values = scene.mm(driver.pivot), scene.values
-    omega, epsilon = (f"{kind}_{driver.link}" for kind in ("omega", "epsilon"))
+    o = scene.mm(driver.pivot)
+    own = {id(shape) for shape in canvas.shapes if isinstance(shape, Group) and shape.name == str(driver.link)}
     canvas.part(ANSWERS)
-    for name, turn in ((omega, values.get(omega) or values[driver.sense]), (epsilon, values.get(epsilon))):
-        if turn:
-            radius, middle = free_arc(o, radii, spread, wanted, canvas.shapes)
-            canvas.add(turning_arrow(o, radius, middle, spread, math.copysign(1.0, turn), name))
-            canvas.label(scene.words.symbol(name), o + rect(radius, middle), prefer=rect(1.0, middle))
+    for name, turn in _rates(scene, driver).items():
+        around = (shape for shape in canvas.shapes if id(shape) not in own)  # it may cross the crank
+        radius, middle = free_arc(o, radii, spread, wanted, around)
+        canvas.add(turning_arrow(o, radius, middle, spread, math.copysign(1.0, turn), name))
+        canvas.label(scene.words.symbol(name), o + rect(radius, middle), prefer=rect(1.0, middle))
+
+
+def _rates(scene: Scene, driver: Driver) -> dict[str, float]:
+    """Return omega and epsilon of the driver, those that are not zero; of one that stands still its sense."""
+    omega, epsilon = (f"{kind}_{driver.link}" for kind in ("omega", "epsilon"))
+    rates = {omega: scene.values.get(omega) or scene.values[driver.sense], epsilon: scene.values.get(epsilon)}
+    return {name: rate for name, rate in rates.items() if rate}
 
 
 def _points(centre: complex, radii: Any, angles: Any, spreads: Any) -> np.ndarray:

@@ -1,0 +1,230 @@
+"""The judge sees every kind of fault that is planted, and none on a clean page; what sheets have now may only fall."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+import kulman
+from kulman.scales.errors import LANGUAGES
+from kulman.tests.sheets.judge import KINDS, Finding, faults, judged
+from kulman.tests.support.readback import Sheet, read
+from kulman.variants.reader import load_task
+from kulman.variants.shelf import bundled
+
+CLEAN = """<svg xmlns="http://www.w3.org/2000/svg" width="210mm" height="297mm" viewBox="0 0 210 297">
+<polygon class="frame" points="20,292 205,292 205,5 20,5" fill="none" stroke="#000" stroke-width="0.5"/>
+<g class="titleblock" data-name="form-1">
+<polyline class="cell" points="20,292 20,237 205,237" fill="none" stroke="#000" stroke-width="0.5"/>
+<text class="stamp" data-name="designation" font-size="6.859" x="100" y="248">ТММ.01</text>
+</g>
+<g class="view" data-name="plan">
+<line class="construction" x1="30" y1="20" x2="190" y2="20" stroke-width="0.2"/>
+<line class="construction" x1="30" y1="230" x2="190" y2="230" stroke-width="0.2"/>
+<line class="main" x1="60" y1="140" x2="110" y2="140" stroke-width="0.5"/>
+<g class="vector" data-quantity="V_A" data-value="5" data-unit="m/s" data-mu="0.1">
+<line class="span" x1="60" y1="80" x2="110" y2="80"/>
+<line class="main" x1="60" y1="80" x2="109" y2="80" stroke-width="0.5"/>
+<polygon class="head" points="110,80 107,79.5 107,80.5"/>
+</g>
+<g class="vector" data-quantity="V_B" data-value="5" data-unit="m/s" data-mu="0.1">
+<line class="span" x1="60" y1="100" x2="110" y2="100"/>
+<line class="main" x1="60" y1="100" x2="109" y2="100" stroke-width="0.5"/>
+<polygon class="head" points="110,100 107,99.5 107,100.5"/>
+</g>
+<g class="heading"><text font-size="3.43" x="90" y="40">μ</text><text font-size="2.45" x="93" y="41">V</text>
+<text font-size="3.43" x="96" y="40">= 0,1 (м/с)/мм</text></g>
+<g class="point" data-name="p"><circle cx="60" cy="80" r="0.8" stroke-width="0.5" fill="#fff"/></g>
+<g class="pair" data-name="A"><circle cx="150" cy="60" r="1.5" stroke-width="0.5" fill="#fff"/></g>
+<g class="arrow" data-name="F_3">
+<line class="span" x1="155" y1="60" x2="175" y2="60"/>
+<line class="main" x1="155" y1="60" x2="174" y2="60" stroke-width="0.5"/>
+</g>
+<text class="label" data-of="60,80" font-size="3.43" x="55" y="78">p</text>
+<text class="label" data-of="150,60" font-size="3.43" x="150" y="56">A</text>
+<text class="label" data-of="60,80 110,80" font-size="3.43" x="80" y="78">V</text>
+<text class="label" data-of="60,100 110,100" font-size="3.43" x="120" y="115">W</text>
+<line class="leader" x1="119" y1="113" x2="108" y2="100.5" stroke-width="0.2"/>
+</g>
+</svg>"""
+# what is planted, as a change of the clean page, and what must be seen then
+PLANTED = {
+    "a letter on a letter": ('x="150" y="56">A', 'x="80.5" y="78.2">A', {"overlaps": 1, "nodes": 1}),
+    "a letter on a node": ('x="55" y="78">p', 'x="59.5" y="81">p', {"overlaps": 2}),
+    "a letter on an arrowhead": ('x="80" y="78">V', 'x="106.5" y="79.6">V', {"overlaps": 1}),
+    "a letter on a main line": ('x="80" y="78">V', 'x="80" y="81">V', {"overlaps": 1}),
+    "a letter on a thin line": ('x="55" y="78">p', 'x="55" y="21">p', {"struck": 1}),
+    "a letter on the frame": ('x="150" y="56">A', 'x="203" y="56">A', {"overlaps": 2}),
+    "a view in the block": ('x1="30" y1="230"', 'x1="30" y1="250"', {"overlaps": 1}),
+    "the letter of another node": ('x="55" y="78">p', 'x="146" y="56">p', {"nodes": 1}),
+    "the letter of another vector": ('x="80" y="78">V', 'x="80" y="98">V', {"vectors": 1}),
+    "a leader through a line": (
+        'x1="60" y1="140" x2="110" y2="140"',
+        'x1="100" y1="110" x2="130" y2="106"',
+        {"leaders": 1},
+    ),
+    "a leader through a node": (
+        'x1="119" y1="113" x2="108" y2="100.5"',
+        'x1="150" y1="75" x2="150" y2="57"',
+        {"leaders": 1},
+    ),
+    "a force away from its point": ('x1="155" y1="60" x2="175"', 'x1="160" y1="60" x2="175"', {"forces": 1}),
+    "a page of no format": ('viewBox="0 0 210 297"', 'viewBox="0 0 210 298"', {"page": 3}),
+    "a vector turned": ('data-quantity="V_A"', 'transform="rotate(3)" data-quantity="V_A"', {"page": 1}),
+    "a frame elsewhere": ('points="20,292 205,292 205,5 20,5"', 'points="19,292 205,292 205,5 19,5"', {"page": 1}),
+    "a third weight": (
+        'x1="30" y1="20" x2="190" y2="20" stroke-width="0.2"',
+        'x1="30" y1="20" x2="190" y2="20" stroke-width="0.1"',
+        {"pens": 1},
+    ),
+    "letters between two heights": ('font-size="3.43" x="55"', 'font-size="4.1" x="55"', {"pens": 1}),
+    "two sizes of arrowheads": ("110,80 107,79.5 107,80.5", "110,80 106,79.5 106,80.5", {"pens": 1}),
+    "a grey line": (
+        'stroke="#000" stroke-width="0.5"/>\n<g class="titleblock"',
+        'stroke="#999" stroke-width="0.5"/>\n<g class="titleblock"',
+        {"pens": 1},
+    ),
+    "a field not filled": (">W<", ">{}<", {"words": 1}),
+    "a letter of another language": (">ТММ.01<", ">ТЫМ.01<", {"words": 1}),
+    "a word of another language": (">ТММ.01<", ">Лист 01<", {"words": 1}),
+    "a point for a comma": ("= 0,1 (", "= 0.1 (", {"words": 1}),
+    "a plan without its scale factor": ("= 0,1 (м/с)/мм", "велике", {"words": 1}),
+    "a page without a name": (">ТММ.01<", "> <", {"anonymous": 1}),
+}
+
+
+def counted(sheet: Sheet) -> Counter[str]:
+    return Counter(finding.kind for sight in judged(sheet) for finding in sight.findings)
+
+
+def found(sheet: Sheet) -> list[Finding]:
+    return [finding for sight in judged(sheet) for finding in sight.findings]
+
+
+def test_a_clean_page_has_no_fault_and_all_of_it_is_looked_at() -> None:
+    (sight,) = judged(read(CLEAN))
+
+    assert sight.findings == []
+    assert {kind: sight.looked[kind] for kind in KINDS} == {
+        "overlaps": 6,
+        "struck": 6,
+        "nodes": 2,
+        "vectors": 2,
+        "leaders": 1,
+        "forces": 1,
+        "anonymous": 1,
+        "page": 1,
+        "pens": 1,
+        "words": 1,
+    }
+    assert faults(read(CLEAN)) == []
+
+
+@pytest.mark.parametrize("name", PLANTED)
+def test_a_planted_fault_is_seen(name: str) -> None:
+    before, after, seen = PLANTED[name]
+    assert CLEAN.count(before) == 1
+    assert counted(read(CLEAN.replace(before, after))) == seen, found(read(CLEAN.replace(before, after)))
+
+
+LEADER = '<line class="leader" x1="{}" y1="{}" x2="{}" y2="{}" stroke-width="0.2"/>\n</g>\n</svg>'
+
+
+def test_a_leader_joins_a_letter_and_a_force_to_their_nodes() -> None:
+    letter = CLEAN.replace('x="55" y="78">p', 'x="142" y="90">p')
+    force = CLEAN.replace('x1="155" y1="60"', 'x1="165" y1="60"')
+
+    assert counted(read(letter)) == {"nodes": 1}
+    assert counted(read(letter.replace("</g>\n</svg>", LEADER.format(141, 89, 60.7, 80.7)))) == {}
+    assert counted(read(force)) == {"forces": 1}
+    assert counted(read(force.replace("</g>\n</svg>", LEADER.format(152, 60, 165, 60)))) == {}
+
+
+def test_fill_and_the_bare_rectangle_are_measured_inside_the_frame() -> None:
+    inner, wide = 184.5 * 286.5, 160.0
+    for low in (230.0, 140.0):
+        page = CLEAN.replace('y1="230" x2="190" y2="230"', f'y1="{low}" x2="190" y2="{low}"')
+        (sight,) = judged(read(page))
+        assert sight.fill == pytest.approx((wide * (low - 20) + 185 * 55) / inner, abs=0.005)
+        assert sight.empty == pytest.approx(max(184.5 * (237 - low), 14.75 * 231.5) / inner, abs=0.005)
+
+
+# faults that the sheets of some tasks have now, letters, leaders and forces together: the number may only fall
+SOME = ("nau-slider-crank", "scheme-12-shaking-conveyor", "madi-cam", "madi-gear", "karpenko-hoist")
+MOST = 1
+
+
+# crank-sliders and four-bars, which have room on one sheet
+SHORT = {
+    "nau-slider-crank",
+    "madi-four-bar",
+    "scheme-01-compressor",
+    "scheme-02-forging-press",
+    "scheme-03-crank-rocker",
+}
+
+
+def sheet_of(task: str, variant: str | None = None, language: str = "uk", format: str | None = None) -> Sheet:
+    drawn = kulman.sheet(task, variant, lang=language, format=format)
+    return read(*(drawn.svg(number + 1) for number in range(len(drawn.pages))))
+
+
+def test_nothing_touches_and_other_faults_become_fewer() -> None:
+    every = [finding for task in SOME for finding in found(sheet_of(task))]
+    assert [finding for finding in every if finding.kind == "overlaps"] == []
+    others = [finding for finding in every if finding.kind in ("struck", "nodes", "vectors", "leaders", "forces")]
+    assert len(others) <= MOST, others
+
+
+# what one sheet has at most, how full a page but the last is at least, and how large its bare rectangle at most, by
+# format: these may only become better
+REACHED = {"struck": 2, "vectors": 2, "leaders": 6}
+FILLED = {"A1": (0.58, 0.18), "A2": (0.58, 0.18), "A3": (0.30, 0.30), "A4": (0.36, 0.36)}
+
+
+def short_of(sheet: Sheet) -> list[str]:
+    """In which a sheet falls short of what others have reached."""
+    said = [f"{kind}: {count}" for kind, count in counted(sheet).items() if count > REACHED.get(kind, 0)]
+    sights = judged(sheet)
+    for sight in sights[:-1] or sights:
+        least, barest = FILLED[sight.format]
+        if sight.fill < least or sight.empty > barest:
+            said.append(f"{sight.format} is filled to {sight.fill:.0%}, and has {sight.empty:.0%} of it bare")
+    return said
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("task", bundled())
+def test_sheets_of_all_variants_are_as_good_as_any_and_as_long_in_each_language(task: str) -> None:
+    for number, variant in enumerate(load_task(task).variants):
+        sheet = sheet_of(task, variant)
+        assert short_of(sheet) == [], variant
+        assert len(sheet.pages) <= (1 if task in SHORT else 2), variant
+        if number < 2:
+            pages = [len(kulman.sheet(task, variant, lang=language).pages) for language in LANGUAGES]
+            assert pages == [len(sheet.pages)] * len(LANGUAGES), variant
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("format", ["A3", "A4"])
+@pytest.mark.parametrize("task", [*SOME, "scheme-14-jaw-crusher"])
+def test_sheets_of_small_formats_are_as_good_as_any(task: str, format: str) -> None:
+    assert short_of(sheet_of(task, format=format)) == []
+
+
+def test_the_judge_runs_as_a_program(tmp_path: Path) -> None:
+    page = tmp_path / "page.svg"
+    page.write_text(CLEAN.replace(">ТММ.01<", "> <"), encoding="utf-8")
+    ran = subprocess.run(
+        [sys.executable, "-m", "kulman.tests.sheets.judge", str(page), "-v"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ran.returncode == 1
+    assert "anonymous 1/1" in ran.stdout
+    assert "1 anonymous frame: no designation" in ran.stdout
