@@ -23,16 +23,13 @@ TEXT, FIGURE, GROUP, PART = range(-1, 3)  # what may begin with a view
 MANY = 3  # pages on which views may come in another order
 
 
-def on_a_page(
-    sizes: Sequence[Size], sheet: Format, norm: Norm, first: bool = True, bonds: Sequence[int] = ()
-) -> list[Placement] | None:
+def on_a_page(sizes: Sequence[Size], sheet: Format, norm: Norm, first: bool = True) -> list[Placement] | None:
     """Place views of these sizes on one page of `sheet` in reading order; return None if they do not fit.
 
-    The title block stands in the lower right corner and, on the `first` page, column 26 in an upper one. `bonds` say
-    how much each view belongs to the one before.
+    The title block stands in the lower right corner and, on the `first` page, column 26 in an upper one.
     """
     (x0, y0, x1, y1), (block, *turned) = usable(sheet, norm), reserved_boxes(sheet, norm, first=first)
-    own, joined, begun = list(sizes), list(bonds or (0 for _ in sizes)), 0
+    own, joined, begun = list(sizes), [0 for _ in sizes], 0
     for box in turned:
         if box[0] > x0:  # upright on the right of a tall sheet
             x1 = box[0] - LEAST
@@ -73,20 +70,18 @@ def on_one_page(
     return None
 
 
-def arrange(
-    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = (), page: int = 0
-) -> list[Placement] | None:
-    """Place views of these sizes on as few pages of `sheet`, from this one on, as hold them; `begins` as of `Pages`.
+def arrange(sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = ()) -> list[Placement] | None:
+    """Place views of these sizes on as few pages of `sheet` as hold them; `begins` as of `Pages`.
 
     Of two or three pages each is a run of the views, and ends where most begins anew, if it is full enough. Of more,
     and where runs take more pages, a page that has no room for the next view may have texts that `SOON` follow.
     None if a view has no room on a page.
     """
     pages = Pages(sizes, sheet, norm, begins)
-    packed = pages.packed(page)
-    if packed is None or not page < last(packed) < page + MANY:
+    packed = pages.packed()
+    if packed is None or not 0 < last(packed) < MANY:
         return packed
-    runs = pages.runs(0, page, last(packed))
+    runs = pages.runs(0, 0, last(packed))
     return packed if runs is None or pages.least(runs) < min(FULL, pages.least(packed)) else runs
 
 
@@ -143,9 +138,10 @@ class Pages:
                 return own + others
         return None
 
-    def packed(self, page: int) -> list[Placement] | None:
+    def packed(self) -> list[Placement] | None:
         """Place each view on the first page that has room, but that one that follows soon may stand before it."""
         places: dict[int, Placement] = {}
+        page = 0
         while rest := [i for i in range(len(self.sizes)) if i not in places]:
             own, placed = next(
                 ((run, way) for k in range(len(rest), 0, -1) if (way := self.tried(run := rest[:k], page)) is not None),

@@ -4,7 +4,7 @@ A subject says of each of its figures how large it is in the unit of its scale f
 and heading add, and how many square millimetres equations and tables take. Then the smallest format is taken of which
 one sheet can hold everything, and scale factors at which it can: as long as the estimate is too large, the plan that
 takes most room with the longest segments becomes coarser by a step of the customary series. The largest format has as
-many pages as it takes, each part of the work on a page of its own where that is enough.
+many pages as it takes.
 """
 
 from __future__ import annotations
@@ -36,14 +36,13 @@ Size: TypeAlias = tuple[float, float]
 class Extent:
     """What a figure takes up: its `size` in the unit of its scale factor, and millimetres on A1 `around` it.
 
-    It takes at least `least`, mm; `part` counts the parts of the work.
+    It takes at least `least`, mm.
     """
 
     symbol: str
     size: Size
     around: Size
     least: Size = (0.0, 0.0)
-    part: int = 0
 
     def on_paper(self, mu: float, letters: float) -> Size:
         """Return width and height in mm; `letters` is how large letters are, A1 being 1."""
@@ -99,10 +98,10 @@ Rungs: TypeAlias = dict[str, int]
 
 @dataclass(frozen=True, slots=True)
 class Extents:
-    """The figures of a sheet, its texts in mm^2 on A1 by part, and the ladders of its scale factors by symbol."""
+    """The figures of a sheet, what its texts take in mm^2 on A1, and the ladders of its scale factors by symbol."""
 
     figures: Sequence[Extent]
-    texts: Sequence[float]
+    texts: float
     ladders: Mapping[str, Ladder]
 
     def root(self, symbol: str) -> str:
@@ -187,7 +186,7 @@ def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, most: float, least: f
         return not ladder.chosen, areas[symbol] * ladder.longest / extents.mu(symbol, rungs) / ladder.weight**2
 
     areas = {symbol: _area(extents, figures, rungs, sheet) for symbol, figures in by_symbol.items()}
-    left = most - letters**1.5 * sum(extents.texts)
+    left = most - letters**1.5 * extents.texts
     while sum(areas.values()) > left:
         free = [s for s in by_symbol if s and ladders[s].next(rungs[s], least)]
         if not free:

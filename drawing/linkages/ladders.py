@@ -35,9 +35,8 @@ ALIKE = 3.0  # times as long as the longest force of another plan, at most, wher
 CRANK = 45.0  # mm, the least length of a crank drawn apart
 ARROW = 0.7  # of the crank, where the arrow of its rotation stands
 MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
-KINEMATICS, KINETOSTATICS = 0, 1  # parts of the work
 # mm that letters and the heading add to the lines of a figure, and what it takes at least
-PLANS = ((30.0, 48.0), (34.0, 52.0))  # of motion, and of forces
+MOTION, POLYGON = (30.0, 48.0), (34.0, 52.0)  # plans of motion, and of forces
 MECHANISM, GROUP, AROUND_LEVER = (44.0, 54.0), (56.0, 84.0), (70.0, 98.0)
 GROUPS = {TRIAD: (62.0, 142.0)}  # arms about its special point take more
 SPLIT = (150.0, 130.0)  # accelerations of compound motion, which stand on the mechanism
@@ -128,52 +127,53 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
         yield Extent("mu_l", whole, MECHANISM)
     for plan in ("velocity", "acceleration"):
         if plan in plans:
-            yield from _plan(solved, plan, KINEMATICS)
+            yield from _plan(solved, plan)
     if "compound" in plans:
         yield Extent("mu_l", whole, GROUP)
         yield from (
             Extent(symbols[p], _around(marks_on(solved, p)), SPLIT) for p in symbols if role(p).kind == ACCELERATION
         )
     if "forces" in plans:
-        apart = Extent("", (0.0, 0.0), CRANKS, part=KINETOSTATICS)
+        apart = Extent("", (0.0, 0.0), CRANKS)
         for group in solved.structure.groups:
             links = [link for link in solved.mechanism.links if link.number in group.links]
             places = [solved.point(point) for link in links for point in link.points]
             size = _around([*places, *(place for link in links for place in slots.get(link.number, ()))])
-            yield Extent("mu_l", size, GROUPS.get(group.kind, GROUP), part=KINETOSTATICS)
+            yield Extent("mu_l", size, GROUPS.get(group.kind, GROUP))
             for n in links_apart(solved, group):  # a yoke is as long as its slot, which its block goes through twice
                 own = [*(solved.point(p) for p in solved.mechanism.link(n).points), *slots.get(n, ())]
-                yield Extent("mu_l", _around(own), APART, part=KINETOSTATICS)
+                yield Extent("mu_l", _around(own), APART)
         for plan in (plan for plan in symbols if role(plan).kind == FORCES):
-            yield from _plan(solved, plan, KINETOSTATICS)
+            yield from _plan(solved, plan)
         yield apart
     if "lever" in plans:
         high, wide = _around(_images(solved))
-        yield Extent(ARMS, (wide, high), AROUND_LEVER, HEADING, part=KINETOSTATICS)
+        yield Extent(ARMS, (wide, high), AROUND_LEVER, HEADING)
 
 
-def _plan(solved: SolvedLinkage, plan: str, part: int) -> Iterator[Extent]:
+def _plan(solved: SolvedLinkage, plan: str) -> Iterator[Extent]:
     """Return the figure of a plan, and insets for the forces in it that would be points."""
-    yield Extent(solved.scale_of_plan[plan], _around(marks_on(solved, plan)), PLANS[part], HEADING, part)
+    forces = role(plan).kind == FORCES
+    yield Extent(solved.scale_of_plan[plan], _around(marks_on(solved, plan)), POLYGON if forces else MOTION, HEADING)
     sizes = [abs(q.value or 0.0) for name, q in solved.quantities.items() if solved.shown_on.get(name) == plan]
     points = sum(ZERO * max(sizes) < size < POINT * max(sizes) for size in sizes)
-    if part == KINETOSTATICS and points > 1:
-        yield Extent("", (0.0, 0.0), (points * INSET[0], INSET[1]), part=part)
+    if forces and points > 1:
+        yield Extent("", (0.0, 0.0), (points * INSET[0], INSET[1]))
 
 
-def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> tuple[float, float]:
-    """Return what equations and tables take, mm^2 on A1, of both parts of the work."""
-    kinematics, forces = STRUCTURE + LINK * len(solved.mechanism.links) if "structure" in plans else 0.0, 0.0
+def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> float:
+    """Return what equations and tables take, mm^2 on A1."""
+    area = STRUCTURE + LINK * len(solved.mechanism.links) if "structure" in plans else 0.0
     shown = (role(solved.shown_on.get(name, "")) for name in solved.quantities)
     count = Counter(plan.kind or plan for plan in shown)
     for plan in ("velocity", "acceleration", VELOCITY, ACCELERATION):
-        kinematics += TEXTS[plan] * count[plan] + HEADINGS * (count[plan] > 0)
+        area += TEXTS[plan] * count[plan] + HEADINGS * (count[plan] > 0)
     for plan in {"forces", "lever"} & {*plans}:
-        forces += TEXTS[plan] * count[plan] + 2.0 * HEADINGS
+        area += TEXTS[plan] * count[plan] + 2.0 * HEADINGS
     if "forces" in plans:
-        forces += DIAGRAM * len(solved.mechanism.diagrams)
-        forces += sum(MOMENTS.get(group.kind, 0.0) for group in solved.structure.groups)
-    return kinematics, forces
+        area += DIAGRAM * len(solved.mechanism.diagrams)
+        area += sum(MOMENTS.get(group.kind, 0.0) for group in solved.structure.groups)
+    return area
 
 
 def _mechanism(solved: SolvedLinkage) -> Size:

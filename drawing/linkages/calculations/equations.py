@@ -12,7 +12,7 @@ from ....plans.laws import form_of
 from ....plans.linkages.compound import found_here
 from ....plans.linkages.mechanism import ZERO, positive
 from ....plans.linkages.parts import SYMBOLS
-from ....plans.names import CORIOLIS, NORMAL, POLE, role, vector
+from ....plans.names import CORIOLIS, FORCES, NORMAL, POLE, role, vector
 from ....plans.quantities import Quantity, unit_of
 from ....scales.scale import Scale
 from ...printed import (
@@ -242,11 +242,21 @@ def drawn_on(scene: Scene, q: Quantity) -> str:
 
 
 def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str, str]:
-    """Return how a segment on a plan, its own if none is said, its scale factor and its value are printed.
+    """Return how a segment on a plan is printed, with its scale factor and its value.
 
-    One that is too short to be read, or on no plan, is no text. A reaction has the number of the one that it opposes.
+    If no plan is said it is its own; a force that is too short there may be read in a detail of another one. What can
+    be read nowhere, or is on no plan, is no text. A reaction has the number of the one that it opposes.
     """
-    words, value, plan = scene.words, value_shown(scene, q), plan or drawn_on(scene, q)
+    own = plan or drawn_on(scene, q)
+    told = _segment_on(scene, q, own)
+    if told[0] or plan or role(own).kind != FORCES:
+        return told
+    others = (other for other in scene.scales if role(other).kind == FORCES and enlarged(scene, q.name, other) > 1.0)
+    return next((_segment_on(scene, q, other) for other in others), told)
+
+
+def _segment_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, str, str]:
+    words, value = scene.words, value_shown(scene, q)
     acting = opposed(scene, q.name)
     known = "" if acting is None else printed_segment(scene, acting)[-1]
     if plan not in scene.scales:
