@@ -21,7 +21,7 @@ from .formats import FORMATS, GAPS, Format, Norm, printable, room, usable
 
 NORMS: tuple[Norm, ...] = ("gost", "iso")
 # parts of a page that estimates may cover, since views leave gaps: of the only page, of each of two, of more
-FILL, TWO, SHARED = 0.84, 0.84, 0.70
+FILL, TWO, SHARED = 0.84, 0.80, 0.70
 SHARES = (1.0, 0.95, 0.9, 0.85, 0.8)  # of these where what is drawn takes more pages than that
 SMALLER = {"A1": 1.0, "A2": 1.0, "A3": 0.7, "A4": 0.65}  # what letters take, in what they take on the largest format
 BLOCK = 12000.0  # mm^2 of a page that its title block takes
