@@ -16,13 +16,14 @@ from pypdfium2 import PdfDocument
 
 import kulman
 from kulman.drawing.page import Page, extent
-from kulman.drawing.shapes import Group, Shape, Text, Vector
+from kulman.drawing.shapes import Group, Text
 from kulman.drawing.words import Words
 from kulman.plans.board import POINTS
 from kulman.plans.hands.shaky import preset
 from kulman.plans.linkages.solved import conditions_of, worst_condition
 from kulman.plans.quantities import plans_of
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.cases import as_drawn, mus, other_lengths, same_scales, vectors
 from kulman.tests.support.printed_numbers import decimal
 from kulman.tests.support.readback import read
 from kulman.tests.support.task_files import task_of, with_changes
@@ -31,59 +32,12 @@ from kulman.variants.marking.keyed import Rubric, keyed
 from kulman.variants.reader import load_task
 from kulman.variants.sheets import Sheet
 from kulman.variants.shelf import bundled, bundled_text
-from kulman.variants.solution import Solution
 
 TASKS = bundled()
 QUICK = ("nau-slider-crank", "karpenko-hoist", "scheme-13-toggle-press")
 EVERY = [task if task in QUICK else pytest.param(task, marks=pytest.mark.soak) for task in TASKS]
-SAME = 0.01  # mm
 MADI = {"mu_l": 0.0025, "mu_V": 0.189, "mu_a": 21.318, "mu_h": 0.189, "mu_F_23": 33.154, "mu_F_1": 54.373}
 KINEMATICS = {"givens", "structure", "position", "velocity", "acceleration", "equations_kinematics"}
-
-
-def vectors(shapes: tuple[Shape, ...]) -> Iterator[Vector]:
-    for shape in shapes:
-        if isinstance(shape, Vector):
-            yield shape
-        elif isinstance(shape, Group):
-            yield from vectors(shape.shapes)
-
-
-def lengths(sheet: Sheet) -> dict[str, list[float]]:
-    """Return how long each quantity is drawn, on its plan and in insets."""
-    found: dict[str, list[float]] = {}
-    for page in sheet.pages:
-        for vector in vectors(page.shapes):
-            assert abs(vector.tip - vector.tail) == pytest.approx(vector.value / vector.mu, abs=1e-6)
-            found.setdefault(vector.quantity, []).append(vector.value / vector.mu)
-    return found
-
-
-def mus(of: Sheet | Solution) -> dict[str, float]:
-    return {scale.symbol: scale.mu for scale in of.scales.values()}
-
-
-def other_lengths(solution: Solution, sheet: Sheet) -> dict[str, object]:
-    """Return the quantities that a sheet draws as no such segments as are solved."""
-    drawn, items = lengths(sheet), solution.to_json()["quantities"]
-    shown = {name: items[name]["mm"] for name in drawn if items.get(name, {}).get("mm")}
-    assert shown or solution.task.kind != "mechanism"
-    return {n: (mm, drawn[n]) for n, mm in shown.items() if all(abs(mm - length) > SAME for length in drawn[n])}
-
-
-def same_scales(solution: Solution, sheet: Sheet) -> bool:
-    drawn = mus(sheet)
-    return all(drawn[symbol] == mu for symbol, mu in mus(solution).items())
-
-
-def as_drawn(solution: Solution, sheet: Sheet) -> Solution:
-    """What a sheet shows: what is solved, or, where it is smaller so as to have no more pages and says so, on it."""
-    if same_scales(solution, sheet):
-        return solution
-    (warning,) = [warning for warning in sheet.warnings if warning.key == "scales-changed"]
-    changed = {symbol for symbol, mu in mus(solution).items() if mu != mus(sheet)[symbol]}
-    assert set(re.findall(r"mu_\w+", warning.text("en"))) == changed
-    return kulman.solve(solution.task.id, solution.variant, format=sheet.format)
 
 
 @pytest.mark.parametrize("task", EVERY)
@@ -102,21 +56,6 @@ def test_segments_solved_are_those_of_sheet_note_form_and_handout(task: str) -> 
     assert mus(kulman.note(task).sheet) == mus(sheet)
     assert same_scales(on_a4, blank)
     assert other_lengths(on_a4, blank) == {}
-
-
-@pytest.mark.soak
-@pytest.mark.parametrize("task", TASKS)
-def test_every_variant_is_drawn_as_it_is_solved_or_says_how_else(task: str) -> None:
-    others = 0
-    for variant in load_task(task).variants:
-        usual, sheet = kulman.solve(task, variant), kulman.sheet(task, variant)
-        solution = as_drawn(usual, sheet)
-        others += solution is not usual
-
-        assert same_scales(solution, sheet), variant
-        assert sheet.format == solution.format, variant
-        assert other_lengths(solution, sheet) == {}, variant
-    assert others <= 3
 
 
 @pytest.mark.parametrize("format", ["A3", pytest.param("A4", marks=pytest.mark.soak)])

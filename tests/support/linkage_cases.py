@@ -15,6 +15,7 @@ from kulman.plans.linkages.chain import moving_bodies
 from kulman.plans.linkages.mechanism import FRAME, Mechanism, Revolute
 from kulman.tests.support.jacobian_solver import JacobianSolver
 from kulman.tests.support.readback import Sheet, read
+from kulman.variants.sheets import Sheet as DrawnSheet
 from kulman.variants.solution import Solution
 
 PARTS = ("n", "t", "k", "r")
@@ -34,8 +35,12 @@ class Linkage:
         return "-".join(filter(None, (self.task, self.variant, self.lang, self.format or "", *(self.only or ()))))
 
     @property
-    def sheet(self) -> Sheet:
+    def drawn(self) -> DrawnSheet:
         return _drawn(self)
+
+    @property
+    def sheet(self) -> Sheet:
+        return _read(self)
 
     @property
     def solution(self) -> Solution:
@@ -46,10 +51,14 @@ class Linkage:
         return _oracle(self.task, self.variant)
 
 
+@lru_cache(maxsize=2)
+def _drawn(case: Linkage) -> DrawnSheet:
+    return sheet(case.task, case.variant, lang=case.lang, format=case.format, only=case.only)
+
+
 @lru_cache(maxsize=32)
-def _drawn(case: Linkage) -> Sheet:
-    drawn = sheet(case.task, case.variant, lang=case.lang, format=case.format, only=case.only)
-    return read(*(drawn.svg(number) for number in range(1, len(drawn.pages) + 1)))
+def _read(case: Linkage) -> Sheet:
+    return read(*(case.drawn.svg(number) for number in range(1, len(case.drawn.pages) + 1)))
 
 
 @lru_cache(maxsize=64)
