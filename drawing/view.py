@@ -167,17 +167,19 @@ class Canvas:
         """Ask for a letter as small as texts beside a node or a line."""
         self.label(markup, anchor, prefer=prefer, clear=clear, height=self.style.text)
 
-    def write(self, markup: str, places: Sequence[complex], height: float) -> bool:
+    def write(self, markup: str, places: Sequence[complex], height: float, upright: bool = False) -> bool:
         """Write a letter about the first of some places that is clear of all that is drawn; tell whether there is one.
 
-        What is drawn afterwards, and other letters, keep clear of it.
+        What is drawn afterwards, and other letters, keep clear of it. An `upright` one is read from below.
         """
-        layout = lay_out(markup, height)
+        layout, turn = lay_out(markup, height), 0.5 * pi * upright
         size = layout.width, layout.top - layout.bottom
-        middle = first_clear(places, size, _obstacles(self.shapes, self._boxes, self.style), 0.8)
+        obstacles = _obstacles(self.shapes, self._boxes, self.style)
+        middle = first_clear(places, size[::-1] if upright else size, obstacles, 0.8)
         if middle is None:
             return False
-        self.add(Text(middle - 0.5j * (layout.top + layout.bottom), markup, height, "middle", role="label"))
+        at = middle - rect(0.5 * (layout.top + layout.bottom), turn + 0.5 * pi)
+        self.add(Text(at, markup, height, "middle", turn, role="label"))
         return True
 
     def detail(self, numeral: str, centre: complex, radius: float, name: str) -> None:
@@ -501,14 +503,19 @@ def linear(
     canvas.add(dimension(a + out, b + out, name, canvas.style))
     if not text:
         return
-    height, middle = canvas.style.text, 0.5 * (a + b) + out
-    room = abs(b - a) - 2.0 * canvas.style.arrow  # between the arrowheads
-    if abs((b - a).real) < ZERO and room > lay_out(text, height).width:  # upright: from below, on its left
-        canvas.add(Text(middle - above(text, height), text, height, "middle", 0.5 * pi))
-    else:
-        level = abs((b - a).imag) < ZERO
-        if not (level and over_line(canvas, (a + out, b + out), text, chained)):
-            canvas.label(text, (a + out, b + out), prefer=1j if level else out, clear=0.8, height=height)
+    line, level, upright = (a + out, b + out), abs((b - a).imag) < ZERO, abs((b - a).real) < ZERO
+    if (level and over_line(canvas, line, text, chained)) or (upright and _along(canvas, line, text)):
+        return
+    canvas.label(text, line, prefer=1j if level else out, clear=0.8, height=canvas.style.text)
+
+
+def _along(canvas: Canvas, ends: tuple[complex, complex], text: str) -> bool:
+    """Write the text of an upright dimension along its line, on its left; tell whether it has room there."""
+    (a, b), layout = ends, lay_out(text, canvas.style.text)
+    spare = abs(b - a) - 2.0 * canvas.style.arrow - layout.width  # between the arrowheads
+    aside = CLEAR + 0.5 * (layout.top - layout.bottom)
+    shares = [share for share in SHARES if abs(share - 0.5) * abs(b - a) <= 0.5 * spare]
+    return canvas.write(text, [a + share * (b - a) - aside for share in shares], canvas.style.text, upright=True)
 
 
 def above(text: str, height: float) -> float:
