@@ -16,7 +16,7 @@ from ....plans.linkages.structure import Group
 from ....plans.names import FORCES, by_lever, role
 from ....plans.quantities import F_BAL, M_BAL, unit_of
 from ....scales.scale import AS_INSIDE
-from ...printed import AS_PRINTED, DIGITS, POINT, Symbol, decimals_for, value_text
+from ...printed import AS_PRINTED, DIGITS, POINT, READABLE, Symbol, decimals_for, value_text
 from ...words import Words
 from ..reading import Edge, ends_of
 from ..scene import Scene
@@ -405,12 +405,15 @@ def _difference(scene: Scene, step: Step, found: Mapping[str, float]) -> Lines:
 def differ(scene: Scene, found: Mapping[str, float]) -> tuple[str, bool]:
     """Return by how much both ways differ as printed, with its unit, and whether that is in parts of the first.
 
-    It is not where what balances is small beside what the loads would take alone, as near a dead position.
+    It is not where what balances is small beside what a load would take alone, at its arm or at the least that can be
+    read, as near a dead position.
     """
     words, (name, other) = scene.words, next(step.operands for step in scene.program if step.law == "difference")
     lever = next(step for step in scene.program if step.law == "moment_equation" and step.name in BALANCING)
     arm = Product((_own_arm(scene, lever),))
-    largest = max((reckoned([term], arm) for term in _terms(scene, lever.operands[1:])), default=0.0)
+    acting = [_factors(scene, acting) for acting in lever.operands[1:] if acting != ZERO]
+    shortest = [Product((force, replace(own[0], value=READABLE))) for force, *own in acting if len(own) == 1]
+    largest = max((reckoned([term], arm) for term in (*_terms(scene, lever.operands[1:]), *shortest)), default=0.0)
     a, b = found[name], found[other]
     if found[lever.name] > FAINT * largest:
         return f"{words.number((a - b) / a * 100.0, 2)} %", True
