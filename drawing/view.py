@@ -193,7 +193,10 @@ class Canvas:
         self.add(Text(0.5 * (knee + end) + 1j, numeral, height, "middle", role="label"))
 
     def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
-        """Place the letters, write the heading lines and smaller notes above, and close the view."""
+        """Place the letters, write the heading lines and smaller notes above, and close the view.
+
+        Without a heading it has its notes only as text: they go under that of the figure of which it is a part.
+        """
         kept, placed, scene = self._placed()
         starts = [0, *(start for start, _ in self._begun), len(self.shapes)]
         names = ["", *(name for _, name in self._begun)]
@@ -215,7 +218,7 @@ class Canvas:
             bent = Polyline(way, Pen.THIN, role="leader", name=kept[label].markup)
             self.shapes.append(bent if len(way) > 2 else Line(way[0], way[1], Pen.THIN, role="leader", name=bent.name))
             parts.append(kept[label].stage)
-        x0, y0, x1, y1 = write_above(self.shapes, heading, notes, self.style)
+        x0, y0, x1, y1 = write_above(self.shapes, heading, notes if heading else (), self.style)
         box = x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0
         every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._begun else ()
         drawn = name, tuple(self.shapes), box, heading, tuple(notes)

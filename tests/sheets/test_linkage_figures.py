@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Callable
 from functools import cache
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ from kulman.tests.sheets.judge import detached
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import Faults, Judged, l1_plan, l5_similarity, l7_senses
 from kulman.tests.support.printed_numbers import lines_of, numbers_of, table
-from kulman.tests.support.readback import Arrow, Sheet, View, parallel, read
+from kulman.tests.support.readback import Arrow, Sheet, Stroke, View, parallel, read
 from kulman.tests.support.sheet_geometry import NEAR, crosses, same
 from kulman.variants.reader import load_task
 from kulman.variants.sheets import Sheet as Drawn
@@ -429,6 +429,35 @@ def test_small_forces_stand_in_insets_and_can_be_measured_there(case: Linkage) -
         assert any((round(abs(v.span), 2), v.mu) in printed for v in drawn_as if v.quantity == name), name
     assert numerals == [*NUMERALS[: len(numerals)]]
     assert numerals
+
+
+@pytest.mark.parametrize("task", ["scheme-11-slotter", "scheme-13-toggle-press", "scheme-16-hay-baler"])
+def test_arc_of_phi_keeps_off_supports_and_other_links(task: str) -> None:
+    view = Linkage(task, "1", format="A1").sheet["position"]
+    (arc,) = (s for s in view.inside("dimension", "phi") if s.arc)
+    main = max(stroke.width for stroke in view.strokes)
+
+    foreign = [s for s in view.strokes if (s.width > 0.9 * main or s.role == "hatch") and ("link", "1") not in s.path]
+    near = [s for s in foreign if shapely.distance(_drawn(arc), _drawn(s)) < 1.2]
+    assert foreign
+    assert not near, [stroke.path for stroke in near]
+
+
+def _drawn(stroke: Stroke) -> shapely.LineString:
+    return shapely.LineString([(point.real, point.imag) for point in stroke.points])
+
+
+def test_notes_of_a_plan_stand_under_its_heading_also_beside_an_inset() -> None:
+    case = Linkage("scheme-14-jaw-crusher", "1", format="A1")
+    plans = [view for view in case.sheet.views if view.name.startswith("forces_") and view.insets]
+
+    said = [text for plan in plans for text in plan.of("heading") if " = " in text.string and text.name == "note"]
+    for plan in plans:
+        lines = [(text.box[0] + text.box[2], text.box[1]) for text in plan.of("heading")]
+        assert max(middle for middle, _ in lines) - min(middle for middle, _ in lines) < STYLE.text, plan.name
+        levels = sorted(level for _, level in lines)
+        assert max(b - a for a, b in pairwise(levels)) < 4.0 * STYLE.heading, plan.name
+    assert said  # of letters that have no room
 
 
 # Load diagrams and factors of inertia that a task gives.

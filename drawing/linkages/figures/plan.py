@@ -215,6 +215,7 @@ def with_insets(
         radius = max(LEAST_PLACE, abs(complex(x1 - x0, y1 - y0)) / 2)
         canvas.detail(numeral, complex(x0 + x1, y0 + y1) / 2, radius, f"{name}_{numeral}")
     figure = canvas.finish(name)
+    notes = (*notes, *figure.notes)  # of letters that are left out
     ways = []
     for right in (True, False):
         x, y = (figure.box[2] + GAP, figure.box[1]) if right else (figure.box[0], figure.box[1] - GAP)

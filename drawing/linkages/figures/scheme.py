@@ -47,6 +47,7 @@ SHORT = 0.8  # lengths of the arrow of a force: across a shorter crank the arrow
 ACROSS = 0.7, 0.6, 0.8, 0.3, 0.25  # parts of a longer one at which it stands
 PAST = 16.0  # mm by which the axis of a guide runs past its slider and a pivot
 LEAVES, LONGEST = 1.6, 34.0  # mm by which the end of an arc leaves its tangent, unless the arc would be too long
+LEAST_ARC = 9.0  # mm, the least radius of the arc of phi
 CROSS = 8.0  # mm by which arcs and lines run past the joint that they find
 
 
@@ -113,7 +114,7 @@ def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
     phi = math.remainder(scene.values[driver.angle], 2 * math.pi)
     phi = phi + 2 * math.pi if phi < -1e-12 else phi
     text = f"{scene.words.symbol(driver.angle)} = {scene.words.short(round(math.degrees(phi), 9))}°"
-    radius = max(0.45 * crank_mm, 9.0)
+    radius = _dimension_radius(canvas, scene, driver, phi)
     zero = o + max(crank_mm, radius + 6.0) * 1.1
     canvas.add(Line(o + style.pair, zero, Pen.THIN, role="zero-direction", name=driver.angle))
     if phi > 0.05:
@@ -130,6 +131,18 @@ def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
         radii = tuple((radius + 5.0) * part for part in (1.0, 0.75, 1.3, 1.6))
     spread = min(1.0, max(TURNED[0], 1.1 * style.force / radii[0]))
     turning_of_driver(canvas, scene, driver, radii, spread, wanted)
+
+
+def _dimension_radius(canvas: Canvas, scene: Scene, driver: Driver, phi: float) -> float:
+    """Return the radius of the arc that dimensions phi: near the middle of the crank, off supports and other links."""
+    o, own = scene.mm(driver.pivot), str(driver.link)
+    crank_mm = abs(scene.mm(driver.point) - o)
+    usual, most = max(0.45 * crank_mm, LEAST_ARC), crank_mm - 2.0 * scene.style.pair
+    radii = np.array([usual, *np.arange(LEAST_ARC, most, STEP)])
+    turns = np.exp(1j * phi * np.linspace(0.0, 1.0, 1 + max(len(ALONG), round(usual * phi / CROSSED))))
+    things = (shape for shape in canvas.shapes if not (isinstance(shape, Group) and shape.name == own))
+    crowd = _crowd((o + radii[:, None] * turns)[:, None], list(_obstacles(things)))[:, 0]
+    return float(radii[int(np.round(crowd + AWAY * np.abs(radii - usual) / usual, 6).argmin())])
 
 
 def _letter_frame(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
