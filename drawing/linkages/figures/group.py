@@ -369,15 +369,13 @@ class Sketch:
 
 
 def zeros(scene: Scene, names: Iterable[str]) -> tuple[str, ...]:
-    """Say in one line which of these forces, moments and arms, each kind apart, are zero: no figure can show them."""
+    """Return in one line which of these forces, moments and arms, each kind apart, are 0: no figure can show them."""
     words, couples = scene.words, {couple.name for couple in scene.mechanism.couples}
     kinds: dict[str, list[str]] = {"": [], "M": [], "h": []}
     for name in (role(name) for name in dict.fromkeys(names) if scene.defined(name) and scene.vanishes(name)):
         kind = "M" if name in couples else name.kind if name.kind in kinds else ""
         kinds[kind].append(words.symbol(name.shown, bar=not kind))
     said = {kind: f"{' = '.join(symbols)} = 0" for kind, symbols in kinds.items() if symbols}
-    if "h" in said:
-        said["h"] = words["said.no_arm"].format(zero=said["h"])
     return ("; ".join(said.values()),) if said else ()
 
 

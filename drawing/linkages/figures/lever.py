@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import replace
 from itertools import combinations, pairwise
 
 from ....plans.board import Step
@@ -52,8 +53,10 @@ def lever_view(scene: Scene) -> View:
     letters = {mark: letter_of(scene, mark) for mark in marks} | {"lever.p": words.mark("lever.p")}
     letter_marks(canvas, scene, letters, places, ("lever.p",))
     gone = [_arm_of(name) for name, _ in hung if scene.direction(name) != 0]
-    notes = (words["said.lever"], *[words["said.arms"]] * alone, *zeros(scene, [*sketch.zero, *gone]))
-    return canvas.finish("lever", scene.heading("heading.lever", "lever"), notes)
+    said = ("said.lever", "said.arrows", *["said.arms"] * alone)
+    turned = replace(scene.scales["lever"], symbol=scene.scales["velocity"].symbol)  # it is a plan of velocities
+    heading = words["heading.lever"], words.scale(turned)
+    return canvas.finish("lever", heading, (*(words[key] for key in said), *zeros(scene, [*sketch.zero, *gone])))
 
 
 def _drawn_with(scene: Scene, hung: Sequence[tuple[str, str]], marks: Collection[str]) -> dict[str, str]:
