@@ -118,19 +118,25 @@ def test_compass_arcs_can_be_seen_beside_carried_vectors(task: str) -> None:
                 assert all(abs(end.imag) > 1.2 for end in ends)
 
 
-def misplaced(task: str, variant: str, paper: str) -> list[object]:
+def motion_and_forces(task: str, variant: str, paper: str = "A1") -> Linkage:
+    return Linkage(task, variant, format=paper, only=("position", "velocity", "acceleration", "forces", "lever"))
+
+
+def misplaced(case: Linkage) -> list[object]:
     """Forces that stand far from their nodes, that lie on others, or beside their lines where that need not be."""
-    found = sheet(task, variant, only="velocity,acceleration,forces,lever", format=paper)
-    views = read(*(found.svg(number) for number in range(1, len(found.pages) + 1))).views
     faults: list[object] = []
-    for view in (v for v in views if v.name.startswith(("group_", "link_", "driver", "lever"))):
+    for view in (v for v in case.sheet.views if v.name.startswith(("group_", "link_", "driver", "lever"))):
         faults += [fault for fault in detached(view) if fault]
-        faults += [fault for arrow in view.arrows if arrow.aside for fault in offset(view, arrow, STYLES[paper])]
+        faults += [fault for arrow in view.arrows if arrow.aside for fault in offset(view, arrow, style_of(case))]
         for one, other in combinations(view.arrows, 2):
             line, near = segment(one.tail, one.tip), segment(other.tail, other.tip)
             if line.intersection(near.buffer(0.5)).length > 0.5 * line.length:
                 faults.append((view.name, one.name, other.name))
     return faults
+
+
+def style_of(case: Linkage) -> Style:
+    return STYLES[case.format or "A1"]
 
 
 def segment(a: complex, b: complex) -> shapely.Geometry:
@@ -165,17 +171,7 @@ def offset(view: View, arrow: Arrow, style: Style) -> list[object]:
 
 
 def test_forces_within_a_large_block_lie_side_by_side() -> None:
-    assert misplaced("scheme-10-shaper-two-blocks", "0", "A1") == []
-
-
-@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(k, marks=pytest.mark.soak) for k in range(2, 50))])
-def test_random_forces_act_at_their_points(seed: int) -> None:
-    """Each at its node, none on another; what stands beside its line is led there from its point."""
-    random = np.random.default_rng(seed)
-    for _ in range(2):
-        task = random.choice([name for name in bundled("mechanism") if name != "bertyaev-six-bar"])
-        variant, paper = random.choice([*load_task(task).variants]), random.choice(["A1", "A3"])
-        assert misplaced(str(task), str(variant), str(paper)) == [], (task, variant, paper)
+    assert misplaced(motion_and_forces("scheme-10-shaper-two-blocks", "0")) == []
 
 
 def test_forces_on_one_line_stay_near_their_slider() -> None:
@@ -235,10 +231,12 @@ def test_arcs_of_one_link_stand_apart(mu: str) -> None:
 FLATTEST = 0.3  # rad, the least that an arc turns to be seen as one
 
 
-def misturned(task: str, variant: str, paper: str) -> list[object]:
-    """Arcs of omega and epsilon that turn about the wrong point, cannot be read as arcs, or lie on one another."""
-    case = Linkage(task, variant, format=paper, only=("position", "velocity", "acceleration"))
-    view, style, faults = case.sheet["position"], STYLES[paper], list[object]()
+def misturned(case: Linkage) -> list[object]:
+    """Arcs of omega and epsilon that turn about the wrong point, cannot be read as arcs, or lie on one another.
+
+    A link that has no fixed pivot turns about one of its joints, for omega and epsilon the same.
+    """
+    view, style, faults = case.sheet["position"], style_of(case), list[object]()
     arcs = {name: s for s in view.strokes if s.arc for kind, name in s.path if kind == "arrow"}
     lines = {name: shapely.LineString([(p.real, p.imag) for p in arc.points]) for name, arc in arcs.items()}
     first = dict[str, complex]()
@@ -259,28 +257,16 @@ def misturned(task: str, variant: str, paper: str) -> list[object]:
     return faults
 
 
-@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(k, marks=pytest.mark.soak) for k in range(2, 30))])
-def test_random_arcs_turn_about_the_fixed_pivots(seed: int) -> None:
-    """A link that has none turns about one of its joints, for omega and epsilon the same."""
-    random = np.random.default_rng(seed)
-    for _ in range(3):
-        task = random.choice([name for name in bundled("mechanism") if name != "bertyaev-six-bar"])
-        variant, paper = random.choice([*load_task(task).variants]), random.choice(["A1", "A3"])
-        assert misturned(str(task), str(variant), str(paper)) == [], (task, variant, paper)
-
-
 def test_arcs_of_slotted_links_and_triads_turn_about_the_fixed_pivots() -> None:
     """Seen from the free end of its link an arc shows the opposite sense."""
     for task, variant in (("scheme-11-slotter", "4"), ("scheme-20-press-automaton", "0")):
-        assert misturned(task, variant, "A1") == []
+        assert misturned(motion_and_forces(task, variant)) == []
 
 
-def unread(task: str, variant: str, paper: str) -> list[tuple[str, ...]]:
+def unread(case: Linkage) -> list[tuple[str, ...]]:
     """Arms that lie on a force, and those whose letters do not stand on their figures, more than two on a sheet."""
-    found = sheet(task, variant, only="velocity,acceleration,forces,lever", format=paper)
-    faults, lost, style = list[tuple[str, ...]](), list[tuple[str, ...]](), STYLES[paper]
-    views = read(*(found.svg(number) for number in range(1, len(found.pages) + 1))).views
-    for view in (view for view in views if view.name.startswith(("group_", "driver", "lever"))):
+    faults, lost, style = list[tuple[str, ...]](), list[tuple[str, ...]](), style_of(case)
+    for view in (view for view in case.sheet.views if view.name.startswith(("group_", "driver", "lever"))):
         told = [t.string for t in view.of("heading") if re.match("h.*[=] [^0]", t.string)]
         sizes = [(part, numbers_of(part.split("=")[-1], "uk")[0]) for text in told for part in text.split("; ")]
         lost += [(view.name, part) for part, mm in sizes if mm > 2.0 * style.text]
@@ -291,36 +277,36 @@ def unread(task: str, variant: str, paper: str) -> list[tuple[str, ...]]:
     return faults + lost * (len(lost) > 2)
 
 
-@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(k, marks=pytest.mark.soak) for k in range(2, 30))])
-def test_random_arms_lie_on_no_force(seed: int) -> None:
-    random = np.random.default_rng(seed)
-    for _ in range(2):
-        task = random.choice([name for name in bundled("mechanism") if name != "bertyaev-six-bar"])
-        variant = random.choice([*load_task(task).variants])
-        faults = unread(str(task), str(variant), "A1")
-        assert [fault for fault in faults if "lies on" in fault] == [], (task, variant)
-
-
 def test_arms_of_crowded_groups_are_lettered_on_them() -> None:
-    assert unread("scheme-15-lever-shears", "3", "A1") == []
-    assert unread("scheme-17-sewing-machine", "9", "A3") == []
+    assert unread(motion_and_forces("scheme-15-lever-shears", "3")) == []
+    assert unread(motion_and_forces("scheme-17-sewing-machine", "9", "A3")) == []
+
+
+def like_dimensions(case: Linkage) -> list[object]:
+    """Vectors to and fro that look like a dimension: one line with heads at both ends."""
+    faults, least = list[object](), style_of(case).arrow
+    for view in (view for view in case.sheet.views if view.name.startswith("forces_")):
+        heads = {tip.path[-1][1]: tip.corners[0] for tip in view.tips if tip.path}
+        assert heads
+        for one, other in combinations(view.vectors, 2):
+            if same(one.tail, other.tip) and same(one.tip, other.tail) and abs(one.span) > 3 * least:
+                away = [min(abs(heads[v.quantity] - end) for end in (one.tail, one.tip)) for v in (one, other)]
+                faults += [(view.name, one.quantity, other.quantity)] if max(away) <= least else []
+    return faults
 
 
 @pytest.mark.parametrize("seed", [0, 1, *(pytest.param(k, marks=pytest.mark.soak) for k in range(2, 30))])
-def test_random_vectors_to_and_fro_have_their_heads_apart(seed: int) -> None:
-    """A line with heads at both ends looks like a dimension."""
+def test_random_forces_arcs_and_arms_stand_where_they_are_read(seed: int) -> None:
+    """Forces at their nodes or led there from them, arcs about fixed pivots, arms beside forces, heads apart."""
     random = np.random.default_rng(seed)
-    for _ in range(2):
+    for _ in range(3):
         task = str(random.choice([name for name in bundled("mechanism") if name != "bertyaev-six-bar"]))
-        variant = str(random.choice([*load_task(task).variants]))
-        case = Linkage(task, variant, format="A1", only=("velocity", "acceleration", "forces"))
-        for view in (view for view in case.sheet.views if view.name.startswith("forces_")):
-            heads = {tip.path[-1][1]: tip.corners[0] for tip in view.tips if tip.path}
-            assert heads
-            for one, other in combinations(view.vectors, 2):
-                if same(one.tail, other.tip) and same(one.tip, other.tail) and abs(one.span) > 3 * STYLE.arrow:
-                    away = [min(abs(heads[v.quantity] - end) for end in (one.tail, one.tip)) for v in (one, other)]
-                    assert max(away) > STYLE.arrow, (task, variant, view.name, one.quantity, other.quantity)
+        case = motion_and_forces(
+            task, str(random.choice([*load_task(task).variants])), str(random.choice(["A1", "A3"]))
+        )
+
+        assert (misplaced(case), misturned(case), like_dimensions(case)) == ([], [], []), case
+        assert [fault for fault in unread(case) if "lies on" in fault and case.format == "A1"] == [], case
 
 
 def test_link_whose_triangle_is_named_has_three_main_sides() -> None:
