@@ -5,20 +5,38 @@ from typing import TYPE_CHECKING, Any
 from .scales.version import __version__ as __version__
 
 if TYPE_CHECKING:
+    from .plans.quantities import Quantity as Quantity
     from .scales.errors import KulmanError as KulmanError
+    from .scales.series import Series as Series
     from .variants.batches.batch import batch as batch
     from .variants.charts.charts import chart as chart
     from .variants.making.all_variants import all_variants as all_variants
+    from .variants.many import ManyStates as ManyStates
+    from .variants.many import Status as Status
+    from .variants.many import solve_many as solve_many
     from .variants.marking.checks import check as check
     from .variants.notes import note as note
     from .variants.reader import load_task as load_task
+    from .variants.sheets import Sheet as Sheet
     from .variants.sheets import handout as handout
     from .variants.sheets import sheet as sheet
+    from .variants.shelf import tasks as tasks
+    from .variants.solution import Solution as Solution
     from .variants.solution import solve as solve
     from .variants.sweeps.sweeps import sweep as sweep
+    from .variants.tables import Swept as Swept
+    from .variants.task import Task as Task
 
 _HOMES = {
     "KulmanError": "scales.errors",
+    "ManyStates": "variants.many",
+    "Quantity": "plans.quantities",
+    "Series": "scales.series",
+    "Sheet": "variants.sheets",
+    "Solution": "variants.solution",
+    "Status": "variants.many",
+    "Swept": "variants.tables",
+    "Task": "variants.task",
     "all_variants": "variants.making.all_variants",
     "batch": "variants.batches.batch",
     "chart": "variants.charts.charts",
@@ -28,7 +46,9 @@ _HOMES = {
     "note": "variants.notes",
     "sheet": "variants.sheets",
     "solve": "variants.solution",
+    "solve_many": "variants.many",
     "sweep": "variants.sweeps.sweeps",
+    "tasks": "variants.shelf",
 }
 __all__ = ["__version__", *_HOMES]
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..scales.scale import Display, Scale
+from ..scales.units import converted, unit
 from .board import POINTS, POSITION, Program, Step
 from .boards.exact import ILL
 from .names import LEVER, by_lever, is_shown, role, spelled
@@ -37,7 +38,7 @@ RESULTS = ("read", "calc", "arm", "distance", "measure")  # verbs that make quan
 MEETING = ("meet", "arc", "arcs", "tangent")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Quantity:
     """A result in SI: a signed scalar, a vector with components (`value` is its magnitude), or a point (no `value`).
 
@@ -65,6 +66,31 @@ class Quantity:
         if self.scale is not None:
             item |= {"mm": self.mm, "scale": self.scale}
         return item if self.about is None else {**item, "about": self.about}
+
+    def __repr__(self) -> str:
+        """Return name, value and unit; of a vector and a point the components, too."""
+        sizes = [] if self.kind == "point" else ["–" if self.value is None else f"{self.value:.6g}"]
+        if self.kind != "scalar":
+            sizes.append("–" if self.x is None or self.y is None else f"({self.x:.6g}, {self.y:.6g})")
+        return f"{self.name} = {' '.join(sizes)} {self.unit}".rstrip()
+
+    def __float__(self) -> float:
+        """Return the value, NaN where it is undefined; a point has none.
+
+        Raises TypeError: of a point.
+        """
+        if self.kind == "point":
+            raise TypeError(f"{self.name} is a point: it has coordinates x and y")
+        return math.nan if self.value is None else self.value
+
+    def to(self, of: str) -> Quantity:
+        """Return the quantity in another unit, `"mm/s"`.
+
+        Raises InputError: a unit that is not known, or is one of something else.
+        """
+        own, one = unit(self.unit), converted(1.0, unit(of), unit(self.unit))
+        value, x, y = (None if part is None else own.to_si(part) / one for part in (self.value, self.x, self.y))
+        return replace(self, value=value, x=x, y=y, unit=unit(of).name)
 
     def shown(self, display: Display) -> Quantity:
         """Return the quantity in the units of `display`, its segment too."""

@@ -79,6 +79,9 @@ SYMBOLS: dict[str, Symbol] = {
     "%": Symbol(Dimension(), 1, 100, "%", "%", "%"),
 }
 
+# the symbols that stand for 1 in SI; per cents are plain numbers
+_COHERENT = {symbol.dimension: name for name, symbol in SYMBOLS.items() if symbol.num == symbol.den == 1}
+
 # Letters that look alike in both alphabets: a Cyrillic "с" or "Н" typed on the wrong layout is still a unit.
 _ALIKE = str.maketrans("асеоркНМТ", "aceopkHMT")
 _SPELLINGS = {
@@ -140,6 +143,16 @@ class Unit:
         """Return the SI `value` in this unit."""
         num, den = self.ratio
         return value * den / num
+
+    @cached_property
+    def si(self) -> Unit:
+        """The unit of SI in its place: m for mm, rad/s for rpm, kg*m^2 for g*cm^2."""
+        powers: dict[str, int] = {}
+        for name, power in self.powers:
+            parts = (("rad", 1), ("s", -1)) if name == "rpm" else ((_COHERENT.get(SYMBOLS[name].dimension, ""), 1),)
+            for base, times in parts:
+                powers[base] = powers.get(base, 0) + power * times
+        return Unit(tuple((base, power) for base, power in powers.items() if base and power))
 
     @property
     def name(self) -> str:

@@ -24,6 +24,9 @@ def bundled(kind: str | None = None) -> tuple[str, ...]:
     return tuple(task for task in tasks if kind is None or kind == table_in(_HEADS.findall(bundled_text(task))))
 
 
+tasks = bundled  # the name in Python
+
+
 def bundled_text(task: str) -> str:
     """Return the TOML of a bundled task."""
     return (_TASKS / f"{task}.toml").read_text(encoding="utf-8")

@@ -9,20 +9,24 @@ import math
 import os
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from functools import cache
 from html import escape
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
 
 from ..drawing.writers import WRITERS, Files, save_all
+from ..scales.errors import InputError
+from ..scales.names import of_kind, unknown
 
 if TYPE_CHECKING:
     from ..drawing.words import Words
     from ..plans.solved import Columned
     from ..scales.errors import PositionError
+    from ..scales.series import Series
     from .case import Case
     from .task import Task
 
@@ -182,24 +186,70 @@ class OfCase(Result):
 
 
 @dataclass(frozen=True, slots=True)
-class Swept(OfCase):
-    """A variant of a task over its whole cycle."""
+class Arrays(OfCase):
+    """What has been found of many states: a `Series` by the name of each quantity, in SI."""
 
-    suffixes = (*FILES, *WRITERS)
-
-    @property
-    def status(self) -> str:
-        """The status of the whole cycle: `ok` where something moves."""
-        return "ok"
-
-    @property
-    def reason(self) -> PositionError | None:
-        """Why no position at all can be assembled, or None."""
-        return None
+    @abstractmethod
+    def arrays(self, of: str = "") -> Iterable[Columned]:
+        """Go through all columns in SI, or through those of one quantity: of a vector its size, `.x` and `.y`."""
 
     @abstractmethod
     def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
         """Return the columns in the units in which they are shown, and what is said of each row."""
+
+    @abstractmethod
+    def _data(self) -> dict[str, Any]:
+        """Return what has been found, for JSON: everything in SI."""
+
+    @property
+    def status(self) -> str:
+        """The status of all: `ok` where something moves."""
+        return "ok"
+
+    def __getitem__(self, name: str) -> Series:
+        """Return the values of a quantity, `"V_B"`, or of a part of it, `"V_B.x"`.
+
+        Raises InputError: there is none of this name.
+        """
+        from ..scales.series import Series  # which needs numpy
+
+        of_kind("name", name, (str,), "str")
+        for column in self.arrays(name.partition(".")[0]):
+            if column.name == name:
+                return Series(column.values, column.name, column.unit)
+        raise unknown("quantity-unknown", name, self)
+
+    def __iter__(self) -> Iterator[str]:
+        """Go through the names of all columns."""
+        return (column.name for column in self.arrays())
+
+    def __contains__(self, name: object) -> bool:
+        """Tell whether there is a column of this name."""
+        return any(name == column.name for column in self.arrays())
+
+    def __len__(self) -> int:
+        """Return the number of columns."""
+        return sum(1 for _ in self.arrays())
+
+    def to_dict(self) -> dict[str, Series]:
+        """Return all columns by name, in SI."""
+        from ..scales.series import Series
+
+        return {column.name: Series(column.values, column.name, column.unit) for column in self.arrays()}
+
+    def to_dataframe(self) -> Any:
+        """Return a pandas data frame of all columns in SI, a row for each state, their units in `attrs["units"]`.
+
+        Raises InputError: pandas is not installed.
+        """
+        try:
+            pandas = import_module("pandas")  # the user's own, if there is one
+        except ImportError:
+            raise InputError("pandas-missing") from None
+        columns = [*self.arrays()]
+        frame = pandas.DataFrame({column.name: column.values.ravel() for column in columns})
+        frame.attrs["units"] = {column.name: column.unit for column in columns}
+        return frame
 
     def data(self, language: str | None = None) -> Table:
         """Return all columns, the number of the row before them, after them what is said of each row."""
@@ -207,18 +257,26 @@ class Swept(OfCase):
         shown, states = self._columns(words)
         units = [words.spelled(column.unit) for column in shown]
         heads = (f"{column.name} [{of}]" if of else column.name for column, of in zip(shown, units, strict=True))
-        rows = zip(*(map(float, column.values) for column in shown), *states.values(), strict=True)
+        rows = zip(*(column.values.ravel().tolist() for column in shown), *states.values(), strict=True)
         numbered = tuple((k, *row) for k, row in enumerate(rows))
         return Table(("k", *heads, *states), numbered, words.language, self.task.id)
 
-    @abstractmethod
-    def _data(self) -> dict[str, Any]:
-        """Return what has been found, for JSON: everything in SI."""
-
     def to_json(self) -> dict[str, Any]:
-        """Return what `kulman sweep --json` prints: everything in SI."""
+        """Return what is printed with `--json`: everything in SI."""
         data = {"task": self.task.id, "variant": self.variant, "status": self.status} | self._data()
         return {name: plain(value) for name, value in data.items()}
+
+
+@dataclass(frozen=True, slots=True)
+class Swept(Arrays):
+    """A variant of a task over its whole cycle; `swept["V_B"]` are the values over it, in SI."""
+
+    suffixes = (*FILES, *WRITERS)
+
+    @property
+    def reason(self) -> PositionError | None:
+        """Why no position at all can be assembled, or None."""
+        return None
 
 
 def ends_data(of: str, most: tuple[float, float], least: tuple[float, float]) -> dict[str, Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -25,6 +25,7 @@ from ...scales.names import all_known, names_of, of_kind
 from ...scales.units import parse, unit
 from ..case import Case, positions_of
 from ..kinds.linkage import placed
+from ..many import parts_of
 from ..sheets import Sheet, sheet_of, stamp_of
 from ..tables import FILES, Result, Swept, aligned, ends_data
 from ..task import LocatedError, Task, plain_number
@@ -122,6 +123,11 @@ class Sweep(Swept):
         parts = (velocity, f"{drawn.unit}/s", drawn.velocity), (acceleration, f"{drawn.unit}/s^2", drawn.acceleration)
         return "\n\n".join(_chords(f"{symbol}_{of}", unit_name, curve, words) for symbol, unit_name, curve in parts)
 
+    def arrays(self, of: str = "") -> Iterator[Columned]:
+        """Go through place and time of the driver, then all columns in SI, or those of one quantity."""
+        columns = (*_driven(self.cycle), *_columns_of(self.cycle, self.chosen, whole=True))
+        return (column for column in columns if of in ("", column.name.partition(".")[0]))
+
     def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
         columns = _columns_of(self.cycle, self.chosen, whole=True)
         return _shown(self.cycle, columns, words), {"status": self.cycle.statuses}
@@ -145,9 +151,11 @@ class Sweep(Swept):
             "times": cycle.times,
             "statuses": cycle.statuses,
             "points": {
-                name: {"unit": "m", **_parts(cycle, name, point=True)} for name in points if name in cycle.values
+                name: {"unit": "m", **parts_of(cycle.values[name], point=True)}
+                for name in points
+                if name in cycle.values
             },
-            "quantities": {name: {"unit": unit_of(name), **_parts(cycle, name)} for name in names},
+            "quantities": {name: {"unit": unit_of(name), **parts_of(cycle.values[name])} for name in names},
             "outputs": [_output_data(cycle, motion) for motion in cycle.motions],
             "extremes": {
                 name: ends_data(unit_of(name), (most.value, most.at), (least.value, least.at))
@@ -215,15 +223,6 @@ def _output_columns(cycle: Cycle, output: Output) -> list[Columned]:
     return [place, *(Columned(name, of, values) for name, of, values in found if values is not None)]
 
 
-def _parts(cycle: Cycle, name: str, point: bool = False) -> dict[str, Array]:
-    """Return the values of a quantity: of a vector its size and components, of a point its coordinates."""
-    values = cycle.values[name]
-    if not np.iscomplexobj(values):
-        return {"value": values}
-    size = {} if point else {"value": np.hypot(values.real, values.imag)}
-    return {**size, "x": values.real, "y": values.imag}
-
-
 def _columns_of(cycle: Cycle, chosen: tuple[str, ...], whole: bool) -> list[Columned]:
     """Return the columns of chosen points, by their letters, and links, by their numbers.
 
@@ -239,7 +238,7 @@ def _columns_of(cycle: Cycle, chosen: tuple[str, ...], whole: bool) -> list[Colu
             names = (*points, *cycle.quantities) if whole else [name for name in BALANCES if name in cycle.values][:1]
         for name in names:
             if name in cycle.values and all(column.name != name for column in columns):
-                for part, values in _parts(cycle, name, name in points).items():
+                for part, values in parts_of(cycle.values[name], name in points).items():
                     title = name if part == "value" else f"{name}.{part}"
                     columns.append(Columned(title, unit_of(name), values))
     return columns
@@ -257,19 +256,23 @@ def _quantities_of(cycle: Cycle, chosen: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(name for name in cycle.quantities if name in wanted or not chosen)
 
 
-def _shown(cycle: Cycle, columns: list[Columned], words: Words) -> list[Columned]:
-    """Return the driver's place, within a turn, the time and columns in the units of the words, angles in degrees."""
-    driver, turn = Columned(driver_name(cycle), "m", cycle.angles), 2.0 * np.pi
+def _driven(cycle: Cycle) -> tuple[Columned, Columned]:
+    """Return the driver's place, within a turn, and the time."""
+    places, turn = cycle.angles, 2.0 * np.pi
     if cycle.drive.turns:
-        within = cycle.angles % turn
-        driver = Columned(driver.name, "rad", np.where(np.abs(within - turn) < 1e-12, 0.0, within))
+        places = np.where(np.abs(cycle.angles % turn - turn) < 1e-12, 0.0, cycle.angles % turn)
+    return Columned(driver_name(cycle), "rad" if cycle.drive.turns else "m", places), Columned("t", "s", cycle.times)
+
+
+def _shown(cycle: Cycle, columns: list[Columned], words: Words) -> list[Columned]:
+    """Return the driver's place, the time and columns in the units of the words, angles in degrees."""
     shown: Callable[[Any, str], Any] = words.display.value
     degrees: Callable[[Any], Any] = unit("deg").from_si
     return [
         Columned(column.name, "deg", degrees(column.values))
         if column.unit == "rad"
         else Columned(column.name, words.display.unit(column.unit), shown(column.values, column.unit))
-        for column in (driver, Columned("t", "s", cycle.times), *columns)
+        for column in (*_driven(cycle), *columns)
     ]
 
 

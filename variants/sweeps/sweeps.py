@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -55,6 +55,11 @@ class CourseSweep(Swept):
         warnings = [warning.text(words.language) for warning in self.case.warnings]
         parts = aligned(rows, ()), _extremes_table(self.course.extremes(), words), "\n".join((*remarks, *warnings))
         return "\n\n".join(part for part in parts if part)
+
+    def arrays(self, of: str = "") -> Iterator[Columned]:
+        """Go through the columns in SI; those of one quantity are under its own name."""
+        columns = self.course.columns(self.course.places(self.count))
+        return (column for column in columns if of in ("", column.name))
 
     def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
         places = self.course.places(self.count)

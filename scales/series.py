@@ -1,0 +1,48 @@
+"""Arrays of one quantity that know their name and their unit."""
+
+from __future__ import annotations
+
+from typing import Any, Literal, Self
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .units import converted, unit
+
+Method = Literal["__call__", "reduce", "reduceat", "accumulate", "outer", "at"]
+
+
+class Series(np.ndarray[Any, np.dtype[Any]]):
+    """Values of one quantity by its `name`, in its `unit`; what is calculated of them is a plain array."""
+
+    name: str
+    unit: str
+
+    def __new__(cls, values: ArrayLike, name: str, of: str) -> Self:
+        """Return values with a name and a unit."""
+        series = np.asarray(values).view(cls)
+        series.name, series.unit = name, of
+        return series
+
+    def __array_finalize__(self, whole: Any) -> None:
+        """Leave its name and unit to a part of a series."""
+        self.name, self.unit = getattr(whole, "name", ""), getattr(whole, "unit", "")
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: Method, *inputs: Any, **kwargs: Any) -> Any:
+        """Calculate with plain arrays: a product of lengths is no length."""
+        bare = [np.asarray(value) if isinstance(value, Series) else value for value in inputs]
+        return getattr(ufunc, method)(*bare, **kwargs)
+
+    def to(self, of: str) -> Series:
+        """Return the values in another unit, `"mm"`, `"об/хв"`.
+
+        Raises InputError: a unit that is not known, or is one of something else.
+        """
+        own, one = unit(self.unit), converted(1.0, unit(of), unit(self.unit))
+        return Series(np.asarray(self) * (own.to_si(1.0) / one), self.name, unit(of).name)
+
+    def __repr__(self) -> str:
+        """Return name, unit and values, of many the first and the last ones."""
+        return f"{self.name}, {self.unit}: {np.array2string(np.asarray(self), threshold=8, precision=6)}"
+
+    __str__ = __repr__

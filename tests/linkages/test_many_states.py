@@ -1,0 +1,214 @@
+"""Many states at once: each is what `solve` says of it alone; units are never others; what is wrong is said."""
+
+from __future__ import annotations
+
+import json
+import sys
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import kulman
+from kulman import KulmanError, Quantity, Series, Status, load_task, solve, solve_many, sweep
+from kulman.plans.boards.exact import STATUSES
+from kulman.variants.shelf import bundled
+
+LINKAGES = bundled("mechanism")
+TASK = "nau-slider-crank"
+
+
+def part_of(quantity: Quantity, part: str) -> float | None:
+    return {"": quantity.value, "x": quantity.x, "y": quantity.y}[part]
+
+
+def assert_alone(task: str, states: kulman.ManyStates, at: tuple[int, ...], **others: str) -> None:
+    """Assert that one of many states is what `solve` says of it."""
+    given = {name: states[name] for name in states.given}
+    one = solve(task, set={name: f"{float(array[at])!r} {array.unit}" for name, array in given.items()} | others)
+    assert states.statuses[at] == one.status
+    for name in (name for name in states if name not in given):
+        column, (base, _, part) = states[name], name.partition(".")
+        expected = part_of(one[base], part)
+        assert column.unit == one[base].unit
+        if expected is None:
+            assert np.isnan(column[at]), name
+        else:
+            size = max(abs(own) for own in (one[base].value, one[base].x, one[base].y, 1e-9) if own is not None)
+            assert float(column[at]) == pytest.approx(expected, rel=0.0, abs=1e-9 * size), name
+
+
+@pytest.mark.parametrize("task", LINKAGES)
+def test_each_of_many_states_is_what_it_is_alone(task: str) -> None:
+    rng, driver = np.random.default_rng(LINKAGES.index(task)), load_task(task).mechanism.driver.coordinate
+    places = load_task(task).values()[driver] * (1.0 + 0.02 * rng.random((2, 3)))
+    states = solve_many(task, **{driver: places})
+
+    assert states.shape == (2, 3)
+    assert states.ok.all()
+    for at in ((0, 1), (1, 2)):
+        assert_alone(task, states, at)
+
+
+def test_givens_broadcast_and_each_state_has_its_status() -> None:
+    lengths = np.array([130.0, 20.0, 50.0])
+    states = solve_many(TASK, phi=np.radians([0.0, 40.0, 90.0, 250.0]), l_AB=(lengths[:, None], "mm"), l_OA="50 mm")
+
+    assert states.shape == states["V_B"].shape == states.statuses.shape == (3, 4)
+    assert states["l_AB"].unit == "m"
+    assert states["l_AB"][2].tolist() == [0.05] * 4
+    assert states.statuses[1].tolist() == [Status.OK, Status.NO_ASSEMBLY, Status.NO_ASSEMBLY, Status.NO_ASSEMBLY]
+    assert np.isnan(states["V_B"][1, 1:]).all()
+    assert (states.ok == ((states.statuses == Status.OK) | (states.statuses == Status.ILL_CONDITIONED))).all()
+    for at in np.ndindex(states.shape):
+        if states.ok[at]:
+            assert_alone(TASK, states, at, l_OA="50 mm")
+
+
+def test_one_state_without_arrays_has_no_axes() -> None:
+    states = solve_many(TASK, phi="40 deg", names=["V_B", "B"])
+
+    assert states.shape == ()
+    assert [*states] == ["V_B", "V_B.x", "V_B.y", "B.x", "B.y"]
+    assert float(states["V_B"]) == pytest.approx(solve(TASK, set={"phi": "40 deg"})["V_B"].value)
+
+
+def test_units_are_as_they_are_written_and_numbers_in_si() -> None:
+    ways: list[Any] = ["190 mm", 0.19, np.float64(0.19), (190, "mm"), ([19.0], "см"), Series([190.0], "l", "mm")]
+    found = [np.ravel(solve_many(TASK, l_AB=way, names="V_B")["V_B"])[0] for way in ways]
+    assert found == pytest.approx([found[0]] * len(ways), rel=1e-14)
+    speed = solve_many(TASK, n_1=[10.0, 20.0], names="V_A")
+    assert speed["n_1"].unit == "rad/s"
+    crank = load_task(TASK).values()["l_OA"]
+    assert speed["V_A"].tolist() == pytest.approx([10.0 * crank, 20.0 * crank])
+
+
+def test_words_are_chosen_and_settings_hold_for_all_states() -> None:
+    left, right = (solve_many(TASK, side=side, phi=[0.3], names="B")["B.x"][0] for side in ("left", "right"))
+    assert left * right < 0.0
+    assert solve_many(TASK, set={"l_OA": 30}, phi=[0.3], names="V_A")["V_A"] == pytest.approx(
+        solve(TASK, set={"l_OA": "30 mm"})["V_A"].value
+    )
+
+
+@pytest.mark.parametrize(
+    ("givens", "key"),
+    [
+        ({"phy": [1.0]}, "given-unknown-like"),
+        ({"phi": "30"}, "unit-missing"),
+        ({"phi": ([1.0], "mm")}, "unit-wrong"),
+        ({"phi": [0.0, float("nan")]}, "number-bad"),
+        ({"phi": [float("inf")]}, "number-infinite"),
+        ({"phi": "wide"}, "number-bad"),
+        ({"phi": {"deg": 30}}, "type-quantity"),
+        ({"phi": ["a", "b"]}, "type-quantity"),
+        ({"l_AB": [0.1, -0.1]}, "not-positive"),
+        ({"l_AB": [0.1, 0.0, 0.2]}, "not-positive"),
+        ({"phi": []}, "arrays-shapes"),
+        ({"phi": [1.0, 2.0], "l_AB": [0.1, 0.2, 0.3]}, "arrays-shapes"),
+        ({"side": "up"}, "choice-unknown"),
+        ({"phi": [1.0], "names": "jerk"}, "quantity-unknown"),
+    ],
+    ids=str,
+)
+def test_what_is_wrong_with_an_array_is_said(givens: dict[str, Any], key: str) -> None:
+    with pytest.raises(KulmanError) as error:
+        solve_many(TASK, **givens)
+    assert error.value.key == key
+    assert next(iter(givens)) in error.value.text("en") or key == "quantity-unknown"
+
+
+def test_a_gear_pair_is_no_linkage() -> None:
+    with pytest.raises(KulmanError, match="no linkage"):
+        solve_many("madi-gear")
+
+
+@pytest.mark.parametrize("task", [TASK, "scheme-18-hydraulic-drive", "madi-cam", "madi-gear", "karpenko-hoist"])
+def test_a_sweep_gives_its_columns_as_arrays(task: str) -> None:
+    swept = sweep(task)
+    columns = swept.to_dict()
+
+    assert [*swept] == [*columns]
+    assert len(swept) == len(columns)
+    data = swept.to_json()
+    for name, found in data.get("columns", {}).items():
+        assert columns[name].unit == found["unit"]
+        assert np.allclose(columns[name], np.array(found["value"], float), equal_nan=True)
+    for name, found in data.get("quantities", {}).items():
+        for part, values in found.items():
+            if part != "unit":
+                own = swept[name if part == "value" else f"{name}.{part}"]
+                assert np.allclose(own, np.array(values, float), equal_nan=True)
+                assert own.unit == found["unit"]
+    with pytest.raises(KulmanError, match="quantity"):
+        swept["V_nothing"]
+
+
+def test_a_series_keeps_its_unit_where_it_is_still_the_same_quantity() -> None:
+    speeds = sweep(TASK)["V_B"]
+
+    assert (speeds.name, speeds.unit, speeds[2:5].unit) == ("V_B", "m/s", "m/s")
+    assert type(speeds * speeds) is np.ndarray
+    assert type(speeds.max()) is not Series or speeds.max().unit == "m/s"
+    assert speeds.to("мм/с").tolist() == pytest.approx([1000.0 * v for v in speeds])
+    assert speeds.to("mm/s").unit == "mm/s"
+    assert repr(speeds).startswith("V_B, m/s: [")
+    assert len(repr(np.resize(speeds, 10_000).view(Series))) < 200
+    with pytest.raises(KulmanError, match="unit N does not fit"):
+        speeds.to("N")
+
+
+def test_states_become_a_data_frame_where_pandas_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    states = solve_many(TASK, phi=[0.1, 0.2], names="V_B")
+    made: dict[str, Any] = {}
+
+    def data_frame(columns: dict[str, Any]) -> SimpleNamespace:
+        made.update(columns)
+        return SimpleNamespace(attrs={})
+
+    monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=data_frame))
+    frame = states.to_dataframe()
+    assert frame.attrs["units"] == {"phi": "rad", "V_B": "m/s", "V_B.x": "m/s", "V_B.y": "m/s"}
+    assert made["phi"].tolist() == [0.1, 0.2]
+
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(KulmanError, match="pandas"):
+        states.to_dataframe()
+
+
+def test_states_are_saved_as_tables_and_as_json(tmp_path: Any) -> None:
+    states = solve_many(TASK, phi=[[0.1, 0.2], [0.3, 0.4]], names="V_B")
+    states.save(tmp_path / "states.csv", tmp_path / "states.json")
+
+    head, *rows = (tmp_path / "states.csv").read_text().splitlines()
+    assert head == "k,phi [rad],V_B [m/s],V_B.x [m/s],V_B.y [m/s],status"
+    assert [float(row.split(",")[2]) for row in rows] == states["V_B"].ravel().tolist()
+    data = json.loads((tmp_path / "states.json").read_text())
+    assert data["columns"]["V_B"]["value"] == states["V_B"].tolist()
+    assert states.table() == "ok: 4"
+    assert "(2, 2)" in repr(states)
+
+
+def test_statuses_are_those_of_the_board() -> None:
+    assert [*Status] == [*STATUSES]
+
+
+def test_a_quantity_prints_and_converts() -> None:
+    found = solve(TASK, "example")
+
+    assert repr(found["V_B"]) == "V_B = 2.7614 (2.7614, 0) m/s"
+    assert repr(found["B"]) == f"B = ({found['B'].x:.6g}, 0) m"
+    assert float(found["V_B"]) == found["V_B"].value
+    assert found["V_B"].to("мм/с").value == pytest.approx(2761.396, abs=1e-3)
+    assert found["omega_1"].to("rpm").value == pytest.approx(found["omega_1"].to("1/min").value)
+    assert found["omega_1"].to("rpm").value == pytest.approx(-765.0)
+    with pytest.raises(TypeError, match="point"):
+        float(found["B"])
+    with pytest.raises(KulmanError, match="unit"):
+        found["V_B"].to("kg")
+
+
+def test_tasks_are_listed() -> None:
+    assert TASK in kulman.tasks()
+    assert kulman.tasks() == bundled()

@@ -1,0 +1,215 @@
+"""Many states of a variant at once: arrays of givens in, arrays of quantities with their units out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..drawing.words import Words
+from ..plans.board import POINTS
+from ..plans.boards.arrays import CODES
+from ..plans.boards.batch import batch
+from ..plans.boards.exact import STATUSES
+from ..plans.linkages.chain import constructed
+from ..plans.linkages.solved import board_givens
+from ..plans.quantities import results, unit_of
+from ..plans.solved import Columned
+from ..scales.errors import InputError
+from ..scales.names import all_known, names_of, unknown
+from ..scales.series import Series
+from ..scales.units import converted, parse, unit
+from .case import Case, Request, Settings, Wanted
+from .kinds.linkage import Linkages
+from .reader import load_task
+from .tables import Arrays
+from .task import AnyTask, Given, LocatedError
+
+Array = NDArray[Any]
+Many = str | float | ArrayLike | tuple[ArrayLike, str]  # "190 mm"; numbers in SI; numbers, and their unit
+
+
+class Status(StrEnum):
+    """What can be said of a state: `solution.status == Status.OK`."""
+
+    OK = "ok"
+    ILL_CONDITIONED = "ill-conditioned"
+    SINGULAR = "singular"
+    NO_ASSEMBLY = "no-assembly"
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class ManyStates(Arrays):
+    """States of one variant; `states["V_B"]` is a `Series` of the shape to which the givens broadcast.
+
+    `given` are the givens that are arrays, SI; `values` what was wanted of each state, vectors and points complex,
+    NaN where there is no plan. `points` are the names that are places, not vectors.
+    """
+
+    given: Mapping[str, Array]
+    values: Mapping[str, Array]
+    codes: NDArray[np.int8]
+    points: frozenset[str]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of all arrays."""
+        return self.codes.shape
+
+    @property
+    def statuses(self) -> NDArray[np.str_]:
+        """The status of each state, the words of `kulman.Status`."""
+        return np.array(STATUSES)[self.codes]
+
+    @property
+    def ok(self) -> NDArray[np.bool_]:
+        """Where there is a plan."""
+        return self.codes < CODES["singular"]
+
+    @property
+    def status(self) -> str:
+        """The best status of all states."""
+        return STATUSES[int(self.codes.min(initial=len(STATUSES) - 1))]
+
+    def arrays(self, of: str = "") -> Iterator[Columned]:
+        """Go through the givens that are arrays and all that was wanted, or through the parts of one of these, SI."""
+        for name in (name for name in self.given if of in ("", name)):
+            stated = self.task.givens[name].unit
+            yield Columned(
+                name, "" if stated is None else stated.si.name, np.broadcast_to(self.given[name], self.shape)
+            )
+        for name in (name for name in self.values if of in ("", name)):
+            for part, values in parts_of(self.values[name], name in self.points).items():
+                yield Columned(name if part == "value" else f"{name}.{part}", unit_of(name), values)
+
+    def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
+        return [*self.arrays()], {"status": self.statuses.ravel().tolist()}
+
+    def _data(self) -> dict[str, Any]:
+        """Return the shape, and all columns in it."""
+        columns = {column.name: {"unit": column.unit, "value": column.values} for column in self.arrays()}
+        return {"shape": self.shape, "statuses": self.statuses, "columns": columns}
+
+    def table(self, language: str | None = None) -> str:
+        """Return how many states have which status."""
+        words, counts = self._words(language), np.bincount(self.codes.ravel(), minlength=len(STATUSES))
+        found = (pair for pair in zip(STATUSES, counts.tolist(), strict=True) if pair[1])
+        return "\n".join(f"{words.texts.get(f'status.{status}', status)}: {count}" for status, count in found)
+
+    def __repr__(self) -> str:
+        """Return task, variant, the shape, and of how many states there is a plan."""
+        return f"<ManyStates {self.task.id} {self.variant}: {self.shape}, {int(self.ok.sum())} with a plan>"
+
+
+def parts_of(values: Array, point: bool = False) -> dict[str, Array]:
+    """Return the values of a quantity: of a vector its size and components, of a point its coordinates."""
+    if not np.iscomplexobj(values):
+        return {"value": values}
+    size = {} if point else {"value": np.hypot(values.real, values.imag)}
+    return {**size, "x": values.real, "y": values.imag}
+
+
+def solve_many(
+    task: AnyTask,
+    variant: str | None = None,
+    *,
+    set: Settings | None = None,
+    only: Wanted = None,
+    names: Wanted = None,
+    lang: str | None = None,
+    **givens: Many,
+) -> ManyStates:
+    """Solve a linkage for many values of its givens at once, by the construction that `solve` draws.
+
+    Parameters
+    ----------
+    task, variant, set, only, lang
+        As for `solve`.
+    names : str or iterable of str, optional
+        The quantities and points wanted, `"V_B,M_bal"`; all of the plans without it. Fewer are found sooner.
+    **givens : str, number, array, or a pair of these and a unit
+        Givens by name: a text with a unit, `"190 mm"`; numbers are in SI, `phi=numpy.linspace(0, 6.28, 361)`, with a
+        unit behind them in that, `l_AB=([100, 110], "mm")`. They broadcast.
+
+    Returns
+    -------
+    ManyStates
+        `states["V_B"]` is a `Series` of the shape of the broadcast givens, `states.statuses` tells of each state
+        whether it has a plan.
+
+    Raises
+    ------
+    InputError
+        As for `solve`; also arrays that do not broadcast, values that are no numbers, a task that is no linkage.
+
+    >>> from kulman import solve_many
+    >>> states = solve_many("nau-slider-crank", "example", phi=([0, 45, 90], "deg"), names="V_B")
+    >>> states["V_B"].round(3).tolist()
+    [0.0, 2.761, 4.006]
+    """
+    asked, first, read = load_task(task), dict[str, Any](set or {}), dict[str, Array]()
+    for name, value in givens.items():
+        if name not in asked.givens:
+            raise unknown("given-unknown", name, asked.givens, task=asked.id)
+        of = asked.givens[name].unit
+        if of is None:  # a word
+            first[name] = value
+            continue
+        try:
+            read[name] = _in_si(asked.givens[name], value)
+        except InputError as error:
+            raise LocatedError(name, error) from error
+        first[name] = of.from_si(float(read[name].flat[0]))
+    case = Request(asked, variant, first, only, language="en" if lang is None else lang).case()
+    if not isinstance(case.kind, Linkages):
+        raise InputError("many-linkages", task=asked.id)
+    try:
+        shape = np.broadcast_shapes(*(array.shape for array in read.values()))
+    except ValueError:
+        shapes = ", ".join(f"{name} {array.shape}" for name, array in read.items())
+        raise InputError("arrays-shapes", text=shapes) from None
+    return _solved(case, read, shape, names_of("names", names))
+
+
+def _in_si(given: Given, value: Any) -> Array:
+    """Return the values of a given in SI, each within its bounds."""
+    assert given.unit is not None
+    if isinstance(value, str):
+        return np.asarray(parse(value, given.unit))
+    own, of = (value, value.unit) if isinstance(value, Series) else (value, given.unit.si.name)
+    if isinstance(value, tuple) and len(value) == 2 and isinstance(value[1], str):
+        own, of = value
+    one = converted(1.0, unit(of), given.unit)
+    try:
+        array = np.asarray(own, float) * one
+    except (TypeError, ValueError):
+        raise InputError("type-quantity", expected=given.unit.si.name) from None
+    if not array.size:
+        raise InputError("arrays-shapes", text=f"{array.shape}")
+    for number in {float(np.min(array)), float(np.max(array)), float(array.flat[np.argmin(np.abs(array))])}:
+        given.read(given.unit.from_si(number))  # which refuses what is no number, or out of bounds
+    return array
+
+
+def _solved(case: Case, read: Mapping[str, Array], shape: tuple[int, ...], wanted: tuple[str, ...]) -> ManyStates:
+    mechanism = case.task.mechanism
+    values: dict[str, Any] = {**case.values, **{name: float(a) for name, a in read.items() if not a.ndim}}
+    values |= {name: np.broadcast_to(array, shape).ravel() for name, array in read.items() if array.ndim}
+    if not any(array.ndim for array in read.values()):  # one state
+        values[mechanism.driver.coordinate] = np.full(1, values[mechanism.driver.coordinate])
+    _, program = constructed(mechanism, case.plans)
+    known = {step.name: step.verb in POINTS for step in results(program)}
+    all_known("quantity-unknown", wanted, known)
+    found, codes = batch(program, board_givens(mechanism, values, program), wanted or tuple(known))
+    return ManyStates(
+        case,
+        case.words(),
+        {name: array for name, array in read.items() if array.ndim},
+        {name: array.reshape(shape) for name, array in found.items()},
+        codes.reshape(shape),
+        frozenset(name for name, point in known.items() if point),
+    )
