@@ -28,6 +28,7 @@ GAP = 0.22  # between text and a bar or an underline, and between two underlines
 RULES = {"bar": 0, "u": 1, "uu": 2}
 FACES = {"gost": (UPRIGHT, SLANTED), "gost-slanted": (SLANTED, SLANTED), "dejavu": (SCREEN, SCREEN)}  # words, symbols
 SLOPE = tan(pi / 12)  # of slanted letters, by which a superscript stands farther to the right
+STEEP = "|)]"  # marks into which a leaning letter before them would run at its top
 _FUNCTION = r"(?:(?:arc)?(?:sin|cos|tg|tan|ctg)|inv|ln|exp|max|min)"
 _UNIT = "[cmk]?m|min|s|kg|[kM]?N|[kMG]?Pa|rad|deg|rpm|Hz|J|k?W"
 _LETTERS = re.compile(r"[A-Za-zΑ-Ωα-ω′″]+")
@@ -250,19 +251,27 @@ class _Pen:
 
     def line(self, pieces: list[Piece], x: float, y: float, height: float, base: float, leaning: bool = False) -> _Span:
         """Lay out pieces one after the other; all of them lean that stand at a symbol, as its scripts do."""
-        start, (top, bottom) = x, _NO_INK
+        start, over, (top, bottom) = x, 0.0, _NO_INK
         told = ((piece, leaning or is_symbol) for piece, is_symbol in told_apart(pieces, self.latin_units))
         for (plain, leans), alike in groupby(told, lambda one: (isinstance(one[0], str), one[1])):
             parts = [piece for piece, _ in alike]
             for piece in ("".join(map(str, parts)),) if plain else parts:
                 if isinstance(piece, str):
+                    x += over if piece[0] in STEEP else 0.0
                     width, high, low = self.word(piece, x, y, height, self.faces[leans])
                 elif isinstance(piece, Ruling):
                     width, high, low = self.ruled(piece, x, y, height, base, leans)
                 else:
                     width, high, low = self.scripts(piece, x, y, height, base, leans)
+                over = self.overhang(piece[-1], height) if isinstance(piece, str) and leans else 0.0
                 x, top, bottom = x + width, max(top, high), min(bottom, low)
         return x - start, top, bottom
+
+    def overhang(self, letter: str, height: float) -> float:
+        """Return by how much farther a steep mark stands behind a letter that leans over its own place."""
+        face = font(self.faces[True])
+        past = face.beyond(letter)[1] if face.glyph(letter) else 0.0
+        return past * height * face.size + CLEAR * height if past else 0.0
 
     def word(self, string: str, x: float, y: float, height: float, face: str) -> _Span:
         """Lay plain characters out; spaces at the ends become distance, since SVG would drop them."""

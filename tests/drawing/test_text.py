@@ -249,6 +249,15 @@ def test_ink_that_leans_over_is_inside_of_the_size_of_a_text(markup: str) -> Non
     assert layout.size == pytest.approx((max(ends) - min(ends), layout.top - layout.bottom))
 
 
+@pytest.mark.parametrize("markup", ["|s′|", "(V)", "[F]", "|f| = 1"])
+def test_letters_that_lean_do_not_run_into_the_mark_behind_them(markup: str) -> None:
+    inside, closing = lay_out(markup, 5.0).runs[1:3]
+
+    over = font(inside.face).beyond(inside.string[-1])[1] * inside.size
+    assert over > 0.0
+    assert closing.x >= inside.x + inside.width + over + CLEAR * 5.0 - 1e-9
+
+
 @pytest.mark.soak
 @pytest.mark.parametrize(("face", "slanted"), [(UPRIGHT, False), (SLANTED, True)])
 def test_fonts_are_what_the_strokes_give(face: str, slanted: bool) -> None:
