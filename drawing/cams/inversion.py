@@ -13,7 +13,7 @@ from ...plans.cams.motion import LOWER
 from ..figure import Figure
 from ..page import extent
 from ..printed import DEGREES, decimals_for
-from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Text
+from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import angle_dimension, polar, shaft, shaft_radius, swept, turning_arrow, unit
 from ..text import lay_out
 from ..view import View, above
@@ -93,8 +93,9 @@ class Inversion(ABC):
         canvas.part(self.numbered)
         self.numbers(self.outer + NUMBERS * self.style.label)
         canvas.part(self.base)
-        self._phases()
+        dimensions = self._phases()
         notes = "; ".join(self.follower()), *undercut_notes(scene, self.profile)
+        canvas.part(self.base, *dimensions)  # over the rod, which would hide their arrowheads
         self._letter_centre()
         canvas.bounds = -self.edge, -self.edge, self.edge, self.top
         return canvas.finish(self.plan, scene.heading(self.heading, self.plan), notes)
@@ -125,18 +126,19 @@ class Inversion(ABC):
         self.canvas.add(Text(at - 0.5j * height, str(i), height, "middle", role="position", name=str(i)))
         self.numbered_at.append(at)
 
-    def _phases(self) -> None:
-        """Dimension the phases in degrees, from the lowest position on, outside of all positions."""
+    def _phases(self) -> list[Shape]:
+        """Write the phases in degrees, outside of all positions; return their dimensions, from the lowest one on."""
         scene, radius, height, past = self.scene, self.arcs, self.style.text, self.past
+        dimensions = list[Shape]()
         first = swept(1.0 + 0j, self.start)
         for phase in scene.solved.motion.phases:
             if not phase.lasts:
                 continue
             begin, sweep, name = first - self.sense * phase.start, -self.sense * phase.length, f"phi_{phase.name}"
-            self.canvas.add(angle_dimension(0j, radius, begin, sweep, name, self.style))
+            dimensions.append(angle_dimension(0j, radius, begin, sweep, name, self.style))
             for angle in (begin, begin + sweep):
                 ends = polar(radius - 1.5, angle), polar(radius + 2.0, angle)
-                self.canvas.thin("extension", "", *ends)
+                dimensions.append(Line(*ends, Pen.THIN, role="extension"))
             text = scene.angle(name, phase.length)
             half = 0.6 * lay_out(text, height).width / radius
             # beside the radius dimensioned
@@ -148,6 +150,7 @@ class Inversion(ABC):
             turn = swept(1.0 + 0j, out * (1j if below else -1j))
             at = out * (radius + away * height + height * below)
             self.canvas.add(Text(at, text, height, "middle", turn))
+        return dimensions
 
     def _centre(self) -> None:
         """Draw the cam's shaft, its axes, and the arrow of omega."""

@@ -69,6 +69,15 @@ def test_both_sides_of_the_pressure_angle_reach_its_arrowheads(settings: dict[st
         assert min(shapely.LineString(ray).distance(at) for ray in rays) < 0.1
 
 
+@pytest.mark.parametrize("plan", ["profile", "plate_profile"])
+def test_arrowheads_of_phases_are_not_hidden_by_the_rod(plan: str) -> None:
+    svg = sheet("madi-cam", only="profile").svg()
+    drawn = svg[svg.index(f'class="view" data-name="{plan}"') :]
+
+    rod = drawn.index('data-name="rod"')
+    assert all(rod < drawn.index(f'class="dimension" data-name="phi_{name}"') for name in ("rise", "fall"))
+
+
 @pytest.mark.parametrize("paper", ["A1", "A3", "A4"])
 def test_rays_that_do_not_coincide_have_numbers_of_their_own(paper: str) -> None:
     view = read(sheet("madi-cam", format=paper, only="diagrams").svg())["diagrams"]
