@@ -183,6 +183,7 @@ EACH = 0.7  # of the longer side of the window: a curve has a number for each su
 LEAST = 0.2  # of the longer side: shorter curves in a corner of the window, which bound nothing, are left out
 IN_A_LINE = 3  # entries of the legend
 STEP = 2.0  # mm between places that are looked at
+AT_SIDE = 3.0  # mm from a side of the window, within which the line of zero is left out
 
 
 def contour_view(scene: GearScene) -> View:
@@ -242,9 +243,9 @@ def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
                 foot = field.at(value, y.low) if axis is x else field.at(x.low, value)
                 canvas.add(Line(foot, foot + 0.4 * height * inward, Pen.THIN, role="division"))
                 canvas.add(Text(foot - height * outward, text, height, anchor, role="number"))
-    if y.low < 0.0 < y.high:
+    if _inside(y):
         canvas.add(Line(field.at(x.low, 0.0), field.at(x.high, 0.0), Pen.AXIS, role="axis"))
-    if x.low < 0.0 < x.high:
+    if _inside(x):
         canvas.add(Line(field.at(0.0, y.low), field.at(0.0, y.high), Pen.AXIS, role="axis"))
     label = scene.style.label
     for end, along, letter, aside in (
@@ -256,6 +257,11 @@ def _frame(canvas: Canvas, scene: GearScene, field: Field) -> None:
         canvas.add(Text(tip + aside, letter, label, "middle" if along == 1 else "left"))
     canvas.part(before)
     canvas.bounds = (corners[0].real, corners[0].imag, corners[2].real, corners[2].imag)
+
+
+def _inside(axis: Axis) -> bool:
+    """Whether zero lies so far inside of the window that its line is told apart from the side."""
+    return axis.scale.drawn(min(-axis.low, axis.high)) > AT_SIDE
 
 
 def _thinned(field: Field, run: Iterable[complex]) -> tuple[complex, ...]:

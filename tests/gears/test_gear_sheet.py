@@ -227,6 +227,8 @@ def test_the_contour_holds_the_chosen_shifts_where_the_axes_say() -> None:
     assert (at.imag - zero) * mu == pytest.approx(0.85, abs=0.01 * mu)
     sides = {name for s in view.strokes for role, name in s.path if role == "contour"}
     assert sides == {"undercut_1", "undercut_2", "interference_1", "interference_2", "contact_1"}
+    # x_1 = 0 would run less than 1 mm beside the side of the window
+    assert [abs((s.points[1] - s.points[0]).real) > 1.0 for s in view.lines("axis") if s.dashed] == [True]
 
 
 SPOILED = [  # one piece of the file of a sheet changed
