@@ -446,6 +446,32 @@ def test_notes_of_a_plan_stand_under_its_heading_also_beside_an_inset() -> None:
     assert said  # of letters that have no room
 
 
+def test_letters_of_an_inset_stand_in_its_frame() -> None:
+    insets = [i for view in Linkage("scheme-12-shaking-conveyor", "1", format="A1").sheet.views for i in view.insets]
+
+    assert len(insets) > 1
+    for inset in insets:
+        (frame,) = (shapely.Polygon([(p.real, p.imag) for p in s.points]) for s in inset.lines("inset"))
+        assert not [text.string for text in inset.of("label") if not frame.covers(text.area)], inset.name
+
+
+@pytest.mark.parametrize("task", ["scheme-14-jaw-crusher", "scheme-12-shaking-conveyor"])
+def test_forces_end_at_the_circles_of_hinges(task: str) -> None:
+    sheet = Linkage(task, "1", format="A1").sheet
+    views = [view for view in sheet.views if view.name.startswith(("group_", "driver"))]
+
+    hinges = [(view, ring) for view in views for ring in view.rings if abs(ring.radius - STYLE.pair) < NEAR]
+    inside = [
+        arrow.name
+        for view, ring in hinges
+        for arrow in view.arrows
+        for end in (arrow.tail, arrow.tip)
+        if abs(end - ring.centre) < ring.radius - NEAR
+    ]
+    assert hinges
+    assert not inside
+
+
 # Load diagrams and factors of inertia that a task gives.
 def mu_of_axis(view: View, letter: str) -> float:
     (text,) = [t.string for t in view.of("heading") if t.string.startswith(f"μ_{{{letter}}}")]

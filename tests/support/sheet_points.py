@@ -197,7 +197,11 @@ def l11_driver(case: Case, sheet: Sheet) -> Faults:
     # the driver may be drawn larger than the mechanism, to a scale factor of its own
     (mu,) = numbers_of(_heading(view, "μ_{l}") or _heading(view, "μ_{l1}"), case.lang)
     moment = cross(arrow.on - o, arrow.unit) * mu * abs(r21.span) * r21.mu
-    yield from unless(same(view.point("A"), arrow.tail) or same(view.point("A"), arrow.tip), "R_21 is not at A")
+    a = view.point("A")
+    reaches = {0.0, *(ring.radius for ring in view.rings if same(ring.centre, a))}  # it may end at the circle of A
+    ends = [abs(end - a) for end in (arrow.tail, arrow.tip)]
+    at_a = any(abs(end - reach) < NEAR for end in ends for reach in reaches)
+    yield from unless(at_a, "R_21 is not at A")
     reaction = view.arrow("R_01")
     yield from unless(
         parallel(reaction.unit, -arrow.unit) and abs(cross(reaction.unit, o - reaction.on)) < NEAR, "R_01"

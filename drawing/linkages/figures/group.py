@@ -263,8 +263,9 @@ class Sketch:
         return sides
 
     def _gap(self, at: complex, e: complex) -> float:
-        """Return where an arrow along `e` may begin beside a block at its point."""
-        gaps = [0.0]
+        """Return where an arrow along `e` may begin beside the circle of a pair, or a block, at its point."""
+        circles = (pin for figure in self.figures for pin in figure.pins)
+        gaps = [max((self.scene.style.pair for pin in circles if abs(pin - at) < NEAR), default=0.0)]
         for block in (block for figure in self.figures for block in figure.blocks):
             away, (length, height) = abs(at - block.at), block.size
             if abs(((at - block.at) / block.u).imag) < NEAR and away < self.scene.style.slider[0] / 2:
