@@ -292,12 +292,22 @@ def reading_of(scene: Scene, name: str) -> float | None:
 
 
 def opposed(scene: Scene, name: str) -> Quantity | None:
-    """Return the reaction that one, found on another plan, is the opposite of, where it was read off a plan."""
+    """Return the reaction that one, found on another plan, is the opposite of, where it was read off a plan.
+
+    That is so, too, of one that closes a plan of two forces.
+    """
     step = scene.made.get(name)
-    if step is None or step.law != "opposite" or role(name).kind != "R":
+    if step is None or role(name).kind != "R":
         return None
-    acting = scene.quantities.get(step.operands[0])
+    acting = scene.quantities.get(step.operands[0] if step.law == "opposite" else _other_of_two(scene, name))
     return acting if acting is not None and drawn_on(scene, acting) in scene.scales else None
+
+
+def _other_of_two(scene: Scene, name: str) -> str:
+    """Return the reaction known before that is the only other force on the plan of one; else nothing."""
+    names = {edge.name for edge in scene.reading.on(scene.figure_of(name))} if name in scene.quantities else set()
+    others = [other for other in names - {name} if role(other).kind == "R" and scene.made[other].law == "opposite"]
+    return others[0] if len(names) == len(others) + 1 == 2 else ""
 
 
 def measured(scene: Scene, name: str) -> Factor:
