@@ -18,7 +18,7 @@ from ....plans.quantities import intersections, pins_together, point_of
 from ....scales.scale import SERIES, Scale
 from ...areas import clipped
 from ...page import extent
-from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Vector, shifted
+from ...shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
 from ...text import Box
 from ...view import ELSEWHERE, Canvas, View, write_above
 from ..reading import Edge
@@ -29,6 +29,8 @@ READABLE = 1.4  # arrowheads: the least length of a vector in an inset
 TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
 WIDEST, NARROWEST = 85.0, 45.0  # mm, the largest side of what an inset shows, the least side of an inset of forces
 MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
+OFF = 1.0 + 1.0j  # mm between its letters and its frame
+FARTHER = (0.0, 4.0, 8.0, 12.0, 16.0)  # mm by which its frame may stand farther out, for the room of letters
 LEAST_PLACE = 3.0  # mm, the least radius of the circle around what an inset shows
 TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
 EMPTY: Mapping[str, str] = {}
@@ -52,6 +54,13 @@ class Window(NamedTuple):
         x0, y0, x1, y1 = _box(ends)
         wide, high = (max(MARGIN, (narrowest - size * times) / 2) / times for size in size_of(ends))
         return cls((x0 - wide, y0 - high, x1 + wide, y1 + high), times)
+
+    def grown(self, by: float) -> Window:
+        """Return a window whose inset has its frame so many mm farther out."""
+        x0, y0, x1, y1 = self.box
+        return self._replace(
+            box=(x0 - by / self.times, y0 - by / self.times, x1 + by / self.times, y1 + by / self.times)
+        )
 
     def shows(self, *ends: complex) -> bool:
         """Whether points stand in it."""
@@ -208,10 +217,9 @@ def with_insets(
     """
     if not shown:
         return canvas.finish(name, heading, notes)
-    insets = [_inset(plan, window, name, numeral) for plan, window, numeral in shown]
+    insets, windows = zip(*(_roomy(plan, window, name, numeral) for plan, window, numeral in shown), strict=True)
     canvas.part(ENLARGED)
-    for _, (box, _), numeral in shown:
-        x0, y0, x1, y1 = box
+    for ((x0, y0, x1, y1), _), (*_, numeral) in zip(windows, shown, strict=True):
         radius = max(LEAST_PLACE, abs(complex(x1 - x0, y1 - y0)) / 2)
         canvas.detail(numeral, complex(x0 + x1, y0 + y1) / 2, radius, f"{name}_{numeral}")
     figure = canvas.finish(name)
@@ -238,6 +246,21 @@ def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
     """Return the corners of a box, counter-clockwise; the last two are the upper ones."""
     x0, y0, x1, y1 = box
     return complex(x0, y0), complex(x1, y0), complex(x1, y1), complex(x0, y1)
+
+
+def _roomy(plan: Plan, window: Window, figure: str, numeral: str) -> tuple[View, Window]:
+    """Return an inset and what it shows: as little around the vectors as leaves its letters inside of its frame."""
+    tries: list[tuple[int, View, Window]] = []
+    for by in FARTHER:
+        wider = window.grown(by)
+        view, (x0, y0, x1, y1) = _inset(plan, wider, figure, numeral), (side * window.times for side in wider.box)
+        letters = (extent((shape,)) for shape in view.shapes if isinstance(shape, Text) and shape.role == "label")
+        free = _box((complex(x0, y0) + OFF, complex(x1, y1) - OFF))
+        out = [box for box in letters if _box((*_corners(box), *_corners(free))) != free]
+        tries.append((len(out), view, wider))
+        if not tries[-1][0]:
+            break
+    return min(tries, key=lambda one: one[0])[1:]
 
 
 def _inset(plan: Plan, window: Window, figure: str, numeral: str) -> View:
