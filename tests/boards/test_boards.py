@@ -146,7 +146,7 @@ def rounded(program: Program) -> set[str]:
     ("name", "count"),
     [
         *((name, 3) for name in LINKAGES[::3]),
-        *(pytest.param(name, 360, id=name, marks=pytest.mark.soak) for name in LINKAGES),
+        *(pytest.param(name, 90, id=name, marks=pytest.mark.soak) for name in LINKAGES),
     ],
 )
 def test_plain_python_and_script_give_the_numbers_and_statuses_of_the_exact_board(name: str, count: int) -> None:

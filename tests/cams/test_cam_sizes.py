@@ -349,7 +349,7 @@ def permitted_angles(rocker: Rocker, limits: Limits, l_OC: float, most: float) -
     return tuple(sum(end) / 2.0 for end in ends)
 
 
-@pytest.mark.parametrize("count", [1, pytest.param(40, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("count", [1, pytest.param(20, marks=pytest.mark.soak)])
 def test_a_given_r_0_beside_l_OC_of_a_rocker_is_held_against_all_that_is_permitted(count: int) -> None:
     random, checked = np.random.default_rng(SEED + 21), 0
 
