@@ -11,10 +11,12 @@ from .shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from .symbols import dimension
 from .text import lay_out
 from .view import Canvas, over_line
+from .words import Words
 
 STEPS = (1, 2, 3, 5, 10)  # from one number of a section line to the next
 AT_POLE = 3.0  # mm of an axis beyond the pole
 PAST = 8.0  # mm by which an axis runs past its last division
+FINEST = 9  # decimals of a division at most
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,6 +165,13 @@ def numbers(lines: Sequence[float], level: float, height: float, first: int = 0)
             )
             last = i
     return found
+
+
+def numbered(words: Words, values: Iterable[float]) -> dict[float, str]:
+    """Return the numbers of the divisions of an axis, all with as many decimals as one of them needs, zero without."""
+    rounded = [round(value, FINEST) for value in values]
+    decimals = max(len(f"{value:.{FINEST}f}".rstrip("0").partition(".")[2]) for value in rounded)
+    return {value: words.number(value, decimals) if value else "0" for value in rounded}
 
 
 def divisions(high: float, low: float, mu: float, apart: float = 12.0) -> Sequence[float]:

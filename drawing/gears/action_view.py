@@ -12,7 +12,7 @@ from ...plans.gears.gear import WHEELS
 from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale
 from ..areas import strokes
-from ..diagram import Axis, Field, axes, curve, divisions, numbers
+from ..diagram import Axis, Field, axes, curve, divisions, numbered, numbers
 from ..figure import ANSWERS, Figure, needing, stages
 from ..printed import DEGREES, Input, calculation
 from ..shapes import Group, Line, Pen, Polyline, Text
@@ -168,7 +168,7 @@ def _fields(scene: GearScene, highest: float, mu: float) -> tuple[Field, Field]:
     """
     words, low, scale, lengths = scene.words, cut_of(scene.solved), scene.scale(THETA), scene.places.values()
     x = Axis(words.symbol("rho_1"), scene.scale(SLIDING), min(lengths), max(lengths), {})
-    marks = {value: words.short(value) for value in divisions(1.0, low, scale.mu, 9.0)}
+    marks = numbered(words, divisions(1.0, low, scale.mu, 9.0))
     origin = 0j - 1j * (BETWEEN * scene.style.label + scale.drawn(1.0))
     above = Field(0j, x, Axis(words.symbol("V_k"), Scale("", mu, "m"), 0.0, highest, {}))
     return above, Field(origin, replace(x, letter=""), Axis(words.symbol("theta"), scale, low, 1.0, marks))

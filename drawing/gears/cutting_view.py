@@ -13,7 +13,7 @@ from ...plans.gears.course import Rack
 from ...plans.gears.teeth import Wheel
 from ...scales.scale import Scale, steps
 from ..areas import freest, thinned
-from ..diagram import Axis, Field, divisions
+from ..diagram import Axis, Field, divisions, numbered
 from ..figure import ANSWERS, GIVEN, Figure, needing, stages
 from ..page import extent
 from ..shapes import Anchor, Arc, Circle, Group, Head, Line, Pen, Polyline, Text
@@ -225,7 +225,7 @@ def _field(scene: GearScene, plane: Plane) -> Field:
     axes = []
     for i, (low, high) in enumerate(ends, start=1):
         numbers = (*divisions(high, low, mu, APART * scene.style.text), 0.0)
-        axes.append(Axis(words.symbol(f"x_{i}"), scale, low, high, {v: words.short(v) for v in numbers}))
+        axes.append(Axis(words.symbol(f"x_{i}"), scale, low, high, numbered(words, numbers)))
     return Field(0j, *axes)
 
 

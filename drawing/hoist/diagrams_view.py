@@ -11,7 +11,7 @@ from ...plans.hoist.model import CIRCLE
 from ...plans.hoist.solve import POINTS, equation, forces_over
 from ...plans.solved import PAPER_MM
 from ..areas import clipped
-from ..diagram import Axis, Field, divisions, drawn_through
+from ..diagram import Axis, Field, divisions, drawn_through, numbered
 from ..figure import Figure, Stage, needing, stages
 from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import arc_between
@@ -66,7 +66,7 @@ def _lift_off_view(scene: HoistScene) -> View:
         canvas.small(LETTERS[name], curves[name][POINTS // 4], prefer, 1.5)
     canvas.part("crossing")
     _crossing(canvas, scene, LIFT_OFF, "X", "t_1_drawn")
-    _magnified(canvas, scene, complex(field.at(field.x.high, 0.0).real + BESIDE, field.at(0.0, field.y.low).imag))
+    _magnified(canvas, scene, _room(field, curves["parabola"]))
     heading = (words["heading.hoist_lift_off"], scene.factors("mu_y", "mu_t1"))
     return canvas.finish("lift_off", heading, (scene.stated("t_1", unit="s"),))
 
@@ -121,7 +121,7 @@ def _field(scene: HoistScene, letter: str, symbol: str, heights: Sequence[float]
     """Return the axes of a diagram whose ordinates have these heights, mm; times count from where it begins."""
     roots, scale = _roots(scene), scene.scale(symbol)
     low, high = (scale.measured(end(*heights, 0.0)) for end in (min, max))
-    up = {y: scene.words.short(round(y, 9)) for y in (0.0, *divisions(high, low, scale.mu, 12.0))}
+    up = numbered(scene.words, (0.0, *divisions(high, low, scale.mu, 12.0)))
     x = _times_axis(scene, "mu_t1", roots.begin, roots.sections * roots.section)
     return Field(0j, x, Axis(letter, scale, low, high, up))
 
@@ -224,6 +224,16 @@ class _Detail:
         canvas.detail(DETAILS[self.plan], self.centre, abs(complex(HALF, HALF)) / self.times, "magnified")
 
 
+def _room(field: Field, curve: Sequence[complex]) -> complex:
+    """Return the lower left corner of the square of a detail: below a curve that rises, or else beside the diagram."""
+    right, low = field.at(field.x.high, 0.0).real, field.at(0.0, field.y.low).imag
+    inner = complex(right - 2.0 * HALF - FREE, low + FREE)
+    over = [place.imag for place in curve if place.real > inner.real - FREE]
+    if inner.real > 2.0 * HALF and min(*over, 0.0) > inner.imag + 2.0 * (HALF + FREE):
+        return inner
+    return complex(right + BESIDE, low)
+
+
 def _magnified(canvas: Canvas, scene: HoistScene, corner: complex) -> None:
     """Draw the crossing with its chords, larger, in a square whose lower left corner is given."""
     centre = scene.mm(f"{LIFT_OFF}.X")
@@ -282,7 +292,7 @@ def _forces_field(scene: HoistScene) -> Field:
     words, force = scene.words, scene.scale("mu_F")
     high = TALLEST * max(scene.size("F_max"), scene.size("P_12_max_printed"))
     low = min(-TALLEST * scene.size("P_st"), 0.0)
-    up = {F: words.short(round(F, 6)) for F in (0.0, *divisions(high, low, force.mu, 14.0))}
+    up = numbered(words, (0.0, *divisions(high, low, force.mu, 14.0)))
     x = _times_axis(scene, "mu_t", 0.0, scene.solved.forces.end)
     return Field(0j, x, Axis(f"F, {words.unit('N')}", force, low, high, up))
 
@@ -290,8 +300,8 @@ def _forces_field(scene: HoistScene) -> Field:
 def _times_axis(scene: HoistScene, symbol: str, begin: float, last: float) -> Axis:
     """Return an axis of times from `begin` on, where it has its zero, as long as `last`."""
     words, scale = scene.words, scene.scale(symbol)
-    times = (t for t in (0.0, *divisions(begin + last, begin, scale.mu, 16.0)) if t >= begin)
-    return Axis(f"t, {words.unit('s')}", scale, 0.0, last, {t - begin: words.short(round(t, 9)) for t in times})
+    times = numbered(words, (0.0, *divisions(begin + last, begin, scale.mu, 16.0))).items()
+    return Axis(f"t, {words.unit('s')}", scale, 0.0, last, {t - begin: text for t, text in times if t >= begin})
 
 
 def _jump(canvas: Canvas, scene: HoistScene, field: Field, curves: Mapping[str, list[complex]]) -> None:
@@ -438,7 +448,10 @@ def _circle_view(scene: HoistScene) -> View:
             continue  # the rope goes slack before, or the load comes back
         canvas.part("ends" if name in reached else "start", scene.node(at, name, filled=True))
         canvas.small(scene.stated(name), at, (at or -1.0 - 0.4j) - 0.6j, 1.2)
-    notes = (scene.stated("R"), *([words["hoist.slack"]] if scene.solved.layout.slack else []))
+    notes = (
+        f"{scene.stated('R')};  {words['hoist.equal']}",
+        *([words["hoist.slack"]] if scene.solved.layout.slack else []),
+    )
     return canvas.finish("circle", (words["heading.hoist_circle"], scene.factors("mu_F_circle")), notes)
 
 

@@ -158,6 +158,29 @@ def test_a_load_that_swings_for_long_is_drawn_at_the_end_only() -> None:
     assert solved.quantities["t_1_drawn"].value == pytest.approx(found["t_1"], abs=0.2 * roots.section)
 
 
+@pytest.mark.parametrize("plan", [LIFT_OFF, EXTREMES, FORCES])
+def test_numbers_of_an_axis_have_as_many_decimals_as_one_another(plan: str) -> None:
+    texts = read(sheet("karpenko-hoist", "V01").svg())[plan].of("number")
+    feet = min(text.box[1] for text in texts)
+
+    for below in (True, False):
+        axis = [text.string for text in texts if (text.box[1] < feet + 1.0) is below and text.string != "0"]
+        assert len(axis) > 2
+        assert len({len(number.partition(",")[2]) for number in axis}) == 1, axis
+
+
+def test_the_crossing_of_a_hoist_is_drawn_larger_where_the_diagram_has_room() -> None:
+    view = read(sheet("karpenko-hoist", "V01").svg())["lift_off"]
+    (window,) = (s for s in view.strokes if ("frame", "magnified") in s.path)
+    (parabola,) = (s.points for s in view.strokes if ("curve", "parabola") in s.path)
+
+    right, top = (max(part) for part in ([p.real for p in window.points], [p.imag for p in window.points]))
+    left = min(p.real for p in window.points)
+
+    assert right < max(p.real for p in parabola)  # inside, below the curve
+    assert all(p.imag > top for p in parabola if p.real > left)
+
+
 def test_every_plan_can_be_had_alone() -> None:
     whole = solve_hoist(Hoist(), VARIANTS["V04"])
     for plan in PLANS:
