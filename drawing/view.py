@@ -558,6 +558,7 @@ Row: TypeAlias = Sequence[str | None]
 INDENT = "    "
 NUMBER = re.compile(r"([−±]?\d+)(?:[.,]\d+)?(?:·10\^\{−?\d+\})?")  # and what of it stands before the comma
 SENTENCE = re.compile(r"[^\W\d_]{3,} +[^\W\d_]{2,}(?![\w.])")  # two words, none cut short
+WORD, SCRIPTS = re.compile(r"[^\W\d_]{3,}"), re.compile(r"[_^]\{[^}]*\}")  # in words; in symbols what is no letter
 PITCH = 1.7  # heights of letters from line to line (GOST 2.304)
 CELL = 1.75  # mm at least on both sides of what stands in a cell
 BETWEEN, UNDERLINED = 0.45, 0.9  # heights of letters between lines of text, and below one that is underlined
@@ -568,7 +569,7 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
     """Return a ruled table; the first row is its head. A cell that is None belongs to the one on its left.
 
     Capitals stand in the middle of their row; numbers of a column with their commas under one another, sentences and
-    what is above and below them from its left edge, all else in its middle.
+    the words above and below them from its left edge, all else in its middle.
     """
     h, columns = style.text, range(len(rows[0]))
     alone = [
@@ -604,7 +605,7 @@ def _in_column(column: Mapping[int, str], h: float) -> tuple[float, dict[int, fl
     wide = {j: lay_out(cell, h).width for j, cell in column.items()}
     widest = max(wide.values(), default=0.0)
     if any(SENTENCE.search(cell) for j, cell in column.items() if j):
-        return widest, {j: max(0.5 * h, CELL) for j in column if j}
+        return widest, {j: max(0.5 * h, CELL) for j, cell in column.items() if j and WORD.search(SCRIPTS.sub("", cell))}
     before = {j: lay_out(number[1], h).width for j, cell in column.items() if (number := NUMBER.fullmatch(cell))}
     left, right = max(before.values(), default=0.0), max((wide[j] - before[j] for j in before), default=0.0)
     widest = max(widest, left + right)

@@ -85,6 +85,17 @@ def test_numbers_of_a_column_stand_with_their_commas_under_one_another(seed: int
     assert all(max(places) - min(places) < 1e-5 for places in commas.values())
 
 
+def test_symbols_stand_in_the_middle_of_a_column_that_has_sentences_too() -> None:
+    style = STYLES["A1"]
+    view = table("givens", "Givens", [["Symbol"], ["l_{OA}"], ["rotation of link 1"]], style)
+
+    symbol, sentence = (text for text in drawn(view)[0] if text.markup != "Symbol")
+
+    assert symbol.anchor == "middle"
+    assert symbol.at.real == pytest.approx(0.5 * (view.box[0] + view.box[2]), abs=0.01)
+    assert sentence.anchor == "left"
+
+
 @pytest.mark.parametrize("seed", CASES)
 def test_lines_of_a_block_are_far_enough_apart_to_keep_underlines_and_bars_asunder(seed: int) -> None:
     chance = random.Random(seed)
