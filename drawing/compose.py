@@ -70,19 +70,26 @@ def on_one_page(
     return None
 
 
-def arrange(sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = ()) -> list[Placement] | None:
-    """Place views of these sizes on as few pages of `sheet` as hold them; `begins` as of `Pages`.
+def arrange(
+    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = (), count: int = 0
+) -> list[Placement] | None:
+    """Place views of these sizes on as few pages of `sheet` as hold them, or on `count`; `begins` as of `Pages`.
 
     Of two or three pages each is a run of the views, and ends where most begins anew, if it is full enough. Of more,
-    and where runs take more pages, a page that has no room for the next view may have texts that `SOON` follow.
-    None if a view has no room on a page.
+    and where runs take more pages, a page that has no room for the next view may have texts that `SOON` follow. Where
+    `count` pages do not hold them they take more. None if a view has no room on a page.
     """
     pages = Pages(sizes, sheet, norm, begins)
     packed = pages.packed()
-    if packed is None or not 0 < last(packed) < MANY:
+    if packed is None:
+        return None
+    end = max(last(packed), count - 1)
+    if not 0 < end < MANY:
         return packed
-    runs = pages.runs(0, 0, last(packed))
-    return packed if runs is None or pages.least(runs) < min(FULL, pages.least(packed)) else runs
+    runs = pages.runs(0, 0, end)
+    if runs is None or (end == last(packed) and pages.least(runs) < min(FULL, pages.least(packed))):
+        return packed
+    return runs
 
 
 @dataclass(slots=True)

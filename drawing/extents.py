@@ -22,7 +22,8 @@ from .formats import FORMATS, GAPS, Format, Norm, printable, room, usable
 NORMS: tuple[Norm, ...] = ("gost", "iso")
 # parts of a page that estimates may cover, since views leave gaps: of the only page, of each of two, of more
 FILL, TWO, SHARED = 0.84, 0.80, 0.70
-SHARES = (1.0, 0.95, 0.9, 0.85, 0.8)  # of these where what is drawn takes more pages than that
+# of these, and of the least segments, where what is drawn takes more pages than that
+SHARES = (1.0, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6)
 SMALLER = {"A1": 1.0, "A2": 1.0, "A3": 0.7, "A4": 0.65}  # what letters take, in what they take on the largest format
 BLOCK = 12000.0  # mm^2 of a page that its title block takes
 SHORTEST = 1.0  # mm, the least that the longest segment of a plan may be
@@ -120,19 +121,32 @@ def ways(
 
     One page is better than several, and of `formats` a smaller one, which come first; only the last may have several
     pages, and plans are made smaller for it. `segments` are, by format, how long the longest segment of a plan is at
-    least and at most, mm: on one page, and on several. What is drawn may turn out larger than it was estimated: the
-    next way is a smaller one.
+    least and at most, mm: on one page, and on several. The number of pages follows from the estimate alone, whatever
+    the language; what is drawn may turn out larger: the next way is a smaller one, below the least where it must be,
+    and a page more only where nothing can become smaller.
     """
-    for sheet in formats:
-        (least, most), several = segments[sheet.letters]
-        rungs, last = _begun(extents, sheet, most), sheet is formats[-1]
+    *others, sheet = formats
+    for less in others:
+        (_, most), _ = segments[less.letters]
+        rungs = _begun(extents, less, most)
         chosen = (symbol for symbol, ladder in extents.ladders.items() if ladder.chosen and ladder.free)
-        if not last and any(rungs[symbol] for symbol in chosen):
-            continue  # what the task has chosen has no room
-        for share in SHARES if last else SHARES[:1]:
-            if _shrunk(extents, rungs, sheet, share * FILL * _page(sheet), least if last else math.inf):
-                yield sheet, dict(rungs), 1
-    yield from ((sheet, *_on_pages(extents, sheet, several, share)) for share in SHARES)
+        # else what the task has chosen has no room
+        if not any(rungs[symbol] for symbol in chosen) and _shrunk(extents, rungs, less, FILL * _page(less), math.inf):
+            yield less, rungs, 1
+    single, several = segments[sheet.letters]
+    count, fits = 0, False
+    while count < MOST:
+        (least, most), before = several if count else single, None
+        count += 1
+        for share in SHARES:
+            rungs = _begun(extents, sheet, most)
+            room = share * _covered(count) * count * _page(sheet)
+            fits |= _shrunk(extents, rungs, sheet, room, share * least)
+            if not fits:
+                break
+            if rungs != before:
+                yield sheet, dict(rungs), count
+            before = rungs
 
 
 def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:
@@ -157,14 +171,9 @@ def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:
     return rungs
 
 
-def _on_pages(extents: Extents, sheet: Format, segments: Size, share: float) -> tuple[Rungs, int]:
-    """Return the rungs at which all takes as few pages, but is as large as these have room for."""
-    (least, most), page = segments, _page(sheet)
-    for count in range(2, MOST):
-        rungs = _begun(extents, sheet, most)
-        if _shrunk(extents, rungs, sheet, share * (TWO if count == 2 else SHARED) * count * page, least):
-            break
-    return rungs, count
+def _covered(count: int) -> float:
+    """Return the part of so many pages that an estimate may cover."""
+    return FILL if count == 1 else TWO if count == 2 else SHARED
 
 
 def _area(extents: Extents, figures: Iterable[Extent], rungs: Rungs, sheet: Format) -> float:

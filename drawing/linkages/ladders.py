@@ -23,7 +23,7 @@ DRIVER = "driver"  # the figure of the driver apart, among the plans that have s
 ARMS = scale_factor("h")  # of Zhukovsky's lever: what is found as on the velocity plan is drawn larger
 # mm, how long the longest segment of a plan of forces is at least and at most, on one page and on several, by format
 SEGMENTS = {
-    "A1": ((50.0, 220.0), (40.0, 240.0)),
+    "A1": ((45.0, 220.0), (40.0, 240.0)),
     "A2": ((40.0, 160.0), (40.0, 200.0)),
     "A3": ((45.0, 130.0), (45.0, 190.0)),
     "A4": ((40.0, 130.0), (40.0, 160.0)),

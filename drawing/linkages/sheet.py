@@ -196,23 +196,23 @@ def _group(solved: SolvedLinkage, group: Group) -> Iterator[LinkageFigure]:
 def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     """Draw the sheet at the scale factors that follow from its extents, on `sheet` or on the format that does.
 
-    Where what is drawn takes more pages than was estimated, it becomes smaller, or the format larger, some times; where
-    a view has no room on a page of its own, its scale factor becomes coarser.
+    Where what is drawn takes more pages than was estimated, it becomes smaller, or the format larger; where a view has
+    no room on a page of its own, its scale factor becomes coarser.
 
     Raises InputError: a plan cannot fit at the scale factor that was asked for; it names what would fit.
     """
     fitting, fewest = Fitting(contents), None
     for way, rungs, pages in ways_of(fitting.extents, sheet):
+        if fewest is not None and last(fewest[1][2]) < pages:
+            break
         try:
-            found = (_on_a_page if pages == 1 else _on_pages)(fitting, way, rungs)
+            found = (_on_a_page if pages == 1 else partial(_on_pages, count=pages))(fitting, way, rungs)
         except InputError:
             if sheet is not None or way.name == SIZES[-1]:
                 raise
             continue  # a larger format may hold it
         if found is not None and (fewest is None or last(found[2]) < last(fewest[1][2])):
             fewest = way, found
-            if last(found[2]) < pages:
-                break
     if fewest is None:
         raise InputError("sheet-too-small", format=way.name)
     way, (views, rungs, places) = fewest
@@ -235,8 +235,8 @@ def _begins(views: Sequence[View]) -> list[int]:
     return found
 
 
-def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
-    """Place the views on several pages: forces begin on one of their own where that leaves none half empty.
+def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs, count: int) -> Found | None:
+    """Place the views on `count` pages, or on more: forces begin on one of their own where that leaves none half empty.
 
     They come in reading order, the larger ones smaller if the first page cannot hold them; where a fixed plan is too
     large for it, the first view that it can hold begins.
@@ -244,7 +244,7 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     norm = fitting.contents.norm
 
     def placed(views: Sequence[View]) -> list[Placement] | None:
-        return arrange([view.size for view in views], sheet, norm, _begins(views))
+        return arrange([view.size for view in views], sheet, norm, _begins(views), count)
 
     for first in (False, True):
         try:

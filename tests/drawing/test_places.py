@@ -548,6 +548,20 @@ def test_runs_of_views_take_no_more_pages_than_the_fullest_ones(count):
     assert several > count / 4
 
 
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_views_stand_on_as_many_pages_as_are_wanted_or_on_more(count):
+    views = COURSEWORK["wide group"]
+    least = last(arrange(views, FORMATS["A1"], "gost")) + 1
+
+    places = arrange(views, FORMATS["A1"], "gost", count=count)
+
+    assert least == 1
+    assert judge(views, places, "A1")
+    assert [place.page for place in places] == sorted(place.page for place in places)
+    assert last(places) + 1 == count
+    assert last(arrange(3 * views, FORMATS["A1"], "gost", count=1)) + 1 > 1
+
+
 def test_what_fits_nowhere_has_no_place():
     assert arrange([(50, 50), (900, 50)], FORMATS["A1"], "gost") is None
     assert on_a_page([(400, 300)] * 4, FORMATS["A1"], "gost") is None
