@@ -34,6 +34,7 @@ SHARES = (0.5, 0.4, 0.6, 0.3, 0.7)  # of an arc at which its letter may stand
 ASIDE = 0.5  # rad between a position and the radius dimensioned in it
 OVER_KEY = 1.5  # radii of the shaft that clear its key
 FLAT = 1e-6  # rad, of an angle that is not shown
+SAME = 1e-3  # mm of an offset that is none
 ALONG, BESIDE_ARC = 24, 1.0  # places along an arc, and mm between it and a number
 NUMBERS, PHASES = 1.7, 2.8  # heights of letters from the outermost roller to the numbers, and to the arcs of the phases
 EDGE = 1.2  # heights of letters from these arcs to the edge
@@ -113,12 +114,27 @@ class Inversion(ABC):
         label, height, e = self.style.label, self.style.text, self.e
         for i in self.lines:
             at = course.on_circle(e, radius, course.up_at(self.scene.solved, i))
-            if i == 0:  # beyond the cam's axis from there
-                at = complex(-label if e >= 0.0 else label, at.imag)
+            if i == 0:
+                at = self._beside_rod(at)
             needed = lay_out(str(i), height).width + 0.3 * height
             on_rod = i > 0 and at.imag > 0.0 and abs(at.real - e) < label
             if not on_rod and all(abs(at - other) > needed for other in self.numbered_at):  # of many, some have none
                 self.number(at, i)
+
+    def _beside_rod(self, at: complex) -> complex:
+        """Return the place of number 0: by the rod, away from the cam's axis, or beyond that if rays are there.
+
+        A rod over the centre has it on the side of the lower dwell.
+        """
+        label, e, height = self.style.label, self.e, self.style.text
+        side = 1.0 if e > 0.0 else -1.0
+        near = complex(e + side * (0.5 * label + 0.9 * height), at.imag)
+        others = (self.mark("B", i) for i in self.lines if i)
+        rays = (course.up_at(self.scene.solved, i) for i in self.lines if i)
+        apart = (abs(((near - b) / up).imag) for b, up in zip(others, rays, strict=True) if up.imag > 0.0)
+        if abs(e) > SAME and min(apart, default=label) > height:
+            return near
+        return complex(-label if e >= 0.0 else label, at.imag)
 
     def number(self, at: complex, i: int) -> None:
         """Write the number of a position about a place."""

@@ -78,6 +78,20 @@ def test_arrowheads_of_phases_are_not_hidden_by_the_rod(plan: str) -> None:
     assert all(rod < drawn.index(f'class="dimension" data-name="phi_{name}"') for name in ("rise", "fall"))
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_number_0_stands_by_the_rod_and_not_by_the_axis_of_the_cam(side: int) -> None:
+    rotation = {"rotation": "cw"} if side < 0 else {}
+    view = read(sheet("madi-cam", set=rotation, only="profile").svg())["profile"]
+    (number,) = (text for text in view.of("position") if text.string == "0")
+    (rod,) = (s for s in view.strokes if s.role == "position" and s.name == "0")
+    centre = next(s.arc[0] for s in view.strokes if s.arc and ("dimension", "phi_rise") in s.path)
+    e, upright = max(rod.points, key=lambda p: p.imag).real, centre.real
+
+    middle = 0.5 * (number.box[0] + number.box[2])
+
+    assert abs(middle - e) < abs(middle - upright)
+
+
 @pytest.mark.parametrize("paper", ["A1", "A3", "A4"])
 def test_rays_that_do_not_coincide_have_numbers_of_their_own(paper: str) -> None:
     view = read(sheet("madi-cam", format=paper, only="diagrams").svg())["diagrams"]
