@@ -312,6 +312,20 @@ def test_units_of_display_stand_in_equations() -> None:
     assert list(text_faults(shown)) == []
 
 
+@pytest.mark.parametrize(
+    ("notation", "paper", "head"),
+    [("nau", "mm", "μ, од./мм"), ("nau", "cm", "μ, од./см"), ("bauman", "mm", "μ, мм/од.")],
+)
+def test_the_column_of_scale_factors_says_what_they_count(notation: str, paper: str, head: str) -> None:
+    scene = scene_of(nau_slider_crank(), nau_values(), "uk", notation)
+    shown = replace(scene, words=scene.words.showing(Display("m", paper)))
+
+    heads = [[*results_table(shown, part).rows[0]] for part in results_parts(shown.solved) if part.kind != "lever"]
+
+    assert len(heads) > 2
+    assert {row[2] for row in heads} == {head}
+
+
 def test_tables_take_a_point_to_its_own_link_whatever_other_mechanisms_called_so() -> None:
     mechanism = load_task("scheme-09-shaper").mechanism
     solved = solve_linkage(mechanism, load_task("scheme-09-shaper").values("0"))

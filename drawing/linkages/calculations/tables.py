@@ -146,8 +146,9 @@ def results_table(scene: Scene, part: Part) -> View:
 def _rows(scene: Scene, part: Part) -> list[list[str]]:
     """Return quantities with what was measured; the senses of those that turn stand in a column of their own."""
     words = scene.words
-    head = [words[f"table.{key}"] for key in ("quantity", "segment", "scale", "value", "unit")]
-    head[1] = head[1].format(unit=words.unit(words.display.paper))
+    scale, paper = "scale_per_unit" if words.per_unit else "scale", words.unit(words.display.paper)
+    head = [words[f"table.{key}"].format(unit=paper, paper=paper) for key in ("quantity", "segment", scale)]
+    head += [words[f"table.{key}"] for key in ("value", "unit")]
     head += [words["table.angle"]] if words.notation["angles"] else []
     rows = [_row(scene, scene.quantities[name]) for name in part.names]
     senses = [_sense(scene, name) for name in part.names]
