@@ -10,7 +10,6 @@ from typing import Any
 
 import click
 
-from .scales.choices import HANDS
 from .scales.errors import (
     LANGUAGES,
     VARIABLE,
@@ -24,6 +23,7 @@ from .scales.errors import (
 from .scales.numbers import SHOWN, quote
 from .scales.version import __version__
 from .variants.commands import console
+from .variants.commands.helping import Group
 from .variants.commands.teaching import all_variants, batch, check, handout
 from .variants.kinds import KINDS
 
@@ -62,7 +62,10 @@ def _run(words: Sequence[str]) -> int:
 
 
 @click.group(
-    cls=console.Group, invoke_without_command=True, epilog=console.example("kulman solve nau-slider-crank -v 3")
+    cls=Group,
+    invoke_without_command=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    epilog="kulman solve nau-slider-crank -v 3",
 )
 @click.version_option(__version__, message="%(version)s")
 @console.of_language
@@ -77,9 +80,23 @@ def commands(ctx: click.Context, lang: str | None) -> None:
         click.echo(ctx.get_help())
 
 
+@console.command("kulman help solve", name="help")
+@click.argument("command", required=False)
+@console.of_language
+@click.pass_context
+def show_help(ctx: click.Context, command: str | None, lang: str | None) -> None:
+    """Show the help of a command, or of all."""
+    above = ctx.parent or ctx
+    if command is None:
+        click.echo(above.get_help())
+    else:
+        found = commands.named(command)
+        click.echo(found.get_help(click.Context(found, parent=above, info_name=found.name)))
+
+
 @console.command("kulman list", "kulman list --json", name="list")
 @console.as_json
-@click.option("--check", "file", metavar="FILE", help="Show every fault of a task file instead.")
+@click.option("--check", "file", metavar="FILE")
 @console.of_language
 def list_tasks(as_json: bool, file: str | None, lang: str | None) -> int:
     """Show the tasks, their variants, and what each draws."""
@@ -134,18 +151,12 @@ def _check(file: str, as_json: bool) -> int:
 @click.option(
     "--condition",
     is_flag=True,
-    help="Show for each quantity its condition K (errors of the data come through so many times, in parts of the "
-    "largest vector of the plan, or of the quantity itself where it is only calculated) and the sine of the flattest "
-    "intersection behind it.",
 )
 @click.option(
     "--hand",
-    help=f"Show what a hand draws: {', '.join(HANDS)}, or errors of one's own (standard deviations of marks, "
-    "directions, readings): '0.2 mm, 0.5 deg, 0.2 mm'. For each quantity where 95 % of drawings lie, half of that in "
-    "mm and per cent, what a teacher should let pass, and the step that errs most.",
 )
-@console.sized("Take the scale factors of the sheet of this format.")
-@console.output(".solution", "Where to: all quantities to .csv, .xlsx, .json, .html.")
+@console.sized()
+@console.output(".solution")
 @console.as_json
 def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) and show all quantities."""
@@ -169,8 +180,8 @@ def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     "kulman sheet nau-slider-crank -o sheet.pdf --format A3 --student 'І. Петренко'",
 )
 @console.of_task
-@console.output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
-@console.sized("Without it the smallest one that holds everything.")
+@console.output("..drawing.writers", required=True)
+@console.sized()
 @console.of_norm
 @console.tiled
 @console.titled("student", *console.BLOCK)
@@ -188,11 +199,9 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     "kulman note madi-four-bar --figure velocity -o velocity.svg",
 )
 @console.of_task
-@console.output(
-    ".notes", "Where to: .pdf, .docx, .md with its figures beside it; of one figure .svg, .png.", required=True
-)
-@click.option("--figure", metavar="NAME", help="One figure of the note alone: position, velocity, forces_23.")
-@console.sized("That of the sheet whose figures and numbers the note has.")
+@console.output(".notes", required=True)
+@click.option("--figure", metavar="NAME")
+@console.sized()
 @console.titled("student", "group", "teacher", "department", "date")
 def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str | None, **options: Any) -> None:
     """Write the explanatory note of TASK: the work step by step, with equations, figures, tables."""
@@ -212,18 +221,12 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
 @console.of_task
 @console.counted(
     "--positions",
-    "How many positions: 8, 12, 24, ...; without it 12, of a cam its section lines, and in files of cams 360, "
-    "of gears 101, of hoists 361.",
 )
-@console.listed("--points", "POINT,...", "Only these points, or numbered links.")
-@click.option("--from", "start", metavar="PLACE", help="Where the driver begins; without it at the zero position.")
-@click.option("--to", "end", metavar="PLACE", help="Where a sliding driver stops.")
-@click.option(
-    "--chords", metavar="POINT", help="Velocities and accelerations of a point or link by plans and by chords."
-)
-@console.output(
-    ".sweeps.sweeps", "Where to: all columns to .csv, .xlsx, .json, .html; the drawing to .svg, .pdf, .png."
-)
+@console.listed("--points", "POINT,...")
+@click.option("--from", "start", metavar="PLACE")
+@click.option("--to", "end", metavar="PLACE")
+@click.option("--chords", metavar="POINT")
+@console.output(".sweeps.sweeps")
 @console.as_json
 def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) over its whole cycle: positions, dead positions, strokes, extremes."""
@@ -245,16 +248,12 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 @console.listed(
     "--chart",
     "CHART,...",
-    "Of accuracy, stability, depth; of a cam sections, accuracy, stability; of gears scale; of a hoist accuracy, "
-    "stability, roots, depth, choice; else all.",
 )
-@console.listed("--quantities", "NAME,...", "Only these: V_B,a_B,M_bal.")
-@console.counted("--positions", "Positions of the cycle: 36 for accuracy, else 360.")
-@click.option("--tolerance", metavar="%", default="1", show_default=True, help="By how much a simpler model may miss.")
-@click.option("--hand", default="normal", show_default=True, help=f"Who draws: {', '.join(HANDS)}.")
-@console.output(
-    ".charts.charts", "Where to: pictures to .svg, .pdf, .png, rows to .csv, .xlsx; of several x-accuracy.svg, ..."
-)
+@console.listed("--quantities", "NAME,...")
+@console.counted("--positions")
+@click.option("--tolerance", metavar="%", default="1", show_default=True)
+@click.option("--hand", default="normal", show_default=True)
+@console.output(".charts.charts")
 @console.as_json
 def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
     """Measure TASK: speed against accuracy, stability, which parts of the model it needs, or how many sections."""
@@ -270,7 +269,7 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     "kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk", "kulman new my-cam.toml --kind cam"
 )
 @click.argument("file")
-@click.option("--kind", type=console.Word(*KINDS), default=KINDS[0], show_default=True, help="What the task is about.")
+@click.option("--kind", type=console.Word(*KINDS), default=KINDS[0], show_default=True)
 @console.of_language
 def new(file: str, kind: str, lang: str | None) -> None:
     """Write FILE, a task file with comments, ready to solve: a four-bar linkage, a cam, a gear pair or a hoist."""
@@ -279,5 +278,5 @@ def new(file: str, kind: str, lang: str | None) -> None:
     click.echo(str(start(file, lang or system_language(), kind)))
 
 
-for command in (list_tasks, solve, sheet, note, sweep, chart, new, handout, all_variants, batch, check):
+for command in (list_tasks, solve, sheet, note, sweep, chart, new, handout, all_variants, batch, check, show_help):
     commands.add_command(command)

@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 
-from kulman.cli import commands
 from kulman.drawing.words import notations
 from kulman.plans.cams.cam import FOLLOWERS, LAWS
 from kulman.plans.cams.cam import PLANS as CAM_PLANS
@@ -19,12 +18,14 @@ from kulman.plans.gears.gear import PLANS as GEAR_PLANS
 from kulman.plans.hoist.hoist import PLANS as HOIST_PLANS
 from kulman.plans.hoist.hoist import SIDES
 from kulman.plans.linkages.chain import PLANS
+from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
 from kulman.tests.support.sources import trees
 from kulman.variants import case, reader
 from kulman.variants.checks import basics as checks
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.checks import names as checks_names
+from kulman.variants.commands.helping import told
 from kulman.variants.kinds import cam, gear, hoist
 from kulman.variants.making.starter import template
 from kulman.variants.shelf import bundled_text
@@ -104,10 +105,9 @@ def test_every_key_of_a_notation_is_explained() -> None:
     assert [key for key in keys if not re.search(rf"`\[?{key}(\]|\.|`)", NOTATIONS)] == []
 
 
-def test_help_names_every_notation() -> None:
-    (option,) = [p for p in commands.commands["sheet"].params if p.name == "notation"]
-
-    assert all(name in option.help for name in notations())
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_help_names_every_notation(language: str) -> None:
+    assert all(name in told("sheet", "--notation", language) for name in notations())
 
 
 def test_links_of_the_documents_lead_somewhere() -> None:

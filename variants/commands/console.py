@@ -16,8 +16,8 @@ import click
 
 from ...scales.choices import LETTERINGS, SIZES
 from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
-from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
+from .helping import Command, place
 
 if TYPE_CHECKING:
     from ..tables import Result
@@ -27,7 +27,7 @@ LONGEST = 10_000  # characters of a word of the command line: longer is no name,
 # what the title blocks of a class have in common, but for the group that the roster says
 BLOCK = ("group", "teacher", "department", "designation", "work", "date")
 VARIANTS = (__package__ or "").rpartition(".")[0]
-Command = TypeVar("Command", bound=Callable[..., Any])
+Function = TypeVar("Function", bound=Callable[..., Any])
 if TYPE_CHECKING:
     TextType = click.ParamType[str]
 else:  # only newer versions of click can be subscripted
@@ -121,27 +121,15 @@ def usage_error(error: click.UsageError, words: Sequence[str], commands: click.G
         option = next((one for one in called.params if error.option_name in one.opts), None)
         if isinstance(option, click.Option) and option.is_flag:
             return InputError("cli-option-flag", text=quote(error.option_name), command=command)
-        value = (option.metavar or "|".join(getattr(option.type, "words", ()))) if option is not None else ""
-        return InputError("cli-option-value", text=quote(error.option_name), value=value or "TEXT", command=command)
+        value = place(option) if option is not None else ""
+        return InputError("cli-option-value", text=quote(error.option_name), value=value, command=command)
     if isinstance(error, click.MissingParameter) and error.param is not None:
-        name = error.param.human_readable_name if isinstance(error.param, click.Argument) else error.param.opts[0]
+        name = place(error.param) if isinstance(error.param, click.Argument) else error.param.opts[0]
         return InputError("cli-missing", text=name, command=command)
     extra = re.search(r"unexpected extra arguments? \((.*)\)", error.message, re.DOTALL)
     if extra:
         return InputError("cli-extra", text=quote(extra[1]), command=command)
     return InputError("cli-usage", text=quote(error.message), command=command)
-
-
-class Group(click.Group):
-    """The commands; a wrong one is refused with the one that was meant."""
-
-    def resolve_command(
-        self, ctx: click.Context, args: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command that `args` begin with."""
-        if args and not args[0].startswith("-") and self.get_command(ctx, args[0]) is None:
-            raise unknown("cli-command-unknown", args[0], self.list_commands(ctx))
-        return super().resolve_command(ctx, args)
 
 
 class Word(TextType):
@@ -152,10 +140,6 @@ class Word(TextType):
     def __init__(self, *words: str) -> None:
         """Accept `words`."""
         self.words = words
-
-    def get_metavar(self, param: click.Parameter, ctx: click.Context | None = None) -> str:
-        """Show the words in the help."""
-        return "|".join(self.words)
 
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the word that is meant."""
@@ -184,7 +168,7 @@ def given(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -
     return values or None
 
 
-def output(module: str, help: str, required: bool = False) -> Callable[[Command], Command]:
+def output(module: str, required: bool = False) -> Callable[[Function], Function]:
     """Return the option `-o FILE`, which refuses, before any work, files that cannot be written.
 
     The `SUFFIXES` that can be stand in a module, which is imported when the option is read, not for the help.
@@ -198,14 +182,13 @@ def output(module: str, help: str, required: bool = False) -> Callable[[Command]
         return paths
 
     names = ("-o", "--output", "files")
-    said = f"{help} Repeatable."
-    return click.option(*names, metavar="FILE", multiple=True, required=required, callback=checked, help=said)
+    return click.option(*names, metavar="FILE", multiple=True, required=required, callback=checked)
 
 
-def _stacked(*options: Any) -> Callable[[Command], Command]:
+def _stacked(*options: Any) -> Callable[[Function], Function]:
     """Return what adds options to a command, in the order in which its help shows them."""
 
-    def add(command: Command) -> Command:
+    def add(command: Function) -> Function:
         for option in reversed(options):
             command = option(command)
         return command
@@ -214,16 +197,15 @@ def _stacked(*options: Any) -> Callable[[Command], Command]:
 
 
 # the language, which `main` has already taken for messages
-of_language = click.option("--lang", type=Word(*LANGUAGES), help="Of results and messages; else `KULMAN_LANG`.")
+of_language = click.option("--lang", type=Word(*LANGUAGES))
 _about_task: tuple[Any, ...] = (
-    click.option("-v", "--variant", help="A variant of the task; without it the first one."),
+    click.option("-v", "--variant"),
     click.option(
         "--set",
         "settings",
         metavar="NAME=VALUE",
         multiple=True,
         callback=pairs,
-        help="Another value for a given: l_OA=55, 'n_1=765 об/хв', 'F_3=2 kN'. Repeatable.",
     ),
     click.option(
         "--scale",
@@ -231,47 +213,41 @@ _about_task: tuple[Any, ...] = (
         metavar="NAME=VALUE",
         multiple=True,
         callback=pairs,
-        help="A scale factor, mu_V=0.05, or a segment in mm, pa=80. Repeatable.",
     ),
-    click.option("--only", metavar="PLAN,...", multiple=True, callback=given, help="Only these plans."),
-    click.option("--notation", help="Letters of another school: artobolevsky, bauman, bertyaev, iso, madi, nau."),
+    click.option("--only", metavar="PLAN,...", multiple=True, callback=given),
+    click.option("--notation"),
     of_language,
 )
 of_task = _stacked(click.argument("task"), *_about_task)
 of_tasks = _stacked(click.argument("tasks", metavar="TASK...", nargs=-1, required=True), *_about_task)
 of_norm = _stacked(
-    click.option("--norm", type=Word("gost", "iso"), default="gost", show_default=True, help="Frame and title block."),
-    click.option("--lettering", type=Word(*LETTERINGS), default=LETTERINGS[0], show_default=True, help="Its letters."),
+    click.option("--norm", type=Word("gost", "iso"), default="gost", show_default=True),
+    click.option("--lettering", type=Word(*LETTERINGS), default=LETTERINGS[0], show_default=True),
 )
-tiled = click.option("--tile", type=Word("A4", "A3"), help="Cut a PDF into pages of this format for a small printer.")
-
-
-def example(*lines: str) -> str:
-    """Return the end of a help text that shows how the command is used."""
-    return "\b\nExample:\n" + "\n".join(f"  {line}" for line in lines)
+tiled = click.option("--tile", type=Word("A4", "A3"))
 
 
 def command(*examples: str, name: str | None = None) -> Callable[[Callable[..., Any]], click.Command]:
     """Return what makes a command whose help ends with examples; it is called like its function without a `name`."""
-    return click.command(name, epilog=example(*examples))
+    return click.command(name, cls=Command, epilog="\n".join(examples))
 
 
-def listed(name: str, metavar: str, help: str) -> Callable[[Command], Command]:
+def listed(name: str, metavar: str) -> Callable[[Function], Function]:
     """Return an option for names, each alone or several with commas between."""
-    return click.option(name, metavar=metavar, multiple=True, callback=given, help=help)
+    return click.option(name, metavar=metavar, multiple=True, callback=given)
 
 
-def counted(name: str, help: str) -> Callable[[Command], Command]:
+def counted(name: str) -> Callable[[Function], Function]:
     """Return an option for a whole number."""
-    return click.option(name, metavar="N", callback=count, help=help)
+    return click.option(name, metavar="N", callback=count)
 
 
-def sized(help: str, **more: Any) -> Callable[[Command], Command]:
+def sized(**more: Any) -> Callable[[Function], Function]:
     """Return the option for the format of a sheet."""
-    return click.option("--format", type=Word(*SIZES), help=help, **more)
+    return click.option("--format", type=Word(*SIZES), **more)
 
 
-as_json = click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+as_json = click.option("--json", "as_json", is_flag=True)
 
 
 def count(ctx: click.Context, param: click.Parameter, value: str | None) -> int | None:
@@ -292,14 +268,9 @@ def processes(ctx: click.Context, param: click.Parameter, value: str | None) -> 
     return number
 
 
-def titled(*names: str) -> Callable[[Command], Command]:
+def titled(*names: str) -> Callable[[Function], Function]:
     """Return what adds `names`, which a title block or a title page says."""
-    more = {
-        "date": "; none is invented",
-        "designation": "; without it ТММ, task, variant, sheet: ТММ.14.03.001",
-        "work": ": КР, КП, ...; without it РГР",
-    }
-    return _stacked(*(click.option(f"--{name}", help=f"For the title block{more.get(name, '')}.") for name in names))
+    return _stacked(*(click.option(f"--{name}") for name in names))
 
 
 def without_none(options: Mapping[str, Any]) -> dict[str, Any]:

@@ -25,24 +25,22 @@ if TYPE_CHECKING:
     "kulman handout nau-slider-crank -v 3 --over velocity -o transparency.pdf",
 )
 @console.of_task
-@console.output("..drawing.writers", "Where to; the suffix picks the kind of file.", required=True)
+@console.output("..drawing.writers", required=True)
 @click.option(
     "--steps",
     metavar="K",
     default="0",
     show_default=True,
     callback=console.count,
-    help="So many steps of each plan, as the note numbers them.",
 )
-@click.option("--key", is_flag=True, help="The whole work, at the same places.")
+@click.option("--key", is_flag=True)
 @click.option(
     "--hidden-key",
     is_flag=True,
-    help="The answers as a layer of SVG or PDF that is switched off: for the teacher, never for students.",
 )
-@click.option("--over", metavar="PLAN", help="One plan alone, for a transparency to lay over a student's drawing.")
-@click.option("--grid", is_flag=True, help="A light grid of 5 mm under the drawing.")
-@console.sized("The paper that is printed on.", default="A4", show_default=True)
+@click.option("--over", metavar="PLAN")
+@click.option("--grid", is_flag=True)
+@console.sized(default="A4", show_default=True)
 @console.of_norm
 @console.tiled
 @console.titled("student", *console.BLOCK)
@@ -66,38 +64,28 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     name="variants",
 )
 @console.of_task
-@console.listed("--quantities", "NAME,...", "Only these: V_B,a_B,M_bal.")
-@console.counted("--make", "Make N new variants, each a good exercise.")
+@console.listed("--quantities", "NAME,...")
+@console.counted("--make")
 @click.option(
     "--range",
     "ranges",
     metavar="NAME=RANGE",
     multiple=True,
     callback=console.pairs,
-    help="From, to and step of a given of new variants: 'l_OA=25..60/5 mm'; without it what the task's variants span.",
 )
-@console.counted("--seed", "Another number makes other variants; else 1.")
+@console.counted("--seed")
 @click.option(
     "--from",
     "table",
     metavar="FILE",
-    help="Read new variants from a spreadsheet, .csv or .xlsx: parameters in rows and variants in columns, or turned.",
 )
-@click.option(
-    "--preset", type=console.Word(*HANDS), default="normal", show_default=True, help="What a question lets pass."
-)
+@click.option("--preset", type=console.Word(*HANDS), default="normal", show_default=True)
 @console.output(
     ".making.all_variants",
-    "Where to: all values to .csv or .xlsx, questions for Moodle to .xml or .gift, new variants to a task file, .toml.",
 )
 @console.as_json
 def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
-    """Show the answers of all variants of TASK beside one another; make new variants, or read them from a spreadsheet.
-
-    A variant that is made can be solved and drawn on no more pages than the task's first one; of a linkage the crank
-    turns round, lines meet at no small angles, plans fit at the task's scale factors; cams, gears and hoists keep the
-    rules of good design.
-    """
+    """Show the answers of all variants of TASK beside one another; make new variants, or read them."""
     from ..making.all_variants import all_variants as solve_all
 
     if options.pop("variant") is not None:
@@ -119,10 +107,9 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 @click.option(
     "--roster",
     metavar="FILE",
-    help="A student a row: name, group, variant or record book, task, givens of one's own: .csv or .xlsx.",
 )
-@click.option("--form", metavar="FILE", help="Write a roster to fill in, .csv or .xlsx, a row for each variant.")
-@click.option("--out", "folder", metavar="FOLDER", help="Where the files go, manifest.csv and key.csv.")
+@click.option("--form", metavar="FILE")
+@click.option("--out", "folder", metavar="FOLDER")
 @click.option(
     "--as",
     "kinds",
@@ -130,30 +117,18 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     multiple=True,
     default=("svg", "pdf", "note"),
     show_default=True,
-    help="What each student gets: the sheet, the explanatory note (PDF or DOCX), a blank handout. Repeatable.",
 )
 @click.option(
     "--digits",
     metavar="N|WORD,...",
-    help="How many last digits of the record book give the variant, where the roster has none; or what each is for: "
-    "variant, scheme, - for nothing. Without it the last one: variant; of several tasks the last two: variant,scheme.",
 )
-@console.sized("Without it the smallest one that holds everything.")
+@console.sized()
 @console.of_norm
 @console.titled(*console.BLOCK)
-@click.option("--jobs", metavar="N", callback=console.processes, help="Processes; as many as cores when left out.")
-@click.option(
-    "--dask", metavar="ADDRESS", help="Work on a Dask cluster: the address of its scheduler, tcp://host:8786."
-)
+@click.option("--jobs", metavar="N", callback=console.processes)
+@click.option("--dask", metavar="ADDRESS")
 def batch(tasks: tuple[str, ...], settings: dict[str, str], kinds: tuple[str, ...], **options: Any) -> int:
-    """Draw the sheets of TASK for a class and write their notes, with a list of the files and the key for the teacher.
-
-    Of several tasks the first is scheme 1, the tenth has the digit 0; the roster, or a digit of the record book, says
-    which one a student has.
-
-    A run that was stopped goes on where it was; one with a longer roster draws the new sheets alone. A row that is
-    wrong costs no other student anything.
-    """
+    """Draw the sheets of TASK for a class and write their notes, with a list of files and the key."""
     if options.pop("variant") is not None:
         raise InputError("batch-variant")
     language, form = options.pop("lang") or "uk", options.pop("form")
@@ -195,42 +170,31 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
 )
 @console.of_task
 @click.argument("answers", nargs=-1)
-@click.option("--form", metavar="FILE", help="Write an empty form, .csv or .xlsx; with --roster that of a class.")
-@click.option(
-    "--preset", type=console.Word(*HANDS), default="normal", show_default=True, help="What may be missed by hand."
-)
-@click.option("--verdict-only", "own", is_flag=True, help="For the student: right or wrong, and no right numbers.")
-@console.sized("Mark what is drawn on the sheet of this format.")
-@click.option("--rubric", metavar="FILE", help="Weights, worths, tolerances: a small TOML file.")
+@click.option("--form", metavar="FILE")
+@click.option("--preset", type=console.Word(*HANDS), default="normal", show_default=True)
+@click.option("--verdict-only", "own", is_flag=True)
+@console.sized()
+@click.option("--rubric", metavar="FILE")
 @click.option(
     "--directions",
     type=console.Word("required", "optional", "ignored"),
-    help="Directions of vectors, senses of what turns: a line without is worth half; what is said is compared; "
-    "or sizes alone are. In the place of what the rubric says; else optional.",
 )
-@click.option("--roster", metavar="FILE", help="Students with their variants, record books, own data: .csv or .xlsx.")
+@click.option("--roster", metavar="FILE")
 @click.option(
     "--digits",
     metavar="N|WORD,...",
     default="1",
     show_default=True,
-    help="How many last digits of the record book give the variant, where the roster has none; or what each is "
-    "for: variant, scheme, - for nothing.",
 )
-@click.option("--out", "folder", metavar="FOLDER", help="Reports on every student, .html and .txt.")
-@click.option("--moodle", metavar="FILE", type=Path, help="Grades for Moodle, .csv.")
-@click.option("--jobs", metavar="N", callback=console.processes, help="Processes; as many as cores when left out.")
+@click.option("--out", "folder", metavar="FOLDER")
+@click.option("--moodle", metavar="FILE", type=Path)
+@click.option("--jobs", metavar="N", callback=console.processes)
 @console.output(
     ".marking.report",
-    "Where to: the report on one student to .html or .txt, the table of a class to .csv or .xlsx.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object (of one student).")
+@click.option("--json", "as_json", is_flag=True)
 def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[str, str], **options: Any) -> None:
-    """Mark ANSWERS to TASK: files with one student's answers or a class's, a folder of them, or a pattern.
-
-    The variant is that of the roster, of -v, or what the file says. The word `printed` stands for the answers that the
-    source of a bundled task prints.
-    """
+    """Mark ANSWERS to TASK: files with one student's answers or a class's, a folder of them, or a pattern."""
     from ...drawing.writers import check_outputs
     from ..marking.checks import check as ready
 

@@ -1,0 +1,132 @@
+"""What `--help` says: the words of `help/*.toml`, in the language of messages, laid out as click does."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import click
+
+from ...scales.choices import HANDS
+from ...scales.errors import system_language
+from ...scales.names import unknown
+from ...scales.packaged import packaged
+
+_PLACE = re.compile(r"[A-Z]{2,}")  # what stands for a word of the user: FILE, NAME=VALUE; not N, not A4
+
+
+def texts(language: str) -> dict[str, Any]:
+    """Return the words of the help in `language`: `words`, `places`, what several commands share, a table a command."""
+    return packaged(__package__, "help", language)
+
+
+def told(command: str, key: str, language: str) -> str:
+    """Return the text of an option, `--set`, or `about`, of a command, or what commands share."""
+    whole = texts(language)
+    text: str = whole[command][key] if key in whole[command] else whole["shared"][key]
+    return text.format(hands=", ".join(HANDS)).strip()
+
+
+def place(param: click.Parameter) -> str:
+    """Return what stands for the value of an option or an argument, in the language of messages."""
+    if choices := getattr(param.type, "words", ()):
+        return "|".join(choices)
+    raw = param.metavar or ("TEXT" if isinstance(param, click.Option) else (param.name or "").upper())
+    return _PLACE.sub(lambda word: texts(system_language())["places"][word[0]], raw)
+
+
+def _usage(param: click.Parameter) -> str:
+    """Return how an argument stands in the line of usage."""
+    name = place(param).removesuffix("...")
+    return (name if param.required else f"[{name}]") + ("..." if param.nargs != 1 else "")
+
+
+def longest(option: click.Option) -> str:
+    """Return the name of an option by which its text is found."""
+    return max(option.opts, key=len)
+
+
+def _row(command: str, option: click.Option) -> tuple[str, str]:
+    """Return an option as a row of the help: its names with the place of its value, its text."""
+    language = system_language()
+    words, names = texts(language)["words"], ", ".join(sorted(option.opts, key=len))
+    text = told(command, longest(option), language)
+    if option.multiple and not (option.metavar or "").endswith(",..."):
+        text += f" {words['repeatable']}"
+    extra = []
+    if option.show_default:
+        usual = option.default if isinstance(option.default, tuple) else (option.default,)
+        extra.append(f"{words['default']}: {', '.join(map(str, usual))}")
+    if option.required:
+        extra.append(words["required"])
+    return names if option.is_flag else f"{names} {place(option)}", f"{text}  [{'; '.join(extra)}]" if extra else text
+
+
+class Command(click.Command):
+    """A command whose help is in the language of messages; its `epilog` is example commands, a line each."""
+
+    @property
+    def told(self) -> str:
+        """The name of its table of texts."""
+        return self.name or ""
+
+    def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
+        """Return the words after the command in the line of usage."""
+        options = f"[{texts(system_language())['places']['OPTIONS']}]"
+        return [options, *(_usage(param) for param in self.get_params(ctx) if isinstance(param, click.Argument))]
+
+    def format_help(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write usage, what the command does, its options, commands of it, examples."""
+        words = texts(system_language())["words"]
+        usage = " ".join(self.collect_usage_pieces(ctx))
+        formatter.write_usage(ctx.command_path, usage, f"{words['usage']}: ")
+        for paragraph in told(self.told, "about", system_language()).split("\n\n"):
+            formatter.write_paragraph()
+            with formatter.indentation():
+                formatter.write_text(" ".join(paragraph.split()))
+        options = (param for param in self.get_params(ctx) if isinstance(param, click.Option))
+        with formatter.section(words["options"]):
+            formatter.write_dl([_row(self.told, option) for option in options])
+        if rows := list(self.commands_told(ctx)):
+            with formatter.section(words["commands"]):
+                formatter.write_dl(rows)
+        with formatter.section(words["example"]), formatter.indentation():
+            formatter.write("".join(f"  {line}\n" for line in (self.epilog or "").splitlines()))
+
+    def commands_told(self, ctx: click.Context) -> Iterator[tuple[str, str]]:
+        """Yield the commands of a group with what they do, whole: no summary is cut."""
+        yield from ()
+
+
+class Group(Command, click.Group):
+    """The commands; a wrong one is refused with the one that was meant."""
+
+    @property
+    def told(self) -> str:
+        """The name of its table of texts."""
+        return "kulman"
+
+    def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
+        """Return the words after the command in the line of usage."""
+        places = texts(system_language())["places"]
+        return [*super().collect_usage_pieces(ctx)[:1], f"[{places['COMMAND']}]", f"[{places['ARGS']}]..."]
+
+    def commands_told(self, ctx: click.Context) -> Iterator[tuple[str, str]]:
+        """Yield the commands with what they do, in the order in which they were added."""
+        for name in self.commands:
+            yield name, " ".join(told(name, "about", system_language()).partition("\n\n")[0].split())
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Find the command that `args` begin with."""
+        if args and not args[0].startswith("-"):
+            self.named(args[0])
+        return super().resolve_command(ctx, args)
+
+    def named(self, name: str) -> click.Command:
+        """Return a command by its name; refuse an unknown one."""
+        if name not in self.commands:
+            raise unknown("cli-command-unknown", name, sorted(self.commands))
+        return self.commands[name]
