@@ -1,6 +1,8 @@
-"""Shapes of a page one by one, whatever groups they are in."""
+"""Shapes of a page one by one, whatever groups they are in; places along a line and within a box."""
 
 from collections.abc import Iterable, Iterator
+
+import numpy as np
 
 from kulman.drawing.shapes import Arc, Group, Line, Pen, Polyline, Shape
 
@@ -25,3 +27,13 @@ def line_of(shape: Shape) -> object:
         case Polyline(pen=Pen.THIN, role="profile", name=name):
             return "profile", name
     return shape
+
+
+def places(a: complex, b: complex, count: int = 2000) -> np.ndarray:
+    """Places along a line, none of them at its ends."""
+    return a + (b - a) * (np.arange(count) + 0.5) / count
+
+
+def within(at: np.ndarray, box: tuple[float, float, float, float]) -> np.ndarray:
+    x0, y0, x1, y1 = box
+    return (at.real > x0) & (at.real < x1) & (at.imag > y0) & (at.imag < y1)

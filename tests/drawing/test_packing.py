@@ -1,0 +1,188 @@
+"""Views on pages: they stay apart, stand in reading order, fill their pages and take no more than they need."""
+
+import itertools
+import math
+import random
+
+import pytest
+import shapely
+
+from kulman.drawing.compose import MANY, arrange, last, on_a_page
+from kulman.drawing.formats import FORMATS, MARGINS, drawing_area, reserved_boxes
+from kulman.drawing.packing import LEAST, STEPS, Slicing, size_of, spread
+
+# Givens, structure, position, velocity, acceleration, equations, two tables; group, its forces, forces of the link,
+# slider, driver, its forces, equations; lever, its equations, two tables.
+COURSEWORK = {
+    "two tables in a column": [
+        (111, 95), (132, 43), (173, 110), (82, 77), (75, 110), (172, 90), (148, 60), (148, 67), (183, 127), (192, 119),
+        (179, 108), (70, 67), (98, 97), (114, 76), (225, 84), (170, 134), (222, 53), (148, 130), (148, 80)],
+    "wide group": [
+        (111, 95), (132, 43), (281, 88), (76, 106), (89, 82), (176, 90), (148, 60), (148, 67), (311, 109), (240, 79),
+        (233, 68), (98, 64), (120, 76), (147, 50), (235, 84), (170, 107), (234, 47), (148, 130), (148, 80)],
+    "wide force plans": [
+        (111, 95), (132, 43), (358, 96), (76, 105), (104, 81), (175, 90), (148, 60), (148, 67), (301, 108), (416, 102),
+        (283, 95), (98, 64), (98, 86), (98, 65), (174, 90), (170, 116), (234, 47), (148, 130), (148, 80)],
+}  # fmt: skip
+
+
+def in_order(boxes):
+    """Whether every view of a page stands on the left of, or above, all that come after it."""
+    return all(
+        a[2] <= b[0] + 1e-6 or a[1] >= b[3] - 1e-6
+        for (_, a), (_, b) in itertools.combinations(sorted(boxes.items()), 2)
+    )
+
+
+def judge(views, layout, paper, norm="gost"):
+    """Hold that views stand inside the frame, clear of each other and of the title block of their page."""
+    assert len(layout) == len(views)
+    boxes: dict[int, dict[int, tuple]] = {}
+    for n, ((w, h), p) in enumerate(zip(views, layout, strict=True)):
+        boxes.setdefault(p.page, {})[n] = (p.x, p.y, p.x + w, p.y + h)
+    assert sorted(boxes) == list(range(len(boxes)))
+    frame = shapely.box(*drawing_area(FORMATS[paper], norm))
+    for page, own in boxes.items():
+        shapes = [shapely.box(*box) for box in own.values()]
+        taken = [shapely.box(*box) for box in reserved_boxes(FORMATS[paper], norm, first=page == 0)]
+        assert frame.buffer(1e-6, join_style="mitre").covers(shapely.union_all(shapes))
+        for n, box in enumerate(shapes):
+            assert all(box.distance(other) > LEAST - 1e-6 for other in shapes[n + 1 :])
+            assert all(box.distance(other) > min(LEAST, MARGINS[paper[:2]]) - 1e-6 for other in taken)
+    return [boxes[page] for page in sorted(boxes)]
+
+
+def random_views(seed):
+    r = random.Random(seed)
+    return [(r.uniform(30, 165), r.uniform(20, 150)) for _ in range(r.randint(1, 16))]
+
+
+def straight(sizes, room):
+    """Whether any straight cuts part a room among views in this order: all of them are looked at."""
+    if len(sizes) == 1:
+        return sizes[0][0] <= room[0] and sizes[0][1] <= room[1]
+
+    def shapes(own):
+        if len(own) == 1:
+            return {own[0]}
+        found = set()
+        for k in range(1, len(own)):
+            for (a, b), (c, d) in itertools.product(shapes(own[:k]), shapes(own[k:])):
+                found |= {(a + c + LEAST, max(b, d)), (max(a, c), b + d + LEAST)}
+        return found
+
+    return any(w <= room[0] and h <= room[1] for w, h in shapes(tuple(sizes)))
+
+
+@pytest.mark.parametrize("count", [15, pytest.param(150, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("norm", ["gost", "iso"])
+@pytest.mark.parametrize("paper", FORMATS)
+def test_random_views_stand_clear_in_reading_order(paper, norm, count):
+    placed = 0
+    for seed in range(count):
+        views = random_views(seed)
+        one, many = on_a_page(views, FORMATS[paper], norm), arrange(views, FORMATS[paper], norm)
+        pages = judge(views, many, paper, norm)
+        assert all(map(in_order, pages))
+        if one is not None:
+            assert one == many
+            placed += 1
+    assert placed > count / 10
+    assert many == arrange(views, FORMATS[paper], norm)
+
+
+@pytest.mark.parametrize("count", [60, pytest.param(600, marks=pytest.mark.soak)])
+def test_what_straight_cuts_part_in_order_is_found_and_nothing_else(count):
+    r, both = random.Random(5), [0, 0]
+    for _ in range(count):
+        views = [(r.uniform(20, 90), r.uniform(20, 90)) for _ in range(r.randint(1, 6))]
+        side = math.sqrt(sum(w * h for w, h in views) * r.uniform(1.1, 2.2))
+        room = side * r.uniform(0.8, 1.2), side
+        page = Slicing(views, room)
+        if page.fits:
+            assert straight(views, room)
+            wide, high = size_of(page.cut(), views)
+            assert wide <= room[0] + 1e-9
+            assert high <= room[1] + 1e-9
+        else:  # the grid may take a step of each view
+            step = max(room) / STEPS
+            assert not straight([(w + step, h + step) for w, h in views], room)
+        both[page.fits] += 1
+    assert min(both) > count / 6
+
+
+def test_views_in_a_row_hang_from_one_line_and_slack_is_spread_evenly():
+    row = Slicing([(250, 120), (115, 115), (230, 100)], (640, 200))
+    places = {i: (x, y) for i, x, y in spread(row.cut(), row.sizes, (0.0, 200.0), row.room)}
+    assert {y + row.sizes[i][1] for i, (_, y) in places.items()} == {200.0}
+    assert [places[i][0] for i in range(3)] == pytest.approx([0.0, 272.5, 410.0])
+
+
+def test_what_belongs_together_is_not_parted_first():
+    pairs = Slicing([(100, 60)] * 4, (210, 130), [0, 1, 0, 1]).cut()
+    ends = [Slicing([(100, 60)] * 3, (210, 130), bonds).cut().parts for bonds in ([0, 0, 1], [0, 1, 0])]
+    assert [part.parts for part in pairs.parts] == [(0, 1), (2, 3)]
+    assert (ends[0][0], ends[0][1].parts, ends[1][0].parts, ends[1][1]) == (0, (1, 2), (0, 1), 2)
+
+
+@pytest.mark.parametrize("name", COURSEWORK)
+def test_a_sheet_reads_from_left_to_right_and_down(name):
+    views = COURSEWORK[name]
+    layout = on_a_page(views, FORMATS["A1"], "gost")
+    (boxes,) = judge(views, layout, "A1")
+    assert in_order(boxes)
+
+
+@pytest.mark.parametrize(("paper", "most"), [("A2", 2), ("A3", 4)])
+def test_several_pages_are_full(paper, most):
+    views = COURSEWORK["two tables in a column"]
+    pages = judge(views, arrange(views, FORMATS[paper], "gost"), paper)
+    assert len(pages) <= most
+    x0, y0, x1, y1 = drawing_area(FORMATS[paper])
+    filled = [sum((c - a) * (d - b) for a, b, c, d in page.values()) / (x1 - x0) / (y1 - y0) for page in pages]
+    assert min(filled[:-1]) > 0.45
+
+
+@pytest.mark.parametrize(
+    ("begins", "ends"),
+    [((), 8), ((0,) * 7 + (1,) + (0,) * 5, 7), ((0,) * 5 + (2, 0, 1) + (0,) * 5, 7), ((0,) * 5 + (2,) + (0,) * 7, 8)],
+    ids=["as full as can be", "before a group", "no half empty page", "not even before a part"],
+)
+def test_a_page_ends_where_something_begins_that_leaves_it_full(begins, ends):
+    views = [(260, 180)] * 13
+    pages = [place.page for place in arrange(views, FORMATS["A1"], "gost", begins)]
+    assert pages == [0] * ends + [1] * (13 - ends)
+
+
+@pytest.mark.parametrize("count", [20, pytest.param(200, marks=pytest.mark.soak)])
+def test_runs_of_views_take_no_more_pages_than_the_fullest_ones(count):
+    several = 0
+    for seed in range(count):
+        views = random_views(seed) * 2
+        begins = [random.Random(seed).randrange(3) for _ in views]
+        plain, parted = (arrange(views, FORMATS["A2"], "gost", own) for own in ((), begins))
+        assert last(parted) == last(plain)
+        for places in (plain, parted):
+            judge(views, places, "A2")
+        several += 0 < last(plain) < MANY
+    assert several > count / 4
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_views_stand_on_as_many_pages_as_are_wanted_or_on_more(count):
+    views = COURSEWORK["wide group"]
+    least = last(arrange(views, FORMATS["A1"], "gost")) + 1
+
+    places = arrange(views, FORMATS["A1"], "gost", count=count)
+
+    assert least == 1
+    assert judge(views, places, "A1")
+    assert [place.page for place in places] == sorted(place.page for place in places)
+    assert last(places) + 1 == count
+    assert last(arrange(3 * views, FORMATS["A1"], "gost", count=1)) + 1 > 1
+
+
+def test_what_fits_nowhere_has_no_place():
+    assert arrange([(50, 50), (900, 50)], FORMATS["A1"], "gost") is None
+    assert on_a_page([(400, 300)] * 4, FORMATS["A1"], "gost") is None
+    assert arrange([], FORMATS["A1"], "gost") == []
