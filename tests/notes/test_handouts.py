@@ -36,7 +36,7 @@ from kulman.tests.support.shapes import leaves, line_of
 from kulman.variants.case import Case, Request
 from kulman.variants.kinds.linkage import placed
 from kulman.variants.reader import load_task
-from kulman.variants.sheets import Sheet, drawing_for_print
+from kulman.variants.sheets import PAPER, Sheet, drawing_for_print
 from kulman.variants.shelf import bundled
 
 TASK = "nau-slider-crank"
@@ -72,18 +72,21 @@ def plans(sheet: Sheet) -> dict[str, set[Shape]]:
     return {view.name: set(view.shapes) for view in views_of(sheet) if view.name.startswith(PLANS)}
 
 
+KEPT: dict[object, Drawn] = {}
+
+
+def once(case: Case) -> Drawn:
+    """Draw a case for print once for all tests, which change nothing of it."""
+    asked = (case.task.id, case.variant, case.format or PAPER, case.norm, case.notation, case.language)
+    if asked not in KEPT:
+        KEPT[asked] = drawing_for_print(case)
+    return KEPT[asked]
+
+
 @pytest.fixture
 def drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let handouts of one case share their drawing."""
-    kept: dict[object, Drawn] = {}
-
-    def drawing(case: Case) -> Drawn:
-        asked = (case.task.id, case.variant, case.format, case.norm, case.notation, case.language)
-        if asked not in kept:
-            kept[asked] = drawing_for_print(case)
-        return kept[asked]
-
-    monkeypatch.setattr("kulman.variants.sheets.drawing_for_print", drawing)
+    monkeypatch.setattr("kulman.variants.sheets.drawing_for_print", once)
 
 
 @pytest.mark.usefixtures("drawn_once")
@@ -115,6 +118,7 @@ def test_lines_break_off_only_at_letters_that_a_begun_handout_shows(task: str) -
                 assert any(box.intersects(gap) for box in boxes), (view.name, a.name)
 
 
+@pytest.mark.usefixtures("drawn_once")
 @pytest.mark.parametrize("task", TASKS)
 def test_a_blank_has_no_answers(task: str) -> None:
     blank = handout(task)
@@ -210,7 +214,7 @@ OTHERS = [name for name in bundled() if name not in (*FEW_STEPS, "madi-gear", "k
 @pytest.mark.parametrize("task", [*FEW_STEPS, *(pytest.param(name, marks=pytest.mark.soak) for name in OTHERS)])
 def test_nothing_is_drawn_from_what_an_earlier_plan_has_yet_to_find(task: str) -> None:
     case = Request(load_task(task), "0" if task == TASK else None).case()
-    drawn, program = drawing_for_print(case), {step.name: step for step in case.solved.program}
+    drawn, program = once(case), {step.name: step for step in case.solved.program}
     if case.task.kind == "mechanism":
         program = {step.name: step for step in placed(case).program}
     found = finders(case, drawn)
@@ -243,7 +247,7 @@ NEEDS = {  # of gears and hoists, whose figures show what formulas give: what mu
 @pytest.mark.parametrize("task", ["madi-gear", "karpenko-hoist"])
 def test_figures_of_formulas_wait_for_what_others_find(task: str) -> None:
     case = Request(load_task(task), None).case()
-    drawn = drawing_for_print(case)
+    drawn = once(case)
     for steps in range(12):
         shown = shown_after(case, drawn, steps)
         for (_, view, stage), (other, need) in ((key, at) for key, at in NEEDS.items() if key[0] == task):

@@ -600,7 +600,7 @@ def test_axis_of_a_diagram_spans_zero_the_curve_and_its_chords(
 
 @pytest.mark.parametrize("task", ["scheme-10-shaper-two-blocks", "scheme-14-jaw-crusher", "nau-slider-crank"])
 def test_no_link_stands_between_the_hatching_of_the_driver_and_the_zero_of_the_frame(task: str) -> None:
-    view = Linkage(task, "0", format="A1").sheet["position"]
+    view = position(task, "position,velocity,acceleration")
     (zero,) = [text for text in view.of("label") if text.string == "0"]
     links = [shapely.LineString([(p.real, p.imag) for p in s.points]) for s in view.inside("link")]
     hatching = [shapely.LineString([(p.real, p.imag) for p in s.points]) for s in view.lines("hatch")]
