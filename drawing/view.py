@@ -29,6 +29,7 @@ SHARES = (0.5, 0.4, 0.6, 0.3, 0.7)  # of a dimension line at which its text may 
 ELSEWHERE = " "  # of a letter that is left out: another figure has it
 SPARE = 2.0  # mm by which a dimension line is longer than its text
 SHELF, CLEAR = 2.0, 0.9  # mm from a dimension to a text beside it on the same line, and from the line to the text
+NUMERAL = 2.5  # mm that letters keep away from the numeral of a detail
 BROKEN = 0.5  # mm between a letter and a line broken at it
 STRUCK = 0.15  # mm between a letter and a thin line that seems to run through it
 UNBROKEN = ("leader", "shelf", "right-angle", "arrow")  # roles of thin lines that break off nowhere
@@ -191,6 +192,8 @@ class Canvas:
         self.add(Line(knee, start, Pen.THIN, role="leader", name=numeral))
         self.thin("shelf", numeral, knee, end)
         self.add(Text(0.5 * (knee + end) + 1j, numeral, height, "middle", role="label"))
+        aside = NUMERAL * (1.0 if end.real > knee.real else -1.0)
+        self.keep_clear(knee - aside, end + aside + 1j * (height + 1.0))  # beside a letter it would read as its index
 
     def finish(self, name: str, heading: tuple[str, ...] = (), notes: tuple[str, ...] = ()) -> View:
         """Place the letters, write the heading lines and smaller notes above, and close the view.

@@ -17,7 +17,9 @@ from kulman import sheet, solve
 from kulman.drawing.formats import STYLES, Style
 from kulman.drawing.linkages.figures.cycle import _Band
 from kulman.drawing.linkages.figures.group import STEP, Arm, staggered
+from kulman.drawing.page import extent
 from kulman.drawing.shapes import Line, Pen, Text
+from kulman.drawing.text import lay_out
 from kulman.drawing.view import Canvas
 from kulman.plans.linkages.mechanism import Revolute
 from kulman.scales.scale import Scale
@@ -444,6 +446,20 @@ def test_notes_of_a_plan_stand_under_its_heading_also_beside_an_inset() -> None:
         levels = sorted(level for _, level in lines)
         assert max(b - a for a, b in pairwise(levels)) < 4.0 * STYLE.heading, plan.name
     assert said  # of letters that have no room
+
+
+def test_letter_beside_the_numeral_of_an_inset_does_not_read_as_its_index() -> None:
+    canvas = Canvas(STYLE)
+    canvas.detail("I", 0j, 4.0, "inset")
+    (numeral,) = (shape for shape in canvas.shapes if isinstance(shape, Text))
+    _, low, right, high = extent((numeral,))
+
+    node = complex(right + 4.0 + lay_out("d", STYLE.label).width, 0.5 * (low + high))
+    canvas.label("d", node, prefer=-1 + 0j)
+
+    letter = extent([shape for shape in canvas.finish("plan").shapes if getattr(shape, "markup", "") == "d"])
+    assert letter[1] < high
+    assert letter[0] - right > 3.0
 
 
 def test_letters_of_an_inset_stand_in_its_frame() -> None:

@@ -30,7 +30,10 @@ TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10
 WIDEST, NARROWEST = 85.0, 45.0  # mm, the largest side of what an inset shows, the least side of an inset of forces
 MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
 OFF = 1.0 + 1.0j  # mm between its letters and its frame
-FARTHER = (0.0, 4.0, 8.0, 12.0, 16.0)  # mm by which its frame may stand farther out, for the room of letters
+FARTHER, EMPTIER = (
+    (0.0, 4.0, 8.0, 12.0),
+    0.15,
+)  # mm by which its frame may stand farther out, what that costs in letters
 LEAST_PLACE = 3.0  # mm, the least radius of the circle around what an inset shows
 TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
 EMPTY: Mapping[str, str] = {}
@@ -250,15 +253,15 @@ def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
 
 def _roomy(plan: Plan, window: Window, figure: str, numeral: str) -> tuple[View, Window]:
     """Return an inset and what it shows: as little around the vectors as leaves its letters inside of its frame."""
-    tries: list[tuple[int, View, Window]] = []
+    tries: list[tuple[float, View, Window]] = []
     for by in FARTHER:
         wider = window.grown(by)
         view, (x0, y0, x1, y1) = _inset(plan, wider, figure, numeral), (side * window.times for side in wider.box)
         letters = (extent((shape,)) for shape in view.shapes if isinstance(shape, Text) and shape.role == "label")
         free = _box((complex(x0, y0) + OFF, complex(x1, y1) - OFF))
         out = [box for box in letters if _box((*_corners(box), *_corners(free))) != free]
-        tries.append((len(out), view, wider))
-        if not tries[-1][0]:
+        tries.append((len(out) + by * EMPTIER, view, wider))
+        if not out:
             break
     return min(tries, key=lambda one: one[0])[1:]
 
