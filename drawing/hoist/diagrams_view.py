@@ -62,7 +62,7 @@ def _lift_off_view(scene: HoistScene) -> View:
         marks = (f"{letter}{i}" for i in _shown(roots, (roots.lift_off,)))
         canvas.add(*(scene.node(scene.mm(f"{LIFT_OFF}.{mark}"), mark) for mark in marks))
     canvas.part("curves")
-    for name, prefer in (("parabola", -1j), ("sinusoid", 1j)):
+    for name, prefer in (("parabola", -1.0 + 1j), ("sinusoid", 1j)):
         canvas.small(LETTERS[name], curves[name][POINTS // 4], prefer, 1.5)
     canvas.part("crossing")
     _crossing(canvas, scene, LIFT_OFF, "X", "t_1_drawn")
@@ -136,6 +136,7 @@ def _ruled(canvas: Canvas, field: Field) -> None:
     canvas.add(Line(foot, field.at(x.high, y.low), Pen.THIN, role="scale"))
     canvas.label(y.letter, top, prefer=1.0 + 0.2j, clear=1.2)
     canvas.label(x.letter, right, prefer=1j, clear=1.2)
+    canvas.keep_clear(foot, field.at(x.high, y.low) - 1j * (TICK + 0.6 + h))  # no letter among the numbers
     for value, number in x.divisions.items():
         at = field.at(value, y.low)
         canvas.add(Line(at - 1j * TICK, at, Pen.THIN, role="division"))

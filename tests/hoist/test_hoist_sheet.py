@@ -181,6 +181,21 @@ def test_the_crossing_of_a_hoist_is_drawn_larger_where_the_diagram_has_room() ->
     assert all(p.imag > top for p in parabola if p.real > left)
 
 
+@pytest.mark.parametrize("paper", ["A1", "A4"])
+@pytest.mark.parametrize("variant", ["V01", "V05", "V08"])
+def test_letter_of_the_parabola_does_not_stand_among_the_numbers_of_the_axis(variant: str, paper: str) -> None:
+    drawing = sheet("karpenko-hoist", variant, format=paper)
+    view = read(*(drawing.svg(k + 1) for k in range(len(drawing.pages))))["lift_off"]
+    (foot,) = (line.points[0].imag for line in view.lines("scale"))
+
+    letters = [
+        t for t in view.texts if t.string.startswith("y − mg") and t.box[2] < view.lines("scale")[0].points[1].real
+    ]
+
+    assert letters
+    assert all(text.box[1] > foot for text in letters if text.box[3] > foot - 12.0)
+
+
 def test_every_plan_can_be_had_alone() -> None:
     whole = solve_hoist(Hoist(), VARIANTS["V04"])
     for plan in PLANS:
