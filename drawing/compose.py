@@ -18,7 +18,7 @@ from .view import View
 HELD = 9  # of the corners to the views beside them
 SOON = 5  # views from which one may stand on a page before its turn
 ALONE = 0.95  # part of the width of a page that leaves no room for a view beside
-FULL = 0.66  # part of a page that views should take at least before the next one begins
+FULL = 0.69  # part of a page that views should take at least before the next one begins
 TEXT, FIGURE, GROUP, PART = range(-1, 3)  # what may begin with a view
 MANY = 3  # pages on which views may come in another order
 
@@ -77,19 +77,27 @@ def arrange(
 
     Of two or three pages each is a run of the views, and ends where most begins anew, if it is full enough. Of more,
     and where runs take more pages, a page that has no room for the next view may have texts that `SOON` follow. Where
-    `count` pages do not hold them they take more. None if a view has no room on a page.
+    that leaves a page too empty, high views stand before low ones on it. Where `count` pages do not hold them they take
+    more. None if a view has no room on a page.
     """
-    pages = Pages(sizes, sheet, norm, begins)
-    packed = pages.packed()
-    if packed is None:
-        return None
-    end = max(last(packed), count - 1)
-    if not 0 < end < MANY:
+    strict, loose = (Pages(sizes, sheet, norm, begins, loose=loose) for loose in (False, True))
+    packed = strict.packed()
+    if packed is None or not max(last(packed), count - 1) > 0:
         return packed
-    runs = pages.runs(0, 0, end)
-    if runs is None or (end == last(packed) and pages.least(runs) < min(FULL, pages.least(packed))):
-        return packed
-    return runs
+    end, ways = (count - 1 if count else last(packed)), [packed]
+
+    def worth(places: list[Placement]) -> tuple[bool, int, float]:
+        return last(places) == end, -last(places), min(FULL, strict.least(places))
+
+    for pages in (strict, loose):
+        if 0 < end < MANY and (runs := pages.runs(0, 0, end)) is not None:
+            ways.insert(0 if pages is strict else len(ways), runs)
+        best = max(ways, key=worth)
+        if not begins or (last(best) == end and strict.least(best) >= FULL):
+            break
+        if pages is strict and (more := loose.packed()) is not None:
+            ways.append(more)
+    return max(ways, key=worth)
 
 
 @dataclass(slots=True)
@@ -97,13 +105,15 @@ class Pages:
     """The ways to part views of these sizes into pages of `sheet`.
 
     `begins` say how much begins with each view: a part of the work is more than a group, and that than a figure; a
-    text or a table is nothing of its own. Where nothing is said, all may stand before their turn as these may.
+    text or a table is nothing of its own. Where nothing is said, all may stand before their turn as these may. Where
+    pages are `loose`, high views stand before low ones on a page that does not hold them in order.
     """
 
     sizes: Sequence[Size]
     sheet: Format
     norm: Norm
     begins: Sequence[int] = ()
+    loose: bool = False
     _tried: dict[tuple[tuple[int, ...], bool], list[Placement] | None] = field(default_factory=dict)
 
     def tried(self, own: Sequence[int], page: int) -> list[Placement] | None:
@@ -113,7 +123,14 @@ class Pages:
             x0, y0, x1, y1 = usable(self.sheet, self.norm)
             sizes = [self.sizes[i] for i in own]
             fits = sum((w + LEAST) * (h + LEAST) for w, h in sizes) <= (x1 - x0 + LEAST) * (y1 - y0 + LEAST)
-            self._tried[key] = on_a_page(sizes, self.sheet, self.norm, page == 0) if fits else None
+            begins = [self.begins[i] for i in own] if self.begins else ()
+            paper = self.sheet, self.norm
+            if not fits:
+                self._tried[key] = None
+            elif self.loose:
+                self._tried[key] = on_one_page(sizes, *paper, begins, page == 0)
+            else:
+                self._tried[key] = on_a_page(sizes, *paper, page == 0)
         return [replace(place, page=page) for place in placed] if (placed := self._tried[key]) is not None else None
 
     def fill(self, own: Iterable[int], page: int) -> float:
@@ -126,7 +143,8 @@ class Pages:
     def least(self, places: Sequence[Placement]) -> float:
         """Return the fill of the page, but for the last one, that is least filled."""
         begin, end = places[0].page, last(places)
-        return min(self.fill([i for i, p in enumerate(places) if p.page == page], page) for page in range(begin, end))
+        own = ([i for i, place in enumerate(places) if place.page == page] for page in range(begin, end))
+        return min(map(self.fill, own, range(begin, end)), default=1.0)
 
     def runs(self, begin: int, page: int, most: int) -> list[Placement] | None:
         """Place the views from this one on in runs on the pages from this one to the last one that there may be."""

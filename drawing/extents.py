@@ -29,7 +29,7 @@ BLOCK = 12000.0  # mm^2 of a page that its title block takes
 SHORTEST = 1.0  # mm, the least that the longest segment of a plan may be
 MOST = 100  # pages that there may be
 # parts of the width and of the height of a page that one figure may take, so that others find room beside it
-ONE = {"A1": 0.75, "A2": 0.85, "A3": 1.0, "A4": 1.0}
+ONE = {"A1": 0.8, "A2": 0.85, "A3": 1.0, "A4": 1.0}
 Size: TypeAlias = tuple[float, float]
 
 
@@ -72,14 +72,15 @@ class Ladder:
     """The values that a scale factor may take, the wanted one first; one that is fixed stays.
 
     `longest` is its longest segment in its unit; `weight` is how many times as long as others it may be, `share` how
-    many times as long it is at least when there is no room. What a task has `chosen` becomes smaller after the others.
-    With a `root` it stands on the rung of another one.
+    many times as long it is at least when there is no room. Before it is shorter than `kept`, mm on A1, others become
+    smaller, and what a task has `chosen` does so last. With a `root` it stands on the rung of another one.
     """
 
     values: tuple[float, ...]
     longest: float
     weight: float = 1.0
     share: float = 0.0
+    kept: float = 0.0
     root: str = ""
     fixed: bool = False
     chosen: bool = False
@@ -184,17 +185,29 @@ def _area(extents: Extents, figures: Iterable[Extent], rungs: Rungs, sheet: Form
 
 
 def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, most: float, least: float) -> bool:
-    """Make long and large plans coarser, down to `least` mm, until all has an area of `most`; tell whether it has."""
+    """Make long and large plans coarser, down to `least` mm, until all has an area of `most`; tell whether it has.
+
+    What is finer again with the room that is left then is finer.
+    """
     ladders, letters = extents.ladders, SMALLER[sheet.letters]
     by_symbol: dict[str, list[Extent]] = {}
     for figure in extents.figures:
         by_symbol.setdefault(extents.root(figure.symbol), []).append(figure)
 
-    def worth(symbol: str) -> tuple[bool, float]:
+    def worth(symbol: str) -> tuple[bool, bool, float]:
         ladder = ladders[symbol]
-        return not ladder.chosen, areas[symbol] * ladder.longest / extents.mu(symbol, rungs) / ladder.weight**2
+        coarser = ladder.values[min(rungs[symbol] + 1, len(ladder.values) - 1)]
+        short = ladder.longest < ladder.kept * sheet.width / FORMATS["A1"].width * coarser
+        long = ladder.longest / extents.mu(symbol, rungs) / ladder.weight
+        return not ladder.chosen, not short, areas[symbol] * long / ladder.weight
 
-    areas = {symbol: _area(extents, figures, rungs, sheet) for symbol, figures in by_symbol.items()}
+    def area(symbol: str, finer: int = 0) -> float:
+        return _area(extents, by_symbol[symbol], rungs | {symbol: rungs[symbol] - finer} if finer else rungs, sheet)
+
+    def fits_finer(symbol: str) -> bool:
+        return rungs[symbol] > begun[symbol] and sum(areas.values()) - areas[symbol] + area(symbol, finer=1) <= left
+
+    areas, begun = {symbol: area(symbol) for symbol in by_symbol}, dict(rungs)
     left = most - letters**1.5 * extents.texts
     while sum(areas.values()) > left:
         free = [s for s in by_symbol if s and ladders[s].next(rungs[s], least)]
@@ -202,7 +215,11 @@ def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, most: float, least: f
             return False
         coarser = max(free, key=worth)
         rungs[coarser] += 1
-        areas[coarser] = _area(extents, by_symbol[coarser], rungs, sheet)
+        areas[coarser] = area(coarser)
+    while finer := [s for s in rungs if fits_finer(s)]:
+        symbol = min(finer, key=worth)
+        rungs[symbol] -= 1
+        areas[symbol] = area(symbol)
     return True
 
 

@@ -29,8 +29,9 @@ SEGMENTS = {
     "A4": ((40.0, 130.0), (40.0, 160.0)),
 }
 # those of other plans may be so many times as long, and are so many times as long at least
-WEIGHTS = {"l": 1.4, "V": 1.25, "a": 1.25, "F": 1.0, "h": 1.5}
+WEIGHTS = {"l": 2.0, "V": 1.25, "a": 1.25, "F": 1.0, "h": 1.5}
 LARGER = {"l": 2.8, "V": 1.4, "a": 1.4, "F": 0.9, "h": 2.6}
+KEPT = {"l": 250.0}  # mm of A1 below which a plan becomes shorter only after the others
 ALIKE = 3.0  # times as long as the longest force of another plan, at most, where both are drawn to one scale factor
 CRANK = 45.0  # mm, the least length of a crank drawn apart
 ARROW = 0.7  # of the crank, where the arrow of its rotation stands
@@ -105,6 +106,7 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
             size,
             weight=WEIGHTS[kind],
             share=LARGER[kind],
+            kept=KEPT.get(kind, 0.0),
             root="mu_l" if isinstance(chooser, CrankScale) else "",
             # of what the task or the user has fixed several pages are better than a coarser one
             fixed=isinstance(chooser, Fixed) or (chooser is not None and chooser.firm),

@@ -3,11 +3,13 @@
 import itertools
 import math
 import random
+from dataclasses import replace
 
 import pytest
 import shapely
 
-from kulman.drawing.compose import MANY, arrange, last, on_a_page
+from kulman.drawing.compose import FULL, MANY, Pages, arrange, last, on_a_page
+from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, drawing_area, reserved_boxes
 from kulman.drawing.packing import LEAST, STEPS, Slicing, size_of, spread
 
@@ -166,6 +168,41 @@ def test_runs_of_views_take_no_more_pages_than_the_fullest_ones(count):
             judge(views, places, "A2")
         several += 0 < last(plain) < MANY
     assert several > count / 4
+
+
+def test_high_views_stand_before_low_ones_on_a_page_that_would_be_left_too_empty():
+    high, texts = (132, 302), [(86, 52), (140, 67), (160, 119), (153, 142), (133, 100), (160, 119)]
+    before = [(62, 133), (125, 53), (354, 275), (216, 189), (191, 301), (147, 75), (149, 100), (156, 91), (156, 112)]
+    views = [*before, texts[0], high, (118, 133), (275, 155), (227, 158), (143, 76), (197, 285), *texts[1:]]
+    begins = [-1, -1, 0, 0, 0, -1, -1, -1, -1, 2, 1, 0, 1, 0, 0, 1, *[-1] * 5]
+    strict = Pages(views, FORMATS["A1"], "gost", begins)
+
+    places = arrange(views, FORMATS["A1"], "gost", begins, count=2)
+
+    assert judge(views, places, "A1")
+    of_figures = [place.page for place, begin in zip(places, begins, strict=True) if begin >= 0]
+    assert of_figures == sorted(of_figures)
+    assert strict.least(strict.runs(0, 0, 1)) < FULL <= strict.least(places)
+
+
+def test_what_is_kept_long_becomes_smaller_after_the_others_and_nothing_could_be_larger():
+    ladder = Ladder((1.0, 1.25, 2.0, 2.5, 4.0, 5.0), 300.0, share=0.5)
+    figures = [Extent("mu_l", (300.0, 300.0), (40.0, 40.0)), Extent("mu_V", (250.0, 300.0), (40.0, 40.0))]
+    segments = {"A1": ((50.0, 300.0), (50.0, 300.0))}
+    taken: dict[float, list[int]] = {0.0: [], 240.0: []}
+    for kept, area in itertools.product(taken, range(150_000, 300_000, 10_000)):
+        own = Extents(figures, area, {"mu_l": replace(ladder, kept=kept), "mu_V": ladder})
+
+        sheet, rungs, count = next(ways(own, segments, [FORMATS["A1"]]))
+
+        assert count == 1
+        left = FILL * _page(sheet) - area
+        assert _area(own, figures, rungs, sheet) <= left
+        finer = [rungs | {symbol: rung - 1} for symbol, rung in rungs.items() if rung]
+        assert all(_area(own, figures, other, sheet) > left for other in finer)
+        taken[kept].append(rungs["mu_l"])
+    assert all(kept <= plain for plain, kept in zip(*taken.values(), strict=True))
+    assert sum(taken[240.0]) < sum(taken[0.0])
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])
