@@ -24,6 +24,7 @@ from .scales.numbers import SHOWN, quote
 from .scales.version import __version__
 from .variants.commands import console
 from .variants.commands.helping import Group
+from .variants.commands.settings import settings
 from .variants.commands.teaching import all_variants, batch, check, handout
 from .variants.kinds import KINDS
 
@@ -46,7 +47,18 @@ def _run(words: Sequence[str]) -> int:
     try:
         if too_long := [word for word in words if len(word) > console.LONGEST]:
             raise InputError("cli-long", text=quote(too_long[0]), n=console.LONGEST)
-        status = commands.main(list(words), prog_name="kulman", standalone_mode=False)
+        usual = settings()
+        with speaking(words, usual.get("lang", "")):
+            status = _call(words, usual)
+    except KulmanError as error:  # of the settings
+        status = console.refuse(error)
+    return status
+
+
+def _call(words: Sequence[str], usual: dict[str, str]) -> int:
+    """Run a command with the usual values of its options and return its status."""
+    try:
+        status = commands.main(list(words), prog_name="kulman", standalone_mode=False, obj=usual)
         console.flush()
     except click.UsageError as error:
         status = console.refuse(console.usage_error(error, words, commands))
@@ -75,7 +87,8 @@ def commands(ctx: click.Context, lang: str | None) -> None:
     language = lang or of_environment()
     if language and language not in LANGUAGES:
         raise InputError("cli-choice", option=VARIABLE, text=quote(language), known=", ".join(LANGUAGES))
-    ctx.default_map = {name: {"lang": language} for name in commands.commands} if language else None
+    usual = {**(ctx.obj or {}), **({"lang": language} if language else {})}
+    ctx.default_map = dict.fromkeys(commands.commands, usual) if usual else None
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())
 

@@ -43,7 +43,7 @@ def commands(block: str) -> list[str]:
 def run(command: str, folder: str) -> tuple[str, int]:
     """Run one `kulman ...` line in `folder`; return what it prints on both streams, and its status."""
     words = [sys.executable, "-m", *shlex.split(command)]
-    environment = {**os.environ, "LC_ALL": "en_GB.UTF-8", "PYTHONIOENCODING": "utf-8"}
+    environment = {**os.environ, "LC_ALL": "en_GB.UTF-8", "PYTHONIOENCODING": "utf-8", "KULMAN_CONFIG": ""}
     done = subprocess.run(
         words,
         cwd=folder,

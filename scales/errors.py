@@ -91,15 +91,15 @@ class PositionError(KulmanError, ArithmeticError):
 
 
 @contextmanager
-def speaking(words: Sequence[str]) -> Iterator[None]:
-    """Take the language of messages from the words of a command line, wrong ones too, or from `KULMAN_LANG`.
+def speaking(words: Sequence[str], usual: str = "") -> Iterator[None]:
+    """Take the language of messages from the words of a command line, wrong ones too, `KULMAN_LANG`, or the usual one.
 
     >>> with speaking(["solve", "--lang=ru"]): system_language()
     'ru'
     """
     said = [word for before, word in pairwise(words) if before == "--lang"]
     said += [word.partition("=")[2] for word in words if word.startswith("--lang=")]
-    known = [word for word in (of_environment(), *map(_plain, said)) if word in LANGUAGES]
+    known = [word for word in (usual, of_environment(), *map(_plain, said)) if word in LANGUAGES]
     token = _spoken.set(known[-1] if known else None)
     try:
         yield

@@ -9,8 +9,10 @@ import pytest
 
 from kulman.scales.errors import VARIABLE
 from kulman.tests.support.mechanisms import SEED, Solved, general_slider_crank, random_slider_cranks, solved
+from kulman.variants.commands.settings import PLACE
 
 os.environ.pop(VARIABLE, None)  # tests choose the language of messages themselves, those in processes too
+os.environ[PLACE] = ""  # and have no settings of whoever runs them
 
 
 @pytest.fixture(

@@ -47,19 +47,23 @@ def digest(case: str, kept: Path | None = None) -> str:
     """Run a case and hash what comes of it; write that into the folder `kept`, too, where one is given."""
     from kulman import cli
     from kulman.scales.errors import VARIABLE
+    from kulman.variants.commands.settings import PLACE
 
     out, err = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8", newline="") for _ in range(2))
-    streams, shell = (sys.stdout, sys.stderr), {name: os.environ.pop(name, None) for name in ("LC_ALL", VARIABLE)}
+    streams, shell = (
+        (sys.stdout, sys.stderr),
+        {name: os.environ.pop(name, None) for name in ("LC_ALL", VARIABLE, PLACE)},
+    )
     found = hashlib.sha256()
     with tempfile.TemporaryDirectory() as folder, chdir(folder):
         given = _prepare(case)
-        sys.stdout, sys.stderr, os.environ["LC_ALL"] = out, err, "C.UTF-8"
+        sys.stdout, sys.stderr, os.environ["LC_ALL"], os.environ[PLACE] = out, err, "C.UTF-8", ""
         try:
             for command in case.split(" && "):
                 found.update(f"{_status(cli.main, shlex.split(command))}\n".encode())
         finally:
             sys.stdout, sys.stderr = streams
-            del os.environ["LC_ALL"]
+            del os.environ["LC_ALL"], os.environ[PLACE]
             os.environ.update({name: value for name, value in shell.items() if value is not None})
         for stream in (out, err):
             stream.flush()

@@ -18,6 +18,7 @@ from ...scales.choices import LETTERINGS, SIZES
 from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
 from ...scales.numbers import SHOWN, quote
 from .helping import Command, place
+from .settings import NORMS
 
 if TYPE_CHECKING:
     from ..tables import Result
@@ -221,7 +222,7 @@ _about_task: tuple[Any, ...] = (
 of_task = _stacked(click.argument("task"), *_about_task)
 of_tasks = _stacked(click.argument("tasks", metavar="TASK...", nargs=-1, required=True), *_about_task)
 of_norm = _stacked(
-    click.option("--norm", type=Word("gost", "iso"), default="gost", show_default=True),
+    click.option("--norm", type=Word(*NORMS), default=NORMS[0], show_default=True),
     click.option("--lettering", type=Word(*LETTERINGS), default=LETTERINGS[0], show_default=True),
 )
 tiled = click.option("--tile", type=Word("A4", "A3"))

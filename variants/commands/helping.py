@@ -47,7 +47,7 @@ def longest(option: click.Option) -> str:
     return max(option.opts, key=len)
 
 
-def _row(command: str, option: click.Option) -> tuple[str, str]:
+def _row(ctx: click.Context, command: str, option: click.Option) -> tuple[str, str]:
     """Return an option as a row of the help: its names with the place of its value, its text."""
     language = system_language()
     words, names = texts(language)["words"], ", ".join(sorted(option.opts, key=len))
@@ -55,8 +55,10 @@ def _row(command: str, option: click.Option) -> tuple[str, str]:
     if option.multiple and not (option.metavar or "").endswith(",..."):
         text += f" {words['repeatable']}"
     extra = []
-    if option.show_default:
-        usual = option.default if isinstance(option.default, tuple) else (option.default,)
+    own = (ctx.default_map or {}).get(option.name or "")  # of the settings
+    if option.show_default or (own and option.name != "lang"):
+        default = own or option.default
+        usual = default if isinstance(default, tuple) else (default,)
         extra.append(f"{words['default']}: {', '.join(map(str, usual))}")
     if option.required:
         extra.append(words["required"])
@@ -87,7 +89,7 @@ class Command(click.Command):
                 formatter.write_text(" ".join(paragraph.split()))
         options = (param for param in self.get_params(ctx) if isinstance(param, click.Option))
         with formatter.section(words["options"]):
-            formatter.write_dl([_row(self.told, option) for option in options])
+            formatter.write_dl([_row(ctx, self.told, option) for option in options])
         if rows := list(self.commands_told(ctx)):
             with formatter.section(words["commands"]):
                 formatter.write_dl(rows)

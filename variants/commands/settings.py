@@ -1,0 +1,91 @@
+"""What a user always says, written once in `kulman.toml` of their home: the usual values of options."""
+
+from __future__ import annotations
+
+import os
+import sys
+import tomllib
+from collections.abc import Callable
+from pathlib import Path
+
+from ...scales.errors import LANGUAGES, InputError
+from ...scales.names import unknown
+from ...scales.numbers import SHOWN, quote
+
+PLACE = "KULMAN_CONFIG"  # names another file; none where it is empty
+NORMS = ("gost", "iso")
+# by key: the parameter of commands that it is the usual value of
+PARAMETERS = {
+    "name": "student",
+    "group": "group",
+    "teacher": "teacher",
+    "department": "department",
+    "work": "work",
+    "language": "lang",
+    "norm": "norm",
+    "notation": "notation",
+}
+
+
+def _notations() -> tuple[str, ...]:
+    from ...drawing.words import notations
+
+    return notations()
+
+
+_CHOICES: dict[str, Callable[[], tuple[str, ...]]] = {
+    "language": lambda: LANGUAGES,
+    "norm": lambda: NORMS,
+    "notation": _notations,
+}
+
+
+def settings_file() -> Path | None:
+    """Return where the settings are looked for: `KULMAN_CONFIG`, else `kulman.toml` in the system's folder for them."""
+    named = os.environ.get(PLACE)
+    if named is not None:
+        return Path(named) if named else None
+    folder = os.environ.get("APPDATA" if sys.platform == "win32" else "XDG_CONFIG_HOME", "")
+    if os.path.isabs(folder):
+        return Path(folder) / "kulman.toml"
+    home = os.path.expanduser("~")
+    return Path(home) / ".config" / "kulman.toml" if os.path.isabs(home) else None
+
+
+def settings() -> dict[str, str]:
+    """Return the usual values of parameters; none where there is no file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, or a key of it is none of `PARAMETERS` or has no value that it can have.
+    """
+    file = settings_file()
+    if file is None or not file.exists():
+        return {}
+    shown = quote(file, SHOWN)
+    try:
+        if not file.is_file():
+            raise InputError("file-not-regular", file=shown)
+        raw = tomllib.loads(file.read_bytes().decode("utf-8-sig"))
+    except OSError:
+        raise InputError("file-unreadable", file=shown) from None
+    except UnicodeDecodeError:
+        raise InputError("settings-encoding", file=shown) from None
+    except (tomllib.TOMLDecodeError, RecursionError) as problem:
+        raise InputError("settings-toml", file=shown, reason=quote(problem, SHOWN)) from None
+    return {PARAMETERS[key]: value for key, given in raw.items() if (value := _value(shown, key, given))}
+
+
+def _value(file: str, key: str, given: object) -> str:
+    """Return the value of a key, checked."""
+    if key not in PARAMETERS:
+        raise unknown("settings-key", key, PARAMETERS, file=file)
+    if not isinstance(given, str):
+        raise InputError("settings-text", file=file, name=key)
+    if key not in _CHOICES or not given.strip():
+        return given.strip()
+    value = given.strip().lower()
+    if value not in (known := _CHOICES[key]()):
+        raise InputError("settings-choice", file=file, name=key, text=quote(given), known=", ".join(known))
+    return value
