@@ -122,7 +122,7 @@ class Scene:
             cost = cost + spots.THIN * ~self.around.fine.free(leads[0], complex(*half), self.gap / 2)
             few = self.around.free(leads[0], *half, afield).nonzero()[0]
             if not cross:
-                few = few[~self.around.cells.barred(leads[2, few], leads[1, few])]
+                few = few[~self.around.barring.barred(leads[2, few], leads[1, few])]
             few = few[np.argsort(cost[few], kind="stable")]
             few = few[:: -(-len(few) // SOME)] if cross and len(few) else few[:SOME]
             leads, cost = leads[:, few], cost[few]
@@ -140,12 +140,12 @@ class Scene:
         if i not in self._bent:
             around, half = self.around, (float(self.wanted.hw[i]), float(self.wanted.hh[i]))
             (_, knee, start, way), cost = self.wanted.leads(i, spots.KNEES, spots.ROUND_ABOUT)
-            few = (~around.cells.barred(start, knee)).nonzero()[0]
+            few = (~around.barring.barred(start, knee)).nonzero()[0]
             few = few[:: -(-len(few) // SOME) or 1]  # not only the shortest
             few = few[around.crossed(knee[few], start[few] + spots.TOUCH * way[few]) == 0]
             leads, costs, k = self.wanted.bent(i, knee[few], way[few], cost[few])
             left = around.free(leads[0], *half, True).nonzero()[0]
-            left = left[~around.cells.barred(leads[2, left], leads[1, left])]
+            left = left[~around.barring.barred(leads[2, left], leads[1, left])]
             left = left[np.argsort(costs[left], kind="stable")][:SOME]
             left = left[around.crossed(leads[1, left], leads[2, left]) == 0]
             self._bent[i] = leads[:, left], costs[left], start[few][k[left]]

@@ -247,15 +247,23 @@ class Walk(ABC):
         span, length = tip - tail, abs(tip - tail)
         if length < ZERO:
             return self.draw(Circle(tip, self.pens.main, Pen.THIN, fill=True, colour=colour))
-        in_middle = arrow.head == "middle" or head < length < 2 * head
-        reach = length if arrow.head == "none" or in_middle else length - 0.6 * head
+        point = head_of(arrow, head)
+        reach = length if point != tip else length - 0.6 * head
         if reach > 0:
             end = tip if reach == length else tail + span * (reach / length)
             self.draw(Line(tail, end, arrow.pen, colour=colour))
-        if arrow.head != "none":
-            middle = tail + span * ((length + head) / (2 * length))
-            self.draw(Head(middle if in_middle else tip, span, colour))
+        if point is not None:
+            self.draw(Head(point, span, colour))
         return None
+
+
+def head_of(arrow: Vector | Arrow, head: float) -> complex | None:
+    """Return where the point of an arrow's head of so many mm is, if it has one: at its tip, or near its middle."""
+    span, length = arrow.tip - arrow.tail, abs(arrow.tip - arrow.tail)
+    if arrow.head == "none" or length < ZERO:
+        return None
+    in_middle = arrow.head == "middle" or head < length < 2 * head
+    return arrow.tail + span * ((length + head) / (2 * length)) if in_middle else arrow.tip
 
 
 def filled(shape: Polyline | Circle) -> str | None:

@@ -17,6 +17,7 @@ import shapely
 from numpy.typing import ArrayLike, NDArray
 
 from .areas import Shapes, lines, pairs
+from .formats import HEAD_HALF_WIDTH
 from .text import Box
 
 Segment: TypeAlias = tuple[complex, complex]
@@ -63,6 +64,8 @@ class Obstacles:
     thin: ArrayLike = ()
     circles: Sequence[tuple[complex, float]] = ()
     boxes: Sequence[Box] = ()
+    heads: Sequence[tuple[complex, complex]] = ()  # arrowheads, from the middle of their back to the tip
+    kept: Sequence[Box] = ()  # clear of labels; leaders may run through
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,7 +218,8 @@ class Grid(NamedTuple):
     cost: Reals
 
 
-MAIN, FINE, CIRCLE, NODE, BOX, NAMED = range(6)  # a stroke of the main pen or of another one; a named segment
+# a stroke of the main pen or of another one; a named segment; an arrowhead
+MAIN, FINE, CIRCLE, NODE, BOX, NAMED, HEAD = range(7)
 
 
 class Convex(NamedTuple):
@@ -288,6 +292,7 @@ class Cells(NamedTuple):
         # strokes by points that are denser than cells
         of, part, count = _counted(np.ceil(4 * abs(along) / side).astype(int) + 1)
         places = [middle[of] + along[of] * (2 * part / np.maximum(count - 1, 1) - 1)]
+        places += _in_heads(middle, along, radius, side)
         wide = (along == 0) & (hx + hy + radius > 0)
         for at, x, y, r in zip(*(column[wide].tolist() for column in (middle, hx, hy, radius)), strict=True):
             across, upward = (np.arange(-reach - r, reach + r + side / 2, side / 2) for reach in (x, y))
@@ -332,6 +337,19 @@ class Cells(NamedTuple):
         return found
 
 
+def _in_heads(middle: Points, along: Points, radius: Reals, side: float) -> list[Points]:
+    """Return points that fill arrowheads, strokes with half the width of their backs, more densely than cells."""
+    heads = ((along != 0) & (radius > 0)).nonzero()[0]
+    if not heads.size:
+        return []
+    middle, along, radius = middle[heads], along[heads], radius[heads]
+    rows = np.linspace(0.0, 1.0, int(4 * abs(along).max() / side) + 2)
+    across = np.linspace(-1.0, 1.0, int(4 * radius.max() / side) + 2)
+    back = 1j * along / abs(along) * radius
+    inside = (middle + along)[:, None, None] - (2 * along)[:, None, None] * rows[:, None]
+    return [(inside + back[:, None, None] * rows[:, None] * across).ravel()]
+
+
 def _counted(count: Numbers) -> tuple[Numbers, Numbers, Numbers]:
     """Return for as many as are counted of each its number, its rank among its own, and how many they are."""
     of = np.repeat(np.arange(len(count)), count)
@@ -350,18 +368,23 @@ class Surroundings:
         main = np.asarray(obstacles.segments, dtype=complex).reshape(-1, 2).T
         thin = np.asarray(obstacles.thin, dtype=complex).reshape(-1, 2).T
         centres, radii = np.array(obstacles.circles, dtype=complex).reshape(-1, 2).T
-        low_x, low_y, high_x, high_y = np.array(obstacles.boxes, dtype=float).reshape(-1, 4).T
+        boxes = np.array([*obstacles.boxes, *obstacles.kept], dtype=float).reshape(-1, 4)
+        low_x, low_y, high_x, high_y = boxes.T
+        heads = np.array(obstacles.heads, dtype=complex).reshape(-1, 2).T
         named = np.array((wanted.a, wanted.b) if wanted else ((), ()), dtype=complex)
         is_node = named[0] == named[1]
         corners = np.array((low_x + 1j * low_y, high_x + 1j * high_y))
-        drawn = (main, thin, np.array((centres, centres)), named[:, is_node], corners, named[:, ~is_node])
-        self.kind = kind = np.repeat(np.arange(6), [ends.shape[1] for ends in drawn])
+        drawn = (main, thin, np.array((centres, centres)), named[:, is_node], corners, named[:, ~is_node], heads)
+        self.kind = kind = np.repeat(np.arange(7), [ends.shape[1] for ends in drawn])
         a, b = np.concatenate(drawn, axis=1)
         self.gap, self.bounds, self.things = gap, bounds, Convex.of(a, b, kind == BOX)
         self.things.radius[kind == CIRCLE] = radii.real
+        self.things.radius[kind == HEAD] = abs(heads[1] - heads[0]) * HEAD_HALF_WIDTH
         self.hard = (kind != FINE) & (kind != NAMED)
-        self.rival = (kind != FINE) & (kind != BOX)  # something with a name of its own
-        self._drawn = a, b, np.array(obstacles.boxes, dtype=float).reshape(-1, 4).T, centres, radii
+        self.bars = self.hard.copy()  # leaders, too
+        self.bars[(kind == BOX).nonzero()[0][len(obstacles.boxes) :]] = False
+        self.rival = (kind != FINE) & (kind != BOX) & (kind != HEAD)  # something with a name of its own
+        self._drawn = a, b, boxes.T, centres, radii
 
     @cached_property
     def shapes(self) -> Shapes:
@@ -372,6 +395,9 @@ class Surroundings:
         shapes[self.kind == BOX] = shapely.box(*corners)
         rims = centres[:, None] + radii[:, None] * np.exp(2j * np.pi / ROUND * np.arange(ROUND))
         shapes[self.kind == CIRCLE] = shapely.polygons(pairs(rims))
+        back, tip = a[self.kind == HEAD], b[self.kind == HEAD]
+        across = 1j * (tip - back) * HEAD_HALF_WIDTH
+        shapes[self.kind == HEAD] = shapely.polygons(pairs(np.stack((back - across, tip, back + across), axis=-1)))
         return shapes
 
     @cached_property
@@ -454,6 +480,13 @@ class Surroundings:
         return Cells.of(*(column[self.hard] for column in self.things))
 
     @cached_property
+    def barring(self) -> Cells:
+        """All that leaders may not cross, by cells."""
+        return (
+            Cells.of(*(column[self.bars] for column in self.things)) if (self.bars != self.hard).any() else self.cells
+        )
+
+    @cached_property
     def fine(self) -> Cells:
         """Thin strokes, by cells."""
         return Cells.of(*(column[self.kind == FINE] for column in self.things))
@@ -477,8 +510,8 @@ class Surroundings:
     def crossed(self, heads: Points, starts: Points) -> Numbers:
         """Count what leaders cross, run through or along, or leave at so small an angle that they seem to belong to it.
 
-        A box in which one begins is that of the arrow which it names, and does not count; thin strokes count only where
-        it runs along them: along an axis a leader cannot be seen.
+        An arrowhead in which one begins is that of the arrow which it names, and does not count; thin strokes count
+        only where it runs along them: along an axis a leader cannot be seen.
         """
         low, high = np.minimum(starts.real, heads.real), np.maximum(starts.real, heads.real)
         under, over = np.minimum(starts.imag, heads.imag), np.maximum(starts.imag, heads.imag)
@@ -486,7 +519,9 @@ class Surroundings:
         leaders = lines(starts, heads)
         q, v, hx, hy, m, radius = (column[j] for column in self.things)
         p, u, _, _, n, _ = (column[k] for column in Convex.of(starts, heads))
-        kind, is_stroke, d = self.kind[j], v != 0, q - p
+        kind, d = self.kind[j], q - p
+        is_head = kind == HEAD
+        is_stroke = (v != 0) & ~is_head
 
         def across(vector: Points, normal: Points) -> Reals:
             return np.abs((vector * normal.conj()).real)
@@ -500,7 +535,9 @@ class Surroundings:
         near = abs(d - _within((d * half.conj()).real / (half * half.conj()).real, -1, 1) * half)
         crosses |= ((kind == CIRCLE) | (kind == NODE)) & (near < radius + PASSING)
         begins = (abs((starts[k] - q).real) < hx + TOUCH) & (abs((starts[k] - q).imag) < hy + TOUCH)
-        for which, reach in ((runs & ~crosses, TOUCH), ((kind == BOX) & ~begins, 0.0)):
+        few = (is_head & begins).nonzero()[0]
+        begins[few] = shapely.dwithin(self.shapes[j[few]], shapely.points(pairs(starts[k[few]])), TOUCH)
+        for which, reach in ((runs & ~crosses, TOUCH), ((((kind == BOX) & self.bars[j]) | is_head) & ~begins, 0.0)):
             few = which.nonzero()[0]
             crosses[few] = shapely.dwithin(self.shapes[j[few]], leaders[k[few]], reach)
         count: Numbers = np.bincount(k, crosses, len(starts))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from cmath import phase, rect
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import accumulate, count, pairwise
@@ -14,7 +15,7 @@ from typing import NamedTuple, TypeAlias, assert_never
 from .areas import around, beside, coarser
 from .formats import HEAD_HALF_WIDTH, ZERO, Style
 from .labels import Labels, Scene
-from .page import NOTE, extent
+from .page import NOTE, extent, head_of
 from .shapes import Anchor, Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted, sides_of
 from .spots import Obstacles, Request, first_clear, shelf
 from .symbols import angle_dimension, dimension, swept, turning_arrow
@@ -82,7 +83,8 @@ class View:
 class _Letter(NamedTuple):
     """A letter that is asked for, the stage to which it belongs, and what the notes say where it is left out.
 
-    One that `stays` is left out only where nothing else helps.
+    One that `stays` is left out only where nothing else helps. Of two that the notes would tell by the same words one
+    stays, unless these have a `bare` form that tells it without the other.
     """
 
     request: Request
@@ -91,6 +93,7 @@ class _Letter(NamedTuple):
     stage: str
     spare: str
     stays: bool
+    bare: str
 
 
 @dataclass(slots=True)
@@ -149,18 +152,20 @@ class Canvas:
         along: bool = True,
         optional: bool = False,
         last: str = "",
+        bare: str = "",
     ) -> None:
         """Ask for a letter beside a node, or beside a line from one point to another.
 
         One that would cover something and has a `spare` text is left out, and the text goes into the notes. It may be
         turned `along` the line; an `optional` one is so where it can, and is left out where there is no room. One that
-        has only a `last` text is left out where nothing else helps; a blank text is said elsewhere.
+        has only a `last` text is left out where nothing else helps; a blank text is said elsewhere. Where another
+        letter with the same text is left out, too, the notes have the `bare` one.
         """
         height = height or self.style.label
         layout = lay_out(markup, height)
         name, stage = str(len(self._letters)), self._begun[-1][1] if self._begun else ""
         request = Request(name, *layout.size, anchor, clear, prefer, priority, strict, not spare, along, optional)
-        self._letters[name] = _Letter(request, markup, height, stage, spare or last, not spare)
+        self._letters[name] = _Letter(request, markup, height, stage, spare or last, not spare, bare)
 
     def small(
         self, markup: str, anchor: complex | tuple[complex, complex], prefer: complex = 0j, clear: float = 0.8
@@ -214,7 +219,7 @@ class Canvas:
         stages = [letter.stage for letter in kept.values()]
         parts, whole = self._broken([*zip(letters, stages, strict=True)], parts, scene)
         parts += (letter.stage for letter in kept.values())
-        spare = [letter.spare for name, letter in self._letters.items() if name not in kept and letter.spare.strip()]
+        spare = self._left_out(kept)
         notes = (*notes, *("; ".join(spare[i : i + EACH]) for i in range(0, len(spare), EACH)))
         self.shapes += letters
         for label, way in placed.leaders.items():
@@ -226,6 +231,13 @@ class Canvas:
         every = (*parts, *("" for _ in self.shapes[len(parts) :])) if self._begun else ()
         drawn = name, tuple(self.shapes), box, heading, tuple(notes)
         return View(*drawn, parts=every, stages=self.stages, needs=self.needs, whole=whole)
+
+    def _left_out(self, kept: Mapping[str, _Letter]) -> list[str]:
+        """Return what the notes say of letters left out: each text once, bare where no letter has what it speaks of."""
+        gone = [letter for name, letter in self._letters.items() if name not in kept and letter.spare.strip()]
+        each = Counter(letter.spare for letter in gone)
+        bare = {letter.spare: letter.bare for letter in gone if letter.bare and each[letter.spare] > 1}
+        return [bare.get(text, text) for text in each]
 
     def _broken(
         self, letters: Sequence[tuple[Text, str]], parts: Sequence[str], scene: Scene
@@ -294,19 +306,20 @@ class Canvas:
         """Place the letters; leave out spare ones that cover something.
 
         At `last` also those that stay where there is any place for them. Where leaders may `cross` lines those are left
-        out, too, that stand in the way of others, or whose leaders cross lines.
+        out, too, whose leaders do, that stand in the way of others, or which the notes can tell without another letter.
         """
         best = placed = scene.place(may_cross=cross)
         out, vain = set[str](), 0  # who was left out, and how often since the fewest failed that must stay: the best
         while True:
             said = {self._letters[name].spare for name in out} - {ELSEWHERE}
+            said -= {letter.spare for letter in self._letters.values() if letter.bare} if cross else set()
             spare = [
                 name
                 for name in placed.corners
                 if (text := self._letters[name].spare) and text not in said and (last or not self._letters[name].stays)
             ]
             bad = {*placed.failed, *(name for name in placed.crossed if name in placed.leaders)}
-            gone = {name for name in spare if name in bad and self._letters[name].stays}
+            gone = {name for name in spare if name in bad and (cross or self._letters[name].stays)}
             gone = gone or {name for name in placed.failed if name in spare}
             # or numbers of arms that lines cross, which say the same under the heading
             gone = gone or {name for name in placed.crossed if self._letters[name].spare == self._letters[name].markup}
@@ -406,7 +419,10 @@ def heading_shapes(
 def _obstacles(shapes: list[Shape], boxes: list[Box], style: Style) -> Obstacles:
     circles: list[tuple[complex, float]] = []
     strokes: dict[bool, list[tuple[complex, complex]]] = {True: [], False: []}  # of the main pen, of others
-    solid = list(boxes)
+    texts, heads = list[Box](), list[tuple[complex, complex]]()
+
+    def head(tip: complex, direction: complex) -> None:
+        heads.append((tip - direction / abs(direction) * style.arrow, tip))
 
     def gather(shape: Shape, whole: bool = False) -> None:
         match shape:
@@ -415,13 +431,13 @@ def _obstacles(shapes: list[Shape], boxes: list[Box], style: Style) -> Obstacles
             case Circle(centre=centre, radius=radius):
                 circles.append((centre, radius))
             case Head(tip=tip, direction=direction):
-                solid.append(_head_box(tip, direction, style.arrow))
+                head(tip, direction)
             case Text():
-                solid.append(extent((shape,)))
+                texts.append(extent((shape,)))
             case Vector(tail=tail, tip=tip) | Arrow(tail=tail, tip=tip):
                 strokes[True].append((tail, tip))
-                if shape.head != "none" and abs(tip - tail) > 0.01:
-                    solid.append(_head_box(tip, tip - tail, style.arrow))
+                if (point := head_of(shape, style.arrow)) is not None:
+                    head(point, tip - tail)
             case Group(shapes=parts, role=role):
                 for part in parts:
                     if role == WIDE and isinstance(part, Circle):  # a letter may stand inside
@@ -433,14 +449,7 @@ def _obstacles(shapes: list[Shape], boxes: list[Box], style: Style) -> Obstacles
 
     for shape in shapes:
         gather(shape)
-    return Obstacles(strokes[True], strokes[False], circles, solid)
-
-
-def _head_box(tip: complex, direction: complex, length: float) -> Box:
-    along = direction / abs(direction) * length
-    half = abs(along) * HEAD_HALF_WIDTH
-    xs, ys = (tip.real, (tip - along).real), (tip.imag, (tip - along).imag)
-    return min(xs) - half, min(ys) - half, max(xs) + half, max(ys) + half
+    return Obstacles(strokes[True], strokes[False], circles, texts, heads, boxes)
 
 
 def angle(

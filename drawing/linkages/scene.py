@@ -157,7 +157,11 @@ class Scene(SubjectScene[SolvedLinkage]):
     def segment(self, name: str, plan: str = "") -> str:
         """Return the printed millimetres of a quantity on a plan, the one that shows it if none is said."""
         size = abs(self.quantities[name].value or 0.0) / self.scales[plan or self.figure_of(name)].mu
-        return segment_text(self.words, self.words.display.segment(size))
+        return self.length(size)
+
+    def length(self, drawn: float) -> str:
+        """Return millimetres of a drawing as they are printed."""
+        return segment_text(self.words, self.words.display.segment(drawn))
 
     def figure_of(self, name: str) -> str:
         """Return the plan, or the figure with a scale factor of its own, on which a quantity is a segment, or ""."""

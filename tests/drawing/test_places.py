@@ -387,6 +387,38 @@ def test_a_leader_runs_neither_along_an_axis_nor_through_a_word(thin: list, boxe
     assert leader(thin, boxes).intersection(thing).length < 0.01
 
 
+@pytest.mark.parametrize("angle", [20.0, 45.0, 160.0, 290.0])
+def test_beside_an_arrowhead_there_is_room_and_upon_it_none(angle: float) -> None:
+    tip = turned(6.0, angle)
+    head, small = Obstacles(heads=[(0j, tip)]), (0.4, 0.4)
+    beside = [tip * complex(share, side * 0.35) for share in (0.2, 0.5, 0.8) for side in (-1, 1)]
+    upon = [tip * complex(share, side * 0.1) for share in (0.1, 0.3) for side in (-1, 0, 1)]
+
+    assert [first_clear([at], small, head, 0.5) for at in beside] == beside
+    assert [first_clear([at], small, head, 0.5) for at in upon] == [None] * len(upon)
+    assert [bool(x) for x in Surroundings(head, 0.6).cells.at(np.array(beside + upon))] == [False] * 6 + [True] * 6
+
+
+def test_a_leader_leaves_the_tip_of_its_own_arrow_and_crosses_no_other() -> None:
+    around = Surroundings(Obstacles(heads=[(-6 + 0j, 0j), (4 - 3j, 4 + 3j)]), 0.6)
+    starts = np.zeros(3, dtype=complex)
+    heads = np.array([0 + 9j, 9 + 0j, 3 + 9j])
+    assert around.crossed(heads, starts).tolist() == [0, 1, 0]
+    assert around.barring.barred(starts, heads).tolist() == [False, True, False]
+
+
+def test_leaders_run_through_what_is_kept_clear_of_letters() -> None:
+    support = [(-8.0, -8.0, 8.0, 8.0)]
+    request = Request("A", 4.0, 4.0, 0j)
+    labels = place([request], Obstacles(kept=support), GAP)
+
+    assert (labels.failed, labels.crossed, list(labels.leaders)) == ((), (), ["A"])
+    assert not shapely.intersects(boxes_of([request], labels), shapely.box(*support[0])).any()
+    way = np.array([0j]), np.array([20 + 5j])
+    assert Surroundings(Obstacles(boxes=support), GAP).barring.barred(*way)
+    assert not Surroundings(Obstacles(kept=support), GAP).barring.barred(*way)
+
+
 def test_leaders_count_what_they_cross_and_thin_strokes_that_they_run_along() -> None:
     random = np.random.default_rng(5)
     main, thin = (random.uniform(-40, 40, (30, 2)) + 1j * random.uniform(-40, 40, (30, 2)) for _ in range(2))
@@ -505,9 +537,10 @@ def test_a_letter_that_stays_is_left_out_only_for_a_leader_through_lines_and_is_
         ends = [complex(r.uniform(0, 40), r.uniform(0, 40)) for _ in range(12)]
         canvas.add(*(Line(r.choice(ends), end) for end in ends))
         for number, end in enumerate(ends):
-            last = {"notes": f"= A_{number}", "elsewhere": ELSEWHERE, "": ""}[said]
+            last = {"elsewhere": ELSEWHERE, "": ""}.get(said, f"= A_{number}")
+            bare = f"{last} = {number}" if said == "bare" else ""
             canvas.label(f"A_{number}", end, last=last)
-            canvas.label(f"V_{number}", (end, ends[number - 1]), spare=last)
+            canvas.label(f"V_{number}", (end, ends[number - 1]), spare=last, bare=bare)
         view = canvas.finish("crowd")
         crossed = [line for line in view.shapes if isinstance(line, Line) and line.role == "leader"]
         walls = strokes_of([(line.a, line.b) for line in view.shapes if isinstance(line, Line) and not line.role])
@@ -534,6 +567,12 @@ def test_a_letter_that_stays_is_left_out_only_for_a_leader_through_lines_and_is_
     assert bool([letter for letter in gone if letter[0] == "A"]) <= bool(crossed)
     drawn, notes, _ = crowd("elsewhere")
     assert notes == {""}
+    drawn, notes, crossed = crowd("bare")
+    assert crossed == 0  # both of a pair may go: the notes tell what no letter shows
+    gone = every - drawn
+    both = {letter[2:] for letter in gone if letter[0] == "A" and f"V_{letter[2:]}" in gone}
+    each = {letter[2:] for letter in gone}
+    assert notes - {""} == {f"= A_{number}" + f" = {number}" * (number in both) for number in each}
 
 
 def chords(shapes: object) -> list[tuple[str, shapely.Geometry]]:

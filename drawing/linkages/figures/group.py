@@ -181,10 +181,11 @@ class Sketch:
         along = shapely.intersection(shapely.buffer(things, 0.25 * letter), lines([a], [b])[0])
         return bool((shapely.length(along) > 0.9 * letter).any())
 
-    def hang(self, name: str, at: complex) -> None:
+    def hang(self, name: str, at: complex, said: str = "") -> None:
         """Draw the arrow of a force at a point, or beyond what stands there, and letter it; once.
 
-        It lies on that side of the point where it is clear of all on its own line.
+        It lies on that side of the point where it is clear of all on its own line. Where its letter has no room the
+        notes have what is `said`.
         """
         if name in self._hung or not self.scene.defined(name):
             return
@@ -201,7 +202,7 @@ class Sketch:
             self._led.append((near, near))
         self.canvas.add(Arrow(*((near, far) if abs(ray - e) < 1.0 else (far, near)), Pen.MAIN, name=name))
         # its letter stands beside its outer half
-        self.canvas.label(self.scene.letter(name), (far - 0.55 * (far - near), far), clear=0.9)
+        self.canvas.label(self.scene.letter(name), (far - 0.55 * (far - near), far), clear=0.9, last=said)
 
     def _free(self, at: complex, e: complex) -> Stroke:
         """Return where an arrow along `e` lies at a point: its end there, and its outer one.

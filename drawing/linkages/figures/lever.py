@@ -38,7 +38,7 @@ def lever_view(scene: Scene) -> View:
         at = _image(scene, mark)
         canvas.part(name)
         sketch.bar(at, rays_of(at, strokes))
-        sketch.hang(name, at)
+        sketch.hang(name, at, words["said.hung"].format(force=scene.letter(name), point=letter_of(scene, mark)))
     moments = [(name, _arm_of(name), _image(scene, mark), pole) for name, mark in hung if name not in BALANCE]
     arms = [own for _, own in arms_of(scene, moments)]
     alone = len(arms) > MANY
@@ -51,7 +51,8 @@ def lever_view(scene: Scene) -> View:
     text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{driven}')} = {scene.segment(f'V_{driven}', 'lever')}"
     canvas.label(text, (pole, _image(scene, mark)), clear=0.9, height=scene.style.text, spare=text)
     letters = {mark: letter_of(scene, mark) for mark in marks} | {"lever.p": words.mark("lever.p")}
-    letter_marks(canvas, scene, letters, places, ("lever.p",))
+    ways = {m: f"{letters['lever.p']}{letters[m]} = {scene.length(abs(places[m] - pole))}" for m in marks[1:]}
+    letter_marks(canvas, scene, letters, places, ("lever.p",), ways)
     gone = [_arm_of(name) for name, _ in hung if scene.direction(name) != 0]
     said = ("said.lever", "said.arrows", *["said.arms"] * alone)
     turned = replace(scene.scales["lever"], symbol=scene.scales["velocity"].symbol)  # it is a plan of velocities

@@ -297,7 +297,8 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str) -> View:
             canvas.add(Group(tuple(parts), "cut", vector.quantity))
         if names:
             spare = said.get((vector.tail, vector.tip), "")
-            canvas.label(" = ".join(names), cut, clear=0.9, strict=True, last=spare)
+            bare = f"{spare} = {scene.length(length_of(vector))}" if spare else ""
+            canvas.label(" = ".join(names), cut, clear=0.9, strict=True, last=spare, bare=bare)
     places = {mark: place * times for mark, place in plan.marks().items()}
     seen = {mark: place for mark, place in places.items() if clipped(place, place, bounds) is not None}
     marks, poles = {mark: scene.words.mark(mark) for mark in seen}, [p for p in plan.poles() if p in seen]
@@ -406,7 +407,9 @@ def _vectors(canvas: Canvas, scene: Scene, vectors: Sequence[Edge], lettered: Se
         named.add(ends)
         text = " = ".join(map(scene.letter, names))
         spare = _ends_of(scene, edge, vectors)
-        canvas.label(text, (vector.tail, vector.tip), prefer=side, clear=0.9, strict=True, spare=spare)
+        bare = f"{spare} = {scene.length(length_of(vector))}"
+        ends_at = vector.tail, vector.tip
+        canvas.label(text, ends_at, prefer=side, clear=0.9, strict=True, spare=spare, bare=bare)
 
 
 def _ends_of(scene: Scene, edge: Edge, vectors: Sequence[Edge]) -> str:
