@@ -32,7 +32,8 @@ CLOSE = 6.0  # for each mm that something is nearer than it should be to leave n
 ROOM = 2.5  # mm around a label that should be empty where there is a choice
 BARE = 2.5  # mm around a label: a thin line nearer than this looks like a bar over or under the letter
 DOUBT = 1.0  # mm by which a label should be nearer to its own anchor than to anything else with a name
-SURELY = 0.3  # mm by which it must be nearer than to another node, beside a segment than to another segment
+SURELY = 0.3  # mm by which it must be nearer than to another node
+PLAINLY = 1.0  # mm by which it must beside a segment be nearer than to another segment: letters that lean fill no box
 WIDE = 3.0  # mm: a larger circle stands for no node
 EVEN = 1e-6  # mm by which it may be further from it than from another one in the same place
 NEAR = (0.0, 0.8, 2.0, 3.5)  # mm added to the distance that was asked for
@@ -417,7 +418,7 @@ class Surroundings:
         hw, hh = wanted.hw[:, None], wanted.hh[:, None]
         all_round = (x - hw).min(axis=1), (y - hh).min(axis=1), (x + hw).max(axis=1), (y + hh).max(axis=1)
         i, j = self.tree.query(
-            shapely.box(*all_round), predicate="dwithin", distance=np.maximum(ROOM, wanted.clear + steps[-1] + SURELY)
+            shapely.box(*all_round), predicate="dwithin", distance=np.maximum(ROOM, wanted.clear + steps[-1] + PLAINLY)
         )
         order = np.lexsort((j, i))
         i, j = i[order], j[order]
@@ -434,7 +435,8 @@ class Surroundings:
         r = (self.rival[j] & ~belongs).nonzero()[0]
         lead, same = distance[r] - own[i[r]], self._same_kind(wanted, i[r], j[r])
         doubtful = np.where(same, COVER, np.where(wanted.strict[i[r]], THIN, AMBIGUOUS))[:, None]
-        price[r] += np.where(lead < np.where(same, SURELY, 0.1)[:, None], doubtful, 0.0)
+        apart = np.where(same, np.where((wanted.a == wanted.b)[i[r]], SURELY, PLAINLY), 0.1)
+        price[r] += np.where(lead < apart[:, None], doubtful, 0.0)
         price[r] += CLOSE * _within(DOUBT - lead, 0.0, DOUBT)
         price += np.where(self._foreign(wanted, i, j, belongs, distance, own[i]), COVER, 0.0)
         cost = cost.copy()
@@ -459,8 +461,23 @@ class Surroundings:
 
     def _same_kind(self, wanted: Wanted, i: Numbers, j: Numbers) -> Flags:
         """Tell which things j could be what labels i name: other nodes, or other segments."""
-        same: Flags = self.kind[j] == np.where(wanted.a == wanted.b, NODE, NAMED)[i]
+        same: Flags = np.where((wanted.a == wanted.b)[i], self.kind[j] == NODE, self.named[j])
         return same
+
+    @cached_property
+    def named(self) -> Flags:
+        """Tell what is a segment with a name, or a stroke along which one lies: an arrow that has its letter aside."""
+        named: Flags = self.kind == NAMED
+        if named.any():
+            strokes = (self.kind == MAIN).nonzero()[0]
+            middle, along = self.things.middle[strokes, None], self.things.along[strokes, None]
+            long = np.maximum(abs(along), SLACK)
+            on = np.ones((len(strokes), int(named.sum())), dtype=bool)
+            for end in (-1, 1):
+                foot = (self.things.middle[named] + end * self.things.along[named] - middle) * along.conj() / long
+                on &= (abs(foot.imag) < TOUCH) & (abs(foot.real) < long + TOUCH)
+            named[strokes[on.any(axis=1)]] = True
+        return named
 
     def _beyond(self, at: Points, reach: complex | Points) -> Flags:
         """Tell which boxes about places, of half sizes `reach`, leave the bounds."""

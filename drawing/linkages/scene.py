@@ -163,6 +163,10 @@ class Scene(SubjectScene[SolvedLinkage]):
         """Return millimetres of a drawing as they are printed."""
         return segment_text(self.words, self.words.display.segment(drawn))
 
+    def hung(self, letter: str, point: str) -> str:
+        """Say at which point the vector stands that has this letter."""
+        return self.words["said.hung"].format(vector=letter, point=self.words.mark(point))
+
     def figure_of(self, name: str) -> str:
         """Return the plan, or the figure with a scale factor of its own, on which a quantity is a segment, or ""."""
         plan = self.solved.shown_on.get(name, "")

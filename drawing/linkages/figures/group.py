@@ -486,7 +486,7 @@ def _load(sketch: Sketch, numbers: Iterable[int]) -> None:
     scene = sketch.scene
     for number, figure in zip(numbers, sketch.figures, strict=True):
         for name, point in (*_loads(scene, number), *_handed(scene, number)):
-            sketch.hang(name, scene.mm(point))
+            sketch.hang(name, scene.mm(point), scene.hung(scene.letter(name), point))
         for name in _couples(scene, number):
             sketch.couple(name, figure)
     sketch.letter_others(point for number in numbers for _, point in _handed(scene, number))

@@ -38,7 +38,7 @@ def lever_view(scene: Scene) -> View:
         at = _image(scene, mark)
         canvas.part(name)
         sketch.bar(at, rays_of(at, strokes))
-        sketch.hang(name, at, words["said.hung"].format(force=scene.letter(name), point=letter_of(scene, mark)))
+        sketch.hang(name, at, scene.hung(scene.letter(name), f"velocity.{role(mark).of}"))
     moments = [(name, _arm_of(name), _image(scene, mark), pole) for name, mark in hung if name not in BALANCE]
     arms = [own for _, own in arms_of(scene, moments)]
     alone = len(arms) > MANY

@@ -120,9 +120,9 @@ def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
     if phi > 0.05:
         canvas.add(angle_dimension(o, radius, 0.0, phi, driver.angle, style))
         middle = o + rect(radius, min(phi / 2, 1.2))
-        canvas.label(text, middle, prefer=rect(1.0, phi / 2), clear=1.2)
+        canvas.label(text, middle, prefer=rect(1.0, phi / 2), clear=1.2, last=text)
     else:
-        canvas.label(text, o + radius, prefer=1j, clear=1.2)
+        canvas.label(text, o + radius, prefer=1j, clear=1.2, last=text)
     if crank_mm > max(SHORT * style.force, 2.0 * radius):  # across the crank, else beyond it on its other side
         reach, wanted = min(crank_mm, CURVED / ACROSS[0]), phi
         radii = tuple(reach * part for part in ACROSS if reach * part > NEAREST * style.force)
@@ -310,7 +310,8 @@ def senses(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
         length = 0.62 * force + taken.get(key, 0.0)
         taken[key] = length + 0.2 * force
         canvas.add(Arrow(end, end + e * length, name=vector))
-        canvas.label(scene.letter(vector), (end + e * (length * 0.6), end + e * length))
+        letter = scene.letter(vector)
+        canvas.label(letter, (end + e * (length * 0.6), end + e * length), last=scene.hung(letter, turn.end))
     for figure in figures:
         if figure.number in turns:
             rates = {turn.rate: scene.values[turn.rate] for turn in turns[figure.number]}
