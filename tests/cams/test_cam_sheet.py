@@ -49,8 +49,14 @@ def test_sheet_of_a_cam_satisfies_the_points(case: CamCase, point: str) -> None:
     assert [*POINTS[point](case, case.sheet)] == []
 
 
-@pytest.mark.parametrize("settings", [{}, {"rotation": "cw"}, {"R_roller": "10 mm"}, {"phi_rise": "95 deg"}], ids=str)
-@pytest.mark.parametrize("paper", ["A3", "A4"])
+@pytest.mark.parametrize(
+    ("settings", "paper"),
+    [  # one format each by default
+        pytest.param(settings, paper, marks=[pytest.mark.soak] * ((i + j) % 2), id=f"{settings}-{paper}")
+        for i, settings in enumerate(({}, {"rotation": "cw"}, {"R_roller": "10 mm"}, {"phi_rise": "95 deg"}))
+        for j, paper in enumerate(("A4", "A3"))
+    ],
+)
 def test_both_sides_of_the_pressure_angle_reach_its_arrowheads(settings: dict[str, str], paper: str) -> None:
     (view,) = (
         view
