@@ -103,10 +103,17 @@ def reactions(rows: Iterable[Sequence[str]]) -> list[tuple[tuple[str, str], tupl
     return pairs
 
 
+def balanced(sheet: Sheet, rows: Iterable[Sequence[str]]) -> list[tuple[tuple[str, str], tuple[str, str]]]:
+    """Return the pairs of forces that are alone on a plan, so that one closes it as the opposite of the other."""
+    found, plans = {row[0]: row[3] for row in rows}, (view for view in sheet.views if view.name.startswith("forces_"))
+    twos = ([re.sub(r"_(\w+)$", r"_{\1}", vector.quantity) for vector in plan.vectors] for plan in plans)
+    return [((a, found[a]), (b, found[b])) for a, b in (two for two in twos if len(two) == 2) if {a, b} <= {*found}]
+
+
 def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[str]:
     """Rows in which mm times mu is not the value to its last digit, or which `values` (by symbol) contradict."""
     forces = [row for name in sheet.names if name.startswith("results_forces") for row in table(sheet[name])]
-    pairs, reading = reactions(forces), {row[0]: read_to(row) for row in forces}
+    pairs, reading = [*reactions(forces), *balanced(sheet, forces)], {row[0]: read_to(row) for row in forces}
     for (symbol, printed), (other, its) in pairs:
         if printed != its:
             yield f"{symbol} = {printed}, {other} = {its}"
