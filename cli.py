@@ -191,8 +191,10 @@ def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 @console.command(
     "kulman sheet nau-slider-crank -v 3 -o sheet.svg -o sheet.pdf",
     "kulman sheet nau-slider-crank -o sheet.pdf --format A3 --student 'І. Петренко'",
+    "kulman sheet scheme-09-shaper --positions 12 -o positions.pdf",
 )
 @console.of_task
+@console.counted("--positions")
 @console.output("..drawing.writers", required=True)
 @console.sized()
 @console.of_norm

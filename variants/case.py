@@ -60,6 +60,7 @@ class Request:
     norm: Norm = "gost"
     block: Mapping[str, str] = field(default_factory=dict)
     lettering: str = "gost"
+    positions: int | None = None  # of the whole cycle, where that is drawn instead
 
     def case(self) -> Case:
         """Solve what is asked for; what there is not, or is of the wrong kind, is refused."""

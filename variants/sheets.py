@@ -105,6 +105,7 @@ def sheet(
     lettering: str = "gost",
     notation: str | None = None,
     lang: str = "uk",
+    positions: int | None = None,
     student: str = "",
     group: str = "",
     teacher: str = "",
@@ -128,6 +129,9 @@ def sheet(
         Letters of GOST 2.304, type B, words upright and symbols slanted, or all slanted; or a screen font.
     lang : {"uk", "ru", "en"}
         Language of all words on the sheet.
+    positions : int, optional
+        The sheet of so many positions instead, as of a course project: their plan, the plans of velocities and
+        accelerations of each, diagrams over the cycle with their extremes.
     student, group, teacher, department, designation, work, date : str
         For the title block; what is left out stays blank, but for the designation, which is composed (`designation`),
         and the kind of work, in which `КР` or `КП` may stand for `РГР`.
@@ -142,7 +146,7 @@ def sheet(
     """
     block = {"student": student, "group": group, "teacher": teacher, "department": department}
     block |= {"designation": designation, "work": work, "date": date}
-    how = set, only, scales, notation, lang, format, norm, block, lettering
+    how = set, only, scales, notation, lang, format, norm, block, lettering, positions
     return draw_case(Request(load_task(task), variant, *how).case())
 
 
@@ -156,6 +160,8 @@ def drawing_of(case: Case) -> Drawn:
     paper = None if case.format is None else format_named(case.format)
     if case.norm not in get_args(Norm):
         raise unknown("norm-unknown", case.norm, get_args(Norm))
+    if case.positions is not None and case.kind.moves:
+        raise InputError("kind-without", task=quote(case.task.id), text="--positions")
     error = case.solved.error()
     if error is not None:
         raise error
@@ -183,7 +189,9 @@ def stamp_of(case: Case) -> Stamp:
         title=case.task.title[case.language],
         document_type=said["work"] or case.words()["sheet.document"],
         language=case.language,
-        identity=sheet_id(case.task, case.variant, case.settings),
+        # a sheet of the cycle is marked by nothing: it is numbered in a series of its own
+        identity=sheet_id(case.task, case.variant, case.settings) if case.positions is None else "",
+        series=0 if case.positions is None else 1,
         code=work_code(case),
     )
 
@@ -207,10 +215,10 @@ def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
         if isinstance(chosen, Fixed) and scale.mu != chosen.mu:
             said = {"mu": f"{chosen.mu:g}", "drawn": f"{scale.mu:g}", "unit": scale.per_mm_unit}
             warnings.append(InputError("scale-coarser", symbol=scale.symbol, format=drawn.format, **said))
-    # others than `solve` shows, which follow from the extents alone
+    # others than `solve` shows, which follow from the extents alone, of a sheet of one position
     paper, scales = case.kind.first_scales(case.solved, case.choosers, case.plans)
     changed = dict[str, str]()
-    for plan in case.solved.scale_of_plan:
+    for plan in case.solved.scale_of_plan if case.positions is None else ():
         usual, scale = scales[plan], drawn.scales[plan]
         if scale.mu != usual.mu and not isinstance(case.choosers.get(scale.symbol), Fixed):
             before, now = (case.display.scale(one) for one in (usual, scale))

@@ -52,6 +52,7 @@ class Contents(SheetContents[SolvedLinkage]):
 
     cycle: Cycle | None = None
     dead: Sequence[SolvedLinkage] = ()  # where the working stroke begins, and where it ends
+    courses: bool = False  # whether the sheet is that of all positions, each with its plans
 
 
 def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
@@ -75,7 +76,9 @@ def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
         yield Figure("positions", partial(positions_view, cycle=contents.cycle), ("mu_l",))
         if main_output(contents.cycle) is not None:
             yield Figure("diagrams", partial(diagrams_view, cycle=contents.cycle))
-        if (link := coupler(solved)) is not None:
+        if contents.courses:
+            yield from _courses(contents.cycle)
+        elif (link := coupler(solved)) is not None:
             yield Figure("field", partial(field_view, link=link), ("mu_l",))
     if "forces" in plans:
         yield from _forces(solved, width)
@@ -84,6 +87,16 @@ def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
         lines = partial(lever_lines, with_loads="forces" not in plans)
         yield _text("equations_lever", lines, width, "heading.equations_lever")
     yield from _results(solved, (*own, *forces) if single else forces)
+
+
+def _courses(cycle: Cycle) -> Iterator[LinkageFigure]:
+    """Go through the diagrams of what is found over the cycle, and the plans of all positions."""
+    from .figures.course import course_of, course_view, plans_view
+
+    for names in course_of(cycle):
+        yield Figure(f"course_{names[0]}", partial(course_view, cycle=cycle, names=names))
+    for plan in (plan for plan in PLANS if plan in cycle.program.plans):
+        yield Figure(f"{plan}_positions", partial(plans_view, cycle=cycle, plan=plan))
 
 
 def _text(

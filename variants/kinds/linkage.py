@@ -159,11 +159,14 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         from ...drawing.linkages.sheet import Contents, draw
 
         whole = None
-        if "cycle" in case.plans:  # drawing a single position does not import it
+        if "cycle" in case.plans or case.positions is not None:  # drawing a single position does not import it
             from ...plans.linkages.cycle import cycle
 
-            values = case.values
-            whole = cycle(case.task.mechanism, values, ("position", "velocity", "acceleration"))
+            if case.positions is not None:
+                whole = cycle(case.task.mechanism, case.values, (*case.plans, POSITION), case.positions)
+                of = placed(case), ("cycle",), case.choosers, case.givens, words, norm, whole
+                return draw(Contents(*of, courses=True), paper)
+            whole = cycle(case.task.mechanism, case.values, ("position", "velocity", "acceleration"))
         solved = placed(case)
         plans = case.plans if solved is case.solved else (*case.plans, POSITION)
         contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole, _dead(case))

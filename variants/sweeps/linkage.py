@@ -179,7 +179,9 @@ class Sweep(Swept):
         error = case.solved.error()
         if error is not None:
             raise error
-        contents = Contents(placed(case), ("cycle",), case.choosers, case.givens, words, "gost", self.cycle)
+        contents = Contents(
+            placed(case), ("cycle",), case.choosers, case.givens, words, "gost", self.cycle, courses=True
+        )
         return sheet_of(case, draw(contents), replace(stamp_of(case), identity="", series=1))
 
     def __repr__(self) -> str:

@@ -243,7 +243,7 @@ def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion
     bands = [_Band(names[0], _round(f"mu_{names[0]}", travel, tall, unit), travel)]
     rates = (dense.v, drawn.velocity, "s"), (dense.a, drawn.acceleration, "s^2")
     for name, (values, found, per) in zip(names[1:], rates, strict=True):
-        shown, chords = _cut(values, found.chords)
+        shown, chords = cut(values, found.chords)
         scale = _round(f"mu_{name}", shown, tall, f"{unit}/{per}")
         for mu in steps(scale.mu):
             scale = Scale(scale.symbol, mu, scale.unit)
@@ -253,7 +253,7 @@ def _bands(scene: Scene, drawn: Diagrams, dense: Diagrams, across: Scale, motion
     return tuple(bands)
 
 
-def _cut(values: Array, chords: Array) -> tuple[Array, Array]:
+def cut(values: Array, chords: Array) -> tuple[Array, Array]:
     """Leave out what has no bound: where the range ends at a limiting position, rates grow there without limit."""
     sizes = np.abs(values[np.isfinite(values)])
     usual = float(np.quantile(sizes, USUAL)) if len(sizes) else 0.0

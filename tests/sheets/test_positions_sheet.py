@@ -1,0 +1,100 @@
+"""The sheet of all positions: their plans to one scale factor, and what is found over the cycle with its extremes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import kulman
+from kulman import KulmanError, sheet, sweep
+from kulman.tests.sheets.judge import overlaps
+from kulman.tests.support.printed_numbers import half_digit, value
+from kulman.tests.support.readback import Sheet, read
+from kulman.variants.shelf import bundled
+
+USUAL = ("nau-slider-crank", "scheme-09-shaper", "scheme-18-hydraulic-drive")
+TASKS = [*USUAL, *(pytest.param(t, marks=pytest.mark.soak) for t in bundled("mechanism") if t not in USUAL)]
+PLANS = ("velocity", "acceleration")
+DOTS = 1e-3  # mm, the length of a vector that is no more than a point
+
+
+def drawn(task: str, positions: int = 12, format: str | None = None) -> Sheet:
+    made = sheet(task, positions=positions, format=format)
+    return read(*(made.svg(page + 1) for page in range(len(made.pages))))
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_a_sheet_of_positions_measures_what_the_sweep_says_and_nothing_touches(task: str) -> None:
+    swept, made = sweep(task, positions=12), drawn(task)
+    assert_plans(swept, made)
+    assert_grid(made)
+    assert_extremes(swept, made)
+    assert [fault for fault in overlaps(made) if "_positions" in fault or "course" in fault] == []
+
+
+def assert_plans(swept: Any, made: Sheet) -> None:
+    """Assert that the vectors of all plans are to one scale factor what the sweep says of the positions."""
+    for plan in PLANS:
+        view = made[f"{plan}_positions"]
+        sizes: dict[str, list[float]] = {}
+        for vector in view.vectors:
+            assert abs(vector.span) * vector.mu == pytest.approx(vector.value, abs=0.01 * vector.mu), vector.quantity
+            sizes.setdefault(vector.quantity, []).append(vector.value)
+        assert len({vector.mu for vector in view.vectors}) == 1
+        (mu,) = {vector.mu for vector in view.vectors}
+        for name, found in sizes.items():
+            if name in swept:
+                known = np.abs(np.asarray(swept[name]))
+                known = known[np.isfinite(known) & (known > DOTS * mu)]
+                left = len(known) - len(found)
+                # where it grows without limit a position is left out
+                assert left <= 0 or (left <= 2 and any("без положень" in t.string for t in view.texts)), name
+                usual = sorted(known)[: len(known) - max(left, 0)]
+                assert sorted(v for v in found if v > DOTS * mu) == pytest.approx(usual, rel=1e-9), name
+
+
+def assert_grid(made: Sheet) -> None:
+    """Assert that the poles of each kind of plan stand on straight rows and columns."""
+    for plan in PLANS:
+        poles = [ring.centre for ring in made[f"{plan}_positions"].rings if ring.radius > 0.4]
+        columns = {round(pole.real, 3) for pole in poles}
+        rows = {round(pole.imag, 3) for pole in poles}
+        assert len(poles) > 8
+        assert len(columns) * (len(rows) - 1) < len(poles) <= len(columns) * len(rows)
+
+
+def assert_extremes(swept: Any, made: Sheet) -> None:
+    """Assert that the extremes of what is drawn over the cycle are printed, but those without a limit."""
+    views = [view for view in made.views if view.name.startswith("course_")]
+    assert views
+    for view in views:
+        said = [text.string for text in view.texts if text.role == "label"]
+        for name in {stroke.name for stroke in view.strokes if stroke.role == "curve"} & {*swept}:
+            known = np.asarray(swept[name])
+            bounded = 8.0 * float(np.nanmedian(np.abs(known)))
+            for end in swept.cycle.extremes([name])[name]:
+                assert any(shows(text, end.value) for text in said) or abs(end.value) > bounded, (name, end.value, said)
+
+
+def shows(text: str, number: float) -> bool:
+    try:
+        return abs(value(text) - number) <= half_digit(text)
+    except (ValueError, IndexError):
+        return False
+
+
+def test_only_linkages_have_positions_and_three_at_least() -> None:
+    with pytest.raises(KulmanError, match="--positions"):
+        sheet("madi-gear", positions=12)
+    with pytest.raises(KulmanError, match="positions"):
+        sheet("nau-slider-crank", positions=2)
+
+
+def test_a_sheet_of_positions_has_a_number_of_its_own_and_no_code() -> None:
+    usual, own = kulman.sheet("nau-slider-crank"), kulman.sheet("nau-slider-crank", positions=12)
+    assert "ТММ.23.00.001" in usual.svg() or ".001" in usual.svg()
+    assert ".101" in own.svg()
+    assert "Код аркуша" in usual.svg()
+    assert "Код аркуша" not in own.svg()
