@@ -117,7 +117,10 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
     for (symbol, printed), (other, its) in pairs:
         if printed != its:
             yield f"{symbol} = {printed}, {other} = {its}"
-    carried = {symbol: other for (one, _), (two, _) in pairs for symbol, other in ((one, two), (two, one))}
+    carried = dict[str, set[str]]()  # from plan to plan: forces that have one number
+    for (one, _), (two, _) in pairs:
+        alike = carried.get(one, {one}) | carried.get(two, {two})
+        carried |= dict.fromkeys(alike, alike)
     for name in sheet.names:
         if name.startswith("results_lever"):
             yield from lever_faults(sheet[name], lang)
@@ -133,7 +136,7 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
                 finer = symbol in carried and ruled(mm, head.split()[-1], math.inf)  # laid off: a number, not a reading
                 if not finer and not ruled(mm, head.split()[-1]):
                     yield f"{symbol}: no ruler reads {mm} mm"
-            near = max(read_to(row), reading.get(carried.get(symbol, ""), 0.0))  # a reaction is read as its action is
+            near = max(read_to(row), *(reading[other] for other in carried.get(symbol, {symbol}) & {*reading}), 0.0)
             if symbol in values and abs(abs(value(printed)) - abs(values[symbol])) > near + 1e-9:
                 yield f"{symbol}: {printed} is not {values[symbol]}"
             numbers_of(" ".join(row), lang)
