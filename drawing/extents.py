@@ -22,6 +22,7 @@ from .formats import FORMATS, GAPS, Format, Norm, printable, room, usable
 NORMS: tuple[Norm, ...] = ("gost", "iso")
 # parts of a page that estimates may cover, since views leave gaps: of the only page, of each of two, of more
 FILL, TWO, SHARED = 0.84, 0.80, 0.70
+FIXED = 0.90  # of any page where all plans are fixed, and none can become smaller
 # of these, and of the least segments, where what is drawn takes more pages than that
 SHARES = (1.0, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6)
 SMALLER = {"A1": 1.0, "A2": 1.0, "A3": 0.7, "A4": 0.65}  # what letters take, in what they take on the largest format
@@ -141,7 +142,7 @@ def ways(
         count += 1
         for share in SHARES:
             rungs = _begun(extents, sheet, most)
-            room = share * _covered(count) * count * _page(sheet)
+            room = share * _covered(extents, count) * count * _page(sheet)
             fits |= _shrunk(extents, rungs, sheet, room, share * least)
             if not fits:
                 break
@@ -172,8 +173,10 @@ def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:
     return rungs
 
 
-def _covered(count: int) -> float:
+def _covered(extents: Extents, count: int) -> float:
     """Return the part of so many pages that an estimate may cover."""
+    if not any(ladder.free for ladder in extents.ladders.values()):
+        return FIXED
     return FILL if count == 1 else TWO if count == 2 else SHARED
 
 
