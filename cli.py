@@ -35,8 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command line and exit: 0, 2 for bad input, 3 for a position without a plan, 130 when interrupted."""
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # no matrices here: spares numpy its threads
     for stream in (sys.stdout, sys.stderr):
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+        console.encode(stream)
     words = sys.argv[1:] if arguments is None else arguments
     with speaking(words):
         sys.exit(_run(words))
@@ -242,13 +241,15 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
 @click.option("--to", "end", metavar="PLACE")
 @click.option("--chords", metavar="POINT")
 @console.output(".sweeps.sweeps")
+@console.titled("student", *console.BLOCK)
 @console.as_json
 def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) over its whole cycle: positions, dead positions, strokes, extremes."""
     from .variants.sweeps.sweeps import sweep as sweep_task
 
     language = options.pop("lang") or system_language()
-    swept = sweep_task(task, set=settings, lang=language, **options)
+    block = console.without_none({name: options.pop(name) for name in (*console.BLOCK, "student")})
+    swept = sweep_task(task, set=settings, lang=language, block=block, **options)
     console.hand_over(swept, files, as_json, tabled=swept.reason is None)
     return console.refuse(swept.reason) if swept.reason is not None else 0
 
@@ -281,17 +282,48 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 
 
 @console.command(
-    "kulman new my-mechanism.toml", "kulman new мій-механізм.toml --lang uk", "kulman new my-cam.toml --kind cam"
+    "kulman new my-mechanism.toml",
+    "kulman new мій-механізм.toml --lang uk",
+    "kulman new my-cam.toml --kind cam",
+    "kulman new --from scheme-09-shaper my-shaper.toml",
 )
 @click.argument("file")
 @click.option("--kind", type=console.Word(*KINDS), default=KINDS[0], show_default=True)
+@click.option("--from", "source", metavar="TASK")
 @console.of_language
-def new(file: str, kind: str, lang: str | None) -> None:
+@click.pass_context
+def new(ctx: click.Context, file: str, kind: str, source: str | None, lang: str | None) -> None:
     """Write FILE, a task file with comments, ready to solve: a four-bar linkage, a cam, a gear pair or a hoist."""
     from .variants.making.starter import start
 
-    click.echo(str(start(file, lang or system_language(), kind)))
+    if source is not None and ctx.get_parameter_source("kind") is click.core.ParameterSource.COMMANDLINE:
+        raise InputError("handout-apart", first="--from", second="--kind")
+    click.echo(str(start(file, lang or system_language(), kind, source)))
 
 
-for command in (list_tasks, solve, sheet, note, sweep, chart, new, handout, all_variants, batch, check, show_help):
+@console.command("kulman show nau-slider-crank")
+@click.argument("task")
+@console.of_language
+def show(task: str, lang: str | None) -> None:
+    """Print the task file of a bundled TASK."""
+    from .variants.shelf import text_of
+
+    click.echo(text_of(task), nl=False)
+
+
+for command in (
+    list_tasks,
+    solve,
+    sheet,
+    note,
+    sweep,
+    chart,
+    new,
+    show,
+    handout,
+    all_variants,
+    batch,
+    check,
+    show_help,
+):
     commands.add_command(command)

@@ -6,6 +6,7 @@ import re
 import tomllib
 from typing import Any
 
+from ..scales.names import unknown
 from ..scales.packaged import home
 from .kinds import table_in
 
@@ -30,6 +31,14 @@ tasks = bundled  # the name in Python
 def bundled_text(task: str) -> str:
     """Return the TOML of a bundled task."""
     return (_TASKS / f"{task}.toml").read_text(encoding="utf-8")
+
+
+def text_of(task: str) -> str:
+    """Return the TOML of a bundled task that a user has named; `InputError` where there is none of that name."""
+    known = bundled()
+    if task not in known:
+        raise unknown("bundled-unknown", task, known)
+    return bundled_text(task)
 
 
 def summary(task: str) -> dict[str, Any]:

@@ -173,8 +173,8 @@ def figure_svg(figure: Figure, language: str) -> bytes:
 
 def said_under(figure: Figure, said: dict[str, str]) -> tuple[str, ...]:
     """Return the lines under a figure; the last one says by how much it is smaller than on the sheet, if it is."""
-    reduced = (said["figure.reduced"].format(part=round(100.0 * figure.share)),) if figure.share < 1.0 else ()
-    return (*figure.under, *reduced)
+    part = round(100.0 * figure.share)
+    return (*figure.under, *((said["figure.reduced"].format(part=part),) if part < 100 else ()))
 
 
 _WORD = re.compile(r"[^\W\d_]$|(?:^|\d |, )\(?[^\W\d_]+/$")  # a letter at the end, or a unit: 2 m/s²

@@ -464,3 +464,42 @@ def filled(solution: Solution) -> Iterator[str]:
     for quantity in solution.quantities.values():
         if quantity.value is not None and math.isfinite(quantity.value):
             yield f"{quantity.name};{quantity.value!r};{quantity.unit}"
+
+
+def test_a_bundled_task_is_shown_and_copied_to_begin_with(folder: Path, run: Run) -> None:
+    text = bundled_text("scheme-09-shaper")
+
+    assert run("show", "scheme-09-shaper") == (0, text, "")
+    assert run("new", "--from", "scheme-09-shaper", "my shaper") == (0, "my shaper.toml\n", "")
+    copied = Path("my shaper.toml").read_text(encoding="utf-8")
+    assert copied.replace('"my-shaper"', '"scheme-09-shaper"') == text
+    assert run("solve", "my shaper.toml", "--json")[0] == 0
+    assert run("new", "--from", "scheme-09-shaper", "my shaper.toml")[0] == 2  # it stays
+    assert "did you mean scheme-09-shaper" in run("show", "scheme-09-shapr")[2]
+    assert run("new", "--from", "nothing", "other.toml")[0] == run("show", "my shaper.toml")[0] == 2
+    assert run("new", "--from", TASK, "--kind", "cam", "other.toml")[0] == 2
+    assert not Path("other.toml").exists()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="consoles of Windows are asked in UTF-16")
+@pytest.mark.parametrize("encoding", ["cp866", "koi8-r", "cp1251"])
+def test_a_console_gets_its_own_encoding_with_like_signs(encoding: str, folder: Path) -> None:
+    import pty
+
+    above, below = pty.openpty()
+    command = [sys.executable, "-m", "kulman", "solve", TASK, "-v", "3", "--only", "velocity", "--lang", "uk"]
+    subprocess.run(command, stdout=below, check=True, env={**os.environ, "PYTHONIOENCODING": encoding})
+    os.close(below)
+    shown = os.read(above, 10_000).decode(encoding)
+    os.close(above)
+
+    line = next(line for line in shown.splitlines() if line.startswith("omega_2"))
+    assert re.search(r"\(-\d", shown)  # the sign of a number is never lost
+    assert line.endswith("рад/с")
+    assert "\\u" not in shown
+
+
+def test_pipes_have_utf_8_whatever_the_console_has(folder: Path) -> None:
+    done = shell(["solve", TASK, "-v", "3", "--only", "velocity", "--lang", "uk"], folder, PYTHONIOENCODING="cp866")
+
+    assert "−" in done.stdout.decode("utf-8")

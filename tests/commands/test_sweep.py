@@ -171,3 +171,11 @@ def test_no_file_of_a_sweep_is_written_when_one_cannot_be(tmp_path: Path) -> Non
 
     assert caught.value.key == "output-refused"
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_drawing_of_a_cycle_has_a_title_block(folder: Path, run: Run) -> None:
+    said = ("--student", "О. Бойко", "--group", "АТ-301", "--teacher", "І. Коваль")
+
+    assert run("sweep", TASK, *said, "-o", "cycle.svg")[0] == 0
+    text = Path("cycle.svg").read_text(encoding="utf-8")
+    assert all(word in text for word in said[1::2])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 import random
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -19,7 +20,7 @@ from kulman.plans.marking.answers import Answer, Said, Verdict
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.student import StudentBoard
 from kulman.plans.marking.verdicts import CLEAR, Marking, mark
-from kulman.scales.errors import InputError
+from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.marking_cases import (
     LINKAGES,
     answer,
@@ -34,7 +35,7 @@ from kulman.tests.support.mechanisms import SEED
 from kulman.tests.support.students import SLIPS, marked, population
 from kulman.variants.marking.marked import Desk, Marked
 from kulman.variants.marking.reading import Answers, Reply
-from kulman.variants.marking.result import class_rows, result_of
+from kulman.variants.marking.result import class_lines, class_rows, result_of
 from kulman.variants.roster import Who
 
 TASK = "nau-slider-crank"
@@ -431,3 +432,13 @@ def test_what_all_later_lines_need_costs_more_than_a_side_value_and_a_zero_nothi
     zeros = handed_in({"h_03": 0.0, "M_03": 0.0})
     assert (zeros.parts["h_03"], zeros.parts["M_03"], zeros.mark) == (0.0, 0.0, 0.0)
     assert handed_in(right_sizes(), "scheme-09-shaper", "1").parts["R_12_n"] == 0.0
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_mistakes_of_a_class_are_said_in_words(language: str) -> None:
+    result = replace(result_of(handed_in(right_sizes()), language), mistakes=("M29", "M30"))
+
+    shown = [*class_lines([result], [], language), *(str(row) for row in class_rows([result], [], language))]
+
+    assert any("M29" in line for line in shown)
+    assert all(re.search(rf"{name}: \w{{3}}", line) for line in shown for name in ("M29", "M30") if name in line)

@@ -7,12 +7,13 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import pypdfium2
 import pytest
 
 from kulman import cli, note, sheet, solve
-from kulman.drawing.notes.blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
+from kulman.drawing.notes.blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table, said_under
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.typst import Body, pdf_bytes
 from kulman.drawing.shapes import Line
@@ -373,3 +374,11 @@ def test_names_with_spaces_are_targets_of_links(tmp_path: Path) -> None:
 
     assert "](<записка (1) x-velocity.svg>)" in path.read_text(encoding="utf-8")
     assert (tmp_path / "записка (1) x-velocity.svg").is_file()
+
+
+def test_a_figure_is_reduced_only_where_it_shows_in_per_cent() -> None:
+    said = {"figure.reduced": "reduced to {part} %"}
+    shares = {1.0: (), 0.998: (), 0.99: ("reduced to 99 %",), 0.5: ("reduced to 50 %",)}
+
+    for share, lines in shares.items():
+        assert said_under(SimpleNamespace(under=("A",), share=share), said) == ("A", *lines)

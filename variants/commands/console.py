@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import codecs
 import errno
+import io
 import os
 import re
 import sys
+import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 
 import click
 
 from ...scales.choices import LETTERINGS, SIZES
 from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
+from ...scales.names import latin
 from ...scales.numbers import SHOWN, quote
 from .helping import Command, place
 from .settings import NORMS
@@ -33,6 +37,44 @@ if TYPE_CHECKING:
     TextType = click.ParamType[str]
 else:  # only newer versions of click can be subscripted
     TextType = click.ParamType
+
+
+def _nearest(problem: UnicodeError) -> tuple[str, int]:
+    """Return what a console shows for letters and signs that its encoding lacks: like ones, else question marks."""
+    if not isinstance(problem, UnicodeEncodeError):
+        raise problem
+    shown = ""
+    for sign in problem.object[problem.start : problem.end]:
+        like = _LIKE.get(sign) or unicodedata.normalize("NFKD", latin(sign))
+        shown += like.encode(problem.encoding, "replace").decode(problem.encoding)
+    return shown, problem.end
+
+
+_LIKE = {
+    "−": "-",
+    "–": "-",
+    "—": "-",
+    "…": "...",
+    "′": "'",
+    "’": "'",
+    "«": '"',
+    "»": '"',
+    "·": "*",
+    "×": "x",
+    "→": "->",
+}
+_LIKE |= {"≤": "<=", "≥": ">=", "✓": "+", "✗": "x", "°": " deg"}
+codecs.register_error("kulman-nearest", _nearest)
+
+
+def encode(stream: TextIO | None) -> None:
+    """Let pipes and files have UTF-8, whatever the system says, and a console its own encoding."""
+    if not isinstance(stream, io.TextIOWrapper):
+        return
+    if stream.isatty() and codecs.lookup(stream.encoding).name != "utf-8":
+        stream.reconfigure(errors="kulman-nearest")
+    else:
+        stream.reconfigure(encoding="utf-8", errors="backslashreplace")
 
 
 def refuse(error: KulmanError) -> int:

@@ -13,6 +13,7 @@ from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import home
 from ..case import kind_of
 from ..kinds import KINDS, MODULES
+from ..shelf import text_of
 
 VARIANTS = (__package__ or "").rpartition(".")[0]
 SUFFIX = ".toml"
@@ -50,10 +51,10 @@ def _drafted(name: str) -> str:
     ))  # fmt: skip
 
 
-def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0]) -> Path:
-    """Write a task file of a kind to begin with, its comments in a language, and return its path.
+def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0], source: str | None = None) -> Path:
+    """Write a task file to begin with: of a kind, its comments in a language, or a copy of a bundled one, `source`.
 
-    A name without a suffix gets one; a file that is there already stays, and is an error.
+    Its path is returned. A name without a suffix gets one; a file that is there already stays, and is an error.
     """
     path = Path(file)
     shown = quote(path, SHOWN)
@@ -67,7 +68,7 @@ def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0]) -> 
     if not path.parent.is_dir():
         raise InputError("output-folder-missing", file=shown, folder=quote(path.parent, SHOWN))
     called = f'"{path}"' if " " in str(path) else str(path)
-    text = template(language, kind)
+    text = template(language, kind) if source is None else text_of(source)
     own = _OWN.findall(text)[0]
     text = text.replace(f'"{own}"', f'"{_label(path.stem) or own}"').replace(f"{own}{SUFFIX}", called)
     try:

@@ -184,6 +184,10 @@ class Result:
         found = [said["flag.exact"]] if self.exact else []
         return [*found, said["flag.variant"].format(variant=self.fits)] if self.fits else found
 
+    def explained(self, language: str) -> list[str]:
+        """Return the mistakes that explain the answers, each in words after its number."""
+        return [f"{name}: {mistake_texts(language)[name]}" for name in self.mistakes]
+
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Result:
         """Return a result from plain data.
@@ -259,7 +263,7 @@ def class_rows(results: Sequence[Result], absent: Sequence[Entry], language: str
     for result, flags in zip(results, flags_of(results, language), strict=True):
         who = tuple(getattr(result.who, key) for key in WHO)
         counts = tuple(result.counts.get(str(verdict)) for verdict in Verdict)
-        told = (result.first, ", ".join(result.mistakes), "; ".join(flags), "; ".join(result.notes))
+        told = (result.first, "; ".join(result.explained(language)), "; ".join(flags), "; ".join(result.notes))
         place = (result.source, ", ".join(result.reports))
         yield (*who, result.variant, result.sheet, result.mark, *counts, *told, *place)
     for entry in absent:
@@ -298,7 +302,7 @@ def class_lines(results: Sequence[Result], absent: Sequence[Entry], language: st
         told += [f"{said['verdict.missing']} {missing}"] if missing else []
         if result.mark is not None and notes:  # else they say why there is no mark
             notes = (said["class.notes"].format(n=len(notes), file=result.source),)
-        told += [", ".join(result.mistakes), *flags, *notes]
+        told += ["; ".join(result.explained(language)), *flags, *notes]
         yield f"{name:{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
     yield from (f"{entry.who.student:{width}}  {'–':>5}  {said['class.absent']}" for entry in absent)
     marks = [result.mark for result in results if result.mark is not None]

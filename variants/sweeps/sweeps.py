@@ -155,6 +155,7 @@ def sweep(
     chords: str | None = None,
     notation: str | None = None,
     lang: str | None = None,
+    block: Mapping[str, str] | None = None,
 ) -> Swept:
     """Solve one variant of a task over its whole cycle.
 
@@ -175,6 +176,8 @@ def sweep(
         Where a sliding driver stops; without `start` and `end` it moves as far as the links let it.
     chords : str, optional
         A point's letter, or the number of a link: the table shows its motion by plans and by chords.
+    block : mapping of str to str, optional
+        What the title block of the drawing says, as for `handout`.
 
     Returns
     -------
@@ -195,7 +198,7 @@ def sweep(
     if positions is not None:
         positions_of("positions", positions)
     language = "en" if lang is None else lang
-    case = Request(load_task(task), variant, set, only, scales, notation, language).case()
+    case = Request(load_task(task), variant, set, only, scales, notation, language, block=block or {}).case()
     course = case.kind.course(case.solved)
     if course is None:
         from .linkage import Sweep  # brings its drawings
