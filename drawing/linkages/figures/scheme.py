@@ -120,9 +120,9 @@ def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
     if phi > 0.05:
         canvas.add(angle_dimension(o, radius, 0.0, phi, driver.angle, style))
         middle = o + rect(radius, min(phi / 2, 1.2))
-        canvas.label(text, middle, prefer=rect(1.0, phi / 2), clear=1.2, last=text)
+        canvas.label(text, middle, prefer=rect(1.0, phi / 2), clear=1.2)
     else:
-        canvas.label(text, o + radius, prefer=1j, clear=1.2, last=text)
+        canvas.label(text, o + radius, prefer=1j, clear=1.2)
     if crank_mm > max(SHORT * style.force, 2.0 * radius):  # across the crank, else beyond it on its other side
         reach, wanted = min(crank_mm, CURVED / ACROSS[0]), phi
         radii = tuple(reach * part for part in ACROSS if reach * part > NEAREST * style.force)
