@@ -149,6 +149,8 @@ def ways(
             if rungs != before:
                 yield sheet, dict(rungs), count
             before = rungs
+    if not fits:  # no number of pages is enough: what has no room is told when it is drawn
+        yield sheet, _begun(extents, sheet, several[1]), MOST
 
 
 def _begun(extents: Extents, sheet: Format, longest: float) -> Rungs:

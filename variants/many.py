@@ -75,16 +75,15 @@ class ManyStates(Arrays):
         """The best status of all states."""
         return STATUSES[int(self.codes.min(initial=len(STATUSES) - 1))]
 
-    def arrays(self, of: str = "") -> Iterator[Columned]:
-        """Go through the givens that are arrays and all that was wanted, or through the parts of one of these, SI."""
-        for name in (name for name in self.given if of in ("", name)):
-            stated = self.task.givens[name].unit
-            yield Columned(
-                name, "" if stated is None else stated.si.name, np.broadcast_to(self.given[name], self.shape)
-            )
-        for name in (name for name in self.values if of in ("", name)):
-            for part, values in parts_of(self.values[name], name in self.points).items():
-                yield Columned(name if part == "value" else f"{name}.{part}", unit_of(name), values)
+    def arrays(self, name: str = "") -> Iterator[Columned]:
+        """Go through the givens that are arrays and all that was wanted, SI, or find the one that is asked for."""
+        for given in (given for given in self.given if name in ("", given)):
+            stated = self.task.givens[given].unit
+            values = np.broadcast_to(self.given[given], self.shape)
+            yield Columned(given, "" if stated is None else stated.si.name, values)
+        for found in (found for found in self.values if name in ("", found, f"{found}.x", f"{found}.y")):
+            for part, values in parts_of(self.values[found], found in self.points).items():
+                yield Columned(found if part == "value" else f"{found}.{part}", unit_of(found), values)
 
     def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
         return [*self.arrays()], {"status": self.statuses.ravel().tolist()}
@@ -149,7 +148,7 @@ def solve_many(
     >>> from kulman import solve_many
     >>> states = solve_many("nau-slider-crank", "example", phi=([0, 45, 90], "deg"), names="V_B")
     >>> states["V_B"].round(3).tolist()
-    [0.0, 2.761, 4.006]
+    [0.0, 2.032, 4.006]
     """
     asked, first, read = load_task(task), dict[str, Any](set or {}), dict[str, Array]()
     for name, value in givens.items():

@@ -190,8 +190,8 @@ class Arrays(OfCase):
     """What has been found of many states: a `Series` by the name of each quantity, in SI."""
 
     @abstractmethod
-    def arrays(self, of: str = "") -> Iterable[Columned]:
-        """Go through all columns in SI, or through those of one quantity: of a vector its size, `.x` and `.y`."""
+    def arrays(self, name: str = "") -> Iterable[Columned]:
+        """Go through all columns in SI: of a vector its size, `.x` and `.y`; or find the one that is asked for."""
 
     @abstractmethod
     def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
@@ -214,7 +214,7 @@ class Arrays(OfCase):
         from ..scales.series import Series  # which needs numpy
 
         of_kind("name", name, (str,), "str")
-        for column in self.arrays(name.partition(".")[0]):
+        for column in self.arrays(name):
             if column.name == name:
                 return Series(column.values, column.name, column.unit)
         raise unknown("quantity-unknown", name, self)

@@ -136,7 +136,9 @@ def _ruled(canvas: Canvas, field: Field) -> None:
     canvas.add(Line(foot, field.at(x.high, y.low), Pen.THIN, role="scale"))
     canvas.label(y.letter, top, prefer=1.0 + 0.2j, clear=1.2)
     canvas.label(x.letter, right, prefer=1j, clear=1.2)
-    canvas.keep_clear(foot, field.at(x.high, y.low) - 1j * (TICK + 0.6 + h))  # no letter among the numbers
+    canvas.keep_clear(
+        foot, field.at(x.high, y.low) - 1j * (TICK + 0.6 + 4.0 * h)
+    )  # no letter among the numbers, or under them
     for value, number in x.divisions.items():
         at = field.at(value, y.low)
         canvas.add(Line(at - 1j * TICK, at, Pen.THIN, role="division"))

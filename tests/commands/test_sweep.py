@@ -177,5 +177,5 @@ def test_the_drawing_of_a_cycle_has_a_title_block(folder: Path, run: Run) -> Non
     said = ("--student", "О. Бойко", "--group", "АТ-301", "--teacher", "І. Коваль")
 
     assert run("sweep", TASK, *said, "-o", "cycle.svg")[0] == 0
-    text = Path("cycle.svg").read_text(encoding="utf-8")
+    text = Path("cycle-1.svg").read_text(encoding="utf-8")
     assert all(word in text for word in said[1::2])

@@ -123,10 +123,10 @@ class Sweep(Swept):
         parts = (velocity, f"{drawn.unit}/s", drawn.velocity), (acceleration, f"{drawn.unit}/s^2", drawn.acceleration)
         return "\n\n".join(_chords(f"{symbol}_{of}", unit_name, curve, words) for symbol, unit_name, curve in parts)
 
-    def arrays(self, of: str = "") -> Iterator[Columned]:
-        """Go through place and time of the driver, then all columns in SI, or those of one quantity."""
+    def arrays(self, name: str = "") -> Iterator[Columned]:
+        """Go through place and time of the driver, then all columns in SI, or find one."""
         columns = (*_driven(self.cycle), *_columns_of(self.cycle, self.chosen, whole=True))
-        return (column for column in columns if of in ("", column.name.partition(".")[0]))
+        return (column for column in columns if name in ("", column.name))
 
     def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
         columns = _columns_of(self.cycle, self.chosen, whole=True)

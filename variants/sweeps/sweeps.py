@@ -56,10 +56,10 @@ class CourseSweep(Swept):
         parts = aligned(rows, ()), _extremes_table(self.course.extremes(), words), "\n".join((*remarks, *warnings))
         return "\n\n".join(part for part in parts if part)
 
-    def arrays(self, of: str = "") -> Iterator[Columned]:
-        """Go through the columns in SI; those of one quantity are under its own name."""
+    def arrays(self, name: str = "") -> Iterator[Columned]:
+        """Go through the columns in SI, or find one."""
         columns = self.course.columns(self.course.places(self.count))
-        return (column for column in columns if of in ("", column.name))
+        return (column for column in columns if name in ("", column.name))
 
     def _columns(self, words: Words) -> tuple[Sequence[Columned], Mapping[str, Sequence[str]]]:
         places = self.course.places(self.count)

@@ -49,7 +49,7 @@ def plans_view(scene: Scene, cycle: Cycle, plan: str) -> View:
     for k, (number, stand, _) in enumerate(stands):
         own = replace(stand, scales={**stand.scales, plan: scale})
         _small_plan(canvas, own, plan, complex(across[k % len(across)], up[k // len(across)]), number)
-    heading = (scene.words[f"heading.{plan}_positions"].format(n=len(stands)), scene.words.scale(scale))
+    heading = (scene.words[f"heading.positions_{plan}"].format(n=len(stands)), scene.words.scale(scale))
     left = ", ".join(str(number) for number, _, reach in every if max(reach) > PEAK * usual_reach)
     return canvas.finish(f"{plan}_positions", heading, (scene.words["said.left"].format(numbers=left),) if left else ())
 
@@ -120,7 +120,7 @@ def _small_plan(canvas: Canvas, scene: Scene, plan: str, pole: complex, number: 
     middle = sum(at) / len(at) if at else pole
     for place, marks in at.items():  # those of no point of a link have no letters, which a plan on its own has
         canvas.add(Circle(place, 0.3, Pen.THIN, fill="black"))
-        letters = [scene.words.mark(mark) for mark in marks if mark.partition(".")[2] in scene.points]
+        letters = [scene.words.mark(mark) for mark in marks if role(mark).of in scene.points]
         if letters and abs(place - pole) > TOGETHER:
             canvas.label(", ".join(letters), place, prefer=place - middle, height=scene.style.text, optional=True)
 
