@@ -86,8 +86,6 @@ def test_a_wrong_argument_is_answered_in_one_line(verb: str, name: str) -> None:
 
 _APART = ("help", "list", "show", "new", "variants")
 VERBS = {name: getattr(kulman, name) for name in commands.commands if name not in _APART}
-    name: getattr(kulman, name) for name in commands.commands if name not in ("help", "list", "show", "new", "variants")
-}
 VERBS["variants"] = kulman.all_variants
 
 
