@@ -54,16 +54,19 @@ def on_one_page(
     """Place views of these sizes on the only page, or on the last one; return None if they do not fit.
 
     Where they do not fit as one reads them, high ones stand before low ones, so that rows have little empty room: first
-    texts and tables alone, behind the figures, then all of them. `begins` are as of `Pages`.
+    texts and tables alone, behind the figures, then all of them. Texts with which the page begins, as what is given,
+    stay first. `begins` are as of `Pages`.
     """
     every = range(len(sizes))
-    texts = [i for i in every if begins and begins[i] == TEXT]
-    figures = [i for i in every if i not in texts]
+    lead = [*takewhile(lambda i: bool(begins) and begins[i] == TEXT, every)]
+    rest = every[len(lead) :]
+    texts = [i for i in rest if begins and begins[i] == TEXT]
+    figures = [i for i in rest if i not in texts]
 
     def low(i: int) -> float:
         return -sizes[i][1]
 
-    ways = ([*every], [*figures, *sorted(texts, key=low)] if texts else [], sorted(every, key=low))
+    ways = ([*every], [*lead, *figures, *sorted(texts, key=low)] if texts else [], [*lead, *sorted(rest, key=low)])
     for order in filter(None, ways):
         if (placed := on_a_page([sizes[i] for i in order], sheet, norm, first)) is not None:
             return [placed[order.index(i)] for i in every]
@@ -106,7 +109,7 @@ class Pages:
 
     `begins` say how much begins with each view: a part of the work is more than a group, and that than a figure; a
     text or a table is nothing of its own. Where nothing is said, all may stand before their turn as these may. Where
-    pages are `loose`, high views stand before low ones on a page that does not hold them in order, and texts on any.
+    pages are `loose`, high views stand before low ones on a page that does not hold them in order.
     """
 
     sizes: Sequence[Size]
@@ -174,7 +177,7 @@ class Pages:
             )
             if placed is None:
                 return None
-            for i in rest[len(own) :] if self.loose else rest[len(own) : len(own) + SOON]:
+            for i in rest[len(own) : len(own) + SOON]:
                 free = not self.begins or self.begins[i] == TEXT
                 if free and (more := self.tried([*own, i], page)) is not None:
                     own, placed = [*own, i], more
