@@ -215,7 +215,9 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     Raises InputError: a plan cannot fit at the scale factor that was asked for; it names what would fit.
     """
     fitting, fewest = Fitting(contents), None
-    for way, rungs, pages in ways_of(fitting.extents, sheet):
+    # on paper of which printers do not reach the edges plans are as large as on the whole of it
+    whole = None if sheet is None else FORMATS[sheet.letters]
+    for way, rungs, pages in ways_of(fitting.extents, whole):
         if fewest is not None and last(fewest[1][2]) < pages:
             break
         try:
@@ -229,6 +231,11 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     if fewest is None:
         raise InputError("sheet-too-small", format=way.name)
     way, (views, rungs, places) = fewest
+    if sheet is not None and sheet != whole:
+        found = _on_a_page(fitting, sheet, rungs) or _on_pages(fitting, sheet, rungs, count=last(places) + 1)
+        if found is None:
+            raise InputError("sheet-too-small", format=sheet.name)
+        way, (views, rungs, places) = sheet, found
     return compose(views, places, fitting.scales(rungs), way, contents.norm, smaller=sheet is None)
 
 
@@ -329,7 +336,7 @@ class Fitting:
     def build(self, sheet: Format, rungs: Rungs) -> list[tuple[View, str]]:
         """Draw all figures with the scale factors on these rungs; each with the ladder that sizes it, or ""."""
         contents, solved, mus = self.contents, self.contents.solved, mus_of(self.extents, rungs)
-        text_width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
+        text_width = min(TEXT_WIDTH[sheet.letters], room(printable(sheet), contents.norm)[0])
         words, style = lettered(contents.words, solved), STYLES[sheet.letters]
         scene = Scene(solved, words, style, contents.givens, self.scales(rungs), self.runs)
         built = []

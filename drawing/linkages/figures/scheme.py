@@ -48,6 +48,7 @@ ACROSS = 0.7, 0.6, 0.8, 0.3, 0.25  # parts of a longer one at which it stands
 PAST = 16.0  # mm by which the axis of a guide runs past its slider and a pivot
 LEAVES, LONGEST = 1.6, 34.0  # mm by which the end of an arc leaves its tangent, unless the arc would be too long
 LEAST_ARC = 9.0  # mm, the least radius of the arc of phi
+FARTHEST_ARC = 200.0  # mm, the largest radius of an arc, however large a scale factor draws the crank
 CROSS = 8.0  # mm by which arcs and lines run past the joint that they find
 
 
@@ -137,7 +138,8 @@ def _dimension_radius(canvas: Canvas, scene: Scene, driver: Driver, phi: float) 
     """Return the radius of the arc that dimensions phi: near the middle of the crank, off supports and other links."""
     o, own = scene.mm(driver.pivot), str(driver.link)
     crank_mm = abs(scene.mm(driver.point) - o)
-    usual, most = max(0.45 * crank_mm, LEAST_ARC), crank_mm - 2.0 * scene.style.pair
+    usual = min(max(0.45 * crank_mm, LEAST_ARC), FARTHEST_ARC)
+    most = min(crank_mm - 2.0 * scene.style.pair, FARTHEST_ARC)
     radii = np.array([usual, *np.arange(LEAST_ARC, most, STEP)])
     turns = np.exp(1j * phi * np.linspace(0.0, 1.0, 1 + max(len(ALONG), round(usual * phi / CROSSED))))
     things = (shape for shape in canvas.shapes if not (isinstance(shape, Group) and shape.name == own))
