@@ -109,7 +109,7 @@ class Pages:
 
     `begins` say how much begins with each view: a part of the work is more than a group, and that than a figure; a
     text or a table is nothing of its own. Where nothing is said, all may stand before their turn as these may. Where
-    pages are `loose`, high views stand before low ones on a page that does not hold them in order.
+    pages are `loose`, high views stand before low ones on a page that does not hold them in order, and texts on any.
     """
 
     sizes: Sequence[Size]
@@ -177,7 +177,7 @@ class Pages:
             )
             if placed is None:
                 return None
-            for i in rest[len(own) : len(own) + SOON]:
+            for i in rest[len(own) :] if self.loose else rest[len(own) : len(own) + SOON]:
                 free = not self.begins or self.begins[i] == TEXT
                 if free and (more := self.tried([*own, i], page)) is not None:
                     own, placed = [*own, i], more
