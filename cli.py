@@ -106,6 +106,22 @@ def show_help(ctx: click.Context, command: str | None, lang: str | None) -> None
         click.echo(found.get_help(click.Context(found, parent=above, info_name=found.name)))
 
 
+@console.command("kulman guide", "kulman guide own-mechanism", name="guide")
+@click.argument("topic", required=False)
+@console.of_language
+def show_guide(topic: str | None, lang: str | None) -> None:
+    """Show a guide, page by page on a console; without TOPIC the list of them."""
+    from .variants.commands import guides
+
+    if topic is None:
+        for name, heading in guides.contents(system_language()).items():
+            click.echo(f"{name:<15}{heading}")
+        return
+    text, missing = guides.guide(topic, system_language())
+    console.warn([missing] if missing else [])
+    guides.page(text)
+
+
 @console.command("kulman list", "kulman list --json", name="list")
 @console.as_json
 @click.option("--check", "file", metavar="FILE")
@@ -324,6 +340,7 @@ for command in (
     all_variants,
     batch,
     check,
+    show_guide,
     show_help,
 ):
     commands.add_command(command)

@@ -1,4 +1,4 @@
-"""Fill in the tables of docs/marking.md from simulated students: `.venv/bin/python docs/marking_tables.py [count]`.
+"""Simulate students for the tables of the guide to marking: `.venv/bin/python docs/marking_tables.py [count]`.
 
 `count` students a mistake, 40 when left out, on two processes. What is counted is told in
 tests/support/students.py; the same seeds draw the same students.
@@ -16,7 +16,7 @@ from pathlib import Path
 from kulman.tests.support.students import SEED, SLIPS, Outcome, marked, population, share
 from kulman.variants.marking.wording import mistake_texts
 
-DOCUMENT = Path(__file__).resolve().parent / "marking.md"
+DOCUMENT = Path(__file__).resolve().parent.parent / "variants" / "guides" / "marking.en.md"
 BEGIN, END = "<!-- students: docs/marking_tables.py -->", "<!-- end -->"
 PARTS = 8  # of the variants, marked one after the other
 TASKS = ("nau-slider-crank", "scheme-09-shaper")  # with several variants

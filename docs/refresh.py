@@ -12,8 +12,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 README = ROOT / "README.md"
-NAMES = ("accuracy", "cams", "cycle", "gears", "hoist", "marking", "own-mechanism")
-DOCUMENTS = (README, *(ROOT / "docs" / f"{name}.md" for name in NAMES))
+NAMES = ("accuracy", "cams", "cycle", "gears", "hoist")
+GUIDES = tuple(sorted((ROOT / "variants" / "guides").glob("*.md")))
+DOCUMENTS = (README, *(ROOT / "docs" / f"{name}.md" for name in NAMES), *GUIDES)
 PICTURES = ROOT / "docs" / "pictures"
 CHARTS = {  # by picture: what is charted
     "accuracy": "madi-four-bar --chart accuracy",
@@ -40,10 +41,20 @@ def commands(block: str) -> list[str]:
     return [line.removeprefix("$ ") for line in block.splitlines() if line.startswith("$ ")]
 
 
-def run(command: str, folder: str) -> tuple[str, int]:
-    """Run one `kulman ...` line in `folder`; return what it prints on both streams, and its status."""
+def language(document: Path) -> str:
+    """Return the language of a document: `marking.uk.md` is Ukrainian, what says none is English."""
+    return document.stem.partition(".")[2] or "en"
+
+
+def locale(language: str) -> str:
+    """Return what a system in a language says of itself."""
+    return {"en": "en_GB.UTF-8", "uk": "uk_UA.UTF-8", "ru": "ru_UA.UTF-8"}[language]
+
+
+def run(command: str, folder: str, language: str = "en") -> tuple[str, int]:
+    """Run one `kulman ...` line in `folder`, in a system in `language`; return what it prints, and its status."""
     words = [sys.executable, "-m", *shlex.split(command)]
-    environment = {**os.environ, "LC_ALL": "en_GB.UTF-8", "PYTHONIOENCODING": "utf-8", "KULMAN_CONFIG": ""}
+    environment = {**os.environ, "LC_ALL": locale(language), "PYTHONIOENCODING": "utf-8", "KULMAN_CONFIG": ""}
     done = subprocess.run(
         words,
         cwd=folder,
@@ -56,21 +67,22 @@ def run(command: str, folder: str) -> tuple[str, int]:
     return done.stdout, done.returncode
 
 
-def filled(block: str, folder: str) -> str:
+def filled(block: str, folder: str, language: str = "en") -> str:
     """Return a console block with what its commands print today."""
-    return "".join(f"$ {command}\n{run(command, folder)[0]}" for command in commands(block))
+    return "".join(f"$ {command}\n{run(command, folder, language)[0]}" for command in commands(block))
 
 
-def refreshed(text: str, folder: str) -> str:
+def refreshed(text: str, folder: str, language: str = "en") -> str:
     """Return a document with what its commands, one after the other in `folder`, print today."""
-    return BLOCK.sub(lambda found: f"```console\n{filled(found[1], folder)}```", text)
+    return BLOCK.sub(lambda found: f"```console\n{filled(found[1], folder, language)}```", text)
 
 
 def main() -> None:
     """Rewrite the blocks of the documents and the pictures."""
     for document in DOCUMENTS:
         with tempfile.TemporaryDirectory() as folder:
-            document.write_text(refreshed(document.read_text(encoding="utf-8"), folder), encoding="utf-8")
+            text = refreshed(document.read_text(encoding="utf-8"), folder, language(document))
+            document.write_text(text, encoding="utf-8")
     for name, task in SHEETS.items():
         with tempfile.TemporaryDirectory() as folder:
             run(f"kulman sheet {task} -o sheet.pdf", folder)

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from kulman.docs import refresh
 from kulman.drawing.words import notations
 from kulman.plans.cams.cam import FOLLOWERS, LAWS
 from kulman.plans.cams.cam import PLANS as CAM_PLANS
@@ -25,6 +26,7 @@ from kulman.variants import case, reader
 from kulman.variants.checks import basics as checks
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.checks import names as checks_names
+from kulman.variants.commands import guides
 from kulman.variants.commands.helping import told
 from kulman.variants.kinds import cam, gear, hoist
 from kulman.variants.making.starter import template
@@ -32,7 +34,8 @@ from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
-TASK_FILE = (DOCS / "task-file.md").read_text(encoding="utf-8")
+DOCUMENTS = (*DOCS.rglob("*.md"), *refresh.GUIDES)
+TASK_FILE = (guides.FOLDER / "task-file.en.md").read_text(encoding="utf-8")
 NOTATIONS = (DOCS / "notations.md").read_text(encoding="utf-8")
 TASK = "nau-slider-crank"
 
@@ -88,7 +91,7 @@ def test_every_example_is_solved(path: Path) -> None:
     assert solution.status == "ok"
     assert solution.checks
     assert all(check["ok"] for check in solution.checks.values())
-    assert f"examples/{path.name}" in TASK_FILE
+    assert f"examples/{path.name})" in TASK_FILE
 
 
 def test_the_words_that_a_task_file_may_use_are_named() -> None:
@@ -111,13 +114,13 @@ def test_help_names_every_notation(language: str) -> None:
 
 
 def test_links_of_the_documents_lead_somewhere() -> None:
-    for path in DOCS.rglob("*.md"):
+    for path in DOCUMENTS:
         for target in re.findall(r"\]\(([^)#:]+)\)", path.read_text(encoding="utf-8")):
             assert (path.parent / target).exists(), (path.name, target)
 
 
 def test_files_that_the_documents_name_exist() -> None:
-    for path in DOCS.rglob("*.md"):
+    for path in DOCUMENTS:
         text = path.read_text(encoding="utf-8")
         for name in re.findall(r"`((?:scales|plans|drawing|variants|tests)/[\w/]+\.\w+)`", text):
             assert (DOCS.parent / name).exists(), (path.name, name)

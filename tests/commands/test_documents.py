@@ -25,7 +25,7 @@ STARTED = [
     next(block for block in README if block.startswith(f"$ kulman {name}")) for name in ("solve", "sheet", "new")
 ]
 BLOCKS = {"cams": (8, 3), "gears": (4, 2), "hoist": (1, 4)}  # of commands, quick and slow ones
-FIRST, OTHERS = TEXTS["own-mechanism"].split("# Other parts\n")
+FIRST, OTHERS = TEXTS["own-mechanism.en"].split("# Other parts\n")
 TOML = re.compile(r"```toml\n(.*?)```", re.DOTALL)
 WITH_EXAMPLES = sorted(
     ".".join(("kulman", *path.relative_to(ROOT).with_suffix("").parts)).removesuffix(".__init__")
@@ -45,14 +45,15 @@ def test_commands_print_what_the_readme_shows(
     assert refresh.filled(block, str(folder)) == block
 
 
-@pytest.mark.parametrize("name", ["own-mechanism", "cycle"])
+@pytest.mark.parametrize("name", [name for name in TEXTS if "." in name or name == "cycle"])
 def test_commands_one_after_the_other_print_what_a_document_shows(
     name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     run_here(monkeypatch, capsys)
 
-    assert refresh.BLOCK.search(TEXTS[name])
-    assert refresh.refreshed(TEXTS[name], str(folder)) == TEXTS[name]
+    language = name.partition(".")[2] or "en"
+
+    assert refresh.refreshed(TEXTS[name], str(folder), language) == TEXTS[name]
 
 
 @pytest.mark.parametrize("name", BLOCKS)
@@ -71,10 +72,9 @@ def test_a_document_of_a_subject_shows_what_is_printed_and_drawn(
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("name", TEXTS)
-def test_every_command_started_by_itself_prints_what_its_document_shows(name: str, folder: Path) -> None:
-    assert refresh.BLOCK.search(TEXTS[name])
-    assert refresh.refreshed(TEXTS[name], str(folder)) == TEXTS[name]
+@pytest.mark.parametrize("path", refresh.DOCUMENTS, ids=lambda path: path.stem)
+def test_every_command_started_by_itself_prints_what_its_document_shows(path: Path, folder: Path) -> None:
+    assert refresh.refreshed(TEXTS[path.stem], str(folder), refresh.language(path)) == TEXTS[path.stem]
 
 
 @pytest.mark.parametrize("name", ["README", "cycle", "python"])
@@ -94,8 +94,8 @@ def test_the_readme_names_every_command_and_its_links_lead_somewhere() -> None:
     assert [name for name in commands.commands if f"kulman {name}" not in TEXTS["README"]] == []
     links = re.findall(r"\]\(([^)#:]+)\)", TEXTS["README"])
     assert [target for target in links if not (refresh.ROOT / target).exists()] == []
-    assert "docs/own-mechanism.md" in links
-    assert "own-mechanism.md" in (ROOT / "docs" / "task-file.md").read_text(encoding="utf-8")
+    assert "variants/guides/own-mechanism.en.md" in links
+    assert "own-mechanism.en.md" in TEXTS["task-file.en"]
 
 
 def test_steps_to_an_own_mechanism_quote_the_file_to_begin_with() -> None:

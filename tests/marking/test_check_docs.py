@@ -1,4 +1,4 @@
-"""docs/marking.md and docs/seeds.md cannot rot: commands print what they show, statements are checked."""
+"""The guide to marking and docs/seeds.md cannot rot: commands print what they show, statements are checked."""
 
 from __future__ import annotations
 
@@ -12,21 +12,10 @@ from typing import Any
 import pytest
 
 from kulman import check, cli, solve
-from kulman.docs import refresh, seeds_tables
-from kulman.tests.support.documents import run_here
+from kulman.docs import seeds_tables
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 SEEDS = (DOCS / "seeds.md").read_text(encoding="utf-8")
-
-
-def test_commands_of_the_guide_print_what_it_shows(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    run_here(monkeypatch, capsys)
-    text = (DOCS / "marking.md").read_text(encoding="utf-8")
-
-    assert refresh.refreshed(text, str(tmp_path)) == text
 
 
 @pytest.mark.soak

@@ -1,4 +1,4 @@
-"""Simulated students, drawn by a hand that shares nothing with the package, are marked as docs/marking.md says."""
+"""Simulated students, drawn by a hand that shares nothing with the package, are marked as the guide to marking says."""
 
 from __future__ import annotations
 

@@ -19,10 +19,10 @@ def blocks(text: str, slow: bool = False) -> list[str]:
 def run_here(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """Let `refresh.filled` run commands in this process."""
 
-    def here(command: str, folder: str) -> tuple[str, int]:
+    def here(command: str, folder: str, language: str = "en") -> tuple[str, int]:
+        monkeypatch.setenv("LC_ALL", refresh.locale(language))
         with pytest.raises(SystemExit) as stopped:
             cli.main(shlex.split(command)[1:])
         return "".join(capsys.readouterr()), int(stopped.value.code or 0)
 
     monkeypatch.setattr(refresh, "run", here)
-    monkeypatch.setenv("LC_ALL", "en_GB.UTF-8")

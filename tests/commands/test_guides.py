@@ -1,0 +1,86 @@
+"""The guides: shown by `kulman guide`, one after the other, and the same in every language."""
+
+from __future__ import annotations
+
+import re
+import sys
+from pathlib import Path
+
+import click
+import pytest
+
+from kulman.docs import refresh
+from kulman.scales.errors import LANGUAGES
+from kulman.tests.support.commands import Run
+from kulman.variants.commands import guides
+
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+TRANSLATED = [path for path in refresh.GUIDES if refresh.language(path) != "en"]
+
+
+def skeleton(path: Path) -> list[object]:
+    """Return what no language changes: levels of headings, commands, links, lines of task files without words."""
+    text = path.read_text(encoding="utf-8")
+    parts: list[object] = [re.findall(r"^#+(?= )", FENCE.sub("", text), re.MULTILINE)]
+    for kind, block in FENCE.findall(text):
+        if kind == "console":
+            parts.append([re.sub(r" --lang \w+", "", command) for command in refresh.commands(block)])
+        elif kind == "toml":
+            parts.append([line.partition("#")[0].rstrip() for line in block.splitlines()])
+        else:
+            parts.append(kind)
+    parts += [re.sub(r"\.(uk|ru|en)\.", ".", link) for link in re.findall(r"\]\(([^)#\s]+)", text)]
+    parts.append(sorted(set(re.findall(r"`(--[\w-]+)", text))))
+    return parts
+
+
+@pytest.mark.parametrize("path", TRANSLATED, ids=lambda path: path.name)
+def test_a_guide_says_the_same_in_every_language(path: Path) -> None:
+    english = path.with_name(f"{path.name.partition('.')[0]}.en.md")
+
+    assert skeleton(path) == skeleton(english)
+    assert not re.search(r"\.en\.md", path.read_text(encoding="utf-8"))
+
+
+def test_every_file_is_a_guide_and_every_guide_is_listed_by_its_heading(run: Run) -> None:
+    assert {path.name.partition(".")[0] for path in guides.FOLDER.iterdir()} == {*guides.TOPICS}
+    assert {path.name for path in guides.FOLDER.iterdir()} >= {f"{topic}.en.md" for topic in guides.TOPICS}
+    for language in LANGUAGES:
+        lines = run("guide", "--lang", language)[1].splitlines()
+        assert [line.split()[0] for line in lines] == [*guides.TOPICS]
+        assert all(len(line.split()) > 2 for line in lines)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("topic", guides.TOPICS)
+def test_a_guide_is_shown_in_the_language_or_said_to_have_none(topic: str, language: str, run: Run) -> None:
+    status, shown, warning = run("guide", topic, "--lang", language)
+
+    assert status == 0
+    assert shown.startswith("# ")
+    assert not re.search(r"\]\(|<!--", shown)
+    assert (guides.FOLDER / f"{topic}.{language}.md").exists() == (warning == "")
+
+
+def test_a_guide_leads_on_to_others_and_to_tasks(run: Run) -> None:
+    shown = run("guide", "own-mechanism")[1]
+
+    assert "(kulman guide task-file)" in shown
+    assert "(kulman show scheme-09-shaper)" in shown
+    assert run("guide", "marknig") == (2, "", "there is no guide 'marknig'; did you mean marking?\n")
+
+
+def test_a_console_gets_a_guide_page_by_page_in_its_own_signs(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Console:
+        encoding = "cp866"
+
+        def isatty(self) -> bool:
+            return True
+
+    paged: list[str] = []
+    monkeypatch.setattr(sys, "stdout", Console())
+    monkeypatch.setattr(click, "echo_via_pager", paged.append)
+
+    guides.page("кут φ – 30° · і")
+
+    assert paged == ["кут ? - 30° · i"]
