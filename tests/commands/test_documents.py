@@ -12,6 +12,7 @@ import pytest
 
 from kulman.cli import commands
 from kulman.docs import refresh
+from kulman.scales.errors import LANGUAGES, messages
 from kulman.tests.support.documents import blocks, run_here
 from kulman.tests.support.sources import ROOT, files
 from kulman.variants.making.starter import template
@@ -101,7 +102,7 @@ def test_the_readme_names_every_command_and_its_links_lead_somewhere() -> None:
 def test_steps_to_an_own_mechanism_quote_the_file_to_begin_with() -> None:
     quoted = TOML.findall(FIRST)
 
-    assert len(quoted) >= 9
+    assert len(quoted) >= 8
     assert all(block in template("en") for block in quoted)
     parts = {line for block in quoted for line in block.splitlines() if line.startswith("[")}
     assert parts >= {"[givens]", "[[mechanism.link]]", "[[mechanism.pair]]", "[mechanism.driver]", "[[variant]]"}
@@ -115,14 +116,25 @@ def test_lines_of_other_parts_stand_in_the_task_that_is_named_last_before_them()
             assert block in bundled_text(named[-1]), block
 
 
-def test_fault_that_the_document_shows_is_the_one_of_the_program() -> None:
-    (shown,) = re.findall(r"```text\n(my-mechanism.*?)\n```", FIRST)
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_fault_that_the_document_shows_is_the_one_of_the_program(language: str) -> None:
+    (shown,) = re.findall(r"```text\n(my-mechanism.*?)\n```", TEXTS[f"own-mechanism.{language}"])
     pivot = '[[mechanism.pair]]\nkind = "revolute"\npoint = "C"\nlinks = [3, 0]\nat = ["280 mm", "0 mm"]\n'
     assert pivot in template("en")
 
     _, faults = read_text(template("en").replace(pivot, ""), "my-mechanism.toml")
 
-    assert [str(fault) for fault in faults] == [shown]
+    assert [fault.text(language) for fault in faults] == [shown]
+
+
+@pytest.mark.parametrize("name", [name for name in TEXTS if name.startswith("own-mechanism")])
+def test_faults_often_made_are_told_in_the_words_of_the_messages(name: str) -> None:
+    *_, table = re.findall(r"(?:^\|.*\n)+", TEXTS[name], re.MULTILINE)
+    quoted = [words for row in table.splitlines() for words in re.findall(r"`(.*?)`", row.split("|")[1])]
+
+    assert len(quoted) > 5
+    said = messages(name.partition(".")[2]).values()
+    assert [words for words in quoted if not any(words in message for message in said)] == []
 
 
 @pytest.mark.parametrize("module", WITH_EXAMPLES)
