@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+from .scales.choices import HANDS
 from .scales.errors import (
     LANGUAGES,
     VARIABLE,
@@ -22,7 +23,7 @@ from .scales.errors import (
 )
 from .scales.numbers import SHOWN, quote
 from .scales.version import __version__
-from .variants.commands import console
+from .variants.commands import completing, console
 from .variants.commands.helping import Group
 from .variants.commands.settings import settings
 from .variants.commands.teaching import all_variants, batch, check, handout
@@ -93,7 +94,7 @@ def commands(ctx: click.Context, lang: str | None) -> None:
 
 
 @console.command("kulman help solve", name="help")
-@click.argument("command", required=False)
+@click.argument("command", required=False, shell_complete=completing.completing(lambda ctx: commands.commands))
 @console.of_language
 @click.pass_context
 def show_help(ctx: click.Context, command: str | None, lang: str | None) -> None:
@@ -107,7 +108,7 @@ def show_help(ctx: click.Context, command: str | None, lang: str | None) -> None
 
 
 @console.command("kulman guide", "kulman guide own-mechanism", name="guide")
-@click.argument("topic", required=False)
+@click.argument("topic", required=False, shell_complete=completing.completing(completing.topics))
 @console.of_language
 def show_guide(topic: str | None, lang: str | None) -> None:
     """Show a guide, page by page on a console; without TOPIC the list of them."""
@@ -124,7 +125,7 @@ def show_guide(topic: str | None, lang: str | None) -> None:
 
 @console.command("kulman list", "kulman list --json", name="list")
 @console.as_json
-@click.option("--check", "file", metavar="FILE")
+@click.option("--check", "file", metavar="FILE", shell_complete=completing.files)
 @console.of_language
 def list_tasks(as_json: bool, file: str | None, lang: str | None) -> int:
     """Show the tasks, their variants, and what each draws."""
@@ -180,9 +181,7 @@ def _check(file: str, as_json: bool) -> int:
     "--condition",
     is_flag=True,
 )
-@click.option(
-    "--hand",
-)
+@click.option("--hand", shell_complete=completing.completing(lambda ctx: HANDS))
 @console.sized()
 @console.output(".solution")
 @console.as_json
@@ -277,14 +276,11 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     "kulman chart madi-cam --chart sections -o sections.csv",
 )
 @console.of_task
-@console.listed(
-    "--chart",
-    "CHART,...",
-)
-@console.listed("--quantities", "NAME,...")
+@console.listed("--chart", "CHART,...", completing.charts)
+@console.listed("--quantities", "NAME,...", completing.quantities)
 @console.counted("--positions")
 @click.option("--tolerance", metavar="%", default="1", show_default=True)
-@click.option("--hand", default="normal", show_default=True)
+@click.option("--hand", shell_complete=completing.completing(lambda ctx: HANDS), default="normal", show_default=True)
 @console.output(".charts.charts")
 @console.as_json
 def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
@@ -303,9 +299,9 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     "kulman new my-cam.toml --kind cam",
     "kulman new --from scheme-09-shaper my-shaper.toml",
 )
-@click.argument("file")
+@click.argument("file", shell_complete=completing.files)
 @click.option("--kind", type=console.Word(*KINDS), default=KINDS[0], show_default=True)
-@click.option("--from", "source", metavar="TASK")
+@click.option("--from", "source", metavar="TASK", shell_complete=completing.completing(completing.tasks))
 @console.of_language
 @click.pass_context
 def new(ctx: click.Context, file: str, kind: str, source: str | None, lang: str | None) -> None:
@@ -318,7 +314,7 @@ def new(ctx: click.Context, file: str, kind: str, source: str | None, lang: str 
 
 
 @console.command("kulman show nau-slider-crank")
-@click.argument("task")
+@click.argument("task", shell_complete=completing.completing(completing.tasks))
 @console.of_language
 def show(task: str, lang: str | None) -> None:
     """Print the task file of a bundled TASK."""

@@ -350,7 +350,7 @@ def write_png(pages: Sequence[Page], stream: BinaryIO, dpi: float = DPI) -> None
     try:
         from pypdfium2 import PdfDocument
     except ImportError:
-        raise InputError("extra-missing", extra="png", suffix=".png") from None
+        raise InputError("extra-missing", packages="pypdfium2", suffix=".png") from None
     picture = BytesIO()
     write(pages[:1], picture)
     document = PdfDocument(picture.getvalue())

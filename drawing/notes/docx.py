@@ -103,7 +103,7 @@ def drawings_of(blocks: Iterable[Block], language: str) -> list[Drawing]:
 
 def _needs_libraries() -> None:
     if any(find_spec(name) is None for name in LIBRARIES):
-        raise InputError("extra-missing", extra="docx", suffix=".docx")
+        raise InputError("extra-missing", packages="fonttools pypdfium2 python-docx", suffix=".docx")
 
 
 def _append(word: Word, inside: str) -> None:

@@ -232,7 +232,7 @@ def test_a_line_is_seen_on_its_tile_and_cut_off_elsewhere() -> None:
         (["x.pdf"], "A5", "tile-unknown", "A5"),
         (["none/x.svg"], None, "output-folder-missing", "x.svg"),
         (["x.svg", "./x.svg"], None, "output-twice", "x.svg"),
-        (["x.png"], None, "extra-missing", "kulman[png]"),
+        (["x.png"], None, "extra-missing", "pip install pypdfium2"),
     ],
 )
 def test_what_cannot_be_written_is_refused_and_nothing_is(

@@ -362,5 +362,5 @@ def test_without_the_extra_a_line_says_so_and_nothing_is_written(
 
     out, err = capsys.readouterr()
     assert (left.value.code, out, err.count("\n")) == (2, "", 1)
-    assert "kulman[docx]" in err
+    assert "pip install fonttools pypdfium2 python-docx" in err
     assert list(tmp_path.iterdir()) == []

@@ -21,10 +21,13 @@ from ...scales.choices import LETTERINGS, SIZES
 from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
 from ...scales.names import latin
 from ...scales.numbers import SHOWN, quote
+from . import completing
 from .helping import Command, place
 from .settings import NORMS
 
 if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
+
     from ..tables import Result
 
 CLOSED = 1
@@ -192,6 +195,10 @@ class Word(TextType):
         option = param.opts[0] if param else ""
         raise InputError("cli-choice", option=option, text=quote(value), known=", ".join(self.words))
 
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
+        """Return the words that a shell may complete."""
+        return [completing.item(word) for word in self.words if word.lower().startswith(incomplete.lower())]
+
 
 def pairs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> dict[str, str]:
     """Split NAME=VALUE; no name twice."""
@@ -218,14 +225,18 @@ def output(module: str, required: bool = False) -> Callable[[Function], Function
     """
 
     def checked(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[Path, ...]:
+        if ctx.resilient_parsing:  # for a shell that completes
+            return ()
         from ...drawing.writers import check_outputs
 
         paths = tuple(map(Path, values))
         check_outputs(*paths, known=import_module(module, VARIANTS).SUFFIXES)
         return paths
 
-    names = ("-o", "--output", "files")
-    return click.option(*names, metavar="FILE", multiple=True, required=required, callback=checked)
+    names, ending = ("-o", "--output", "files"), completing.suffixed(module, VARIANTS)
+    return click.option(
+        *names, metavar="FILE", multiple=True, required=required, callback=checked, shell_complete=ending
+    )
 
 
 def _stacked(*options: Any) -> Callable[[Function], Function]:
@@ -239,10 +250,17 @@ def _stacked(*options: Any) -> Callable[[Function], Function]:
     return add
 
 
+def listed(name: str, metavar: str, source: completing.Source | None = None) -> Callable[[Function], Function]:
+    """Return an option for names, each alone or several with commas between; a shell completes those of a source."""
+    complete = completing.completing(source) if source is not None else None
+    return click.option(name, metavar=metavar, multiple=True, callback=given, shell_complete=complete)
+
+
+_named = completing.completing(completing.tasks, with_files=True)
 # the language, which `main` has already taken for messages
 of_language = click.option("--lang", type=Word(*LANGUAGES))
 _about_task: tuple[Any, ...] = (
-    click.option("-v", "--variant"),
+    click.option("-v", "--variant", shell_complete=completing.completing(completing.variants)),
     click.option(
         "--set",
         "settings",
@@ -257,12 +275,14 @@ _about_task: tuple[Any, ...] = (
         multiple=True,
         callback=pairs,
     ),
-    click.option("--only", metavar="PLAN,...", multiple=True, callback=given),
-    click.option("--notation"),
+    listed("--only", "PLAN,...", completing.plans),
+    click.option("--notation", shell_complete=completing.completing(completing.notations)),
     of_language,
 )
-of_task = _stacked(click.argument("task"), *_about_task)
-of_tasks = _stacked(click.argument("tasks", metavar="TASK...", nargs=-1, required=True), *_about_task)
+of_task = _stacked(click.argument("task", shell_complete=_named), *_about_task)
+of_tasks = _stacked(
+    click.argument("tasks", metavar="TASK...", nargs=-1, required=True, shell_complete=_named), *_about_task
+)
 of_norm = _stacked(
     click.option("--norm", type=Word(*NORMS), default=NORMS[0], show_default=True),
     click.option("--lettering", type=Word(*LETTERINGS), default=LETTERINGS[0], show_default=True),
@@ -273,11 +293,6 @@ tiled = click.option("--tile", type=Word("A4", "A3"))
 def command(*examples: str, name: str | None = None) -> Callable[[Callable[..., Any]], click.Command]:
     """Return what makes a command whose help ends with examples; it is called like its function without a `name`."""
     return click.command(name, cls=Command, epilog="\n".join(examples))
-
-
-def listed(name: str, metavar: str) -> Callable[[Function], Function]:
-    """Return an option for names, each alone or several with commas between."""
-    return click.option(name, metavar=metavar, multiple=True, callback=given)
 
 
 def counted(name: str) -> Callable[[Function], Function]:

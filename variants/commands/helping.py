@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,6 +12,10 @@ from ...scales.choices import HANDS
 from ...scales.errors import system_language
 from ...scales.names import unknown
 from ...scales.packaged import packaged
+from .completing import item
+
+if TYPE_CHECKING:
+    from click.shell_completion import CompletionItem
 
 _PLACE = re.compile(r"[A-Z]{2,}")  # what stands for a word of the user: FILE, NAME=VALUE; not N, not A4
 
@@ -96,6 +100,14 @@ class Command(click.Command):
         with formatter.section(words["example"]), formatter.indentation():
             formatter.write("".join(f"  {line}\n" for line in (self.epilog or "").splitlines()))
 
+    def shell_complete(self, ctx: click.Context, incomplete: str) -> list[CompletionItem[str]]:
+        """Return what a shell may complete, options and commands, with what they do."""
+        options = (param for param in self.get_params(ctx) if isinstance(param, click.Option))
+        rows = {name: _row(ctx, self.told, option)[1] for option in options for name in option.opts}
+        rows.update(self.commands_told(ctx))
+        offered = super().shell_complete(ctx, incomplete)
+        return [item(one.value, help=rows.get(one.value)) for one in offered]
+
     def commands_told(self, ctx: click.Context) -> Iterator[tuple[str, str]]:
         """Yield the commands of a group with what they do, whole: no summary is cut."""
         yield from ()
@@ -123,7 +135,7 @@ class Group(Command, click.Group):
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """Find the command that `args` begin with."""
-        if args and not args[0].startswith("-"):
+        if args and not args[0].startswith("-") and not ctx.resilient_parsing:
             self.named(args[0])
         return super().resolve_command(ctx, args)
 

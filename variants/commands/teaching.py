@@ -10,7 +10,7 @@ import click
 from ...scales.choices import HANDS, SHEETS
 from ...scales.errors import InputError, messages, system_language
 from ...scales.numbers import SHOWN, quote
-from . import console
+from . import completing, console
 
 if TYPE_CHECKING:
     from ..marking.checks import Check
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     "--hidden-key",
     is_flag=True,
 )
-@click.option("--over", metavar="PLAN")
+@click.option("--over", metavar="PLAN", shell_complete=completing.completing(completing.plans))
 @click.option("--grid", is_flag=True)
 @console.sized(default="A4", show_default=True)
 @console.of_norm
@@ -64,7 +64,7 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     name="variants",
 )
 @console.of_task
-@console.listed("--quantities", "NAME,...")
+@console.listed("--quantities", "NAME,...", completing.quantities)
 @console.counted("--make")
 @click.option(
     "--range",
@@ -78,6 +78,7 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     "--from",
     "table",
     metavar="FILE",
+    shell_complete=completing.files,
 )
 @click.option("--preset", type=console.Word(*HANDS), default="normal", show_default=True)
 @console.output(
@@ -107,9 +108,10 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 @click.option(
     "--roster",
     metavar="FILE",
+    shell_complete=completing.files,
 )
-@click.option("--form", metavar="FILE")
-@click.option("--out", "folder", metavar="FOLDER")
+@click.option("--form", metavar="FILE", shell_complete=completing.files)
+@click.option("--out", "folder", metavar="FOLDER", shell_complete=completing.files)
 @click.option(
     "--as",
     "kinds",
@@ -169,25 +171,25 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     "kulman check nau-slider-crank printed --preset lenient -o report.html",
 )
 @console.of_task
-@click.argument("answers", nargs=-1)
-@click.option("--form", metavar="FILE")
+@click.argument("answers", nargs=-1, shell_complete=completing.files)
+@click.option("--form", metavar="FILE", shell_complete=completing.files)
 @click.option("--preset", type=console.Word(*HANDS), default="normal", show_default=True)
 @click.option("--verdict-only", "own", is_flag=True)
 @console.sized()
-@click.option("--rubric", metavar="FILE")
+@click.option("--rubric", metavar="FILE", shell_complete=completing.files)
 @click.option(
     "--directions",
     type=console.Word("required", "optional", "ignored"),
 )
-@click.option("--roster", metavar="FILE")
+@click.option("--roster", metavar="FILE", shell_complete=completing.files)
 @click.option(
     "--digits",
     metavar="N|WORD,...",
     default="1",
     show_default=True,
 )
-@click.option("--out", "folder", metavar="FOLDER")
-@click.option("--moodle", metavar="FILE", type=Path)
+@click.option("--out", "folder", metavar="FOLDER", shell_complete=completing.files)
+@click.option("--moodle", metavar="FILE", shell_complete=completing.files, type=Path)
 @click.option("--jobs", metavar="N", callback=console.processes)
 @console.output(
     ".marking.report",
