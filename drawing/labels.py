@@ -121,10 +121,9 @@ class Scene:
             half = float(self.wanted.hw[i]), float(self.wanted.hh[i])
             cost = cost + spots.THIN * ~self.around.fine.free(leads[0], complex(*half), self.gap / 2)
             few = self.around.free(leads[0], *half, afield).nonzero()[0]
-            if not cross:
-                few = few[~self.around.barring.barred(leads[2, few], leads[1, few])]
             few = few[np.argsort(cost[few], kind="stable")]
-            few = few[:: -(-len(few) // SOME)] if cross and len(few) else few[:SOME]
+            clear = slice(None, None, -(-len(few) // SOME) or 1)
+            few = few[clear if cross else self.around.barring.clear(leads[:, few], SOME)]
             leads, cost = leads[:, few], cost[few]
             _, head, start, way = leads
             crossings = self.around.crossed(head, start + spots.TOUCH * way)
@@ -145,8 +144,8 @@ class Scene:
             few = few[around.crossed(knee[few], start[few] + spots.TOUCH * way[few]) == 0]
             leads, costs, k = self.wanted.bent(i, knee[few], way[few], cost[few])
             left = around.free(leads[0], *half, True).nonzero()[0]
-            left = left[~around.barring.barred(leads[2, left], leads[1, left])]
-            left = left[np.argsort(costs[left], kind="stable")][:SOME]
+            left = left[np.argsort(costs[left], kind="stable")]
+            left = left[around.barring.clear(leads[:, left], SOME)]
             left = left[around.crossed(leads[1, left], leads[2, left]) == 0]
             self._bent[i] = leads[:, left], costs[left], start[few][k[left]]
         return self._bent[i]

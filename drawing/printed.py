@@ -386,7 +386,7 @@ def calculation(
     values, digits = [one.value for one in inputs], [AS_TOLD] * len(inputs)
     if wanted == AS_PRINTED:
         return _texts(words, inputs, digits), value_text(words, as_printed(law, inputs), DIGITS + 1)
-    result = law(*values)
+    result, numbers = law(*values), _Numbers(inputs)
     measured = read is not None or any(one.places is not None for one in inputs)
     for last, most in MEASURED if measured else FREE:
         decimals = decimals_for(result, last) if wanted is None else wanted
@@ -394,14 +394,14 @@ def calculation(
             continue
         for digits in _digits(inputs, most):
             with suppress(ArithmeticError, ValueError):  # numbers that are rounded to nothing may give none at all
-                if _agree(law(*_printed(inputs, digits)), result, decimals):
+                if _agree(law(*numbers.with_digits(digits)), result, decimals):
                     return _texts(words, inputs, digits), words.number(result, decimals)
     if read is not None:  # no digits of it agree
         return calculation(words, law, inputs, wanted)
     with suppress(ArithmeticError, ValueError):
-        reckoned = law(*_printed(inputs, digits))
+        reckoned = law(*numbers.with_digits(digits))
         result, decimals = _agreed(result, reckoned, FEWEST) if wanted is None else (reckoned, wanted)
-        ways = (own for own in _digits(inputs, most) if _agree(law(*_printed(inputs, own)), result, decimals))
+        ways = (own for own in _digits(inputs, most) if _agree(law(*numbers.with_digits(own)), result, decimals))
         digits = next(ways, digits)  # the fewest that give as much
     return _texts(words, inputs, digits), words.number(result, decimals)
 
@@ -451,9 +451,20 @@ def _digits(inputs: Sequence[Input], most: int) -> Iterator[list[int]]:
     yield from ([more] * count for more in range(DIGITS + 1, most + 1))
 
 
-def _printed(inputs: Sequence[Input], digits: Sequence[int]) -> list[float]:
-    """Return inputs as they are printed with so many digits each."""
-    return [one.printed(own) for one, own in zip(inputs, digits, strict=True)]
+class _Numbers(dict[tuple[int, int], float]):
+    """Inputs as they are printed, by their places and their digits: many ways to print them are tried."""
+
+    def __init__(self, inputs: Sequence[Input]) -> None:
+        super().__init__()
+        self.inputs = inputs
+
+    def __missing__(self, key: tuple[int, int]) -> float:
+        self[key] = self.inputs[key[0]].printed(key[1])
+        return self[key]
+
+    def with_digits(self, digits: Sequence[int]) -> list[float]:
+        """Return all inputs, each with its digits."""
+        return [self[key] for key in enumerate(digits)]
 
 
 def _texts(words: Words, inputs: Sequence[Input], digits: Sequence[int]) -> list[str]:

@@ -269,7 +269,7 @@ class Convex(NamedTuple):
 class Cells(NamedTuple):
     """Cells of a raster with anything in them: their lower left corner, which they are, how many are below and left.
 
-    From such sums any number of boxes are known to be free at once.
+    From such sums any number of boxes are known to be free at once. Those that are `filled` have empty ones round them.
     """
 
     side: float
@@ -282,7 +282,7 @@ class Cells(NamedTuple):
         """Return the cells of things; they are a little larger than these."""
         middle, along, hx, hy, _, radius = columns
         if not len(middle):
-            return cls(CELL, 0j, np.zeros((0, 0), dtype=bool), np.zeros((1, 1), dtype=int))
+            return cls(CELL, 0j, np.zeros((2, 2), dtype=bool), np.zeros((1, 1), dtype=int))
         reach = np.maximum(abs(along.real), hx) + radius + 1j * (np.maximum(abs(along.imag), hy) + radius)
         low, high = middle - reach, middle + reach
         corner = complex(low.real.min(), low.imag.min())
@@ -304,7 +304,7 @@ class Cells(NamedTuple):
         total = np.zeros((cells.shape[0] + 1, cells.shape[1] + 1), dtype=np.int32)
         cells.cumsum(axis=0, out=total[1:, 1:])
         total.cumsum(axis=1, out=total)
-        return cls(side, corner, cells, total)
+        return cls(side, corner, np.pad(cells, 1), total)
 
     def free(self, at: Points, half: complex, gap: float) -> Flags:
         """Tell which boxes of one half size about places have nothing in them, nor nearer than a gap."""
@@ -315,13 +315,14 @@ class Cells(NamedTuple):
         clear: Flags = self.total[y1, x1] - self.total[y0, x1] - self.total[y1, x0] + self.total[y0, x0] == 0
         return clear
 
-    def at(self, points: Points) -> Flags:
+    def at(self, x: Reals, y: Reals) -> Flags:
         """Tell which points are in cells with anything."""
         rows, columns = self.filled.shape
-        x, y = (points.real - self.corner.real) / self.side, (points.imag - self.corner.imag) / self.side
-        inside = (x >= 0) & (y >= 0) & (x < columns) & (y < rows)
-        found: Flags = inside.copy()
-        found[inside] = self.filled[y[inside].astype(int), x[inside].astype(int)]
+        column = _within(np.floor((x - self.corner.real) / self.side) + 1, 0, columns - 1).astype(int)
+        row = _within(np.floor((y - self.corner.imag) / self.side) + 1, 0, rows - 1).astype(int)
+        row *= columns
+        row += column
+        found: Flags = self.filled.ravel().take(row)
         return found
 
     def barred(self, starts: Points, heads: Points) -> Flags:
@@ -333,9 +334,21 @@ class Cells(NamedTuple):
         for every in (4, 1):  # some cells tell of most leaders that they are barred
             left = (~found).nonzero()[0]
             of, part, _ = _counted((count[left] - 1) // every + 1)
-            hit = self.at(heads[left[of]] + step[left[of]] * (every * part))
+            part *= every
+            head, on = heads[left], step[left]
+            hit = self.at(head.real[of] + on.real[of] * part, head.imag[of] + on.imag[of] * part)
             found[left] = np.bincount(of, hit, len(left)) > 0
         return found
+
+    def clear(self, leads: Points, most: int) -> Numbers:
+        """Return the first leaders, as `Wanted.leads` has them, at `most` so many, that run through no such cells."""
+        clear = np.zeros(0, dtype=int)
+        for begin in range(0, leads.shape[1], 2 * most):
+            if len(clear) >= most:
+                break
+            own = leads[:, begin : begin + 2 * most]
+            clear = np.append(clear, begin + (~self.barred(own[2], own[1])).nonzero()[0])
+        return clear[:most]
 
 
 def _in_heads(middle: Points, along: Points, radius: Reals, side: float) -> list[Points]:
@@ -574,7 +587,8 @@ class Surroundings:
         free = np.ones(len(at), dtype=bool)
         for inside in (rows[::4], rows):  # some rows tell of most places that they are taken
             left = free.nonzero()[0]
-            free[left] = ~self.cells.at(at[left, None] + inside.ravel()).any(axis=1)
+            points = at[left, None] + inside.ravel()
+            free[left] = ~self.cells.at(points.real, points.imag).any(axis=1)
         half = abs((hw * e).real) + abs((hh * e).imag) + 1j * (abs((hw * e).imag) + abs((hh * e).real))
         free &= ~self._beyond(at, half)
         left = free.nonzero()[0]

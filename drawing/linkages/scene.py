@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Hashable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ...plans.board import POSITION, Program, Step
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
@@ -26,6 +26,7 @@ from .reading import Edge, Reading, ends_of, read
 if TYPE_CHECKING:
     from ...plans.linkages.cycle import Runs
 
+Made = TypeVar("Made")
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 
 
@@ -44,12 +45,27 @@ class Scales(dict[str, Scale]):
 
 @dataclass(frozen=True, slots=True)
 class Scene(SubjectScene[SolvedLinkage]):
-    """A solved mechanism on a certain format, in certain words; `scales` are by plan, `runs` of sliders by guide."""
+    """A solved mechanism on a certain format, in certain words; `scales` are by plan, `runs` of sliders by guide.
+
+    What is `found` for it stays, by what was asked and with the scale factors that it used.
+    """
 
     scales: Mapping[str, Scale]
     runs: Runs = field(default_factory=dict)
     _largest: dict[str, float] = field(default_factory=dict, compare=False)
+    found: dict[Hashable, list[tuple[dict[str, Scale], Any]]] = field(default_factory=dict, compare=False)
     skeletons: dict[int, Any] = field(default_factory=dict, init=False, compare=False)  # of links, found at its scales
+
+    def once(self, make: Callable[[Scene], Made], *asked: Hashable) -> Made:
+        """Return what is made for this scene, unless it has been `asked` for at the same scale factors before."""
+        before = self.found.setdefault((*asked, self.words.display), [])
+        for used, made in before:
+            if all(self.scales[plan] == scale for plan, scale in used.items()):
+                return made  # type: ignore[no-any-return]
+        watched = Scales(self.scales)
+        made = make(replace(self, scales=watched))
+        before.append(({plan: self.scales[plan] for plan in watched.used}, made))
+        return made
 
     @property
     def mechanism(self) -> Mechanism:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import Coupler
@@ -31,7 +31,7 @@ from .figures.plan import plan_view
 from .figures.scheme import scheme
 from .ladders import ARMS, by_plan, extents_of, links_apart, marks_on, mus_of, ways_of
 from .reading import lettered
-from .scene import Scales, Scene
+from .scene import Scene
 
 if TYPE_CHECKING:
     from ...plans.linkages.cycle import Cycle
@@ -291,7 +291,7 @@ class Fitting:
     def __init__(self, contents: Contents) -> None:
         self.contents, self.runs = contents, slider_runs(contents.solved)
         self.extents = extents_of(contents.solved, contents.choosers, contents.plans)
-        self._drawings: dict[tuple[str, str], list[tuple[dict[str, Scale], View]]] = {}
+        self._found: dict[str, dict[Hashable, Any]] = {}  # by format
 
     def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> tuple[list[View], Rungs]:
         """Return views and rungs for pages of `sheet`: these rungs, coarser ones where they must be.
@@ -338,24 +338,16 @@ class Fitting:
         contents, solved, mus = self.contents, self.contents.solved, mus_of(self.extents, rungs)
         text_width = min(TEXT_WIDTH[sheet.letters], room(printable(sheet), contents.norm)[0])
         words, style = lettered(contents.words, solved), STYLES[sheet.letters]
-        scene = Scene(solved, words, style, contents.givens, self.scales(rungs), self.runs)
+        found = self._found.setdefault(sheet.name, {})
+        scene = Scene(solved, words, style, contents.givens, self.scales(rungs), self.runs, found=found)
         built = []
         for figure in figures(contents, text_width):
             # of two scale factors the one with the longer lines makes the figure as large as it is
             symbol = next(iter(figure.ladders), "")
             if len(figure.ladders) > 1:
                 symbol = max(figure.ladders, key=lambda s: _reach(solved, s) / mus[s])
-            built.append((self._drawn(sheet, figure, scene), self.extents.root(symbol)))
+            built.append((scene.once(figure.draw, "figure", figure.name), self.extents.root(symbol)))
         return built
-
-    def _drawn(self, sheet: Format, figure: LinkageFigure, scene: Scene) -> View:
-        """Draw a figure, unless it has been drawn for this format at the same of the scale factors that it used."""
-        drawings, watched = self._drawings.setdefault((sheet.name, figure.name), []), Scales(scene.scales)
-        for used, view in drawings:
-            if all(scene.scales[plan] == scale for plan, scale in used.items()):
-                return view
-        drawings.append((watched.used, figure.draw(replace(scene, scales=watched))))
-        return drawings[-1][1]
 
     def _does_not_fit(self, sheet: Format, symbol: str, size: tuple[float, float]) -> InputError:
         """Say which format, or which scale factor, would do."""

@@ -396,7 +396,8 @@ def test_beside_an_arrowhead_there_is_room_and_upon_it_none(angle: float) -> Non
 
     assert [first_clear([at], small, head, 0.5) for at in beside] == beside
     assert [first_clear([at], small, head, 0.5) for at in upon] == [None] * len(upon)
-    assert [bool(x) for x in Surroundings(head, 0.6).cells.at(np.array(beside + upon))] == [False] * 6 + [True] * 6
+    places = np.array(beside + upon)
+    assert Surroundings(head, 0.6).cells.at(places.real, places.imag).tolist() == [False] * 6 + [True] * 6
 
 
 def test_a_leader_leaves_the_tip_of_its_own_arrow_and_crosses_no_other() -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
+from itertools import accumulate, pairwise
 from typing import Any
 
 from ....plans.board import POSITION, Step
@@ -95,7 +97,7 @@ class Product:
 
     def of(self, values: Sequence[Any]) -> Any:
         """Return the signed product of other values of its factors, or of symbols."""
-        sizes = (value**factor.power for value, factor in zip(values, self.factors, strict=True))
+        sizes = [value if f.power == 1 else value**f.power for value, f in zip(values, self.factors, strict=True)]
         return math.copysign(1.0, self.sign) * math.prod(sizes)
 
 
@@ -135,9 +137,10 @@ def _inputs(operands: Sequence[Product]) -> list[Input]:
 def _of_factors(law: Callable[..., Any], operands: Sequence[Product]) -> Callable[..., Any]:
     """Return a law of products as one of all their factors."""
 
+    ends = [0, *accumulate(len(operand.factors) for operand in operands)]
+
     def found(*x: Any) -> Any:
-        rest = iter(x)
-        return law(*(operand.of([next(rest) for _ in operand.factors]) for operand in operands))
+        return law(*[own.of(x[begin:end]) for own, (begin, end) in zip(operands, pairwise(ends), strict=True)])
 
     return found
 
@@ -247,6 +250,10 @@ def printed_segment(scene: Scene, q: Quantity, plan: str = "") -> tuple[str, str
     If no plan is said it is its own; a force that is too short there may be read in a detail of another one. What can
     be read nowhere, or is on no plan, is no text. A reaction has the number of the one that it opposes.
     """
+    return scene.once(partial(_printed_segment, q=q, plan=plan), "segment", q.name, plan)
+
+
+def _printed_segment(scene: Scene, q: Quantity, plan: str) -> tuple[str, str, str]:
     own = plan or drawn_on(scene, q)
     told = _segment_on(scene, q, own)
     if told[0] or plan or role(own).kind != FORCES:

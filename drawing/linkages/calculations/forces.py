@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import chain
 from typing import NamedTuple
 
@@ -146,6 +147,10 @@ def _solved_for(scene: Scene, moment: str, products: Iterable[Product], sign: fl
 
 def _force(scene: Scene, step: Step) -> Lines:
     """Tell a step of the force plans: a sum of moments, or the sums of forces of a plan."""
+    return scene.once(partial(_told, step=step), "force", step.name)
+
+
+def _told(scene: Scene, step: Step) -> Lines:
     words, first = scene.words, step.operands[0] if step.operands else ""
     if step.verb == "pole" and role(step.name).plan.kind == FORCES:
         return list(_closed(scene, role(step.name).plan))
@@ -423,7 +428,11 @@ def differ(scene: Scene, found: Mapping[str, float]) -> tuple[str, bool]:
 
 def balance(scene: Scene) -> dict[str, float]:
     """Return what balances the driver, by the plans and by the lever, as the numbers give it that are printed."""
-    scene, found = replace(scene, words=scene.words.showing(AS_INSIDE)), dict[str, float]()
+    return replace(scene, words=scene.words.showing(AS_INSIDE)).once(_balance, "balance")
+
+
+def _balance(scene: Scene) -> dict[str, float]:
+    found = dict[str, float]()
     for step in (step for step in scene.program if step.name in BALANCING):
         first, *others = step.operands
         if step.law == "closing_moment":

@@ -141,6 +141,9 @@ class Plan:
 
         There is none where a single force is too short.
         """
+        return self.scene.once(lambda scene: Plan(scene, self.plan)._windows(), "windows", self.plan)
+
+    def _windows(self) -> list[Window]:
         short = self._short(1.0)
         if role(self.plan).kind != FORCES or len(short) <= FEW:
             return []
