@@ -35,7 +35,7 @@ from kulman.variants.solution import solve
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 DOCUMENTS = (*DOCS.rglob("*.md"), *refresh.GUIDES)
-TASK_FILE = (guides.FOLDER / "task-file.en.md").read_text(encoding="utf-8")
+TASK_FILES = [path.read_text(encoding="utf-8") for path in guides.FOLDER.glob("task-file.*")]
 NOTATIONS = (DOCS / "notations.md").read_text(encoding="utf-8")
 TASK = "nau-slider-crank"
 
@@ -72,12 +72,13 @@ def test_every_key_of_a_task_file_is_explained(monkeypatch: pytest.MonkeyPatch) 
     keys = {key for text in example_texts() for key in keys_read(text, monkeypatch)}
 
     assert {"id", "link", "points", "branch", "reconstructed", "uk", "travel", "back", "gravity", "curve"} <= keys
-    explained = set(re.findall(r"`(\w+)`", TASK_FILE)) | set(re.findall(r"^(\w+) = ", TASK_FILE, re.MULTILINE))
-    assert keys - explained == set()
+    for text in TASK_FILES:
+        explained = set(re.findall(r"`(\w+)`", text)) | set(re.findall(r"^(\w+) = ", text, re.MULTILINE))
+        assert keys - explained == set()
 
 
 def test_every_example_of_a_task_file_stands_in_a_task() -> None:
-    blocks = re.findall(r"```toml\n(.*?)```", TASK_FILE, re.DOTALL)
+    blocks = re.findall(r"```toml\n(.*?)```", TASK_FILES[0], re.DOTALL)
 
     assert len(blocks) > 10
     for block in blocks:
@@ -91,15 +92,16 @@ def test_every_example_is_solved(path: Path) -> None:
     assert solution.status == "ok"
     assert solution.checks
     assert all(check["ok"] for check in solution.checks.values())
-    assert f"examples/{path.name})" in TASK_FILE
+    assert all(f"examples/{path.name})" in text for text in TASK_FILES)
 
 
-def test_the_words_that_a_task_file_may_use_are_named() -> None:
-    assert all(f"`{name}`" in TASK_FILE for name in notations())
+@pytest.mark.parametrize("text", TASK_FILES, ids=lambda text: text.partition("\n")[0])
+def test_the_words_that_a_task_file_may_use_are_named(text: str) -> None:
+    assert all(f"`{name}`" in text for name in notations())
     assert all(f"`{name}`" in NOTATIONS for name in notations())
     plans = (*PLANS, *CAM_PLANS, *GEAR_PLANS, *HOIST_PLANS)
-    assert all(f'"{word}"' in TASK_FILE for word in (*plans, *FOLLOWERS, *LAWS, *MATERIALS, *SIDES))
-    assert all(f"`{name}`" in TASK_FILE for of in (cam, gear, hoist) for name in of.KIND.givens)
+    assert all(f'"{word}"' in text for word in (*plans, *FOLLOWERS, *LAWS, *MATERIALS, *SIDES))
+    assert all(f"`{name}`" in text for of in (cam, gear, hoist) for name in of.KIND.givens)
 
 
 def test_every_key_of_a_notation_is_explained() -> None:

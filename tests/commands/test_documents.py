@@ -127,7 +127,7 @@ def test_fault_that_the_document_shows_is_the_one_of_the_program(language: str) 
     assert [fault.text(language) for fault in faults] == [shown]
 
 
-@pytest.mark.parametrize("name", [name for name in TEXTS if name.startswith("own-mechanism")])
+@pytest.mark.parametrize("name", [name for name in TEXTS if name.startswith(("own-mechanism", "task-file"))])
 def test_faults_often_made_are_told_in_the_words_of_the_messages(name: str) -> None:
     *_, table = re.findall(r"(?:^\|.*\n)+", TEXTS[name], re.MULTILINE)
     quoted = [words for row in table.splitlines() for words in re.findall(r"`(.*?)`", row.split("|")[1])]
