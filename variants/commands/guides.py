@@ -13,7 +13,7 @@ from ...scales.names import unknown
 from ...scales.packaged import home
 
 FOLDER = home((__package__ or "").rpartition(".")[0]) / "guides"
-TOPICS = ("own-mechanism", "task-file", "marking", "classes")  # in the order of reading
+TOPICS = ("start", "install", "own-mechanism", "task-file", "marking", "classes")  # in the order of reading
 _LINK = re.compile(r"!?\[([^\]]+)\]\(([^)\s]+)\)")
 _COMMENT = re.compile(r"^<!--.*?-->\n", re.MULTILINE | re.DOTALL)
 
