@@ -8,13 +8,18 @@ if TYPE_CHECKING:
     from .plans.quantities import Quantity as Quantity
     from .scales.errors import KulmanError as KulmanError
     from .scales.series import Series as Series
+    from .variants.batches.batch import Batch as Batch
     from .variants.batches.batch import batch as batch
+    from .variants.charts.charts import Charts as Charts
     from .variants.charts.charts import chart as chart
+    from .variants.making.all_variants import AllVariants as AllVariants
     from .variants.making.all_variants import all_variants as all_variants
     from .variants.many import ManyStates as ManyStates
     from .variants.many import Status as Status
     from .variants.many import solve_many as solve_many
+    from .variants.marking.checks import Check as Check
     from .variants.marking.checks import check as check
+    from .variants.notes import Note as Note
     from .variants.notes import note as note
     from .variants.reader import load_task as load_task
     from .variants.sheets import Sheet as Sheet
@@ -28,8 +33,13 @@ if TYPE_CHECKING:
     from .variants.task import Task as Task
 
 _HOMES = {
+    "AllVariants": "variants.making.all_variants",
+    "Batch": "variants.batches.batch",
+    "Charts": "variants.charts.charts",
+    "Check": "variants.marking.checks",
     "KulmanError": "scales.errors",
     "ManyStates": "variants.many",
+    "Note": "variants.notes",
     "Quantity": "plans.quantities",
     "Series": "scales.series",
     "Sheet": "variants.sheets",

@@ -9,10 +9,11 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 
 RUNS = 7
-MILLION = 1_000_000
+MILLION, MANY = 1_000_000, 100_000
 # as for a user: with compiled modules kept from run to run
 ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
 
@@ -97,6 +98,28 @@ def million() -> None:
         print(ours / MILLION * 1e9, hand / MILLION * 1e9, memory)
 
 
+def states() -> None:
+    """Solve 100,000 states by `solve_many`, beside the bare batch: as numpy, pandas, CSV."""
+    import numpy as np
+
+    import kulman
+    from kulman.plans.boards.batch import batch
+    from kulman.plans.linkages.chain import constructed
+    from kulman.plans.linkages.solved import board_givens
+
+    task, phi = kulman.load_task("nau-slider-crank"), np.linspace(0.0, 2.0 * math.pi, MANY)
+    many = kulman.solve_many(task, phi=phi)
+    _, program = constructed(task.mechanism, many.case.plans)
+    givens, names = board_givens(task.mechanism, {**many.case.values, "phi": phi}, program), tuple(many.values)
+    bare, ours = in_turn(lambda: batch(program, givens, names), lambda: kulman.solve_many(task, phi=phi))
+    row(f"{MANY:,} states of {len(names)} names", ours * 1e3, "ms", 60, f"{ours / bare:.2f} times the bare batch")
+    frame = in_turn(many.to_dict, many.to_dataframe)[1] if find_spec("pandas") else math.nan
+    row("the same as a data frame", frame * 1e3, "ms", 200, f"{frame / bare:.2f} times the bare batch")
+    few = kulman.solve_many(task, phi=phi, names="V_B,M_bal")
+    text = shortest(few.csv)
+    row("two of them as CSV", text, "s", 0.5, f"{text / MANY * 1e6:.1f} us a state")
+
+
 def row(name: str, value: float, unit: str, goal: float, ratio: str) -> None:
     """Print one line of the table."""
     print(f"| {name} | {value:.3g} {unit} | {goal:g} {unit} | {ratio} |")
@@ -158,6 +181,7 @@ def main() -> None:
         row(f"{name}, a million times, each", ours, "ns", goal, ratio)
         if goal == 100:
             row("peak memory of that run", memory, "MB", 150, "")
+    states()
     from classes import students
 
     for name, taken, solutions in students():  # 40 ms on each of two cores: a class of 1,000 in 20 s

@@ -83,6 +83,18 @@ class Quantity:
             raise TypeError(f"{self.name} is a point: it has coordinates x and y")
         return math.nan if self.value is None else self.value
 
+    def __format__(self, spec: str) -> str:
+        """Return the value, of a point its coordinates, as numbers are formatted, with the unit.
+
+        >>> f"{Quantity('V_B', 2.7614, 'm/s'):.2f}"
+        '2.76 m/s'
+        """
+        if not spec:
+            return repr(self)
+        parts = (self.x, self.y) if self.kind == "point" else (self.value,)
+        sizes = ", ".join("–" if part is None else format(part, spec) for part in parts)
+        return f"{f'({sizes})' if self.kind == 'point' else sizes} {self.unit}"
+
     def to(self, of: str) -> Quantity:
         """Return the quantity in another unit, `"mm/s"`.
 

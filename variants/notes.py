@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from base64 import b64encode
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -48,6 +49,18 @@ class Note(Saved):
     def figures(self) -> dict[str, Figure]:
         """The figures by the names of their views."""
         return {block.view.name: block for block in self.document.blocks if isinstance(block, Figure)}
+
+    def __repr__(self) -> str:
+        """Return task, variant and the number of figures."""
+        title = self.document.title
+        return f"<Note {title.task} {title.variant}: figures: {len(self.figures)}>"
+
+    def _repr_markdown_(self) -> str:
+        """Show the note, or its only figure, in a notebook."""
+        wanted = self.figures.values() if self.figure is None else (self.figures[self.figure],)
+        svg = (b64encode(self._drawn(figure, ".svg")).decode("ascii") for figure in wanted)
+        drawn = [f"data:image/svg+xml;base64,{data}" for data in svg]
+        return markdown(self.document, drawn) if self.figure is None else f"![]({drawn[0]})"
 
     def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
         """Return the document, the figures of Markdown beside it; or the one picture."""

@@ -26,6 +26,7 @@ from ..scales.numbers import quote
 from ..scales.scale import Fixed, Scale
 from .case import Case, Request, Settings, Wanted
 from .reader import load_task
+from .tables import picture
 from .task import AnyTask, Task
 
 # what a title block says beside what the task does
@@ -47,7 +48,7 @@ ALL = 1000  # steps: no plan has more
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Sheet:
-    """A drawn sheet: one page or several, and the scale factors drawn, by plan; a notebook shows its first page."""
+    """A drawn sheet: one page or several, and the scale factors drawn, by plan; a notebook shows the pages."""
 
     pages: tuple[Page, ...]
     scales: Mapping[str, Scale]
@@ -88,9 +89,9 @@ class Sheet:
         """Return title, format and the number of pages."""
         return f"<Sheet {self.pages[0].title!r}: {self.format}, pages: {len(self.pages)}>"
 
-    def _repr_svg_(self) -> str:
-        """Show the first page in a notebook."""
-        return self.svg()
+    def _repr_html_(self) -> str:
+        """Show all pages in a notebook."""
+        return "".join(picture(self.svg(number), self.pages[0].title) for number in range(1, len(self.pages) + 1))
 
 
 def sheet(

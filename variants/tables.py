@@ -9,6 +9,7 @@ import math
 import os
 import re
 from abc import ABC, abstractmethod
+from base64 import b64encode
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -16,7 +17,7 @@ from functools import cache
 from html import escape
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, cast
 
 from ..drawing.writers import WRITERS, Files, save_all
 from ..scales.errors import InputError
@@ -279,6 +280,12 @@ class Swept(Arrays):
         return None
 
 
+def picture(svg: str | bytes, said: str = "") -> str:
+    """Return SVG as a picture in a page, apart from all others: they may have fonts of one name."""
+    data = b64encode(svg.encode("utf-8", "replace") if isinstance(svg, str) else svg).decode("ascii")
+    return f'<img src="data:image/svg+xml;base64,{data}" alt="{escape(said)}" style="max-width: 100%">'
+
+
 def ends_data(of: str, most: tuple[float, float], least: tuple[float, float]) -> dict[str, Any]:
     """Return the largest and the smallest value, each with its place, as data."""
     return {"unit": of} | {key: {"value": x, "at": at} for key, (x, at) in (("max", most), ("min", least))}
@@ -337,11 +344,31 @@ def csv_text(
 
     Numbers are in full precision where nothing else writes a `number`.
     """
-    comma = separator is None and language != "en"
+    comma, told = separator is None and language != "en", number or exact
     stream = io.StringIO(newline="")
     writer = csv.writer(stream, delimiter=separator or (";" if comma else ","), lineterminator="\r\n")
-    writer.writerows([_text(cell, comma, number or exact) for cell in row] for row in rows)
+    head, *under = [tuple(row) for row in rows] or [()]
+    writer.writerow([_text(cell, comma, told) for cell in head])
+    if told is exact and {*map(len, under)} == {len(head)}:  # whole columns of numbers take a fifth of the time
+        writer.writerows(zip(*(_texts(column, comma) for column in zip(*under, strict=True)), strict=True))
+    else:
+        writer.writerows([_text(cell, comma, told) for cell in row] for row in under)
     return stream.getvalue()
+
+
+def _texts(column: Sequence[Cell], comma: bool) -> list[str]:
+    """Return the cells of a column as a spreadsheet reads them, in full precision."""
+    kinds = {*map(type, column)}
+    if kinds == {str}:  # statuses
+        known = {text: harmless(text) for text in {*map(str, column)}}
+        return [known[text] for text in map(str, column)]
+    if kinds == {int}:
+        return [*map(str, column)]
+    if kinds != {float}:
+        return [_text(cell, comma, exact) for cell in column]
+    numbers = cast("Sequence[float]", column)
+    texts = [repr(x + 0.0) if -math.inf < x < math.inf else "" for x in numbers]
+    return [text.replace(".", ",") for text in texts] if comma else texts
 
 
 def _text(cell: Cell, comma: bool, number: Callable[[float], str]) -> str:

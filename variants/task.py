@@ -95,7 +95,7 @@ class Variant:
     reconstructed: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Task:
     """A task of a textbook as data.
 
@@ -125,6 +125,10 @@ class Task:
     instead: Instead = ()
     note: Mapping[str, str] = field(default_factory=dict)
     number: int = 0
+
+    def __repr__(self) -> str:
+        """Return the id and how many variants there are."""
+        return f"<Task {self.id}: {len(self.variants)} variants>"
 
     def note_in(self, language: str) -> str:
         """Return what a user should know of the data, in a language; nothing where the task says nothing."""

@@ -157,11 +157,12 @@ def test_a_notebook_shows_a_solution_as_its_table_or_why_there_is_none(solution:
     assert (same.to_json(), str(same.reason)) == (apart.to_json(), str(apart.reason))  # in another process, too
 
 
-def test_a_notebook_shows_a_sheet_as_its_first_page() -> None:
+def test_a_notebook_shows_all_pages_of_a_sheet() -> None:
     pages = kulman.sheet(TASK, "3", format="A3")
 
     assert len(pages.pages) > 1
-    assert pages._repr_svg_() == pages.svg(1) != pages.svg(2)
+    assert pages._repr_html_().count("<img ") == len(pages.pages)
+    assert pages.svg(1) != pages.svg(2)
     for number in (0, len(pages.pages) + 1):
         with pytest.raises(KulmanError, match="there is no page"):
             pages.svg(number)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 import re
 from collections.abc import Callable
 from decimal import Decimal
@@ -194,6 +195,14 @@ def test_a_spreadsheet_becomes_variants(turned: bool, tmp_path: Path, run: Run) 
     assert solve(task, "2")["V_B"].value == pytest.approx(solve(TASK, "1")["V_B"].value)
 
 
+def test_only_the_variants_asked_for_are_solved(run: Run) -> None:
+    status, out, err = run("variants", TASK, "-v", "3,example", "--quantities", "V_B", "--json")
+
+    assert (status, err) == (0, "")
+    found = json.loads(out)["variants"]
+    assert found == {name: {"V_B": solve(TASK, name)["V_B"].value} for name in ("3", "example")}
+
+
 def test_questions_for_moodle_hold_the_right_values(tmp_path: Path) -> None:
     found = all_variants(TASK, quantities=["V_B", "omega_2"], lang="uk")
     xml, gift = found.save(tmp_path / "q.xml", tmp_path / "q.gift")
@@ -228,7 +237,7 @@ def test_questions_for_moodle_hold_the_right_values(tmp_path: Path) -> None:
         (["--make", "3", "--set", "l_OA=300 mm"], "--make 3: found: 0; of 50 more sets"),
         (["--make", "3", "--from", "x.csv"], "--from"),
         (["--seed", "3"], "--make"),
-        (["-v", "3"], "-v"),
+        (["-v", "3,77"], "77"),
         (["--quantities", "V_X"], "V_X"),
         (["--from", "none.csv"], "none.csv"),
         (["-o", "new.toml"], "--make"),

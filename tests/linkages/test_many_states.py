@@ -184,6 +184,13 @@ def test_states_are_saved_as_tables_and_as_json(tmp_path: Any) -> None:
     head, *rows = (tmp_path / "states.csv").read_text().splitlines()
     assert head == "k,phi [rad],V_B [m/s],V_B.x [m/s],V_B.y [m/s],status"
     assert [float(row.split(",")[2]) for row in rows] == states["V_B"].ravel().tolist()
+    assert states.csv("uk").splitlines()[1].split(";")[:3] == [
+        "0",
+        "0,1",
+        repr(float(states["V_B"][0, 0])).replace(".", ","),
+    ]
+    apart = solve_many(TASK, l_AB=([140.0, 20.0], "mm"), phi=1.5, names="V_B").csv().splitlines()
+    assert apart[2] == "1,0.02,,,,no-assembly"
     data = json.loads((tmp_path / "states.json").read_text())
     assert data["columns"]["V_B"]["value"] == states["V_B"].tolist()
     assert states.table() == "ok: 4"

@@ -95,13 +95,17 @@ class Outcome:
         return False
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Batch:
     """The students of a class with what each has got, in the order of the roster; `warnings` are about the roster."""
 
     students: tuple[Student, ...]
     outcomes: tuple[Outcome, ...]
     warnings: tuple[InputError, ...] = ()
+
+    def __repr__(self) -> str:
+        """Return how many students there are, and how many of them have got nothing."""
+        return f"<Batch: students: {len(self.students)}, problems: {len(self.problems)}>"
 
     @property
     def problems(self) -> list[str]:

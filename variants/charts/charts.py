@@ -31,7 +31,7 @@ from ...scales.version import __version__
 from ..case import Case, Request, Settings, Wanted, beside, positions_of
 from ..hands import is_own
 from ..reader import load_task
-from ..tables import FILES, Cell, OfCase, Result, Table, aligned, plain
+from ..tables import FILES, Cell, OfCase, Result, Table, aligned, picture, plain
 from ..task import AnyTask, LocatedError
 
 if TYPE_CHECKING:
@@ -315,6 +315,12 @@ class Charts(OfCase):
             raise InputError("chart-several", known=", ".join(self.charts))
         [only] = self.charts.values()
         return only.data(self._words(language))
+
+    def _repr_html_(self) -> str:
+        """Show the pictures and the table in a notebook."""
+        titles = (chart.scene.title(chart.heading) for chart in self.charts.values())
+        shown = map(picture, saved(self.drawn(), ".svg"), titles)
+        return "".join((*shown, OfCase._repr_html_(self)))
 
     def __repr__(self) -> str:
         """Return task, variant and the names of the charts."""

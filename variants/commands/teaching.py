@@ -89,8 +89,6 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     """Show the answers of all variants of TASK beside one another; make new variants, or read them."""
     from ..making.all_variants import all_variants as solve_all
 
-    if options.pop("variant") is not None:
-        raise InputError("variants-one")
     language = options.pop("lang") or "uk"
     with console.progress() as advance:
         found = solve_all(task, set=settings, lang=language, advance=advance, **options)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -32,7 +32,7 @@ SUFFIXES = (*FILES, ".xml", ".gift", TASK_FILE)
 HALF = 2.0  # how many tolerances off an answer still gets half
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class AllVariants(Result):
     """All variants: the key of each, or why it has none."""
 
@@ -58,6 +58,10 @@ class AllVariants(Result):
     def words(self) -> Words:  # type: ignore[override]
         """Those of the variants that have a key."""
         return next(iter(self.keys.values())).words
+
+    def __repr__(self) -> str:
+        """Return the task, how many variants are solved, and of how many quantities it tells."""
+        return f"<AllVariants {self.check.request.task.id}: {len(self.keys)}, {len(self.quantities)} quantities>"
 
     def table(self, language: str | None = None) -> str:
         """Return the values as lines of text, a column for each variant."""
@@ -141,6 +145,7 @@ def _shown(key: Keyed, name: str) -> float | None:
 
 def all_variants(
     task: AnyTask,
+    variant: Wanted = None,
     *,
     make: int | None = None,
     ranges: Settings | None = None,
@@ -149,7 +154,7 @@ def all_variants(
     set: Settings | None = None,
     only: Wanted = None,
     scales: Settings | None = None,
-    quantities: Sequence[str] | None = None,
+    quantities: Wanted = None,
     preset: str = "normal",
     notation: str | None = None,
     lang: str = "uk",
@@ -159,22 +164,24 @@ def all_variants(
 
     Parameters
     ----------
+    variant : str or iterable of str, optional
+        Those wanted, `"3,5"`; all without it.
     make, ranges, seed
         How many new variants are made, up to 1000, and from what, as for `make_variants`.
     table : str or PathLike, optional
         A spreadsheet from which new variants are read, as by `import_variants`.
     task, set, only, scales, notation, lang
         As for `solve`.
-    quantities : sequence of str, optional
-        Those wanted; without it all that a form asks for.
+    quantities : str or iterable of str, optional
+        Those wanted, `"V_B,a_B"`; without it all that a form asks for.
     preset : str
         What a question lets pass: `cad`, `careful`, `normal`, `lenient`.
 
     Raises
     ------
     InputError
-        As for `solve`, `make_variants`, `import_variants`, or an unknown quantity; or no variant has a solution: then
-        why the first has none.
+        As for `solve`, `make_variants`, `import_variants`, or an unknown variant or quantity; or no variant has a
+        solution: then why the first has none.
     """
     if make is not None and table is not None:
         raise InputError("variants-both")
@@ -188,18 +195,19 @@ def all_variants(
     request = asked.request
     keys: dict[str, Keyed] = {}
     problems: dict[str, KulmanError] = {}
-    for variant in request.task.variants:
+    wanted = [request.task.variant(one).id for one in names_of("variant", variant, (str, int))]
+    for one in wanted or request.task.variants:
         try:
-            keys[variant] = keyed(request, variant, {}, asked.rubric)
+            keys[one] = keyed(request, one, {}, asked.rubric)
         except KulmanError as error:
-            problems[variant] = error
+            problems[one] = error
     if not keys:
         raise next(iter(problems.values()))
     known = tuple(dict.fromkeys(name for key in keys.values() for name in key.asked.quantities))
     forms = (question.name for key in keys.values() for part in key.parts for question in part.asked)
-    wanted = tuple(dict.fromkeys(forms)) if quantities is None else names_of("quantities", tuple(quantities))
-    all_known("quantity-unknown", wanted, known)
-    return AllVariants(asked, keys, problems, wanted, new)
+    named = tuple(dict.fromkeys(forms)) if quantities is None else names_of("quantities", quantities)
+    all_known("quantity-unknown", named, known)
+    return AllVariants(asked, keys, problems, named, new)
 
 
 @dataclass(frozen=True, slots=True)

@@ -39,9 +39,14 @@ COLLECTED = 200_000  # objects made anew after which garbage is looked for: 40 M
 Item = tuple[int, Answers]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Check(Terms):
     """How answers to a task are marked, and what is done so."""
+
+    def __repr__(self) -> str:
+        """Return task, variant and how many quantities may be answered."""
+        of = " ".join(filter(None, (self.request.task.id, self.request.variant)))
+        return f"<Check {of}: {len(self.asked.quantities)} quantities>"
 
     def write_form(self, file: PathLike) -> Path:
         """Write the empty form, .csv or .xlsx: of one student, or with a roster of the whole class.

@@ -48,7 +48,7 @@ class Row(NamedTuple):
     weight: str
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Report:
     """What is said of one student's answers.
 
@@ -61,6 +61,14 @@ class Report:
     language: str
     own: bool
     checks: Sequence[str] = ()
+
+    def __repr__(self) -> str:
+        """Return whose report it is, and the mark."""
+        return f"<Report {self.marked.answers.source}: {self.marked.mark:g}>"
+
+    def _repr_html_(self) -> str:
+        """Show the report in a notebook."""
+        return report_html(self)
 
     @property
     def said(self) -> dict[str, str]:
