@@ -138,7 +138,15 @@ def body_of(case: Case, drawn: Drawn | Sheet) -> tuple[Block, ...]:
     story = case.kind.story(case, drawn.scales, words, said)
     by = said["note.over" if words.per_unit else "note.times"]
     identity = sheet_id(case.task, case.variant, case.settings)
-    source = said["note.source"].format(source=escape(case.task.source.rstrip(".")))
-    about = Sentences((said["note.about"].format(sheet=identity, by=by), source))
+    sources = [escape(case.task.source.rstrip(".") + "."), *filter(None, [said.get(f"literature.{case.kind.room}")])]
+    cited = said["note.source" if len(sources) > 1 else "note.source_alone"]
+    about = Sentences((said["note.about"].format(sheet=identity, by=by), cited))
     end = (Heading(said["note.conclusions"]), Steps(story.conclusions)) if story.conclusions else ()
-    return about, *blocks_of(drawn.views, story), *end
+    return (
+        Heading(said["note.task"]),
+        about,
+        *blocks_of(drawn.views, story, said),
+        *end,
+        Heading(said["note.literature"]),
+        Steps(tuple(sources)),
+    )

@@ -25,6 +25,17 @@ from .inversion import undercut_notes
 from .scene import MU_DIGITS, CamScene, is_aside
 
 Lines = list[tuple[str, ...]]
+# the views in the order of the work, in which a note tells them
+WORK: tuple[str, ...] = (
+    "givens",
+    "choices",
+    "diagrams",
+    "equations_scales",
+    "sizes",
+    "rocker_sizes",
+    "equations_roller",
+)
+WORK += ("equations_rocker", "pressure", "profile", "rocker_profile", "plate_sizes", "equations_plate", "plate_profile")
 TIMES = {"m": 1e3, "rad": DEGREES}  # by SI unit, of lengths and angles as they are printed
 LETTERED = {exact: name for name, exact in EXACT.items()}
 FROM = {SIZES: ("mu_s", "mu_ds"), PLATE_SIZES: ("mu_s", "mu_d2s")}  # scale factors of the diagrams
@@ -209,7 +220,8 @@ def story(scene: CamScene, scales: Mapping[str, Scale], texts: Texts) -> Story:
     named = texts["cam.and"].join(texts[f"cam.for.{follower}"] for follower in followers)
     aim = Sentences((texts["cam.aims" if len(followers) > 1 else "cam.aim"].format(followers=named),))
     said = _said(scene, texts)
-    return Story(conclusions=tuple(_conclusions(scene, texts)), before={"givens": (aim,)}, texts=texts, said=said)
+    concluded = tuple(_conclusions(scene, texts))
+    return Story(conclusions=concluded, before={"givens": (aim,)}, texts=texts, said=said, first=WORK)
 
 
 def begun(scene: CamScene, steps: int) -> dict[str, Begun]:

@@ -163,7 +163,12 @@ def formula(scene: HoistScene, told: str) -> tuple[str, ...]:
         chunks.append(f"= {form_of(law)(*(Symbol.of(_number(scene, scene.size(name))) for name in names))}")
     unit = f" {words.unit(unit_of(told))}" if unit_of(told) != "1" else ""
     chunks.append(f"= {_number(scene, scene.size(told))}{unit}")
-    return (*chunks, f"({NUMBERS[told]})") if told in NUMBERS else tuple(chunks)
+    return (*chunks, cited(NUMBERS[told])) if told in NUMBERS else tuple(chunks)
+
+
+def cited(number: str) -> str:
+    """Return what refers to an equation of the article, the first of the sources of a note."""
+    return f"[1, ({number})]"
 
 
 def _lines(scene: HoistScene, names: tuple[str, ...]) -> tuple[tuple[str, ...], ...]:
@@ -189,7 +194,7 @@ def _lift_off(scene: HoistScene) -> tuple[tuple[str, ...], ...]:
     return (
         (f"y(t) = {wound}",),
         (f"δ(t) = (a/k^{{2}})·(1 − cos kt) + ({V}/k)·sin kt",),
-        ("y(t) − δ(t) = mg/C", height, "(11)"),
+        ("y(t) − δ(t) = mg/C", height, cited("11")),
         (scene.stated("t_1", unit="s"),),
     )
 
@@ -199,8 +204,8 @@ def _resting(scene: HoistScene) -> tuple[tuple[str, ...], ...]:
     V, ratio = words.symbol("V_t"), f"({words.symbol('C_01')}/{words.symbol('C_12')})"
     force = f"F_{{12}}(t) = C·[({words.symbol('C_12')}/{words.symbol('C_01')})·δ(t) + y(t)]"
     return (
-        (f"(a/k)·sin kt + {V}·cos kt = −{ratio}·({V} + a·t)", "(12)"),
-        (force, "(10)"),
+        (f"(a/k)·sin kt + {V}·cos kt = −{ratio}·({V} + a·t)", cited("12")),
+        (force, cited("10")),
         (scene.stated("F_12_t1"),),
         (scene.stated("F_12_max"),),
     )

@@ -13,6 +13,7 @@ from ...plans.linkages.legs import guide_letters
 from ...plans.names import ORIGIN, role
 from ...scales.packaged import packaged
 from .. import notes
+from ..notes.blocks import REFERS
 from ..printed import POINT, Input, Symbol, calculation, ruler_decimals, segment_text
 from .calculations.equations import (
     Product,
@@ -20,9 +21,12 @@ from .calculations.equations import (
     is_given,
     paper,
     printed_segment,
+    rate_of,
+    sensed,
     size_of,
     triangles,
 )
+from .calculations.forces import found_by
 from .figures.lever import hung_on_lever, letter_of, moments_on_lever
 from .reading import ends_of
 from .scene import Scene, line_of
@@ -67,6 +71,10 @@ class Teller(Scene):
         """Return a segment by its letters with the length at which it is drawn; lengths may have the same letters."""
         text = self.drawn(name, plan)
         return text if text.startswith((f"{letters}/", f"{letters}·")) else f"{letters} = {text}"
+
+    def given_by(self, name: str) -> str:
+        """Return what refers to the equation of a quantity."""
+        return REFERS.format(self.words.symbol(role(name).shown))
 
     def drawn(self, name: str, plan: str = POSITION) -> str:
         """Return how long a quantity is drawn on a plan: by its scale factor, with the numbers put in."""
@@ -177,7 +185,7 @@ def _lay(teller: Teller, step: Step) -> str:
     parts = {"start": a, "length": teller.lettered(f"{a}{b}", size, step.plan)}
     if edge is None:
         return teller.say("lay", line=teller.angle(direction) or line, **parts)
-    return teller.say("vector", line=line, vector=teller.letter(edge.name), **parts)
+    return teller.say("vector", line=line, vector=teller.letter(edge.name), by=teller.given_by(edge.name), **parts)
 
 
 def _chain(teller: Teller, step: Step) -> str:
@@ -188,7 +196,7 @@ def _chain(teller: Teller, step: Step) -> str:
     line, letter, made = teller.along(vector), teller.letter(vector), teller.made.get(vector)
     if made is not None and made.law == "opposite":  # a reaction, and the one that it answers
         letter = f"{letter} = −{teller.letter(made.operands[0])}"
-    parts = {"length": teller.lettered(f"{a}{b}", vector, step.plan), "vector": letter}
+    parts = {"length": teller.lettered(f"{a}{b}", vector, step.plan), "vector": letter, "by": teller.given_by(vector)}
     return teller.say("vector", start=a, line=line, **parts) if line else teller.say("chain", start=a, **parts)
 
 
@@ -218,7 +226,19 @@ def _read(teller: Teller, step: Step) -> str:
         return teller.say("point", **parts)
     mm, number, value = printed_segment(teller, item)
     parts |= {"mm": f"{mm} {words.unit(words.display.paper)}", "sum": f"{mm}{'/' if words.per_unit else '·'}{number}"}
-    return teller.say("read", value=f"{value} {words.unit(words.display.unit(item.unit))}", **parts)
+    told = teller.say("read", value=f"{value} {words.unit(words.display.unit(item.unit))}", **parts)
+    return told + "".join(_turns(teller, step, user) for user in teller.reading.users(step.name))
+
+
+def _turns(teller: Teller, step: Step, user: Step) -> str:
+    """Return how the sense of a rate follows from the vector that it is read from."""
+    vector, rate = role(step.name), role(user.name)
+    if user.law != "turning" or not vector.about or not rate.of.isdigit() or not (turns := rate_of(teller, user.name)):
+        return ""
+    ends = {"point": teller.mark(vector.of), "centre": teller.mark(vector.about), "link": rate.of}
+    symbol, sense = teller.words.symbol(user.name), sensed(teller.words, turns)
+    by = teller.given_by(user.name)
+    return teller.say("turns", vector=teller.letter(step.name), rate=symbol, sense=sense, by=by, **ends)
 
 
 def _template(teller: Teller, step: Step) -> str:
@@ -267,7 +287,8 @@ def tell(teller: Teller, step: Step) -> str:
         case ("pole",):
             return say("lever" if step.plan == "lever" else "pole", point=mark(point))
         case "meet", p, u, q, w:
-            return say("meet", first=teller.through(p, u), second=teller.through(q, w), point=mark(point))
+            by = REFERS.format(" ".join(found_by(teller, step)))
+            return say("meet", first=teller.through(p, u), second=teller.through(q, w), point=mark(point), by=by)
         case "arc", centre, radius, start, along, _:
             line = teller.through(start, along)
             return say("arc", line=line, centre=mark(centre), mm=drawn(radius), point=mark(point))

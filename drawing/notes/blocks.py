@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from itertools import repeat
 
 from ..page import Page, extent
 from ..shapes import Text, shifted
@@ -16,6 +17,8 @@ from ..view import View
 
 FOLDED, FOLDED_ROOM = "A3", (267.0, 340.0)  # the sheet of a figure that is too large, and its room there, mm
 LEGIBLE = 0.5  # the part of its size below which the letters of a figure are too small
+# mm of its height, so that it stands near its text, and the part of its size to which it is reduced for that at most
+NEAR, NEARLY = 130.0, 0.7
 ROOM = (180.0, 215.0)  # mm of a page of A4 for a figure, its caption under it
 
 
@@ -28,9 +31,10 @@ class Heading:
 
 @dataclass(frozen=True, slots=True)
 class Sentences:
-    """A paragraph: sentences, in markup."""
+    """A paragraph: sentences, in markup; one that `leads` to what follows stands on the same page."""
 
     texts: tuple[str, ...]
+    leads: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,16 +46,26 @@ class Steps:
 
 @dataclass(frozen=True, slots=True)
 class Equations:
-    """Equations with their numbers, a line each, in chunks of markup between which a line may break."""
+    """Equations with what they come to, a line each, in chunks of markup between which a line may break.
+
+    `numbers` are those by which the text refers to them, 0 of a line of words.
+    """
 
     lines: tuple[tuple[str, ...], ...]
+    numbers: tuple[int, ...] = ()
+
+    @property
+    def told(self) -> Iterator[tuple[tuple[str, ...], int]]:
+        """The lines with their numbers."""
+        return zip(self.lines, self.numbers or repeat(0), strict=False)
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table; the first row is its head, a cell that is None belongs to the one on its left."""
+    """A table under its caption; the first row is its head, a cell that is None belongs to the one on its left."""
 
     rows: tuple[tuple[str | None, ...], ...]
+    caption: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +75,7 @@ class Figure:
     view: View
     caption: str
     under: tuple[str, ...]
+    fitted: float | None = None  # the part of its size on the sheet, if it is not as large as it can be
 
     @property
     def folded(self) -> bool:
@@ -70,7 +85,9 @@ class Figure:
     @property
     def share(self) -> float:
         """The part of its size on the sheet at which it has room on a page of the note, or on that sheet."""
-        return self._share_of(FOLDED_ROOM if self.folded else ROOM)
+        if self.folded:
+            return self._share_of(FOLDED_ROOM)
+        return self.fitted or min(self._share_of(ROOM), max(NEARLY, NEAR / self.view.size[1]))
 
     def _share_of(self, room: tuple[float, float]) -> float:
         width, height = self.view.size
@@ -110,7 +127,8 @@ class Story:
 
     `steps` are those of a view that has no stages: the sentences of these stand in `texts` under their keys, with what
     is `said` put in. `equations` stand before the steps of a plan, and in the place of views that are `told` so;
-    `conclusions` are sentences for the end; the blocks `before` a view have headings of their own.
+    `conclusions` are sentences for the end; the blocks `before` a view have headings of their own. The views named
+    `first` come so, before all others.
     """
 
     steps: Mapping[str, Sequence[str]] = field(default_factory=dict)
@@ -120,6 +138,7 @@ class Story:
     before: Mapping[str, Sequence[Block]] = field(default_factory=dict)
     texts: Mapping[str, str] = field(default_factory=dict)
     said: Mapping[str, str] = field(default_factory=dict)
+    first: tuple[str, ...] = ("kinematic", "givens", "data", "task")
 
     def steps_of(self, view: View) -> tuple[str, ...]:
         """Return what is done, step by step, until a view is drawn."""
@@ -127,28 +146,98 @@ class Story:
         return (*self.steps.get(view.name, ()), *(self.texts[key].format(**self.said) for key in keys))
 
 
-def blocks_of(views: Iterable[View], story: Story) -> Iterator[Block]:
-    """Go through the blocks of a sheet's views in the order of the work."""
-    for view in views:
-        if view.name in story.told:
-            continue
-        yield from story.before.get(view.name, ())
+REFERS = "⟦{}⟧"  # in a step, what refers to the equation that gives a symbol, or to nothing where none does
+_REFERRING = re.compile(r"⟦(.*?)⟧")
+_DISPLAYED = re.compile(r"[=≤≥]|\\u{1,2}\{")
+
+
+def displayed(markup: str) -> bool:
+    """Whether a line is an equation, not words."""
+    return _DISPLAYED.search(markup) is not None
+
+
+@dataclass(slots=True)
+class _Writing:
+    """Blocks as they are written one after the other, with their numbers and what refers to these."""
+
+    story: Story
+    said: Mapping[str, str]
+    equations: int = 0
+    counts: Counter[type[Block]] = field(default_factory=Counter)
+    given: dict[str, int] = field(default_factory=dict)  # numbers of equations, also by the symbols that they give
+
+    def refer(self, key: str, first: int, last: int = 0, leads: bool = True) -> Sentences:
+        """Return a sentence that refers to a number, or to those from the first to the last."""
+        many = "_many" if last > first else ""
+        return Sentences((self.said[f"note.{key}{many}"].format(number=first, last=last),), leads)
+
+    def calculated(self, lines: Iterable[Sequence[str]]) -> Iterator[Block]:
+        """Number equations, after a sentence that refers to them."""
+        numbers, before, told = list[int](), self.equations, tuple(map(tuple, lines))
+        for line in told:
+            markup = " ".join(line)
+            self.equations += displayed(markup)
+            numbers.append(self.equations if displayed(markup) else 0)
+            if numbers[-1]:
+                self.given |= dict.fromkeys((markup.partition(" =")[0], markup), numbers[-1])
+        if self.equations > before:
+            yield self.refer("calculated", before + 1, self.equations)
+        yield Equations(told, tuple(numbers))
+
+    def section(self, view: View) -> Iterator[Block]:
+        """Write of a view: its heading, equations, steps, and the figure that they make."""
+        for block in self.story.before.get(view.name, ()):
+            yield from self.calculated(block.lines) if isinstance(block, Equations) else [block]
         heading = view.heading[0] if view.heading else ""
         if heading:
             yield Heading(heading)
-        if view.lines:
-            yield Equations(view.lines)
-        elif view.rows:
-            yield Table(view.rows)
+        if view.rows:
+            yield from self.tabled([view])
+        elif view.lines:
+            yield from self.calculated(view.lines)
         else:
-            if equations := story.equations.get(view.name):
-                yield Equations(tuple(map(tuple, equations)))
-            if steps := story.steps_of(view):
-                yield Steps(steps)
-            bare = tuple(shape for shape in view.shapes if not (isinstance(shape, Text) and shape.role == "heading"))
-            x0, y0, x1, y1 = extent(bare)
-            figure = replace(view, shapes=bare, box=(x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
-            yield Figure(figure, heading, (*view.heading[1:], *view.notes))
+            if equations := self.story.equations.get(view.name):
+                yield from self.calculated(equations)
+            self.counts[Figure] += 1
+            steps = self.story.steps_of(view)
+            yield self.refer("built" if steps else "shown", self.counts[Figure], leads=bool(steps))
+            if steps:
+                yield Steps(tuple(_REFERRING.sub(self._referring, step) for step in steps))
+            yield figure_of(view)
+
+    def _referring(self, found: re.Match[str]) -> str:
+        number = self.given.get(found[1], 0)
+        return self.said["note.by_equation"].format(number=number) if number else ""
+
+    def tabled(self, views: Sequence[View]) -> Iterator[Block]:
+        """Write tables, after a sentence that refers to them."""
+        first = self.counts[Table] + 1
+        self.counts[Table] += len(views)
+        yield self.refer("tabled", first, self.counts[Table])
+        yield from (Table(view.rows, view.heading[0] if view.heading else "") for view in views)
+
+
+def figure_of(view: View) -> Figure:
+    """Return a view as a figure, without its heading."""
+    bare = tuple(shape for shape in view.shapes if not (isinstance(shape, Text) and shape.role == "heading"))
+    x0, y0, x1, y1 = extent(bare)
+    figure = replace(view, shapes=bare, box=(x0 - 1.0, y0 - 1.0, x1 + 1.0, y1 + 1.0))
+    return Figure(figure, view.heading[0] if view.heading else "", (*view.heading[1:], *view.notes))
+
+
+def blocks_of(views: Iterable[View], story: Story, said: Mapping[str, str]) -> Iterator[Block]:
+    """Go through the blocks of a sheet's views: those that come first, the others in the order of the work, tables.
+
+    What is `said` are words of notes by their keys.
+    """
+    writing, told = _Writing(story, said), [view for view in views if view.name not in story.told]
+    first = sorted((view for view in told if view.name in story.first), key=lambda view: story.first.index(view.name))
+    others = [view for view in told if view.name not in story.first]
+    for view in (*first, *(view for view in others if not view.rows)):
+        yield from writing.section(view)
+    if tables := [view for view in others if view.rows]:
+        yield Heading(said["note.results"])
+        yield from writing.tabled(tables)
 
 
 def numbered(blocks: Iterable[Block]) -> Iterator[tuple[Block, int]]:

@@ -22,8 +22,8 @@ from ..pdf import write_png
 from ..text import lay_out
 from ..view import cells as cells_of
 from . import blocks as note
-from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
-from .omml import built_up, displayed, node, quoted, whole
+from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table, displayed
+from .omml import built_up, node, quoted, whole
 
 if TYPE_CHECKING:
     from docx.document import Document as Word
@@ -43,6 +43,9 @@ HEIGHT = 2.8  # mm of a capital of the text: lines are estimated with the font o
 _BEFORE = 85.0, 30.0  # mm before names, before the date
 EMU = 36000  # of a millimetre
 WIDE = 180.0  # mm of a line
+OF_NUMBER = 14.0  # mm at the end of a line for the number of an equation
+KEPT = "<w:keepNext/>"  # of a paragraph that stands on the page of what follows
+TOGETHER = 3  # rows of a table that no end of a page parts, at its beginning and at its end
 INDENT = 8.0  # mm before an equation; what goes on in another line stands in twice as far
 FIGURES = 1000  # before the number of a figure to which something refers, among those of headings
 LISTS = 3  # the number of the first list of steps
@@ -358,14 +361,18 @@ def _block(block: Block, number: int, said: dict[str, str], pictures: Sequence[P
     match block:
         case Heading(text=text):
             yield _paragraph("Heading1", _bookmark(line(text), _mark(number), number))  # the contents lead there
-        case Sentences(texts=texts):
-            yield _paragraph("", words(" ").join(map(line, texts)))
+        case Sentences(texts=texts, leads=leads):
+            yield _paragraph("", words(" ").join(map(line, texts)), KEPT if leads else "")
         case Steps(texts=texts):
             one = f'<w:numPr><w:ilvl w:val="0"/><w:numId w:val="{LISTS + number - 1}"/></w:numPr>'
             yield from (_paragraph("ListNumber", line(text), one) for text in texts)
-        case Equations(lines=lines):
-            yield from (part for chunks in lines for part in _equation(chunks))
-        case Table(rows=rows):
+        case Equations():
+            for chunks, of in block.told:
+                yield _numbered("".join(_equation(chunks)), of) if of else "".join(_equation(chunks))
+        case Table(rows=rows, caption=caption):
+            if caption:
+                here = _number_field(rf"SEQ {said['table']} \* ARABIC", number)
+                yield _paragraph("TableCaption", f"{words(said['table'] + ' ')}{here}{words(' – ')}{line(caption)}")
             yield _table(rows)
             yield _paragraph("Cell", "")
         case Figure():
@@ -377,6 +384,21 @@ def _block(block: Block, number: int, said: dict[str, str], pictures: Sequence[P
                 return
             yield _paragraph("Figure", _drawing(block, pictures[number - 1], number))
             yield _paragraph("Caption", _caption(block, said, here))
+
+
+def _numbered(equation: str, number: int) -> str:
+    """Return an equation with its number at the end of the line: two cells that nothing shows."""
+    widths = [round(mm * TWIPS) for mm in (WIDE - OF_NUMBER, OF_NUMBER)]
+    of = _paragraph("EquationNumber", words(f"({number})"))
+    cells = "".join(
+        f'<w:tc><w:tcPr><w:tcW w:w="{wide}" w:type="dxa"/><w:vAlign w:val="bottom"/></w:tcPr>{inside}</w:tc>'
+        for wide, inside in zip(widths, (equation, of), strict=True)
+    )
+    grid = "".join(f'<w:gridCol w:w="{wide}"/>' for wide in widths)
+    none = '<w:tblCellMar><w:left w:w="0" w:type="dxa"/><w:right w:w="0" w:type="dxa"/></w:tblCellMar>'
+    whole = f'<w:tblW w:w="{sum(widths)}" w:type="dxa"/><w:tblLayout w:type="fixed"/>{none}'
+    row = f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{cells}</w:tr>"
+    return f"<w:tbl><w:tblPr>{whole}</w:tblPr><w:tblGrid>{grid}</w:tblGrid>{row}</w:tbl>"
 
 
 def _equation(chunks: Sequence[str]) -> Iterator[str]:
@@ -409,7 +431,7 @@ def _unbroken(chunks: Sequence[str]) -> Iterator[str]:
 
 
 def _fits(markup: str, indents: int) -> bool:
-    return lay_out(markup, HEIGHT).width <= WIDE - indents * INDENT
+    return lay_out(markup, HEIGHT).width <= WIDE - OF_NUMBER - indents * INDENT
 
 
 def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
@@ -426,15 +448,18 @@ def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
         '<w:tblPr><w:tblStyle w:val="TableGrid"/><w:tblW w:w="0" w:type="auto"/><w:jc w:val="center"/>'
         f'{look} w:noHBand="1" w:noVBand="1"/></w:tblPr>'
     )
-    return f"<w:tbl>{properties}<w:tblGrid>{grid}</w:tblGrid>{''.join(map(_row, rows, count()))}</w:tbl>"
+    few = TOGETHER + 1  # with the head
+    kept = (n < few - 1 or len(rows) - few < n < len(rows) - 1 for n in count())
+    body = "".join(map(_row, rows, count(), kept))
+    return f"<w:tbl>{properties}<w:tblGrid>{grid}</w:tblGrid>{body}</w:tbl>"
 
 
-def _row(row: tuple[str | None, ...], number: int) -> str:
+def _row(row: tuple[str | None, ...], number: int, kept: bool) -> str:
     head, bold = ("<w:tblHeader/>", "<w:b/><w:bCs/>") if number == 0 else ("", "")
     cells = []
     for start, end, cell in cells_of(row):
         spanned = f'<w:gridSpan w:val="{end - start}"/>' if end - start > 1 else ""
-        text = _paragraph("Cell", line(cell, bold))
+        text = _paragraph("Cell", line(cell, bold), KEPT if kept else "")
         cells.append(
             f'<w:tc><w:tcPr><w:tcW w:w="0" w:type="auto"/>{spanned}<w:vAlign w:val="center"/></w:tcPr>{text}</w:tc>'
         )

@@ -33,9 +33,11 @@ def _block(block: Block, number: int, said: dict[str, str], figures: Sequence[st
             yield " ".join(map(_line, texts))
         case Steps(texts=texts):
             yield "\n".join(f"{place}. {_line(text)}" for place, text in enumerate(texts, 1))
-        case Equations(lines=lines):
-            yield "  \n".join(_line(" ".join(chunks)) for chunks in lines)
-        case Table(rows=rows):
+        case Equations():
+            yield "  \n".join(_line(" ".join(chunks)) + (f" ({n})" if n else "") for chunks, n in block.told)
+        case Table(rows=rows, caption=caption):
+            if caption:
+                yield f"*{said['table']} {number} – {_line(caption)}*"
             head, *body = ([_line(cell or "") for cell in row] for row in rows)
             ruled = ["|".join(("", *row, "")) for row in (head, ["---"] * len(head), *body)]
             yield "\n".join(ruled)

@@ -16,7 +16,6 @@ from .blocks import Node, Plain, Ruled, Scripted, parse, printable
 
 _ENTITIES = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})
 _EMPTY = "\u200b"  # an argument without a character would be shown as a box to fill in
-_DISPLAYED = re.compile(r"[=≤≥]|\\u{1,2}\{")
 _TOKENS = re.compile(
     r"(?P<space>\s+)|(?P<number>\d+(?:[.,]\d+)*[°%]?)|(?P<word>[^\W\d_]+(?:[-’'][^\W\d_]+)*[′″]*)"
     r"|(?P<dot>·)|(?P<stroke>/)|(?P<root>√)|(?P<open>[(\[])|(?P<close>[)\]])|(?P<sign>.)"
@@ -210,11 +209,6 @@ def _named(atom: _Atom, speech: bool) -> _Atom:
     if atom.text in _FUNCTIONS:
         return replace(atom, kind="function")
     return replace(atom, kind="prose", shown=run(atom.text, "nor")) if speech else replace(atom, kind="name")
-
-
-def displayed(markup: str) -> bool:
-    """Whether a line is an equation, and not words with symbols among them."""
-    return _DISPLAYED.search(markup) is not None
 
 
 def built_up(markup: str) -> str:

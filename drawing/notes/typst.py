@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -24,12 +26,69 @@ PREAMBLE = """\
 #set heading(numbering: "1")
 #show heading: set text(size: 13pt)
 #show heading: set block(above: 1.4em, below: 0.8em, sticky: true)
-#set table(stroke: 0.5pt, inset: 4pt)
+#set table(inset: 4pt, stroke: (x, _) => if x > 0 {{ 0.5pt }})
 #show figure: set block(breakable: false)
+#show figure.where(kind: table): set block(breakable: true)
+#show figure.where(kind: table): set figure.caption(position: top)
+#show figure.caption.where(kind: table): it => align(left, block(sticky: true, it))
 #set figure.caption(separator: [ – ])
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif", "DejaVu Sans"))
-#let equation(body) = block(inset: (left: 8mm), spacing: 0.75em, body)
+#let equation(body, number) = block(width: 100%, spacing: 0.75em, inset: (left: 8mm), grid(
+  columns: (1fr, auto), column-gutter: 4mm, align: (left, right + bottom), body, number))
+#let at(block) = box[#metadata(block)<at>]
 """
+IMAGE = re.compile(r'image\("\d+\.svg", width: ([\d.]+)mm, height: ([\d.]+)mm\)')
+MARKS = """
+#context [#metadata(query(<at>).map(at => (at.value, at.location().page(), at.location().position().y.mm())))<marks>]
+"""
+BOTTOM = 277.0  # mm from the top of a page to the end of its text
+GAP = 30.0  # mm at the end of a page that stay empty
+SMALLER = 0.85  # of its size, to which a figure may shrink to have room before the end of a page
+LINES = 7.0  # mm of a line under a figure
+MARGIN = 3.0  # mm by which it is smaller than that room
+TOGETHER = 3  # rows of a table that no end of a page parts, at its beginning and at its end
+TRIES = 24
+
+
+@dataclass(slots=True)
+class _Plan:
+    """Where figures stand that leave too much of a page empty: at the top of the next one, or smaller; by their block.
+
+    Text that follows a figure goes on before it, so that no page is left half empty.
+    """
+
+    floating: set[int] = field(default_factory=set)
+    shares: dict[int, float] = field(default_factory=dict)
+
+    def mend(self, blocks: Sequence[Block], marks: Sequence[tuple[int, int, float]]) -> bool:
+        """Look where blocks stand, the page and the place on it for each; tell whether some should stand elsewhere."""
+        ends, last = dict[int, float](), max((page for _, page, _ in marks), default=0)
+        for _, page, y in marks:
+            ends[page] = max(y, ends.get(page, 0.0))
+        inline = [mark for mark in marks if mark[0] not in self.floating]
+        for (_, page, _), (block, after, _) in pairwise(inline):
+            room, at = max(((BOTTOM - ends.get(at, 0.0), at) for at in range(page, after)), default=(0.0, page))
+            figure = blocks[block]
+            if isinstance(figure, Figure) and room > GAP and after <= last:
+                self._move(block, figure, room if at == after - 1 else 0.0)
+                return True
+        pages = {block: page for block, page, _ in marks}
+        behind = [
+            block
+            for block, page, _ in inline
+            if isinstance(blocks[block], Figure) and any(n < block and pages[n] > page for n in self.floating)
+        ]
+        self.floating.update(behind)
+        return bool(behind)
+
+    def _move(self, place: int, figure: Figure, room: float) -> None:
+        """Let a figure be smaller if it nearly has room, else stand on the next page."""
+        height = room - MARGIN - LINES * (1 + len(figure.under))
+        share = min(figure.share, height / figure.view.size[1])
+        if place in self.shares or share < max(SMALLER * figure.share, note.LEGIBLE):
+            self.floating.add(place)
+        else:
+            self.shares[place] = share
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,15 +100,56 @@ class Body:
 
     @classmethod
     def of(cls, blocks: Sequence[Block], language: str) -> Body:
-        """Write the blocks of a note."""
-        said = packaged(__package__, "texts", language)
-        texts = [_block(block, number, said) for block, number in note.numbered(blocks)]
+        """Write the blocks of a note, figures where they leave no page half empty.
+
+        Raises InputError: the extra `note` is not installed.
+        """
+        said, plan = packaged(__package__, "texts", language), _Plan()
         figures = [(block, number) for block, number in note.numbered(blocks) if isinstance(block, Figure)]
-        for figure, number in figures:
-            if figure.folded:  # on its sheet, with its number
-                text = _figure(figure, said, number, f'numbering: _ => "{number}", ')
-                texts.append(f'#page(paper: "{note.FOLDED.lower()}")[{text}]\n')
-        return cls("\n".join(texts), {f"{number}.svg": note.figure_svg(figure, language) for figure, number in figures})
+        files = {f"{number}.svg": note.figure_svg(figure, language) for figure, number in figures}
+        for _ in range(TRIES):
+            body = cls(_written(blocks, said, plan), files)
+            if not plan.mend(blocks, body.marks(language)):
+                break
+        return body
+
+    def source(self, title: str, language: str, before: str) -> dict[str, Any]:
+        """Return the files of a note, with what stands before the body."""
+        preamble = PREAMBLE.format(title=_quoted(title), lang=_quoted(language))
+        return {"main.typ": "\n".join((preamble, before, self.text)).encode("utf-8"), **self.figures}
+
+    def marks(self, language: str) -> list[tuple[int, int, float]]:
+        """Return the pages and the heights at which blocks end, mm from the top, in their order."""
+        files = self.source("", language, "")
+        text = files["main.typ"].decode("utf-8") + MARKS
+        boxes = {"main.typ": IMAGE.sub(r"rect(width: \1mm, height: \2mm)", text).encode("utf-8")}  # they are as large
+        (found,) = json.loads(_typst().query(boxes, "<marks>", field="value", font_paths=_fonts()))
+        return [(int(block), int(page), float(y)) for block, page, y in found]
+
+
+def _typst() -> Any:
+    try:
+        import typst
+    except ImportError:
+        raise InputError("note-extra") from None
+    return typst
+
+
+def _written(blocks: Sequence[Block], said: dict[str, str], plan: _Plan) -> str:
+    texts = list[str]()
+    for place, (block, number) in enumerate(note.numbered(blocks)):
+        if isinstance(block, Figure) and not block.folded:
+            # as many words either way: what has been set of the rest of the note holds
+            where = f"placement: {'top' if place in plan.floating else 'none'}, "
+            share = plan.shares.get(place, block.share)
+            texts.append(_figure(replace(block, fitted=share), said, number, place, where))
+        else:
+            texts.append(_block(block, number, place, said))
+    for figure, number in note.numbered(blocks):
+        if isinstance(figure, Figure) and figure.folded:  # on its sheet, with its number
+            text = _figure(figure, said, number, -1, f'numbering: _ => "{number}", ')
+            texts.append(f'#page(paper: "{note.FOLDED.lower()}")[{text}]\n')
+    return "\n".join(texts)
 
 
 def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
@@ -57,14 +157,8 @@ def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
 
     Raises InputError: the extra `note` is not installed.
     """
-    try:
-        import typst
-    except ImportError:
-        raise InputError("note-extra") from None
-    body = body or Body.of(document.blocks, document.language)
-    preamble = PREAMBLE.format(title=_quoted(document.title.title), lang=_quoted(document.language))
-    source = "\n".join((preamble, _title(document), body.text))
-    files: Any = {"main.typ": source.encode("utf-8"), **body.figures}
+    typst, body = _typst(), body or Body.of(document.blocks, document.language)
+    files = body.source(document.title.title, document.language, _title(document))
     return bytes(typst.compile(files, font_paths=_fonts()))
 
 
@@ -103,43 +197,69 @@ def _title(document: Document) -> str:
 #pagebreak()"""
 
 
-def _block(block: Block, number: int, said: dict[str, str]) -> str:
+def _block(block: Block, number: int, place: int, said: dict[str, str]) -> str:
+    at = f"#at({place})"
     match block:
         case Heading(text=text):
             return f"= {_line(text)}"
-        case Sentences(texts=texts):
-            return " ".join(map(_sentence, texts)) + "\n"
+        case Sentences(texts=texts, leads=leads):
+            text = " ".join(map(_sentence, texts)) + at
+            return f"#block(sticky: true, spacing: 0.8em)[{text}]\n" if leads else f"{text}\n"
         case Steps(texts=texts):
-            return "\n".join(f"+ {_sentence(text)}" for text in texts) + "\n"
-        case Equations(lines=lines):
-            return "\n".join(f"#equation[{_line(' '.join(chunks))}]" for chunks in lines) + "\n"
-        case Table(rows=rows):
-            return _table(rows)
+            return "\n".join(f"+ {_sentence(text)}{at}" for text in texts) + "\n"
+        case Equations():
+            lines = (f"[{_line(' '.join(chunks))}{at}], [{f'({n})' if n else ''}]" for chunks, n in block.told)
+            return "\n".join(f"#equation({line})" for line in lines) + "\n"
+        case Table():
+            return _table(block, number, place, said)
         case Figure():
-            if not block.folded:
-                return _figure(block, said, number)
             text = _text(said["figure.folded"].format(number=number, format=note.FOLDED))  # its number counts here
-            return f"#counter(figure.where(kind: image)).step()\n{text}\n"
+            return f"#counter(figure.where(kind: image)).step()\n{text}{at}\n"
 
 
-def _figure(figure: Figure, said: dict[str, str], number: int, more: str = "") -> str:
+def _figure(figure: Figure, said: dict[str, str], number: int, place: int, more: str = "") -> str:
     below = "".join(f" #linebreak() {_line(text)}" for text in note.said_under(figure, said))
-    shown = f'image("{number}.svg", width: {figure.view.size[0] * figure.share:.4f}mm)'
+    width, height = (mm * figure.share for mm in figure.view.size)
+    shown = f'image("{number}.svg", width: {width:.4f}mm, height: {height:.4f}mm)'
+    at = f"#at({place})" if place >= 0 else ""
     return (
         f"#figure({shown}, kind: image, {more}supplement: {_quoted(said['figure'])}, "
-        f"caption: [{_line(figure.caption)}{below}])\n"
+        f"caption: [{_line(figure.caption)}{below}{at}])\n"
     )
 
 
-def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
-    sides: tuple[list[str], list[str]] = [], []  # of the head, which stands on every page, and of what follows
-    for number, row in enumerate(rows):
-        for start, end, cell in cells(row):
-            text = f"*{_line(cell)}*" if number == 0 and cell else _line(cell)
-            sides[number > 0].append(f"table.cell(colspan: {end - start})[{text}]")
-    head, body = (", ".join(side) for side in sides)
-    shape = f"columns: {len(rows[0])}, align: center + horizon"
-    return f"#align(center)[#table({shape}, table.header({head}),\n{body})]\n"
+def _table(table: Table, number: int, place: int, said: dict[str, str]) -> str:
+    """Return a table with its head on every page; a column without width keeps some of its rows together."""
+    head, *rows = table.rows
+    wide = len(head) + 1
+    marked = f"#box[#metadata(none)<table{number}>]"
+    there = f"query(<table{number}>).first().location().page() < here().page()"
+    text = _text(f"{said['table.more']} {number}")  # no column becomes wider for it
+    more = f"#context if {there} [#block(width: 0pt, below: 3pt, box(width: 60mm)[{text}])]"
+    top = f"table.cell(colspan: {wide}, stroke: none, inset: 0pt, align: left)[{more}]"
+    few = len(rows) < 2 * TOGETHER
+    kept = {0: len(rows)} if few else {0: TOGETHER, len(rows) - TOGETHER: TOGETHER}
+    body = []
+    for k, row in enumerate(rows):
+        held = kept.get(k, 0)
+        if held or any(start <= k < start + count for start, count in kept.items()):
+            body += [f"table.cell(rowspan: {held}, breakable: false, inset: 0pt)[]"] if held else []
+        else:
+            body.append("[]")
+        body += _cells(row)
+    shape = f"columns: (0pt, {'auto, ' * len(head)}), align: center + horizon"
+    held_head = ", ".join(["[]", *_cells(head, bold=True)])
+    caption = f"caption: [{_line(table.caption)}{marked}], " if table.caption else ""
+    inside = f"table({shape}, table.header({top}, {held_head}),\n{', '.join(body)})"
+    return f"#figure({inside}, kind: table, {caption}supplement: {_quoted(said['table'])})#at({place})\n"
+
+
+def _cells(row: Sequence[str | None], bold: bool = False) -> list[str]:
+    found = []
+    for start, end, cell in cells(row):
+        text = f"*{_line(cell)}*" if bold and cell else _line(cell)
+        found.append(f"table.cell(colspan: {end - start})[{text}]")
+    return found
 
 
 def _line(markup: str, plain: Callable[[str], str] | None = None) -> str:

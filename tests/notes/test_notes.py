@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -28,7 +29,7 @@ from kulman.variants.notes import Note
 from kulman.variants.shelf import bundled, bundled_text
 
 TASK, CAM, GEAR, HOIST = "nau-slider-crank", "madi-cam", "madi-gear", "karpenko-hoist"
-MEASURED = re.compile(r"= ([\d.,]+) [^:=]+: ([^=]+) = ([\d.,]+)([·/])([\d.,]+) = ([\d.,]+) (\S+)\.$")
+MEASURED = re.compile(r"= ([\d.,]+) [^:=]+: ([^=]+) = ([\d.,]+)([·/])([\d.,]+) = ([\d.,]+) (\S+)\.(?: The.*)?$")
 
 
 @cache
@@ -54,7 +55,11 @@ def texts(written: Note) -> Iterator[str]:
 
 def text_in(pdf: bytes) -> str:
     """Return the letters of a PDF, without spaces."""
-    return "".join("".join(page.get_textpage().get_text_range().split()) for page in pypdfium2.PdfDocument(pdf))
+    return "".join(map(text_in_page, pypdfium2.PdfDocument(pdf)))
+
+
+def text_in_page(page: pypdfium2.PdfPage) -> str:
+    return "".join(page.get_textpage().get_text_range().split())
 
 
 def number(text: str) -> float:
@@ -149,12 +154,81 @@ def test_steps_and_equations_stand_before_their_figure() -> None:
     places = {block.view.name: place for place, block in enumerate(blocks) if isinstance(block, Figure)}
 
     for plan in ("velocity", "acceleration", "forces_23"):
-        assert [type(block) for block in blocks[places[plan] - 3 : places[plan]]] == [Heading, Equations, Steps]
-    assert [type(block) for block in blocks[places["group_23"] - 3 : places["group_23"] - 1]] == [Heading, Equations]
-    of_forces = blocks[places["forces_23"] - 2]
+        before = [type(block) for block in blocks[places[plan] - 5 : places[plan]]]
+        assert before == [Heading, Sentences, Equations, Sentences, Steps]
+    before = [type(block) for block in blocks[places["group_23"] - 5 : places["group_23"]]]
+    assert before == [Heading, Sentences, Equations, Heading, Sentences]
+    of_forces = blocks[places["forces_23"] - 3]
     assert isinstance(of_forces, Equations)
     assert any("ΣM" in " ".join(line) for line in of_forces.lines)
-    assert [type(block) for block in blocks[-2:]] == [Heading, Steps]  # the conclusions
+    assert [type(block) for block in blocks[-4:]] == [Heading, Steps] * 2  # the conclusions, the sources
+
+
+REFERENCES = {  # to equations, figures and tables, from a word of the text
+    Equations: r"equations? \((\d+)\)(?: to \((\d+)\))?",
+    Figure: r"[Ff]igure (\d+)()",
+    Table: r"tables? (\d+)(?: to (\d+))?",
+}
+
+
+def assert_the_text_refers_to_everything_and_to_nothing_else(written: Note) -> None:
+    """Numbers count from 1 without a gap, the text refers to each, and each to which it refers is there."""
+    blocks = written.document.blocks
+    said = " ".join(text for block in blocks if isinstance(block, Sentences | Steps) for text in block.texts)
+    numbers = [n for block in blocks if isinstance(block, Equations) for _, n in block.told if n]
+    counts = {Equations: len(numbers)}
+    counts |= {kind: sum(isinstance(block, kind) for block in blocks) for kind in (Figure, Table)}
+
+    assert numbers == [*range(1, len(numbers) + 1)]
+    for kind, pattern in REFERENCES.items():
+        told = ((int(first), int(last or first)) for first, last in re.findall(pattern, said.replace(TIE, " ")))
+        referred = {n for first, last in told for n in range(first, last + 1)}
+        assert referred == {*range(1, counts[kind] + 1)}, kind
+    assert {int(n) for n in re.findall(r"\[(\d)[,\]]", said)} == {*range(1, 1 + len(_sources(written)))}
+
+
+def _sources(written: Note) -> tuple[str, ...]:
+    last = written.document.blocks[-1]
+    assert isinstance(last, Steps)
+    return last.texts
+
+
+LAID_OUT = ((TASK, "3"), (CAM, None), (GEAR, None), (HOIST, None), ("scheme-09-shaper", "2"))
+
+
+@pytest.mark.parametrize(("task", "variant"), LAID_OUT)
+def test_the_text_refers_to_all_and_no_page_but_the_last_is_half_empty(task: str, variant: str | None) -> None:
+    written = note(task, variant, lang="en")
+    blocks = written.document.blocks
+    marks = Body.of(blocks, "en").marks("en")
+
+    assert_the_text_refers_to_everything_and_to_nothing_else(written)
+    assert {block for block, _, _ in marks} == {n for n, block in enumerate(blocks) if not isinstance(block, Heading)}
+    ends: dict[int, float] = {}
+    for _, page, y in marks:
+        ends[page] = max(y, ends.get(page, 0.0))
+    assert sorted(ends) == [*range(1, len(ends) + 1)]
+    assert all(ends[page] > 150.0 for page in range(1, len(ends))), ends  # of 262 mm from the top margin of 15
+    assert all(second >= first for first, second in pairwise(_figures(marks, blocks)))
+
+
+def _figures(marks: list[tuple[int, int, float]], blocks: tuple[Block, ...]) -> list[tuple[int, float]]:
+    """Return page and height of each figure of the text in the order of their numbers."""
+    return [(page, y) for block, page, y in marks if isinstance(figure := blocks[block], Figure) and not figure.folded]
+
+
+def test_no_page_parts_the_first_or_the_last_three_rows_of_a_table() -> None:
+    parted = set()
+    for before in range(40, 47):  # lines on the page, so that the table begins at any height near its end
+        rows = (("i", "v"), *((f"row{i}", "0") for i in range(7)))
+        blocks = (Steps(("x",) * before), Table(rows, "T"))
+        pages = [text_in_page(page) for page in pypdfium2.PdfDocument(pdf_bytes(replace(few_words(), blocks=blocks)))]
+        counts = [count for page in pages if (count := page.count("row"))]
+
+        assert all(count >= 3 for count in counts), counts
+        assert ["Продовженнятаблиці1" in page for page in pages if "row" in page] == [n > 0 for n in range(len(counts))]
+        parted.add(len(counts))
+    assert parted == {1, 2}
 
 
 @cache
@@ -179,12 +253,13 @@ def test_a_name_is_never_taken_for_a_sign(name: str) -> None:
 
 @pytest.mark.parametrize(("notation", "by"), [("nau", "times its"), ("bauman", "over its")])
 def test_a_note_says_what_scale_factors_are_for(notation: str, by: str) -> None:
-    about = note(TASK, only="structure", notation=notation, lang="en").document.blocks[0]
+    about = note(TASK, only="structure", notation=notation, lang="en").document.blocks[1]
 
     assert isinstance(about, Sentences)
     assert f"segment {by} scale factor is the quantity" in about.texts[0]
 
 
+TIE = "\u00a0"
 OWN = {"uk": "слово про дані", "ru": "слово о данных", "en": "a word on the data"}
 
 
@@ -272,9 +347,6 @@ def test_scale_of_specific_sliding_is_that_of_the_figure(format: str) -> None:
     assert value[0] in steps.texts[-1]
 
 
-TIE = "\u00a0"
-
-
 def in_typst(*blocks: Block) -> str:
     return Body.of(blocks, "en").text
 
@@ -305,7 +377,7 @@ def test_letters_of_one_word_are_all_upright(markup: str, slanted: str, upright:
 def test_scripts_of_a_script_stand_close_and_the_head_of_a_table_on_every_page() -> None:
     assert 't: "2")"s/d"attach(' in in_typst(Sentences(("μ_{d^{2}s/dφ^{2}}",)))
 
-    head, body = in_typst(Table((("i", "φ"), ("0", "0.00"), ("1", None)))).split("\n")[:2]
+    head, body = in_typst(Table((("i", "φ"), ("0", "0.00"), ("1", None)), "Angles")).split("\n")[:2]
     assert ("table.header(" in head, "φ" in head, "0.00" in head) == (True, True, False)
     assert "0.00" in body
     assert "colspan: 2" in body
@@ -324,7 +396,7 @@ def test_a_figure_that_would_be_too_small_stands_on_a_larger_sheet_at_the_end() 
     assert [name in shown for name in ('"1.svg"', '"2.svg"', '"3.svg"')] == [True, False, True]
     assert "Figure 2 stands on a sheet A3" in shown
     assert "counter(figure.where(kind: image)).step()" in shown  # so that the next one is the third
-    assert 'image("2.svg", width: 204.0000mm)' in folded
+    assert 'image("2.svg", width: 204.0000mm, height: 340.0000mm)' in folded
     assert 'numbering: _ => "2"' in folded
     assert "reduced to 68 %" in folded
 

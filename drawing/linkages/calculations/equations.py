@@ -353,7 +353,7 @@ def stated(words: Words, symbol: str, value: float, unit: str) -> str:
     return f"{symbol} = {value_text(words, words.display.value(value, unit))} {words.unit(shown)}"
 
 
-def _meeting(scene: Scene, step: Step) -> tuple[str, ...]:
+def meeting(scene: Scene, step: Step) -> tuple[str, ...]:
     """Return the equation that two lines of a plan solve, and along which lines its unknown vectors lie.
 
     Both sides lead from the pole to the point where the lines meet; its absolute vector stands before them unless it is
@@ -422,7 +422,7 @@ def kinematics_lines(scene: Scene, plan: str, told: set[str] | None = None) -> L
     lines, held = Lines(), Lines()  # these of a group's known parts, which come after its vector equation
     for step in (s for s in scene.program if _stage_of(s) == plan and s.name not in apart):
         if step.verb == "meet":
-            lines += [*_special_point(scene, step), _meeting(scene, step), *held]
+            lines += [*_special_point(scene, step), meeting(scene, step), *held]
             held.clear()
         elif step.law in TOLD:
             here = held if step.law in BEFORE_MEETING or _is_met(scene, step) else lines

@@ -329,6 +329,13 @@ def _closed(scene: Scene, plan: str) -> Iterable[tuple[str, ...]]:
     yield from _chords(scene, edges, [*firm, *found], edges)
 
 
+def found_by(scene: Scene, step: Step) -> tuple[str, ...]:
+    """Return the vector equation that a step solves in which two lines of a plan meet; nothing if none is printed."""
+    if step.plan in equations.PLANS:
+        return equations.meeting(scene, step)
+    return next(iter(_closed(scene, step.plan)), ()) if role(step.plan).kind == FORCES else ()
+
+
 def _chords(
     scene: Scene, edges: Sequence[Edge], ready: list[Edge], others: Sequence[Edge]
 ) -> Iterable[tuple[str, ...]]:
