@@ -130,6 +130,7 @@ class Style:
     arrow: float  # arrowhead
     force: float  # an arrow that only shows a direction
     node: float  # radius of a node of a plan
+    row: float = 0.0  # the least height of rows of tables
 
 
 STYLES = {

@@ -81,7 +81,8 @@ def extent(shapes: Iterable[Shape]) -> Box:
 
 
 NOTE = "note"  # the name of lines under a heading, which may hold results
-TASK_VIEWS = ("givens", "data", "choices", "scales")  # of the task, and of how it is drawn
+SCHEME, DATA, TASK = STATEMENT = ("kinematic", "givens", "task")  # views of the statement of a task
+TASK_VIEWS = (*STATEMENT, "data", "choices", "scales")  # of the task, and of how it is drawn
 
 
 class Layer(Enum):

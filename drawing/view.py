@@ -592,7 +592,7 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
     edges = [0.0, *accumulate(widths)]
     # scripts reach past the capitals in the middle of a row: it is as much higher on both sides
     reach = (max(top - h, -bottom) for top, bottom in (_span(row, h) for row in rows))
-    levels = [0.0, *accumulate(-max(2.0 * h, 1.25 * h + 2.0 * past) for past in reach)]
+    levels = [0.0, *accumulate(-max(2.0 * h, 1.25 * h + 2.0 * past, style.row) for past in reach)]
     shapes: list[Shape] = []
     for i, y in enumerate(levels):
         pen = Pen.MAIN if i in (0, 1, len(rows)) else Pen.THIN
@@ -645,9 +645,16 @@ def _span(row: Row, h: float) -> tuple[float, float]:
 
 
 def givens_view(
-    givens: Mapping[str, Given], words: Words, style: Style, more: Sequence[tuple[str, str, str]] = ()
+    givens: Mapping[str, Given],
+    words: Words,
+    style: Style,
+    more: Sequence[tuple[str, str, str]] = (),
+    called: Mapping[str, str] | None = None,
 ) -> View:
-    """Return the table of the givens in the task's own units; `more` rows of the same columns follow."""
+    """Return the table of the givens in the task's own units; `more` rows of the same columns follow.
+
+    Where it is said what they are `called`, that stands in a column of its own, and nothing follows.
+    """
     rows = [[words["table.symbol"], words["table.value"], words["table.unit"]]]
     for name, given in givens.items():
         if isinstance(given.value, str):
@@ -655,7 +662,13 @@ def givens_view(
         else:
             rows.append([words.symbol(name), _number(words, given.value), words.unit(given.unit)])
     rows += map(list, more)
-    return table("givens", words["heading.givens"], rows, style)
+    if called is None:
+        return table("givens", words["heading.givens"], rows, style)
+    named: list[Row] = [[rows[0][0], words["table.called"], *rows[0][1:]]]
+    for (symbol, *cells), (name, given) in zip(rows[1:], givens.items(), strict=False):
+        chosen = ["", symbol[:1].upper() + symbol[1:], cells[0], None]
+        named.append(chosen if isinstance(given.value, str) else [symbol, called.get(name, ""), *cells])
+    return table("givens", words["heading.givens"], named, style)
 
 
 def _number(words: Words, value: float) -> str:

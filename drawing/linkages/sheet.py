@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
+from itertools import combinations, product
 from typing import TYPE_CHECKING, Any
 
 from ...plans.linkages.chain import hinged
@@ -16,11 +17,12 @@ from ...plans.names import role, scale_factor
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import UNITS, Scale, steps
-from ..compose import GROUP, PART, Drawn, arrange, begins_of, compose, last, on_one_page
+from ..compose import GROUP, PART, TEXT, Drawn, Pages, arrange, begins_of, compose, last, on_one_page
 from ..extents import Rungs
 from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, printable, room
 from ..packing import Placement
+from ..page import DATA, STATEMENT
 from ..view import View, numbered, text_block
 from .calculations.equations import PLANS, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
@@ -43,6 +45,8 @@ OF_FORCES = ("load_", "equations_forces_loads", "group_", "driver", "lever")
 Found = tuple[list[View], Rungs, list[Placement]]
 GROUPS_APART = 2  # from so many groups on each plan has equations and tables of its own
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
+MOST = 2  # texts and tables that may stand beside the statement of a task
+WRITTEN = 8.0  # mm of a row in which an answer is written by hand
 SURELY = 0.85  # part of the excess of a view that certainly comes from what is drawn to scale
 
 
@@ -53,6 +57,7 @@ class Contents(SheetContents[SolvedLinkage]):
     cycle: Cycle | None = None
     dead: Sequence[SolvedLinkage] = ()  # where the working stroke begins, and where it ends
     courses: bool = False  # whether the sheet is that of all positions, each with its plans
+    variant: str = ""  # as the statement of a task calls it
 
 
 def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
@@ -232,7 +237,8 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
         raise InputError("sheet-too-small", format=way.name)
     way, (views, rungs, places) = fewest
     if sheet is not None and sheet != whole:
-        found = _on_a_page(fitting, sheet, rungs) or _on_pages(fitting, sheet, rungs, count=last(places) + 1)
+        fitting = Fitting(contents, stated=True)
+        found = _stated(fitting, sheet, rungs)
         if found is None:
             raise InputError("sheet-too-small", format=sheet.name)
         way, (views, rungs, places) = sheet, found
@@ -244,6 +250,31 @@ def _on_a_page(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     views, taken = fitting.fitted(sheet, rungs)
     places = on_one_page([view.size for view in views], sheet, fitting.contents.norm, begins_of(views))
     return None if places is None else (views, taken, places)
+
+
+def _stated(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
+    """Place the statement of the task before the work: on one page, on two, or on as many as they take.
+
+    Of two the first has the statement, the second one the plans, their tables and as many texts as it has room for.
+    """
+    work, taken = fitting.fitted(sheet, rungs)
+    every = [[*views, *work] for views in fitting.statements(sheet)]
+    begins, norm = begins_of(every[0]), fitting.contents.norm
+    ways = [Pages([view.size for view in views], sheet, norm, begins) for views in every]
+    order = [*range(len(begins))]
+    if (places := on_one_page(ways[0].sizes, sheet, norm, begins)) is not None:
+        return every[0], taken, places
+    texts = [i for i in order[len(STATEMENT) :] if begins[i] == TEXT]
+    beside = (some for count in range(MOST + 1) for some in combinations(texts, count))
+    for some, (views, pages) in product(beside, zip(every, ways, strict=True)):
+        first = [i for i in order if i < len(STATEMENT) or i in some]
+        rest = [i for i in order if i not in first]
+        if (own := pages.tried(first, 0)) is not None and (others := pages.tried(rest, 1)) is not None:
+            placed = dict(zip((*first, *rest), (*own, *others), strict=True))
+            return views, taken, [placed[i] for i in order]
+    found = next((views for views, pages in zip(every, ways, strict=True) if pages.tried(order[:3], 0)), every[-1])
+    places = arrange([view.size for view in found], sheet, norm, begins)
+    return None if places is None else (found, taken, places)
 
 
 def _begins(views: Sequence[View]) -> list[int]:
@@ -286,10 +317,13 @@ def _on_pages(fitting: Fitting, sheet: Format, rungs: Rungs, count: int) -> Foun
 
 
 class Fitting:
-    """Builds the views of `contents` for any format, each only once; `extents` is what figures take up."""
+    """Builds the views of `contents` for any format, each only once; `extents` is what figures take up.
 
-    def __init__(self, contents: Contents) -> None:
-        self.contents, self.runs = contents, slider_runs(contents.solved)
+    With `stated` they follow the statement of the task, and tables have rows to be written in.
+    """
+
+    def __init__(self, contents: Contents, stated: bool = False) -> None:
+        self.contents, self.runs, self.stated = contents, slider_runs(contents.solved), stated
         self.extents = extents_of(contents.solved, contents.choosers, contents.plans)
         self._found: dict[str, dict[Hashable, Any]] = {}  # by format
 
@@ -338,16 +372,29 @@ class Fitting:
         contents, solved, mus = self.contents, self.contents.solved, mus_of(self.extents, rungs)
         text_width = min(TEXT_WIDTH[sheet.letters], room(printable(sheet), contents.norm)[0])
         words, style = lettered(contents.words, solved), STYLES[sheet.letters]
+        style = replace(style, row=WRITTEN) if self.stated else style
         found = self._found.setdefault(sheet.name, {})
         scene = Scene(solved, words, style, contents.givens, self.scales(rungs), self.runs, found=found)
         built = []
         for figure in figures(contents, text_width):
+            if self.stated and figure.name == DATA:
+                continue
             # of two scale factors the one with the longer lines makes the figure as large as it is
             symbol = next(iter(figure.ladders), "")
             if len(figure.ladders) > 1:
                 symbol = max(figure.ladders, key=lambda s: _reach(solved, s) / mus[s])
             built.append((scene.once(figure.draw, "figure", figure.name), self.extents.root(symbol)))
         return built
+
+    def statements(self, sheet: Format) -> Iterator[list[View]]:
+        """Go through the views of the statement of the task with ever smaller schemes."""
+        from .statement import statements  # most sheets have none
+
+        contents = self.contents
+        words, style = lettered(contents.words, contents.solved), STYLES[sheet.letters]
+        scene = Scene(contents.solved, words, style, contents.givens, {}, self.runs)
+        width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
+        return statements(scene, contents.plans, contents.variant, width)
 
     def _does_not_fit(self, sheet: Format, symbol: str, size: tuple[float, float]) -> InputError:
         """Say which format, or which scale factor, would do."""

@@ -26,11 +26,13 @@ from kulman.drawing.compose import Drawn
 from kulman.drawing.figure import family
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts import _done, begun_stages
+from kulman.drawing.linkages.statement import given_name
 from kulman.drawing.notes.blocks import Figure, Steps
 from kulman.drawing.page import extent
 from kulman.drawing.pdf import MARGIN, tiles, write_tiles
 from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.shapes import Group, Line, Shape, Text, Vector
+from kulman.drawing.words import Words
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.shapes import leaves, line_of
 from kulman.variants.case import Case, Request
@@ -40,7 +42,7 @@ from kulman.variants.sheets import PAPER, Sheet, drawing_for_print
 from kulman.variants.shelf import bundled
 
 TASK = "nau-slider-crank"
-GIVEN = ("givens", "data", "choices", "scales")  # what a blank may show in full
+GIVEN = ("kinematic", "givens", "task", "data", "choices", "scales")  # what a blank may show in full
 ASKED = ("table.quantity", "table.symbol", "table.unit", "table.check", "table.condition", "gear.point")
 ASKED += ("table.cam_row",)  # columns in which a table asks
 EVERY_KIND = (TASK, "madi-gear", "madi-cam", "karpenko-hoist")
@@ -132,6 +134,37 @@ def test_a_blank_has_no_answers(task: str) -> None:
     notes = {line for view in blank.views if not (view.rows or view.lines) for line in view.notes}
     assert said & {line for view in blank.views for line in view.heading}
     assert not [line for line in said & notes if re.search(r"= ?\d", line)]
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("task", [TASK, "scheme-09-shaper", "scheme-18-hydraulic-drive"])
+def test_a_blank_of_velocities_states_the_task_on_two_pages(task: str, lang: str) -> None:
+    blank = handout(task, only="velocity", lang=lang)
+
+    views = {view.name: view for view in blank.views}
+    ruled = (line for line in leaves(views["results_velocity"].shapes) if isinstance(line, Line))
+    levels = sorted({round(line.a.imag, 6) for line in ruled if line.a.imag == line.b.imag})
+    assert len(blank.pages) == 2
+    assert {"kinematic", "givens", "task"} <= {view.name for view in views_of(blank) if view.shapes}
+    assert all(called for _, called, *_ in views["givens"].rows)
+    assert not any(symbol and symbol.startswith("m_") for symbol, *_ in views["givens"].rows)  # no mass moves faster
+    assert "V_" in " ".join(map(" ".join, views["task"].lines))
+    assert min(b - a for a, b in pairwise(levels)) >= 8.0
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_given_of_a_bundled_linkage_has_a_name(lang: str) -> None:
+    tasks = [task for task in map(load_task, bundled()) if task.kind == "mechanism"]
+
+    named = {
+        (task.id, name): given_name(task.mechanism, Words.of(lang, task.notation), name)
+        for task in tasks
+        for name, given in task.givens.items()
+        if not given.choices
+    }
+
+    assert len(named) > 300
+    assert [key for key, text in named.items() if not text or re.search(r"(?<![_^]){", text)] == []
 
 
 @pytest.mark.usefixtures("drawn_once")

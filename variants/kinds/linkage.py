@@ -164,12 +164,13 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
             if case.positions is not None:
                 whole = cycle(case.task.mechanism, case.values, (*case.plans, POSITION), case.positions)
-                of = placed(case), ("cycle",), case.choosers, case.givens, words, norm, whole
-                return draw(Contents(*of, courses=True), paper)
+                all_of = placed(case), ("cycle",), case.choosers, case.givens, words, norm, whole
+                return draw(Contents(*all_of, courses=True), paper)
             whole = cycle(case.task.mechanism, case.values, ("position", "velocity", "acceleration"))
         solved = placed(case)
         plans = case.plans if solved is case.solved else (*case.plans, POSITION)
-        contents = Contents(solved, plans, case.choosers, case.givens, words, norm, whole, _dead(case))
+        of = solved, plans, case.choosers, case.givens, words, norm, whole, _dead(case)
+        contents = Contents(*of, variant=case.variant)
         return draw(contents, paper)
 
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:

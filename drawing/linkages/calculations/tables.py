@@ -23,7 +23,9 @@ from .forces import BALANCING, balance, on_lever, result_of
 KINDS = ("velocity", "acceleration", "compound", "forces", "lever")
 HEADS = {"l": "velocity", "V": "velocity", "omega": "velocity", "a": "acceleration", "epsilon": "acceleration"}
 ROWS = 30  # most rows of a table
+HALVED, WIDEST = 9, 181.0  # rows of a table to be written in, head and all, over which it has two halves; mm of these
 PAIR = 2  # links of a reaction
+UNIT = 4  # column of units
 NUMBERS = r"(?<![A-Za-hj-z\d])\d+"  # of links of two digits, not of points: 12 and 10 of `12_10`, 12 of `i12`
 _Piece: TypeAlias = tuple[tuple[int, ...], list[str]]  # links of a group, names
 CLASSES = {2: "II", 3: "III", 4: "IV"}
@@ -140,7 +142,13 @@ def results_table(scene: Scene, part: Part) -> View:
         key = "table.of_link" if part.links.isdigit() else "table.of_links"
         heading = words[key].format(heading=heading, link=part.links, links=part.links)
     rows = _lever_rows(scene, part) if part.kind == "lever" else _rows(scene, part)
-    return table(part.name, heading, rows, scene.style)
+    whole = table(part.name, heading, rows, scene.style)
+    if not scene.style.row or len(rows) <= HALVED:
+        return whole
+    (head, *cells), half = rows, len(rows) // 2
+    twins = zip(cells[:half], [*cells[half:], ["" for _ in head]], strict=False)
+    halves = table(part.name, heading, [[*head, *head], *([*a, *b] for a, b in twins)], scene.style)
+    return halves if halves.size[0] <= WIDEST else whole
 
 
 def _rows(scene: Scene, part: Part) -> list[list[str]]:
@@ -156,6 +164,9 @@ def _rows(scene: Scene, part: Part) -> list[list[str]]:
         none = words["table.calculated"]
         rows = [[*row, sense or none] for row, sense in zip(rows, senses, strict=True)]
         head.append(words["table.sense"])
+    if scene.style.row:  # to be written in: units beside the quantities; headings of plans have the scale factors
+        rows = [[f"{quantity}, {unit}", mm, value, *more] for quantity, mm, _, value, unit, *more in rows]
+        head = [*head[:2], *head[3:UNIT], *head[UNIT + 1 :]]
     return [head, *rows]
 
 
@@ -167,7 +178,9 @@ def _sense(scene: Scene, name: str) -> str:
 
 
 def _turning(scene: Scene, value: float) -> str:
-    return "" if value == 0.0 else scene.words["choice.ccw" if value > 0.0 else "choice.cw"]
+    if value == 0.0:
+        return ""
+    return scene.words[("short." if scene.style.row else "choice.") + ("ccw" if value > 0.0 else "cw")]
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:

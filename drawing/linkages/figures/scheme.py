@@ -54,9 +54,9 @@ CROSS = 8.0  # mm by which arcs and lines run past the joint that they find
 
 def scheme(scene: Scene, dead: Sequence[SolvedLinkage] = ()) -> View:
     """Draw the plan of the mechanism in the given position, and thin those at the ends of the working stroke."""
-    canvas, driver = scene.canvas(), scene.mechanism.driver
+    canvas = scene.canvas()
     canvas.part(GIVEN)
-    _axes(canvas, scene)
+    draw_axes(canvas, scene)
     notes = _dead_positions(canvas, scene, dead)
     for step in scene.program.on(POSITION):
         if step.name in scene.points or step.verb == "tangent":
@@ -64,6 +64,20 @@ def scheme(scene: Scene, dead: Sequence[SolvedLinkage] = ()) -> View:
     special_points(canvas, scene)
     draw_sides(canvas, scene, POSITION, [stroke for n in scene.numbers for stroke in skeleton(scene, n).strokes])
     figures = draw_links(canvas, scene, scene.numbers)
+    draw_driver(canvas, scene)
+    senses(canvas, scene, figures)
+    canvas.part(GIVEN)
+    letter_axes(canvas, scene)
+    letter_frame(canvas, scene, figures)
+    letter_links(canvas, scene, figures)
+    return canvas.finish(
+        "position", scene.heading("heading.position", "position"), (*notes, *said_flat(scene, POSITION))
+    )
+
+
+def draw_driver(canvas: Canvas, scene: Scene) -> None:
+    """Draw where the driver stands, and which way it moves."""
+    driver = scene.mechanism.driver
     canvas.part(driver.point)
     if isinstance(driver, Driver):
         _angle(canvas, scene, driver)
@@ -75,14 +89,6 @@ def scheme(scene: Scene, dead: Sequence[SolvedLinkage] = ()) -> View:
         tip = tail + e * 0.6 * scene.style.force
         canvas.add(Arrow(tail, tip, name=driver.speed))
         canvas.label(scene.letter(f"V_{driver.point}"), (tail, tip))
-    senses(canvas, scene, figures)
-    canvas.part(GIVEN)
-    _letter_axes(canvas, scene)
-    _letter_frame(canvas, scene, figures)
-    letter_links(canvas, scene, figures)
-    return canvas.finish(
-        "position", scene.heading("heading.position", "position"), (*notes, *said_flat(scene, POSITION))
-    )
 
 
 def _dead_positions(canvas: Canvas, scene: Scene, dead: Sequence[SolvedLinkage]) -> tuple[str, ...]:
@@ -147,7 +153,7 @@ def _dimension_radius(canvas: Canvas, scene: Scene, driver: Driver, phi: float) 
     return float(radii[int(np.round(crowd + AWAY * np.abs(radii - usual) / usual, 6).argmin())])
 
 
-def _letter_frame(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
+def letter_frame(canvas: Canvas, scene: Scene, figures: Sequence[Skeleton]) -> None:
     """Letter the frame 0, once, beside the hatching of the driver's pivot or guide; keep letters off the hatching.
 
     The guides of moving links, too, have their letters: those that no two pins name.
@@ -184,7 +190,7 @@ def _clear_of(at: complex, lines: Iterable[Stroke]) -> float:
     return min((float(_gaps(np.array([at]), np.array([a]), np.array([b]))[0]) for a, b in lines), default=math.inf)
 
 
-def _axes(canvas: Canvas, scene: Scene) -> None:
+def draw_axes(canvas: Canvas, scene: Scene) -> None:
     """Draw the axes of the frame's guides: past the slider, and past a pivot that is near the same line."""
     for pair in scene.sliding():
         at, u = scene.mm(pair.point), guide_of(scene, pair)
@@ -194,7 +200,7 @@ def _axes(canvas: Canvas, scene: Scene) -> None:
         canvas.add(Line(at + u * (min(0.0, *way) - PAST), at + u * (max(0.0, *way) + PAST), Pen.AXIS))
 
 
-def _letter_axes(canvas: Canvas, scene: Scene) -> None:
+def letter_axes(canvas: Canvas, scene: Scene) -> None:
     """Letter the axes of the frame's guides at one end of all that is drawn on them: that with more room."""
     pairs, letters = scene.sliding(), guide_letters(scene.program)
     joints = {scene.mm(pair.point) for pair in scene.mechanism.pairs}  # near them is the less room for a letter
