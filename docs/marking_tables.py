@@ -7,31 +7,19 @@ tests/support/students.py; the same seeds draw the same students.
 from __future__ import annotations
 
 import random
+import re
 import sys
 from collections import defaultdict
-from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from pathlib import Path
 
+from kulman.docs.refresh import GUIDES, language
 from kulman.tests.support.students import SEED, SLIPS, Outcome, marked, population, share
 from kulman.variants.marking.wording import mistake_texts
 
-DOCUMENT = Path(__file__).resolve().parent.parent / "variants" / "guides" / "marking.en.md"
-BEGIN, END = "<!-- students: docs/marking_tables.py -->", "<!-- end -->"
+DOCUMENTS = [path for path in GUIDES if path.name.startswith("marking.")]
+RATES, MISTAKES, END = "<!-- rates: docs/marking_tables.py -->\n", "<!-- mistakes -->\n", "<!-- end -->"
 PARTS = 8  # of the variants, marked one after the other
 TASKS = ("nau-slider-crank", "scheme-09-shaper")  # with several variants
-AIMS = {
-    "lines of honest students that pass": "at least 99.5",
-    "first wrong step": "at least 96",
-    "mistake named first": "at least 85",
-    "a wrong name first": "at most 4",
-    "unnoticed": "at most 2",
-    "two mistakes: both named first": "at least 80",
-    "without directions: first wrong step": "at least 85",
-    "random numbers: mark of 100": "at most 10",
-    "another variant's sheet: mark of 100": "at most 20",
-    "another variant's sheet: said so": "always",
-}
 
 
 Found = dict[str, dict[str, list[Outcome]]]  # by group, by mistake or task
@@ -64,11 +52,11 @@ def measured(count: int) -> Found:
     return found
 
 
-def rates(found: Found) -> dict[str, float]:
-    """Return what is promised, in the order of AIMS, in percent or marks."""
+def rates(found: Found) -> list[float]:
+    """Return what is promised, in the order of the rows of the guides, in percent or marks."""
     flat = {group: [one for some in by_name.values() for one in some] for group, by_name in found.items()}
     honest, one, other = flat["honest"], flat["one"], flat["other"]
-    numbers = (
+    return [
         100.0 * sum(x.passed for x in honest) / sum(x.lines for x in honest),
         share(one, lambda x: x.step),
         share(one, lambda x: x.named),
@@ -79,41 +67,33 @@ def rates(found: Found) -> dict[str, float]:
         sum(x.mark for x in flat["random"]) / len(flat["random"]),
         sum(x.mark for x in other) / len(other),
         share(other, lambda x: bool(x.fits)),
-    )
-    return dict(zip(AIMS, numbers, strict=True))
-
-
-def table(found: Found) -> str:
-    """Return both tables."""
-    flat = {group: sum(map(len, by_name.values())) for group, by_name in found.items()}
-    rows = [
-        f"{sum(flat.values())} students, of whom {flat['one']} with one mistake and {flat['honest']} without any.",
-        "",
     ]
-    rows += ["| | reached | wanted |", "|---|---|---|"]
-    rows += [f"| {name} | {value:.1f} | {AIMS[name]} |" for name, value in rates(found).items()]
-    rows += ["", "| mistake | students | first step | named | wrong name | unnoticed |", "|---|---|---|---|---|---|"]
-    rows += [_row(id, outcomes) for id, outcomes in found["one"].items()]
-    return "\n".join(rows)
 
 
-def _row(id: str, outcomes: Sequence[Outcome]) -> str:
-    shares = (
-        share(outcomes, lambda x: x.step),
-        share(outcomes, lambda x: x.named),
-        share(outcomes, lambda x: bool(x.names) and not x.named),
-        share(outcomes, lambda x: not x.first),
-    )
-    text = mistake_texts("en").get(id, "")
-    return f"| {f'{id} {text}'.strip()} | {len(outcomes)} | {' | '.join(f'{x:.0f}' for x in shares)} |"
+def filled(text: str, found: Found, language: str) -> str:
+    """Return a guide with the numbers of today: in its own rows of rates, and in a row for each mistake."""
+    numbers = iter(f"{value:.1f}" if language == "en" else f"{value:.1f}".replace(".", ",") for value in rates(found))
+    head, _, rest = text.partition(RATES)
+    table, _, rest = rest.partition(END)
+    between, _, rest = rest.partition(MISTAKES)
+    title, tail = rest[: rest.index("| M")], rest.partition(END)[2]
+    table = re.sub(r"(?<=\| )[\d.,]+(?= \| )", lambda _: next(numbers), table)
+    rows = [
+        f"| {id} {words} | {_shares(found['one'].get(id, []))} |\n" for id, words in mistake_texts(language).items()
+    ]
+    return "".join((head, RATES, table, END, between, MISTAKES, title, *rows, END, tail))
+
+
+def _shares(outcomes: list[Outcome]) -> str:
+    shares = (share(outcomes, lambda x: x.step), share(outcomes, lambda x: x.named)) if outcomes else ()
+    return " | ".join(f"{x:.0f}" for x in shares) or "– | –"
 
 
 def main(count: int = 40) -> None:
-    """Rewrite what stands between the marks."""
-    text = DOCUMENT.read_text(encoding="utf-8")
-    head, _, rest = text.partition(BEGIN)
-    _, _, tail = rest.partition(END)
-    DOCUMENT.write_text(f"{head}{BEGIN}\n{table(measured(count))}\n{END}{tail}", encoding="utf-8")
+    """Rewrite what stands between the marks of the guides."""
+    found = measured(count)
+    for path in DOCUMENTS:
+        path.write_text(filled(path.read_text(encoding="utf-8"), found, language(path)), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -95,6 +95,7 @@ def test_a_calculation_in_a_cell_gives_its_result_and_is_told_of_where_it_is_wro
 
     answers = one(tmp_path, f"{HEAD}{rows}обчислення;;;W = 3·3 - 2·4 = 2;;\nвычисление;;;15·4 = 60;;\n")
     with_point = one(tmp_path, f"{HEAD}omega_2;;;1.35/0.130 = 10.8 1/с;;\n")
+    whole = one(tmp_path, f"{HEAD}omega_2;;;135/13 = 11 1/с;;\n")
 
     assert {name: line.value for name, line in answers.lines.items()} == {"V_B": 2.96, "omega_2": -10.8}
     assert [text.partition(": ")[2] for text in messages(answers)] == [
@@ -103,6 +104,7 @@ def test_a_calculation_in_a_cell_gives_its_result_and_is_told_of_where_it_is_wro
         "D4, обчислення: '3·3 - 2·4' makes 1, not 2",
     ]
     assert "«1.35/0.130» дорівнює 10.38462, а не 10.8" in with_point.problems[0].text("uk")  # as the student writes
+    assert "«135/13» дорівнює 10,38462, а не 11" in whole.problems[0].text("uk")
 
 
 @pytest.mark.parametrize(

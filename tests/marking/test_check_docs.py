@@ -12,10 +12,25 @@ from typing import Any
 import pytest
 
 from kulman import check, cli, solve
-from kulman.docs import seeds_tables
+from kulman.docs import marking_tables, seeds_tables
+from kulman.docs.refresh import language
+from kulman.variants.marking.wording import mistake_texts
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 SEEDS = (DOCS / "seeds.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("path", marking_tables.DOCUMENTS, ids=lambda path: path.name)
+def test_the_guide_lists_every_mistake_in_the_words_of_reports_with_the_same_numbers(path: Path) -> None:
+    def numbers(path: Path) -> list[str]:
+        rows = re.findall(r"^\| (?:M\d+ )?.+? \| ([\d.,–]+ \| .*?) \|$", path.read_text(encoding="utf-8"), re.MULTILINE)
+        return [re.sub(r"[^\d.|–]", "", row.replace(",", ".")) for row in rows]
+
+    listed = re.findall(r"^\| (M\d+) (.+?) \|", path.read_text(encoding="utf-8"), re.MULTILINE)
+
+    assert dict(listed) == mistake_texts(language(path))
+    assert len(numbers(path)) == len(listed) + 10
+    assert numbers(path) == numbers(path.with_name("marking.en.md"))
 
 
 @pytest.mark.soak

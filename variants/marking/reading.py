@@ -129,7 +129,9 @@ class _Sheet:
         text = self.read(cell, lambda: cells.checked(self.grid, cell.row, cell.column)) or ""
         slip = cells.slip_in(text)
         if slip is not None:
-            makes = Written(f"{slip.makes:.7g}".replace(".", "," if "," in text else "."))
+            makes = f"{slip.makes:.7g}"
+            if "," in text or "." in text:  # as the student writes
+                makes = Written(makes.replace(".", "," if "," in text else "."))
             self.refuse(cell, InputError("answer-calculation", text=slip.text, makes=makes, written=slip.written))
         return cells.signed(text.rpartition("=")[2].strip())
 
