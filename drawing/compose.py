@@ -13,7 +13,7 @@ from .packing import LEAST, Placement, Size, Slicing, spread
 from .page import Page
 from .shapes import Group
 from .titleblock import Stamp, frame_shapes
-from .view import View
+from .view import View, part_of
 
 HELD = 9  # of the corners to the views beside them
 SOON = 5  # views from which one may stand on a page before its turn
@@ -21,6 +21,8 @@ ALONE = 0.95  # part of the width of a page that leaves no room for a view besid
 FULL = 0.69  # part of a page that views should take at least before the next one begins
 TEXT, FIGURE, GROUP, PART = range(-1, 3)  # what may begin with a view
 MANY = 3  # pages on which views may come in another order
+ENOUGH = {"A4": 0.51, "A3": 0.66, "A2": 0.66, "A1": 0.66}  # part of a page below which tables and texts break for it
+PIECES = 2  # rows or lines at least on each page
 
 
 def on_a_page(sizes: Sequence[Size], sheet: Format, norm: Norm, first: bool = True) -> list[Placement] | None:
@@ -186,6 +188,62 @@ class Pages:
         return [places[i] for i in range(len(self.sizes))]
 
 
+Standing = tuple[View, Placement]  # a view and where it stands
+
+
+@dataclass(frozen=True, slots=True)
+class Breaking:
+    """Breaks tables and texts of later pages for a page that were else too empty; what `goes_on` has its heading so."""
+
+    sheet: Format
+    norm: Norm
+    goes_on: str
+
+    def filled(self, pages: list[list[Standing]]) -> list[list[Standing]]:
+        """Return pages with as much of the next texts as each has room for, where views left it too empty."""
+        pages = [*pages]
+        for number in range(len(pages) - 1):
+            while self._is_empty(pages[number], number):
+                later = ((k, i) for k in range(number + 1, len(pages)) for i in range(len(pages[k])))
+                moves = ((k, self._moved(pages[number], number, pages[k], i, k)) for k, i in later)
+                ways = ((k, *move) for k, move in moves if move and (move[1] or k == len(pages) - 1))
+                if (found := next(ways, None)) is None:
+                    break
+                pages[number], pages[found[0]] = found[1:]
+        return pages[: 1 + max(k for k, page in enumerate(pages) if page)]
+
+    def _is_empty(self, page: Sequence[Standing], number: int) -> bool:
+        pages = Pages([view.size for view, _ in page], self.sheet, self.norm)
+        return pages.fill(range(len(page)), number) < ENOUGH[self.sheet.letters]
+
+    def _moved(
+        self, page: Sequence[Standing], number: int, other: Sequence[Standing], i: int, k: int
+    ) -> tuple[list[Standing], list[Standing]] | None:
+        """Return a page with as much of a text of another one as it has room for, and that other one without it.
+
+        Whatever stands alone may move, too.
+        """
+        (whole, at), own = other[i], [view for view, _ in page]
+        before, after = ([view for view, _ in part] for part in (other[:i], other[i + 1 :]))
+        if (whole.pieces or len(other) == 1) and (placed := self._placed([*own, whole], number)):
+            return placed, self._placed([*before, *after], k) or [*other[:i], *other[i + 1 :]]
+        found, said = None, "".join(whole.heading)
+        for count in range(PIECES, whole.pieces - PIECES + 1):
+            if (placed := self._placed([*own, part_of(whole, 0, count, said)], number)) is None:
+                break
+            found = placed, count
+        if found is None:
+            return None
+        tail = part_of(whole, found[1], whole.pieces, self.goes_on.format(heading=said))
+        below = replace(at, y=at.y + whole.size[1] - tail.size[1])
+        return found[0], self._placed([*before, tail, *after], k) or [*other[:i], (tail, below), *other[i + 1 :]]
+
+    def _placed(self, views: Sequence[View], number: int) -> list[Standing] | None:
+        sizes = [view.size for view in views]
+        placed = on_one_page(sizes, self.sheet, self.norm, begins_of(views), number == 0)
+        return None if placed is None else [*zip(views, placed, strict=True)]
+
+
 def begins_of(views: Iterable[View]) -> list[int]:
     """Return what begins with each view: a figure, or nothing, since it is a text or a table."""
     return [TEXT if view.rows or view.lines else FIGURE for view in views]
@@ -240,20 +298,25 @@ def compose(
     scales: Mapping[str, Scale],
     sheet: Format,
     norm: Norm,
+    goes_on: str,
     reduction: float = 1.0,
     smaller: bool = False,
 ) -> Drawn:
-    """Set views at their places on the pages of `sheet`; the last of several pages may be `smaller`."""
-    pages: list[list[Group]] = [[] for _ in range(last(places) + 1)]
-    sheets = [sheet] * len(pages)
-    if smaller and len(pages) > 1:
-        own = [i for i, place in enumerate(places) if place.page == len(pages) - 1]
-        sizes, begins = [views[i].size for i in own], begins_of([views[i] for i in own])
+    """Set views at their places on the pages of `sheet`; the last of several pages may be `smaller`.
+
+    The heading of what `goes_on` from a page before has these words.
+    """
+    every, pages = range(last(places) + 1), [*zip(views, places, strict=True)]
+    parted = Breaking(sheet, norm, goes_on).filled([[own for own in pages if own[1].page == k] for k in every])
+    sheets = [sheet] * len(parted)
+    if smaller and len(parted) > 1:
+        own = [view for view, _ in parted[-1]]
         for less in takewhile(lambda less: less is not sheet, FORMATS.values()):
-            if (placed := on_one_page(sizes, less, norm, begins, first=False)) is not None:
-                sheets[-1], moved = less, dict(zip(own, placed, strict=True))
-                places = [replace(moved.get(i, place), page=place.page) for i, place in enumerate(places)]
+            if (
+                placed := on_one_page([view.size for view in own], less, norm, begins_of(own), first=False)
+            ) is not None:
+                sheets[-1], parted[-1] = less, [*zip(own, placed, strict=True)]
                 break
-    for view, place in zip(views, places, strict=True):
-        pages[place.page].append(view.at(place.x, place.y))
-    return Drawn(tuple(views), tuple(map(tuple, pages)), scales, tuple(sheets), norm, reduction)
+    drawn = tuple(tuple(view.at(place.x, place.y) for view, place in page) for page in parted)
+    parts = (view for page in parted for view, _ in page if view.of)
+    return Drawn((*views, *parts), drawn, scales, tuple(sheets), norm, reduction)

@@ -226,7 +226,8 @@ class Fitting(ABC, Generic[Subject, Scene]):
                 break
         rungs, views, places = found or self.on_pages(candidate)
         scales, part = self.scales(candidate, rungs), self.part(rungs)
-        return compose(views, places, scales, candidate, contents.norm, part, smaller=sheet is None)
+        goes_on = contents.words["heading.continued"]
+        return compose(views, places, scales, candidate, contents.norm, goes_on, part, smaller=sheet is None)
 
     def on_pages(self, sheet: Format) -> Found:
         """Take several pages in reading order.

@@ -82,9 +82,10 @@ def _page_shape(shape: Shape, views: Mapping[str, View], shown: Mapping[str, Sho
         return shape
     shape = replace(shape, layer=Layer.GIVEN.value)
     view = views.get(shape.name)
-    if view is None or (view.name in TASK_VIEWS and view.name not in shown):
+    name = view.of or view.name if view is not None else ""
+    if view is None or (name in TASK_VIEWS and name not in shown):
         return shape
-    kept = shown.get(view.name, Shown())
+    kept = shown.get(name, Shown())
     if view.rows:
         return replace(shape, shapes=tuple(_table(part, view, kept, unit) for part in shape.shapes))
     hidden = frozenset(() if kept.notes else view.notes)

@@ -54,7 +54,8 @@ class View:
     chunks between which it may break, and the `rows` of a table, the first of which is its head. `stages` are those in
     which it is drawn, in order, with the keys of the sentences that tell them; `parts` has the stage of every shape,
     `needs` the stages of other views that must be done before some of them, `whole`, by the numbers of the shapes, what
-    those are pieces of that break off at letters.
+    those are pieces of that break off at letters. A table or a text has the `style` and the `width` in which parts of
+    it are drawn on several pages; a part tells the view `of` which it is one.
     """
 
     name: str
@@ -68,6 +69,14 @@ class View:
     stages: Mapping[str, str] = field(default_factory=dict)
     needs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     whole: Mapping[int, Whole] = field(default_factory=dict)
+    style: Style | None = None
+    width: float = 0.0
+    of: str = ""
+
+    @property
+    def pieces(self) -> int:
+        """How many rows under the head of a table, or lines of a text, may be parted; none of a figure."""
+        return max(len(self.rows) - 1, len(self.lines)) if self.style is not None else 0
 
     @property
     def size(self) -> tuple[float, float]:
@@ -609,7 +618,7 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
                 anchor: Anchor = "middle" if start is None else "left"
                 shapes.append(Text(complex(x, baseline), cell, h, anchor, role="cell"))
     view = _view(name, heading, shapes, (0.0, levels[-1], edges[-1], 0.0), style, role="table")
-    return replace(view, rows=tuple(tuple(row) for row in rows))
+    return replace(view, rows=tuple(tuple(row) for row in rows), style=style)
 
 
 def _in_column(column: Mapping[int, str], h: float) -> tuple[float, dict[int, float]]:
@@ -702,7 +711,19 @@ def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: S
             low = base + layout.bottom - (UNDERLINED if underlined else BETWEEN) * h
             widest = max(widest, layout.width)
     view = _view(name, heading, shapes, (0.0, low, widest, 0.0), style, role="text")
-    return replace(view, lines=tuple(tuple(line) for line in lines))
+    return replace(view, lines=tuple(tuple(line) for line in lines), style=style, width=width)
+
+
+def part_of(view: View, begin: int, end: int, heading: str) -> View:
+    """Return these rows of a table, under its head, or lines of a text; the first part has its name."""
+    name, style = view.name if begin == 0 else f"{view.name}_continued", view.style
+    if style is None:
+        raise ValueError(f"{view.name} has no parts")
+    if view.rows:
+        part = table(name, heading, [view.rows[0], *view.rows[1 + begin : 1 + end]], style)
+    else:
+        part = text_block(name, heading, view.lines[begin:end], style, view.width)
+    return replace(part, of=view.of or view.name)
 
 
 def words_of(sentence: str) -> tuple[str, ...]:

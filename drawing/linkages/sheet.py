@@ -242,7 +242,8 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
         if found is None:
             raise InputError("sheet-too-small", format=sheet.name)
         way, (views, rungs, places) = sheet, found
-    return compose(views, places, fitting.scales(rungs), way, contents.norm, smaller=sheet is None)
+    goes_on = contents.words["heading.continued"]
+    return compose(views, places, fitting.scales(rungs), way, contents.norm, goes_on, smaller=sheet is None)
 
 
 def _on_a_page(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:

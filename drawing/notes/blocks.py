@@ -230,7 +230,9 @@ def blocks_of(views: Iterable[View], story: Story, said: Mapping[str, str]) -> I
 
     What is `said` are words of notes by their keys.
     """
-    writing, told = _Writing(story, said), [view for view in views if view.name not in story.told]
+    # of what is parted the whole is there, too
+    told = [view for view in views if view.name not in story.told and not view.of]
+    writing = _Writing(story, said)
     first = sorted((view for view in told if view.name in story.first), key=lambda view: story.first.index(view.name))
     others = [view for view in told if view.name not in story.first]
     for view in (*first, *(view for view in others if not view.rows)):

@@ -8,10 +8,11 @@ from dataclasses import replace
 import pytest
 import shapely
 
-from kulman.drawing.compose import FULL, MANY, Pages, arrange, last, on_a_page
+from kulman.drawing.compose import FULL, MANY, Pages, arrange, compose, last, on_a_page
 from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _page, ways
-from kulman.drawing.formats import FORMATS, MARGINS, drawing_area, reserved_boxes
-from kulman.drawing.packing import LEAST, STEPS, Slicing, size_of, spread
+from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
+from kulman.drawing.packing import LEAST, STEPS, Placement, Slicing, size_of, spread
+from kulman.drawing.view import View, table, text_block
 
 # Givens, structure, position, velocity, acceleration, equations, two tables; group, its forces, forces of the link,
 # slider, driver, its forces, equations; lever, its equations, two tables.
@@ -223,3 +224,28 @@ def test_what_fits_nowhere_has_no_place():
     assert arrange([(50, 50), (900, 50)], FORMATS["A1"], "gost") is None
     assert on_a_page([(400, 300)] * 4, FORMATS["A1"], "gost") is None
     assert arrange([], FORMATS["A1"], "gost") == []
+
+
+def test_tables_and_texts_break_for_a_page_that_were_too_empty() -> None:
+    style, paper = STYLES["A4"], FORMATS["A4"]
+    cells = [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(36))]
+    long = (
+        table("values", "Values", cells, style),
+        text_block("sums", "Sums", [[f"a + {k}"] for k in range(36)], style, 60),
+    )
+    for view in long:
+        figure = View("plan", (), (0.0, 0.0, 170.0, 80.0))
+        alone = Placement(0, 25.0, 150.0), Placement(1, 25.0, 30.0)
+
+        drawn = compose((figure, view), alone, {}, paper, "gost", "{heading} (continued)")
+
+        assert [[group.name for group in page] for page in drawn.placed] == [
+            ["plan", view.name],
+            [f"{view.name}_continued"],
+        ]
+        first, rest = (part for part in drawn.views if part.of == view.name)
+        assert (first.heading, rest.heading) == (view.heading, (f"{view.heading[0]} (continued)",))
+        assert first.rows[:1] == rest.rows[:1] == view.rows[:1]
+        assert (*first.rows, *rest.rows[1:], *first.lines, *rest.lines) == (*view.rows, *view.lines)
+        full = compose((replace(figure, box=(0.0, 0.0, 170.0, 120.0)), view), alone, {}, paper, "gost", "{heading}")
+        assert [part for part in full.views if part.of] == []
