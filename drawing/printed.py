@@ -301,9 +301,13 @@ def value_text(words: Words, value: float, digits: int = DIGITS) -> str:
 
 
 def ruler_decimals(words: Words, segment: float) -> int:
-    """Return the decimals of a segment in the unit of segments: hundredths of a mm, from 100 mm on tenths."""
+    """Return the decimals of a segment in the unit of segments: hundredths of a mm, from 100 mm on tenths.
+
+    What is read with a ruler has tenths from a millimetre on: what is shorter is read in a detail.
+    """
     centimetres = words.display.paper != "mm"
-    long = round(abs(segment) * (10.0 if centimetres else 1.0), HUNDREDTHS) >= LONG
+    mm = round(abs(segment) * (10.0 if centimetres else 1.0), HUNDREDTHS)
+    long = mm >= (READABLE if words.ruler else LONG)
     return HUNDREDTHS - long + centimetres
 
 

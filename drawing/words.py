@@ -46,7 +46,7 @@ class Words:
     of each couple; `letters` are marks whose letters need an index, such as one of several ends of normal parts;
     `frame` is the number of the frame, `ends` are the ends of links by number; numbers of links are
     `parted` where a link has two digits. `display` are the units in which the
-    task shows its results.
+    task shows its results, `ruler` says whether segments have been read with one.
     """
 
     language: str
@@ -58,6 +58,7 @@ class Words:
     ends: Mapping[str, str] = field(default_factory=dict)
     parted: bool = False
     display: Display = AS_INSIDE
+    ruler: bool = False
     _symbols: dict[str, tuple[str, str]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @classmethod

@@ -7,7 +7,7 @@ without knowing which it is.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
 from ..drawing.words import Given, Words
 from ..plans.names import role
 from ..plans.solved import Check, Course, Solved
+from ..scales.choices import RULER, SHEET
 from ..scales.errors import InputError
 from ..scales.givens import Described, Givens
 from ..scales.names import all_known, by_name, names_of, of_kind, unknown
@@ -61,6 +62,7 @@ class Request:
     block: Mapping[str, str] = field(default_factory=dict)
     lettering: str = "gost"
     positions: int | None = None  # of the whole cycle, where that is drawn instead
+    readings: str = SHEET  # or `ruler`: how segments are read
 
     def case(self) -> Case:
         """Solve what is asked for; what there is not, or is of the wrong kind, is refused."""
@@ -110,7 +112,8 @@ class Case(Request):
     def words(self, language: str | None = None) -> Words:
         """Return the words of results in their units; in the language that was asked for where none is said."""
         notation = self.task.notation if self.notation is None else self.notation
-        return Words.of(self.language if language is None else language, notation).showing(self.display)
+        words = Words.of(self.language if language is None else language, notation).showing(self.display)
+        return replace(words, ruler=self.readings == RULER)
 
     @property
     def warnings(self) -> tuple[InputError, ...]:
@@ -298,6 +301,13 @@ class Kind(Generic[Subject, Answer]):
         Quantities that are called otherwise there follow, by the names that they have in `solved`.
         """
         return solved, {}
+
+    def read_by_ruler(self, case: Case, scales: Scales) -> Answer:
+        """Return what is solved as it is read with a ruler off drawings with scale factors by plan.
+
+        Raises InputError: what is drawn of it is not read so.
+        """
+        raise InputError("kind-without", task=quote(case.task.id), text="--readings ruler")
 
     def limits(self, drawn: Answer, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Return by how much single quantities may miss, SI, where the usual rule does not hold: errors add up.

@@ -16,10 +16,12 @@ from ..drawing.notes.markdown import markdown
 from ..drawing.notes.typst import pdf_bytes
 from ..drawing.text import escape
 from ..drawing.writers import WRITERS, Files
+from ..scales.choices import READINGS, RULER, SHEET
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
+from ..scales.scale import Fixed
 from .case import Case, Request, Settings, Wanted
 from .reader import load_task
 from .sheets import Sheet, draw_case, said_of, sheet_id
@@ -98,6 +100,7 @@ def note(
     lang: str = "uk",
     format: str | None = None,
     figure: str | None = None,
+    readings: str = SHEET,
     **block: str,
 ) -> Note:
     """Write the explanatory note of one variant of a task, with the figures and numbers of its sheet.
@@ -108,6 +111,8 @@ def note(
         As for `sheet`.
     figure : str, optional
         The name of the only figure that is wanted, such as `velocity`.
+    readings : {"sheet", "ruler"}
+        Segments as on the sheet, or to 0.5 mm as a hand reads them, with all that follows from them.
     **block : str
         `student`, `group`, `teacher`, `department`, `date` for the title page.
 
@@ -116,13 +121,24 @@ def note(
     InputError, PositionError
         As for `sheet`; or there is no such figure.
     """
+    if readings not in READINGS:
+        raise unknown("readings-unknown", readings, READINGS)
     case = Request(load_task(task), variant, set, only, scales, notation, lang, format).case()
     drawn = draw_case(case)
+    if readings == RULER:
+        case, drawn = _by_ruler(case, drawn)
     document = Document(title_page(replace(case, block=block)), body_of(case, drawn), lang)
     found = Note(document, drawn, figure)
     if figure is not None and figure not in found.figures:
         raise unknown("figure-unknown", figure, found.figures)
     return found
+
+
+def _by_ruler(case: Case, drawn: Sheet) -> tuple[Case, Sheet]:
+    """Return a case as its drawing is read with a ruler, and drawn so at the same scale factors."""
+    fixed = {scale.symbol: Fixed(scale.mu, firm=True) for scale in drawn.scales.values()}
+    read = replace(case, solved=case.kind.read_by_ruler(case, drawn.scales), readings=RULER)
+    return read, draw_case(replace(read, choosers={**case.choosers, **fixed}, format=drawn.format))
 
 
 def title_page(case: Case) -> TitlePage:
@@ -140,7 +156,8 @@ def body_of(case: Case, drawn: Drawn | Sheet) -> tuple[Block, ...]:
     identity = sheet_id(case.task, case.variant, case.settings)
     sources = [escape(case.task.source.rstrip(".") + "."), *filter(None, [said.get(f"literature.{case.kind.room}")])]
     cited = said["note.source" if len(sources) > 1 else "note.source_alone"]
-    about = Sentences((said["note.about"].format(sheet=identity, by=by), cited))
+    read = said["note.ruler" if case.readings == RULER else "note.sheet"]
+    about = Sentences((said["note.about"].format(sheet=identity, by=by), read, cited))
     end = (Heading(said["note.conclusions"]), Steps(story.conclusions)) if story.conclusions else ()
     return (
         Heading(said["note.task"]),

@@ -190,6 +190,19 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     )
 
 
+def read_by_ruler(solved: SolvedLinkage, mus: Mapping[str, float]) -> SolvedLinkage:
+    """Return a mechanism solved anew as it is drawn with scale factors by plan, SI per mm, and read with a ruler."""
+    from ..hands.ruler import RulerBoard  # few solutions are read so
+    from ..hands.shaky import drawing_of
+
+    board = RulerBoard(drawing_of(solved, mus))
+    board.follow(solved.program)
+    lengths = {name: item.value or 0.0 for name, item in solved.quantities.items() if name in solved.givens}
+    items = quantities(solved.program, board.values, lengths)
+    items = {name: replace(item, about=solved.quantities[name].about) for name, item in items.items()}
+    return replace(solved, values=board.values, quantities=items, sines=board.sines)
+
+
 def board_givens(
     mechanism: Mechanism, values: Mapping[str, Any], program: Program | None = None, follow: bool = True
 ) -> dict[str, Any]:

@@ -63,7 +63,7 @@ def text_in_page(page: pypdfium2.PdfPage) -> str:
 
 
 def number(text: str) -> float:
-    return float(text.replace(",", "."))
+    return float(text.replace(",", ".").replace("−", "-"))
 
 
 def half(text: str) -> float:
@@ -164,6 +164,32 @@ def test_steps_and_equations_stand_before_their_figure() -> None:
     assert [type(block) for block in blocks[-4:]] == [Heading, Steps] * 2  # the conclusions, the sources
 
 
+@pytest.mark.parametrize(
+    "task", [TASK, "scheme-09-shaper", *(pytest.param(t, marks=pytest.mark.soak) for t in bundled("mechanism"))]
+)
+def test_a_ruler_reads_half_millimetres_and_all_else_follows_from_them(task: str) -> None:
+    written, usual = note(task, lang="en", readings="ruler"), note(task, lang="en")
+    steps = [text for block in written.document.blocks if isinstance(block, Steps) for text in block.texts]
+    found = [match for text in steps if (match := MEASURED.search(text))]
+
+    assert len(found) >= 5
+    for match in found:
+        segment, symbol, again, sign, mu, value, _ = match.groups()
+        mm = number(segment) * (10.0 if f"{segment} cm" in match[0] else 1.0)
+        assert segment == again
+        # of two forces on a plan the one is known by the other
+        assert mm < 1.0 or (2.0 * mm).is_integer() or symbol == "R_{01}", match[0]
+        product = number(segment) * number(mu) if sign == "·" else number(segment) / number(mu)
+        assert product == pytest.approx(number(value), abs=1.001 * half(value))
+    # lever and force plan differ as drawings do, by what their numbers say
+    differ = [re.search(DIFFER, " ".join(texts(one))) for one in (written, usual)]
+    if differ[0] is not None and differ[1] is not None:
+        plan, lever, part = map(number, differ[0].groups())
+        assert part == pytest.approx(100.0 * (lever - plan) / lever, abs=0.02)
+        assert abs(number(differ[1][3])) < abs(part) < 5.0
+
+
+DIFFER = r"= ([\d.]+) \S+, by the lever .*? = ([\d.]+) \S+: they differ by (−?[\d.]+) %"
 REFERENCES = {  # to equations, figures and tables, from a word of the text
     Equations: r"equations? \((\d+)\)(?: to \((\d+)\))?",
     Figure: r"[Ff]igure (\d+)()",

@@ -13,7 +13,7 @@ from ...plans.linkages.chain import PLANS, construct, hinged
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
 from ...plans.linkages.loads import in_order
 from ...plans.linkages.mechanism import Mechanism
-from ...plans.linkages.solved import SolvedLinkage, disagreement, scale_symbols, solve_linkage
+from ...plans.linkages.solved import SolvedLinkage, disagreement, read_by_ruler, scale_symbols, solve_linkage
 from ...plans.linkages.structure import analyse
 from ...plans.names import COUPLE, FORCES, Name, role, spelled
 from ...plans.quantities import pins_together, point_of
@@ -192,6 +192,10 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
         solved = placed(case)
         return Scene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, scales)
+
+    def read_by_ruler(self, case: Case, scales: Scales) -> SolvedLinkage:
+        """Read every segment to half a millimetre."""
+        return read_by_ruler(placed(case), {plan: scale.mu for plan, scale in scales.items()})
 
     def lettered(self, words: Words, solved: SolvedLinkage) -> Words:
         """Return the words with the letters of guides, ends and couples."""
