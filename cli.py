@@ -118,9 +118,7 @@ def show_guide(topic: str | None, lang: str | None) -> None:
         for name, heading in guides.contents(system_language()).items():
             click.echo(f"{name:<15}{heading}")
         return
-    text, missing = guides.guide(topic, system_language())
-    console.warn([missing] if missing else [])
-    guides.page(text)
+    guides.page(guides.guide(topic, system_language()))
 
 
 @console.command("kulman list", "kulman list --json", name="list")

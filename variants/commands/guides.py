@@ -8,7 +8,6 @@ from pathlib import Path
 
 import click
 
-from ...scales.errors import KulmanError, Written
 from ...scales.names import unknown
 from ...scales.packaged import home
 
@@ -18,28 +17,20 @@ _LINK = re.compile(r"!?\[([^\]]+)\]\(([^)\s]+)\)")
 _COMMENT = re.compile(r"^<!--.*?-->\n", re.MULTILINE | re.DOTALL)
 
 
-def guide_file(topic: str, language: str) -> Path:
-    """Return the file of a guide in a language, the English one where there is none; `InputError` for no topic."""
-    if topic not in TOPICS:
-        raise unknown("guide-unknown", topic, TOPICS)
-    file = FOLDER / f"{topic}.{language}.md"
-    return file if file.exists() else FOLDER / f"{topic}.en.md"
-
-
 def contents(language: str) -> dict[str, str]:
     """Return the headings of the guides by topic."""
-    return {topic: _text(guide_file(topic, language)).partition("\n")[0].lstrip("# ") for topic in TOPICS}
+    return {topic: _text(topic, language).partition("\n")[0].lstrip("# ") for topic in TOPICS}
 
 
-def guide(topic: str, language: str) -> tuple[str, KulmanError | None]:
-    """Return a guide as a console shows it, and a warning where it is in English for want of `language`."""
-    file = guide_file(topic, language)
-    missing = KulmanError("guide-untranslated", topic=Written(topic)) if f".{language}." not in file.name else None
-    return _LINK.sub(_followed, _COMMENT.sub("", _text(file))), missing
+def guide(topic: str, language: str) -> str:
+    """Return a guide as a console shows it; `InputError` where there is no such topic."""
+    if topic not in TOPICS:
+        raise unknown("guide-unknown", topic, TOPICS)
+    return _LINK.sub(_followed, _COMMENT.sub("", _text(topic, language)))
 
 
-def _text(file: Path) -> str:
-    return file.read_text(encoding="utf-8")
+def _text(topic: str, language: str) -> str:
+    return (FOLDER / f"{topic}.{language}.md").read_text(encoding="utf-8")
 
 
 def _followed(link: re.Match[str]) -> str:
