@@ -210,7 +210,17 @@ def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     return good
 
 
-_SAID = {language: Field(text) for language in LANGUAGES}
+_SAID = {language: Field(text, required=False) for language in LANGUAGES}
+
+
+def _said(checker: Checker, path: Path, raw: object) -> dict[str, str]:
+    """Read what is said in a language or more; where one says nothing, the first of the others stands."""
+    before, read = len(checker.faults), record(checker, path, raw, _SAID)
+    if not read and len(checker.faults) == before:
+        checker.fault(path, InputError("key-missing", name=LANGUAGES[0]))
+    return {language: read.get(language, said) for said in [*read.values()][:1] for language in LANGUAGES}
+
+
 _UNITS = {"length": LENGTHS, "size": LENGTHS, "paper": PAPER, "angle": ANGLES}  # of results; of segments
 _IN_UNITS = {
     name: Field(one_of("display-unit", partial(tuple, known)), required=False) for name, known in _UNITS.items()
@@ -220,8 +230,8 @@ _FIELDS = {  # and the table of its kind
     "number": Field(whole_number, required=False),
     "source": Field(text),
     "notation": Field(one_of("notation-unknown", notations)),
-    "title": Field(lambda checker, path, raw: record(checker, path, raw, _SAID)),
-    "note": Field(lambda checker, path, raw: record(checker, path, raw, _SAID), required=False),
+    "title": Field(_said),
+    "note": Field(_said, required=False),
     "givens": Field(as_is),
     "choices": Field(as_is, required=False),
     "scales": Field(_scales, required=False),

@@ -32,7 +32,7 @@ FILES = {
     "unknown plan": ('"structure", "position"', '"structure", "posision"', "plan-unknown-like"),
     "plans not an array": ("plans = [", "plans = 1 # [", "type-array"),
     "plan a number": ('plans = ["structure"', "plans = [1", "type-text"),
-    "title without Ukrainian": ("[title]\nuk = ", "[title]\nua = ", "key-missing"),
+    "title in an unknown language": ("[title]\nuk = ", "[title]\nua = ", "key-unknown"),
     "title a text": ("[title]\n", 'title = "x"\n[titel]\n', "type-table"),
     "givens empty": ("[givens]\n", "[givens]\n[given]\n", "type-table"),
     "given without a unit": ('phi = { unit = "deg" }', "phi = {}", "given-kind"),

@@ -313,6 +313,19 @@ def test_what_list_shows_is_what_the_file_holds(task: str) -> None:
     assert {name: shown.get(name) for name in heads} == {name: raw.get(name) for name in heads}
     assert shown["variants"] == [row["id"] for row in raw["variant"]]
     assert shown["givens"] == {name: given.get("unit") or given["choices"] for name, given in raw["givens"].items()}
+    assert {*raw["title"]} == {*raw.get("note", raw["title"])} == {*LANGUAGES}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_what_is_said_in_one_language_stands_for_the_others(language: str) -> None:
+    said = f'[title]\n{language} = "Title"\n\n[note]\n{language} = "Note"\n'
+    text = re.sub(r"\[title\]\n(?:.+\n)+", said, template("en"))
+
+    task, faults = read_text(text, "t.toml")
+
+    assert task is not None, faults
+    assert task.title == dict.fromkeys(LANGUAGES, "Title")
+    assert task.note == dict.fromkeys(LANGUAGES, "Note")
 
 
 @pytest.mark.parametrize("scheme", FORMULAS)
