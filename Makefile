@@ -1,4 +1,4 @@
-# `make sheet` and `make test` set up everything they need in .venv; the same steps in plain pip are in README.md
+# `make sheet` and `make test` set up everything they need in .venv; the same steps in plain pip: kulman guide install, docs/commands.md
 PYTHON ?= python3
 PY := .venv/bin/python
 VARIANT ?= 3

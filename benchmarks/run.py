@@ -1,4 +1,4 @@
-"""Measure what the README promises: `make speed`. Every row is a ratio to a yardstick of the same run, too."""
+"""Measure what is promised of speed: `make speed`. Every row is a ratio to a yardstick of the same run, too."""
 
 from __future__ import annotations
 

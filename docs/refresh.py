@@ -11,10 +11,10 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-README = ROOT / "README.md"
-NAMES = ("accuracy", "cams", "cycle", "gears", "hoist")
+READMES = tuple(ROOT / name for name in ("README.md", "README.uk.md", "README.ru.md"))
+NAMES = ("accuracy", "cams", "commands", "cycle", "gears", "hoist")
 GUIDES = tuple(sorted((ROOT / "variants" / "guides").glob("*.md")))
-DOCUMENTS = (README, *(ROOT / "docs" / f"{name}.md" for name in NAMES), *GUIDES)
+DOCUMENTS = (*READMES, *(ROOT / "docs" / f"{name}.md" for name in NAMES), *GUIDES)
 PICTURES = ROOT / "docs" / "pictures"
 CHARTS = {  # by picture: what is charted
     "accuracy": "madi-four-bar --chart accuracy",

@@ -20,13 +20,14 @@ from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled_text
 
 TEXTS = {path.stem: path.read_text(encoding="utf-8") for path in refresh.DOCUMENTS}
-README = refresh.BLOCK.findall(TEXTS["README"])
+COMMANDS = refresh.BLOCK.findall(TEXTS["commands"])
 # blocks whose commands start Python, as a user does: the first of some; in the long run all do
 STARTED = [
-    next(block for block in README if block.startswith(f"$ kulman {name}")) for name in ("solve", "sheet", "new")
+    next(block for block in COMMANDS if block.startswith(f"$ kulman {name}")) for name in ("solve", "sheet", "new")
 ]
 BLOCKS = {"cams": (8, 3), "gears": (4, 2), "hoist": (1, 4)}  # of commands, quick and slow ones
 FIRST, OTHERS = TEXTS["own-mechanism.en"].split("# Other parts\n")
+LONGEST = 700  # words of a README
 TOML = re.compile(r"```toml\n(.*?)```", re.DOTALL)
 WITH_EXAMPLES = sorted(
     ".".join(("kulman", *path.relative_to(ROOT).with_suffix("").parts)).removesuffix(".__init__")
@@ -36,8 +37,8 @@ WITH_EXAMPLES = sorted(
 SETUPTOOLS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]
 
 
-@pytest.mark.parametrize("block", README, ids=lambda block: refresh.commands(block)[0][:40])
-def test_commands_print_what_the_readme_shows(
+@pytest.mark.parametrize("block", COMMANDS, ids=lambda block: refresh.commands(block)[0][:40])
+def test_commands_print_what_their_page_shows(
     block: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     if block not in STARTED:
@@ -46,7 +47,7 @@ def test_commands_print_what_the_readme_shows(
     assert refresh.filled(block, str(folder)) == block
 
 
-@pytest.mark.parametrize("name", [name for name in TEXTS if "." in name or name == "cycle"])
+@pytest.mark.parametrize("name", [name for name in TEXTS if "." in name or name in ("README", "cycle")])
 def test_commands_one_after_the_other_print_what_a_document_shows(
     name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -82,21 +83,20 @@ def test_every_command_started_by_itself_prints_what_its_document_shows(path: Pa
 def test_python_of_a_document_runs(name: str, folder: Path) -> None:
     (document,) = (path for path in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")) if path.stem == name)
     blocks = re.findall(r"```python\n(.*?)```", document.read_text(encoding="utf-8"), re.DOTALL)
-    code = "\n".join(blocks).replace("1_000_000", "1_000")
     names: dict[str, object] = {}
 
-    exec(compile(code, name, "exec"), names)
+    exec(compile("\n".join(blocks), name, "exec"), names)
 
     assert name != "README" or [*folder.glob("sheet*.svg")]
-    assert {"README": "states", "cycle": "swept", "python": "columns"}[name] in names
+    assert {"README": "solution", "cycle": "swept", "python": "columns"}[name] in names
 
 
-def test_the_readme_names_every_command_and_its_links_lead_somewhere() -> None:
-    assert [name for name in commands.commands if f"kulman {name}" not in TEXTS["README"]] == []
-    links = re.findall(r"\]\(([^)#:]+)\)", TEXTS["README"])
-    assert [target for target in links if not (refresh.ROOT / target).exists()] == []
-    assert "variants/guides/own-mechanism.en.md" in links
-    assert "own-mechanism.en.md" in TEXTS["task-file.en"]
+def test_the_page_of_commands_names_every_command_and_links_of_the_readme_lead_somewhere() -> None:
+    assert [name for name in commands.commands if f"kulman {name}" not in TEXTS["commands"]] == []
+    for path in refresh.READMES:
+        links = re.findall(r"\]\(([^)#:]+)\)", TEXTS[path.stem])
+        assert [target for target in links if not (refresh.ROOT / target).exists()] == []
+        assert len(TEXTS[path.stem].split()) <= LONGEST
 
 
 def test_steps_to_an_own_mechanism_quote_the_file_to_begin_with() -> None:

@@ -1,4 +1,4 @@
-"""The guides: shown by `kulman guide`, one after the other, and the same in every language."""
+"""The guides, shown by `kulman guide`, and the README: the same in every language."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from kulman.variants.commands import guides
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 TYPED = re.compile(r"\s*(kulman|py|python3?|source|uv|echo|_KULMAN\w*) ")  # lines of blocks that a user types
-TRANSLATED = [path for path in refresh.GUIDES if refresh.language(path) != "en"]
+TRANSLATED = [path for path in refresh.DOCUMENTS if refresh.language(path) != "en"]
 
 
 def skeleton(path: Path) -> list[object]:
@@ -28,20 +28,21 @@ def skeleton(path: Path) -> list[object]:
     for kind, block in FENCE.findall(text):
         if kind == "console":
             parts.append([re.sub(r" --lang \w+", "", command) for command in refresh.commands(block)])
-        elif kind == "toml":
+        elif kind in ("toml", "python"):
             parts.append([line.partition("#")[0].rstrip() for line in block.splitlines()])
         else:
             parts.append(
                 [kind, *(line.partition("  #")[0].strip() for line in block.splitlines() if TYPED.match(line))]
             )
+    parts.append(re.findall(r"^    (\w+ .+?)(?=  #|$)", text, re.MULTILINE))
     parts += [re.sub(r"\.(uk|ru|en)\.", ".", link) for link in re.findall(r"\]\(([^)#\s]+)", text)]
     parts.append(sorted(set(re.findall(r"`(--[\w-]+)", text))))
     return parts
 
 
 @pytest.mark.parametrize("path", TRANSLATED, ids=lambda path: path.name)
-def test_a_guide_says_the_same_in_every_language(path: Path) -> None:
-    english = path.with_name(f"{path.name.partition('.')[0]}.en.md")
+def test_a_document_says_the_same_in_every_language(path: Path) -> None:
+    english = next(path.parent.glob(f"{path.name.partition('.')[0]}.en.md"), refresh.READMES[0])
 
     assert skeleton(path) == skeleton(english)
     assert not re.search(r"\.en\.md", path.read_text(encoding="utf-8"))
