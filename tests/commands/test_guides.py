@@ -18,6 +18,7 @@ from kulman.variants.commands import guides
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 TYPED = re.compile(r"\s*(kulman|py|python3?|source|uv|echo|_KULMAN\w*) ")  # lines of blocks that a user types
+SPOKEN = re.compile(r'(?<= )(--lang |lang=")\w+')
 TRANSLATED = [path for path in refresh.DOCUMENTS if refresh.language(path) != "en"]
 
 
@@ -27,9 +28,9 @@ def skeleton(path: Path) -> list[object]:
     parts: list[object] = [re.findall(r"^#+(?= )", FENCE.sub("", text), re.MULTILINE)]
     for kind, block in FENCE.findall(text):
         if kind == "console":
-            parts.append([re.sub(r" --lang \w+", "", command) for command in refresh.commands(block)])
+            parts.append([SPOKEN.sub("", command).strip() for command in refresh.commands(block)])
         elif kind in ("toml", "python"):
-            parts.append([line.partition("#")[0].rstrip() for line in block.splitlines()])
+            parts.append([SPOKEN.sub("", line.partition("#")[0].rstrip()) for line in block.splitlines()])
         else:
             parts.append(
                 [kind, *(line.partition("  #")[0].strip() for line in block.splitlines() if TYPED.match(line))]
