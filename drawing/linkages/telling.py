@@ -27,7 +27,7 @@ from .calculations.equations import (
     triangles,
 )
 from .calculations.forces import found_by
-from .figures.lever import hung_on_lever, letter_of, moments_on_lever
+from .figures.lever import couples_on_lever, hung_on_lever, letter_of, moments_on_lever
 from .reading import ends_of
 from .scene import Scene, line_of
 
@@ -319,14 +319,21 @@ def lever_told(teller: Teller) -> Iterator[Told]:
             yield Told(step, tell(teller, step), before=True)
         elif step.verb == "normal":
             yield Told(step, teller.say("turned", segment=f"{pole}{mark(step.operands[0])}"))
+    couples = couples_on_lever(teller)
+    paired = {moment for couple in couples.values() for moment in couple.moments}
     hung: dict[str, list[Step]] = {}
-    for step in moments_on_lever(teller):
+    for step in (step for step in moments_on_lever(teller) if step.name not in paired):
         hung.setdefault(step.operands[1], []).append(step)
     for end, moments in hung.items():
         arms = [user.name for moment in moments for user in teller.reading.users(moment.name) if user.verb == "arm"]
         listed = ", ".join(f"{teller.words.symbol(arm)} = {_arm(teller, arm)}" for arm in arms)
         forces = ", ".join(teller.letter(moment.operands[0]) for moment in moments)
         yield Told(moments[0], teller.say("lever_forces", point=letter_of(teller, end), forces=forces, arms=listed))
+    for moment, couple in couples.items():
+        letters, drawn = couple.letters(teller), teller.length(couple.arm(teller) / teller.scales["lever"].mu)
+        arm = f"{''.join(letters)} = {drawn} {teller.words.unit(teller.words.display.paper)}"
+        parts = {"points": ", ".join(letters), "forces": ", ".join(map(teller.letter, couple.forces)), "arms": arm}
+        yield Told(teller.made[moment], teller.say("lever_couple", **parts))
     driven = f"velocity.{teller.mechanism.driver.point}"
     turned = teller.made.get(f"lever.{teller.mechanism.driver.point}")
     if turned is not None and turned.verb == "normal":

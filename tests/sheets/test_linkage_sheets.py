@@ -102,6 +102,7 @@ def couple(sheet: Sheet) -> None:
         pytest.param(l3_to_l6_plans, vector, id="length of a vector"),
         pytest.param(l5_similarity, side, id="no side of a similar triangle"),
         pytest.param(l12_lever, couple, id="couple of equal senses"),
+        pytest.param(l12_lever, printed("results_lever", "42,09", "42,19"), id="arm of a couple"),
     ],
 )
 def test_planted_fault_is_seen(judge: Callable[[Judged, Sheet], Faults], plant: Plant) -> None:

@@ -304,6 +304,13 @@ def l12_lever(case: Judged, sheet: Sheet) -> Faults:
     for one in dict.fromkeys(x.name.rpartition("_")[0] for x in view.arrows if "_couple_" in x.name):
         ends = [x.unit for x in view.arrows if x.name.startswith(f"{one}_")]
         yield from unless(len(ends) == 2 and same(ends[0], -ends[1]), f"lever: {one} is no pair of opposite forces")
+    for _, _, arm, mm, *_ in table(sheet["results_lever"]) if "results_lever" in sheet.names else []:
+        ends = [f"lever.{letter if letter == 'p' else letter.upper()}" for letter in arm]
+        if len(ends) == 2 and all(view.has(end) for end in ends):  # an arm that is a line of the plan itself
+            long = abs(view.point(ends[1]) - view.point(ends[0]))
+            yield from unless(
+                shows(numbers_of(mm, case.lang)[0], long, NEAR), f"lever: {arm} is {long:.2f} mm, not {mm}"
+            )
     total, largest = 0.0, 0.0
     for arrow in view.arrows:
         wanted = case.oracle.known.get(arrow.name)

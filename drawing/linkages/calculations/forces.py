@@ -19,6 +19,7 @@ from ....plans.quantities import F_BAL, M_BAL, unit_of
 from ....scales.scale import AS_INSIDE
 from ...printed import AS_PRINTED, DIGITS, POINT, READABLE, Symbol, decimals_for, value_text
 from ...words import Words
+from ..figures.lever import couples_on_lever
 from ..reading import Edge, ends_of
 from ..scene import Scene
 from . import equations
@@ -245,8 +246,7 @@ def _taken(name: str) -> Callable[[Scene, str], Factor]:
 def _terms(scene: Scene, names: Iterable[str], taken: Callable[[Scene, str], Factor] = factor) -> list[Product]:
     """Return the moments that are not zero, each with its sign, counter-clockwise positive."""
     found = []
-    for name in names:
-        value = 0.0 if name == ZERO else scene.values[name]
+    for name, value in _acting(scene, names):
         factors = _factors(scene, name, taken) if value != 0.0 else ()
         # a force whose line passes through the point has no moment but rounding
         if factors and min(factor.value for factor in factors if not factor.exact) >= POINT:
@@ -254,9 +254,21 @@ def _terms(scene: Scene, names: Iterable[str], taken: Callable[[Scene, str], Fac
     return found
 
 
+def _acting(scene: Scene, names: Iterable[str]) -> Iterator[tuple[str, float]]:
+    """Go through moments with their values; a couple with one arm is told by its first moment."""
+    couples = couples_on_lever(scene)
+    others = {moment for couple in couples.values() for moment in couple.moments[1:]}
+    for name in (name for name in names if name not in others):
+        moments = couples[name].moments if name in couples else (name,)
+        yield name, 0.0 if name == ZERO else sum(scene.values[moment] for moment in moments)
+
+
 def _factors(scene: Scene, name: str, taken: Callable[[Scene, str], Factor] = factor) -> tuple[Factor, ...]:
     """Return what makes a moment: a force and its arm, a couple's power, or a couple that is known."""
-    step = scene.made.get(name)
+    step, couple = scene.made.get(name), couples_on_lever(scene).get(name)
+    if couple is not None:
+        between = segment(scene, "".join(couple.letters(scene)), "lever", couple.arm(scene))
+        return taken(scene, couple.forces[0]), between
     if step is not None and step.verb == "moment":
         arm = next(user.name for user in scene.reading.users(name) if user.verb == "arm")
         return taken(scene, step.operands[0]), *_on_arm(scene, arm)
@@ -423,7 +435,7 @@ def differ(scene: Scene, found: Mapping[str, float]) -> tuple[str, bool]:
     words, (name, other) = scene.words, next(step.operands for step in scene.program if step.law == "difference")
     lever = next(step for step in scene.program if step.law == "moment_equation" and step.name in BALANCING)
     arm = Product((_own_arm(scene, lever),))
-    acting = [_factors(scene, acting) for acting in lever.operands[1:] if acting != ZERO]
+    acting = [_factors(scene, acting) for acting, _ in _acting(scene, lever.operands[1:]) if acting != ZERO]
     shortest = [Product((force, replace(own[0], value=READABLE))) for force, *own in acting if len(own) == 1]
     largest = max((reckoned([term], arm) for term in (*_terms(scene, lever.operands[1:]), *shortest)), default=0.0)
     a, b = found[name], found[other]
@@ -474,8 +486,8 @@ def on_lever(scene: Scene) -> Iterator[OnLever]:
     scene = replace(scene, words=scene.words.showing(replace(AS_INSIDE, paper=scene.words.display.paper)))
     words, found = scene.words, balance(scene)
     balanced = next(step for step in scene.program if step.law == "moment_equation" and step.name in BALANCING)
-    for name in balanced.operands[1:]:
-        factors, turn = _factors(scene, name), math.copysign(1.0, scene.values[name])
+    for name, value in _acting(scene, balanced.operands[1:]):
+        factors, turn = _factors(scene, name), math.copysign(1.0, value)
         arms = [user.name for user in scene.reading.users(name) if user.verb == "arm"]
         moment = math.prod(factor.printed**factor.power for factor in factors)
         if moment != moment or min(factor.value for factor in factors) < POINT:

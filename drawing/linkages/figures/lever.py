@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, pairwise
+from typing import NamedTuple
 
 from ....plans.board import Step
 from ....plans.names import COUPLE, lever_arm, role, spelled
@@ -16,14 +17,49 @@ from .group import MANY, Sketch, arms_of, zeros
 from .links import rays_of
 from .plan import letter_marks
 
+ARMS = 8  # moments on a lever; where there are more, the arm of a couple is the line between its forces
+POLE = "lever.p"
 BALANCE = ("_F_bal_lever", "_F_bal")  # the balancing force of the lever, where a force balances and where a moment
+
+
+class Couple(NamedTuple):
+    """A couple on a lever of many forces: these, their moments about the pole, the marks between which its arm is."""
+
+    forces: tuple[str, ...]
+    moments: tuple[str, ...]
+    marks: tuple[str, str]
+
+    def letters(self, scene: Scene) -> list[str]:
+        """Return the letters of the ends of its arm, the pole first."""
+        pole = letter_of(scene, POLE)
+        return sorted((letter_of(scene, mark) for mark in self.marks), key=lambda letter: (letter != pole, letter))
+
+    def arm(self, scene: Scene) -> float:
+        """Return how long its arm is on the plan of velocities, in the unit of that."""
+        a, b = (_image(scene, mark) for mark in self.marks)
+        return abs(b - a) * scene.scales["lever"].mu
+
+
+def couples_on_lever(scene: Scene) -> dict[str, Couple]:
+    """Return the couples that have one arm, by the first of their moments; all others follow it."""
+    steps = [*moments_on_lever(scene)]
+    if len(steps) <= ARMS:
+        return {}
+    marks, couples = dict(hung_on_lever(scene)), dict[str, Couple]()
+    for force in (name for name in marks if role(name).part == COUPLE):
+        both = tuple(name for name in marks if role(name).whole == role(force).whole)
+        moments = tuple(step.name for step in steps if step.operands[0] in both)
+        couples[moments[0]] = Couple(both, moments, (marks[both[0]], marks[both[-1]]))
+    return couples
 
 
 def lever_view(scene: Scene) -> View:
     """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
     words, driven, hung, lines = scene.words, scene.mechanism.driver.point, hung_on_lever(scene), _lines(scene)
+    paired = {force for couple in couples_on_lever(scene).values() for force in couple.forces}
+    single = [(name, mark) for name, mark in hung if name not in paired]
     images = [step.name for step in scene.program.on("lever") if step.verb == "normal"]
-    marks = ("lever.p", *dict.fromkeys((*images, *(f"lever.{p}" for points in _joints(scene) for p in points))))
+    marks = (POLE, *dict.fromkeys((*images, *(f"lever.{p}" for points in _joints(scene) for p in points))))
     canvas = scene.canvas(_drawn_with(scene, hung, (*marks, *(end for line in lines for end in (line.tail, line.tip)))))
     strokes = [(_image(scene, line.tail), _image(scene, line.tip)) for line in lines]
     for stroke, line in zip(strokes, lines, strict=True):
@@ -32,14 +68,14 @@ def lever_view(scene: Scene) -> View:
     sketch, places, pole = (
         Sketch(canvas, scene, strokes),
         {m: _image(scene, m) for m in marks},
-        _image(scene, "lever.p"),
+        _image(scene, POLE),
     )
     for name, mark in hung:
         at = _image(scene, mark)
         canvas.part(name)
         sketch.bar(at, rays_of(at, strokes))
         sketch.hang(name, at, scene.hung(scene.letter(name), f"velocity.{role(mark).of}"))
-    moments = [(name, _arm_of(name), _image(scene, mark), pole) for name, mark in hung if name not in BALANCE]
+    moments = [(name, _arm_of(name), _image(scene, mark), pole) for name, mark in single if name not in BALANCE]
     arms = [own for _, own in arms_of(scene, moments)]
     alone = len(arms) > MANY
     shifts = sketch.shifts(pole, arms, sum(places.values()) / len(places))
@@ -50,11 +86,11 @@ def lever_view(scene: Scene) -> View:
     canvas.part(balance)  # the velocity of the driver's point is the arm of the force that balances
     text = f"{words.mark('velocity.p')}{words.mark(f'velocity.{driven}')} = {scene.segment(f'V_{driven}', 'lever')}"
     canvas.label(text, (pole, _image(scene, mark)), clear=0.9, height=scene.style.text, spare=text)
-    letters = {mark: letter_of(scene, mark) for mark in marks} | {"lever.p": words.mark("lever.p")}
+    letters = {mark: letter_of(scene, mark) for mark in marks} | {POLE: words.mark(POLE)}
     ways = {m: f"{letters['lever.p']}{letters[m]} = {scene.length(abs(places[m] - pole))}" for m in marks[1:]}
-    letter_marks(canvas, scene, letters, places, ("lever.p",), ways)
-    gone = [_arm_of(name) for name, _ in hung if scene.direction(name) != 0]
-    said = ("said.lever", "said.arrows", *["said.arms"] * alone)
+    letter_marks(canvas, scene, letters, places, (POLE,), ways)
+    gone = [_arm_of(name) for name, _ in single if scene.direction(name) != 0]
+    said = ("said.lever", "said.arrows", *["said.arms"] * alone, *["said.couples"] * bool(paired))
     turned = replace(scene.scales["lever"], symbol=scene.scales["velocity"].symbol)  # it is a plan of velocities
     heading = words["heading.lever"], words.scale(turned)
     return canvas.finish("lever", heading, (*(words[key] for key in said), *zeros(scene, [*sketch.zero, *gone])))
@@ -66,8 +102,11 @@ def _drawn_with(scene: Scene, hung: Sequence[tuple[str, str]], marks: Collection
     A force is hung with the first one on its mark; an image on which nothing hangs is turned with the last one.
     """
     first, parts = dict[str, str](), dict[str, str]()
+    pairs = couples_on_lever(scene)
+    together = {force: moment for moment, couple in pairs.items() for force in couple.forces}
     for step in moments_on_lever(scene):
-        parts[step.operands[0]] = first.setdefault(step.operands[1], step.name)
+        force, mark = step.operands[:2]
+        parts[force] = together[force] if force in together else first.setdefault(mark, step.name)
     couples = {role(name).of: step for name, step in reversed(parts.items()) if role(name).part == COUPLE}
     parts |= {name: couples[role(name).of] for name, _ in hung if name not in parts and role(name).of in couples}
     last = [step.name for step in scene.program.on("lever") if step.verb == "normal"][-1]
@@ -76,7 +115,7 @@ def _drawn_with(scene: Scene, hung: Sequence[tuple[str, str]], marks: Collection
 
 def letter_of(scene: Scene, mark: str) -> str:
     """Return the letter of a mark of the lever: that of the velocity plan."""
-    return scene.words.mark(f"velocity.{role(mark).of}")
+    return scene.words.mark("velocity.p" if mark == POLE else f"velocity.{role(mark).of}")
 
 
 def _image(scene: Scene, mark: str) -> complex:
@@ -116,14 +155,14 @@ def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
     # of a couple on a link that turns about a pivot the second force stands at the pole: it has no moment
     for step in scene.program:
         if role(step.name).part == COUPLE and step.law in ("along", "opposite"):
-            hung.setdefault(step.name, "lever.p")
+            hung.setdefault(step.name, POLE)
     balance = next(name for name in BALANCE if name in scene.values)
     return [*hung.items(), (balance, f"lever.{scene.mechanism.driver.point}")]
 
 
 def moments_on_lever(scene: Scene) -> Iterator[Step]:
     """Go through the moments that are taken about the pole of the lever."""
-    return (step for step in scene.program.which(("moment",)) if step.operands[2] == "lever.p")
+    return (step for step in scene.program.which(("moment",)) if step.operands[2] == POLE)
 
 
 def _arm_of(force: str) -> str:
