@@ -680,6 +680,11 @@ def givens_view(
     return table("givens", words["heading.givens"], named, style)
 
 
+def with_unit(value: str, unit: str) -> str:
+    """Return a number with its unit; the sign of degrees stands close."""
+    return f"{value}{'' if unit.startswith('°') else ' '}{unit}".rstrip()
+
+
 def _number(words: Words, value: float) -> str:
     """Return a number as short as it is: a third as a fraction."""
     if math.isinf(value):

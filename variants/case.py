@@ -32,6 +32,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..drawing.formats import Format, Norm
     from ..drawing.handouts import Shown
     from ..drawing.notes.blocks import Story
+    from ..drawing.view import View
     from ..plans.condition import Condition
     from ..plans.hands.shaky import Paper, Tolerance
     from ..plans.marking.key import Question
@@ -290,6 +291,27 @@ class Kind(Generic[Subject, Answer]):
     def lettered(self, words: Words, solved: Answer) -> Words:
         """Return the words with the letters of the subject's quantities."""
         return cast("Words", self._in("drawing", "sheet", "lettered")(words))
+
+    def pictured(self, case: Case, words: Words) -> View | None:
+        """Return a figure of what is given, to stand beside a question; None where words tell it."""
+        return None
+
+    def loaded(self, name: str) -> bool:
+        """Whether a quantity hangs on loads and masses."""
+        return True
+
+    def stated(self, case: Case, words: Words, loaded: bool = True) -> Iterable[tuple[str, str, str]]:
+        """Go through the data of a case as markup: symbol, what it is, value with its unit; or those without loads."""
+        from ..drawing.formats import STYLES
+        from ..drawing.view import givens_view, with_unit
+
+        called = {name: words.texts.get(f"called.{self.table}.{name}", "") for name in case.givens}
+        rows = givens_view(case.givens, words, STYLES["A4"], called=called).rows[1:]
+        return ((symbol or "", said or "", with_unit(value or "", of or "")) for symbol, said, value, of in rows)
+
+    def sought(self, solved: Answer, words: Words, name: str) -> str:
+        """Return in words, as markup, what a quantity is that a question may ask for; nothing for any other."""
+        return words.texts.get(f"sought.{self.table}.{name}", "")
 
     def asks(self, solved: Answer, question: Question) -> bool:
         """Whether a form asks for a quantity: for what is found, not for what is given."""

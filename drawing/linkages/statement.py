@@ -43,6 +43,11 @@ def given_name(mechanism: Mechanism, words: Words, name: str) -> str:
     return words[f"called.{key}"].format(**said) if key else ""
 
 
+def use_of(mechanism: Mechanism, words: Words, name: str) -> str:
+    """Return the key of what the mechanism uses a value for; nothing where that does not tell what it is."""
+    return _told(mechanism, words, name)[0]
+
+
 def _told(mechanism: Mechanism, words: Words, name: str) -> Told:
     ways = (_of_driver, _of_length, _of_link, _of_place, _of_load)
     return next((told for way in ways if (told := way(mechanism, words, name)) != NOTHING), NOTHING)
@@ -161,7 +166,7 @@ def kinematic_scheme(scene: Scene, box: tuple[float, float] = SKETCHED[0], scale
 
 def data_table(scene: Scene, plans: Collection[str]) -> View:
     """Return the givens that the plans need, with what they are called."""
-    told = {name: _told(scene.mechanism, scene.words, name)[0] for name in scene.givens}
+    told = {name: use_of(scene.mechanism, scene.words, name) for name in scene.givens}
     needless = set[str]() if FORCES & {*plans} else LOADED
     needed = {name: given for name, given in scene.givens.items() if told[name] not in needless}
     called = {name: given_name(scene.mechanism, scene.words, name) for name in needed}

@@ -81,6 +81,7 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     shell_complete=completing.files,
 )
 @click.option("--preset", type=console.Word(*HANDS), default="normal", show_default=True)
+@click.option("--by", type=console.Word("variant", "quantity"), default="variant", show_default=True)
 @console.output(
     ".making.all_variants",
 )

@@ -10,7 +10,7 @@ from ...plans.board import POSITION
 from ...plans.boards.exact import SMALL
 from ...plans.laws import TURN
 from ...plans.linkages.chain import PLANS, construct, hinged
-from ...plans.linkages.compound import ACCELERATION, VELOCITY
+from ...plans.linkages.compound import ACCELERATION, VELOCITY, found_here
 from ...plans.linkages.loads import in_order
 from ...plans.linkages.mechanism import Mechanism
 from ...plans.linkages.solved import SolvedLinkage, disagreement, read_by_ruler, scale_symbols, solve_linkage
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from ...drawing.handouts import Shown
     from ...drawing.linkages.scene import Scene
     from ...drawing.notes.blocks import Story
+    from ...drawing.view import View
     from ...drawing.words import Words
     from ...plans.hands.shaky import Paper, Tolerance
     from ...plans.marking.key import Question
@@ -210,6 +211,28 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
     def limits(self, drawn: SolvedLinkage, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Let the usual rule hold for all quantities."""
         return {}
+
+    def pictured(self, case: Case, words: Words) -> View:
+        """Draw the kinematic scheme."""
+        from ...drawing.linkages.asking import scheme_of
+
+        return scheme_of(self.scene(case, {}, words))
+
+    def loaded(self, name: str) -> bool:
+        """Whether a quantity hangs on loads and masses: all but motion and distances."""
+        return role(name).kind not in {*KINEMATIC, "l"}
+
+    def stated(self, case: Case, words: Words, loaded: bool = True) -> Iterator[tuple[str, str, str]]:
+        """Go through the data; with loads how these act in this position."""
+        from ...drawing.linkages.asking import rows_of
+
+        return rows_of(self.scene(case, {}, words), loaded)
+
+    def sought(self, solved: SolvedLinkage, words: Words, name: str) -> str:
+        """Return what a quantity of motion, a force, a reaction or what balances the driver is."""
+        from ...drawing.linkages.asking import meaning
+
+        return "" if name in found_here(solved.program) else meaning(solved.mechanism, words, name)
 
     def asks(self, solved: SolvedLinkage, question: Question) -> bool:
         """Ask not for each force of a couple: these are as large as the couple's force."""

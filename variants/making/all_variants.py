@@ -3,33 +3,31 @@
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 from typing import Any
 
 from ...drawing.words import Words
 from ...drawing.writers import Files
-from ...plans.quantities import unit_of
+from ...plans.hands.shaky import Hand
+from ...plans.hands.shaky import preset as preset_of
 from ...scales.errors import InputError, KulmanError
-from ...scales.names import all_known, names_of
+from ...scales.names import all_known, names_of, unknown
 from ...scales.numbers import quote
-from ...scales.packaged import packaged
 from ...scales.units import format_unit
 from ..case import Settings, Wanted
 from ..crew import Advance
 from ..marking.checks import Check, check
-from ..marking.keyed import SIGNED, Keyed, keyed
+from ..marking.keyed import Keyed, keyed
 from ..marking.wording import texts
 from ..tables import FILES, Cell, Result, Table, aligned
 from ..task import AnyTask
 from .new_variants import NewVariants, import_variants, make_variants
+from .questions import BY, Question, gift_bytes, questions_of, xml_bytes
 
 TASK_FILE = ".toml"
 SUFFIXES = (*FILES, ".xml", ".gift", TASK_FILE)
-HALF = 2.0  # how many tolerances off an answer still gets half
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -41,6 +39,9 @@ class AllVariants(Result):
     keys: Mapping[str, Keyed]
     problems: Mapping[str, KulmanError]
     quantities: tuple[str, ...]
+    named: bool
+    hand: Hand
+    by: str = BY[0]
     new: NewVariants | None = None
 
     @property
@@ -91,7 +92,6 @@ class AllVariants(Result):
 
     def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
         """Return a table, questions for Moodle for .xml, .gift, new variants for .toml, a task file."""
-        task = self.check.request.task
         suffix = path.suffix.lower()
         if suffix == TASK_FILE:
             if self.new is None:
@@ -99,8 +99,8 @@ class AllVariants(Result):
             return [(path, self.new.text.encode("utf-8"))]
         if suffix in FILES:
             return Result._files(self, path, drawn)
-        write = _xml_bytes if suffix == ".xml" else _gift_bytes
-        return [(path, write(task.id, list(self._questions())))]
+        write = xml_bytes if suffix == ".xml" else gift_bytes
+        return [(path, write(self._questions()))]
 
     @property
     def _language(self) -> str:
@@ -115,23 +115,15 @@ class AllVariants(Result):
             values = (_shown(key, name) for key in self.keys.values())
             yield (name, format_unit(unit, language), *values)
 
-    def _questions(self) -> Iterator[_Question]:
-        """Go through the questions, variant by variant; tolerances are those of the marking."""
-        said = packaged(__package__, "texts", self._language)
-        for variant, key in self.keys.items():
-            for name in self.quantities:
-                question, value = key.key.questions.get(name), _shown(key, name)
-                if question is None or value is None:
-                    continue
-                factor = abs(value / size) if (size := _si(key, name)) else 1.0
-                unit = format_unit(key.asked.unit(name), self._language)
-                text = said["question"].format(
-                    title=self.check.request.task.title[self._language], variant=variant, sheet=key.sheet,
-                    symbol=key.symbol(name), unit=unit,
-                )  # fmt: skip
-                if unit_of(name) in SIGNED:
-                    text = said["question.sense"].format(question=text)
-                yield _Question(f"{variant}-{name}", text, value, key.key.allowed[name] * factor)
+    def _questions(self) -> Iterator[Question]:
+        """Go through the questions, those of one category after the other."""
+        found = [
+            one
+            for key in self.keys.values()
+            for one in questions_of(key, self.quantities, self.named, self.hand, self.by)
+        ]
+        order = {place: number for number, place in enumerate(dict.fromkeys(one.category for one in found))}
+        return iter(sorted(found, key=lambda one: order[one.category]))
 
 
 def _si(key: Keyed, name: str) -> float | None:
@@ -156,6 +148,7 @@ def all_variants(
     scales: Settings | None = None,
     quantities: Wanted = None,
     preset: str = "normal",
+    by: str = BY[0],
     notation: str | None = None,
     lang: str = "uk",
     advance: Advance | None = None,
@@ -175,7 +168,9 @@ def all_variants(
     quantities : str or iterable of str, optional
         Those wanted, `"V_B,a_B"`; without it all that a form asks for.
     preset : str
-        What a question lets pass: `cad`, `careful`, `normal`, `lenient`.
+        What a question lets pass: what 98 % of drawings keep of a hand that is `cad`, `careful`, `normal`, `lenient`.
+    by : {"variant", "quantity"}
+        What a category of questions holds: one variant, or one quantity of all variants, of which a quiz draws one.
 
     Raises
     ------
@@ -187,6 +182,8 @@ def all_variants(
         raise InputError("variants-both")
     if make is None and (ranges or seed is not None):
         raise InputError("variants-range")
+    if by not in BY:
+        raise unknown("choice-unknown", by, BY)
     new = None if table is None else import_variants(task, table)
     if make is not None:
         new = make_variants(task, make, ranges, set=set, seed=1 if seed is None else seed, advance=advance)
@@ -207,50 +204,5 @@ def all_variants(
     forms = (question.name for key in keys.values() for part in key.parts for question in part.asked)
     named = tuple(dict.fromkeys(forms)) if quantities is None else names_of("quantities", quantities)
     all_known("quantity-unknown", named, known)
-    return AllVariants(asked, keys, problems, named, new)
-
-
-@dataclass(frozen=True, slots=True)
-class _Question:
-    """A numerical question: a name, the text, the right value and by how much an answer may miss."""
-
-    name: str
-    text: str
-    value: float
-    tolerance: float
-
-
-def _gift_bytes(category: str, questions: Iterable[_Question]) -> bytes:
-    """Return questions as GIFT: an answer that misses by up to twice the tolerance gets half."""
-    lines = [f"$CATEGORY: {_gift(category)}", ""]
-    for asked in questions:
-        right = f"={asked.value:.10g}:{asked.tolerance:.3g}"
-        half = f"=%50%{asked.value:.10g}:{HALF * asked.tolerance:.3g}"
-        lines += [f"::{_gift(asked.name)}::[plain]{_gift(asked.text)} {{#{right} {half}}}", ""]
-    return "\n".join(lines).encode("utf-8")
-
-
-def _gift(text: str) -> str:
-    """Return a text on one line in which nothing is taken for a sign of GIFT."""
-    return re.sub(r"([~=#{}:\\])", r"\\\1", " ".join(text.split()))
-
-
-def _xml_bytes(category: str, questions: Iterable[_Question]) -> bytes:
-    """Return questions as Moodle's XML: an answer that misses by up to twice the tolerance gets half."""
-    parts = [
-        '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n',
-        f'<question type="category"><category><text>$course$/{_xml(category)}</text></category></question>\n',
-    ]
-    for asked in questions:
-        parts.append(f'<question type="numerical"><name><text>{_xml(asked.name)}</text></name>')
-        parts.append(f'<questiontext format="plain_text"><text>{_xml(asked.text)}</text></questiontext>')
-        for fraction, times in ((100, 1.0), (50, HALF)):
-            parts.append(f'<answer fraction="{fraction}"><text>{asked.value:.10g}</text>')
-            parts.append(f"<tolerance>{times * asked.tolerance:.3g}</tolerance></answer>")
-        parts.append("</question>\n")
-    return "".join((*parts, "</quiz>\n")).encode("utf-8")
-
-
-def _xml(text: str) -> str:
-    """Return a text for XML, without characters that it cannot hold."""
-    return escape("".join(sign if sign.isprintable() else " " for sign in text), quote=False)
+    hand = preset_of(preset).hand
+    return AllVariants(asked, keys, problems, named, quantities is not None, hand, by, new)
