@@ -5,12 +5,14 @@ Pages as large as they are, or spread over small paper; a PNG is a picture of on
 
 from __future__ import annotations
 
+import re
 from cmath import rect
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from io import BytesIO
+from itertools import pairwise
 from math import ceil, cos, pi, sin, tan
 from typing import TYPE_CHECKING, BinaryIO
 from zlib import compress
@@ -325,6 +327,71 @@ def write_tiles(pages: Sequence[Page], stream: BinaryIO, paper: str = "A4") -> N
             _draw_page(canvas, Page(width, height, tuple(marks), part.name, page.language))
             canvas.showPage()
     stream.write(document.data())
+
+
+REFERENCE = re.compile(rb"(\d+) 0 R")
+GROUPS = re.compile(rb"(/OFF|/Order|/OCGs) \[([^]]*)\]")  # layers, as a catalog lists them
+STREAM = b"stream"
+
+
+def joined(files: Sequence[bytes]) -> bytes:
+    """Join documents that `write` has made into one, in their order; layers of one name are one layer."""
+    objects, catalogs, trees = list[bytes](), list[bytes](), list[int]()
+    same, told = dict[bytes, int](), 0  # objects that refer to no other one, each of which is kept once
+    for data in files:
+        own, root, info = _objects(data)
+        numbers = dict[int, int]()
+        for number, text in own.items():
+            alone = REFERENCE.search(text.partition(STREAM)[0]) is None
+            numbers[number] = same.get(text, len(objects) + 1) if alone else len(objects) + 1
+            if numbers[number] > len(objects):
+                objects.append(text)
+                same |= {text: len(objects)} if alone else {}
+        for number, text in own.items():
+            objects[numbers[number] - 1] = _renumbered(text, numbers)
+        catalogs.append(objects[numbers[root] - 1])
+        told = told or numbers[info]
+        trees.append(int(re.findall(rb"/Pages (\d+) 0 R", catalogs[-1])[0]))
+    top = b"%d 0 R" % (len(objects) + 1)
+    pages = sum(int(re.findall(rb"/Count (\d+)", objects[at - 1])[0]) for at in trees)
+    for at in trees:
+        objects[at - 1] = objects[at - 1].replace(b"/Type /Pages", b"/Parent %s /Type /Pages" % top)
+    kids = b" ".join(b"%d 0 R" % at for at in trees)
+    every = dict[bytes, dict[bytes, None]]()
+    for name, listed in (found for catalog in catalogs for found in GROUPS.findall(catalog)):
+        every.setdefault(name, {}).update(dict.fromkeys(REFERENCE.findall(listed)))
+    catalog = GROUPS.sub(lambda m: b"%s [ %s ]" % (m[1], b" ".join(b"%s 0 R" % n for n in every[m[1]])), catalogs[0])
+    catalog = re.sub(rb"/Pages \d+ 0 R", b"/Pages " + top, catalog)
+    return _assembled([*objects, b"<< /Count %d /Kids [ %s ] /Type /Pages >>" % (pages, kids), catalog], told)
+
+
+def _objects(data: bytes) -> tuple[dict[int, bytes], int, int]:
+    """Return what the objects of a document hold, by number, and the numbers of its catalog and of its title."""
+    start = int(data[data.rindex(b"startxref") :].split()[1])
+    places = [int(line[:10]) for line in data[start : data.index(b"trailer", start)].split(b"\n")[2:] if b" n" in line]
+    ends = dict(pairwise([*sorted(places), start]))
+    whole = {int(data[at : at + 12].split()[0]): data[at : ends[at]] for at in places}
+    inner = {number: text[text.index(b"obj") + 3 : text.rindex(b"endobj")].strip() for number, text in whole.items()}
+    root, info = (int(re.findall(rb"/%s (\d+) 0 R" % name, data[start:])[0]) for name in (b"Root", b"Info"))
+    return inner, root, info
+
+
+def _renumbered(text: bytes, numbers: Mapping[int, int]) -> bytes:
+    head, stream, rest = text.partition(STREAM)
+    return REFERENCE.sub(lambda found: b"%d 0 R" % numbers[int(found[1])], head) + stream + rest
+
+
+def _assembled(objects: Sequence[bytes], info: int) -> bytes:
+    """Return a file of these objects, the last of which is its catalog, and that of this number tells its title."""
+    written, places = bytearray(b"%PDF-1.5\n%\xe2\xe3\xcf\xd3\n"), list[int]()
+    for number, text in enumerate(objects, 1):
+        places.append(len(written))
+        written += b"%d 0 obj\n%s\nendobj\n" % (number, text)
+    table = b"".join(b"%010d 00000 n \n" % at for at in places)
+    size, start = len(objects) + 1, len(written)
+    written += b"xref\n0 %d\n0000000000 65535 f \n%strailer\n" % (size, table)
+    written += b"<< /Info %d 0 R /Root %d 0 R /Size %d >>\n" % (info, size - 1, size)
+    return bytes(written + b"startxref\n%d\n%%%%EOF\n" % start)
 
 
 def _marks(name: str, box: Box) -> list[Shape]:

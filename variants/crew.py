@@ -280,8 +280,10 @@ def remove_stale(
     `before` are names and digests that earlier runs have noted as their own: what somebody has changed stays.
     """
     for name, digest in before:
-        stale = folder / Path(name).name
+        stale = folder / name
         with suppress(OSError):
+            if not stale.resolve().is_relative_to(folder.resolve()):
+                continue
             if name not in names and stale.suffix in suffixes and digest_of(stale.read_bytes()) == digest:
                 stale.unlink()
 

@@ -131,7 +131,7 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
     if header is None:
         raise InputError("roster-header", file=quote(grid.file, SHOWN))
     columns = _columns(grid, header, of)
-    rows = [row for row in range(header + 1, len(grid.rows)) if any(grid.rows[row])]
+    rows = [row for row in range(header + 1, len(grid.rows)) if any(grid.rows[row]) and not grid.totals(row)]
     if isinstance(of, Task):
         tasks = {row: columns.said(row).get("task", "") for row in rows}
         rows = [row for row, task in tasks.items() if task in ("", of.id) or task.isdigit()]  # a number is any

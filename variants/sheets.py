@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import get_args
 
-from ..drawing.compose import Drawn
+from ..drawing.compose import Drawn, compose, on_one_page
 from ..drawing.formats import Norm, format_named, printable
 from ..drawing.handouts import begun_pages, gridded, keyed, marked, over_page
-from ..drawing.page import Page
+from ..drawing.page import STATEMENT, Page
 from ..drawing.text import lettered
 from ..drawing.titleblock import Stamp
 from ..drawing.view import View
@@ -333,6 +333,21 @@ def handout(
 def drawing_for_print(case: Case) -> Drawn:
     """Draw the sheet of a case, but for its title block, on paper whose edge printers leave white."""
     return drawing_of(replace(case, format=printable(format_named(case.format or PAPER))))
+
+
+def card_of_case(case: Case, drawing: Drawn) -> Sheet:
+    """Return the task of a case, whose `drawing` is for print, on a page of its own.
+
+    Raises InputError: what its kind draws begins with no statement of the task, or it takes more than a page.
+    """
+    views = [view for view in drawing.views if view.name in STATEMENT]
+    if len(views) < len(STATEMENT):
+        raise InputError("kind-without", task=quote(case.task.id), text="--as card")
+    places = on_one_page([view.size for view in views], drawing.sheet, drawing.norm)
+    if places is None:
+        raise InputError("sheet-too-small", format=drawing.format)
+    card = compose(views, places, drawing.scales, drawing.sheet, drawing.norm, goes_on="")
+    return replace(sheet_of(case, card, stamp_of(case)), warnings=())
 
 
 def begun_of_case(case: Case, drawing: Drawn, steps: int = 0) -> Sheet:

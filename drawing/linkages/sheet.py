@@ -8,6 +8,7 @@ from functools import partial
 from itertools import combinations, product
 from typing import TYPE_CHECKING, Any
 
+from ...plans.board import POSITION
 from ...plans.linkages.chain import hinged
 from ...plans.linkages.compound import Coupler
 from ...plans.linkages.cycle import slider_runs
@@ -16,7 +17,7 @@ from ...plans.linkages.structure import Group
 from ...plans.names import role, scale_factor
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
-from ...scales.scale import UNITS, Scale, steps
+from ...scales.scale import UNITS, Fixed, Scale, Segment, steps
 from ..compose import GROUP, PART, TEXT, Drawn, Pages, arrange, begins_of, compose, last, on_one_page
 from ..extents import Rungs
 from ..figure import Figure, SheetContents
@@ -259,7 +260,7 @@ def _stated(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     Of two the first has the statement, the second one the plans, their tables and as many texts as it has room for.
     """
     work, taken = fitting.fitted(sheet, rungs)
-    every = [[*views, *work] for views in fitting.statements(sheet)]
+    every = [[*views, *work] for views in fitting.statements(sheet, taken)]
     begins, norm = begins_of(every[0]), fitting.contents.norm
     ways = [Pages([view.size for view in views], sheet, norm, begins) for views in every]
     order = [*range(len(begins))]
@@ -387,7 +388,7 @@ class Fitting:
             built.append((scene.once(figure.draw, "figure", figure.name), self.extents.root(symbol)))
         return built
 
-    def statements(self, sheet: Format) -> Iterator[list[View]]:
+    def statements(self, sheet: Format, rungs: Rungs) -> Iterator[list[View]]:
         """Go through the views of the statement of the task with ever smaller schemes."""
         from .statement import statements  # most sheets have none
 
@@ -395,7 +396,10 @@ class Fitting:
         words, style = lettered(contents.words, contents.solved), STYLES[sheet.letters]
         scene = Scene(contents.solved, words, style, contents.givens, {}, self.runs)
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
-        return statements(scene, contents.plans, contents.variant, width)
+        by_plan = self.scales(rungs).items()
+        scales = dict.fromkeys(scale for plan, scale in by_plan if plan != POSITION or plan in contents.plans)
+        fixed = [scale for scale in scales if isinstance(contents.choosers.get(scale.symbol), Fixed | Segment)]
+        return statements(scene, contents.plans, contents.variant, width, fixed)
 
     def _does_not_fit(self, sheet: Format, symbol: str, size: tuple[float, float]) -> InputError:
         """Say which format, or which scale factor, would do."""

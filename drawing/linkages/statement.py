@@ -6,7 +6,7 @@ What a given is called follows from where the mechanism uses it: `l_OA` is the l
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 
 from ...plans.board import POSITION
@@ -138,12 +138,16 @@ def _of_load(mechanism: Mechanism, words: Words, name: str) -> Told:
     return ("gravity", {}) if name == mechanism.gravity else NOTHING
 
 
-def statements(scene: Scene, plans: Collection[str], variant: str, width: float) -> Iterator[list[View]]:
+def statements(
+    scene: Scene, plans: Collection[str], variant: str, width: float, fixed: Iterable[Scale] = ()
+) -> Iterator[list[View]]:
     """Go through the views of the statement with ever smaller schemes: scheme, data, what the plans have to find.
 
-    Lines of text are at most `width` mm long. Where no plan of the mechanism is asked for, the scheme is to scale.
+    Lines of text are at most `width` mm long; they say which scale factors are `fixed` by the task. Where no plan of
+    the mechanism is asked for, the scheme is to scale.
     """
-    scaled, others = POSITION not in plans, [data_table(scene, plans), task_text(scene, plans, variant, width)]
+    task = task_text(scene, plans, variant, width, fixed)
+    scaled, others = POSITION not in plans, [data_table(scene, plans), task]
     yield from ([kinematic_scheme(scene, box, scaled), *others] for box in (BOXES if scaled else SKETCHED))
 
 
@@ -173,10 +177,12 @@ def data_table(scene: Scene, plans: Collection[str]) -> View:
     return givens_view(needed, scene.words, scene.style, called=called)
 
 
-def task_text(scene: Scene, plans: Collection[str], variant: str, width: float) -> View:
-    """Return what is to be found, a line for each plan, and how answers are written."""
+def task_text(scene: Scene, plans: Collection[str], variant: str, width: float, fixed: Iterable[Scale] = ()) -> View:
+    """Return what is to be found, a line for each plan, at which fixed scale factors, and how answers are written."""
     words = scene.words
     lines = [words[f"task.{plan}"].format(names=", ".join(_sought(scene, plan))) for plan in plans]
+    scales = ", ".join(map(words.scale, fixed))
+    lines += [words["task.scales"].format(scales=scales)] if scales else []
     angle = words["task.angles"] if words.notation["angles"] else ""
     lines += [words["task.reading"], words["task.senses"], *([angle] if angle else [])]
     return text_block(

@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 
 import pytest
+from pdfminer.high_level import extract_pages
+from pdfminer.layout import LTTextContainer
 
 from kulman import batch, check, load_task
 from kulman.scales.errors import InputError
@@ -70,8 +72,33 @@ def test_a_student_gets_a_note_and_a_handout(tmp_path: Path) -> None:
     done = batch(TASK, roster(tmp_path, "Iryna;MM-21;3;"), out, kinds=["note", "handout"], only="structure", jobs=1)
 
     assert done.problems == []
-    assert set(files(out)) == {"001-Iryna-3-note.pdf", "001-Iryna-3-handout.pdf", "key.csv", "manifest.csv"}
-    assert all(data.startswith(b"%PDF") for name, data in files(out).items() if name.endswith(".pdf"))
+    assert set(files(out)) == {"001-Iryna-3-handout.pdf", "manifest.csv"}  # no solution beside the blank
+    assert set(files(out / "solutions")) == {"001-Iryna-3-note.pdf", "key.csv"}
+    made = {**files(out), **files(out / "solutions")}
+    assert all(data.startswith(b"%PDF") for name, data in made.items() if name.endswith(".pdf"))
+
+
+def test_a_class_is_printed_in_one_go_in_the_order_of_its_roster(tmp_path: Path) -> None:
+    out, names = tmp_path / "out", ["Yana", "Bohdan", "Artem"]
+    file = roster(tmp_path, *(f"{name};MM-21;{n};" for n, name in enumerate(names, 2)), "Всього: 3;;;")
+
+    for _ in range(2):  # the second time from what is there
+        done = batch(TASK, file, out, kinds=["handout", "card", "pdf"], only="velocity", merge=True, jobs=1)
+
+    merged = {name: list(extract_pages(out / name)) for name in ("handouts.pdf", "cards.pdf", "solutions/sheets.pdf")}
+    texts = [
+        "".join(part.get_text() for part in page if isinstance(part, LTTextContainer)) for page in merged["cards.pdf"]
+    ]
+    assert len(done.students) == 3
+    assert {name: len(pages) for name, pages in merged.items()} == dict(zip(merged, (6, 3, 3), strict=True))
+    assert [next(name for name in names if name in text) for text in texts] == names
+    layers = [(out / name).read_bytes().count(b"/Type /OCG") for name in ("handouts.pdf", "002-Bohdan-3-handout.pdf")]
+    assert layers[0] == layers[1] > 0  # those of one name are one
+
+
+def test_only_what_is_drawn_page_by_page_is_merged(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="pdf, handout, card"):
+        batch(TASK, roster(tmp_path, "Iryna;MM-21;3;"), tmp_path / "out", kinds=["note"], merge=True)
 
 
 @pytest.mark.parametrize("lang", ["en", "uk"])

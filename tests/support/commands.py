@@ -18,7 +18,7 @@ def roster(folder: Path, *rows: str, head: str = "student;group;variant;phi") ->
 
 def files(folder: Path) -> dict[str, bytes]:
     """Return what the files of a folder hold, without those whose names begin with a dot."""
-    return {path.name: path.read_bytes() for path in folder.iterdir() if not path.name.startswith(".")}
+    return {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file() and path.name[0] != "."}
 
 
 def table(file: Path) -> list[dict[str, str]]:

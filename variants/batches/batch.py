@@ -6,7 +6,7 @@ import os
 import re
 import sys
 import traceback
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property, partial
@@ -19,6 +19,7 @@ from ...drawing.formats import Norm, format_named
 from ...drawing.notes.blocks import Block, Document
 from ...drawing.notes.docx import Drawing, docx_bytes, drawings_of
 from ...drawing.notes.typst import Body, pdf_bytes
+from ...drawing.pdf import joined
 from ...drawing.words import Words
 from ...drawing.writers import WRITERS, folder_for, page_files, save_all, slug, sweep_parts, write_whole
 from ...plans.quantities import measured
@@ -30,23 +31,27 @@ from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
 from ...scales.units import format_unit
 from ...scales.version import __version__
+from .. import sheets
 from ..case import Case, Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Begin, Done, Journal, digest_of, on_cluster, remove_stale, shared_out
 from ..marking.wording import texts
 from ..notes import body_of, title_page
 from ..reader import load_task
 from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, read_roster
-from ..sheets import PAPER, Sheet, begun_of_case, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of
+from ..sheets import PAPER, Sheet, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of
 from ..spreadsheets.grid import SUFFIXES
 from ..tables import Cell, csv_table, table_bytes
 from ..task import AnyTask, Task
 
 MANIFEST, KEY = "manifest.csv", "key.csv"
 Tasks: TypeAlias = "AnyTask | Sequence[AnyTask]"
-NOTE, HANDOUT = "note", "handout"
+NOTE, HANDOUT, CARD = "note", "handout", "card"
+FOR_STUDENTS = {HANDOUT, CARD}  # beside which no solution stands: those have a folder of their own
+SOLUTIONS = "solutions"
+MERGED = {"pdf": "sheets.pdf", HANDOUT: "handouts.pdf", CARD: "cards.pdf"}  # of the whole class, by kind
 KEPT = 32  # variants whose drawings a process keeps for the next students that have them
 NOTES = {NOTE: ".pdf", "docx": ".docx"}
-FORMS = (*SHEETS, *NOTES, HANDOUT)
+FORMS = (*SHEETS, *NOTES, HANDOUT, CARD)
 _SUFFIXES = {*WRITERS, *NOTES.values()}
 JOURNAL = ".kulman-batch.jsonl"
 _OWN = re.compile(rf"[0-9]{{3,}}-.+|(?:manifest|key)\b.*\.csv|{re.escape(JOURNAL)}")  # names of files of a batch
@@ -212,9 +217,14 @@ class Making:
         drawn = sheet_of(case, work.drawing, stamp_of(case))
         what = case.variant if len(self.asked) == 1 else f"{case.task.id} {case.variant}"
         stem = f"{student.number:03d}-{slug(f'{who.student} {what}')}"
-        files = {name: data for kind in self.kinds for name, data in self._files(work, case, drawn, kind, stem)}
+        made = ((kind, self._files(work, case, drawn, kind, stem)) for kind in self.kinds)
+        files = {f"{self.folder(kind)}{name}": data for kind, own in made for name, data in own}
         notes = tuple(warning.text(self.language) for warning in drawn.warnings)
         return Outcome(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
+
+    def folder(self, kind: str = "") -> str:
+        """Return where the files of a kind stand in that of the batch; without a kind the key, another solution."""
+        return f"{SOLUTIONS}/" if FOR_STUDENTS & {*self.kinds} and kind not in FOR_STUDENTS else ""
 
     def _files(self, work: _Work, case: Case, drawn: Sheet, kind: str, stem: str) -> Iterator[tuple[str, bytes]]:
         """Go through the files of one kind: their names and what they hold."""
@@ -224,9 +234,9 @@ class Making:
             data = pdf_bytes(document, work.written) if kind == NOTE else docx_bytes(document, work.drawings)
             yield f"{stem}-note{NOTES[kind]}", data
             return
-        if kind == HANDOUT:
-            drawn = begun_of_case(case, work.blank)
-            stem, kind = f"{stem}-handout", "pdf"
+        if kind in FOR_STUDENTS:
+            drawn = (sheets.begun_of_case if kind == HANDOUT else sheets.card_of_case)(case, work.blank)
+            stem, kind = f"{stem}-{kind}", "pdf"
         yield from ((path.name, data) for path, data in page_files(drawn.pages, Path(f"{stem}.{kind}")))
 
     def _work(self, student: Student) -> _Work:
@@ -249,7 +259,8 @@ Crew = Callable[[Begin[Student, Outcome], list[Student]], Iterator[list[Done[Out
 
 def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance) -> tuple[Outcome, ...]:
     """Make what is not there yet; write it, and note it, as it comes."""
-    sweep_parts(folder, lambda name: _OWN.match(name) is not None)
+    for of_kinds in (folder, folder / SOLUTIONS):
+        sweep_parts(of_kinds, lambda name: _OWN.match(name) is not None)
     journal = Journal(folder / JOURNAL, Outcome.from_json)
     of = making.digests()
     digests = [digest_of(f"{of.get(student.entry.task)} {student!r}") for student in students]
@@ -284,7 +295,8 @@ def _kept(made: Outcome | None, student: Student, folder: Path, language: str) -
 
 
 def put(path: Path, data: bytes) -> None:
-    """Write a file whole, unless it is there as it should be."""
+    """Write a file whole, in a folder that may have to be made, unless it is there as it should be."""
+    folder_for(path.parent)
     with suppress(OSError):
         if path.read_bytes() == data:
             return
@@ -307,6 +319,7 @@ def batch(
     notation: str | None = None,
     lang: str = "uk",
     block: Mapping[str, str] | None = None,
+    merge: bool = False,
     jobs: int | None = None,
     dask: str | None = None,
     advance: Advance | None = None,
@@ -329,12 +342,15 @@ def batch(
     folder : str or PathLike
         Where the files go; it is made where it is missing.
     kinds : sequence of str
-        What each student gets: the sheet as `svg`, `pdf`, `png`, the `note`, also as `docx`, a blank `handout`.
+        What each student gets: the sheet as `svg`, `pdf`, `png`, the `note`, also as `docx`, a blank `handout`, the
+        task alone as a `card`. Beside the last two no solution stands: those have a folder of their own, `solutions`.
     digits : int or str, optional
         How many last digits of the record book give the variant, where the roster has none; or what each of them is
         for, from left to right: `"variant,scheme"`, which is usual for several tasks.
     block : mapping of str to str, optional
         What is said in every title block: `teacher`, `department`, `designation`, `work`, `date`.
+    merge : bool
+        Write the sheets (`pdf`), handouts and cards of the class as one document each, too, in the order of the roster.
     jobs : int, optional
         Processes; as many as there are cores when left out. With 1 all is done in this one, and dies with it.
     dask : str, optional
@@ -349,6 +365,8 @@ def batch(
     """
     tasks = _tasks(task)
     all_known("batch-kind", kinds, FORMS)
+    if merge and not MERGED.keys() & {*kinds}:
+        raise InputError("batch-merge", known=", ".join(MERGED))
     wanted, block = only if only is None or isinstance(only, str) else tuple(only), dict(block or {})
     how = by_name("set", set), wanted, by_name("scales", scales), notation, lang, format, norm, block, lettering
     once = _once(tasks)
@@ -370,8 +388,23 @@ def batch(
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
     done = Batch(students, outcomes, (error,) if listed.unread else ())
     for name, rows in _tables(done, once, lang):
-        put(place / name, csv_table(rows, lang))
+        put(place / (name if name == MANIFEST else f"{making.folder()}{name}"), csv_table(rows, lang))
+    for kind in making.kinds if merge else ():
+        if kind in MERGED and (files := [place / name for name in _of_kind(outcomes, kind)]):
+            put(place / f"{making.folder(kind)}{MERGED[kind]}", joined([file.read_bytes() for file in files]))
     return done
+
+
+def _of_kind(outcomes: Iterable[Outcome], kind: str) -> Iterator[str]:
+    """Go through the files of a kind that students have, in the order of the roster."""
+    others = tuple(f"-{other}.pdf" for other in (*FOR_STUDENTS, NOTE))
+    for name in (name for outcome in outcomes for name in outcome.files):
+        if (
+            name.endswith(f"-{kind}.pdf")
+            if kind in FOR_STUDENTS
+            else name.endswith(".pdf") and not name.endswith(others)
+        ):
+            yield name
 
 
 def _tasks(said: Tasks) -> tuple[Task, ...]:

@@ -101,6 +101,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 @console.command(
     "kulman batch nau-slider-crank --form class.xlsx",
     "kulman batch nau-slider-crank --roster class.xlsx --out sheets --as pdf --teacher 'О. Коваль'",
+    "kulman batch nau-slider-crank --roster class.xlsx --out blanks --as handout --as card --only velocity --merge",
     "kulman batch scheme-08-planer scheme-09-shaper --form schemes.xlsx",
 )
 @console.of_tasks
@@ -114,11 +115,12 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 @click.option(
     "--as",
     "kinds",
-    type=console.Word(*SHEETS, "note", "docx", "handout"),
+    type=console.Word(*SHEETS, "note", "docx", "handout", "card"),
     multiple=True,
     default=("svg", "pdf", "note"),
     show_default=True,
 )
+@click.option("--merge", is_flag=True)
 @click.option(
     "--digits",
     metavar="N|WORD,...",

@@ -296,7 +296,7 @@ def _class(
             error = unknown("quantity-unknown", of[0], asked.names)
             strangers.append(LocatedError(f"{grid.place(header, column)}, {quote(text)}", error))
     for row in range(header + 1, len(grid.rows)):
-        if cells.NONE.issuperset(grid.rows[row]):
+        if cells.NONE.issuperset(grid.rows[row]) or grid.totals(row):
             continue
         said = {kind: grid.text(row, column) for kind, column in about.items() if grid.text(row, column)}
         sheet, strangers = _Sheet(grid, asked, strangers), []  # told once, not for each student

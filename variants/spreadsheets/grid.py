@@ -31,6 +31,8 @@ _COMMA = re.compile("[,:]")  # before a unit without brackets
 _QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|sense|mu))?")
 _BEFORE = sorted((*UNDERSTOOD["about"]["variant"], *UNDERSTOOD["numbered"]["variant"]), key=len, reverse=True)
 _NUMBERED = re.compile(rf"\s*(?:{'|'.join(map(re.escape, _BEFORE))})\.?\s*№?\s*", re.IGNORECASE)
+# what stands in a row below a list that sums it up: `Всього: 28`, `Разом студентів – 28`, `Total`
+_TOTAL = re.compile(rf"(?:{'|'.join(UNDERSTOOD['totals'])})(?:\s+[^\W\d]+)?[\s:=.–—-]*\d*[\s.]*", re.IGNORECASE)
 MIXED = re.compile(r"[A-Za-z]+_\w+")
 _ORNAMENT = re.compile(r"[\s_{}$\\.^]")  # of a symbol: l_OA, l_{OA} and lOA are one
 _GREEK = re.compile(r"GREEK (?:SMALL LETTER |CAPITAL LETTER )?(\w+)")
@@ -61,6 +63,11 @@ class Grid:
         """Return what a cell shows, nothing beyond the end of its row."""
         cells = self.rows[row]
         return cells[column] if column is not None and column < len(cells) else ""
+
+    def totals(self, row: int) -> bool:
+        """Tell whether a row below a list of students only says how many they are."""
+        first = next(filter(None, self.rows[row]), "")
+        return _TOTAL.fullmatch(first) is not None
 
     def shared(self, row: int, column: int) -> str:
         """Return what a cell shows, within a merged one what that shows."""
