@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from ..scales.errors import InputError
+from ..scales.errors import InputError, Written
 from ..scales.names import latin, of_kind, unknown
 from ..scales.numbers import SHOWN, quote
 from .spreadsheets.files import read_grid
@@ -93,6 +93,43 @@ class Roster:
         """Return those who are not there."""
         found = {id(entry) for who in there if (entry := self.find(who)) is not None}
         return [entry for entry in self.entries if id(entry) not in found]
+
+
+def shared_by_mistake(students: Iterable[tuple[Who, object]], possible: int) -> Iterator[InputError]:
+    """Go through what several students of a class have though each should have an own one.
+
+    That is a record book, and the work: what `students` come with, a variant with all its data. Where there are fewer
+    `possible` variants than students they must share them.
+    """
+    books, works = dict[str, list[Who]](), dict[object, list[Who]]()
+    for who, work in students:
+        books.setdefault(who.book, []).append(who)
+        works.setdefault(work, []).append(who)
+    for book, several in books.items():
+        if book and len(several) > 1:
+            yield InputError("roster-book-twice", text=quote(book), students=named(several))
+    if len([who for several in works.values() for who in several]) <= possible:
+        for work, several in works.items():
+            if work and len(several) > 1:
+                yield InputError("roster-variant-shared", text=quote(str(work)), students=named(several))
+
+
+def named(students: Iterable[Who]) -> Written:
+    """Return the names of students for a message."""
+    return Written(", ".join(quote(who.student or who.book, SHOWN) for who in students))
+
+
+ALPHABETS = {"uk": "абвгґдеєжзиіїйклмнопрстуфхцчшщьюя", "ru": "абвгдеёжзийклмнопрстуфхцчшщъыьэюя"}
+
+
+def collated(text: str, language: str) -> tuple[tuple[int, str], ...]:
+    """Return by what a name is put in its place in the alphabet of a language; letters of others follow.
+
+    >>> sorted(["Ївга", "Йосип", "Ганна", "Ґудзь", "Іван"], key=lambda name: collated(name, "uk"))
+    ['Ганна', 'Ґудзь', 'Іван', 'Ївга', 'Йосип']
+    """
+    alphabet = ALPHABETS.get(language, "")
+    return tuple((alphabet.find(letter) if letter in alphabet else 99, letter) for letter in text.casefold())
 
 
 def _folded(text: str) -> str:

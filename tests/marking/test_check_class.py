@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import csv
 import random
+import re
 import subprocess
 import sys
 import time
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, replace
 from itertools import pairwise
@@ -119,13 +121,13 @@ def test_a_file_that_cannot_be_read_does_not_stop_the_others(
 
     status, out, err = run(capsys, folder, "-o", marks, "--lang", "en")
     by_pattern = run(capsys, folder / "c*.csv", "--lang", "en")[1]
-    single, _, refusal = run(capsys, folder / "class.csv", "-o", tmp_path / "r.html")
+    single, _, refusal = run(capsys, folder / "class.csv", "-o", tmp_path / "r.txt")
 
     assert (status, err.count("\n")) == (0, 1)
     assert "bad.csv: not a text" in err
     assert "students: 3, marked: 2" in out
     assert "students: 2" in by_pattern
-    assert (single, "--out" in refusal, (tmp_path / "r.html").exists()) == (2, True, False)
+    assert (single, "--out" in refusal, (tmp_path / "r.txt").exists()) == (2, True, False)
     bad = next(row for row in csv.reader(marks.read_text(encoding="utf-8-sig").splitlines()) if "bad.csv" in row[-2])
     assert bad[-3].startswith("not read: ")
     assert bad[7] == ""
@@ -288,7 +290,7 @@ def test_the_form_of_a_class_has_its_students_and_reports_their_names(
     assert (status, out) == (0, f"{form}\n")
     assert rows[1][0] == "'=HYPERLINK(1)"
     assert [row[4] for row in rows[1:]] == ["7", "5"]
-    assert {"mu_V", "V_B.mm", "V_B", "V_B.dir", "omega_2"} <= {*rows[0]}
+    assert {"μ_V", "V_B, мм", "V_B, м/с", "V_B, напрям", "ω_2, рад/с", "ω_2, напрям"} <= {*rows[0]}
     for name, stem in (("Іваненко І. І.", "Іваненко-І-І"), ("../../etc", "etc"), ("???", "x")):
         assert slug(name) == stem
 
@@ -318,3 +320,56 @@ def test_a_roster_finds_who_is_named_once_by_the_surest_key() -> None:
     assert find(Who(student="Same name")) is None
     assert find(Who(number="9", student="елкин")) is entries[3]
     assert find(Who()) is None
+
+
+def test_a_class_stands_in_the_order_of_its_roster_and_on_one_page(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file, page, marks = class_file(tmp_path, 8), tmp_path / "class.html", tmp_path / "marks.csv"
+    head, *lines = (line.split(";") for line in file.read_text(encoding="utf-8-sig").splitlines())
+    lines[3][1:] = ["N4", *lines[0][2:]]  # copied
+    lines[5][0] = "Student 07"
+    at = head.index("V_BA.mm")
+    for line in lines[1:3]:  # two who have read the absolute velocity for the relative one
+        line[at : at + 4] = [*line[at + 2 : at + 4], *line[at : at + 2]]
+    rows = [head, *reversed(lines), ["Всього: 8"]]
+    answers = write(tmp_path, rows, name="answers")
+    known = [[line[0], line[1], book] for line, book in zip(lines, "12345567", strict=True)]
+    roster = write(tmp_path, [["student", "id number", "record book"], *known, ["<b>", "N9", "9"]], name="roster")
+
+    given = answers, "-v", "3", "--roster", roster, "-o", page, "-o", marks, "--lang", "en"
+    status, printed, told = run(capsys, *given)
+
+    html, told = page.read_text(encoding="utf-8"), told.replace("'", "")
+    listed = [line.split("  ")[0] for line in printed.splitlines()][:9]
+    namesakes = ["Student 07 (5)", "Student 07 (6)"]
+    assert status == 0
+    assert listed[:5] + listed[7:] == [*(f"Student {n:02d}" for n in range(1, 6)), "Student 08", "<b>"]
+    assert listed[5:7] == namesakes
+    assert "students: 8, marked: 8" in printed
+    assert "record book 5: Student 05, Student 07" in told
+    rows = [*csv.reader(marks.read_text(encoding="utf-8-sig").splitlines())]
+    assert [row[0] for row in rows[1:6]] == listed[:5]
+    assert "<td><b>" not in html
+    assert "<td>&lt;b&gt;</td>" in html
+    bars = re.findall(r"<rect.*?/><text[^>]*>(\d+)<", html)
+    assert sum(map(int, bars)) == 8
+    commonest = html.partition("Commonest mistakes")[2]
+    often = Counter(re.findall(r"M\d+: (.*?)(?=;|  |$)", printed, re.MULTILINE))
+    items = re.findall(r"<li><b>(.*?)</b> – students: (\d+)", commonest)
+    assert {re.sub("<.*?>", "", text): int(count) for text, count in items} == often != {}
+    assert [int(count) for _, count in items] == sorted(often.values(), reverse=True)
+    assert "<figure><svg" in commonest
+    assert "<td>Student 01</td><td>Student 04</td>" in html
+    assert re.search(r"\bM\d+\b", re.sub(r"<[^>]*>", " ", html)) is None  # no code of a mistake
+    assert re.search(r'(src|href)="', html) is None
+
+
+def test_a_form_asks_for_what_the_rubric_asks(tmp_path: Path) -> None:
+    rubric = tmp_path / "rubric.toml"
+    rubric.write_text('asked = ["V_B", "omega_2"]', encoding="utf-8")
+
+    form = check(TASK, "3", rubric=rubric, lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+
+    names = [line.split(",")[0] for line in form.splitlines()]
+    assert names[names.index("quantity") + 1 :] == ["Velocity plan", "mu_V", "V_B", "omega_2"]

@@ -417,7 +417,7 @@ def test_lines_that_follow_from_mostly_wrong_numbers_are_told_apart() -> None:
 
     assert (verdicts(result.marking, "R_21"), result.marking.first_wrong) == ([str(Verdict.UNCOUNTED)], "V_A")
     assert result.mark <= 15.0
-    header, row = list(class_rows([result_of(result, "en")], [], "en"))[:2]
+    header, row = list(class_rows([result_of(result, "en")], "en"))[:2]
     told = dict(zip(header, row, strict=True))
     assert told["follows from wrong numbers, not counted"] == result.count(Verdict.UNCOUNTED) > 0
     assert told["wrong here"] == result.count(Verdict.WRONG)
@@ -438,7 +438,7 @@ def test_what_all_later_lines_need_costs_more_than_a_side_value_and_a_zero_nothi
 def test_mistakes_of_a_class_are_said_in_words(language: str) -> None:
     result = replace(result_of(handed_in(right_sizes()), language), mistakes=("M29", "M30"))
 
-    shown = [*class_lines([result], [], language), *(str(row) for row in class_rows([result], [], language))]
+    shown = [*class_lines([result], language), *(str(row) for row in class_rows([result], language))]
 
     assert any("M29" in line for line in shown)
     assert all(re.search(rf"{name}: \w{{3}}", line) for line in shown for name in ("M29", "M30") if name in line)

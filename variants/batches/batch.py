@@ -37,7 +37,7 @@ from ..crew import Advance, Begin, Done, Journal, digest_of, on_cluster, remove_
 from ..marking.wording import texts
 from ..notes import body_of, title_page
 from ..reader import load_task
-from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, read_roster
+from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, read_roster, shared_by_mistake
 from ..sheets import PAPER, Sheet, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of
 from ..spreadsheets.grid import SUFFIXES
 from ..tables import Cell, csv_table, table_bytes
@@ -386,7 +386,9 @@ def batch(
     unread = Written(", ".join(quote(head, SHOWN) for head in listed.unread))
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
-    done = Batch(students, outcomes, (error,) if listed.unread else ())
+    works = ((student.entry.who, "" if student.entry.settings else student.data[1]) for student in students)
+    doubled = shared_by_mistake(works, len(once[0].variants)) if len(once) == 1 else ()
+    done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled))
     for name, rows in _tables(done, once, lang):
         put(place / (name if name == MANIFEST else f"{making.folder()}{name}"), csv_table(rows, lang))
     for kind in making.kinds if merge else ():

@@ -208,6 +208,7 @@ def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[
     if form is None and not answers:
         raise InputError("check-nothing")
     asked = ready(task, set=settings, lang=lang or system_language(), **options)
+    console.warn(asked.warnings)
     if form is not None:
         console.say_written([asked.write_form(form)], shown["as_json"])
     if answers:
@@ -220,12 +221,13 @@ def _mark(
     """Mark one student, or a class: to files, and to the console."""
     from ...drawing.writers import save_all
     from ..marking.checks import write_tables
+    from ..marking.class_page import PAGE
     from ..marking.report import REPORTS, report_bytes, report_text, to_json
     from ..marking.result import class_lines
 
     reports = [file for file in files if file.suffix.lower() in REPORTS]
     alone = len(found) == 1 and folder is None and moodle is None and len(reports) == len(files)
-    if not alone and (how["as_json"] or reports):
+    if not alone and (how["as_json"] or any(file.suffix.lower() != PAGE for file in reports)):
         raise InputError("check-class")
     if alone:
         told = asked.mark(found[0])
@@ -235,9 +237,10 @@ def _mark(
             click.echo(report_text(told), nl=False)
         save_all(files, REPORTS, lambda file: [(file, report_bytes(told, file.suffix))])
     else:
+        found = asked.ordered(found)
         with console.progress() as advance:
             results = asked.mark_all(found, folder, advance, how["jobs"] or None)
         write_tables(asked, results, found, files, moodle)
-        for line in class_lines(results, asked.absent(found), asked.request.language):
+        for line in class_lines(asked.listed(found, results), asked.request.language):
             click.echo(line)
     console.say_written((*files, *filter(None, (folder, moodle))), how["as_json"])

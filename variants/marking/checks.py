@@ -21,10 +21,11 @@ from ...scales.version import __version__
 from ..case import Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
-from ..roster import Digits, Entry, read_roster
+from ..roster import Digits, Entry, collated, read_roster, shared_by_mistake
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, table_bytes
 from ..task import Task
+from .class_page import PAGE, ClassPage
 from .keyed import asked_of, class_header, form_rows, read_rubric, solved
 from .marked import Desk, Terms, variant_of
 from .reading import Answers, read_all
@@ -59,13 +60,13 @@ class Check(Terms):
         task, variant, language = self.request.task, self.request.variant, self.request.language
         key = Desk(self).keyed(variant or next(iter(task.variants)), {})
         if self.roster is not None:
-            rows = [class_header(key.parts, language, self.rubric.directions != "ignored")]
+            rows = [class_header(key, self.rubric.directions != "ignored", self.rubric.asked)]
             for entry in self.roster.entries:  # the sheet id is for them to copy
                 who = entry.who
                 rows.append((who.student, who.group, who.book, who.number, entry.variant_of(task, self.digits), ""))
             bold, frozen = [0], 1
         else:
-            rows = list(form_rows(key, {"task": task.id, "variant": variant or ""}))
+            rows = list(form_rows(key, {"task": task.id, "variant": variant or ""}, self.rubric.asked))
             columns = texts(language)["column.name"]
             head = next(number for number, row in enumerate(rows) if row[0] == columns)
             bold = [n for n, row in enumerate(rows) if n >= head and (len(row) == 1 or row[0] == columns)]
@@ -92,6 +93,38 @@ class Check(Terms):
     def absent(self, answers: Iterable[Answers]) -> list[Entry]:
         """Return the students of the roster who have handed in nothing."""
         return self.roster.missing(one.who for one in answers) if self.roster else []
+
+    @property
+    def warnings(self) -> tuple[InputError, ...]:
+        """What a teacher should know of the roster: record books and variants that several students have."""
+        task, entries = self.request.task, self.roster.entries if self.roster else ()
+        works = [(entry.who, entry.variant_of(task, self.digits), entry.settings) for entry in entries]
+        students = ((who, variant if not own else "") for who, variant, own in works)
+        return tuple(shared_by_mistake(students, 0 if self.request.variant else len(task.variants)))
+
+    def ordered(self, answers: Iterable[Answers]) -> list[Answers]:
+        """Return answers in the order of the roster; those of strangers, and all without one, by their names."""
+        places = {id(entry): place for place, entry in enumerate(self.roster.entries)} if self.roster else {}
+        language = self.request.language
+
+        def place(one: Answers) -> tuple[int, object, str]:
+            entry = self.roster.find(one.who) if self.roster else None
+            return places.get(id(entry), len(places)), collated(one.who.student, language), one.source
+
+        return sorted(answers, key=place)
+
+    def listed(self, answers: Iterable[Answers], results: Iterable[Result]) -> list[Result | Entry]:
+        """Return the results, with those of the roster who have handed in nothing at their places between them."""
+        if self.roster is None:
+            return [*results]
+        found, strangers = dict[int, list[Result | Entry]](), list[Result | Entry]()
+        for one, result in zip(answers, results, strict=True):
+            entry = self.roster.find(one.who)
+            (strangers if entry is None else found.setdefault(id(entry), [])).append(result)
+        task, digits = self.request.task, self.digits
+        absent = {id(one): replace(one, variant=one.variant_of(task, digits)) for one in self.roster.entries}
+        lines = (found.get(one, [entry]) for one, entry in absent.items())
+        return [*(line for several in lines for line in several), *strangers]
 
     def mark(self, answers: Answers) -> Report:
         """Mark one student.
@@ -308,13 +341,20 @@ def _tidy(folder: Path, names: set[str]) -> None:
 def write_tables(
     check: Check, results: Sequence[Result], answers: Sequence[Answers], files: Sequence[Path], moodle: Path | None
 ) -> None:
-    """Write the tables of a class."""
+    """Write the tables of a class, and as .html one page about it."""
     language, task = check.request.language, check.request.task.id
-    rows = list(class_rows(results, check.absent(answers), language))
+    lines = check.listed(answers, results)
+    rows = list(class_rows(lines, language))
 
     def table(path: Path) -> Files:
         if path == moodle:
             return [(path, csv_table(list(moodle_rows(results, language)), language, ","))]
+        if path.suffix.lower() == PAGE:
+            by_result = {id(result): one for one, result in zip(answers, results, strict=True)}
+            page = ClassPage(
+                check.request, check.rubric, lines, lambda result: check.mark(by_result[id(result)]).marked
+            )
+            return [(path, page.html().encode("utf-8", "replace"))]
         return [(path, table_bytes(path, rows, language, task, [0], 1))]
 
-    save_all((*files, *filter(None, (moodle,))), TABLES, table)
+    save_all((*files, *filter(None, (moodle,))), (*TABLES, PAGE), table)

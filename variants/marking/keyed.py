@@ -9,11 +9,11 @@ from collections.abc import Collection, Container, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from operator import attrgetter, itemgetter
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
-from ...drawing.words import Words
+from ...drawing.words import GREEK, Words
 from ...plans.hands.shaky import Tolerance, paper_of, preset
 from ...plans.marking.answers import Answer, Line, Verdict
 from ...plans.marking.key import Key, Question, answer_key, hanging_on
@@ -249,8 +249,8 @@ def drawn(question: Question) -> bool:
     return question.vector or question.step.verb in ("read", "arm", "measure", "distance")
 
 
-def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
-    """Go through the rows of an empty form; `about` is what is known of the sheet already."""
+def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()) -> Iterator[tuple[str, ...]]:
+    """Go through the rows of an empty form; `about` is what is known of the sheet already, `only` what is asked."""
     asked, words = keyed.asked, keyed.words
     said = texts(words.language)
     for key in ASKED_ABOUT:
@@ -263,31 +263,45 @@ def form_rows(keyed: Keyed, about: Mapping[str, str]) -> Iterator[tuple[str, ...
         yield (said["form.scales"].format(scales=keyed.solution.scaled(words)),)
     yield tuple(said[f"column.{column}"] for column in COLUMNS)
     letters = kind.vector_letters(keyed.solution.solved, words)
-    for part in filter(attrgetter("asked"), keyed.parts):
+    for part in keyed.parts:
+        questions = [question for question in part.asked if not only or question.name in only]
+        if not questions:
+            continue
         yield (plain(part.heading),)
-        for name in part.scales:
+        for name in part.scales if any(map(drawn, questions)) else ():
             unit = f"({asked.display.of_scales.unit(asked.scales[name])})/{asked.display.paper}"
             yield (name, keyed.symbol(name), "", "", "", "", words.spelled(unit))
-        for name in (question.name for question in part.asked):
+        for name in (question.name for question in questions):
             unit = words.spelled(asked.unit(name))
             yield (name, keyed.symbol(name), letters.get(name, ""), "", "", "", unit)
 
 
-def class_header(parts: Iterable[Section], language: str, directions: bool) -> tuple[str, ...]:
-    """Return the columns of a class: who it is, then scale factors, and segment, value of each quantity.
+def class_header(keyed: Keyed, directions: bool, only: Collection[str] = ()) -> tuple[str, ...]:
+    """Return the columns of a class: who it is, then scale factors, and segment, value of each quantity with its unit.
 
-    With `directions` also the direction of a vector, the sense of what turns.
+    With `directions` also the direction of a vector, the sense of what turns. Of quantities `only` some may be asked.
     """
-    said = texts(language)
+    words, paper = keyed.words, keyed.asked.display.paper
+    said = texts(words.language)
     columns = [said[f"about.{key}"] for key in ("student", "group", "book", "number", "variant", "sheet")]
-    for part in parts:
-        columns += part.scales
-        for question in part.asked:
-            name = question.name
-            columns += [f"{name}.mm", name] if drawn(question) else [name]
-            if directions and (question.vector or has_sense(name)):
-                columns.append(f"{name}.{'dir' if question.vector else 'sense'}")
+    for part in keyed.parts:
+        asked = [question for question in part.asked if not only or question.name in only]
+        if any(map(drawn, asked)):
+            columns += map(_shown, part.scales)
+        for question in asked:
+            name, unit = _shown(question.name), words.spelled(keyed.asked.unit(question.name))
+            length = keyed.asked.quantities[question.name].unit == "m"  # of which mm alone would be the value
+            columns += [f"{name}.mm" if length else f"{name}, {words.spelled(paper)}"] if drawn(question) else []
+            columns.append(f"{name}, {unit}" if unit else name)
+            if directions and (question.vector or has_sense(question.name)):
+                columns.append(f"{name}, {said['class.direction']}")
     return tuple(columns)
+
+
+def _shown(name: str) -> str:
+    """Return a name with the Greek letter that it begins with."""
+    kind, _, rest = name.partition("_")
+    return f"{GREEK[kind]}_{rest}" if kind in GREEK and kind != "delta" and rest else name
 
 
 def solved(request: Request) -> Solution:

@@ -10,7 +10,7 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypeAlias
 
 from ...plans.marking.answers import Verdict
 from ...plans.marking.key import Key
@@ -242,40 +242,68 @@ def failed(answers: Answers, error: KulmanError, language: str) -> Result:
     return Result(answers.source, answers.who, notes=notes)
 
 
-def flags_of(results: Sequence[Result], language: str) -> list[list[str]]:
-    """Return for each student what a teacher should check: too exact segments, and those shared with another one."""
-    said = texts(language)
-    found = [result.flags(language) for result in results]
-    for pair in shared([result.segments for result in results]):
-        for one, other in ((pair.first, pair.second), (pair.second, pair.first)):
-            name = results[other].who.student or results[other].source
-            found[one].append(said["flag.shared"].format(n=len(pair.names), of=pair.of, near=pair.near, student=name))
+Lines: TypeAlias = Sequence[Result | Entry]  # of a class: who has handed in, and who has not
+
+
+def marked_of(lines: Lines) -> list[Result]:
+    """Return those of a class who have handed in."""
+    return [line for line in lines if isinstance(line, Result)]
+
+
+def names_of(lines: Lines) -> list[str]:
+    """Return what the students of a class are called: namesakes with the record book, or the variant, or the file."""
+    called = [line.who.student or (line.source if isinstance(line, Result) else line.place) for line in lines]
+    often, found = Counter(called), list[str]()
+    for name, line in zip(called, lines, strict=True):
+        twins = [one for one, other in zip(lines, called, strict=True) if other == name]
+        ways = (line.who.book, line.variant, line.source if isinstance(line, Result) else line.place)
+        apart = zip(ways, ([one.who.book for one in twins], [one.variant for one in twins], [""]), strict=True)
+        told = next(way for way, all_of in apart if way and (all_of == [""] or all_of.count(way) == 1))
+        found.append(f"{name} ({told})" if often[name] > 1 else name)
     return found
 
 
-def class_rows(results: Sequence[Result], absent: Sequence[Entry], language: str) -> Iterator[tuple[Cell, ...]]:
-    """Go through the rows of the table: a header, the students, those who handed in nothing, commonest mistakes."""
+def flags_of(lines: Lines, language: str) -> list[list[str]]:
+    """Return for each student what a teacher should check: too exact segments, and those shared with another one."""
+    said, names = texts(language), names_of(lines)
+    found = [line.flags(language) if isinstance(line, Result) else [] for line in lines]
+    for pair in shared([line.segments if isinstance(line, Result) else {} for line in lines]):
+        for one, other in ((pair.first, pair.second), (pair.second, pair.first)):
+            said_of = {"n": len(pair.names), "of": pair.of, "near": pair.near, "student": names[other]}
+            found[one].append(said["flag.shared"].format(**said_of))
+    return found
+
+
+def commonest(lines: Lines) -> list[tuple[str, list[Result]]]:
+    """Return the mistakes of a class with those who have made them, the commonest first."""
+    by = dict[str, list[Result]]()
+    for result in marked_of(lines):
+        for name in result.mistakes:
+            by.setdefault(name, []).append(result)
+    return sorted(by.items(), key=lambda item: (-len(item[1]), item[0]))
+
+
+def class_rows(lines: Lines, language: str) -> Iterator[tuple[Cell, ...]]:
+    """Go through the rows of the table: a header, the students in their order, commonest mistakes."""
     said = texts(language)
     keys = (*(f"about.{key}" for key in (*WHO, "variant", "sheet")), "class.mark")
     keys += tuple(f"verdict.{verdict}" for verdict in Verdict)
     keys += ("class.first", "report.candidates", "report.flags", "report.notes", "report.source", "class.report")
     yield tuple(said[key] for key in keys)
-    for result, flags in zip(results, flags_of(results, language), strict=True):
-        who = tuple(getattr(result.who, key) for key in WHO)
-        counts = tuple(result.counts.get(str(verdict)) for verdict in Verdict)
-        told = (result.first, "; ".join(result.explained(language)), "; ".join(flags), "; ".join(result.notes))
-        place = (result.source, ", ".join(result.reports))
-        yield (*who, result.variant, result.sheet, result.mark, *counts, *told, *place)
-    for entry in absent:
-        who = tuple(getattr(entry.who, key) for key in WHO)
-        blank = (None,) * (len(Verdict) + 4)
-        yield (*who, entry.variant, None, *blank, said["class.absent"], entry.place)
-    counted = Counter(name for result in results for name in result.mistakes)
+    for line, flags in zip(lines, flags_of(lines, language), strict=True):
+        who = tuple(getattr(line.who, key) for key in WHO)
+        if isinstance(line, Entry):
+            yield (*who, line.variant, None, *(None,) * (len(Verdict) + 4), said["class.absent"], line.place)
+            continue
+        counts = tuple(line.counts.get(str(verdict)) for verdict in Verdict)
+        told = (line.first, "; ".join(line.explained(language)), "; ".join(flags), "; ".join(line.notes))
+        yield (*who, line.variant, line.sheet, line.mark, *counts, *told, line.source, ", ".join(line.reports))
+    counted = commonest(lines)
     if counted:
         yield ()
         yield (said["class.commonest"],)
-    for name, count in sorted(counted.items(), key=lambda item: (-item[1], item[0])):
-        yield (f"{name}: {mistake_texts(language)[name]}", count)
+    for name, students in counted:
+        yield (f"{name}: {mistake_texts(language)[name]}", len(students))
 
 
 def moodle_rows(results: Sequence[Result], language: str) -> Iterator[tuple[Cell, ...]]:
@@ -290,21 +318,23 @@ def moodle_rows(results: Sequence[Result], language: str) -> Iterator[tuple[Cell
             yield who.number or who.book, who.student, who.email, result.mark, f"{', '.join(counts)}. {first}"
 
 
-def class_lines(results: Sequence[Result], absent: Sequence[Entry], language: str) -> Iterator[str]:
-    """Go through what is printed of a class: a line per student, those without answers, then the whole."""
+def class_lines(lines: Lines, language: str) -> Iterator[str]:
+    """Go through what is printed of a class: a line per student, then the whole."""
     said, sign = texts(language), "." if language == "en" else ","
-    names = [result.who.student or result.source for result in results]
+    names, results = names_of(lines), marked_of(lines)
     width = max(map(len, names), default=0)
-    for name, result, flags in zip(names, results, flags_of(results, language), strict=True):
-        mark = "–" if result.mark is None else f"{result.mark:g}".replace(".", sign)
-        missing, notes = result.counts.get(str(Verdict.MISSING), 0), result.notes
-        told = [result.first and said["class.feedback_first"].format(symbol=result.first)]
+    for name, line, flags in zip(names, lines, flags_of(lines, language), strict=True):
+        if isinstance(line, Entry):
+            yield f"{name:{width}}  {'–':>5}  {said['class.absent']}"
+            continue
+        mark = "–" if line.mark is None else f"{line.mark:g}".replace(".", sign)
+        missing, notes = line.counts.get(str(Verdict.MISSING), 0), line.notes
+        told = [line.first and said["class.feedback_first"].format(symbol=line.first)]
         told += [f"{said['verdict.missing']} {missing}"] if missing else []
-        if result.mark is not None and notes:  # else they say why there is no mark
-            notes = (said["class.notes"].format(n=len(notes), file=result.source),)
-        told += ["; ".join(result.explained(language)), *flags, *notes]
+        if line.mark is not None and notes:  # else they say why there is no mark
+            notes = (said["class.notes"].format(n=len(notes), file=line.source),)
+        told += ["; ".join(line.explained(language)), *flags, *notes]
         yield f"{name:{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
-    yield from (f"{entry.who.student:{width}}  {'–':>5}  {said['class.absent']}" for entry in absent)
     marks = [result.mark for result in results if result.mark is not None]
     mean = f"{sum(marks) / len(marks) if marks else 0.0:.1f}".replace(".", sign)
     yield said["class.summary"].format(n=len(results), marked=len(marks), mean=mean)

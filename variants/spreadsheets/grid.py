@@ -186,12 +186,16 @@ def quantity_part(text: str) -> tuple[str, str, str] | None:
 
     The part is "", "mm", "mu", "dir" or "sense".
 
-    >>> quantity_part("V_B.mm"), quantity_part("omega_2 [рад/с]"), quantity_part("прізвище")
-    (('V_B', 'mm', ''), ('omega_2', '', 'рад/с'), None)
+    >>> quantity_part("V_B.mm"), quantity_part("ω_2, рад/с"), quantity_part("V_B, напрям"), quantity_part("прізвище")
+    (('V_B', 'mm', ''), ('omega_2', '', 'рад/с'), ('V_B', 'dir', ''), None)
     """
     head, unit = split_unit(text)
-    found = _QUANTITY.fullmatch(latin(head))
-    return None if found is None else (found["name"], found["part"] or "", unit)
+    found = _QUANTITY.fullmatch(latin(head).translate(_LETTERS))
+    if found is None:
+        return None
+    if not found["part"] and column_kind(unit) == "direction":
+        return found["name"], "dir", ""
+    return found["name"], found["part"] or "", unit
 
 
 def symbol(text: str) -> str:
