@@ -29,6 +29,7 @@ ROUND = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)  # scale factors of 
 LOADED = {"mass", "per_length", "inertia", "inertia_factor", "force", "force_direction", "moment", "gravity"}
 LOADED |= {"diagram", "diagram_at"}
 FOUND = ("R", "M", "F")  # kinds of quantities that a force plan is drawn for
+BREAKS = re.compile(r" (?![^{]*\})")  # where a line may break: not within an index
 JOINT = re.compile(r"[A-Z]\d*")  # a lettered point in the name of a length
 RATES = ("n", "omega", "epsilon", "v", "V", "a")  # kinds of what moves the driver
 AXES = "xy"
@@ -186,7 +187,7 @@ def task_text(scene: Scene, plans: Collection[str], variant: str, width: float, 
     angle = words["task.angles"] if words.notation["angles"] else ""
     lines += [words["task.reading"], words["task.senses"], *([angle] if angle else [])]
     return text_block(
-        TASK, words["heading.task"].format(variant=variant), [line.split(" ") for line in lines], scene.style, width
+        TASK, words["heading.task"].format(variant=variant), [BREAKS.split(line) for line in lines], scene.style, width
     )
 
 

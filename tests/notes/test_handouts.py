@@ -152,6 +152,14 @@ def test_a_blank_of_velocities_states_the_task_on_two_pages(task: str, lang: str
     assert min(b - a for a, b in pairwise(levels)) >= 8.0
 
 
+def test_lines_of_a_task_break_within_no_index() -> None:
+    blank = handout("bertyaev-six-bar", only="compound")
+
+    chunks = [chunk for view in blank.views if view.name == "task" for line in view.lines for chunk in line]
+    assert any("{" in chunk for chunk in chunks)
+    assert all(chunk.count("{") == chunk.count("}") for chunk in chunks)
+
+
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_every_given_of_a_bundled_linkage_has_a_name(lang: str) -> None:
     tasks = [task for task in map(load_task, bundled()) if task.kind == "mechanism"]
