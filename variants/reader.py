@@ -36,7 +36,7 @@ from .checks.basics import (
 from .checks.names import Names, Settings, read_choices, read_givens, read_variants
 from .kinds import table_in
 from .shelf import bundled, bundled_text
-from .task import WITH_FORCES, AnyTask, Given, LocatedError, Task
+from .task import WITH_FORCES, AnyTask, Given, LocatedError, Task, decoded
 
 LARGEST_FILE = 1_000_000
 TRIED_FOR = 1.3  # seconds of processor time in which a file is read and its variants are tried
@@ -164,13 +164,13 @@ def _file_text(task: str | os.PathLike[str], shown: str) -> str:
     if not data.strip():
         raise InputError("file-empty", file=shown)
     try:
-        decoded = data.decode("utf-8-sig")
+        text = decoded(data)
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise LocatedError(f"{shown}:{line}", InputError("file-encoding")) from error
-    if "\0" in decoded:
-        raise LocatedError(f"{shown}:{decoded.count(chr(10), 0, decoded.index(chr(0))) + 1}", InputError("file-binary"))
-    return decoded
+    if "\0" in text:
+        raise LocatedError(f"{shown}:{text.count(chr(10), 0, text.index(chr(0))) + 1}", InputError("file-binary"))
+    return text
 
 
 def _syntax(toml: str, file: str, reason: str) -> InputError:

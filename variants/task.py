@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from ..plans.gears.gear import GearPair
     from ..plans.hoist.hoist import Hoist
 
+UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written, with a unit or without
 
 AnyTask: TypeAlias = "str | os.PathLike[str] | Task"  # an id or a file, or one that is read already
@@ -76,6 +77,14 @@ class Given:
         if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))
         return number
+
+
+def decoded(data: bytes) -> str:
+    """Return the text of a file in UTF-8, or in UTF-16 with a mark at its beginning, as some editors save it.
+
+    Raises UnicodeDecodeError: it is in neither.
+    """
+    return data.decode("utf-16" if data.startswith(UTF_16) else "utf-8-sig")
 
 
 def plain_number(value: SupportsFloat, of: Unit) -> float:
@@ -144,7 +153,7 @@ class Task:
     @property
     def text(self) -> str:
         """The text of the file that says all this, as it is now."""
-        return Path(self.file).read_text(encoding="utf-8") if self.file else bundled_text(self.id)
+        return decoded(Path(self.file).read_bytes()) if self.file else bundled_text(self.id)
 
     def variant(self, variant_id: str | None = None) -> Variant:
         """Return a variant, the first one without an id."""

@@ -220,7 +220,7 @@ def test_without_a_change_the_files_are_good() -> None:
 BYTES = {
     "empty": (b"", "empty"),
     "binary": (b"\x7fELF\x02\x01\x01\x00\x00", "bin.toml"),
-    "not UTF-8": ("id = 'механізм'".encode("cp1251"), "bin.toml:1: not a text in UTF-8"),
+    "not UTF-8": ("id = 'механізм'".encode("cp1251"), "bin.toml:1: not a text in UTF-8: save the file"),
     "zero byte": (b'id = "a"\nsource = "\x00"', "bin.toml:2: not a text file"),
     "UTF-16": ("id = 'x'".encode("utf-16"), "bin.toml:1"),
     "nested arrays": (b"x = " + b"[" * 100_000 + b"]" * 100_000, "nested too deep"),
@@ -240,6 +240,14 @@ def test_a_file_that_is_no_task_is_refused(name: str, refusal: Callable[..., str
 
     assert part in line
     assert line.isprintable()
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_task_file_may_have_a_mark_of_its_encoding(encoding: str, folder: Path) -> None:
+    Path("mine.toml").write_text(GOOD, encoding=encoding)
+
+    task = load_task("mine.toml")
+    assert (task.text, task.title) == (GOOD, load_task(TASK).title)
 
 
 def test_a_large_file_is_refused_unread_and_one_of_just_under_a_megabyte_is_read(refusal: Callable[..., str]) -> None:

@@ -136,7 +136,7 @@ def hand_over(found: Result, files: Sequence[Path], as_json: bool, tabled: bool 
     if as_json:
         print_json(found.to_json())
     elif tabled and not files:
-        click.echo(found.table())
+        click.echo(found.table(system_language()))
 
 
 @contextmanager
