@@ -7,7 +7,7 @@ WORKERS ?= auto
 # what the tests start is compiled once, whatever the shell says: they start some hundred processes
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: sheet test soak corpus lint types bench speed clean
+.PHONY: sheet test soak browser corpus lint types bench speed clean
 
 sheet: $(READY)
 	mkdir -p out
@@ -18,6 +18,11 @@ test: $(READY)
 
 soak: $(READY)
 	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m soak
+
+# pages that move, driven in the system's Chromium
+browser: $(READY)
+	$(PY) -m pip install --quiet --disable-pip-version-check --editable ".[browser]"
+	KULMAN_BROWSER=required $(PY) -m pytest -q tests/browser
 
 # all outputs that the tests know by their digests, beside what they were
 corpus: $(READY)

@@ -204,16 +204,17 @@ def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     "kulman sheet nau-slider-crank -v 3 -o sheet.svg -o sheet.pdf",
     "kulman sheet nau-slider-crank -o sheet.pdf --format A3 --student 'І. Петренко'",
     "kulman sheet scheme-09-shaper --positions 12 -o positions.pdf",
+    "kulman sheet scheme-09-shaper -o moving.html",
 )
 @console.of_task
 @console.counted("--positions")
-@console.output("..drawing.writers", required=True)
+@console.output(".sheets", required=True)
 @console.sized()
 @console.of_norm
 @console.tiled
 @console.titled("student", *console.BLOCK)
 def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
-    """Draw the sheet of TASK (an id, or a TOML file) to scale."""
+    """Draw the sheet of TASK (an id, or a TOML file) to scale; as HTML a page on which its plans move."""
     from .variants.sheets import sheet as sheet_task
 
     drawn = sheet_task(task, set=settings, **console.without_none(options))

@@ -260,6 +260,10 @@ class Kind(Generic[Subject, Answer]):
         contents = SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm)
         return cast("Drawn", self._in("drawing", "sheet", f"{self.table.title()}Fitting")(contents).draw(paper))
 
+    def moving(self, case: Case, words: Words) -> dict[str, Any]:
+        """Return what a page on which the plans of a case move needs of it (`drawing.moving`)."""
+        raise InputError("kind-without", task=quote(case.task.id), text="-o *.html")
+
     def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:
         """Return what has been solved as large as a sheet draws it, and what a user should know of that."""
         if drawn.reduction == 1.0:

@@ -7,8 +7,9 @@ import io
 import json
 import os
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import get_args
 
@@ -19,10 +20,10 @@ from ..drawing.page import STATEMENT, Page
 from ..drawing.text import lettered
 from ..drawing.titleblock import Stamp
 from ..drawing.view import View
-from ..drawing.writers import write_pages
+from ..drawing.writers import WRITERS, Files, page_files, save_all
 from ..scales.errors import InputError
 from ..scales.names import latin, legible, of_kind, unknown
-from ..scales.numbers import quote
+from ..scales.numbers import SHOWN, quote
 from ..scales.scale import Fixed, Scale
 from .case import Case, Request, Settings, Wanted
 from .reader import load_task
@@ -44,6 +45,8 @@ APART = (  # what is not asked for together
     ("--steps", "--over"),
 )
 ALL = 1000  # steps: no plan has more
+PAGE = ".html"  # on which plans move
+SUFFIXES = (*WRITERS, PAGE)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -55,9 +58,10 @@ class Sheet:
     format: str
     warnings: tuple[InputError, ...] = ()
     views: tuple[View, ...] = ()
+    moving: Callable[[], str] | None = field(default=None, compare=False)  # the page on which the same plans move
 
     def save(self, *paths: str | os.PathLike[str], tile: str | None = None) -> list[Path]:
-        """Write the sheet to each of `paths`; the suffix picks the writer.
+        """Write the sheet to each of `paths`; the suffix picks the writer: HTML is a page on which the plans move.
 
         A PDF is spread at full size on pages of small paper where a `tile` is said, `A4` or `A3`.
 
@@ -72,7 +76,14 @@ class Sheet:
             A kind of file that is not written, two outputs of one name, a missing extra, or a file that cannot be
             written: then none is.
         """
-        return write_pages(self.pages, *paths, tile=tile)
+        return save_all(paths, SUFFIXES, lambda path: self._files(path, tile))
+
+    def _files(self, path: Path, tile: str | None) -> Files:
+        if path.suffix.lower() != PAGE:
+            return page_files(self.pages, path, tile)
+        if self.moving is None:
+            raise InputError("output-suffix", file=quote(path, SHOWN), known=", ".join(WRITERS))
+        return [(path, self.moving().encode("utf-8"))]
 
     def svg(self, page: int = 1) -> str:
         """Return one page, counted from 1, as SVG text; one that the sheet has not is refused."""
@@ -148,7 +159,23 @@ def sheet(
     block = {"student": student, "group": group, "teacher": teacher, "department": department}
     block |= {"designation": designation, "work": work, "date": date}
     how = set, only, scales, notation, lang, format, norm, block, lettering, positions
-    return draw_case(Request(load_task(task), variant, *how).case())
+    case = Request(load_task(task), variant, *how).case()
+    return replace(draw_case(case), moving=partial(page_of, case))
+
+
+def page_of(case: Case) -> str:
+    """Return a page of HTML on which the mechanism of a case and its plans move, which needs nothing else.
+
+    Raises InputError: pages of this kind of task do not move yet.
+    """
+    from ..drawing.moving import page
+
+    data = case.kind.moving(case, case.words())
+    title, about = (
+        case.task.title[case.language],
+        (case.task.id, case.variant, sheet_id(case.task, case.variant, case.settings)),
+    )
+    return page(data, case.words(), title, ", ".join(about))
 
 
 def draw_case(case: Case) -> Sheet:

@@ -90,7 +90,7 @@ def begun(scene: Scene, steps: int, plans: Collection[str]) -> dict[str, Shown]:
     done = dict.fromkeys(every, steps) | {view: len(every[view]) for view in every if parts[view] not in plans}
     before: dict[str, int] = {}
     while done != before:
-        drawn = {view: _drawn(teller, view, every[view], done[view]) for view in every}
+        drawn = {view: drawn_by(teller, view, every[view], done[view]) for view in every}
         found = _found(teller, drawn)
         before, done = (
             done,
@@ -106,7 +106,7 @@ def begun(scene: Scene, steps: int, plans: Collection[str]) -> dict[str, Shown]:
     return {view: _shown(known.intersection(seen[view]), len(every[view]) <= done[view]) for view in every}
 
 
-def _drawn(teller: Teller, view: str, every: Sequence[Told], steps: int) -> dict[str, bool]:
+def drawn_by(teller: Teller, view: str, every: Sequence[Told], steps: int) -> dict[str, bool]:
     """Return for the steps of a view by name whether they are among the first ones."""
     drawn, before = dict[str, bool](), ""
     for number, told in enumerate(every, 1):

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from ...plans.board import POSITION, Step
 from ...plans.linkages.legs import guide_letters
 from ...plans.names import ORIGIN, role
+from ...plans.quantities import Quantity
 from ...scales.packaged import packaged
 from .. import notes
 from ..notes.blocks import REFERS
@@ -94,6 +95,37 @@ class Teller(Scene):
         words = self.words
         return f"{segment_text(words, words.display.segment(mm))} {words.unit(words.display.paper)}"
 
+    def apart(self, one: str, other: str) -> str:
+        """Return how far two points of the mechanism are drawn from one another."""
+        size = abs(self.mm(one) - self.mm(other))
+        return self.on_paper(size if size >= POINT else 0.0)
+
+    def across(self, arm: str) -> str:
+        """Return how long an arm of the lever is drawn, 0 where there is none."""
+        if not self.defined(arm) or size_of(self, arm) == 0.0:
+            return "0"
+        return f"{self.segment(arm)} {self.words.unit(self.words.display.paper)}"
+
+    def place(self, name: str) -> str:
+        """Return the coordinates at which a point of the frame is drawn."""
+        words, at = self.words, self.mm(name)
+        x, y = (words.short(round(words.display.segment(part), 2)) for part in (at.real, at.imag))
+        return self.say("coordinates", x=x, y=y, unit=words.unit(words.display.paper))
+
+    def read_off(self, item: Quantity) -> dict[str, str]:
+        """Return what a segment of a plan is read as: its mm, their product with the scale factor, the value."""
+        words = self.words
+        mm, number, value = printed_segment(self, item)
+        parts = {
+            "mm": f"{mm} {words.unit(words.display.paper)}",
+            "sum": f"{mm}{'/' if words.per_unit else '·'}{number}",
+        }
+        return {**parts, "value": f"{value} {words.unit(words.display.unit(item.unit))}"}
+
+    def sense(self, rate: str) -> str:
+        """Return in which sense a link turns, or turns ever faster."""
+        return sensed(self.words, rate_of(self, rate))
+
     def line(self, direction: str, back: bool = False) -> str:
         """Return a line by its direction, with the sense in which a normal part is laid off."""
         text, made = line_of(self, direction), self.made.get(direction)
@@ -159,10 +191,7 @@ class Teller(Scene):
 
 
 def _place(teller: Teller, step: Step) -> str:
-    words, at = teller.words, teller.mm(step.name)
-    guide, letters = role(step.name).of, guide_letters(teller.program)
-    x, y = (words.short(round(words.display.segment(part), 2)) for part in (at.real, at.imag))
-    place = teller.say("coordinates", x=x, y=y, unit=words.unit(words.display.paper))
+    guide, letters, place = role(step.name).of, guide_letters(teller.program), teller.place(step.name)
     if not role(step.name).hidden:
         return teller.say("place", point=teller.mark(step.name), place=place)
     if role(step.name).kind != ORIGIN or guide not in letters:
@@ -205,8 +234,7 @@ def _similar(teller: Teller, step: Step) -> str:
     start, end, *_ = step.operands
     a, b, s = (teller.mark(mark) for mark in (start, end, step.name))
     if step.plan == POSITION:
-        sizes = (abs(teller.mm(mark) - teller.mm(step.name)) for mark in (start, end))
-        one, other = (teller.on_paper(size if size >= POINT else 0.0) for size in sizes)
+        one, other = (teller.apart(mark, step.name) for mark in (start, end))
         return teller.say("corner", point=s, segment=f"{a}{b}", first=f"{a}{s}", one=one, second=f"{b}{s}", other=other)
     plan, link = triangles(teller, step)
     return teller.say("similar", point=s, segment=f"{a}{b}", plan=plan, link=link)
@@ -218,25 +246,23 @@ def _read(teller: Teller, step: Step) -> str:
     if edge is None or edge.name != step.name or teller.reading.is_hung(edge):
         return ""
     name = role(step.name).shown  # a force that balances has an intermediate vector
-    item, words = teller.quantities.get(name), teller.words
+    item = teller.quantities.get(name)
     if item is None:
         return ""
-    parts = {"segment": f"{teller.mark(tail)}{teller.mark(tip)}", "symbol": words.symbol(name)}
+    parts = {"segment": f"{teller.mark(tail)}{teller.mark(tip)}", "symbol": teller.words.symbol(name)}
     if size_of(teller, name) == 0.0:
         return teller.say("point", **parts)
-    mm, number, value = printed_segment(teller, item)
-    parts |= {"mm": f"{mm} {words.unit(words.display.paper)}", "sum": f"{mm}{'/' if words.per_unit else '·'}{number}"}
-    told = teller.say("read", value=f"{value} {words.unit(words.display.unit(item.unit))}", **parts)
+    told = teller.say("read", **parts, **teller.read_off(item))
     return told + "".join(_turns(teller, step, user) for user in teller.reading.users(step.name))
 
 
 def _turns(teller: Teller, step: Step, user: Step) -> str:
     """Return how the sense of a rate follows from the vector that it is read from."""
     vector, rate = role(step.name), role(user.name)
-    if user.law != "turning" or not vector.about or not rate.of.isdigit() or not (turns := rate_of(teller, user.name)):
+    if user.law != "turning" or not vector.about or not rate.of.isdigit() or not rate_of(teller, user.name):
         return ""
     ends = {"point": teller.mark(vector.of), "centre": teller.mark(vector.about), "link": rate.of}
-    symbol, sense = teller.words.symbol(user.name), sensed(teller.words, turns)
+    symbol, sense = teller.words.symbol(user.name), teller.sense(user.name)
     by = teller.given_by(user.name)
     return teller.say("turns", vector=teller.letter(step.name), rate=symbol, sense=sense, by=by, **ends)
 
@@ -326,7 +352,7 @@ def lever_told(teller: Teller) -> Iterator[Told]:
         hung.setdefault(step.operands[1], []).append(step)
     for end, moments in hung.items():
         arms = [user.name for moment in moments for user in teller.reading.users(moment.name) if user.verb == "arm"]
-        listed = ", ".join(f"{teller.words.symbol(arm)} = {_arm(teller, arm)}" for arm in arms)
+        listed = ", ".join(f"{teller.words.symbol(arm)} = {teller.across(arm)}" for arm in arms)
         forces = ", ".join(teller.letter(moment.operands[0]) for moment in moments)
         yield Told(moments[0], teller.say("lever_forces", point=letter_of(teller, end), forces=forces, arms=listed))
     for moment, couple in couples.items():
@@ -340,10 +366,3 @@ def lever_told(teller: Teller) -> Iterator[Told]:
         balance = teller.made[hung_on_lever(teller)[-1][0]]
         parts = {"segment": f"{pole}{mark(driven)}", "vector": teller.letter(balance.name), "point": mark(driven)}
         yield Told(balance, teller.say("lever_balance", **parts))
-
-
-def _arm(teller: Teller, arm: str) -> str:
-    """Return how long an arm is drawn, 0 where there is none."""
-    if not teller.defined(arm) or size_of(teller, arm) == 0.0:
-        return "0"
-    return f"{teller.segment(arm)} {teller.words.unit(teller.words.display.paper)}"

@@ -174,6 +174,15 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         contents = Contents(*of, variant=case.variant)
         return draw(contents, paper)
 
+    def moving(self, case: Case, words: Words) -> dict[str, Any]:
+        """Return the solver, the views and the steps of a page that moves."""
+        from ...drawing.linkages.moving import moving_linkage
+        from ...plans.linkages.cycle import cycle
+
+        solved = placed(case)
+        plans = case.plans if solved is case.solved else (*case.plans, POSITION)
+        return moving_linkage(solved, cycle(case.task.mechanism, case.values, plans), case.givens, words)
+
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Tell every plan step by step, its equations before it."""
         from ...drawing.linkages.steps import story

@@ -55,7 +55,7 @@ def couples_on_lever(scene: Scene) -> dict[str, Couple]:
 
 def lever_view(scene: Scene) -> View:
     """Draw the lever: forces keep their directions, couples hang as pairs, arms run from the pole."""
-    words, driven, hung, lines = scene.words, scene.mechanism.driver.point, hung_on_lever(scene), _lines(scene)
+    words, driven, hung, lines = scene.words, scene.mechanism.driver.point, hung_on_lever(scene), lever_lines(scene)
     paired = {force for couple in couples_on_lever(scene).values() for force in couple.forces}
     single = [(name, mark) for name, mark in hung if name not in paired]
     images = [step.name for step in scene.program.on("lever") if step.verb == "normal"]
@@ -133,7 +133,7 @@ def _joints(scene: Scene) -> Iterator[list[str]]:
         yield [point for point in points if f"velocity.{point}" in scene.made]
 
 
-def _lines(scene: Scene) -> list[Edge]:
+def lever_lines(scene: Scene) -> list[Edge]:
     """Return the lines of the turned velocity plan: all its vectors, and those between images of each link's joints."""
     ends = [(role(edge.tail).of, role(edge.tip).of, edge.name) for edge in scene.reading.on("velocity")]
     for points in _joints(scene):

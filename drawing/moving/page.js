@@ -1,0 +1,432 @@
+// The page that moves: what a program has found is drawn again at every place of its driver.
+const W = D.words, $ = id => document.getElementById(id), SVG = "http://www.w3.org/2000/svg";
+const LETTER = 4.6, READABLE = 9, SEEN = 12; // mm, and pixels that letters have at least
+
+// ---- numbers and words
+const locale = text => (D.lang === "en" ? text : text.replace(".", ",")).replace("-", "\u2212");
+function said(x, digits = 4) {
+  if (x === undefined || x !== x || x === null) return "–";
+  if (Math.abs(x) < 1e-12) return "0";
+  const text = Math.abs(x) >= 1e6 || Math.abs(x) < 1e-3 ? x.toExponential(digits - 1) : String(Number(x.toPrecision(digits)));
+  return locale(text.replace(/e\+?(-?\d+)/, "·10^$1"));
+}
+const long = mm => locale(mm.toFixed(mm < 100 ? 2 : 1));
+const plain = new Map(D.quantities.map(q => [q.name, q]));
+function asked(spec) {
+  const [kind, ...of] = spec, found = here.found, mu = of.length > 1 && views.has(of[1]) ? views.get(of[1]).mu : 1;
+  if (kind === "mm") return long(Math.abs(size(value(found, of[0]))) / mu);
+  const mm = views.get("position").mu;
+  if (kind === "x" || kind === "y") return long(spot(found, of[0])[kind === "x" ? 0 : 1] / mm);
+  if (kind === "apart") { const [a, b] = of.map(name => spot(found, name)); return long(Math.hypot(a[0] - b[0], a[1] - b[1]) / mm); }
+  if (kind === "place") return locale(shownPlace(here.at).toFixed(1)) + (drive.turns ? "°" : " " + W.unit_mm);
+  if (kind === "mu") return said(views.get(of[0]).mu * views.get(of[0]).by, 6);
+  const q = plain.get(of[0]), v = value(found, of[0]);
+  if (kind === "sense") return v > 0 ? D.senses[0] : v < 0 ? D.senses[1] : "–";
+  return said(size(v) * (q ? q.by : 1));
+}
+const filled = html => html.replace(/[\ue000-\uf8ff]/g, sign => asked(D.asked[sign.charCodeAt(0) - 0xe000]));
+
+// ---- shapes
+function make(tag, attributes, parent) {
+  const node = document.createElementNS(SVG, tag);
+  for (const [key, text] of Object.entries(attributes)) node.setAttribute(key, text);
+  if (parent) parent.appendChild(node);
+  return node;
+}
+const set = (node, attributes) => { for (const key in attributes) node.setAttribute(key, attributes[key]); };
+const line = (node, a, b) => set(node, { x1: a[0].toFixed(3), y1: (-a[1]).toFixed(3), x2: b[0].toFixed(3), y2: (-b[1]).toFixed(3) });
+const round = points => points.map(([x, y]) => `${x.toFixed(3)},${(-y).toFixed(3)}`).join(" ");
+function letters(html, parent, attributes, high = LETTER) { // scripts, slanted letters and bars as runs of one text
+  const text = make("text", attributes, parent), holder = document.createElement("template");
+  holder.innerHTML = html;
+  let drop = 0, count = 0;
+  (function walk(node, style) {
+    for (const child of node.childNodes) {
+      if (child.nodeType === 3) {
+        const run = make("tspan", {}, text), by = style.drop - drop;
+        run.textContent = child.textContent;
+        if (by) run.setAttribute("dy", by.toFixed(2));
+        if (style.small) run.setAttribute("font-size", (high * 0.72).toFixed(2));
+        if (style.slanted) run.setAttribute("font-style", "italic");
+        if (style.over) run.setAttribute("text-decoration", "overline");
+        drop = style.drop;
+        count += child.textContent.length * (style.small ? 0.72 : 1);
+      } else {
+        const tag = child.tagName, script = tag === "SUB" || tag === "SUP";
+        walk(child, {
+          drop: style.drop + (tag === "SUB" ? high * 0.3 : tag === "SUP" ? -high * 0.4 : 0), small: style.small || script,
+          slanted: style.slanted || tag === "I", over: style.over || child.className === "bar",
+        });
+      }
+    }
+  })(holder.content, { drop: 0, small: false, slanted: false, over: false });
+  text.wide = count * high * 0.58;
+  return text;
+}
+const sub = (a, b) => [a[0] - b[0], a[1] - b[1]], add = (a, b, k = 1) => [a[0] + b[0] * k, a[1] + b[1] * k];
+const unit = v => { const l = Math.hypot(v[0], v[1]); return l > 1e-9 ? [v[0] / l, v[1] / l] : [0, 0]; };
+const cross = (a, b) => a[0] * b[1] - a[1] * b[0], dot = (a, b) => a[0] * b[0] + a[1] * b[1];
+function arrow(node, a, b, head = 3.5) {
+  const e = unit(sub(b, a)), n = [-e[1], e[0]], long = Math.min(head, Math.hypot(...sub(b, a)) / 2), foot = add(b, e, -long);
+  node.setAttribute("points", round([b, add(foot, n, long / 6), add(foot, n, -long / 6)]));
+  return foot;
+}
+const named = (text, a, b) => { // a vector that is hardly seen has its letter when it is pointed at
+  const short = Math.hypot(...sub(b, a)) < READABLE && !text.classList.contains("lit");
+  text.classList.toggle("short", short);
+  return short ? null : { text, a, b };
+};
+const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn again
+  bar: { z: 2, make: g => make("line", { class: "main" }, g), draw: (s, n, p) => { line(n, p(s.a), p(s.b)); return [[p(s.a), p(s.b)]]; } },
+  side: { z: 1, make: (g, s) => make("line", { class: s.main ? "main" : "thin" }, g), draw: (s, n, p) => { line(n, p(s.a), p(s.b)); return [[p(s.a), p(s.b)]]; } },
+  line: { z: 0, make: g => make("line", { class: "thin" }, g), draw: (s, n, p, v) => {
+    const a = p(s.a), b = p(s.b), u = v(s.u), along = dot(sub(b, a), u), e = along < 0 ? -8 : 8;
+    line(n, Math.abs(along) < 1 ? add(b, u, -10) : a, add(b, u, Math.abs(along) < 1 ? 10 : e)); return [];
+  } },
+  vector: { z: 2, make: (g, s, high) => { const group = make("g", {}, g); make("line", { class: "main" }, group); make("polygon", { class: "solid" }, group); group.letter = letters(s.text, g, {}, high); return group; },
+    draw: (s, n, p) => { const a = p(s.a), b = p(s.b); line(n.firstChild, a, arrow(n.lastChild, a, b)); s.label = named(n.letter, a, b); return [[a, b]]; } },
+  force: { z: 2, make: (g, s, high) => { const group = make("g", {}, g); make("line", { class: "main" }, group); make("polygon", { class: "solid" }, group); group.letter = letters(s.text, g, {}, high); return group; },
+    draw: (s, n, p, v) => { const a = p(s.at), f = v(s.v), none = !(size(f) > 1e-12), b = add(a, unit(f), HANG); n.style.display = n.letter.style.display = none ? "none" : "";
+      if (none) { s.label = null; return []; } line(n.firstChild, a, arrow(n.lastChild, a, b)); s.label = { text: n.letter, a: add(a, unit(f), HANG * 0.6), b }; return [[a, b]]; } },
+  arm: { z: 0, make: g => make("g", {}, g), draw: (s, n, p, v) => {
+    if (!n.firstChild) { make("line", { class: "thin" }, n); make("line", { class: "thin" }, n); }
+    const at = p(s.at), pole = p(s.pole), e = unit(v(s.v)), foot = add(at, e, dot(sub(pole, at), e));
+    line(n.firstChild, pole, foot); line(n.lastChild, at, foot); return [];
+  } },
+  guide: { z: 0, make: g => make("path", { class: "thin" }, g), draw: (s, n, p, v) => {
+    if (s.mu === here.mu && s.drawn === here.samples) return [];
+    s.mu = here.mu; s.drawn = here.samples;
+    const u = unit(v(s.u)), at = p(s.at), way = here.samples.filter(f => f[0] < FAILED).map(f => dot(sub(spot(f, s.at).map(x => x / here.mu), at), u));
+    const low = Math.min(...way) - 9, high = Math.max(...way) + 9, down = u[0] > 1e-9 || (Math.abs(u[0]) <= 1e-9 && u[1] < 0) ? -1 : 1, w = [-u[1] * down, u[0] * down];
+    let d = "", base = add(at, w, 3);
+    const a = add(base, u, low), b = add(base, u, high);
+    d += `M${round([a])}L${round([b])}`;
+    for (let x = low + 1; x < high; x += 3) { const c = add(base, u, x); d += `M${round([c])}L${round([add(add(c, w, 2), u, -2)])}`; }
+    n.setAttribute("d", d); return [];
+  } },
+  corner: { z: 3, make: g => make("polygon", { class: "solid" }, g), draw: (s, n, p) => {
+    const at = p(s.at), [a, b] = s.ends.map(end => unit(sub(p(end), at)));
+    n.setAttribute("points", round([add(at, a, 1.6), add(at, a, 4.5), add(at, b, 4.5), add(at, b, 1.6)])); return [];
+  } },
+  block: { z: 3, make: g => make("polygon", { class: "paper" }, g), draw: (s, n, p, v) => {
+    const at = p(s.at), u = unit(v(s.u)), w = [-u[1], u[0]];
+    n.setAttribute("points", round([[5, 3], [5, -3], [-5, -3], [-5, 3]].map(([x, y]) => add(add(at, u, x), w, y)))); return [];
+  } },
+  pin: { z: 4, make: g => make("circle", { class: "paper", r: 1.4 }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { cx: x, cy: -y }); return []; } },
+  pivot: { z: 4, make: g => { const group = make("g", {}, g); make("path", { class: "main", d: "M0 0L-3 6H3Z" }, group); make("path", { class: "thin", d: "M-5 6H5M-4 6l-2 2M-1 6l-2 2M2 6l-2 2M5 6l-2 2" }, group); make("circle", { class: "paper", r: 1.4 }, group); return group; },
+    draw: (s, n, p) => { const [x, y] = p(s.at); n.setAttribute("transform", `translate(${x.toFixed(3)} ${(-y).toFixed(3)})`); return []; } },
+  centre: { z: 4, make: g => make("circle", { class: "solid", r: 1 }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { cx: x, cy: -y }); return []; } },
+  pole: { z: 4, make: (g, s, high) => { const c = make("circle", { class: "paper", r: 0.9 }, g); c.letter = letters(s.text, g, {}, high); return c; }, draw: (s, n, p) => { const at = p(s.at); set(n, { cx: at[0], cy: -at[1] }); s.label = { text: n.letter, a: at }; return []; } },
+  mark: { z: 4, make: (g, s, high) => { const c = make("circle", { class: "solid", r: 0.5 }, g); c.letter = letters(s.text, g, {}, high); return c; }, draw: (s, n, p) => { const at = p(s.at); set(n, { cx: at[0], cy: -at[1] }); s.label = { text: n.letter, a: at }; return []; } },
+  letter: { z: 5, make: (g, s, high) => letters(s.text, g, {}, high), draw: (s, n, p) => { s.label = { text: n, a: p(s.at) }; return []; } },
+  number: { z: 5, make: (g, s, high) => letters(s.text, g, {}, high), draw: (s, n, p) => { s.label = { text: n, a: p(s.ends[0]), b: p(s.ends[1]), off: 3 }; return []; } },
+};
+function build(view, svg) {
+  svg.replaceChildren();
+  set(svg, { viewBox: view.box.map(x => x.toFixed(2)).join(" "), "aria-label": view.heading.replace(/<[^>]+>/g, "") });
+  svg.style.setProperty("--wide", `${view.box[2].toFixed(1)}mm`);
+  view.letter = Math.max(LETTER, SEEN * view.box[2] / (svg.clientWidth || 600));
+  svg.style.fontSize = `${view.letter.toFixed(2)}px`;
+  const layers = [0, 1, 2, 3, 4, 5].map(() => make("g", {}, svg));
+  for (const shape of view.shapes) {
+    shape.node = DRAW[shape.k].make(layers[DRAW[shape.k].z], shape, view.letter);
+    shape.lights = lights(shape);
+    for (const node of [shape.node, shape.node.letter]) if (node) {
+      node.addEventListener("pointerenter", () => light(shape.lights));
+      node.addEventListener("pointerleave", () => light([]));
+    }
+  }
+  view.svg = svg;
+  if (view.name === "position") grip(view, svg);
+}
+const bare = name => String(name).replace(/^.*\./, "");
+function lights(shape) { // points, links and vectors that belong together
+  const found = [];
+  if (shape.q) found.push(shape.q);
+  if (shape.link !== undefined) found.push(`link ${shape.link}`, `omega_${shape.link}`, `epsilon_${shape.link}`);
+  if (typeof shape.at === "string" && ["pin", "pivot", "mark", "letter", "centre", "block"].includes(shape.k)) found.push(`point ${bare(shape.at)}`, `V_${bare(shape.at)}`, `a_${bare(shape.at)}`);
+  return found;
+}
+function light(names) {
+  const wanted = new Set(names);
+  for (const view of shownViews()) for (const shape of view.shapes) {
+    const on = shape.lights.some(name => wanted.has(name));
+    for (const node of [shape.node, ...(shape.node.children || []), shape.node.letter]) if (node) node.classList.toggle("lit", on);
+  }
+  for (const row of $("values").tBodies[0].rows) row.classList.toggle("lit", wanted.has(row.dataset.q));
+  if (here.found) for (const view of shownViews()) draw(view);
+}
+const shownViews = () => [...new Set([views.get("position"), views.get($("which").value)])].filter(view => view && view.svg);
+
+// ---- letters beside what they name, away from lines and from one another
+const AROUND = Array.from({ length: 12 }, (_, k) => [Math.cos(k * Math.PI / 6), Math.sin(k * Math.PI / 6)]);
+function settle(view, segments) {
+  const taken = [];
+  if (view.grip) { const [x, y] = spot(here.found, drive.crank[1]).map(z => z / view.mu); taken.push([x - 5, y - 5, x + 5, y + 5]); }
+  for (const shape of view.shapes) {
+    const label = shape.label;
+    if (!label || shape.hidden) continue;
+    const wide = label.text.wide, high = view.letter * 0.9, tries = [];
+    if (label.b) {
+      const e = unit(sub(label.b, label.a)), n = [-e[1], e[0]], off = (label.off || 1.4) + Math.abs(n[0]) * wide / 2 + Math.abs(n[1]) * high / 2;
+      for (const part of [0.5, 0.35, 0.65, 0.2, 0.8]) for (const way of [1, -1]) tries.push(add(add(label.a, sub(label.b, label.a), part), n, way * off));
+    } else for (const far of [2.4, 4.2, 6.4]) for (const e of AROUND) tries.push(add(label.a, [e[0] * (far + wide / 2), e[1] * (far + high / 2)]));
+    let best = null;
+    tries.forEach((at, k) => {
+      const box = [at[0] - wide / 2, at[1] - high / 2, at[0] + wide / 2, at[1] + high / 2];
+      let cost = k * 0.02 + (shape.tried === k ? -0.6 : 0);
+      for (const other of taken) if (box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]) cost += 6;
+      for (const [a, b] of segments) if (crosses(a, b, box)) cost += 1.5;
+      if (!best || cost < best.cost) best = { cost, at, box, k };
+    });
+    shape.tried = best.k;
+    taken.push(best.box);
+    set(label.text, { x: (best.at[0] - wide / 2).toFixed(2), y: (-best.at[1] + high * 0.4).toFixed(2) });
+  }
+}
+function crosses(a, b, box) { // a segment and a box (Liang and Barsky)
+  let low = 0, high = 1;
+  for (const i of [0, 1]) {
+    const d = b[i] - a[i];
+    if (Math.abs(d) < 1e-9) { if (a[i] < box[i] || a[i] > box[i + 2]) return false; continue; }
+    const one = (box[i] - a[i]) / d, other = (box[i + 2] - a[i]) / d;
+    low = Math.max(low, Math.min(one, other)); high = Math.min(high, Math.max(one, other));
+  }
+  return low < high;
+}
+function draw(view) {
+  const mu = here.mu = view.mu, found = here.found, segments = [];
+  const p = end => { const [x, y] = spot(found, end); return [x / mu, y / mu]; }, v = name => value(found, name);
+  for (const shape of view.shapes) {
+    const hide = view.until !== undefined && shape.from > view.until;
+    for (const node of [shape.node, shape.node.letter]) if (node) node.classList.toggle("gone", hide);
+    shape.hidden = hide; shape.label = null;
+    for (const segment of DRAW[shape.k].draw(shape, shape.node, p, v)) if (!hide) segments.push(segment);
+  }
+  settle(view, segments);
+}
+
+// ---- the crank that can be taken
+function grip(view, svg) {
+  const node = view.grip = make("circle", { class: "grip", r: 5, tabindex: 0, role: "slider", "aria-label": W.crank }, svg);
+  const goal = event => {
+    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+    let best = null;
+    const near = k => {
+      const found = Number.isInteger(k) ? here.samples[k] : stand(place(k));
+      if (found[0] >= FAILED) return;
+      const [x, y] = spot(found, drive.crank[1]).map(z => z / view.mu), far = Math.hypot(x - at.x, -y - at.y);
+      if (!best || far < best.far) best = { far, k };
+    };
+    for (let k = 0; k <= COUNT; k++) near(k);
+    if (!best) return;
+    for (let n = -9, k = best.k; n < 10; n++) if (k + n / 10 >= 0 && k + n / 10 <= COUNT && n) near(k + n / 10);
+    go(place(best.k));
+  };
+  node.addEventListener("pointerdown", event => { pause(); node.setPointerCapture(event.pointerId); event.preventDefault(); node.focus(); });
+  node.addEventListener("pointermove", event => { if (node.hasPointerCapture(event.pointerId)) goal(event); });
+  node.addEventListener("keydown", event => {
+    const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
+    if (by) { go(here.at + drive.sense * by * (drive.turns ? Math.PI / 180 : span / 200)); event.preventDefault(); }
+  });
+}
+
+// ---- one place
+const TURN = 2 * Math.PI;
+const shownPlace = at => drive.turns ? ((at * 180 / Math.PI) % 360 + 360) % 360 : at * 1000;
+function go(at) {
+  if (drive.turns) { at = at % TURN; if (at < 0) at += TURN; } else at = Math.min(Math.max(at, drive.low), drive.high);
+  const found = stand(at);
+  here.at = at;
+  $("place").value = shownPlace(at).toFixed(2);
+  $("at").textContent = `= ${locale(shownPlace(at).toFixed(1))}${drive.turns ? "°" : " " + W.unit_mm}`;
+  const failed = found[0] >= FAILED;
+  $("status").textContent = failed ? found[0] === 3 ? W.apart : W.singular : found[0] === 1 ? W.flat : "";
+  for (const view of shownViews()) view.svg.classList.toggle("faded", failed);
+  if (failed && here.found) { now(); return; }
+  here.found = found;
+  for (const view of shownViews()) draw(view);
+  const view = views.get("position");
+  if (view.grip) { const [x, y] = spot(found, drive.crank[1]); set(view.grip, { cx: x / view.mu, cy: -y / view.mu, "aria-valuenow": shownPlace(at).toFixed(1), "aria-valuemin": 0, "aria-valuemax": drive.turns ? 360 : (drive.high * 1000).toFixed(1) }); }
+  numbers(); now();
+}
+function numbers() {
+  for (const row of $("values").tBodies[0].rows) {
+    const q = plain.get(row.dataset.q), v = size(value(here.found, q.name)), view = views.get(q.plan);
+    row.cells[1].textContent = said(v * q.by);
+    row.cells[3].textContent = view ? long(Math.abs(v) / view.mu) : "";
+  }
+  if (here.told) for (const [item, html] of here.told) item.innerHTML = filled(html);
+}
+
+// ---- play at the speed of the task, slowed by a stated factor
+const period = drive.turns ? TURN / drive.speed : 2 * span / drive.speed, slow = period < 6 ? nice(6 / period) : 1;
+let playing = null, way = 1;
+function pause() { if (playing) cancelAnimationFrame(playing); playing = null; $("play").setAttribute("aria-pressed", "false"); $("play").textContent = W.play; }
+function play() {
+  let before = performance.now();
+  $("play").setAttribute("aria-pressed", "true"); $("play").textContent = W.pause;
+  const tick = time => {
+    let at = here.at + (drive.turns ? drive.sense : way) * drive.speed * Math.min(time - before, 100) / 1000 / slow;
+    before = time;
+    if (!drive.turns && (at >= drive.high || at <= drive.low)) way = at >= drive.high ? -1 : 1;
+    for (let n = 0; n < COUNT && stand(at)[0] >= FAILED; n++) { // positions without a plan are passed by
+      at += (drive.turns ? drive.sense * TURN : way * span) / COUNT;
+      if (!drive.turns && (at > drive.high || at < drive.low)) { way = -way; at = Math.min(Math.max(at, drive.low), drive.high); }
+    }
+    go(at);
+    playing = requestAnimationFrame(tick);
+  };
+  playing = requestAnimationFrame(tick);
+}
+
+// ---- diagrams over the cycle
+const shown = new Set(D.shown);
+function curves() {
+  $("diagrams").replaceChildren();
+  here.marks = [];
+  const wide = 240, high = 46, from = drive.turns ? 0 : drive.low;
+  const order = here.samples.map((found, k) => [drive.turns ? ((place(k) % TURN) + TURN) % TURN : place(k), found]).sort((a, b) => a[0] - b[0]);
+  for (const name of shown) {
+    const q = plain.get(name);
+    if (!q) continue;
+    const points = order.map(([at, found]) => [at, found[0] < FAILED ? size(value(found, name)) * q.by : NaN]).filter(([, y]) => y === y);
+    const ys = points.map(point => point[1]).sort((a, b) => a - b);
+    let low = Math.min(0, ys[0]), top = Math.max(0, ys[ys.length - 1]);
+    const usual = Math.max(Math.abs(ys[Math.floor(ys.length * 0.05)]), Math.abs(ys[Math.floor(ys.length * 0.95)])) * 3;
+    if (usual > 0) { low = Math.max(low, -usual); top = Math.min(top, usual); }
+    if (!(top > low)) top = low + 1;
+    const X = at => 22 + (wide - 30) * (at - from) / (drive.turns ? TURN : span), Y = y => 6 + (high - 12) * (top - Math.min(Math.max(y, low), top)) / (top - low);
+    const svg = make("svg", { viewBox: `0 0 ${wide} ${high}`, role: "img", "aria-label": name }, $("diagrams"));
+    make("path", { class: "thin", d: `M20 ${Y(0)}H${wide - 4}M22 3V${high - 3}` }, svg);
+    for (let k = 0; k <= 12 && drive.turns; k++) { make("path", { class: "thin", d: `M${X(k * TURN / 12)} ${Y(0) - 1}v2` }, svg); if (k && k % 3 === 0) letters(String(k * 30) + "°", svg, { x: X(k * TURN / 12) - 4, y: Math.min(Y(0) + 5, high - 1) }); }
+    letters(`${q.symbol}, ${q.unit}`, svg, { x: 24, y: 5 });
+    for (const [y, at] of [[top, 0], [low, 0]]) if (y) letters(said(y, 3), svg, { x: 0, y: Y(y) + 1.5 });
+    let d = "", last = null;
+    for (const [at, y] of points) { d += `${last !== null && at - last < (drive.turns ? TURN : span) / COUNT * 2.5 ? "L" : "M"}${X(at).toFixed(2)} ${Y(y).toFixed(2)}`; last = at; }
+    make("path", { class: "curve", d }, svg);
+    const mark = make("line", { class: "main lit", y1: 3, y2: high - 3 }, svg), dotted = make("circle", { class: "spot", r: 1.6 }, svg);
+    here.marks.push({ name, q, X, Y, mark, dotted });
+  }
+}
+function now() {
+  for (const { name, q, X, Y, mark, dotted } of here.marks || []) {
+    const x = X(drive.turns ? here.at : here.at);
+    set(mark, { x1: x, x2: x });
+    set(dotted, { cx: x, cy: Y(size(value(here.found, name)) * q.by) });
+  }
+}
+
+// ---- the construction told and drawn again, step by step
+function tell() {
+  const view = views.get($("replayed").value), list = $("told");
+  list.replaceChildren();
+  here.told = view.steps.map((html, k) => {
+    const item = document.createElement("li");
+    item.addEventListener("click", () => replay(k + 1));
+    list.appendChild(item);
+    return [item, html];
+  });
+  replay(view.until);
+}
+function replay(count) {
+  const view = views.get($("replayed").value), most = view.steps.length;
+  for (const other of D.views) if (other !== view) other.until = undefined;
+  view.until = count === undefined ? undefined : Math.min(Math.max(count, 0), most);
+  if (view.until !== undefined && view.name !== "position" && $("which").value !== view.name) { $("which").value = view.name; right(); }
+  here.told.forEach(([item], k) => {
+    item.classList.toggle("now", view.until === k + 1);
+    item.classList.toggle("later", view.until !== undefined && k >= view.until);
+    if (view.until === k + 1) { item.setAttribute("aria-current", "step"); $("told").scrollTop = item.offsetTop - $("told").offsetTop - 40; } else item.removeAttribute("aria-current");
+  });
+  go(here.at);
+}
+
+// ---- givens
+function givens() {
+  for (const item of D.givens) {
+    const label = document.createElement("label"), input = document.createElement("input"), text = document.createElement("span");
+    label.innerHTML = item.symbol; label.htmlFor = input.id = `given-${item.name}`; text.innerHTML = item.unit;
+    Object.assign(input, { type: "number", step: "any", value: item.value, disabled: item.fixed });
+    if (item.fixed) input.title = W.fixed;
+    input.addEventListener("change", () => change(item, input));
+    $("givens").append(label, input, text);
+  }
+  $("givens").addEventListener("submit", event => event.preventDefault());
+  $("again").addEventListener("click", () => {
+    Object.assign(given, D.board);
+    here.changed = false;
+    for (const item of D.givens) $(`given-${item.name}`).value = item.value;
+    remade();
+  });
+}
+function change(item, input) {
+  const before = { ...given }, wanted = Number(input.value);
+  const usable = Number.isFinite(wanted) && input.value !== "" && wanted * item.value > 0;
+  if (usable) for (const name of item.board) given[name] = wanted * item.si * Math.sign(D.board[name] / (item.value * item.si));
+  here.changed = true;
+  if (!usable || !Array.from({ length: 60 }, (_, k) => stand(place(k * COUNT / 60))).some(found => found[0] < FAILED)) {
+    Object.assign(given, before);
+    input.value = Number((given[item.board[0]] / item.si).toPrecision(12));
+    $("status").textContent = W.refused;
+    return;
+  }
+  remade();
+}
+function remade() {
+  sample();
+  here.found = null;
+  let at = here.at;
+  if (stand(at)[0] >= FAILED) {
+    const far = k => Math.abs(Math.sin((place(k) - at) / (drive.turns ? 2 : 2 * span)));
+    const good = here.samples.map((found, k) => [found[0], k]).filter(([code]) => code < FAILED).map(([, k]) => k);
+    at = place(good.reduce((a, b) => far(b) < far(a) ? b : a));
+  }
+  left(); right(); curves(); go(at);
+}
+function left() { build(views.get("position"), $("left")); heading(views.get("position"), $("left-head")); }
+function right() {
+  const view = views.get($("which").value);
+  if (!view) return;
+  for (const other of D.views) if (other.name !== "position") other.svg = null;
+  build(view, $("right")); heading(view, $("right-head"), true);
+}
+function heading(view, node, alone) { node.innerHTML = `${alone ? "" : view.heading + ", "}${view.symbol} = ${said(view.mu * view.by, 6)} ${view.per}`; }
+
+// ---- begin
+function begin() {
+  $("symbol").innerHTML = drive.symbol;
+  set($("place"), drive.turns ? { min: 0, max: 360, step: 0.5 } : { min: drive.low * 1000, max: drive.high * 1000, step: span * 2 });
+  $("place").addEventListener("input", () => { pause(); go($("place").value * (drive.turns ? Math.PI / 180 : 1e-3)); });
+  $("play").addEventListener("click", () => playing ? pause() : play());
+  $("slow").textContent = slow > 1 ? W.slow.replace("{n}", said(slow)) : "";
+  for (const view of D.views) for (const list of [$("which"), $("replayed")]) {
+    if (list.id === "which" && view.name === "position") continue;
+    const option = document.createElement("option");
+    option.value = view.name; option.textContent = view.heading.replace(/<[^>]+>/g, "");
+    list.appendChild(option);
+  }
+  if (!$("which").options.length) $("right").closest("figure").classList.add("gone");
+  $("which").addEventListener("change", () => { right(); go(here.at); });
+  $("replayed").addEventListener("change", tell);
+  const until = () => views.get($("replayed").value).until;
+  $("first").addEventListener("click", () => replay(0));
+  $("back").addEventListener("click", () => replay((until() === undefined ? Infinity : until()) - 1));
+  $("next").addEventListener("click", () => replay(until() === undefined ? 1 : until() + 1));
+  $("all").addEventListener("click", () => replay(undefined));
+  for (const q of D.quantities) {
+    const row = $("values").tBodies[0].insertRow(), box = document.createElement("input");
+    row.dataset.q = q.name;
+    row.insertCell().innerHTML = q.symbol; row.insertCell(); row.insertCell().innerHTML = q.unit; row.insertCell();
+    Object.assign(box, { type: "checkbox", checked: shown.has(q.name) });
+    box.setAttribute("aria-label", `${W.diagram} ${q.name}`);
+    box.addEventListener("change", () => { shown[box.checked ? "add" : "delete"](q.name); curves(); now(); });
+    row.insertCell().appendChild(box);
+    row.addEventListener("pointerenter", () => light([q.name]));
+    row.addEventListener("pointerleave", () => light([]));
+  }
+  givens(); sample();
+  here.found = here.samples.find(found => found[0] < FAILED);
+  left(); right(); curves(); tell(); go(drive.start);
+}
+begin();

@@ -1,0 +1,89 @@
+// What the program finds at a place of the driver, and how large its plans are over the cycle; D is the page's data.
+const drive = D.drive;
+const index = new Map(D.names.map((name, k) => [name, k + 1]));
+const given = { ...D.board }, COUNT = 360, FAILED = 2, views = new Map(D.views.map(view => [view.name, view]));
+const span = drive.high - drive.low, here = { at: drive.start, found: null, samples: [] };
+const SIZES = { position: 170, lever: 120 }, USUAL = 0.9; // mm; part of the positions that a plan is sized by
+
+function near(place) {
+  if (!D.near) return;
+  let part = (place - drive.low) / span;
+  if (drive.turns) part -= Math.floor(part);
+  for (const [name, row] of Object.entries(D.near)) {
+    const at = Math.min(Math.max(part, 0), 1) * (row.length - 1), k = Math.min(Math.floor(at), row.length - 2);
+    given[name] = row[k] + (row[k + 1] - row[k]) * (at - k);
+  }
+  for (const [cosine, sine] of D.turned) { // a direction has the length of one
+    const long = Math.hypot(given[cosine], given[sine]);
+    given[cosine] /= long; given[sine] /= long;
+  }
+}
+function stand(place) { given[drive.name] = place; near(place); return solve(given); }
+const value = (found, name) => index.has(name) ? found[index.get(name)] : given[name];
+const size = v => Array.isArray(v) ? Math.hypot(v[0], v[1]) : v;
+function spot(found, end) {
+  if (typeof end === "string") return value(found, end);
+  if (end[0] === "i") { const [x, y] = value(found, end[1]); return [-y, x]; }
+  const [x, y] = value(found, end[0]), [c, s] = value(found, end[1]);
+  return [x + c * end[2] - s * end[3], y + s * end[2] + c * end[3]];
+}
+const place = k => drive.turns ? drive.start + drive.sense * 2 * Math.PI * k / COUNT : drive.low + span * k / COUNT;
+function sample() {
+  if (D.stroke && here.changed) strokes();
+  here.samples = Array.from({ length: COUNT + 1 }, (_, k) => stand(place(k)));
+  for (const view of D.views) frame(view);
+}
+function strokes() { // the ends of the working stroke, between which its loads act, for other data
+  const measure = at => {
+    const v = value(stand(at), D.stroke.place);
+    return D.stroke.slides ? v : Math.atan2(v[1], v[0]);
+  };
+  const all = []; let last = null;
+  for (let k = 0; k <= COUNT; k++) {
+    if (stand(place(k))[0] === 3) continue;
+    let v = measure(place(k));
+    if (!D.stroke.slides && last !== null) v += 2 * Math.PI * Math.round((last - v) / (2 * Math.PI));
+    all.push([v, place(k)]); last = v;
+  }
+  const ends = [1, -1].map(way => {
+    let best = all.reduce((a, b) => way * b[0] > way * a[0] ? b : a), step = Math.abs(place(1) - place(0));
+    for (let n = 0; n < 60; n++, step *= 0.7) for (const at of [best[1] - step, best[1] + step]) {
+      let v = measure(at);
+      if (!D.stroke.slides) v += 2 * Math.PI * Math.round((best[0] - v) / (2 * Math.PI));
+      if (way * v > way * best[0]) best = [v, at];
+    }
+    return best[0];
+  });
+  const forward = D.board[D.stroke.end] > D.board[D.stroke.begin];
+  given[D.stroke.end] = ends[forward ? 0 : 1]; given[D.stroke.begin] = ends[forward ? 1 : 0];
+}
+
+// ---- scale factors and frames of the views: the same all over the cycle
+function nice(x) {
+  const power = Math.pow(10, Math.floor(Math.log10(x)));
+  const step = [1, 2, 2.5, 4, 5, 10].find(m => m * power >= x * (1 - 1e-12));
+  return Number((step * power).toPrecision(6));
+}
+const ends = shape => [shape.a, shape.b, shape.at, ...(shape.ends || [])].filter(end => end !== undefined);
+function frame(view) {
+  const boxes = [], used = view.shapes.flatMap(ends);
+  for (let k = 0; k < COUNT; k += 5) {
+    if (here.samples[k][0] >= FAILED) continue;
+    const box = [0, 0, 0, 0];
+    if (view.name === "position") box.splice(0, 4, Infinity, Infinity, -Infinity, -Infinity);
+    for (const end of used) {
+      const [x, y] = spot(here.samples[k], end);
+      if (x !== x) continue;
+      box[0] = Math.min(box[0], x); box[1] = Math.min(box[1], y); box[2] = Math.max(box[2], x); box[3] = Math.max(box[3], y);
+    }
+    boxes.push(box);
+  }
+  if (!boxes.length) return;
+  boxes.sort((a, b) => Math.max(a[2] - a[0], a[3] - a[1]) - Math.max(b[2] - b[0], b[3] - b[1]));
+  const kept = boxes.slice(0, Math.max(1, Math.ceil(boxes.length * (view.name === "position" ? 1 : USUAL))));
+  const whole = [0, 1, 2, 3].map(i => kept.map(box => box[i]).reduce((a, b) => i < 2 ? Math.min(a, b) : Math.max(a, b)));
+  const wide = Math.max(whole[2] - whole[0], whole[3] - whole[1]);
+  view.mu = nice(wide / (SIZES[view.name] || 150));
+  const margin = 14 + (view.name === "lever" ? 10 : 0), mm = whole.map(x => x / view.mu);
+  view.box = [mm[0] - margin, -mm[3] - margin, mm[2] - mm[0] + 2 * margin, mm[3] - mm[1] + 2 * margin];
+}

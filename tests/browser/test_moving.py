@@ -1,0 +1,170 @@
+"""Pages that move, driven as people do: by slider, crank, keyboard; what they show is what Python finds."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import kulman
+
+TASKS = (
+    "nau-slider-crank",
+    "madi-four-bar",
+    "scheme-09-shaper",
+    "scheme-14-jaw-crusher",
+    "scheme-18-hydraulic-drive",
+    "scheme-20-press-automaton",
+)
+SHOWN = 2e-3  # part of a value within which four digits show it
+Opened = Callable[[str], Any]
+
+
+@pytest.fixture
+def opened(browser: Any, tmp_path: Path) -> Any:
+    """Open the page of a task; nothing may be asked of a network, nor said on the console, while it is used."""
+    wrong: list[str] = []
+
+    def open_page(task: str, width: int = 1300, language: str = "uk") -> Any:
+        kulman.sheet(task, lang=language).save(tmp_path / "moving.html")
+        page = browser.new_page(viewport={"width": width, "height": 900})
+        page.on("console", lambda message: wrong.append(message.text))
+        page.on("pageerror", lambda error: wrong.append(str(error)))
+        page.on("request", lambda request: wrong.append(request.url) if request.url[:5] != "file:" else None)
+        page.goto((tmp_path / "moving.html").as_uri())
+        return page
+
+    yield open_page
+    assert wrong == []
+
+
+def number(text: str) -> float:
+    plain = text.replace("\u2212", "-").replace(",", ".").replace("·10", "e")
+    return float(re.sub(r"[^-0-9.e]", "", plain))
+
+
+def values(page: Any) -> dict[str, float]:
+    rows = page.eval_on_selector_all("#values tbody tr", "rows => rows.map(r => [r.dataset.q, r.cells[1].textContent])")
+    return {name: number(text) for name, text in rows if text != "–"}
+
+
+def at(page: Any) -> float:
+    return float(page.evaluate("here.at"))
+
+
+def right(page: Any, task: str, settings: dict[str, float | str]) -> None:
+    """What the page shows is what Python finds at the same place of the driver."""
+    drive = page.evaluate("drive.name")
+    place = f"{at(page):.15g} {'rad' if page.evaluate('drive.turns') else 'm'}"
+    solved = kulman.solve(task, set={**settings, drive: place})
+    units = {name: solved.case.display.value(1.0, solved[name].unit) for name in solved}
+    shown = values(page)
+    assert len(shown) > 10
+    largest: dict[str, float] = {}
+    for name in shown:
+        size = abs(float(solved[name]))
+        largest[solved[name].unit] = max(size, largest.get(solved[name].unit, 0.0))
+    for name, value in shown.items():
+        if solved[name].unit != "%":
+            exact = float(solved[name]) * units[name]
+            assert value == pytest.approx(exact, rel=SHOWN, abs=1e-9 * largest[solved[name].unit] * units[name]), name
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_a_plan_moves_under_the_hand_of_a_user(task: str, opened: Opened) -> None:
+    page = opened(task)
+    right(page, task, {})
+
+    slider = page.locator("#place")
+    slider.focus()
+    before = at(page)
+    for _ in range(7):
+        page.keyboard.press("ArrowRight")
+    assert at(page) != before
+    right(page, task, {})
+
+    box = page.locator("#left .grip").bounding_box()
+    before = at(page)
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 25, box["y"] - 15, steps=4)
+    page.mouse.up()
+    assert at(page) != before
+    right(page, task, {})
+
+    page.locator("#play").click()
+    page.wait_for_timeout(250)
+    page.locator("#play").click()
+    right(page, task, {})
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_the_construction_is_told_to_its_end(task: str, opened: Opened) -> None:
+    page = opened(task)
+    for view in page.evaluate("D.views.map(view => view.name)"):
+        page.select_option("#replayed", view)
+        count = page.locator("#told li").count()
+        page.locator("#first").click()
+        side = "#left" if view == "position" else "#right"
+        hidden = page.locator(f"{side} .gone").count()
+        for _ in range(count):
+            page.locator("#next").focus()
+            page.keyboard.press("Enter")
+        assert page.locator("#told li.now").count() == 1
+        assert page.locator("#told li.later").count() == 0
+        assert page.locator(f"{side} .gone").count() == 0 < hidden
+        assert not any("\ue000" <= sign <= "\uf8ff" for sign in page.locator("#told").inner_text())
+
+
+def test_other_data_are_taken_as_long_as_links_meet(opened: Opened) -> None:
+    page = opened("nau-slider-crank")
+    field = page.locator("#given-l_AB")
+    field.fill("140")
+    field.press("Tab")
+    right(page, "nau-slider-crank", {"l_AB": "140"})
+
+    page.locator("#given-l_OA").fill("900")
+    page.locator("#given-l_OA").press("Tab")
+    field.fill("-5")
+    field.press("Tab")
+    assert field.input_value() == "140"
+
+    page.locator("#again").click()
+    right(page, "nau-slider-crank", {})
+
+
+def test_keyboard_alone_suffices_and_nothing_is_out_of_reach(opened: Opened) -> None:
+    page = opened("nau-slider-crank")
+    reached = set[str]()
+    for _ in range(160):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.id || document.activeElement.getAttribute('class') || ''"))
+    assert {"play", "place", "which", "replayed", "first", "back", "next", "all", "again", "grip"} <= reached
+    page.locator(".grip").focus()
+    before = at(page)
+    page.keyboard.press("ArrowUp")
+    turned = (before - at(page)) % math.tau
+    assert min(turned, math.tau - turned) == pytest.approx(math.radians(1.0), abs=1e-6)
+
+
+@pytest.mark.parametrize("width", [1300, 390])
+@pytest.mark.parametrize("language", ["uk", "en"])
+def test_a_page_can_be_read_by_all(width: int, language: str, opened: Any) -> None:
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    page = opened("scheme-09-shaper", width, language)
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    found = axe.Axe().run(page).response["violations"]
+    assert [(fault["id"], [node["html"] for node in fault["nodes"]][:3]) for fault in found] == []
+
+
+def test_a_frame_is_drawn_in_time(opened: Opened) -> None:
+    page = opened("scheme-20-press-automaton")
+    spent = page.evaluate(
+        "(() => { const t = performance.now(); for (let k = 0; k < 60; k++) go(place(k * 6));"
+        " return (performance.now() - t) / 60 })()"
+    )
+    assert spent < 50.0  # milliseconds; benchmarks/run.py has the figure that counts

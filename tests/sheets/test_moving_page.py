@@ -1,0 +1,139 @@
+"""Pages that move: their numbers are those of Python at all places, their words those of the note; they are small."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+import quickjs
+
+import kulman
+from kulman.cli import main
+from kulman.plans.linkages.cycle import cycle
+from kulman.plans.names import role
+from kulman.plans.quantities import unit_of
+from kulman.scales.errors import LANGUAGES
+from kulman.variants.case import Request
+from kulman.variants.reader import load_task
+from kulman.variants.shelf import bundled
+
+LINKAGES = [task for task in bundled() if load_task(task).kind == "mechanism"]
+PLACES = 24
+SAME = 1e-12
+LARGEST = 150_000  # bytes
+# sizes that are changed on the page, in the units of its task
+CHANGED = [("nau-slider-crank", "l_AB", 1.1), ("scheme-01-compressor", "l_AB", 1.2), ("scheme-09-shaper", "l_CD", 1.05)]
+
+
+@cache
+def page_of(task: str, language: str = "uk") -> str:
+    moving = kulman.sheet(task, lang=language).moving
+    assert moving is not None
+    return moving()
+
+
+def data_of(page: str) -> dict[str, Any]:
+    found = re.search(r'<script id="data" type="application/json">(.*?)</script>', page, re.DOTALL)
+    assert found is not None
+    return dict(json.loads(found[1].replace("<\\/", "</")))
+
+
+def engine(page: str) -> Any:
+    """What calculates in a page, in an engine that has no page."""
+    script = page.rpartition("<script>")[2].partition("// The page that moves")[0]
+    context = quickjs.Context()
+    context.set("text", json.dumps(data_of(page)))
+    context.eval(script.replace('document.getElementById("data").textContent', "text"))
+    return context
+
+
+def found_at(context: Any, names: list[str], places: Any) -> dict[str, Any]:
+    """Return values by name, and the codes of the statuses, at places of the driver."""
+    rows = [json.loads(context.eval(f"JSON.stringify(stand({place!r}))")) for place in places.tolist()]
+    values: dict[str, Any] = {"code": np.array([row[0] for row in rows])}
+    for at, name in enumerate(names, 1):
+        column = [row[at] for row in rows]
+        sized = [complex(*(np.nan if x is None else x for x in v)) if isinstance(v, list) else v for v in column]
+        values[name] = np.array([np.nan if v is None else v for v in sized])
+    return values
+
+
+def apart(values: dict[str, Any], expected: dict[str, Any]) -> dict[str, float]:
+    """Return the names whose values differ, and by how much in parts of the largest of their unit or plan."""
+    kinds = {name: role(name).plan if "." in name else unit_of(role(name).shown) for name in expected}
+    largest: dict[str, float] = {}
+    for name, right in expected.items():
+        size = np.abs(right[np.isfinite(right)]).max(initial=0.0)
+        largest[kinds[name]] = max(largest.get(kinds[name], 100.0 if kinds[name] == "%" else 0.0), size)
+    found = {}
+    for name, right in expected.items():
+        defined = np.isfinite(right)
+        if (np.isfinite(values[name]) != defined).any():
+            found[name] = np.inf
+        elif defined.any() and (gap := np.abs(values[name] - right)[defined].max()) > SAME * largest[kinds[name]]:
+            found[name] = gap
+    return found
+
+
+@pytest.mark.parametrize("places", [PLACES, pytest.param(360, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("task", LINKAGES)
+def test_a_page_finds_what_python_finds(task: str, places: int) -> None:
+    case = Request(load_task(task)).case()
+    whole = cycle(case.task.mechanism, case.values, case.plans)
+    page = page_of(task)
+    names = data_of(page)["names"]
+    at = np.linspace(whole.range.low, whole.range.high, places, endpoint=False) + 0.00137 * whole.drive.turns
+
+    expected = whole.at(at, names)
+
+    assert apart(found_at(engine(page), names, at), expected) == {}
+    assert len(page.encode()) <= LARGEST
+
+
+@pytest.mark.parametrize(("task", "name", "times"), CHANGED)
+def test_a_page_finds_what_python_finds_of_other_data(task: str, name: str, times: float) -> None:
+    page = page_of(task)
+    item = next(given for given in data_of(page)["givens"] if given["name"] == name)
+    case = Request(load_task(task), None, {name: str(item["value"] * times)}).case()
+    whole = cycle(case.task.mechanism, case.values, case.plans)
+    context, names = engine(page), data_of(page)["names"]
+    board = json.dumps(item["board"])
+    context.eval(f"for (const name of {board}) given[name] *= {times!r}; here.changed = true; sample()")
+    at = np.linspace(0.01, 6.2, 12)
+
+    gaps = apart(found_at(context, names, at), whole.at(at, names))
+
+    # the ends of a stroke are found by another search, which ends where the travel is flat
+    assert {key: gap for key, gap in gaps.items() if not (data_of(page)["stroke"] and gap < 1e-9)} == {}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_page_speaks_its_language_and_needs_nothing_else(language: str) -> None:
+    page = page_of("scheme-09-shaper", language)
+    data = data_of(page)
+
+    assert f'<html lang="{language}">' in page
+    assert "{{" not in page
+    assert not re.search(r"(?:src|href)=|https?://(?!www\.w3\.org/2000/svg)|@import|fetch\(", page)
+    asked = {sign for view in data["views"] for step in view["steps"] for sign in step if "\ue000" <= sign <= "\uf8ff"}
+    assert asked <= {chr(0xE000 + k) for k in range(len(data["asked"]))}
+    assert [view["name"] for view in data["views"]][:3] == ["position", "velocity", "acceleration"]
+    assert all(view["steps"] and view["shapes"] for view in data["views"])
+
+
+def test_a_page_is_written_beside_the_sheet(tmp_path: Any, capsys: Any) -> None:
+    files = [str(tmp_path / name) for name in ("moving.html", "sheet.svg")]
+    with pytest.raises(SystemExit) as done:
+        main(["sheet", "nau-slider-crank", "-o", files[0], "-o", files[1]])
+    assert done.value.code in (0, None)
+    assert (tmp_path / "moving.html").read_text("utf-8") == page_of("nau-slider-crank")
+
+    with pytest.raises(SystemExit) as refused:
+        main(["sheet", "madi-cam", "-o", str(tmp_path / "cam.html"), "--lang", "en"])
+    assert refused.value.code == 2
+    assert "not available" in capsys.readouterr().err
+    assert not (tmp_path / "cam.html").exists()
