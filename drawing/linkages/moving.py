@@ -27,7 +27,7 @@ from ..moving import number as number_of
 from ..symbols import unit
 from ..words import Given, Words
 from .figures.cycle import main_output
-from .figures.lever import BALANCE, hung_on_lever, letter_of, lever_lines
+from .figures.lever import BALANCE, Couple, hung_on_lever, letter_of, lever_lines
 from .figures.links import NEAR, Skeleton, guide_of, pins_of, skeleton
 from .reading import lettered
 from .scene import Scene, plan_heading
@@ -63,6 +63,11 @@ class Live(Teller):
     def across(self, name: str) -> str:
         """Return how long an arm is drawn."""
         return f"{self.ask('mm', name, 'lever')} {self.words.unit(self.words.display.paper)}"
+
+    def between(self, couple: Couple) -> str:
+        """Return how long the arm of a couple is drawn: as far as its marks are apart on the plan of velocities."""
+        marks = (f"velocity.{role(mark).of}" for mark in couple.marks)
+        return f"{self.ask('apart', *marks, 'lever')} {self.words.unit(self.words.display.paper)}"
 
     def place(self, name: str) -> str:
         """Return the coordinates of a point."""

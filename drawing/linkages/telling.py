@@ -28,7 +28,7 @@ from .calculations.equations import (
     triangles,
 )
 from .calculations.forces import found_by
-from .figures.lever import couples_on_lever, hung_on_lever, letter_of, moments_on_lever
+from .figures.lever import Couple, couples_on_lever, hung_on_lever, letter_of, moments_on_lever
 from .reading import ends_of
 from .scene import Scene, line_of
 
@@ -105,6 +105,10 @@ class Teller(Scene):
         if not self.defined(arm) or size_of(self, arm) == 0.0:
             return "0"
         return f"{self.segment(arm)} {self.words.unit(self.words.display.paper)}"
+
+    def between(self, couple: Couple) -> str:
+        """Return how long the arm of a couple on the lever is drawn."""
+        return f"{self.length(couple.arm(self) / self.scales['lever'].mu)} {self.words.unit(self.words.display.paper)}"
 
     def place(self, name: str) -> str:
         """Return the coordinates at which a point of the frame is drawn."""
@@ -356,8 +360,8 @@ def lever_told(teller: Teller) -> Iterator[Told]:
         forces = ", ".join(teller.letter(moment.operands[0]) for moment in moments)
         yield Told(moments[0], teller.say("lever_forces", point=letter_of(teller, end), forces=forces, arms=listed))
     for moment, couple in couples.items():
-        letters, drawn = couple.letters(teller), teller.length(couple.arm(teller) / teller.scales["lever"].mu)
-        arm = f"{''.join(letters)} = {drawn} {teller.words.unit(teller.words.display.paper)}"
+        letters = couple.letters(teller)
+        arm = f"{''.join(letters)} = {teller.between(couple)}"
         parts = {"points": ", ".join(letters), "forces": ", ".join(map(teller.letter, couple.forces)), "arms": arm}
         yield Told(teller.made[moment], teller.say("lever_couple", **parts))
     driven = f"velocity.{teller.mechanism.driver.point}"

@@ -17,7 +17,7 @@ function asked(spec) {
   if (kind === "mm") return long(Math.abs(size(value(found, of[0]))) / mu);
   const mm = views.get("position").mu;
   if (kind === "x" || kind === "y") return long(spot(found, of[0])[kind === "x" ? 0 : 1] / mm);
-  if (kind === "apart") { const [a, b] = of.map(name => spot(found, name)); return long(Math.hypot(a[0] - b[0], a[1] - b[1]) / mm); }
+  if (kind === "apart") { const [a, b] = of.slice(0, 2).map(name => spot(found, name)); return long(Math.hypot(a[0] - b[0], a[1] - b[1]) / (of[2] ? views.get(of[2]).mu : mm)); }
   if (kind === "place") return locale(shownPlace(here.at).toFixed(1)) + (drive.turns ? "°" : " " + W.unit_mm);
   if (kind === "mu") return said(views.get(of[0]).mu * views.get(of[0]).by, 6);
   const q = plain.get(of[0]), v = value(found, of[0]);
