@@ -189,13 +189,16 @@ class Canvas:
         """
         layout, turn = lay_out(markup, height), 0.5 * pi * upright
         size = layout.width, layout.top - layout.bottom
-        obstacles = _obstacles(self.shapes, self._boxes, self.style)
-        middle = first_clear(places, size[::-1] if upright else size, obstacles, 0.8)
+        middle = self.clear(places, size[::-1] if upright else size)
         if middle is None:
             return False
         at = middle - rect(0.5 * (layout.top + layout.bottom), turn + 0.5 * pi)
         self.add(Text(at, markup, height, "middle", turn, role="label"))
         return True
+
+    def clear(self, places: Sequence[complex], size: tuple[float, float]) -> complex | None:
+        """Return the first of some places about which a box is clear of all that is drawn so far."""
+        return first_clear(places, size, _obstacles(self.shapes, self._boxes, self.style), 0.8)
 
     def detail(self, numeral: str, centre: complex, radius: float, name: str) -> None:
         """Mark a place by a circle, its numeral on the shelf of a leader that is clear of all that is drawn."""

@@ -24,6 +24,7 @@ from ....plans.names import role
 from ...figure import ANSWERS, GIVEN
 from ...shapes import Arc, Arrow, Circle, Group, Line, Pen, Polyline, Shape, Vector, sides_of
 from ...symbols import angle_dimension, turning_arrow, unit
+from ...text import lay_out
 from ...view import Canvas, View
 from ..scene import Scene
 from .links import (
@@ -47,7 +48,9 @@ SHORT = 0.8  # lengths of the arrow of a force: across a shorter crank the arrow
 ACROSS = 0.7, 0.6, 0.8, 0.3, 0.25  # parts of a longer one at which it stands
 PAST = 16.0  # mm by which the axis of a guide runs past its slider and a pivot
 LEAVES, LONGEST = 1.6, 34.0  # mm by which the end of an arc leaves its tangent, unless the arc would be too long
+AROUND = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]  # sides of a place for a letter
 LEAST_ARC = 9.0  # mm, the least radius of the arc of phi
+BEYOND, OVER = (5.0, 8.0, 12.0, 16.0), 2.0  # mm from a short crank to an arc beyond it, and from that to its line's end
 FARTHEST_ARC = 200.0  # mm, the largest radius of an arc, however large a scale factor draws the crank
 CROSS = 8.0  # mm by which arcs and lines run past the joint that they find
 
@@ -120,16 +123,8 @@ def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
     crank_mm = abs(scene.mm(driver.point) - o)
     phi = math.remainder(scene.values[driver.angle], 2 * math.pi)
     phi = phi + 2 * math.pi if phi < -1e-12 else phi
-    text = f"{scene.words.symbol(driver.angle)} = {scene.words.short(round(math.degrees(phi), 9))}°"
     radius = _dimension_radius(canvas, scene, driver, phi)
-    zero = o + max(crank_mm, radius + 6.0) * 1.1
-    canvas.add(Line(o + style.pair, zero, Pen.THIN, role="zero-direction", name=driver.angle))
-    if phi > 0.05:
-        canvas.add(angle_dimension(o, radius, 0.0, phi, driver.angle, style))
-        middle = o + rect(radius, min(phi / 2, 1.2))
-        canvas.label(text, middle, prefer=rect(1.0, phi / 2), clear=1.2)
-    else:
-        canvas.label(text, o + radius, prefer=1j, clear=1.2)
+    _dimensioned(canvas, scene, driver, phi, radius)
     if crank_mm > max(SHORT * style.force, 2.0 * radius):  # across the crank, else beyond it on its other side
         reach, wanted = min(crank_mm, CURVED / ACROSS[0]), phi
         radii = tuple(reach * part for part in ACROSS if reach * part > NEAREST * style.force)
@@ -138,6 +133,42 @@ def _angle(canvas: Canvas, scene: Scene, driver: Driver) -> None:
         radii = tuple((radius + 5.0) * part for part in (1.0, 0.75, 1.3, 1.6))
     spread = min(1.0, max(TURNED[0], 1.1 * style.force / radii[0]))
     turning_of_driver(canvas, scene, driver, radii, spread, wanted)
+
+
+def _dimensioned(canvas: Canvas, scene: Scene, driver: Driver, phi: float, radius: float) -> None:
+    """Dimension phi on an arc of this radius, or on one beyond a short crank where links leave its text no room."""
+    o, style = scene.mm(driver.pivot), scene.style
+    crank_mm = abs(scene.mm(driver.point) - o)
+    text = f"{scene.words.symbol(driver.angle)} = {scene.words.short(round(math.degrees(phi), 9))}°"
+    size, turned = lay_out(text, style.label).size, phi > 0.05
+    if turned and canvas.clear(_beside_arc(o, radius, phi, size), size) is None:
+        beyond = (crank_mm + more for more in BEYOND)
+        radius = next((r for r in beyond if _is_free(canvas, o, r, phi, size)), radius)
+        if radius > crank_mm:
+            near, far = (o + rect(reach, phi) for reach in (crank_mm + style.pair, radius + OVER))
+            canvas.add(Line(near, far, Pen.THIN, role="extension", name=driver.angle))
+    zero = o + max(crank_mm, radius + 6.0) * 1.1
+    canvas.add(Line(o + style.pair, zero, Pen.THIN, role="zero-direction", name=driver.angle))
+    if turned:
+        canvas.add(angle_dimension(o, radius, 0.0, phi, driver.angle, style))
+        middle = o + rect(radius, min(phi / 2, 1.2))
+        canvas.label(text, middle, prefer=rect(1.0, phi / 2), clear=1.2)
+    else:
+        canvas.label(text, o + radius, prefer=1j, clear=1.2)
+
+
+def _beside_arc(o: complex, radius: float, phi: float, size: tuple[float, float]) -> list[complex]:
+    """Return places of a text of this size beyond an arc from the axis x."""
+    rays = [rect(1.0, share * phi) for share in (0.5, 0.35, 0.65, 0.2, 0.8)]
+    reaches = (0.5 * (abs(ray.real) * size[0] + abs(ray.imag) * size[1]) for ray in rays)
+    return [o + ray * (radius + 1.2 + reach) for ray, reach in zip(rays, reaches, strict=True)]
+
+
+def _is_free(canvas: Canvas, o: complex, radius: float, phi: float, size: tuple[float, float]) -> bool:
+    """Whether nothing drawn lies on an arc from the axis x, and a text has room beyond it."""
+    on = (o + rect(radius, share * phi) for share in np.linspace(0.0, 1.0, 2 + round(radius * phi / 2.0)))
+    free = canvas.clear(_beside_arc(o, radius, phi, size), size) is not None
+    return free and all(canvas.clear([at], (0.1, 0.1)) is not None for at in on)
 
 
 def _dimension_radius(canvas: Canvas, scene: Scene, driver: Driver, phi: float) -> float:
@@ -336,8 +367,13 @@ def _arcs(canvas: Canvas, scene: Scene, rates: Mapping[str, float], rays: Sequen
     for (rate, value), (centre, along, radius, spread) in zip(rates.items(), places, strict=True):
         sense = math.copysign(1.0, value)
         canvas.add(turning_arrow(centre, radius, along, spread, sense, rate))
-        tip = centre + rect(radius, along + sense * spread / 2)
-        canvas.label(scene.words.symbol(rate), tip, prefer=rect(sense, along + math.pi / 2), clear=1.4)
+        letter, ahead = scene.words.symbol(rate), rect(sense, along + math.pi / 2)
+        wide, high = size = lay_out(letter, scene.style.label).size
+        ends = {way: centre + rect(radius, along + way * sense * spread / 2) for way in (1.0, -1.0)}
+        sides = [complex(x * (0.5 * wide + 1.4), y * (0.5 * high + 1.4)) for x, y in AROUND]
+        # behind the arrow where links leave no room before it
+        way = next((way for way, end in ends.items() if canvas.clear([end + by for by in sides], size)), 1.0)
+        canvas.label(letter, ends[way], prefer=way * ahead, clear=1.4)
 
 
 def _arms(scene: Scene, turn: _Turn, figure: Skeleton) -> list[Stroke]:
