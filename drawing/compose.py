@@ -12,8 +12,9 @@ from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
 from .packing import LEAST, Placement, Size, Slicing, spread
 from .page import Page
 from .shapes import Group
+from .tables import part_of
 from .titleblock import Stamp, frame_shapes
-from .view import View, part_of
+from .view import View
 
 HELD = 9  # of the corners to the views beside them
 SOON = 5  # views from which one may stand on a page before its turn

@@ -7,10 +7,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from ..scales.scale import Scale
+from .dimensions import over_line
 from .shapes import Circle, Group, Head, Line, Pen, Polyline, Text
 from .symbols import dimension
 from .text import lay_out
-from .view import Canvas, over_line
+from .view import Canvas
 from .words import Words
 
 STEPS = (1, 2, 3, 5, 10)  # from one number of a section line to the next

@@ -12,7 +12,8 @@ from .figure import GIVEN
 from .formats import Format, Norm, drawing_area, reserved_boxes
 from .page import TASK_VIEWS, Layer, Page, extent
 from .shapes import Anchor, Group, Line, Pen, Shape, Text, changed, shifted
-from .view import View, cells, left_of
+from .tables import cells
+from .view import View, left_of
 
 SQUARE, LIGHT = 5.0, "#d9d9d9"  # of the grid: side in mm, colour
 ANSWER = "#0072B2"  # what the teacher's hand adds is blue

@@ -12,7 +12,8 @@ import shapely
 
 from . import spots
 from .areas import Shapes, lines
-from .spots import Convex, Flags, Obstacles, Points, Reals, Request, Segment, Surroundings, Wanted
+from .raster import Convex, Flags, Points, Reals
+from .spots import Obstacles, Request, Segment, Surroundings, Wanted
 from .text import Box
 
 APART = 1.4  # mm that should be left between two labels side by side, beyond the gap around each

@@ -10,21 +10,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 import shapely
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .areas import Shapes, lines, pairs
 from .formats import HEAD_HALF_WIDTH
+from .raster import CELL, Cells, Convex, Flags, Numbers, Points, Reals, within
 from .text import Box
 
 Segment: TypeAlias = tuple[complex, complex]
-Points: TypeAlias = NDArray[np.complex128]
-Reals: TypeAlias = NDArray[np.float64]
-Flags: TypeAlias = NDArray[np.bool_]
-Numbers: TypeAlias = NDArray[np.intp]
 
 # Costs. Only their order matters: covering something, or being read as the name of another, is worse than all the rest.
 COVER, AMBIGUOUS, THIN, CROWDED, STEP, TURN, SLIDE, CROSSING = 1e4, 30.0, 300.0, 1.5, 1.0, 1.5, 4.0, 120.0
@@ -44,9 +41,6 @@ STARTS = np.array([0.5, 0.35, 0.65, 0.2, 0.8, 0.08, 0.92])  # the same for the s
 STEEP = np.exp(1j * np.radians([*range(30, 151, 15), *range(-150, -29, 15)]))  # a level leader would be a bar or a dash
 FROM_RIGHT = complex(np.exp(1j * np.radians(105.0)))  # a steeper line would be read from the left
 ACROSS, GRAZING = 0.42, 0.2  # sines of the least angle between a leader and its own segment, and any other line
-BEGIN = 1.6  # mm from its start on which a leader is not yet looked at by cells
-CELL = 0.4  # mm: cells of the raster of all that no label may cover
-MOST = 2200  # cells side by side: more than on A1; those of a drawing beyond all sheets are larger
 TOUCH = 0.3  # mm: a stroke that comes so near to a node ends there
 LEAVES, PASSING = 0.2, 0.45  # mm at which a leader has left its node, and that it keeps from the circle of another one
 KNEES = np.arange(3.0, 25.0, 2.0)  # mm from its start at which a leader may bend
@@ -223,153 +217,6 @@ class Grid(NamedTuple):
 MAIN, FINE, CIRCLE, NODE, BOX, NAMED, HEAD = range(7)
 
 
-class Convex(NamedTuple):
-    """Strokes, circles and boxes: boxes of half sizes `hx` and `hy`, cut by a stroke's normal, swollen by a radius."""
-
-    middle: Points
-    along: Points  # half of a stroke
-    hx: Reals
-    hy: Reals
-    normal: Points
-    radius: Reals
-
-    @classmethod
-    def of(cls, a: Points, b: Points, boxes: Flags | bool = False) -> Convex:
-        """Return strokes from `a` to `b`, or `boxes` between these corners."""
-        half = (b - a) / 2
-        along = np.where(boxes, 0, half)
-        length = abs(along)
-        normal = np.where(length == 0, 0, 1j * along / np.where(length == 0, 1, length))
-        return cls((a + b) / 2, along, abs(half.real), abs(half.imag), normal, np.zeros(len(a)))
-
-    def distance(self, x: Reals, y: Reals, hw: Reals, hh: Reals) -> Reals:
-        """Distance from boxes, or a little less than it between two corners; zero where they meet.
-
-        Two convex areas are apart exactly when they are apart along x, along y or along the stroke's normal.
-        """
-        nx, ny = self.normal.real, self.normal.imag
-        dx = x - self.middle.real
-        dy = y - self.middle.imag
-        across = dx * nx
-        across += dy * ny
-        np.abs(across, out=across)
-        across -= hw * abs(nx) + hh * abs(ny)
-        for d, reach in ((dx, hw + self.hx), (dy, hh + self.hy)):
-            np.abs(d, out=d)
-            d -= reach
-            np.maximum(d, 0.0, out=d)
-            d *= d
-        dx += dy
-        np.sqrt(dx, out=dx)
-        np.maximum(dx, across, out=dx)
-        dx -= self.radius
-        return dx
-
-
-class Cells(NamedTuple):
-    """Cells of a raster with anything in them: their lower left corner, which they are, how many are below and left.
-
-    From such sums any number of boxes are known to be free at once. Those that are `filled` have empty ones round them.
-    """
-
-    side: float
-    corner: complex
-    filled: Flags
-    total: NDArray[np.int32]
-
-    @classmethod
-    def of(cls, *columns: Any) -> Cells:
-        """Return the cells of things; they are a little larger than these."""
-        middle, along, hx, hy, _, radius = columns
-        if not len(middle):
-            return cls(CELL, 0j, np.zeros((2, 2), dtype=bool), np.zeros((1, 1), dtype=int))
-        reach = np.maximum(abs(along.real), hx) + radius + 1j * (np.maximum(abs(along.imag), hy) + radius)
-        low, high = middle - reach, middle + reach
-        corner = complex(low.real.min(), low.imag.min())
-        size = complex(high.real.max(), high.imag.max()) - corner
-        side = max(CELL, size.real / MOST, size.imag / MOST)
-        corner -= side * (1 + 1j)
-        cells = np.zeros((int(size.imag / side) + 4, int(size.real / side) + 4), dtype=bool)
-        # strokes by points that are denser than cells
-        of, part, count = _counted(np.ceil(4 * abs(along) / side).astype(int) + 1)
-        places = [middle[of] + along[of] * (2 * part / np.maximum(count - 1, 1) - 1)]
-        places += _in_heads(middle, along, radius, side)
-        wide = (along == 0) & (hx + hy + radius > 0)
-        for at, x, y, r in zip(*(column[wide].tolist() for column in (middle, hx, hy, radius)), strict=True):
-            across, upward = (np.arange(-reach - r, reach + r + side / 2, side / 2) for reach in (x, y))
-            within = (across + 1j * upward[:, None]).ravel()
-            places.append(at + (within[abs(within) < r + side] if r else within))
-        filled = (np.concatenate(places) - corner) / side
-        cells[filled.imag.astype(int), filled.real.astype(int)] = True
-        total = np.zeros((cells.shape[0] + 1, cells.shape[1] + 1), dtype=np.int32)
-        cells.cumsum(axis=0, out=total[1:, 1:])
-        total.cumsum(axis=1, out=total)
-        return cls(side, corner, np.pad(cells, 1), total)
-
-    def free(self, at: Points, half: complex, gap: float) -> Flags:
-        """Tell which boxes of one half size about places have nothing in them, nor nearer than a gap."""
-        (rows, columns), reach = self.total.shape, half + (gap + self.side / 4) * (1 + 1j)
-        low, high = (at - reach - self.corner) / self.side, (at + reach - self.corner) / self.side + (1 + 1j)
-        x0, x1 = (_within(np.floor(x), 0, columns - 1).astype(int) for x in (low.real, high.real))
-        y0, y1 = (_within(np.floor(y), 0, rows - 1).astype(int) for y in (low.imag, high.imag))
-        clear: Flags = self.total[y1, x1] - self.total[y0, x1] - self.total[y1, x0] + self.total[y0, x0] == 0
-        return clear
-
-    def at(self, x: Reals, y: Reals) -> Flags:
-        """Tell which points are in cells with anything."""
-        rows, columns = self.filled.shape
-        column = _within(np.floor((x - self.corner.real) / self.side) + 1, 0, columns - 1).astype(int)
-        row = _within(np.floor((y - self.corner.imag) / self.side) + 1, 0, rows - 1).astype(int)
-        row *= columns
-        row += column
-        found: Flags = self.filled.ravel().take(row)
-        return found
-
-    def barred(self, starts: Points, heads: Points) -> Flags:
-        """Tell which leaders run through such cells, where they begin excepted."""
-        length = abs(heads - starts)
-        step = (starts - heads) / length * self.side
-        count = _within(np.ceil((length - BEGIN) / self.side), 0, np.inf).astype(int) + 1
-        found = np.zeros(len(starts), dtype=bool)
-        for every in (4, 1):  # some cells tell of most leaders that they are barred
-            left = (~found).nonzero()[0]
-            of, part, _ = _counted((count[left] - 1) // every + 1)
-            part *= every
-            head, on = heads[left], step[left]
-            hit = self.at(head.real[of] + on.real[of] * part, head.imag[of] + on.imag[of] * part)
-            found[left] = np.bincount(of, hit, len(left)) > 0
-        return found
-
-    def clear(self, leads: Points, most: int) -> Numbers:
-        """Return the first leaders, as `Wanted.leads` has them, at `most` so many, that run through no such cells."""
-        clear = np.zeros(0, dtype=int)
-        for begin in range(0, leads.shape[1], 2 * most):
-            if len(clear) >= most:
-                break
-            own = leads[:, begin : begin + 2 * most]
-            clear = np.append(clear, begin + (~self.barred(own[2], own[1])).nonzero()[0])
-        return clear[:most]
-
-
-def _in_heads(middle: Points, along: Points, radius: Reals, side: float) -> list[Points]:
-    """Return points that fill arrowheads, strokes with half the width of their backs, more densely than cells."""
-    heads = ((along != 0) & (radius > 0)).nonzero()[0]
-    if not heads.size:
-        return []
-    middle, along, radius = middle[heads], along[heads], radius[heads]
-    rows = np.linspace(0.0, 1.0, int(4 * abs(along).max() / side) + 2)
-    across = np.linspace(-1.0, 1.0, int(4 * radius.max() / side) + 2)
-    back = 1j * along / abs(along) * radius
-    inside = (middle + along)[:, None, None] - (2 * along)[:, None, None] * rows[:, None]
-    return [(inside + back[:, None, None] * rows[:, None] * across).ravel()]
-
-
-def _counted(count: Numbers) -> tuple[Numbers, Numbers, Numbers]:
-    """Return for as many as are counted of each its number, its rank among its own, and how many they are."""
-    of = np.repeat(np.arange(len(count)), count)
-    return of, np.arange(len(of)) - np.repeat(np.cumsum(count) - count, count), count[of]
-
-
 class Surroundings:
     """What is drawn, and the nodes and segments to be labelled; labels keep `gap` mm from all of it.
 
@@ -441,16 +288,16 @@ class Surroundings:
         weight = np.where(hard, COVER, THIN)[:, None]
         price = np.where(distance < self.gap - SLACK, weight, 0.0)
         crowd = np.where(hard, CROWDED / ROOM, CROWDED / ROOM / 2)[:, None]
-        price += crowd * _within(ROOM - distance, 0.0, ROOM)
+        price += crowd * within(ROOM - distance, 0.0, ROOM)
         belongs = self._belongs(wanted, i, j)
         r = ((self.kind[j] == FINE) & ~(belongs & (wanted.a != wanted.b)[i])).nonzero()[0]
-        price[r] += CLOSE * _within(BARE - distance[r], 0.0, BARE)
+        price[r] += CLOSE * within(BARE - distance[r], 0.0, BARE)
         r = (self.rival[j] & ~belongs).nonzero()[0]
         lead, same = distance[r] - own[i[r]], self._same_kind(wanted, i[r], j[r])
         doubtful = np.where(same, COVER, np.where(wanted.strict[i[r]], THIN, AMBIGUOUS))[:, None]
         apart = np.where(same, np.where((wanted.a == wanted.b)[i[r]], SURELY, PLAINLY), 0.1)
         price[r] += np.where(lead < apart[:, None], doubtful, 0.0)
-        price[r] += CLOSE * _within(DOUBT - lead, 0.0, DOUBT)
+        price[r] += CLOSE * within(DOUBT - lead, 0.0, DOUBT)
         price += np.where(self._foreign(wanted, i, j, belongs, distance, own[i]), COVER, 0.0)
         cost = cost.copy()
         crowded, starts = np.unique(i, return_index=True)
@@ -562,7 +409,7 @@ class Surroundings:
         # nodes on the way, but for the first half of a millimetre, where the leader leaves its own
         begin = starts + (heads - starts) * np.minimum(LEAVES / np.maximum(abs(heads - starts), SLACK), 0.5)
         half, d = (heads - begin)[k] / 2, q - (heads + begin)[k] / 2
-        near = abs(d - _within((d * half.conj()).real / (half * half.conj()).real, -1, 1) * half)
+        near = abs(d - within((d * half.conj()).real / (half * half.conj()).real, -1, 1) * half)
         crosses |= ((kind == CIRCLE) | (kind == NODE)) & (near < radius + PASSING)
         begins = (abs((starts[k] - q).real) < hx + TOUCH) & (abs((starts[k] - q).imag) < hy + TOUCH)
         few = (is_head & begins).nonzero()[0]
@@ -602,12 +449,6 @@ class Surroundings:
         bad |= self._same_kind(wanted, one, j) & (distance < far[left[k]] + lead)
         free[left] &= np.bincount(k, bad, len(left)) == 0
         return free
-
-
-def _within(values: Reals, least: float, most: float) -> Reals:
-    """Keep values between two bounds: `np.clip` takes four times as long for so few."""
-    result: Reals = np.minimum(np.maximum(values, least), most)
-    return result
 
 
 def first_clear(

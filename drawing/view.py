@@ -1,42 +1,34 @@
-"""A view: one figure of a sheet about its own origin, lettered without collisions, under its heading; tables, texts."""
+"""A view: one figure of a sheet about its own origin, lettered without collisions, under its heading."""
 
 from __future__ import annotations
 
-import math
-import re
-from cmath import phase, rect
+from cmath import rect
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import accumulate, count, pairwise
+from itertools import count, pairwise
 from math import pi
-from typing import NamedTuple, TypeAlias, assert_never
+from typing import NamedTuple, assert_never
 
 from .areas import around, beside, coarser
-from .formats import HEAD_HALF_WIDTH, ZERO, Style
+from .formats import ZERO, Style
 from .labels import Labels, Scene
 from .page import NOTE, extent, head_of
-from .shapes import Anchor, Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted, sides_of
+from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted, sides_of
 from .spots import Obstacles, Request, first_clear, shelf
-from .symbols import angle_dimension, dimension, swept, turning_arrow
 from .text import Box, lay_out
-from .words import Given, Words
 
 WIDE = "circle"  # the role of a circle that goes round other things
 ROUND = 48  # pieces of it, for the letters that keep clear of it
 EACH = 4  # letters left out that stand in one line of the notes
 NEAREST = (1, 4, 1000)  # letters that make room for one without a place; next time these, where it found none
-SHARES = (0.5, 0.4, 0.6, 0.3, 0.7)  # of a dimension line at which its text may stand
 ELSEWHERE = " "  # of a letter that is left out: another figure has it
-SPARE = 2.0  # mm by which a dimension line is longer than its text
-SHELF, CLEAR = 2.0, 0.9  # mm from a dimension to a text beside it on the same line, and from the line to the text
 NUMERAL = 2.5  # mm that letters keep away from the numeral of a detail
 BROKEN = 0.5  # mm between a letter and a line broken at it
 STRUCK = 0.15  # mm between a letter and a thin line that seems to run through it
 UNBROKEN = ("leader", "shelf", "right-angle", "arrow")  # roles of thin lines that break off nowhere
 # heights of its letters that a line of a heading has below it for scripts, and above for parentheses, for squares
 BELOW, PARENTHESES, SQUARES = 0.42, 1.17, 1.35
-PAST = 2.0  # mm by which an extension line runs past the dimension line
 
 
 class Whole(NamedTuple):
@@ -462,288 +454,3 @@ def _obstacles(shapes: list[Shape], boxes: list[Box], style: Style) -> Obstacles
     for shape in shapes:
         gather(shape)
     return Obstacles(strokes[True], strokes[False], circles, texts, heads, boxes)
-
-
-def angle(
-    canvas: Canvas,
-    vertex: complex,
-    rays: tuple[complex, complex],
-    radius: float,
-    name: str,
-    text: str = "",
-    *,
-    turn: int = 0,
-    inside: bool = False,
-    prefer: complex = 0j,
-    clear: float = 1.0,
-    spare: str = "",
-) -> None:
-    """Dimension the angle from one ray to another with its text at the middle of the arc.
-
-    `turn` says whether it runs counter-clockwise, 1, or clockwise, -1; without it the shorter way. The text stands
-    beyond the arc, or `inside` of it, or to the side that it should `prefer`.
-    """
-    start, sweep = phase(rays[0]), swept(*rays, turn)
-    canvas.add(angle_dimension(vertex, radius, start, sweep, name, canvas.style))
-    if text:
-        out = rect(1.0, start + 0.5 * sweep)
-        at = vertex + radius * out
-        toward = prefer or (-out if inside else out)
-        canvas.label(text, at, prefer=toward, clear=clear, height=canvas.style.text, spare=spare)
-
-
-def turning(
-    canvas: Canvas, centre: complex, radius: float, middle: float, spread: float, sense: float, name: str, text: str
-) -> None:
-    """Draw an arrow about a centre that shows in which sense something turns, its letter beyond its middle.
-
-    The arrow reaches to both sides of the direction `middle` by half of `spread`, rad.
-    """
-    at = centre + rect(radius, middle)
-    canvas.add(turning_arrow(centre, radius, middle, spread, sense, name))
-    canvas.label(text, at, prefer=at - centre, clear=1.0)
-
-
-def linear(
-    canvas: Canvas,
-    ends: tuple[complex, complex],
-    out: complex,
-    text: str,
-    name: str,
-    *,
-    bodies: tuple[float, float] = (0.0, 0.0),
-    chained: bool = False,
-) -> None:
-    """Dimension the distance between two points on a line parallel to it, moved by the vector `out`.
-
-    Points in one place have no dimension; one that says the same as another may have no text. Extension lines begin
-    beyond the `bodies` that stand at the points, which reach so many mm. Of `chained` dimensions others stand beside it
-    on the same line.
-    """
-    a, b = ends
-    if abs(b - a) < ZERO:
-        return
-    if abs(out) > PAST:
-        e = out / abs(out)
-        lines = (Line(end + e * gap, end + out + e * PAST, Pen.THIN) for end, gap in zip(ends, bodies, strict=True))
-        canvas.add(*(replace(line, role="extension") for line in lines))
-    canvas.add(dimension(a + out, b + out, name, canvas.style))
-    if not text:
-        return
-    line, level, upright = (a + out, b + out), abs((b - a).imag) < ZERO, abs((b - a).real) < ZERO
-    if (level and over_line(canvas, line, text, chained)) or (upright and _along(canvas, line, text)):
-        return
-    canvas.label(text, line, prefer=1j if level else out, clear=0.8, height=canvas.style.text)
-
-
-def _along(canvas: Canvas, ends: tuple[complex, complex], text: str) -> bool:
-    """Write the text of an upright dimension along its line, on its left; tell whether it has room there."""
-    (a, b), layout = ends, lay_out(text, canvas.style.text)
-    spare = abs(b - a) - 2.0 * canvas.style.arrow - layout.width  # between the arrowheads
-    aside = CLEAR + 0.5 * (layout.top - layout.bottom)
-    shares = [share for share in SHARES if abs(share - 0.5) * abs(b - a) <= 0.5 * spare]
-    return canvas.write(text, [a + share * (b - a) - aside for share in shares], canvas.style.text, upright=True)
-
-
-def above(text: str, height: float) -> float:
-    """Return how far above a line a text has its baseline, so that it stands clear of the line, mm."""
-    return CLEAR - lay_out(text, height).bottom
-
-
-def over_line(canvas: Canvas, ends: tuple[complex, complex], text: str, chained: bool = False) -> bool:
-    """Write the text of a level dimension over its line; tell whether it has room there.
-
-    Else it stands over the line drawn on, if none is there, on the side on which the figure ends sooner.
-    """
-    layout, arrow = lay_out(text, canvas.style.text), canvas.style.arrow
-    left, right = sorted(ends, key=lambda end: end.real)
-    reach, up = abs(right - left), 1j * (CLEAR + 0.5 * (layout.top - layout.bottom))
-    over_heads = 1j * arrow * HEAD_HALF_WIDTH
-    if reach > layout.width + SPARE:
-        spare = 0.5 * (reach - layout.width - SPARE) / reach
-        shares = [share for share in SHARES if abs(share - 0.5) <= spare]
-        places = [left + share * reach + up + more for more in (0j, over_heads) for share in shares]
-        if canvas.write(text, places, canvas.style.text):
-            return True
-    if chained:
-        return False
-    beyond = 2.0 * arrow if reach <= 2.5 * arrow else 0.0  # the heads stand there
-    x0, _, x1, _ = extent(canvas.shapes)
-    sides = [(left, -1.0), (right, 1.0)] if left.real - x0 <= x1 - right.real else [(right, 1.0), (left, -1.0)]
-    for end, side in sides:
-        far = end + side * (beyond + layout.width + SHELF)
-        if canvas.write(text, [far - side * 0.5 * layout.width + up], canvas.style.text):
-            canvas.add(Line(end, far, Pen.THIN, role="shelf"))
-            return True
-    return False
-
-
-Row: TypeAlias = Sequence[str | None]
-INDENT = "    "
-NUMBER = re.compile(r"([−±]?\d+)(?:[.,]\d+)?(?:·10\^\{−?\d+\})?")  # and what of it stands before the comma
-SENTENCE = re.compile(r"[^\W\d_]{3,} +[^\W\d_]{2,}(?![\w.])")  # two words, none cut short
-WORD, SCRIPTS = re.compile(r"[^\W\d_]{3,}"), re.compile(r"[_^]\{[^}]*\}")  # in words; in symbols what is no letter
-PITCH = 1.7  # heights of letters from line to line (GOST 2.304)
-CELL = 1.75  # mm at least on both sides of what stands in a cell
-BETWEEN, UNDERLINED = 0.45, 0.9  # heights of letters between lines of text, and below one that is underlined
-LONG, DENOMINATOR, ROUNDING = 10, 100, 1e-11  # characters of a number that may be a simple fraction
-
-
-def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
-    """Return a ruled table; the first row is its head. A cell that is None belongs to the one on its left.
-
-    Capitals stand in the middle of their row; numbers of a column with their commas under one another, sentences and
-    the words above and below them from its left edge, all else in its middle.
-    """
-    h, columns = style.text, range(len(rows[0]))
-    alone = [
-        {j: cell for j, row in enumerate(rows) for k, end, cell in cells(row) if k == i == end - 1} for i in columns
-    ]
-    placed = [_in_column(column, h) for column in alone]
-    widths = [wide + 2.0 * max(0.5 * h, CELL) for wide, _ in placed]
-    edges = [0.0, *accumulate(widths)]
-    # scripts reach past the capitals in the middle of a row: it is as much higher on both sides
-    reach = (max(top - h, -bottom) for top, bottom in (_span(row, h) for row in rows))
-    levels = [0.0, *accumulate(-max(2.0 * h, 1.25 * h + 2.0 * past, style.row) for past in reach)]
-    shapes: list[Shape] = []
-    for i, y in enumerate(levels):
-        pen = Pen.MAIN if i in (0, 1, len(rows)) else Pen.THIN
-        shapes.append(Line(complex(0, y), complex(edges[-1], y), pen))
-    for i, x in enumerate(edges):
-        pen = Pen.MAIN if i in (0, len(edges) - 1) else Pen.THIN
-        shapes += (Line(complex(x, levels[j]), complex(x, levels[k]), pen) for j, k in _ruled(rows, i))
-    for j, row in enumerate(rows):
-        baseline = 0.5 * (levels[j] + levels[j + 1] - h)
-        for i, end, cell in cells(row):
-            start = placed[i][1].get(j) if end == i + 1 else None
-            x = 0.5 * (edges[i] + edges[end]) if start is None else edges[i] + start
-            if cell:
-                anchor: Anchor = "middle" if start is None else "left"
-                shapes.append(Text(complex(x, baseline), cell, h, anchor, role="cell"))
-    view = _view(name, heading, shapes, (0.0, levels[-1], edges[-1], 0.0), style, role="table")
-    return replace(view, rows=tuple(tuple(row) for row in rows), style=style)
-
-
-def _in_column(column: Mapping[int, str], h: float) -> tuple[float, dict[int, float]]:
-    """Return how wide the texts of a column are, and where those begin that do not stand in its middle, by row."""
-    wide = {j: lay_out(cell, h).width for j, cell in column.items()}
-    widest = max(wide.values(), default=0.0)
-    if any(SENTENCE.search(cell) for j, cell in column.items() if j):
-        return widest, {j: max(0.5 * h, CELL) for j, cell in column.items() if j and WORD.search(SCRIPTS.sub("", cell))}
-    before = {j: lay_out(number[1], h).width for j, cell in column.items() if (number := NUMBER.fullmatch(cell))}
-    left, right = max(before.values(), default=0.0), max((wide[j] - before[j] for j in before), default=0.0)
-    widest = max(widest, left + right)
-    return widest, {j: max(0.5 * h, CELL) + 0.5 * (widest - left - right) + left - own for j, own in before.items()}
-
-
-def cells(row: Row) -> Iterator[tuple[int, int, str]]:
-    """Go through the cells of a row: the columns where they begin and before which they end, and their text."""
-    for i, cell in enumerate(row):
-        if cell is not None or i == 0:
-            yield i, next((k for k in range(i + 1, len(row)) if row[k] is not None), len(row)), cell or ""
-
-
-def _ruled(rows: Sequence[Row], edge: int) -> list[tuple[int, int]]:
-    """Return from which level to which a line runs on the left of a column: broken where a cell goes on over it."""
-    crossed = [j for j, row in enumerate(rows) if 0 < edge < len(row) and row[edge] is None]
-    ends = [-1, *crossed, len(rows)]
-    return [(a + 1, b) for a, b in pairwise(ends) if b > a + 1]
-
-
-def _span(row: Row, h: float) -> tuple[float, float]:
-    """Return how far a row of cells reaches above and below its baseline, at least as far as a capital letter."""
-    layouts = [lay_out(cell or "", h) for cell in row]
-    return max(h, *(layout.top for layout in layouts)), min(0.0, *(layout.bottom for layout in layouts))
-
-
-def givens_view(
-    givens: Mapping[str, Given],
-    words: Words,
-    style: Style,
-    more: Sequence[tuple[str, str, str]] = (),
-    called: Mapping[str, str] | None = None,
-) -> View:
-    """Return the table of the givens in the task's own units; `more` rows of the same columns follow.
-
-    Where it is said what they are `called`, that stands in a column of its own, and nothing follows.
-    """
-    rows = [[words["table.symbol"], words["table.value"], words["table.unit"]]]
-    for name, given in givens.items():
-        if isinstance(given.value, str):
-            rows.append([*words.choice(name, given.value), ""])
-        else:
-            rows.append([words.symbol(name), _number(words, given.value), words.unit(given.unit)])
-    rows += map(list, more)
-    if called is None:
-        return table("givens", words["heading.givens"], rows, style)
-    named: list[Row] = [[rows[0][0], words["table.called"], *rows[0][1:]]]
-    for (symbol, *cells), (name, given) in zip(rows[1:], givens.items(), strict=False):
-        chosen = ["", symbol[:1].upper() + symbol[1:], cells[0], None]
-        named.append(chosen if isinstance(given.value, str) else [symbol, called.get(name, ""), *cells])
-    return table("givens", words["heading.givens"], named, style)
-
-
-def with_unit(value: str, unit: str) -> str:
-    """Return a number with its unit; the sign of degrees stands close."""
-    return f"{value}{'' if unit.startswith('°') else ' '}{unit}".rstrip()
-
-
-def _number(words: Words, value: float) -> str:
-    """Return a number as short as it is: a third as a fraction."""
-    if math.isinf(value):
-        return "∞"
-    if len(text := words.short(value)) > LONG:
-        from fractions import Fraction  # few numbers need it
-
-        simple = Fraction(value).limit_denominator(DENOMINATOR)
-        if simple.denominator != 1 and abs(value - simple) < ROUNDING * abs(value):
-            return f"{simple.numerator}/{simple.denominator}"
-    return text
-
-
-def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: Style, width: float) -> View:
-    """Return lines of text; each line comes in chunks, and breaks between chunks where it is wider than `width`."""
-    h = style.text
-    shapes: list[Shape] = []
-    base, low, widest = 0.0, 0.0, 0.0  # of the line before
-    for first, *others in lines:
-        broken = [first]
-        for chunk in others:
-            longer = f"{broken[-1]} {chunk}"
-            broken[-1:] = [broken[-1], INDENT + chunk] if lay_out(longer, h).width > width else [longer]
-        for line in broken:
-            layout = lay_out(line, h)
-            base = min(low - layout.top, base - PITCH * h) if shapes else -layout.top
-            shapes.append(Text(complex(0.0, base), line, h, role="line"))
-            underlined = any(rule[1] < 0.0 for rule in layout.rules)
-            low = base + layout.bottom - (UNDERLINED if underlined else BETWEEN) * h
-            widest = max(widest, layout.width)
-    view = _view(name, heading, shapes, (0.0, low, widest, 0.0), style, role="text")
-    return replace(view, lines=tuple(tuple(line) for line in lines), style=style, width=width)
-
-
-def part_of(view: View, begin: int, end: int, heading: str) -> View:
-    """Return these rows of a table, under its head, or lines of a text; the first part has its name."""
-    name, style = view.name if begin == 0 else f"{view.name}_continued", view.style
-    if style is None:
-        raise ValueError(f"{view.name} has no parts")
-    if view.rows:
-        part = table(name, heading, [view.rows[0], *view.rows[1 + begin : 1 + end]], style)
-    else:
-        part = text_block(name, heading, view.lines[begin:end], style, view.width)
-    return replace(part, of=view.of or view.name)
-
-
-def words_of(sentence: str) -> tuple[str, ...]:
-    """Return a sentence as a line of text that may break between any two words."""
-    return tuple(sentence.split())
-
-
-def _view(name: str, heading: str, shapes: list[Shape], box: Box, style: Style, role: str) -> View:
-    """Return a view of `shapes`, which fill `box`, under their heading."""
-    x0, y0, x1, _ = box
-    middle = (x0 + x1) / 2
-    lines, top = heading_shapes((heading,), style.heading, middle, 0.0)
-    half = max((lay_out(heading, style.heading).width / 2, (x1 - x0) / 2))
-    body = Group(tuple(shapes), role, name)
-    return View(name, (body, *lines), (middle - half - 0.5, y0 - 0.5, middle + half + 0.5, top + 1.0), (heading,))

@@ -307,7 +307,7 @@ class Kind(Generic[Subject, Answer]):
     def stated(self, case: Case, words: Words, loaded: bool = True) -> Iterable[tuple[str, str, str]]:
         """Go through the data of a case as markup: symbol, what it is, value with its unit; or those without loads."""
         from ..drawing.formats import STYLES
-        from ..drawing.view import givens_view, with_unit
+        from ..drawing.tables import givens_view, with_unit
 
         called = {name: words.texts.get(f"called.{self.table}.{name}", "") for name in case.givens}
         rows = givens_view(case.givens, words, STYLES["A4"], called=called).rows[1:]

@@ -12,12 +12,13 @@ from ...plans.names import role
 from ...scales.scale import Scale, steps
 from ..areas import beside
 from ..diagram import AT_POLE, Axis, Field, Pole, axes, divisions, mark_pole, numbers, small
+from ..dimensions import linear
 from ..figure import Figure, Stage, needing, stages
 from ..page import extent
 from ..printed import DEGREES
 from ..shapes import Group, Line, Pen, Polyline, Text
 from ..text import Box, lay_out
-from ..view import Canvas, View, linear
+from ..view import Canvas, View
 from .scene import CamScene
 
 ORDER = {TRAVEL: 0, VELOCITY: 1, ACCELERATION: 2}  # of the derivative that a diagram shows

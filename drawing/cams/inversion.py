@@ -10,13 +10,14 @@ from ...plans.cams.construction import PROFILE
 from ...plans.cams.envelopes import Envelope, Undercut
 from ...plans.cams.followers import RollerProfile
 from ...plans.cams.motion import LOWER
+from ..dimensions import above
 from ..figure import Figure
 from ..page import extent
 from ..printed import DEGREES, decimals_for
 from ..shapes import Circle, Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import angle_dimension, polar, shaft, shaft_radius, swept, turning_arrow, unit
 from ..text import lay_out
-from ..view import View, above
+from ..view import View
 from .scene import CamScene
 
 PAST = 5.0  # mm of the axes of a cam beyond its circles

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from ...plans.cams.construction import PLATE_PROFILE, PROFILE
 from ...plans.cams.course import on_circle, rests, turning, up_at
+from ..dimensions import angle, linear
 from ..figure import Figure, Stage, stages
 from ..shapes import Arc, Group, Line, Pen, Polyline
 from ..symbols import Rod, fixed_pivot, polar, revolute, swept, unit
 from ..text import lay_out
-from ..view import angle, linear
 from .inversion import NUMBERS, PHASES, RADIUS, Inversion, RollerInversion
 from .scene import CamScene, is_aside, is_sharp
 

@@ -13,7 +13,7 @@ from ...scales.scale import Choosers, Fixed, From, Scale, rounded, steps
 from ..extents import Rungs, not_a_point, smallest, visible
 from ..figure import Figure, Fitting, Found, SheetContents, may_fit
 from ..formats import STYLES, Format, room
-from ..view import givens_view
+from ..tables import givens_view
 from .scene import CamScene, lettered
 
 GIVING = ("mu_l", "reduction", *EQUAL)  # what may be drawn smaller for the sake of one page

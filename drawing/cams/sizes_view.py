@@ -16,11 +16,12 @@ from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.sizes import apex, wedge
 from ..areas import hatched
 from ..diagram import small
+from ..dimensions import angle, linear, turning
 from ..figure import Figure, Stage, needing, stages
 from ..shapes import Arc, Circle, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, arc_between, at_level, fixed_pivot, nearer, swept, unit
 from ..text import lay_out
-from ..view import Canvas, View, angle, linear, turning
+from ..view import Canvas, View
 from .diagrams_view import jumps
 from .scene import CamScene, given
 from .text import transfer

@@ -20,7 +20,8 @@ from ..handouts import Shown as Begun
 from ..notes.blocks import Sentences, Story
 from ..printed import DEGREES, Input, Shown, calculation, read_off, ruler_decimals, worked
 from ..symbols import swept
-from ..view import View, table, text_block, words_of
+from ..tables import table, text_block, words_of
+from ..view import View
 from .inversion import undercut_notes
 from .scene import MU_DIGITS, CamScene, is_aside
 

@@ -13,12 +13,13 @@ from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale
 from ..areas import strokes
 from ..diagram import Axis, Field, axes, curve, divisions, numbered, numbers
+from ..dimensions import linear
 from ..figure import ANSWERS, Figure, needing, stages
 from ..printed import DEGREES, Input, calculation
 from ..shapes import Group, Line, Pen, Polyline, Text
 from ..symbols import unit
 from ..text import lay_out
-from ..view import Canvas, View, linear
+from ..view import Canvas, View
 from ..words import Words, indexed
 from .scene import CURVES, ENDS, GearScene, cut_of
 

@@ -14,11 +14,12 @@ from ...plans.gears.teeth import Wheel
 from ...scales.scale import Scale, steps
 from ..areas import freest, thinned
 from ..diagram import Axis, Field, divisions, numbered
+from ..dimensions import angle, linear
 from ..figure import ANSWERS, GIVEN, Figure, needing, stages
 from ..page import extent
 from ..shapes import Anchor, Arc, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import HALF_TURN, right_angle, unit
-from ..view import Canvas, View, angle, linear
+from ..view import Canvas, View
 from .meshing_view import PAST, PENS, WIDEST, node
 from .scene import GearScene
 

@@ -9,11 +9,12 @@ from itertools import pairwise
 from ...plans.gears.construction import MESHING
 from ...plans.gears.teeth import CIRCLES, SHOWN, Wheel
 from ...plans.names import role
+from ..dimensions import angle, linear, turning
 from ..figure import ANSWERS, Figure, stages
 from ..page import extent
 from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Polyline, Text
 from ..symbols import HALF_TURN, arc_between, fixed_pivot, right_angle, unit
-from ..view import Canvas, View, angle, linear, turning
+from ..view import Canvas, View
 from ..words import indexed
 from .scene import TOOTH, GearScene
 

@@ -15,7 +15,8 @@ from ...scales.scale import Scale
 from ..handouts import Shown as Begun
 from ..notes.blocks import Story
 from ..printed import DEGREES, Input, Shown, prints, worked
-from ..view import View, table, text_block
+from ..tables import table, text_block
+from ..view import View
 from ..words import indexed
 from .action_view import theta_said
 from .scene import PLACES, GearScene

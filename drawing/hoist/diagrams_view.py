@@ -12,11 +12,12 @@ from ...plans.hoist.solve import POINTS, equation, forces_over
 from ...plans.solved import PAPER_MM
 from ..areas import clipped
 from ..diagram import Axis, Field, divisions, drawn_through, numbered
+from ..dimensions import angle, linear
 from ..figure import Figure, Stage, needing, stages
 from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import arc_between
 from ..text import Box
-from ..view import Canvas, View, angle, linear
+from ..view import Canvas, View
 from .scene import HoistScene
 
 MANY, BESIDE_CROSSING = 48, 4  # section lines

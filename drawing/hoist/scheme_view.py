@@ -9,12 +9,13 @@ from itertools import pairwise
 from ...plans.hoist.construction import BENT, FORCE, LETTERS, SCHEME, SECTIONS
 from ...plans.hoist.forces import STRENGTH
 from ...plans.hoist.solve import OF_BEAM, bent
+from ..dimensions import linear
 from ..figure import Figure, needing, stages
 from ..page import Layer
 from ..shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import COILS, HALF_TURN, coils, fixed_pivot, hatching, revolute, unit
 from ..text import lay_out
-from ..view import Canvas, View, linear
+from ..view import Canvas, View
 from .scene import HoistScene
 from .text import formula
 

@@ -15,7 +15,8 @@ from ...scales.scale import Scale
 from ..handouts import Shown
 from ..notes.blocks import Story
 from ..printed import Input, Symbol, calculation
-from ..view import View, givens_view, table, text_block, words_of
+from ..tables import givens_view, table, text_block, words_of
+from ..view import View
 from ..words import Given, Words
 from .scene import HoistScene
 

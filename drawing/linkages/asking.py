@@ -9,7 +9,8 @@ from ...plans.linkages.mechanism import FORCE, FRAME, ZERO, Driver, Mechanism, P
 from ...plans.names import INERTIA, Name, role
 from ...plans.quantities import F_BAL, M_BAL
 from ...scales.units import unit
-from ..view import View, with_unit
+from ..tables import with_unit
+from ..view import View
 from ..words import Words
 from .scene import Scene
 from .statement import FORCES, SKETCHED, data_table, given_name, kinematic_scheme, use_of

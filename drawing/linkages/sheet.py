@@ -24,7 +24,8 @@ from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, printable, room
 from ..packing import Placement
 from ..page import DATA, STATEMENT
-from ..view import View, numbered, text_block
+from ..tables import text_block
+from ..view import View, numbered
 from .calculations.equations import PLANS, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
 from .calculations.tables import givens_table, results_parts, results_table, structure_lines

@@ -14,7 +14,8 @@ from ...plans.linkages.mechanism import FRAME, Link, Mechanism, Prismatic, Slidi
 from ...plans.names import role
 from ...scales.scale import Scale, steps
 from ..page import SCHEME, TASK
-from ..view import View, givens_view, text_block
+from ..tables import givens_view, text_block
+from ..view import View
 from ..words import Words
 from .calculations.tables import results_parts
 from .figures.links import draw_links, letter_links

@@ -19,8 +19,8 @@ from ...scales.packaged import home, packaged
 from ..font import SCREEN, SLANTED, UPRIGHT, font
 from ..formats import FORMATS
 from ..pdf import write_png
+from ..tables import cells as cells_of
 from ..text import lay_out
-from ..view import cells as cells_of
 from . import blocks as note
 from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table, displayed
 from .omml import built_up, node, quoted, whole

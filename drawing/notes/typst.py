@@ -14,7 +14,7 @@ from typing import Any
 
 from ...scales.errors import InputError
 from ...scales.packaged import packaged
-from ..view import cells
+from ..tables import cells
 from . import blocks as note
 from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
 

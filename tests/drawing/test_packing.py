@@ -12,7 +12,8 @@ from kulman.drawing.compose import FULL, MANY, Pages, arrange, compose, last, on
 from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
 from kulman.drawing.packing import LEAST, STEPS, Placement, Slicing, size_of, spread
-from kulman.drawing.view import View, table, text_block
+from kulman.drawing.tables import table, text_block
+from kulman.drawing.view import View
 
 # Givens, structure, position, velocity, acceleration, equations, two tables; group, its forces, forces of the link,
 # slider, driver, its forces, equations; lever, its equations, two tables.

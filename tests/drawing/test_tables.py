@@ -7,12 +7,14 @@ from itertools import pairwise
 
 import pytest
 
+from kulman.drawing.dimensions import linear
 from kulman.drawing.formats import FORMATS, STYLES, Style, pens_for
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Arc, Group, Head, Line, Text
 from kulman.drawing.symbols import angle_dimension
+from kulman.drawing.tables import table, text_block
 from kulman.drawing.text import lay_out, placer
-from kulman.drawing.view import Canvas, View, linear, table, text_block
+from kulman.drawing.view import Canvas, View
 
 CASES = range(60)
 SYMBOLS = ("m", "V_{B}", "a^{n}_{BA}", "φ", "J_{S2}", r"\bar{R}^{τ}_{12}", "P^{ст}_{12 max}", "Δl")

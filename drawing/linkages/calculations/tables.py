@@ -14,7 +14,8 @@ from ....plans.linkages.structure import Group, Structure
 from ....plans.names import COUPLE, role
 from ....plans.quantities import Quantity
 from ...printed import DIGITS, decimals_for, half_digit, number_of, value_text
-from ...view import View, givens_view, table
+from ...tables import givens_view, table
+from ...view import View
 from ..reading import read
 from ..scene import Scene
 from .equations import RATES, Lines, drawn_on, opposed, printed_segment, reading_of, value_shown

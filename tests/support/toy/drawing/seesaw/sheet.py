@@ -9,7 +9,8 @@ from kulman.drawing.extents import Rungs, smallest
 from kulman.drawing.figure import Figure, Fitting, Found, SheetContents, SubjectScene, stages
 from kulman.drawing.formats import STYLES, Format
 from kulman.drawing.shapes import Line, Pen
-from kulman.drawing.view import View, givens_view
+from kulman.drawing.tables import givens_view
+from kulman.drawing.view import View
 from kulman.drawing.words import Words
 from kulman.scales.scale import Choosers, From, Scale, steps
 from kulman.tests.support.toy.plans.seesaw.solve import BALANCE, SCALES, SCHEME, SolvedSeesaw

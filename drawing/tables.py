@@ -1,0 +1,186 @@
+"""Tables and blocks of text as views under their headings; parts of them where they go on on another page."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import accumulate, pairwise
+from typing import TypeAlias
+
+from .formats import Style
+from .shapes import Anchor, Group, Line, Pen, Shape, Text
+from .text import Box, lay_out
+from .view import View, heading_shapes
+from .words import Given, Words
+
+Row: TypeAlias = Sequence[str | None]
+INDENT = "    "
+NUMBER = re.compile(r"([−±]?\d+)(?:[.,]\d+)?(?:·10\^\{−?\d+\})?")  # and what of it stands before the comma
+SENTENCE = re.compile(r"[^\W\d_]{3,} +[^\W\d_]{2,}(?![\w.])")  # two words, none cut short
+WORD, SCRIPTS = re.compile(r"[^\W\d_]{3,}"), re.compile(r"[_^]\{[^}]*\}")  # in words; in symbols what is no letter
+PITCH = 1.7  # heights of letters from line to line (GOST 2.304)
+CELL = 1.75  # mm at least on both sides of what stands in a cell
+BETWEEN, UNDERLINED = 0.45, 0.9  # heights of letters between lines of text, and below one that is underlined
+LONG, DENOMINATOR, ROUNDING = 10, 100, 1e-11  # characters of a number that may be a simple fraction
+
+
+def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
+    """Return a ruled table; the first row is its head. A cell that is None belongs to the one on its left.
+
+    Capitals stand in the middle of their row; numbers of a column with their commas under one another, sentences and
+    the words above and below them from its left edge, all else in its middle.
+    """
+    h, columns = style.text, range(len(rows[0]))
+    alone = [
+        {j: cell for j, row in enumerate(rows) for k, end, cell in cells(row) if k == i == end - 1} for i in columns
+    ]
+    placed = [_in_column(column, h) for column in alone]
+    widths = [wide + 2.0 * max(0.5 * h, CELL) for wide, _ in placed]
+    edges = [0.0, *accumulate(widths)]
+    # scripts reach past the capitals in the middle of a row: it is as much higher on both sides
+    reach = (max(top - h, -bottom) for top, bottom in (_span(row, h) for row in rows))
+    levels = [0.0, *accumulate(-max(2.0 * h, 1.25 * h + 2.0 * past, style.row) for past in reach)]
+    shapes: list[Shape] = []
+    for i, y in enumerate(levels):
+        pen = Pen.MAIN if i in (0, 1, len(rows)) else Pen.THIN
+        shapes.append(Line(complex(0, y), complex(edges[-1], y), pen))
+    for i, x in enumerate(edges):
+        pen = Pen.MAIN if i in (0, len(edges) - 1) else Pen.THIN
+        shapes += (Line(complex(x, levels[j]), complex(x, levels[k]), pen) for j, k in _ruled(rows, i))
+    for j, row in enumerate(rows):
+        baseline = 0.5 * (levels[j] + levels[j + 1] - h)
+        for i, end, cell in cells(row):
+            start = placed[i][1].get(j) if end == i + 1 else None
+            x = 0.5 * (edges[i] + edges[end]) if start is None else edges[i] + start
+            if cell:
+                anchor: Anchor = "middle" if start is None else "left"
+                shapes.append(Text(complex(x, baseline), cell, h, anchor, role="cell"))
+    view = _view(name, heading, shapes, (0.0, levels[-1], edges[-1], 0.0), style, role="table")
+    return replace(view, rows=tuple(tuple(row) for row in rows), style=style)
+
+
+def _in_column(column: Mapping[int, str], h: float) -> tuple[float, dict[int, float]]:
+    """Return how wide the texts of a column are, and where those begin that do not stand in its middle, by row."""
+    wide = {j: lay_out(cell, h).width for j, cell in column.items()}
+    widest = max(wide.values(), default=0.0)
+    if any(SENTENCE.search(cell) for j, cell in column.items() if j):
+        return widest, {j: max(0.5 * h, CELL) for j, cell in column.items() if j and WORD.search(SCRIPTS.sub("", cell))}
+    before = {j: lay_out(number[1], h).width for j, cell in column.items() if (number := NUMBER.fullmatch(cell))}
+    left, right = max(before.values(), default=0.0), max((wide[j] - before[j] for j in before), default=0.0)
+    widest = max(widest, left + right)
+    return widest, {j: max(0.5 * h, CELL) + 0.5 * (widest - left - right) + left - own for j, own in before.items()}
+
+
+def cells(row: Row) -> Iterator[tuple[int, int, str]]:
+    """Go through the cells of a row: the columns where they begin and before which they end, and their text."""
+    for i, cell in enumerate(row):
+        if cell is not None or i == 0:
+            yield i, next((k for k in range(i + 1, len(row)) if row[k] is not None), len(row)), cell or ""
+
+
+def _ruled(rows: Sequence[Row], edge: int) -> list[tuple[int, int]]:
+    """Return from which level to which a line runs on the left of a column: broken where a cell goes on over it."""
+    crossed = [j for j, row in enumerate(rows) if 0 < edge < len(row) and row[edge] is None]
+    ends = [-1, *crossed, len(rows)]
+    return [(a + 1, b) for a, b in pairwise(ends) if b > a + 1]
+
+
+def _span(row: Row, h: float) -> tuple[float, float]:
+    """Return how far a row of cells reaches above and below its baseline, at least as far as a capital letter."""
+    layouts = [lay_out(cell or "", h) for cell in row]
+    return max(h, *(layout.top for layout in layouts)), min(0.0, *(layout.bottom for layout in layouts))
+
+
+def givens_view(
+    givens: Mapping[str, Given],
+    words: Words,
+    style: Style,
+    more: Sequence[tuple[str, str, str]] = (),
+    called: Mapping[str, str] | None = None,
+) -> View:
+    """Return the table of the givens in the task's own units; `more` rows of the same columns follow.
+
+    Where it is said what they are `called`, that stands in a column of its own, and nothing follows.
+    """
+    rows = [[words["table.symbol"], words["table.value"], words["table.unit"]]]
+    for name, given in givens.items():
+        if isinstance(given.value, str):
+            rows.append([*words.choice(name, given.value), ""])
+        else:
+            rows.append([words.symbol(name), _number(words, given.value), words.unit(given.unit)])
+    rows += map(list, more)
+    if called is None:
+        return table("givens", words["heading.givens"], rows, style)
+    named: list[Row] = [[rows[0][0], words["table.called"], *rows[0][1:]]]
+    for (symbol, *cells), (name, given) in zip(rows[1:], givens.items(), strict=False):
+        chosen = ["", symbol[:1].upper() + symbol[1:], cells[0], None]
+        named.append(chosen if isinstance(given.value, str) else [symbol, called.get(name, ""), *cells])
+    return table("givens", words["heading.givens"], named, style)
+
+
+def with_unit(value: str, unit: str) -> str:
+    """Return a number with its unit; the sign of degrees stands close."""
+    return f"{value}{'' if unit.startswith('°') else ' '}{unit}".rstrip()
+
+
+def _number(words: Words, value: float) -> str:
+    """Return a number as short as it is: a third as a fraction."""
+    if math.isinf(value):
+        return "∞"
+    if len(text := words.short(value)) > LONG:
+        from fractions import Fraction  # few numbers need it
+
+        simple = Fraction(value).limit_denominator(DENOMINATOR)
+        if simple.denominator != 1 and abs(value - simple) < ROUNDING * abs(value):
+            return f"{simple.numerator}/{simple.denominator}"
+    return text
+
+
+def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: Style, width: float) -> View:
+    """Return lines of text; each line comes in chunks, and breaks between chunks where it is wider than `width`."""
+    h = style.text
+    shapes: list[Shape] = []
+    base, low, widest = 0.0, 0.0, 0.0  # of the line before
+    for first, *others in lines:
+        broken = [first]
+        for chunk in others:
+            longer = f"{broken[-1]} {chunk}"
+            broken[-1:] = [broken[-1], INDENT + chunk] if lay_out(longer, h).width > width else [longer]
+        for line in broken:
+            layout = lay_out(line, h)
+            base = min(low - layout.top, base - PITCH * h) if shapes else -layout.top
+            shapes.append(Text(complex(0.0, base), line, h, role="line"))
+            underlined = any(rule[1] < 0.0 for rule in layout.rules)
+            low = base + layout.bottom - (UNDERLINED if underlined else BETWEEN) * h
+            widest = max(widest, layout.width)
+    view = _view(name, heading, shapes, (0.0, low, widest, 0.0), style, role="text")
+    return replace(view, lines=tuple(tuple(line) for line in lines), style=style, width=width)
+
+
+def part_of(view: View, begin: int, end: int, heading: str) -> View:
+    """Return these rows of a table, under its head, or lines of a text; the first part has its name."""
+    name, style = view.name if begin == 0 else f"{view.name}_continued", view.style
+    if style is None:
+        raise ValueError(f"{view.name} has no parts")
+    if view.rows:
+        part = table(name, heading, [view.rows[0], *view.rows[1 + begin : 1 + end]], style)
+    else:
+        part = text_block(name, heading, view.lines[begin:end], style, view.width)
+    return replace(part, of=view.of or view.name)
+
+
+def words_of(sentence: str) -> tuple[str, ...]:
+    """Return a sentence as a line of text that may break between any two words."""
+    return tuple(sentence.split())
+
+
+def _view(name: str, heading: str, shapes: list[Shape], box: Box, style: Style, role: str) -> View:
+    """Return a view of `shapes`, which fill `box`, under their heading."""
+    x0, y0, x1, _ = box
+    middle = (x0 + x1) / 2
+    lines, top = heading_shapes((heading,), style.heading, middle, 0.0)
+    half = max((lay_out(heading, style.heading).width / 2, (x1 - x0) / 2))
+    body = Group(tuple(shapes), role, name)
+    return View(name, (body, *lines), (middle - half - 0.5, y0 - 0.5, middle + half + 0.5, top + 1.0), (heading,))
