@@ -21,7 +21,7 @@ from ..scales.errors import InputError
 from ..scales.scale import Choosers, Scale
 from .compose import Drawn, arrange, begins_of, compose, on_one_page
 from .extents import Rungs, from_format
-from .formats import Format, Norm, Style, room
+from .formats import FORMATS, Format, Norm, Style, room
 from .packing import Placement
 from .printed import DEGREES, value_text
 from .shapes import Circle, Group, Pen
@@ -157,6 +157,7 @@ class Fitting(ABC, Generic[Subject, Scene]):
     """
 
     first_scales: Callable[..., tuple[Format, Mapping[str, Scale]]]  # of what is solved, by choosers, for plans
+    stated = False  # whether the data have their names, as on what is given to students
 
     def __init__(
         self, contents: SheetContents[Subject], words: Words, ladders: Mapping[str, tuple[float, ...]]
@@ -218,6 +219,7 @@ class Fitting(ABC, Generic[Subject, Scene]):
         Raises InputError: a view has no room on a page of the format.
         """
         contents = self.contents
+        self.stated = sheet is not None and sheet != FORMATS[sheet.name]  # paper for printers: a handout
         usual = sheet or self.first_scales(contents.solved, contents.choosers, contents.plans)[0]
         formats = [usual] if sheet else from_format(usual)
         for candidate in formats:

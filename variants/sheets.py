@@ -367,8 +367,8 @@ def card_of_case(case: Case, drawing: Drawn) -> Sheet:
 
     Raises InputError: what its kind draws begins with no statement of the task, or it takes more than a page.
     """
-    views = [view for view in drawing.views if view.name in STATEMENT]
-    if len(views) < len(STATEMENT):
+    views = [view for view in drawing.views if (view.of or view.name) in STATEMENT]
+    if not {*STATEMENT} <= {view.name for view in views}:
         raise InputError("kind-without", task=quote(case.task.id), text="--as card")
     places = on_one_page([view.size for view in views], drawing.sheet, drawing.norm)
     if places is None:

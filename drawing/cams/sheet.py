@@ -121,7 +121,8 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
             yield Figure("motion", text.motion_table)
         yield from (figure for own, figure in equations.items() if own != PLATE)
         if drawn:
-            yield Figure("givens", lambda scene: givens_view(numbers, scene.words, scene.style))
+            called = {name: scene.words[f"called.cam.{name}"] for name in numbers} if self.stated else None
+            yield Figure("givens", lambda scene: givens_view(numbers, scene.words, scene.style, called=called))
             yield Figure("choices", partial(text.choices_block, width=narrow), ("reduction",))
         if PRESSURE_PART in plans and solved.rolling is not None:
             yield diagrams_view.PRESSURE_FIGURE

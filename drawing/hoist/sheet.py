@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PART, SCHEME_PART
 from ...plans.hoist.solve import SCALES, SolvedHoist, reduced
@@ -51,7 +52,7 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
 
         contents = self.contents
         layout, plans = contents.solved.layout, contents.plans
-        yield Figure("givens", text.data_table)
+        yield Figure("givens", partial(text.data_table, stated=self.stated))
         if SCHEME_PART in plans:
             yield from (scheme_view.SCHEME_FIGURE, scheme_view.MODEL)
         yield Figure("results", text.results_table)

@@ -29,14 +29,19 @@ Texts = Mapping[str, str]
 LARGE, SMALL, DIGITS, PAPER = 1e6, 1e-3, 4, 1  # sizes from which on a number has a power of ten; decimals
 
 
-def data_table(scene: HoistScene) -> View:
-    """Return the givens in the task's own units; stresses and areas in those in which people know them."""
+def data_table(scene: HoistScene, stated: bool = False) -> View:
+    """Return the givens in the task's own units; stresses and areas in those in which people know them.
+
+    Where they are `stated` it says what they are called.
+    """
     givens = dict(scene.givens)
     for name, given in givens.items():
         if given.unit in USUAL and not isinstance(given.value, str):
             times, unit = USUAL[given.unit]
             givens[name] = Given(float(f"{given.value * times:.{ROUNDING}g}"), unit)
-    return givens_view(givens, scene.words, scene.style)
+    numbers = [name for name, given in givens.items() if not isinstance(given.value, str)]
+    called = {name: scene.words[f"called.hoist.{name}"] for name in numbers} if stated else None
+    return givens_view(givens, scene.words, scene.style, called=called)
 
 
 def results_table(scene: HoistScene) -> View:

@@ -174,6 +174,7 @@ def data_table(scene: Scene, plans: Collection[str]) -> View:
     """Return the givens that the plans need, with what they are called."""
     told = {name: use_of(scene.mechanism, scene.words, name) for name in scene.givens}
     needless = set[str]() if FORCES & {*plans} else LOADED
+    needless = needless if {"acceleration", *FORCES} & {*plans} else needless | {"a", "epsilon"}
     needed = {name: given for name, given in scene.givens.items() if told[name] not in needless}
     called = {name: given_name(scene.mechanism, scene.words, name) for name in needed}
     return givens_view(needed, scene.words, scene.style, called=called)

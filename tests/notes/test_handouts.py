@@ -185,7 +185,7 @@ def test_a_table_of_a_blank_asks_and_a_text_has_only_its_heading(task: str) -> N
     key = {view.name: view for view in blank.views}
 
     for shown in views_of(blank):
-        if shown.name in GIVEN:
+        if (key[shown.name].of or shown.name) in GIVEN:
             continue
         view, texts = key[shown.name], [t for t in leaves(shown.shapes) if isinstance(t, Text) and t.role != "heading"]
         if view.lines:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from itertools import combinations, groupby, pairwise
 from typing import NamedTuple, TypeAlias
 
@@ -27,6 +28,7 @@ ROWS = 30  # most rows of a table
 HALVED, WIDEST = 9, 181.0  # rows of a table to be written in, head and all, over which it has two halves; mm of these
 PAIR = 2  # links of a reaction
 UNIT = 4  # column of units
+WRITABLE = 28  # rows of 8 mm that a page holds
 NUMBERS = r"(?<![A-Za-hj-z\d])\d+"  # of links of two digits, not of points: 12 and 10 of `12_10`, 12 of `i12`
 _Piece: TypeAlias = tuple[tuple[int, ...], list[str]]  # links of a group, names
 CLASSES = {2: "II", 3: "III", 4: "IV"}
@@ -143,7 +145,9 @@ def results_table(scene: Scene, part: Part) -> View:
         key = "table.of_link" if part.links.isdigit() else "table.of_links"
         heading = words[key].format(heading=heading, link=part.links, links=part.links)
     rows = _lever_rows(scene, part) if part.kind == "lever" else _rows(scene, part)
-    whole = table(part.name, heading, rows, scene.style)
+    # one too high for a page with rows to be written in has lower ones
+    style = scene.style if len(rows) <= WRITABLE else replace(scene.style, row=0.0)
+    whole = table(part.name, heading, rows, style)
     if not scene.style.row or len(rows) <= HALVED:
         return whole
     (head, *cells), half = rows, len(rows) // 2
