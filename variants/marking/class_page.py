@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from html import escape
@@ -22,7 +23,7 @@ PICTURED = 5  # mistakes that have a picture
 BARS = 10  # of the distribution
 BAR, HIGH, FOOT = 14.0, 40.0, 6.0  # mm: width of a bar, the highest, room below for numbers
 OWN_STYLE = """
-body{max-width:277mm}ol li{margin-bottom:4mm}td.m{text-align:right;font-weight:bold}
+body{max-width:277mm}ol li{margin-bottom:4mm}td.m{text-align:right;font-weight:bold}td:nth-child(2){white-space:nowrap}
 svg.bars{width:auto;height:52mm;border:0}svg.bars rect{fill:#0072b2}svg.bars text{font:3.5px Arial,sans-serif;
 text-anchor:middle}figure{margin:2mm 0}figure svg{width:150mm;max-height:130mm}figcaption{font-size:9pt}
 tr.flag td{background:#fff3c4}tr.absent td{color:#666}
@@ -107,6 +108,13 @@ class ClassPage:
             shown = "".join(f"<td{' class=m' if at == 3 else ''}>{cell}</td>" for at, cell in enumerate(cells))
             rows.append(f'<tr class="{kind}"><td>{len(rows) + 1}</td>{shown}</tr>')
         return f"<table><tr><th>№</th>{heads}</tr>{''.join(rows)}</table>"
+
+    def _first_steps(self) -> str:
+        """Return at which steps students go wrong first, and how many at each."""
+        often = Counter(result.first for result in marked_of(self.lines) if result.first)
+        told = ", ".join(f"{scripts(symbol)} – {count}" for symbol, count in often.most_common())
+        first = self.said["class.first"]
+        return f"<p>{escape(first[:1].upper() + first[1:])}: {told}</p>" if told else ""
 
     def _mistake(self, name: str, students: list[Result], at: int) -> str:
         """Return what was done, by how many and whom, and the plan of one of them over the right one."""
