@@ -340,3 +340,12 @@ def begun(case: Case, sheet: Sheet, steps: int) -> list[Page | Shape]:
     """Return all that is drawn on a sheet begun with so many steps."""
     shown = case.kind.begun(case, sheet.scales, case.words("en"), steps)
     return [*parts(begun_pages(sheet.pages, sheet.views, shown, steps))]
+
+
+def test_the_contact_ratio_has_no_sense_to_be_written(tmp_path: Path) -> None:
+    (tmp_path / "class.csv").write_text("student,variant\nО. Коваль,17\n", encoding="utf-8")
+    asked = check("madi-gear", roster=tmp_path / "class.csv", directions="required", lang="en")
+
+    head = asked.write_form(tmp_path / "form.csv").read_text("utf-8-sig").splitlines()[0]
+    assert ",ε_alpha," in head
+    assert "ε_alpha, " not in head

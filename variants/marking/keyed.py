@@ -43,6 +43,7 @@ DIRECTIONS = ("optional", "required", "ignored")
 SIZE_ALONE = 0.5  # part of a line's worth where a direction or sense is required and left out
 NEEDED = 3.0  # how many times a line counts more on which all later ones hang
 NOTHING = 1e-6  # part of a tolerance that is rounding
+RATES = ("omega", "epsilon")  # kinds of quantities of links
 SIGNED = ("rad/s", "rad/s^2", "N*m")  # units of scalars that have a sense
 LARGEST = 100_000  # bytes
 ASKED_ABOUT = ("task", "variant", "sheet", "student", "group", "book")
@@ -117,7 +118,8 @@ def wants_direction(line: Line) -> bool:
 
 def has_sense(name: str) -> bool:
     """Whether a scalar turns one way or the other: an angular velocity or acceleration, a moment."""
-    return unit_of(name) in SIGNED
+    of_link = role(name).of[:1].isdigit()  # the contact ratio of gears is no acceleration
+    return unit_of(name) in SIGNED and (of_link or role(name).kind not in RATES)
 
 
 def read_rubric(file: str | Path | None, preset_name: str, asked: Asked, directions: str | None = None) -> Rubric:
