@@ -25,6 +25,16 @@ class Written(str):
     __slots__ = ()
 
 
+class Spoken(str):
+    """What a message says in its language."""
+
+    __slots__ = ()
+
+    def said(self, language: str) -> str:
+        """Return the words for it in `language`."""
+        return str(self)
+
+
 def messages(language: str) -> dict[str, str]:
     """Return the templates of all messages in `language`, by key."""
     return packaged(__package__, "messages", language)
@@ -39,7 +49,7 @@ class KulmanError(Exception):
         Key of the template in `scales/messages/*.toml`.
     **data
         What the template names: `file`, `row`, `column`, `name`, `expected`, ... Numbers in texts have the decimal
-        sign of the language, but for what is `Written`.
+        sign of the language, but for what is `Written`; what is `Spoken` is said in it, a tuple has commas between.
     """
 
     status = 2
@@ -65,11 +75,15 @@ class KulmanError(Exception):
 
 
 def _shown(value: object, language: str) -> object:
-    """Return a value of a message in a language, with its decimal sign; an error, too."""
+    """Return a value of a message in a language, with its decimal sign and its units; an error, and several, too."""
     if isinstance(value, KulmanError):
         return value.text(language)
+    if isinstance(value, tuple):
+        return ", ".join(str(_shown(one, language)) for one in value)
     if language == "en" or isinstance(value, Written) or not isinstance(value, (str, float)):
         return value
+    if isinstance(value, Spoken):
+        return value.said(language)
     return _DECIMAL.sub(r"\1,\2", str(value))
 
 

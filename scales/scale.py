@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 from .errors import InputError
 from .numbers import quote, split_number
-from .units import SYMBOLS, Unit, parse, unit
+from .units import SYMBOLS, Unit, UnitName, parse, unit
 
 # GOST 2.302 and its reciprocals give the same customary mantissas
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
@@ -66,9 +66,10 @@ class Scale:
         return millimetres * self.mu
 
     @property
-    def per_mm_unit(self) -> str:
+    def per_mm_unit(self) -> UnitName:
         """Unit of the scale factor, `m/mm` or `(m/s)/mm`."""
-        return f"({self.unit})/{self.paper}" if "/" in self.unit or "*" in self.unit else f"{self.unit}/{self.paper}"
+        of = f"({self.unit})" if "/" in self.unit or "*" in self.unit else self.unit
+        return UnitName(f"{of}/{self.paper}")
 
     @property
     def per_unit(self) -> float:

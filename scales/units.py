@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import NamedTuple
 
-from .errors import InputError
+from .errors import InputError, Spoken
 from .numbers import quote, split_number
 
 
@@ -300,7 +300,7 @@ def converted(value: float, written: Unit, expected: Unit, least: float = SMALLE
     if dimension != expected.dimension:
         unturned = expected.dimension._replace(angle=0)
         if dimension != unturned or not expected.dimension.angle or not dimension.time:
-            raise InputError("unit-wrong", text=quote(written), expected=expected.name)
+            raise InputError("unit-wrong", text=quote(written), expected=UnitName(expected.name))
         if written == unit("1/min"):
             written = RPM
     result = written.to_si(value)
@@ -325,6 +325,16 @@ def bounded(value: float, of: Unit, text: object, least: float = SMALLEST) -> fl
     if value != 0.0 and not least <= abs(value) <= LARGEST_OF.get(of.dimension, LARGEST):
         raise InputError("number-infinite", text=quote(text))
     return value
+
+
+class UnitName(Spoken):
+    """The name of a unit, which messages spell as paper does."""
+
+    __slots__ = ()
+
+    def said(self, language: str) -> str:
+        """Return the spelling in `language`."""
+        return str(self) if language == "en" else format_unit(str(self), language) or str(self)
 
 
 @cache
@@ -364,9 +374,9 @@ def _spell(written: Unit, words: dict[str, str], times: str, power: Callable[[in
     return f"{top}/{under[0]}" if under else top
 
 
-def customary(written: Unit) -> str:
+def customary(written: Unit) -> UnitName:
     """Return the name of the unit in which people write quantities of this kind: mm, deg, rpm, not m, rad, rad/s."""
-    return _CUSTOMARY.get(written.dimension, written.name)
+    return UnitName(_CUSTOMARY.get(written.dimension, written.name))
 
 
 RPM = Unit((("rpm", 1),))

@@ -21,7 +21,7 @@ from ..drawing.text import lettered
 from ..drawing.titleblock import Stamp
 from ..drawing.view import View
 from ..drawing.writers import WRITERS, Files, page_files, save_all
-from ..scales.errors import InputError
+from ..scales.errors import InputError, KulmanError
 from ..scales.names import latin, legible, of_kind, unknown
 from ..scales.numbers import SHOWN, quote
 from ..scales.scale import Fixed, Scale
@@ -245,15 +245,16 @@ def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
             warnings.append(InputError("scale-coarser", symbol=scale.symbol, format=drawn.format, **said))
     # others than `solve` shows, which follow from the extents alone, of a sheet of one position
     paper, scales = case.kind.first_scales(case.solved, case.choosers, case.plans)
-    changed = dict[str, str]()
+    changed = dict[str, KulmanError]()
     for plan in case.solved.scale_of_plan if case.positions is None else ():
         usual, scale = scales[plan], drawn.scales[plan]
         if scale.mu != usual.mu and not isinstance(case.choosers.get(scale.symbol), Fixed):
             before, now = (case.display.scale(one) for one in (usual, scale))
-            changed[scale.symbol] = f"{scale.symbol} {before.mu:g} -> {now.mu:g} {now.per_mm_unit}"
+            said = {"before": f"{before.mu:g}", "now": f"{now.mu:g}", "unit": now.per_mm_unit}
+            changed[scale.symbol] = InputError("scale-changed", symbol=scale.symbol, **said)
     if changed:
         said = {"format": drawn.sheet.letters, "usual": paper.name}
-        warnings.append(InputError("scales-changed", changes=", ".join(changed.values()), **said))
+        warnings.append(InputError("scales-changed", changes=tuple(changed.values()), **said))
     with lettered(case.lettering, case.language):
         pages = drawn.pages(stamp)
     return Sheet(pages, drawn.scales, drawn.format, tuple(warnings), drawn.views)

@@ -2,7 +2,6 @@
 
 import ast
 import os
-import string
 from collections.abc import Callable
 from pathlib import Path
 
@@ -322,20 +321,6 @@ def test_a_command_that_cannot_be_carried_out_is_refused(name: str, refusal: Cal
 
     assert part in line
     assert len(line) < 400
-
-
-def test_every_message_is_in_every_language_with_the_same_data() -> None:
-    def fields(template: str) -> set[str]:
-        return {name for _, name, _, _ in string.Formatter().parse(template) if name}
-
-    keys = {language: messages(language).keys() for language in LANGUAGES}
-    assert keys["uk"] == keys["ru"] == keys["en"]
-    for key in keys["en"]:
-        templates = [messages(language)[key] for language in LANGUAGES]
-        assert len({frozenset(fields(template)) for template in templates}) == 1, key
-        assert all("\n" not in template and template.strip() == template for template in templates), key
-        if key.split("-")[0] != "list":
-            assert len(set(templates)) == 3, f"{key} is not translated"
 
 
 def test_every_error_has_its_message() -> None:

@@ -15,6 +15,7 @@ from kulman.docs import refresh
 from kulman.scales.errors import LANGUAGES, messages
 from kulman.tests.support.documents import blocks, run_here
 from kulman.tests.support.sources import ROOT, files
+from kulman.variants.commands.guides import TOPICS
 from kulman.variants.making.starter import template
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled_text
@@ -96,6 +97,7 @@ def test_the_page_of_commands_names_every_command_and_links_of_the_readme_lead_s
     for path in refresh.READMES:
         links = re.findall(r"\]\(([^)#:]+)\)", TEXTS[path.stem])
         assert [target for target in links if not (refresh.ROOT / target).exists()] == []
+        assert {f"variants/guides/{topic}.{refresh.language(path)}.md" for topic in TOPICS} <= {*links}
         assert len(TEXTS[path.stem].split()) <= LONGEST
 
 

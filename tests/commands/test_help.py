@@ -15,7 +15,6 @@ from kulman.variants.commands.helping import longest, texts, told
 
 NAMES = ("", *cli.commands.commands)
 CYRILLIC = re.compile("[а-яіїєґ]", re.IGNORECASE)
-WORDS = re.compile(r"\{\w+\}|(?<=[ ,])\.[a-z]{2,5}\b|--[a-z]+|`\w+`|\b[a-z]+_[A-Z]\w*")  # which no language changes
 FOREIGN = {"uk": re.compile("[ыэъё]", re.IGNORECASE), "ru": re.compile("[іїєґ]", re.IGNORECASE)}
 
 
@@ -47,16 +46,13 @@ def test_every_command_and_option_has_its_text(name: str, language: str) -> None
             assert text != told(name or "kulman", key, "en")
 
 
-def test_languages_have_the_same_texts_and_no_others() -> None:
+def test_no_text_is_of_a_command_or_an_option_that_is_not_there() -> None:
     asked = {(name or "kulman", key) for name in NAMES for key in keys(name)}
 
     for language in LANGUAGES:
         given = leaves(language)
-        assert given.keys() == leaves("en").keys()
         assert [key for key in given if key[0] not in ("words", "places", "shared") and key not in asked] == []
         assert {key for table, key in given if table == "shared"} <= {key for _, key in asked}
-        for key, text in given.items():
-            assert sorted(WORDS.findall(text)) == sorted(WORDS.findall(leaves("en")[key])), (language, key)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -46,16 +46,13 @@ def refused(file: Path) -> str:
     return line
 
 
-def test_every_language_has_the_same_texts_with_the_same_placeholders_and_every_mistake_has_words() -> None:
+def test_every_mistake_has_words() -> None:
     from kulman.plans.mistakes import book, rules
 
-    for kind in ("", "mistakes."):
-        tables = {language: packaged(PACKAGE, "texts", f"{kind}{language}") for language in LANGUAGES}
-        assert tables["uk"].keys() == tables["ru"].keys() == tables["en"].keys()
-        for key in tables["en"]:
-            assert len({tuple(sorted(re.findall(r"{\w+}", tables[lang][key]))) for lang in LANGUAGES}) == 1, key
     assert book.__name__  # by which all rules are entered
-    assert list(tables["en"]) == sorted(rules.MISTAKES, key=lambda id: int(id.removeprefix("M")))
+    assert list(packaged(PACKAGE, "texts", "mistakes.en")) == sorted(
+        rules.MISTAKES, key=lambda id: int(id.removeprefix("M"))
+    )
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -19,7 +19,6 @@ import click
 
 from ...scales.choices import LETTERINGS, SIZES
 from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
-from ...scales.names import latin
 from ...scales.numbers import SHOWN, quote
 from . import completing
 from .helping import Command, place
@@ -46,11 +45,21 @@ def _nearest(problem: UnicodeError) -> tuple[str, int]:
     """Return what a console shows for letters and signs that its encoding lacks: like ones, else question marks."""
     if not isinstance(problem, UnicodeEncodeError):
         raise problem
-    shown = ""
-    for sign in problem.object[problem.start : problem.end]:
-        like = _LIKE.get(sign) or unicodedata.normalize("NFKD", latin(sign))
-        shown += like.encode(problem.encoding, "replace").decode(problem.encoding)
-    return shown, problem.end
+    signs = problem.object[problem.start : problem.end]
+    return "".join(_like(sign, problem.encoding) for sign in signs), problem.end
+
+
+def _like(sign: str, encoding: str) -> str:
+    """Return what stands for a sign: one like it, its letter in Latin ones, the name of a Greek one, its plain form."""
+    small, name = _LATIN.get(sign.lower(), ""), unicodedata.name(sign, "")
+    ways = [_LIKE.get(sign, ""), small if sign.islower() else small.capitalize()]
+    ways += [name.rpartition(" ")[2].lower()] if name.startswith("GREEK") and " WITH " not in name else []
+    raised = "^" if name.startswith("SUPERSCRIPT") else ""
+    for way in (*ways, raised + unicodedata.normalize("NFKD", sign)):
+        with suppress(UnicodeEncodeError):
+            if way.encode(encoding):
+                return way
+    return "?"
 
 
 _LIKE = {
@@ -66,16 +75,29 @@ _LIKE = {
     "×": "x",
     "→": "->",
 }
-_LIKE |= {"≤": "<=", "≥": ">=", "✓": "+", "✗": "x", "°": " deg"}
+_LIKE |= {"≤": "<=", "≥": ">=", "✓": "+", "✗": "x", "°": " deg", "√": "sqrt", "і": "i", "І": "I", "ґ": "г", "Ґ": "Г"}
+_SPELT = (
+    "а=a б=b в=v г=h ґ=g д=d е=e є=ie ж=zh з=z и=y і=i ї=i й=i к=k л=l м=m н=n о=o п=p р=r с=s т=t у=u ф=f х=kh ц=ts "
+)
+_SPELT += "ч=ch ш=sh щ=shch ь=' ю=iu я=ia ы=y э=e ъ=' ё=e"
+_LATIN = dict(pair.split("=") for pair in _SPELT.split())
 codecs.register_error("kulman-nearest", _nearest)
+_ASCII = codecs.lookup("ascii")
+_PLAIN = codecs.CodecInfo(
+    *(_ASCII.encode, _ASCII.decode, _ASCII.streamreader, _ASCII.streamwriter),
+    *(_ASCII.incrementalencoder, _ASCII.incrementaldecoder),
+    name="kulman-ascii",  # by its own name click would take UTF-8 for it
+)
+codecs.register({"kulman_ascii": _PLAIN}.get)
 
 
 def encode(stream: TextIO | None) -> None:
     """Let pipes and files have UTF-8, whatever the system says, and a console its own encoding."""
     if not isinstance(stream, io.TextIOWrapper):
         return
-    if stream.isatty() and codecs.lookup(stream.encoding).name != "utf-8":
-        stream.reconfigure(errors="kulman-nearest")
+    spoken = codecs.lookup(stream.encoding).name
+    if stream.isatty() and spoken != "utf-8":
+        stream.reconfigure(encoding="kulman-ascii" if spoken == "ascii" else None, errors="kulman-nearest")
     else:
         stream.reconfigure(encoding="utf-8", errors="backslashreplace")
 
