@@ -93,6 +93,7 @@ def test_a_guide_leads_on_to_others_and_to_tasks(run: Run) -> None:
     assert run("guide", "marknig") == (2, "", "there is no guide 'marknig'; did you mean marking?\n")
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no pager there")
 def test_a_console_gets_a_guide_page_by_page_in_its_own_signs(monkeypatch: pytest.MonkeyPatch) -> None:
     class Console:
         encoding = "cp866"

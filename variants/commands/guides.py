@@ -45,8 +45,8 @@ def _followed(link: re.Match[str]) -> str:
 
 
 def page(text: str) -> None:
-    """Print a long text, on a console page by page."""
-    if sys.stdout is None or not sys.stdout.isatty():
+    """Print a long text, on a console page by page; `more` of Windows would show it in another encoding than ours."""
+    if sys.stdout is None or not sys.stdout.isatty() or sys.platform == "win32":
         click.echo(text)
     else:  # the pager is handed bytes: signs that its console lacks are replaced before
         signs = sys.stdout.encoding
