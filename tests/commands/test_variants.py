@@ -211,11 +211,13 @@ def test_the_table_is_in_the_language_of_the_system_files_are_in_that_of_the_tas
 
 
 def test_only_the_variants_asked_for_are_solved(run: Run) -> None:
-    status, out, err = run("variants", TASK, "-v", "3,example", "--quantities", "V_B", "--json")
+    asked = "variants", TASK, "-v", "3,example", "--quantities", "V_B"
+    status, out, err = run(*asked, "--json")
 
     assert (status, err) == (0, "")
     found = json.loads(out)["variants"]
     assert found == {name: {"V_B": solve(TASK, name)["V_B"].value} for name in ("3", "example")}
+    assert run(*asked)[1].startswith("quantity  unit")  # as other results, in the language of the system
 
 
 @dataclass(frozen=True)

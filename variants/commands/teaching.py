@@ -90,7 +90,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     """Show the answers of all variants of TASK beside one another; make new variants, or read them."""
     from ..making.all_variants import all_variants as solve_all
 
-    language = options.pop("lang") or "uk"
+    language = options.pop("lang") or ("uk" if files else system_language())
     with console.progress() as advance:
         found = solve_all(task, set=settings, lang=language, advance=advance, **options)
     console.hand_over(found, files, as_json)
