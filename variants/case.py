@@ -286,7 +286,9 @@ class Kind(Generic[Subject, Answer]):
 
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Return what the explanatory note says beside the views of the sheet, drawn with `scales` by plan."""
-        return cast("Story", self._in("drawing", "text", "story")(self.scene(case, scales, words), scales, texts))
+        told = cast("Story", self._in("drawing", "text", "story")(self.scene(case, scales, words), scales, texts))
+        aims = (texts.get(f"{self.table}.aim.{plan}") for plan in case.plans)
+        return replace(told, aims=told.aims or tuple(filter(None, aims)))
 
     def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what is drawn, after the first steps, of views that are not drawn in stages: of tables."""

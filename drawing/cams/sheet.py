@@ -13,7 +13,6 @@ from ...scales.scale import Choosers, Fixed, From, Scale, rounded, steps
 from ..extents import Rungs, not_a_point, smallest, visible
 from ..figure import Figure, Fitting, Found, SheetContents, may_fit
 from ..formats import STYLES, Format, room
-from ..tables import givens_view
 from .scene import CamScene, lettered
 
 GIVING = ("mu_l", "reduction", *EQUAL)  # what may be drawn smaller for the sake of one page
@@ -102,7 +101,6 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
         from . import diagrams_view, profile_view, sizes_view, text
 
         solved, narrow = self.contents.solved, NARROW * width
-        numbers = {name: given for name, given in scene.givens.items() if not isinstance(given.value, str)}
         plans = self.contents.plans
         drawn = DIAGRAMS_PART in plans
         followers = [follower for follower in (ROLLER, ROCKER, PLATE) if getattr(solved, follower)]
@@ -121,8 +119,7 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
             yield Figure("motion", text.motion_table)
         yield from (figure for own, figure in equations.items() if own != PLATE)
         if drawn:
-            called = {name: scene.words[f"called.cam.{name}"] for name in numbers} if self.stated else None
-            yield Figure("givens", lambda scene: givens_view(numbers, scene.words, scene.style, called=called))
+            yield Figure("givens", partial(text.data_table, stated=self.stated))
             yield Figure("choices", partial(text.choices_block, width=narrow), ("reduction",))
         if PRESSURE_PART in plans and solved.rolling is not None:
             yield diagrams_view.PRESSURE_FIGURE

@@ -17,10 +17,10 @@ from ...plans.cams.rules import rules_of
 from ...plans.cams.solve import SCALES, unit_of
 from ...scales.scale import Scale
 from ..handouts import Shown as Begun
-from ..notes.blocks import Sentences, Story
+from ..notes.blocks import Story
 from ..printed import DEGREES, Input, Shown, calculation, read_off, ruler_decimals, worked
 from ..symbols import swept
-from ..tables import table, text_block, words_of
+from ..tables import givens_view, table, text_block, words_of
 from ..view import View
 from .inversion import undercut_notes
 from .scene import MU_DIGITS, CamScene, is_aside
@@ -184,6 +184,13 @@ def _ratio(scene: CamScene, over: str, under: str) -> str:
     return f"{scene.symbol(over)}/{scene.symbol(under)} = {ratio}"
 
 
+def data_table(scene: CamScene, stated: bool = False) -> View:
+    """Return the numbers that are given, in the task's own units; where they are `stated`, with what they are called."""
+    numbers = {name: given for name, given in scene.givens.items() if not isinstance(given.value, str)}
+    called = {name: scene.words[f"called.cam.{name}"] for name in numbers} if stated else None
+    return givens_view(numbers, scene.words, scene.style, called=called)
+
+
 def motion_table(scene: CamScene) -> View:
     """Return travel, analogues and pressure angle by section lines; at a jump the limits before and after it."""
     solved, words = scene.solved, scene.words
@@ -219,10 +226,11 @@ def story(scene: CamScene, scales: Mapping[str, Scale], texts: Texts) -> Story:
     """
     followers = scene.solved.cam.followers
     named = texts["cam.and"].join(texts[f"cam.for.{follower}"] for follower in followers)
-    aim = Sentences((texts["cam.aims" if len(followers) > 1 else "cam.aim"].format(followers=named),))
+    aim = texts["cam.aims" if len(followers) > 1 else "cam.aim"].format(followers=named)
+    head = (data_table(scene, stated=True),)
     said = _said(scene, texts)
     concluded = tuple(_conclusions(scene, texts))
-    return Story(conclusions=concluded, before={"givens": (aim,)}, texts=texts, said=said, first=WORK)
+    return Story(conclusions=concluded, texts=texts, said=said, first=WORK, head=head, aims=(aim,))
 
 
 def begun(scene: CamScene, steps: int) -> dict[str, Begun]:

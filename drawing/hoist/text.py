@@ -157,7 +157,8 @@ def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, st
         "beams": _lines(scene, BENT),
     }
     said = _said(scene, scales)
-    return Story(equations=equations, conclusions=tuple(conclusions(scene, texts)), texts=texts, said=said)
+    head, told = (data_table(scene, stated=True),), tuple(conclusions(scene, texts))
+    return Story(equations=equations, conclusions=told, texts=texts, said=said, head=head)
 
 
 def formula(scene: HoistScene, told: str) -> tuple[str, ...]:

@@ -182,8 +182,7 @@ def data_table(scene: Scene, plans: Collection[str]) -> View:
 
 def task_text(scene: Scene, plans: Collection[str], variant: str, width: float, fixed: Iterable[Scale] = ()) -> View:
     """Return what is to be found, a line for each plan, at which fixed scale factors, and how answers are written."""
-    words = scene.words
-    lines = [words[f"task.{plan}"].format(names=", ".join(_sought(scene, plan))) for plan in plans]
+    words, lines = scene.words, aims(scene, plans)
     scales = ", ".join(map(words.scale, fixed))
     lines += [words["task.scales"].format(scales=scales)] if scales else []
     angle = words["task.angles"] if words.notation["angles"] else ""
@@ -191,6 +190,11 @@ def task_text(scene: Scene, plans: Collection[str], variant: str, width: float, 
     return text_block(
         TASK, words["heading.task"].format(variant=variant), [BREAKS.split(line) for line in lines], scene.style, width
     )
+
+
+def aims(scene: Scene, plans: Collection[str]) -> list[str]:
+    """Return what the plans have to find, a sentence each."""
+    return [scene.words[f"task.{plan}"].format(names=", ".join(_sought(scene, plan))) for plan in plans]
 
 
 def _sought(scene: Scene, plan: str) -> Iterator[str]:

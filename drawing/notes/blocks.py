@@ -128,7 +128,8 @@ class Story:
     `steps` are those of a view that has no stages: the sentences of these stand in `texts` under their keys, with what
     is `said` put in. `equations` stand before the steps of a plan, and in the place of views that are `told` so;
     `conclusions` are sentences for the end; the blocks `before` a view have headings of their own. The views named
-    `first` come so, before all others.
+    `first` come so, before all others; those of the statement, `head`, take the place of what is called so on the
+    sheet. The `aims` say what is to be found.
     """
 
     steps: Mapping[str, Sequence[str]] = field(default_factory=dict)
@@ -138,7 +139,9 @@ class Story:
     before: Mapping[str, Sequence[Block]] = field(default_factory=dict)
     texts: Mapping[str, str] = field(default_factory=dict)
     said: Mapping[str, str] = field(default_factory=dict)
-    first: tuple[str, ...] = ("kinematic", "givens", "data", "task")
+    first: tuple[str, ...] = ("kinematic", "givens", "data")
+    head: tuple[View, ...] = ()
+    aims: tuple[str, ...] = ()
 
     def steps_of(self, view: View) -> tuple[str, ...]:
         """Return what is done, step by step, until a view is drawn."""
@@ -230,9 +233,12 @@ def blocks_of(views: Iterable[View], story: Story, said: Mapping[str, str]) -> I
 
     What is `said` are words of notes by their keys.
     """
+    writing, stated = _Writing(story, said), {view.name: view for view in story.head}
     # of what is parted the whole is there, too
-    told = [view for view in views if view.name not in story.told and not view.of]
-    writing = _Writing(story, said)
+    own = (view for view in views if view.name not in {*story.told, *stated} and not view.of)
+    told = [*stated.values(), *own]
+    if story.aims:
+        yield from (Sentences((said["note.aims"],), leads=True), Steps(story.aims))
     first = sorted((view for view in told if view.name in story.first), key=lambda view: story.first.index(view.name))
     others = [view for view in told if view.name not in story.first]
     for view in (*first, *(view for view in others if not view.rows)):

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ...scales.errors import InputError
-from ...scales.packaged import packaged
+from ...scales.packaged import home, packaged
 from ..tables import cells
 from . import blocks as note
 from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
@@ -164,14 +164,16 @@ def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
 
 @cache
 def _fonts() -> Any:
-    """Return the fonts of notes: those of typst, and that in which figures are lettered; none of the system."""
+    """Return the fonts of notes: those of typst, and those in which figures are lettered; none of the system."""
     import typst
 
     found = importlib.util.find_spec("matplotlib")
     assert found is not None
     assert found.origin is not None
     folder = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf"
-    return typst.Fonts(include_system_fonts=False, include_embedded_fonts=True, font_paths=[str(folder)])
+    return typst.Fonts(
+        include_system_fonts=False, include_embedded_fonts=True, font_paths=[str(folder), str(home(__package__).parent)]
+    )
 
 
 def _title(document: Document) -> str:

@@ -367,10 +367,10 @@ def test_hoists_compare_the_greatest_force_with_the_static_one_and_say_where_for
 def test_scale_of_specific_sliding_is_that_of_the_figure(format: str) -> None:
     written = note(GEAR, only="sliding", format=format, lang="en")
 
-    steps = next(block for block in written.document.blocks if isinstance(block, Steps))
+    steps = [text for block in written.document.blocks if isinstance(block, Steps) for text in block.texts]
     value = re.search(r"μ_\{θ\} = [\d.]+ mm\^\{−1\}", " ".join(written.figures["sliding"].under))
     assert value is not None
-    assert value[0] in steps.texts[-1]
+    assert any(value[0] in step for step in steps)
 
 
 def in_typst(*blocks: Block) -> str:

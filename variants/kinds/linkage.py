@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from ...plans.board import POSITION
@@ -184,10 +185,13 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         return moving_linkage(solved, cycle(case.task.mechanism, case.values, plans), case.givens, words)
 
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
-        """Tell every plan step by step, its equations before it."""
+        """Tell what is given and what is to be found, then every plan step by step, its equations before it."""
+        from ...drawing.linkages.statement import aims, data_table, kinematic_scheme
         from ...drawing.linkages.steps import story
 
-        return story(self.scene(case, scales, words), texts)
+        scene = self.scene(case, scales, words)
+        head = kinematic_scheme(scene), data_table(scene, case.plans)
+        return replace(story(scene, texts), head=head, aims=tuple(aims(scene, case.plans)))
 
     def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what is drawn of the plans after their first steps."""
