@@ -154,7 +154,10 @@ def body_of(case: Case, drawn: Drawn | Sheet) -> tuple[Block, ...]:
     story = case.kind.story(case, drawn.scales, words, said)
     by = said["note.over" if words.per_unit else "note.times"]
     identity = sheet_id(case.task, case.variant, case.settings)
-    sources = [escape(case.task.source.rstrip(".") + "."), *filter(None, [said.get(f"literature.{case.kind.room}")])]
+    sources = [
+        escape(case.task.source[case.language].rstrip(".") + "."),
+        *filter(None, [said.get(f"literature.{case.kind.room}")]),
+    ]
     cited = said["note.source" if len(sources) > 1 else "note.source_alone"]
     read = said["note.ruler" if case.readings == RULER else "note.sheet"]
     about = Sentences((said["note.about"].format(sheet=identity, by=by), read, cited))

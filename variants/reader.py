@@ -221,6 +221,13 @@ def _said(checker: Checker, path: Path, raw: object) -> dict[str, str]:
     return {language: read.get(language, said) for said in [*read.values()][:1] for language in LANGUAGES}
 
 
+def _source(checker: Checker, path: Path, raw: object) -> Any:
+    """Read where numbers come from: in a text for all languages, or in a language or more."""
+    if not isinstance(raw, str):
+        return _said(checker, path, raw)
+    return dict.fromkeys(LANGUAGES, said) if (said := text(checker, path, raw)) else None
+
+
 _UNITS = {"length": LENGTHS, "size": LENGTHS, "paper": PAPER, "angle": ANGLES}  # of results; of segments
 _IN_UNITS = {
     name: Field(one_of("display-unit", partial(tuple, known)), required=False) for name, known in _UNITS.items()
@@ -228,7 +235,7 @@ _IN_UNITS = {
 _FIELDS = {  # and the table of its kind
     "id": Field(label),
     "number": Field(whole_number, required=False),
-    "source": Field(text),
+    "source": Field(_source),
     "notation": Field(one_of("notation-unknown", notations)),
     "title": Field(_said),
     "note": Field(_said, required=False),

@@ -119,7 +119,7 @@ class Task:
 
     id: str
     title: Mapping[str, str]
-    source: str
+    source: Mapping[str, str]
     notation: str
     plans: tuple[str, ...]
     givens: Mapping[str, Given]

@@ -27,7 +27,7 @@ FILES = {
     "no id": ('id = "nau-slider-crank"\n', "", "key-missing"),
     "id with a space": ('id = "nau-slider-crank"', 'id = "my task"', "type-id"),
     "no source": ("source = ", "sorce = ", "key-unknown-like"),
-    "empty source": ('source = "National', 'source = ""\n# "National', "type-text"),
+    "empty source": ("source = {", 'source = ""\n# {', "type-text"),
     "unknown plan": ('"structure", "position"', '"structure", "posision"', "plan-unknown-like"),
     "plans not an array": ("plans = [", "plans = 1 # [", "type-array"),
     "plan a number": ('plans = ["structure"', "plans = [1", "type-text"),

@@ -123,6 +123,18 @@ def test_every_bundled_task_is_without_fault(task: str) -> None:
     assert summary(task)["variants"] == list(found.variants)
 
 
+def test_a_title_and_a_source_in_one_language_do_for_all(tmp_path: Path) -> None:
+    own, text = tmp_path / "own.toml", load_task("nau-slider-crank").text
+    text = re.sub(r"(?m)^source = .*$", 'source = "свої дані"', text)
+    own.write_text(re.sub(r'(?m)^(ru|en) = "[^"]*"\n', "", text, count=2), encoding="utf-8")
+
+    task = load_task(own)
+
+    assert {task.title[language] for language in ("uk", "ru", "en")} == {load_task("nau-slider-crank").title["uk"]}
+    assert {*task.source.values()} == {"свої дані"}
+    assert len({*load_task("nau-slider-crank").source.values()}) == 3
+
+
 def test_the_slider_crank_has_the_numbers_of_its_table() -> None:
     task = load_task("nau-slider-crank")
 
