@@ -10,7 +10,7 @@ from typing import Any
 
 import click
 
-from .scales.choices import HANDS, READINGS
+from .scales.choices import HANDS, PROFILES, READINGS
 from .scales.errors import (
     LANGUAGES,
     VARIABLE,
@@ -225,12 +225,13 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 @console.command(
     "kulman note nau-slider-crank -v 3 -o note.pdf -o note.md --student 'І. Петренко'",
     "kulman note madi-four-bar --figure velocity -o velocity.svg",
-    "kulman note nau-slider-crank -v 3 --readings ruler -o note.pdf",
+    "kulman note nau-slider-crank -v 3 --readings ruler --profile dstu3008 -o note.pdf",
 )
 @console.of_task
 @console.output(".notes", required=True)
 @click.option("--figure", metavar="NAME")
 @click.option("--readings", type=console.Word(*READINGS))
+@click.option("--profile", type=console.Word(*PROFILES))
 @console.sized()
 @console.titled("student", "group", "teacher", "department", "date")
 def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str | None, **options: Any) -> None:

@@ -90,8 +90,22 @@ FORM_2A: Ruling = (
     (175, 8, 185, 8, T),
     *((x, 0, x, 15, T) for x in (0, 7, 17, 40, 55, 65, 175)),
 )
+FORM_2: Ruling = (  # of the first sheet of a text
+    (0, 40, 185, 40, T),
+    (0, 35, 65, 35, t),
+    (0, 30, 65, 30, T),
+    (0, 25, 185, 25, T),
+    *((x, y, end, y, pen) for y in (20, 15) for x, end, pen in ((0, 65, t), (135, 185, T))),
+    *((0, y, 65, y, t) for y in (10, 5)),
+    *((x, 0, x, 40, T) for x in (0, 17, 40, 55, 65)),
+    (7, 25, 7, 40, T),
+    (135, 0, 135, 25, T),
+    *((x, 15, x, 20, t) for x in (140, 145)),
+    *((x, 15, x, 25, T) for x in (150, 165)),
+)
 CHANGES = (("change", 0, 7), ("row_sheet", 7, 17), ("document_no", 17, 40), ("signature", 40, 55), ("date", 55, 65))
 ROLES = (("drawn", 25), ("checked", 20), ("technical", 15), ("norms", 5), ("approved", 0))
+TEXT_ROLES = (("drawn", 20), ("checked", 15), ("norms", 5), ("approved", 0))
 
 
 def words(language: str) -> dict[str, str]:
@@ -147,8 +161,45 @@ def _form_2a(stamp: Stamp) -> list[Shape]:
     filled += _fitted(stamp.designated, (65.0, level, 175.0, 15.0), (7.0, 5.0, 3.5, 2.5), name="designation")
     filled += _fitted(who, (65.0, 0.0, 175.0, level), (3.5, 2.5), name="student")
     filled += _fitted(caption["row_sheet"], (175.0, 8.0, 185.0, 15.0), CAPTION, name="sheet_caption")
-    filled += _fitted(str(stamp.sheet), (175.0, 0.0, 185.0, 8.0), (3.5, 2.5), name="sheet")
+    filled += _fitted(str(stamp.sheet or ""), (175.0, 0.0, 185.0, 8.0), (3.5, 2.5), name="sheet")
     return [*_ruled(FORM_2A), *filled]
+
+
+def _form_2(stamp: Stamp) -> list[Shape]:
+    """Return form 2, 185 x 40 mm, for the first sheet of a text; its numbers of sheets are left blank."""
+    caption = words(stamp.language)
+    filled: list[Shape] = [*_changes(caption, 25.0)]
+    for key, y in TEXT_ROLES:
+        filled += _fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
+    for key, plain, level in (("student", stamp.student, 20.0), ("teacher", stamp.teacher, 15.0)):
+        filled += named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
+    filled += _fitted(stamp.date, (55.0, 20.0, 65.0, 25.0), CAPTION, name="date_value")
+    owner = ", ".join(part for part in (stamp.organisation, stamp.group) if part)
+    for key, plain, cell, heights in (
+        ("designation", stamp.designation, (65.0, 25.0, 185.0, 40.0), (7.0, 5.0, 3.5, 2.5)),
+        ("title", stamp.title, (65.0, 8.0, 135.0, 25.0), (5.0, 3.5, 2.5)),
+        ("document_type", stamp.document_type, (65.0, 0.0, 135.0, 8.0), (3.5, 2.5)),
+        ("organisation", owner, (135.0, 0.0, 185.0, 15.0), (5.0, 3.5, 2.5)),
+        ("letter", caption["letter"], (135.0, 20.0, 150.0, 25.0), CAPTION),
+        ("letter_value", caption["letter_value"], (135.0, 15.0, 140.0, 20.0), (3.5, 2.5)),
+        ("sheet_caption", caption["row_sheet"], (150.0, 20.0, 165.0, 25.0), CAPTION),
+        ("sheets", caption["sheets"], (165.0, 20.0, 185.0, 25.0), CAPTION),
+    ):
+        filled += _fitted(plain, cell, heights, name=key)
+    return [*_ruled(FORM_2), *filled]
+
+
+def text_frame(sheet: Format, stamp: Stamp, form: str = "") -> tuple[Shape, ...]:
+    """Return the frame of a page of a text, with the block of form `2` or `2a`, or none; its number is left blank.
+
+    Raises InputError: a field is too long for its cell.
+    """
+    area = drawing_area(sheet)
+    frame = _rectangle(area, T, "frame")
+    if not form:
+        return (frame,)
+    parts = _form_2(stamp) if form == "2" else _form_2a(replace(stamp, sheet=0, code=""))
+    return frame, _at_corner(parts, f"form-{form}", area[0], area[1])
 
 
 # From the bottom left corner of the block, mm: 180 x 36 in three rows of 12.

@@ -10,13 +10,24 @@ from pathlib import Path
 from typing import Any
 
 from ..drawing.compose import Drawn
-from ..drawing.notes.blocks import Block, Document, Figure, Heading, Sentences, Steps, TitlePage, blocks_of, figure_page
+from ..drawing.notes.blocks import (
+    PROFILES,
+    Block,
+    Document,
+    Figure,
+    Heading,
+    Sentences,
+    Steps,
+    TitlePage,
+    blocks_of,
+    figure_page,
+)
 from ..drawing.notes.docx import docx_bytes
 from ..drawing.notes.markdown import markdown
 from ..drawing.notes.typst import pdf_bytes
 from ..drawing.text import escape
 from ..drawing.writers import WRITERS, Files
-from ..scales.choices import READINGS, RULER, SHEET
+from ..scales.choices import PLAIN, READINGS, RULER, SHEET
 from ..scales.errors import InputError
 from ..scales.names import unknown
 from ..scales.numbers import SHOWN, quote
@@ -24,7 +35,7 @@ from ..scales.packaged import packaged
 from ..scales.scale import Fixed
 from .case import Case, Request, Settings, Wanted
 from .reader import load_task
-from .sheets import Sheet, draw_case, said_of, sheet_id
+from .sheets import Sheet, draw_case, said_of, sheet_id, work_code
 from .tables import Saved
 from .task import AnyTask
 
@@ -101,6 +112,7 @@ def note(
     format: str | None = None,
     figure: str | None = None,
     readings: str = SHEET,
+    profile: str = PLAIN,
     **block: str,
 ) -> Note:
     """Write the explanatory note of one variant of a task, with the figures and numbers of its sheet.
@@ -113,6 +125,8 @@ def note(
         The name of the only figure that is wanted, such as `velocity`.
     readings : {"sheet", "ruler"}
         Segments as on the sheet, or to 0.5 mm as a hand reads them, with all that follows from them.
+    profile : {"plain", "dstu3008"}
+        How pages look: 12 pt, or 14 pt, one and a half lines, in a frame with title blocks of forms 2 and 2a.
     **block : str
         `student`, `group`, `teacher`, `department`, `date` for the title page.
 
@@ -123,11 +137,13 @@ def note(
     """
     if readings not in READINGS:
         raise unknown("readings-unknown", readings, READINGS)
+    if profile not in PROFILES:
+        raise unknown("profile-unknown", profile, PROFILES)
     case = Request(load_task(task), variant, set, only, scales, notation, lang, format).case()
     drawn = draw_case(case)
     if readings == RULER:
         case, drawn = _by_ruler(case, drawn)
-    document = Document(title_page(replace(case, block=block)), body_of(case, drawn), lang)
+    document = Document(title_page(replace(case, block=block)), body_of(case, drawn), lang, PROFILES[profile])
     found = Note(document, drawn, figure)
     if figure is not None and figure not in found.figures:
         raise unknown("figure-unknown", figure, found.figures)
@@ -144,8 +160,10 @@ def _by_ruler(case: Case, drawn: Sheet) -> tuple[Case, Sheet]:
 def title_page(case: Case) -> TitlePage:
     """Return what the first page of the note of a case says."""
     identity = sheet_id(case.task, case.variant, case.settings)
-    title = case.task.title[case.language]
-    return TitlePage(title, case.task.id, case.variant, identity=identity, **said_of(case.block))
+    title, said = case.task.title[case.language], packaged(TEXTS, "texts", case.language)
+    # of the text among the sheets of the work
+    named = {"designation": f"{work_code(case)}.000 {said['title.code']}", "document_type": said["title.note"]}
+    return TitlePage(title, case.task.id, case.variant, identity=identity, **{**named, **said_of(case.block)})
 
 
 def body_of(case: Case, drawn: Drawn | Sheet) -> tuple[Block, ...]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import repeat
 
+from ...scales.choices import DSTU_3008, PLAIN
 from ..page import Page, extent
 from ..shapes import Text, shifted
 from ..svg import svg_text
@@ -94,6 +95,33 @@ class Figure:
         return min(1.0, room[0] / width, room[1] / height)
 
 
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """How pages look: the size of letters, pt, margins, mm, how high lines are; whether they are framed.
+
+    Between lines of typst there are `leading` em; `lines` are those of word processors.
+    """
+
+    size: float = 12.0
+    left: float = 20.0
+    right: float = 10.0
+    top: float = 15.0
+    bottom: float = 20.0
+    leading: float = 0.7
+    lines: float = 1.15
+    framed: bool = False
+
+    @property
+    def wide(self) -> float:
+        """How wide a line is, mm."""
+        return PAPER[0] - self.left - self.right
+
+
+PAPER = 210.0, 297.0  # mm of a page
+PROFILES = {  # of DSTU 3008 lines are one and a half high; a frame with form 2a leaves 25 mm below them
+    PLAIN: Profile(),
+    DSTU_3008: Profile(14.0, left=30.0, top=20.0, bottom=25.0, leading=1.05, lines=1.5, framed=True),
+}
 Block = Heading | Sentences | Steps | Equations | Table | Figure
 
 
@@ -110,6 +138,8 @@ class TitlePage:
     teacher: str = ""
     date: str = ""
     identity: str = ""
+    designation: str = ""
+    document_type: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +149,7 @@ class Document:
     title: TitlePage
     blocks: tuple[Block, ...]
     language: str
+    profile: Profile = field(default_factory=Profile)
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,7 +22,7 @@ from ..pdf import write_png
 from ..tables import cells as cells_of
 from ..text import lay_out
 from . import blocks as note
-from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table, displayed
+from .blocks import Block, Document, Equations, Figure, Heading, Profile, Sentences, Steps, Table, displayed
 from .omml import built_up, node, quoted, whole
 
 if TYPE_CHECKING:
@@ -43,6 +43,7 @@ HEIGHT = 2.8  # mm of a capital of the text: lines are estimated with the font o
 _BEFORE = 85.0, 30.0  # mm before names, before the date
 EMU = 36000  # of a millimetre
 WIDE = 180.0  # mm of a line
+PERCENT = 5000  # fiftieths of a per cent
 OF_NUMBER = 14.0  # mm at the end of a line for the number of an equation
 KEPT = "<w:keepNext/>"  # of a paragraph that stands on the page of what follows
 TOGETHER = 3  # rows of a table that no end of a page parts, at its beginning and at its end
@@ -78,7 +79,7 @@ def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) ->
 
     word = docx.Document()
     _dress(word, document)
-    _pages(word)
+    _pages(word, document.profile)
     _sign(word, document)
     drawings = drawings_of(document.blocks, document.language) if drawings is None else drawings
     pictures = [_picture(word, drawing, number) for number, drawing in enumerate(drawings, 1)]
@@ -142,18 +143,21 @@ def _dress(word: Word, document: Document) -> None:
     )
     for kind, name in dressed.items():
         text = (home(__package__) / "word" / f"{name}.xml").read_text(encoding="utf-8")
-        filled = parse_xml(text.format(lang=packaged(__package__, "texts", document.language)["locale"], lists=numbers))
+        looks = document.profile
+        sizes = {"size": round(2 * looks.size), "between": round(240 * looks.lines)}
+        locale = packaged(__package__, "texts", document.language)["locale"]
+        filled = parse_xml(text.format(lang=locale, lists=numbers, **sizes))
         parts.part_related_by(kind).element[:] = list(filled)
 
 
-def _pages(word: Word) -> None:
-    """Set the pages: A4 with the margins of the PDF, a number at the foot of all but the first."""
+def _pages(word: Word, profile: Profile) -> None:
+    """Set the pages: A4 with the margins of a profile, a number at the foot of all but the first."""
     from docx.shared import Mm
 
     section = word.sections[0]
     section.page_width, section.page_height = Mm(210), Mm(297)
-    section.left_margin, section.right_margin = Mm(20), Mm(10)
-    section.top_margin, section.bottom_margin = Mm(15), Mm(20)
+    section.left_margin, section.right_margin = Mm(profile.left), Mm(profile.right)
+    section.top_margin, section.bottom_margin = Mm(profile.top), Mm(20)
     section.header_distance = section.footer_distance = Mm(10)
     section.different_first_page_header_footer = True
     section.footer.is_linked_to_previous = False
@@ -388,15 +392,15 @@ def _block(block: Block, number: int, said: dict[str, str], pictures: Sequence[P
 
 def _numbered(equation: str, number: int) -> str:
     """Return an equation with its number at the end of the line: two cells that nothing shows."""
-    widths = [round(mm * TWIPS) for mm in (WIDE - OF_NUMBER, OF_NUMBER)]
+    widths = [round(PERCENT * mm / WIDE) for mm in (WIDE - OF_NUMBER, OF_NUMBER)]  # of a line, however wide it is
     of = _paragraph("EquationNumber", words(f"({number})"))
     cells = "".join(
-        f'<w:tc><w:tcPr><w:tcW w:w="{wide}" w:type="dxa"/><w:vAlign w:val="bottom"/></w:tcPr>{inside}</w:tc>'
+        f'<w:tc><w:tcPr><w:tcW w:w="{wide}" w:type="pct"/><w:vAlign w:val="bottom"/></w:tcPr>{inside}</w:tc>'
         for wide, inside in zip(widths, (equation, of), strict=True)
     )
-    grid = "".join(f'<w:gridCol w:w="{wide}"/>' for wide in widths)
+    grid = "".join(f'<w:gridCol w:w="{round(mm * TWIPS)}"/>' for mm in (WIDE - OF_NUMBER, OF_NUMBER))
     none = '<w:tblCellMar><w:left w:w="0" w:type="dxa"/><w:right w:w="0" w:type="dxa"/></w:tblCellMar>'
-    whole = f'<w:tblW w:w="{sum(widths)}" w:type="dxa"/><w:tblLayout w:type="fixed"/>{none}'
+    whole = f'<w:tblW w:w="{sum(widths)}" w:type="pct"/><w:tblLayout w:type="fixed"/>{none}'
     row = f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{cells}</w:tr>"
     return f"<w:tbl><w:tblPr>{whole}</w:tblPr><w:tblGrid>{grid}</w:tblGrid>{row}</w:tbl>"
 

@@ -12,19 +12,26 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+from ...scales.choices import PLAIN
 from ...scales.errors import InputError
 from ...scales.packaged import home, packaged
+from ..formats import FORMATS
+from ..page import Page
+from ..svg import svg_text
 from ..tables import cells
+from ..titleblock import Stamp, text_frame
 from . import blocks as note
-from .blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table
+from .blocks import Block, Document, Equations, Figure, Heading, Profile, Sentences, Steps, Table
 
 PREAMBLE = """\
 #set document(title: {title}, date: none)
-#set page(paper: "a4", margin: (left: 20mm, right: 10mm, top: 15mm, bottom: 20mm), numbering: "1", number-align: center)
-#set text(font: ("Libertinus Serif", "DejaVu Sans"), size: 12pt, lang: {lang})
-#set par(justify: true, leading: 0.7em, spacing: 0.8em)
+#set page(paper: "a4", margin: (left: {left}mm, right: {right}mm, top: {top}mm, bottom: {bottom}mm), {page})
+#set text(font: ("Libertinus Serif", "DejaVu Sans"), size: {size}pt, lang: {lang})
+#set par(justify: true, leading: {leading}em, spacing: {spacing}em)
 #set heading(numbering: "1")
-#show heading: set text(size: 13pt)
+#show heading: set text(size: {heading}pt)
+#show table: set par(leading: 0.7em)
+#show table: set text(size: 12pt)
 #show heading: set block(above: 1.4em, below: 0.8em, sticky: true)
 #set table(inset: 4pt, stroke: (x, _) => if x > 0 {{ 0.5pt }})
 #show figure: set block(breakable: false)
@@ -41,7 +48,19 @@ IMAGE = re.compile(r'image\("\d+\.svg", width: ([\d.]+)mm, height: ([\d.]+)mm\)'
 MARKS = """
 #context [#metadata(query(<at>).map(at => (at.value, at.location().page(), at.location().position().y.mm())))<marks>]
 """
-BOTTOM = 277.0  # mm from the top of a page to the end of its text
+NUMBERED = 'numbering: "1", number-align: center'
+FRAMED = """numbering: none, background: context if counter(page).get().first() == 2 {
+  image("form-2.svg")
+  place(bottom + left, dx: 170mm, dy: -20mm, box(width: 15mm, height: 5mm, align(center + horizon, sheet[2])))
+  place(bottom + left, dx: 185mm, dy: -20mm,
+    box(width: 20mm, height: 5mm, align(center + horizon, sheet(str(counter(page).final().first())))))
+} else {
+  image("form-2a.svg")
+  place(bottom + left, dx: 195mm, dy: -5mm,
+    box(width: 10mm, height: 8mm, align(center + horizon, sheet(counter(page).display("1")))))
+}"""
+SHEET = '#let sheet(number) = text(font: "Kulman Drafting", size: 10pt, number)'
+RESERVED = 22.0  # mm by which form 2 is higher than form 2a
 GAP = 30.0  # mm at the end of a page that stay empty
 SMALLER = 0.85  # of its size, to which a figure may shrink to have room before the end of a page
 LINES = 7.0  # mm of a line under a figure
@@ -57,6 +76,7 @@ class _Plan:
     Text that follows a figure goes on before it, so that no page is left half empty.
     """
 
+    bottom: float  # mm from the top of a page to the end of its text
     floating: set[int] = field(default_factory=set)
     shares: dict[int, float] = field(default_factory=dict)
 
@@ -67,7 +87,7 @@ class _Plan:
             ends[page] = max(y, ends.get(page, 0.0))
         inline = [mark for mark in marks if mark[0] not in self.floating]
         for (_, page, _), (block, after, _) in pairwise(inline):
-            room, at = max(((BOTTOM - ends.get(at, 0.0), at) for at in range(page, after)), default=(0.0, page))
+            room, at = max(((self.bottom - ends.get(at, 0.0), at) for at in range(page, after)), default=(0.0, page))
             figure = blocks[block]
             if isinstance(figure, Figure) and room > GAP and after <= last:
                 self._move(block, figure, room if at == after - 1 else 0.0)
@@ -97,25 +117,34 @@ class Body:
 
     text: str
     figures: Mapping[str, bytes]
+    profile: Profile = note.PROFILES[PLAIN]
 
     @classmethod
-    def of(cls, blocks: Sequence[Block], language: str) -> Body:
+    def of(cls, blocks: Sequence[Block], language: str, profile: Profile = note.PROFILES[PLAIN]) -> Body:
         """Write the blocks of a note, figures where they leave no page half empty.
 
         Raises InputError: the extra `note` is not installed.
         """
-        said, plan = packaged(__package__, "texts", language), _Plan()
+        said, plan = packaged(__package__, "texts", language), _Plan(note.PAPER[1] - profile.bottom)
         figures = [(block, number) for block, number in note.numbered(blocks) if isinstance(block, Figure)]
         files = {f"{number}.svg": note.figure_svg(figure, language) for figure, number in figures}
         for _ in range(TRIES):
-            body = cls(_written(blocks, said, plan), files)
+            body = cls(_written(blocks, said, plan, profile), files, profile)
             if not plan.mend(blocks, body.marks(language)):
                 break
         return body
 
     def source(self, title: str, language: str, before: str) -> dict[str, Any]:
         """Return the files of a note, with what stands before the body."""
-        preamble = PREAMBLE.format(title=_quoted(title), lang=_quoted(language))
+        looks = self.profile
+        named = {
+            "title": _quoted(title),
+            "lang": _quoted(language),
+            "page": FRAMED if looks.framed and before else NUMBERED,
+        }
+        sizes = {name: getattr(looks, name) for name in ("left", "right", "top", "bottom", "size", "leading")}
+        preamble = PREAMBLE.format(**named, **sizes, spacing=looks.leading + 0.1, heading=looks.size + 1.0)
+        preamble = f"{SHEET}\n{preamble}"
         return {"main.typ": "\n".join((preamble, before, self.text)).encode("utf-8"), **self.figures}
 
     def marks(self, language: str) -> list[tuple[int, int, float]]:
@@ -135,13 +164,13 @@ def _typst() -> Any:
     return typst
 
 
-def _written(blocks: Sequence[Block], said: dict[str, str], plan: _Plan) -> str:
+def _written(blocks: Sequence[Block], said: dict[str, str], plan: _Plan, profile: Profile) -> str:
     texts = list[str]()
     for place, (block, number) in enumerate(note.numbered(blocks)):
         if isinstance(block, Figure) and not block.folded:
             # as many words either way: what has been set of the rest of the note holds
             where = f"placement: {'top' if place in plan.floating else 'none'}, "
-            share = plan.shares.get(place, block.share)
+            share = min(plan.shares.get(place, block.share), profile.wide / block.view.size[0])
             texts.append(_figure(replace(block, fitted=share), said, number, place, where))
         else:
             texts.append(_block(block, number, place, said))
@@ -157,8 +186,10 @@ def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
 
     Raises InputError: the extra `note` is not installed.
     """
-    typst, body = _typst(), body or Body.of(document.blocks, document.language)
+    typst, body = _typst(), body or Body.of(document.blocks, document.language, document.profile)
     files = body.source(document.title.title, document.language, _title(document))
+    if document.profile.framed:
+        files |= {f"form-{form}.svg" if form else "frame.svg": _framed(document, form) for form in ("", "2", "2a")}
     return bytes(typst.compile(files, font_paths=_fonts()))
 
 
@@ -182,8 +213,11 @@ def _title(document: Document) -> str:
     rows = [(said[f"title.{name}"], getattr(page, name)) for name in ("student", "group", "teacher")]
     cells = "".join(f"[{_text(label)}], [{_text(value or '_' * 24)}],\n" for label, value in rows)
     about = said["title.variant"].format(variant=page.variant)
+    framed = document.profile.framed
+    frame = ', background: image("frame.svg")' if framed else ""
+    reserved = f"#place(bottom, float: true, clearance: 0pt, block(height: {RESERVED}mm))\n" if framed else ""
     return f"""\
-#page(numbering: none)[
+#page(numbering: none{frame})[
 #align(center)[{_text(page.department)}]
 #v(60mm)
 #align(center)[#text(size: 16pt, weight: "bold")[{_text(said["title.note"])}]]
@@ -195,8 +229,26 @@ def _title(document: Document) -> str:
 #align(center)[{_text(page.date)}]
 #align(center)[#text(size: 9pt)[{_text(page.identity)}]]
 ]
-#outline(title: {_quoted(said["contents"])})
+{reserved}#outline(title: {_quoted(said["contents"])})
 #pagebreak()"""
+
+
+def _framed(document: Document, form: str) -> bytes:
+    """Return the frame of a page, with the title block of a form, as SVG."""
+    page, sheet = document.title, FORMATS["A4"]
+    stamp = Stamp(
+        title=page.title,
+        designation=page.designation,
+        organisation=page.department,
+        group=page.group,
+        student=page.student,
+        teacher=page.teacher,
+        date=page.date,
+        document_type=page.document_type,
+        language=document.language,
+    )
+    shapes = text_frame(sheet, stamp, form)
+    return svg_text(Page(sheet.width, sheet.height, shapes, page.title, document.language), with_font=False).encode()
 
 
 def _block(block: Block, number: int, place: int, said: dict[str, str]) -> str:
@@ -248,12 +300,13 @@ def _table(table: Table, number: int, place: int, said: dict[str, str]) -> str:
             body += [f"table.cell(rowspan: {held}, breakable: false, inset: 0pt)[]"] if held else []
         else:
             body.append("[]")
-        body += _cells(row)
+        *others, last = _cells(row)
+        body += [*others, f"{last[:-1]}#at({place})]"]
     shape = f"columns: (0pt, {'auto, ' * len(head)}), align: center + horizon"
     held_head = ", ".join(["[]", *_cells(head, bold=True)])
     caption = f"caption: [{_line(table.caption)}{marked}], " if table.caption else ""
     inside = f"table({shape}, table.header({top}, {held_head}),\n{', '.join(body)})"
-    return f"#figure({inside}, kind: table, {caption}supplement: {_quoted(said['table'])})#at({place})\n"
+    return f"#figure({inside}, kind: table, {caption}supplement: {_quoted(said['table'])})\n"
 
 
 def _cells(row: Sequence[str | None], bold: bool = False) -> list[str]:

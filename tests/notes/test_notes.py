@@ -6,20 +6,23 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
+from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
 from types import SimpleNamespace
 
+import docx
 import pypdfium2
 import pytest
 
 from kulman import cli, note, sheet, solve
 from kulman.drawing.notes.blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table, said_under
+from kulman.drawing.notes.docx import docx_bytes
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.typst import Body, pdf_bytes
 from kulman.drawing.shapes import Line
 from kulman.drawing.view import View
-from kulman.scales.errors import LANGUAGES
+from kulman.scales.errors import LANGUAGES, InputError
 from kulman.scales.packaged import packaged
 from kulman.scales.scale import Scale
 from kulman.tests.notes import test_docx as in_word
@@ -222,11 +225,15 @@ def _sources(written: Note) -> tuple[str, ...]:
 LAID_OUT = ((TASK, "3"), (CAM, None), (GEAR, None), (HOIST, None), ("scheme-09-shaper", "2"))
 
 
-@pytest.mark.parametrize(("task", "variant"), LAID_OUT)
-def test_the_text_refers_to_all_and_no_page_but_the_last_is_half_empty(task: str, variant: str | None) -> None:
-    written = note(task, variant, lang="en")
+@pytest.mark.parametrize(
+    ("task", "variant", "profile"), [*((*of, "plain") for of in LAID_OUT), (TASK, "3", "dstu3008")]
+)
+def test_the_text_refers_to_all_and_no_page_but_the_last_is_half_empty(
+    task: str, variant: str | None, profile: str
+) -> None:
+    written = note(task, variant, lang="en", profile=profile)
     blocks = written.document.blocks
-    marks = Body.of(blocks, "en").marks("en")
+    marks = Body.of(blocks, "en", written.document.profile).marks("en")
 
     assert_the_text_refers_to_everything_and_to_nothing_else(written)
     assert {block for block, _, _ in marks} == {n for n, block in enumerate(blocks) if not isinstance(block, Heading)}
@@ -241,6 +248,25 @@ def test_the_text_refers_to_all_and_no_page_but_the_last_is_half_empty(task: str
 def _figures(marks: list[tuple[int, int, float]], blocks: tuple[Block, ...]) -> list[tuple[int, float]]:
     """Return page and height of each figure of the text in the order of their numbers."""
     return [(page, y) for block, page, y in marks if isinstance(figure := blocks[block], Figure) and not figure.folded]
+
+
+def test_a_profile_frames_all_pages_with_their_title_blocks() -> None:
+    written = note(TASK, "3", student="І. Петренко", profile="dstu3008")
+    title, first, *others = pdf = pypdfium2.PdfDocument(pdf_bytes(written.document))
+    section = docx.Document(BytesIO(docx_bytes(written.document))).sections[0]
+
+    assert f"Аркушів2{len(pdf)}Зміст" in text_in_page(first)
+    for number, page in enumerate(others, 3):
+        assert f"ТММ.23.03.000ПЗІ.ПетренкоАрк.{number}" in text_in_page(page)
+    assert "ТММ.23" not in text_in_page(title)
+    assert [round(getattr(section, f"{side}_margin").mm) for side in ("left", "right", "top", "bottom")] == [
+        30,
+        10,
+        20,
+        20,
+    ]
+    with pytest.raises(InputError, match="dstu3008"):
+        note(TASK, profile="dstu")
 
 
 def test_no_page_parts_the_first_or_the_last_three_rows_of_a_table() -> None:

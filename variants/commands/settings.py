@@ -8,6 +8,7 @@ import tomllib
 from collections.abc import Callable
 from pathlib import Path
 
+from ...scales.choices import PROFILES
 from ...scales.errors import LANGUAGES, InputError
 from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
@@ -24,6 +25,7 @@ PARAMETERS = {
     "language": "lang",
     "norm": "norm",
     "notation": "notation",
+    "profile": "profile",
 }
 
 
@@ -37,6 +39,7 @@ _CHOICES: dict[str, Callable[[], tuple[str, ...]]] = {
     "language": lambda: LANGUAGES,
     "norm": lambda: NORMS,
     "notation": _notations,
+    "profile": lambda: PROFILES,
 }
 
 
