@@ -290,7 +290,8 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     from .variants.charts.charts import chart as measured
 
     language = options.pop("lang") or system_language()
-    found = measured(task, set=settings, lang=language, **options)
+    with console.progress() as advance:
+        found = measured(task, set=settings, lang=language, advance=advance, **options)
     console.hand_over(found, files, as_json)
     console.warn(found.warnings)
 

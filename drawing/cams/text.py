@@ -185,7 +185,7 @@ def _ratio(scene: CamScene, over: str, under: str) -> str:
 
 
 def data_table(scene: CamScene, stated: bool = False) -> View:
-    """Return the numbers that are given, in the task's own units; where they are `stated`, with what they are called."""
+    """Return the numbers that are given, in the task's own units; where `stated`, with what they are called."""
     numbers = {name: given for name, given in scene.givens.items() if not isinstance(given.value, str)}
     called = {name: scene.words[f"called.cam.{name}"] for name in numbers} if stated else None
     return givens_view(numbers, scene.words, scene.style, called=called)

@@ -33,7 +33,7 @@ from ..linkages.solved import SolvedLinkage
 from ..names import LEVER, role
 from ..quantities import BALANCES, plans_of, references
 from .contours import Contours
-from .race import FULL, SEED, Clock, Contest, Discipline, Effort, Entry, Way, timed
+from .race import ENOUGH, FULL, SEED, Clock, Contest, Discipline, Effort, Entry, Way, timed
 
 Array = NDArray[Any]
 Values = dict[str, Array]
@@ -194,7 +194,7 @@ class _Truth:
             name: (np.asarray(value, np.clongdouble) - self.high[name]) - self.low[name]
             for name, value in found.items()
         }
-        return {name: np.abs(off[name]).astype(float) * (1.0 / size) for name, size in self.sizes.items()}
+        return {name: np.abs(gap).astype(float) * (1.0 / self.sizes[name]) for name, gap in off.items()}
 
 
 def places_of(cycle: Cycle, count: int) -> Array:
@@ -236,8 +236,9 @@ def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (
     """
     rivals, places, kinds = Rivals(cycle), places_of(cycle, positions), kinds_of(cycle, names)
     entries: list[Entry] = []
+    exact = truth(cycle, places, tuple(dict.fromkeys(name for kind in kinds for name in kind.names)))  # once for all
     for kind in kinds:
-        exact, run_of = truth(cycle, places, kind.names), (rivals, kind.names, places, effort, clock)
+        run_of = rivals, kind.names, places, effort, clock
         for way, values in (*_by_plans(*run_of), *(_by_others(*run_of) if kind.name != "forces" else ())):
             entries.append(way.entry(kind.name, places, exact.errors(values)))
     return Contest(kinds, places, tuple(entries), effort)
@@ -251,7 +252,7 @@ def _by_plans(
     values, program = rivals.plan(places, names), cycle.program.needed_for(names)
     spent, each = 0.0, cycle.each(places)
     for size in effort.batches:
-        if spent * size > LONG * 10.0:  # groups of class III are followed at length
+        if spent * size > LONG * 0.3:  # groups of class III are followed at length
             break
         if size == 1:  # on Python numbers
             spent = timed(lambda: [run(program, here) for here in each], clock)[1] / len(each)
@@ -275,7 +276,9 @@ def _by_others(
     for name, method, settings in ((NEWTON, rivals.newton, TOLERANCES), (DIFFERENCES, rivals.differences, STEPS)):
         # it may not be bearable at more positions at once
         spent = rivals.time(partial(method, settings[0]), FEW, names, clock)
-        size = effort.at_once if spent * effort.at_once < LONG * 10.0 else FEW
+        size = effort.at_once
+        while spent * size > ENOUGH and size > FEW:
+            size //= 10
         for setting in settings:
             spent = rivals.time(partial(method, setting), size, names, clock)
             yield Way(name, setting, spent, size), method(setting, places, names)

@@ -15,7 +15,7 @@ from kulman.drawing.cams.sheet import CamFitting
 from kulman.drawing.figure import Figure, SheetContents, family
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts import begun_pages
-from kulman.drawing.notes.blocks import Sentences, Story
+from kulman.drawing.notes.blocks import Story
 from kulman.drawing.page import Page
 from kulman.drawing.shapes import Group, Shape, Text
 from kulman.drawing.view import View
@@ -87,8 +87,9 @@ def told(case: Case, lang: str = "en") -> Story:
 
 
 def said(case: Case, story: Story) -> str:
-    aims = [text for block in story.before["givens"] if isinstance(block, Sentences) for text in block.texts]
-    return " ".join([*aims, *(text for steps in sentences(case, story).values() for text in steps), *story.conclusions])
+    return " ".join(
+        [*story.aims, *(text for steps in sentences(case, story).values() for text in steps), *story.conclusions]
+    )
 
 
 def sentences(case: Case, story: Story) -> dict[str, list[str]]:

@@ -50,6 +50,7 @@ EFFORT = FULL
 HANDS: Mapping[str, Hand] = {name: found.hand for name, found in PRESETS.items()}
 HEAD = ("method", "setting", "kind", "error", "typical", "quantity")  # errors in parts of the largest: without a unit
 TIMES = ("seconds [s]", "at_once", "failed", "front")
+Advance = Callable[[int, int], None]
 Found = TypeVar("Found")  # what has been found, for a chart
 
 
@@ -341,6 +342,7 @@ def chart(
     hand: str = HAND,
     notation: str | None = None,
     lang: str | None = None,
+    advance: Advance = lambda done, whole: None,
 ) -> Charts:
     """Measure one variant of a task.
 
@@ -360,6 +362,8 @@ def chart(
         Per cent by which a simpler model may miss.
     hand : str
         Preset of the hand that draws: `cad`, `careful`, `normal`, `lenient`.
+    advance : callable
+        Is told how many charts more are made, and of how many.
 
     Returns
     -------
@@ -400,6 +404,7 @@ def chart(
             if names or error.key in WRONG:
                 raise
             warnings.append(error)
+        advance(1, len(made))
     if not found:
         raise next(error for error in warnings if error.key != "chart-unused")
     return Charts(scene.case, scene.words, found, tuple(warnings))

@@ -163,7 +163,7 @@ def hand_over(found: Result, files: Sequence[Path], as_json: bool, tabled: bool 
 
 @contextmanager
 def progress() -> Iterator[Callable[[int, int], None]]:
-    """Show on a console how far a class is: told how many students more are done, and of how many."""
+    """Show on a console how far long work is: told how many students, or charts, more are done, and of how many."""
     if sys.stderr is None or not sys.stderr.isatty():
         yield lambda done, whole: None
         return
