@@ -230,7 +230,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 @console.of_task
 @console.output(".notes", required=True)
 @click.option("--figure", metavar="NAME")
-@click.option("--readings", type=console.Word(*READINGS))
+@click.option("--readings", type=console.Word(*READINGS), default=READINGS[0])
 @click.option("--profile", type=console.Word(*PROFILES))
 @console.sized()
 @console.titled("student", "group", "teacher", "department", "date")

@@ -114,9 +114,9 @@ def givens_view(
     if called is None:
         return table("givens", words["heading.givens"], rows, style)
     named: list[Row] = [[rows[0][0], words["table.called"], *rows[0][1:]]]
-    for (symbol, *cells), (name, given) in zip(rows[1:], givens.items(), strict=False):
-        chosen = ["", symbol[:1].upper() + symbol[1:], cells[0], None]
-        named.append(chosen if isinstance(given.value, str) else [symbol, called.get(name, ""), *cells])
+    for (shown, *cells), (name, given) in zip(rows[1:], givens.items(), strict=False):
+        chosen = ["", shown[:1].upper() + shown[1:], cells[0], None]
+        named.append(chosen if isinstance(given.value, str) else [shown, called.get(name, ""), *cells])
     return table("givens", words["heading.givens"], named, style)
 
 

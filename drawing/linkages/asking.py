@@ -23,7 +23,7 @@ OF_USES |= dict.fromkeys(("place_on_link", "place", "guide", "guide_on_link", "o
 OF_USES |= dict.fromkeys(("to_centre", "between_pivots", "distance"), "mm")
 OF_LOADS = {"inertia_factor", "per_length", "mass", "inertia", "gravity", "force_direction"}
 OF_SHOWN = {"diagram", "diagram_at", "start"}
-PARTS = {"": "", **{part: f".{part}" for part in "ntkr"}}  # of vectors, with the ends of the keys of their words
+PARTS = ("", "n", "t", "k", "r")  # of vectors
 
 
 def scheme_of(scene: Scene) -> View:
@@ -121,8 +121,9 @@ def meaning(mechanism: Mechanism, words: Words, name: str) -> str:
     if said.part == INERTIA and said.kind in ("F", "M"):
         return words[f"sought.{said.kind}_i"].format(link=said.of.removeprefix(INERTIA))
     if said.kind == "R" and not said.part and len(said.links) == len("ij"):
-        first, second = (f"sought.{'link' if number else 'frame'}" for number in said.links)
-        acting, acted = words[first].format(link=said.links[0]), words[f"{second}_on"].format(link=said.links[1])
+        first, second = said.links
+        acting = words["sought.link" if first else "sought.frame"].format(link=first)
+        acted = words["sought.link_on" if second else "sought.frame_on"].format(link=second)
         return words["sought.R"].format(symbol=words.symbol(name), first=acting, second=acted)
     if name == M_BAL:
         return words["sought.M_bal"].format(link=mechanism.driver.link)
@@ -139,7 +140,8 @@ def _of_point(mechanism: Mechanism, words: Words, said: Name) -> str:
         return ""
     of, about = (_point(mechanism, words, point) for point in (said.of, said.about))
     relative = words["sought.about"].format(point=about) if about else ""
-    return words[f"sought.{said.kind}{PARTS[said.part]}"].format(point=of, about=relative)
+    key = f"sought.{said.kind}.{said.part}" if said.part else f"sought.{said.kind}"
+    return words[key].format(point=of, about=relative)
 
 
 def _point(mechanism: Mechanism, words: Words, letter: str) -> str:

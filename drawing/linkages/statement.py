@@ -59,17 +59,16 @@ def _of_driver(mechanism: Mechanism, words: Words, name: str) -> Told:
     driver, kind = mechanism.driver, role(name).kind
     if name == driver.coordinate:
         return "s" if isinstance(driver, SlidingDriver) else "phi", {"link": str(driver.link)}
-    rate = kind or name.partition("_")[0]
-    if rate in RATES and role(name).of in ("", str(driver.link)):
-        return rate.lower(), {"link": str(driver.link)}
+    if (kind or name) in RATES and role(name).of in ("", name, str(driver.link)):
+        return (kind or name).lower(), {"link": str(driver.link)}
     return NOTHING
 
 
 def _of_length(mechanism: Mechanism, words: Words, name: str) -> Told:
     """Tell the distance of two points: a link from pin to pin, a centre of mass from a pin, two pivots."""
-    letters = name.removeprefix("l_")
+    letters = role(name).of
     ends = JOINT.findall(letters)
-    if letters == name or "".join(ends) != letters or len(ends) != len("AB"):
+    if role(name).kind != "l" or "".join(ends) != letters or len(ends) != len("AB"):
         return NOTHING
     a, b = map(words.mark, ends)
     if {*ends} <= mechanism.frame_points.keys():

@@ -10,6 +10,7 @@ import time
 import unicodedata
 from collections.abc import Callable
 from contextlib import suppress
+from html import escape as entities
 from pathlib import Path
 from xml.dom import minidom
 
@@ -34,8 +35,8 @@ from kulman.tests.support.answer_files import ASKED, HEAD, ROW
 from kulman.tests.support.commands import Run, table
 from kulman.variants.checks.basics import Places
 from kulman.variants.hands import hand_of
-from kulman.variants.making.all_variants import _gift_bytes, _Question, _xml_bytes
 from kulman.variants.making.new_variants import _ranges_of, _with_variants
+from kulman.variants.making.questions import Question, gift_bytes, html, xml_bytes
 from kulman.variants.making.starter import _label
 from kulman.variants.marking import cells
 from kulman.variants.marking.wording import plain
@@ -181,19 +182,24 @@ def _bare(text: str) -> str:
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_question_for_moodle_is_a_text(name: str) -> None:
-    asked = [_Question(name, name, 1.5, 0.1), _Question("next", "next", 2.5, 0.1)]
+    said = html(escape(name))  # what a file says stands as text in the HTML of a question
+    asked = [
+        Question(of, (name, of), f"<p>{said}</p>", b"<svg/>", 1.5, 0.1, (name,), True, said, "en")
+        for of in (name, "next")
+    ]
 
-    gift, xml = _gift_bytes("c", asked).decode("utf-8"), minidom.parseString(_xml_bytes("c", asked))
+    gift, xml = gift_bytes(asked).decode("utf-8"), minidom.parseString(xml_bytes(asked))
 
-    assert len(xml.getElementsByTagName("question")) == 3
-    assert {node.tagName for node in xml.getElementsByTagName("*")} == {
-        "quiz", "question", "category", "text", "name", "questiontext", "answer", "tolerance",
-    }  # fmt: skip
-    assert {node.getAttribute("format") for node in xml.getElementsByTagName("questiontext")} == {"plain_text"}
+    questions = xml.getElementsByTagName("question")
+    assert [node.getAttribute("type") for node in questions] == ["category", "numerical"] * 2
+    texts = [node.getElementsByTagName("questiontext")[0].childNodes[0] for node in questions[1::2]]
+    assert {node.tagName for node in xml.getElementsByTagName("questiontext")[0].childNodes} == {"text", "file"}
+    for text in texts:  # one paragraph with no other element in it
+        assert minidom.parseString(text.firstChild.data).documentElement.getElementsByTagName("*") == []
     lines = [line for line in gift.split("\n") if line]
-    assert len(lines) == 3
+    assert [line.partition(":")[0] for line in lines] == ["$CATEGORY", "", "$CATEGORY", ""]
     plain = re.sub(r"\\.", "", lines[1])  # without what is escaped
-    assert re.fullmatch(r"::[^:~={}#]*::\[plain\][^:~={}#]*\{#=1\.5:0\.1 =%50%1\.5:0\.2\}", plain)
+    assert re.fullmatch(r"::[^~={}#]*::\[html\][^~={}#]* \{#=1[^{}]*\}", plain)
 
 
 def test_a_hostile_title_of_a_task_is_a_text_everywhere(tmp_path: Path) -> None:
@@ -206,8 +212,9 @@ def test_a_hostile_title_of_a_task_is_a_text_everywhere(tmp_path: Path) -> None:
     xml, gift, table = found.save(tmp_path / "q.xml", tmp_path / "q.gift", tmp_path / "t.xlsx")
 
     assert load_task(own).title["en"] == title
-    assert title in minidom.parse(str(xml)).getElementsByTagName("text")[2].firstChild.data
-    assert r"\{\}\:</script>" in gift.read_text(encoding="utf-8")
+    asked = minidom.parse(str(xml)).getElementsByTagName("questiontext")[0].getElementsByTagName("text")[0]
+    assert f"<p>{entities(title)}. Variant" in asked.firstChild.data
+    assert r"\{\}\:&lt;/script&gt;" in gift.read_text(encoding="utf-8")
     assert openpyxl.load_workbook(table).worksheets[0].title
 
 

@@ -2,6 +2,7 @@
 
 import ast
 import math
+import re
 import string
 import tomllib
 from functools import cache
@@ -142,7 +143,9 @@ def patterns() -> frozenset[str]:
     joined = [node.values for node in nodes if isinstance(node, ast.JoinedStr)]
     filled = ["".join(str(p.value) if isinstance(p, ast.Constant) else "*" for p in values) for values in joined]
     plain = [node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)]
-    return frozenset((*filled, *plain))
+    own = (files("kulman.drawing.moving").joinpath(name).read_text("utf-8") for name in ("page.html", "page.js"))
+    pages = [f"moving.{key}" for text in own for key in re.findall(r"(?:\{\{said\.|\bW\.)(\w+)", text)]
+    return frozenset((*filled, *plain, *pages))
 
 
 @cache
@@ -160,6 +163,10 @@ def used(key: str) -> bool:
     """Whether the code names a text, whole or composed of a beginning and a word, or of the name of a subject, too."""
     if key in patterns() or any(key.replace(table, "*", 1) in patterns() for table in KINDS):
         return True
+    for made in (text for text in patterns() if text.count("*") > 1 and re.match("[a-z]{3}", text)):
+        fits = re.fullmatch(re.escape(made).replace(r"\*", r"(\w+)"), key)
+        if fits and all(len(word) == 1 or {word, re.sub(r"\d", "*", word)} & patterns() for word in fits.groups()):
+            return True
     cuts = [at for at in range(1, len(key)) if key[at - 1] in "._-"]
     stems = [(key[:at], key[at:]) for at in cuts]
     return any(

@@ -400,13 +400,10 @@ def batch(
 def _of_kind(outcomes: Iterable[Outcome], kind: str) -> Iterator[str]:
     """Go through the files of a kind that students have, in the order of the roster."""
     others = tuple(f"-{other}.pdf" for other in (*FOR_STUDENTS, NOTE))
-    for name in (name for outcome in outcomes for name in outcome.files):
-        if (
-            name.endswith(f"-{kind}.pdf")
-            if kind in FOR_STUDENTS
-            else name.endswith(".pdf") and not name.endswith(others)
-        ):
-            yield name
+    for file in (file for outcome in outcomes for file in outcome.files):
+        own = file.endswith(f"-{kind}.pdf")
+        if own if kind in FOR_STUDENTS else file.endswith(".pdf") and not file.endswith(others):
+            yield file
 
 
 def _tasks(said: Tasks) -> tuple[Task, ...]:

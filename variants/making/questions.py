@@ -231,7 +231,10 @@ def gift_bytes(questions: Iterable[Question]) -> bytes:
     for one in questions:
         if one.category != place:
             place = one.category
-            lines += [f"$CATEGORY: $course$/top/{'/'.join(name.replace('/', '//') for name in place)}", ""]
+            lines += [
+                f"$CATEGORY: $course$/top/{'/'.join(' '.join(name.split()).replace('/', '//') for name in place)}",
+                "",
+            ]
         data = f"data:image/svg+xml;base64,{b64encode(one.scheme).decode('ascii')}"
         text = one.text.replace(PLACE, data)
         answers = (

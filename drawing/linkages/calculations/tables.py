@@ -185,7 +185,8 @@ def _sense(scene: Scene, name: str) -> str:
 def _turning(scene: Scene, value: float) -> str:
     if value == 0.0:
         return ""
-    return scene.words[("short." if scene.style.row else "choice.") + ("ccw" if value > 0.0 else "cw")]
+    sense = "ccw" if value > 0.0 else "cw"
+    return scene.words[f"short.{sense}" if scene.style.row else f"choice.{sense}"]
 
 
 def _row(scene: Scene, q: Quantity) -> list[str]:
