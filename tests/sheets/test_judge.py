@@ -209,7 +209,11 @@ def pages_of(task: str, variant: str, languages: Iterable[str] = LANGUAGES) -> l
 
 # of which words of one language alone have too little room at first
 @pytest.mark.parametrize(
-    ("task", "variant"), [("scheme-10-shaper-two-blocks", "7"), ("scheme-18-hydraulic-drive", "0")]
+    ("task", "variant"),
+    [
+        ("scheme-10-shaper-two-blocks", "7"),
+        pytest.param("scheme-18-hydraulic-drive", "0", marks=pytest.mark.soak),
+    ],
 )
 def test_a_sheet_has_as_many_pages_in_each_language(task: str, variant: str) -> None:
     assert len(set(pages_of(task, variant))) == 1

@@ -22,6 +22,8 @@ from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 
 LINKAGES = [task for task in bundled() if load_task(task).kind == "mechanism"]
+# a crank, a stroke with loads of its own, a sliding driver, a group of class III
+SOME = ("nau-slider-crank", "scheme-09-shaper", "scheme-18-hydraulic-drive", "scheme-20-press-automaton")
 PLACES = 24
 SAME = 1e-12
 LARGEST = 150_000  # bytes
@@ -79,8 +81,10 @@ def apart(values: dict[str, Any], expected: dict[str, Any]) -> dict[str, float]:
     return found
 
 
-@pytest.mark.parametrize("places", [PLACES, pytest.param(360, marks=pytest.mark.soak)])
-@pytest.mark.parametrize("task", LINKAGES)
+@pytest.mark.parametrize(
+    ("task", "places"),
+    [(task, PLACES) for task in SOME] + [pytest.param(t, 360, marks=pytest.mark.soak) for t in LINKAGES],
+)
 def test_a_page_finds_what_python_finds(task: str, places: int) -> None:
     case = Request(load_task(task)).case()
     whole = cycle(case.task.mechanism, case.values, case.plans)
