@@ -231,7 +231,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 @console.output(".notes", required=True)
 @click.option("--figure", metavar="NAME")
 @click.option("--readings", type=console.Word(*READINGS), default=READINGS[0])
-@click.option("--profile", type=console.Word(*PROFILES))
+@click.option("--profile", type=console.Word(*PROFILES), default="plain")
 @console.sized()
 @console.titled("student", "group", "teacher", "department", "date")
 def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str | None, **options: Any) -> None:

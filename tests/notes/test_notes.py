@@ -226,7 +226,11 @@ LAID_OUT = ((TASK, "3"), (CAM, None), (GEAR, None), (HOIST, None), ("scheme-09-s
 
 
 @pytest.mark.parametrize(
-    ("task", "variant", "profile"), [*((*of, "plain") for of in LAID_OUT), (TASK, "3", "dstu3008")]
+    ("task", "variant", "profile"),
+    [
+        (TASK, "3", "dstu3008"),
+        *(pytest.param(*of, "plain", marks=[pytest.mark.soak] * (at > 1)) for at, of in enumerate(LAID_OUT)),
+    ],
 )
 def test_the_text_refers_to_all_and_no_page_but_the_last_is_half_empty(
     task: str, variant: str | None, profile: str
