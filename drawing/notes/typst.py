@@ -37,6 +37,8 @@ PREAMBLE = """\
 #show figure: set block(breakable: false)
 #show figure.where(kind: table): set block(breakable: true)
 #show figure.where(kind: table): set figure.caption(position: top)
+#show figure.caption: set par(leading: 0.7em)
+#show figure.caption: set text(size: 12pt)
 #show figure.caption.where(kind: table): it => align(left, block(sticky: true, it))
 #set figure.caption(separator: [ – ])
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif", "DejaVu Sans"))
@@ -82,6 +84,8 @@ class _Plan:
 
     def mend(self, blocks: Sequence[Block], marks: Sequence[tuple[int, int, float]]) -> bool:
         """Look where blocks stand, the page and the place on it for each; tell whether some should stand elsewhere."""
+        if self._shrink(blocks, {n: y - self.bottom for n, _, y in marks if y > self.bottom}):
+            return True
         ends, last = dict[int, float](), max((page for _, page, _ in marks), default=0)
         for _, page, y in marks:
             ends[page] = max(y, ends.get(page, 0.0))
@@ -100,6 +104,13 @@ class _Plan:
         ]
         self.floating.update(behind)
         return bool(behind)
+
+    def _shrink(self, blocks: Sequence[Block], beyond: Mapping[int, float]) -> bool:
+        """Make figures smaller by the mm by which what stands under them runs over the end of the text."""
+        for place, mm in beyond.items():
+            if isinstance(figure := blocks[place], Figure):
+                self.shares[place] = self.shares.get(place, figure.share) - (mm + MARGIN) / figure.view.size[1]
+        return any(isinstance(blocks[place], Figure) for place in beyond)
 
     def _move(self, place: int, figure: Figure, room: float) -> None:
         """Let a figure be smaller if it nearly has room, else stand on the next page."""

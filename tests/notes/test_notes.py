@@ -16,7 +16,18 @@ import pypdfium2
 import pytest
 
 from kulman import cli, note, sheet, solve
-from kulman.drawing.notes.blocks import Block, Document, Equations, Figure, Heading, Sentences, Steps, Table, said_under
+from kulman.drawing.notes.blocks import (
+    PAPER,
+    Block,
+    Document,
+    Equations,
+    Figure,
+    Heading,
+    Sentences,
+    Steps,
+    Table,
+    said_under,
+)
 from kulman.drawing.notes.docx import docx_bytes
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.typst import Body, pdf_bytes
@@ -229,6 +240,7 @@ LAID_OUT = ((TASK, "3"), (CAM, None), (GEAR, None), (HOIST, None), ("scheme-09-s
     ("task", "variant", "profile"),
     [
         (TASK, "3", "dstu3008"),
+        ("scheme-09-shaper", "4", "dstu3008"),
         *(pytest.param(*of, "plain", marks=[pytest.mark.soak] * (at > 1)) for at, of in enumerate(LAID_OUT)),
     ],
 )
@@ -237,7 +249,8 @@ def test_the_text_refers_to_all_and_no_page_but_the_last_is_half_empty(
 ) -> None:
     written = note(task, variant, lang="en", profile=profile)
     blocks = written.document.blocks
-    marks = Body.of(blocks, "en", written.document.profile).marks("en")
+    looks = written.document.profile
+    marks = Body.of(blocks, "en", looks).marks("en")
 
     assert_the_text_refers_to_everything_and_to_nothing_else(written)
     assert {block for block, _, _ in marks} == {n for n, block in enumerate(blocks) if not isinstance(block, Heading)}
@@ -245,6 +258,7 @@ def test_the_text_refers_to_all_and_no_page_but_the_last_is_half_empty(
     for _, page, y in marks:
         ends[page] = max(y, ends.get(page, 0.0))
     assert sorted(ends) == [*range(1, len(ends) + 1)]
+    assert max(ends.values()) <= PAPER[1] - looks.bottom  # below it a title block stands
     assert all(ends[page] > 150.0 for page in range(1, len(ends))), ends  # of 262 mm from the top margin of 15
     assert all(second >= first for first, second in pairwise(_figures(marks, blocks)))
 
