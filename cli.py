@@ -21,6 +21,7 @@ from .scales.errors import (
     speaking,
     system_language,
 )
+from .scales.names import unknown
 from .scales.numbers import SHOWN, quote
 from .scales.version import __version__
 from .variants.commands import completing, console
@@ -86,7 +87,7 @@ def commands(ctx: click.Context, lang: str | None) -> None:
     """Solve and draw problems of the theory of mechanisms and machines, to scale."""
     language = lang or of_environment()
     if language and language not in LANGUAGES:
-        raise InputError("cli-choice", option=VARIABLE, text=quote(language), known=", ".join(LANGUAGES))
+        raise unknown("cli-choice", language, LANGUAGES, option=VARIABLE)
     usual = {**(ctx.obj or {}), **({"lang": language} if language else {})}
     ctx.default_map = dict.fromkeys(commands.commands, usual) if usual else None
     if ctx.invoked_subcommand is None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from string import ascii_lowercase
 from typing import Any
@@ -93,6 +93,10 @@ class Words:
     def __getitem__(self, key: str) -> str:
         """Return a text by its key."""
         return self.texts[key]
+
+    def listed(self, items: Sequence[str]) -> str:
+        """Return items as a sentence has them: `2, 3 and 4`."""
+        return self["called.last"].join(part for part in (", ".join(items[:-1]), *items[-1:]) if part)
 
     def number(self, value: float, decimals: int) -> str:
         """Return a number with so many decimals, a true minus and the language's decimal sign."""

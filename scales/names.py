@@ -30,7 +30,7 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Input
     """
     names, text = list(known), str(asked)
     data = {name: Written(value) if isinstance(value, str) else value for name, value in data.items()}
-    if text != latin(text) in names:
+    if text != latin(text) and latin(text).casefold() in map(str.casefold, names):
         return cyrillic(text)
     if 2 < len(text) < 100:
         turned = [name for name in names if sorted(name) == sorted(text)]  # l_BA for l_AB

@@ -88,7 +88,7 @@ def _of_link(mechanism: Mechanism, words: Words, name: str) -> Told:
     links = [link for link in mechanism.links if name in (*link.givens, *_coordinates(link))]
     if not links:
         return NOTHING
-    link, numbers = links[0], ", ".join(str(link.number) for link in links)
+    link, numbers = links[0], words.listed([str(link.number) for link in links])
     if name in (link.mass, link.per_length):
         return "mass" if name == link.mass else "per_length", {"link": numbers}
     if name in (link.inertia, link.inertia_factor):

@@ -253,10 +253,10 @@ def _read(teller: Teller, step: Step) -> str:
     item = teller.quantities.get(name)
     if item is None:
         return ""
-    parts = {"segment": f"{teller.mark(tail)}{teller.mark(tip)}", "symbol": teller.words.symbol(name)}
+    start, end, symbol = teller.mark(tail), teller.mark(tip), teller.words.symbol(name)
     if size_of(teller, name) == 0.0:
-        return teller.say("point", **parts)
-    told = teller.say("read", **parts, **teller.read_off(item))
+        return teller.say("point", start=start, end=end, symbol=symbol)
+    told = teller.say("read", segment=f"{start}{end}", symbol=symbol, **teller.read_off(item))
     return told + "".join(_turns(teller, step, user) for user in teller.reading.users(step.name))
 
 

@@ -203,6 +203,14 @@ def test_what_follows_from_a_fault_is_no_other_fault(key: str) -> None:
     assert [getattr(fault, "cause", fault).key for fault in faults] == [key]
 
 
+@pytest.mark.parametrize("format_", ["\u04103", "\u04303"])
+def test_word_of_an_option_with_a_cyrillic_letter_says_so(format_: str, run: Run) -> None:
+    status, _, err = run("sheet", "nau-slider-crank", "--format", format_, "-o", "x.svg")
+
+    assert (status, err.count("\n")) == (2, 1)
+    assert f"'{format_}': character 1 is a Cyrillic letter" in err
+
+
 def test_setting_with_a_cyrillic_letter_says_so() -> None:
     with pytest.raises(InputError) as refused:
         solve("nau-slider-crank", set={"l_\u041e\u0410": "55 mm"})

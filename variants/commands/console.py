@@ -19,6 +19,7 @@ import click
 
 from ...scales.choices import LETTERINGS, SIZES
 from ...scales.errors import LANGUAGES, InputError, KulmanError, system_language
+from ...scales.names import unknown
 from ...scales.numbers import SHOWN, quote
 from . import completing
 from .helping import Command, place
@@ -215,7 +216,7 @@ class Word(TextType):
             if word.lower() == value.strip().lower():
                 return word
         option = param.opts[0] if param else ""
-        raise InputError("cli-choice", option=option, text=quote(value), known=", ".join(self.words))
+        raise unknown("cli-choice", value.strip(), self.words, option=option)
 
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem[str]]:
         """Return the words that a shell may complete."""
