@@ -30,8 +30,8 @@ class Answer:
 
     @property
     def empty(self) -> bool:
-        """Whether it says nothing that can be marked."""
-        return not any(map(known, (self.mm, self.value, self.direction, self.sense)))
+        """Whether it says nothing that can be marked: a direction or a sense without a size can be guessed."""
+        return not any(map(known, (self.mm, self.value)))
 
     def values(self, mu: float | None = None) -> tuple[float, ...]:
         """Return the values that it may mean, signed: the one written, else mm times or through mu.

@@ -240,6 +240,15 @@ def test_a_consistent_minus_is_right(name: str) -> None:
     assert mark(EXAMPLE, [wrong])[name].about == "direction"
 
 
+def test_a_direction_or_a_sense_alone_is_no_answer() -> None:
+    """It could be guessed: all senses right, and not one size, made full marks."""
+    whole = right_answers(EXAMPLE)
+    alone = [replace(a, mm=None, value=None) for a in whole]
+
+    assert any(a.direction is not None or a.sense is not None for a in alone)
+    assert {line.verdict.value for line in mark(EXAMPLE, alone).lines} == {"missing"}
+
+
 def test_the_sense_of_other_rates_is_not_free_and_a_wrong_size_not_called_a_direction() -> None:
     right = EXAMPLE["omega_2"]
     turned = Answer("omega_2", value=abs(right), sense=-int(math.copysign(1.0, right)))
