@@ -23,6 +23,8 @@ APART = 30.0  # mm between pieces of a line that is broken at a letter
 Path = tuple[tuple[str, str], ...]
 Rules = tuple[tuple[complex, complex], ...]
 
+DOWN = 2000.0  # mm, farther than any page reaches
+
 
 @dataclass(frozen=True)
 class Stroke:
@@ -276,8 +278,12 @@ class Sheet:
     pages: list[Page]
 
     def __getitem__(self, name: str) -> View:
+        """The view of a name; what goes on with its table or text on later pages is below it."""
         (found,) = [v for v in self.views if v.name == name]
-        return found
+        more = [v for v in self.views if v.name == f"{name}_continued"]
+        if not more:
+            return found
+        return replace(found, texts=[*found.texts, *(t for k, v in enumerate(more, 1) for t in _below(v, k))])
 
     @property
     def views(self) -> list[View]:
@@ -294,6 +300,18 @@ class Sheet:
     @property
     def texts(self) -> list[Text]:
         return [t for p in self.pages for v in p.all for t in v.texts]
+
+
+def _below(view: View, number: int) -> list[Text]:
+    """The texts of what goes on, without the head of a table, so far down as no page reaches."""
+    head = max((text.baseline for text in view.of("cell")), default=math.inf)
+    kept = [text for text in view.texts if text.role != "cell" or abs(text.baseline - head) > 0.01]
+    by = -1j * number * DOWN
+    return [replace(text, runs=tuple(_moved(run, by) for run in text.runs)) for text in kept]
+
+
+def _moved(run: Run, by: complex) -> Run:
+    return replace(run, at=run.at + by, corners=tuple(corner + by for corner in run.corners))
 
 
 def read(*svgs: str | bytes) -> Sheet:
