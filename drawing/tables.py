@@ -37,7 +37,11 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
         {j: cell for j, row in enumerate(rows) for k, end, cell in cells(row) if k == i == end - 1} for i in columns
     ]
     placed = [_in_column(column, h) for column in alone]
-    widths = [wide + 2.0 * max(0.5 * h, CELL) for wide, _ in placed]
+    beside = 2.0 * max(0.5 * h, CELL)
+    widths = [wide + beside for wide, _ in placed]
+    for i, end, cell in (found for row in rows for found in cells(row) if found[1] > found[0] + 1 and found[2]):
+        short = lay_out(cell, h).width + beside - sum(widths[i:end])  # of what stands in several columns
+        widths[i:end] = [wide + max(short, 0.0) / (end - i) for wide in widths[i:end]]
     edges = [0.0, *accumulate(widths)]
     # scripts reach past the capitals in the middle of a row: it is as much higher on both sides
     reach = (max(top - h, -bottom) for top, bottom in (_span(row, h) for row in rows))

@@ -6,6 +6,7 @@ and the page finds where it is by the same program, written down as JavaScript.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -24,6 +25,7 @@ from ...scales.scale import UNITS, Scale
 from ..formats import STYLES
 from ..moving import Data, html
 from ..moving import number as number_of
+from ..notes.blocks import REFERS
 from ..symbols import unit
 from ..words import Given, Words
 from .figures.cycle import main_output
@@ -36,6 +38,7 @@ from .telling import Teller
 
 FIRST = 0xE000  # a letter of private use stands in a sentence where the page puts a number
 NEARS = 90  # places over the cycle at which a template of a group of class III begins
+REFERRED = re.compile(REFERS.format(".*?"))  # to equations, which the page has not
 BENT = 1e-3  # sine of an angle, or part of a line, that is none
 MILLIMETRES = 100.0  # parts of a plan's longest vector that a millimetre is while the page is made
 End = str | list[Any]
@@ -85,10 +88,6 @@ class Live(Teller):
         """Return in which sense a link turns."""
         return self.ask("sense", rate)
 
-    def given_by(self, name: str) -> str:
-        """Refer to no equation: the page has none."""
-        return ""
-
     def read_off(self, item: Quantity) -> dict[str, str]:
         """Return what a segment of a plan says, by its millimetres."""
         words, plan = self.words, self.solved.shown_on.get(item.name, "")
@@ -101,8 +100,13 @@ class Live(Teller):
         }
 
 
-def moving_linkage(solved: SolvedLinkage, cycle: Cycle, givens: Mapping[str, Given], words: Words) -> Data:
-    """Return what the page needs of a mechanism with this cycle; the `solved` position is the one that it begins in."""
+def moving_linkage(
+    solved: SolvedLinkage, cycle: Cycle, givens: Mapping[str, Given], words: Words, bounds: Mapping[str, str]
+) -> Data:
+    """Return what the page needs of a mechanism with this cycle; the `solved` position is the one that it begins in.
+
+    `bounds` are what the givens must be, by their names: the key of the message for what they may not.
+    """
     words = lettered(words, solved)
     scene = Scene(solved, words, STYLES["A4"], givens, _scales(solved))
     board = {name: float(value) for name, value in cycle.givens.items()}
@@ -126,7 +130,7 @@ def moving_linkage(solved: SolvedLinkage, cycle: Cycle, givens: Mapping[str, Giv
             "speed": cycle.speed,
             "crank": [str(getattr(cycle.mechanism.driver, "pivot", "")), str(cycle.mechanism.driver.point)],
         },
-        "givens": [*_givens(scene, cycle)],
+        "givens": [*_givens(scene, cycle, bounds)],
         "stroke": _stroke(cycle),
         "views": views,
         "asked": teller.asked,
@@ -170,13 +174,13 @@ def _near(cycle: Cycle) -> Data | None:
     return {name: [number_of(value, 6) for value in np.broadcast_to(row, places.shape)] for name, row in poses.items()}
 
 
-def _givens(scene: Scene, cycle: Cycle) -> Iterator[Data]:
+def _givens(scene: Scene, cycle: Cycle, bounds: Mapping[str, str]) -> Iterator[Data]:
     """Go through the numbers that may be changed, as the task gives them; names of the board follow each of them."""
     for name, given in scene.givens.items():
         if isinstance(given.value, str) or name == cycle.drive.variable:
             continue
         board = [other for other in (name, magnitude(name)) if other in cycle.givens]
-        if not board or not given.value or not cycle.givens[board[0]]:
+        if not board or not given.value:  # what is zero is none of the program's numbers
             continue
         yield {
             "name": name,
@@ -184,7 +188,8 @@ def _givens(scene: Scene, cycle: Cycle) -> Iterator[Data]:
             "symbol": html(scene.words.symbol(name)),
             "value": given.value,
             "unit": html(scene.words.unit(given.unit)),
-            "si": number_of(cycle.givens[board[0]] / given.value),
+            "si": number_of(cycle.givens[board[0]] / given.value) if cycle.givens[board[0]] else 1.0,
+            "bound": bounds.get(name, ""),
             "fixed": cycle.drive.follower is not None and name in cycle.mechanism.coordinates,
         }
 
@@ -247,7 +252,7 @@ def _views(teller: Live) -> Iterator[Data]:
             "per": _per(teller, scale),
             "by": number_of(teller.words.display.value(1.0, scale.unit)),
             "shapes": shapes,
-            "steps": [html(step.text) for step in told],
+            "steps": [html(REFERRED.sub("", step.text)) for step in told],
         }
 
 

@@ -3,12 +3,13 @@ const W = D.words, $ = id => document.getElementById(id), SVG = "http://www.w3.o
 const LETTER = 4.6, READABLE = 9, SEEN = 12; // mm, and pixels that letters have at least
 
 // ---- numbers and words
+const RAISED = Object.fromEntries([..."-0123456789"].map((sign, k) => [sign, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"[k]]));
 const locale = text => (D.lang === "en" ? text : text.replace(".", ",")).replace("-", "\u2212");
 function said(x, digits = 4) {
   if (x === undefined || x !== x || x === null) return "–";
-  if (Math.abs(x) < 1e-12) return "0";
+  if (Math.abs(x) < 1e-11) return "0";
   const text = Math.abs(x) >= 1e6 || Math.abs(x) < 1e-3 ? x.toExponential(digits - 1) : String(Number(x.toPrecision(digits)));
-  return locale(text.replace(/e\+?(-?\d+)/, "·10^$1"));
+  return locale(text.replace(/e\+?(-?\d+)/, (_, power) => "·10" + [...power].map(sign => RAISED[sign]).join("")));
 }
 const long = mm => locale(mm.toFixed(mm < 100 ? 2 : 1));
 const plain = new Map(D.quantities.map(q => [q.name, q]));
@@ -243,20 +244,21 @@ function go(at) {
   const failed = found[0] >= FAILED;
   $("status").textContent = failed ? found[0] === 3 ? W.apart : W.singular : found[0] === 1 ? W.flat : "";
   for (const view of shownViews()) view.svg.classList.toggle("faded", failed);
-  if (failed && here.found) { now(); return; }
+  if (failed && here.found) { numbers(true); now(); return; }
   here.found = found;
   for (const view of shownViews()) draw(view);
   const view = views.get("position");
   if (view.grip) { const [x, y] = spot(found, drive.crank[1]); set(view.grip, { cx: x / view.mu, cy: -y / view.mu, "aria-valuenow": shownPlace(at).toFixed(1), "aria-valuemin": 0, "aria-valuemax": drive.turns ? 360 : (drive.high * 1000).toFixed(1) }); }
   numbers(); now();
 }
-function numbers() {
+function numbers(none) { // where a position has no plan nothing has a value
+  $("told").classList.toggle("faded", Boolean(none));
   for (const row of $("values").tBodies[0].rows) {
     const q = plain.get(row.dataset.q), v = size(value(here.found, q.name)), view = views.get(q.plan);
-    row.cells[1].textContent = said(v * q.by);
-    row.cells[3].textContent = view ? long(Math.abs(v) / view.mu) : "";
+    row.cells[1].textContent = none ? "–" : said(v * q.by);
+    row.cells[3].textContent = none || !view ? "" : long(Math.abs(v) / view.mu);
   }
-  if (here.told) for (const [item, html] of here.told) item.innerHTML = filled(html);
+  if (here.told && !none) for (const [item, html] of here.told) item.innerHTML = filled(html);
 }
 
 // ---- play at the speed of the task, slowed by a stated factor
@@ -347,28 +349,30 @@ function givens() {
   for (const item of D.givens) {
     const label = document.createElement("label"), input = document.createElement("input"), text = document.createElement("span");
     label.innerHTML = item.symbol; label.htmlFor = input.id = `given-${item.name}`; text.innerHTML = item.unit;
-    Object.assign(input, { type: "number", step: "any", value: item.value, disabled: item.fixed });
-    if (item.fixed) input.title = W.fixed;
+    Object.assign(input, { type: "text", inputMode: "decimal", value: locale(String(item.value)), disabled: item.fixed });
     input.addEventListener("change", () => change(item, input));
     $("givens").append(label, input, text);
   }
+  if (D.givens.some(item => item.fixed)) $("givens").append(Object.assign(document.createElement("p"), { textContent: W.fixed }));
   $("givens").addEventListener("submit", event => event.preventDefault());
   $("again").addEventListener("click", () => {
     Object.assign(given, D.board);
     here.changed = false;
-    for (const item of D.givens) $(`given-${item.name}`).value = item.value;
+    for (const item of D.givens) $(`given-${item.name}`).value = locale(String(item.value));
     remade();
   });
 }
+const BOUNDS = { "not-positive": [x => x > 0, "positive"], negative: [x => x >= 0, "not_negative"], "is-zero": [x => x !== 0, "not_zero"] };
 function change(item, input) {
-  const before = { ...given }, wanted = Number(input.value);
-  const usable = Number.isFinite(wanted) && input.value !== "" && wanted * item.value > 0;
-  if (usable) for (const name of item.board) given[name] = wanted * item.si * Math.sign(D.board[name] / (item.value * item.si));
+  const before = { ...given }, text = input.value.trim().replace(",", ".").replace("\u2212", "-");
+  const wanted = text === "" ? NaN : Number(text), [admits, said] = BOUNDS[item.bound] || [() => true, ""];
+  const fault = !Number.isFinite(wanted) ? W.number : !admits(wanted) ? W[said] : "";
+  if (!fault) for (const name of item.board) given[name] = wanted * item.si;
   here.changed = true;
-  if (!usable || !Array.from({ length: 60 }, (_, k) => stand(place(k * COUNT / 60))).some(found => found[0] < FAILED)) {
+  if (fault || !Array.from({ length: 60 }, (_, k) => stand(place(k * COUNT / 60))).some(found => found[0] < FAILED)) {
     Object.assign(given, before);
-    input.value = Number((given[item.board[0]] / item.si).toPrecision(12));
-    $("status").textContent = W.refused;
+    input.value = locale(String(Number((given[item.board[0]] / item.si).toPrecision(12))));
+    $("status").textContent = fault || W.refused;
     return;
   }
   remade();

@@ -20,6 +20,7 @@ TASKS = (
     "scheme-18-hydraulic-drive",
     "scheme-20-press-automaton",
 )
+LOWERED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 SHOWN = 2e-3  # part of a value within which four digits show it
 Opened = Callable[[str], Any]
 
@@ -43,7 +44,7 @@ def opened(browser: Any, tmp_path: Path) -> Any:
 
 
 def number(text: str) -> float:
-    plain = text.replace("\u2212", "-").replace(",", ".").replace("·10", "e")
+    plain = text.replace("\u2212", "-").replace(",", ".").replace("·10", "e").translate(LOWERED)
     return float(re.sub(r"[^-0-9.e]", "", plain))
 
 
@@ -123,18 +124,33 @@ def test_the_construction_is_told_to_its_end(task: str, opened: Opened) -> None:
 def test_other_data_are_taken_as_long_as_links_meet(opened: Opened) -> None:
     page = opened("nau-slider-crank")
     field = page.locator("#given-l_AB")
-    field.fill("140")
+    field.fill("140,5")
     field.press("Tab")
-    right(page, "nau-slider-crank", {"l_AB": "140"})
+    right(page, "nau-slider-crank", {"l_AB": "140.5"})
+    for value in ("0", "-2"):
+        page.locator("#given-F_3").fill(value)
+        page.locator("#given-F_3").press("Tab")
+        right(page, "nau-slider-crank", {"l_AB": "140.5", "F_3": value})
 
     page.locator("#given-l_OA").fill("900")
     page.locator("#given-l_OA").press("Tab")
     field.fill("-5")
     field.press("Tab")
-    assert field.input_value() == "140"
+    assert field.input_value() == "140,5"
+    assert "більше за нуль" in page.locator("#status").inner_text()
 
     page.locator("#again").click()
     right(page, "nau-slider-crank", {})
+
+
+def test_what_a_position_has_not_is_not_shown(opened: Opened) -> None:
+    page = opened("nau-slider-crank")
+    page.locator("#given-l_AB").fill("20")
+    page.locator("#given-l_AB").press("Tab")
+    page.evaluate("go(Math.PI / 2)")
+
+    assert page.locator("#status").inner_text() == "Положення недосяжне: ланки не сходяться."
+    assert values(page) == {}
 
 
 def test_keyboard_alone_suffices_and_nothing_is_out_of_reach(opened: Opened) -> None:

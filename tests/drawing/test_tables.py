@@ -98,6 +98,18 @@ def test_symbols_stand_in_the_middle_of_a_column_that_has_sentences_too() -> Non
     assert sentence.anchor == "left"
 
 
+def test_what_stands_in_several_columns_has_room_between_their_edges() -> None:
+    """The part of a table that goes on elsewhere may have nothing else in the last of its columns."""
+    view = table("t", "t", [["Quantity", "Value", None], ["p", "15.708", None], ["q", "123.456", None]], STYLES["A3"])
+    cells, lines = drawn(view)
+    left, right = (edge(line.a.real for line in lines if line.a.real == line.b.real) for edge in (min, max))
+    value = next(text for text in cells if text.markup == "123.456")
+    half = lay_out(value.markup, value.height).width / 2
+
+    assert left < value.at.real - half
+    assert value.at.real + half < right - 1.0
+
+
 @pytest.mark.parametrize("seed", CASES)
 def test_lines_of_a_block_are_far_enough_apart_to_keep_underlines_and_bars_asunder(seed: int) -> None:
     chance = random.Random(seed)

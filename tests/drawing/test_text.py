@@ -144,7 +144,9 @@ def patterns() -> frozenset[str]:
     filled = ["".join(str(p.value) if isinstance(p, ast.Constant) else "*" for p in values) for values in joined]
     plain = [node.value for node in nodes if isinstance(node, ast.Constant) and isinstance(node.value, str)]
     own = (files("kulman.drawing.moving").joinpath(name).read_text("utf-8") for name in ("page.html", "page.js"))
-    pages = [f"moving.{key}" for text in own for key in re.findall(r"(?:\{\{said\.|\bW\.)(\w+)", text)]
+    pages = [
+        f"moving.{key}" for text in own for key in re.findall(r"(?:\{\{said\.|\bW\.|> ?=? ?0, \"|!== 0, \")(\w+)", text)
+    ]
     return frozenset((*filled, *plain, *pages))
 
 

@@ -92,7 +92,7 @@ def assert_everything_is_said(written: Note, lang: str) -> None:
     for text in said:
         assert not re.search(r"(?<![\\^_])(?<!bar)(?<!\\u)(?<!\\uu)\{[a-z_]+\}", text), text  # nothing left unfilled
         assert not re.search(r"\b(nan|inf|None)\b", text), text
-    words = " ".join(said)
+    words = " ".join(text for text in said if text not in _sources(written))  # books have titles of their own language
     assert bool(re.search("[іїєґ]", words)) == (lang == "uk")
     assert bool(re.search("[ыэъ]", words)) == (lang == "ru")
     assert bool(re.search("[а-яА-Я]{3}", words)) == (lang != "en")

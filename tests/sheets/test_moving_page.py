@@ -124,6 +124,7 @@ def test_a_page_speaks_its_language_and_needs_nothing_else(language: str) -> Non
     assert "{{" not in page
     assert not re.search(r"(?:src|href)=|https?://(?!www\.w3\.org/2000/svg)|@import|fetch\(", page)
     asked = {sign for view in data["views"] for step in view["steps"] for sign in step if "\ue000" <= sign <= "\uf8ff"}
+    assert not any("⟦" in step for view in data["views"] for step in view["steps"])
     assert asked <= {chr(0xE000 + k) for k in range(len(data["asked"]))}
     assert [view["name"] for view in data["views"]][:3] == ["position", "velocity", "acceleration"]
     assert all(view["steps"] and view["shapes"] for view in data["views"])

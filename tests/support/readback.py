@@ -280,7 +280,7 @@ class Sheet:
     def __getitem__(self, name: str) -> View:
         """The view of a name; what goes on with its table or text on later pages is below it."""
         (found,) = [v for v in self.views if v.name == name]
-        more = [v for v in self.views if v.name == f"{name}_continued"]
+        more = [v for v in self.views if v.name.startswith(f"{name}_continued")]
         if not more:
             return found
         return replace(found, texts=[*found.texts, *(t for k, v in enumerate(more, 1) for t in _below(v, k))])

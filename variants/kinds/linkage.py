@@ -182,7 +182,8 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
         solved = placed(case)
         plans = case.plans if solved is case.solved else (*case.plans, POSITION)
-        return moving_linkage(solved, cycle(case.task.mechanism, case.values, plans), case.givens, words)
+        bounds = {name: given.bound.value for name, given in case.task.givens.items()}
+        return moving_linkage(solved, cycle(case.task.mechanism, case.values, plans), case.givens, words, bounds)
 
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Tell what is given and what is to be found, then every plan step by step, its equations before it."""
