@@ -138,8 +138,7 @@ def conclusions(teller: Teller) -> Iterator[str]:
     """Go through the sentences for the end of the note: what the plans that are drawn have shown."""
     for plan, (kind, rate) in PLANS.items():
         if plan in teller.scales:
-            absolute = {f"{kind}_{point}" for point in teller.points}
-            names = [name for name in teller.quantities if name in absolute]
+            names = [name for name in teller.quantities if _of_point(name, kind)]
             yield from _extremes(teller, f"conclusion.{plan}", names)
             rates = [f"{rate}_{number}" for number in teller.numbers if number != teller.solved.structure.driver]
             values = {name: rate_of(teller, name) for name in rates if name in teller.quantities}
@@ -158,6 +157,12 @@ def conclusions(teller: Teller) -> Iterator[str]:
     for name in BALANCES:
         yield from _compared(teller, name)
     yield from _angles(teller)
+
+
+def _of_point(name: str, kind: str) -> bool:
+    """Whether a quantity is the velocity or the acceleration of a point itself, such as `V_A3`; no part of one."""
+    quantity = role(name)
+    return quantity.kind == kind and not (quantity.hidden or quantity.about or quantity.part)
 
 
 def _extremes(teller: Teller, key: str, names: Sequence[str]) -> Iterator[str]:
