@@ -179,6 +179,19 @@ class Scene(SubjectScene[SolvedLinkage]):
         """Return millimetres of a drawing as they are printed."""
         return segment_text(self.words, self.words.display.segment(drawn))
 
+    def span(self, start: str, end: str, plan: str) -> float:
+        """Return how far ends of vectors are apart on a plan: as their vector was read, else as a ruler shows it."""
+        size = abs(self.solved.point(end) - self.solved.point(start))
+        if not self.words.ruler:
+            return size
+        from ...plans.hands.ruler import read_by_ruler  # few drawings are read so
+
+        mu = self.scales[plan].mu
+        edge = self.reading.between(start, end) or self.reading.between(end, start)
+        if edge is not None and edge.name in self.quantities and mu == self.scales[role(end).plan].mu:
+            return abs(self.quantities[edge.name].value or 0.0)
+        return read_by_ruler(size / mu) * mu
+
     def hung(self, letter: str, point: str) -> str:
         """Say at which point the vector stands that has this letter."""
         return self.words["said.hung"].format(vector=letter, point=self.words.mark(point))

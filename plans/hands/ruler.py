@@ -6,6 +6,7 @@ exactly.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -18,7 +19,15 @@ from .shaky import Paper
 GRADUATION = 0.5  # mm between the marks of a ruler
 SHORT = 1.0  # mm
 READ = ("read", "measure", "distance")
+WRITTEN = ("V", "a", "omega", "epsilon", "F", "M", "R", "G", "P", "m", "J")  # kinds of quantities
+DIGITS = 4  # with which they are written down; balancing ones, which are compared, have one more
+BALANCING = ("bal", "bal_lever")
 LAID = ("lay", "back", "chain")
+
+
+def read_by_ruler(mm: float) -> float:
+    """Return a length on paper as it is read, mm."""
+    return round(mm / GRADUATION) * GRADUATION if mm >= SHORT else mm
 
 
 class RulerBoard(ExactBoard):
@@ -32,9 +41,26 @@ class RulerBoard(ExactBoard):
     def operation(self, verb: str, law: str) -> Callable[..., Any]:
         """Return what does a step, with the ruler where it measures."""
         exact = super().operation(verb, law)
+        if verb == "direction":
+            return self._along
         if verb == "moment":
             return partial(self._by_arm, exact)
-        return partial(self._by_ruler, exact) if verb in READ else exact
+        if verb in READ:
+            return partial(self._by_ruler, exact)
+        return partial(self._rounded, exact) if verb == "calc" else exact
+
+    def _rounded(self, found: Callable[..., Any], *operands: Any) -> Any:
+        """Go on with the digits of a quantity that one writes down."""
+        value, name = found(*operands), role(self._name)
+        size = self._sqrt(dot(value, value))
+        if name.kind not in WRITTEN or not 0.0 < size < math.inf:
+            return value
+        return value * (float(f"{size:.{DIGITS + (name.of in BALANCING)}g}") / size)
+
+    def _along(self, start: Any, end: Any, _: Any) -> Any:
+        """Return the direction of a line, which is as it is drawn however long the line is read to be."""
+        between = self._read(start, end)
+        return between * (1.0 / self._sqrt(dot(between, between)))
 
     def _by_ruler(self, exact: Callable[..., Any], start: Any, end: Any) -> Any:
         """Read a vector, which keeps its direction, or a distance; what was laid off is known."""
@@ -53,4 +79,4 @@ class RulerBoard(ExactBoard):
     def _share(self, length: float, mark: str) -> float:
         """Return by what a length on the plan of a mark is to be multiplied."""
         mm = length / self._mus[role(mark).plan]
-        return round(mm / GRADUATION) * GRADUATION / mm if mm >= SHORT else 1.0
+        return read_by_ruler(mm) / mm if mm >= SHORT else 1.0

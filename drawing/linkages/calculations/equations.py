@@ -177,7 +177,7 @@ def operand(scene: Scene, name: str) -> Product:
     if made is not None and made.verb in DIRECTIONS:
         return Product(())
     if made is not None and made.verb == "read" and made.plan == POSITION:
-        return distance(scene, *made.operands)
+        return distance(scene, made)
     return Product((factor(scene, name),))
 
 
@@ -194,10 +194,10 @@ def size_by_law(
     return _by_law(scene.words, head, size, operands, unit, read=reading_of(scene, step.name))
 
 
-def distance(scene: Scene, start: str, end: str) -> Product:
-    """Return a distance on the plan of the mechanism as its millimetres and the scale factor."""
-    words, size = scene.words, abs(scene.solved.point(end) - scene.solved.point(start))
-    own = segment(scene, words.mark(start) + words.mark(end), POSITION, size)
+def distance(scene: Scene, made: Step) -> Product:
+    """Return a distance read on the plan of the mechanism as its millimetres and the scale factor."""
+    words, size = scene.words, abs(scene.values[made.name])
+    own = segment(scene, "".join(map(words.mark, made.operands)), POSITION, size)
     return Product((own, paper(words, scene.scales[POSITION])))
 
 
@@ -281,12 +281,25 @@ def _segment_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, str, str]:
     # of an arm nothing is known but its segment; what was laid off has its value all the same
     readable = 0.0 if role(q.name).kind == "h" else READABLE
     mm, value_read = read_off(words, value, mu, readable, DIGITS - 1 if is_laid(scene, q.name) else FEWEST)
+    five = float(f"{abs(value):.{DIGITS + 1}g}")
+    if (
+        words.ruler
+        and mm
+        and value
+        and all(math.isclose(five, x, rel_tol=1e-9) for x in (number_of(mm) * mu, abs(value)))
+    ):
+        # one digit more is all that the product has: what follows goes on with it
+        short = math.isclose(five, float(f"{five:.{DIGITS}g}"), rel_tol=1e-9)
+        return mm, words.short(number), value_text(words, abs(value), DIGITS + (not short))
     return mm, words.short(number), value_read
 
 
 def is_laid(scene: Scene, name: str) -> bool:
-    """Whether a vector is laid off on its plan by a number that has been calculated."""
+    """Whether a vector is laid off on its plan by a number that has been calculated, perhaps under another name."""
     step = scene.made.get(role(name).size) or scene.made.get(name)
+    if scene.words.ruler and step is not None and step.verb == "read":
+        edge = scene.reading.between(*step.operands)
+        return edge is not None and scene.reading.is_hung(edge)
     return step is not None and step.verb == "calc"
 
 
@@ -469,7 +482,7 @@ def _lengths(scene: Scene, step: Step, told: set[str]) -> Iterator[tuple[str, ..
         if role(made.operands[0]).hidden:
             yield (stated(scene.words, symbol, size_of(scene, name), "m"),)
         else:
-            yield worked(scene.words, symbol, [distance(scene, *made.operands)], "m")
+            yield worked(scene.words, symbol, [distance(scene, made)], "m")
 
 
 def _formula(scene: Scene, step: Step) -> tuple[str, ...]:
@@ -539,7 +552,7 @@ def _similarity(scene: Scene, step: Step) -> Lines:
     if size_of(scene, first) == 0.0:
         return []
     a, b, s = map(words.mark, (start, end, step.name))
-    ab = segment(scene, f"{a}{b}", step.plan, abs(scene.solved.point(end) - scene.solved.point(start)))
+    ab = segment(scene, f"{a}{b}", step.plan, scene.span(start, end, step.plan))
     ratio = Product((ab, factor(scene, first), factor(scene, second, -1)))
     return [worked(words, f"{a}{s}", [ratio], words.display.paper)]
 

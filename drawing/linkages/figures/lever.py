@@ -36,8 +36,8 @@ class Couple(NamedTuple):
 
     def arm(self, scene: Scene) -> float:
         """Return how long its arm is on the plan of velocities, in the unit of that."""
-        a, b = (_image(scene, mark) for mark in self.marks)
-        return abs(b - a) * scene.scales["lever"].mu
+        start, end = (f"velocity.{'p' if mark == POLE else role(mark).of}" for mark in self.marks)
+        return scene.span(start, end, "lever")
 
 
 def couples_on_lever(scene: Scene) -> dict[str, Couple]:
