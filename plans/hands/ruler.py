@@ -53,6 +53,8 @@ class RulerBoard(ExactBoard):
         """Go on with the digits of a quantity that one writes down."""
         value, name = found(*operands), role(self._name)
         size = self._sqrt(dot(value, value))
+        if name.kind == "arm":  # of a reaction about a point, measured before its size is known
+            return value * self._share(size, self._operands[-1])
         if name.kind not in WRITTEN or not 0.0 < size < math.inf:
             return value
         return value * (float(f"{size:.{DIGITS + (name.of in BALANCING)}g}") / size)
