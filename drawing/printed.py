@@ -18,6 +18,7 @@ from operator import add, mul, sub, truediv
 from typing import Any, NamedTuple
 
 from ..plans.laws import LAWS, Sign, form_of
+from ..scales.numbers import rounded
 from .words import Words
 
 FUNCTIONS = ("sin", "cos", "tan", "arccos", "arcsin", "arctan")
@@ -37,6 +38,7 @@ AS_TOLD = 0  # instead of a number of digits: as many as the sheet prints elsewh
 AS_PRINTED = -1  # instead of decimals of a result: what the printed numbers give, with a digit more than usual
 FINEST = 12  # decimals; what is smaller still is 0
 READABLE = 1.0  # mm; of a shorter segment hundredths may be too few to tell its value
+TIE = 1e-9  # of the last digit, by which what is reckoned may miss a half
 POINT = 1e-6  # mm; a shorter segment is a point, and its quantity 0
 
 
@@ -277,7 +279,7 @@ class Input:
         if self.told and digits == AS_TOLD:
             return number_of(self.told)
         decimals = self.decimals(digits)
-        return self.value if decimals is None else round(self.value, decimals)
+        return self.value if decimals is None else rounded(self.value, decimals)
 
     def text(self, words: Words, digits: int) -> str:
         """Return its number with so many digits, or as it is `AS_TOLD`."""
@@ -327,7 +329,7 @@ def read_off(
     segment = abs(value) / mu
     if segment < POINT:
         return segment_text(words, 0.0), words.number(0.0, 0)
-    read = round(segment, ruler_decimals(words, segment)) * mu
+    read = rounded(segment, ruler_decimals(words, segment)) * mu
     shown, decimals = _agreed(abs(value), read)
     if segment < readable and (shown == read or decimals < decimals_for(value, fewest)):
         return "", value_text(words, abs(value))
@@ -341,7 +343,7 @@ def laid_off(words: Words, value: float, mu: float, known: str) -> str:
     """
     segment = abs(value) / mu
     for decimals in (ruler_decimals(words, segment), ruler_decimals(words, 0.0)):
-        if abs(round(segment, decimals) * mu - number_of(known)) <= half_digit(known):
+        if recomputes(rounded(segment, decimals) * mu, known):
             return words.number(segment, decimals)
     return ""
 
@@ -351,26 +353,34 @@ def number_of(text: str) -> float:
     return float(text.replace("−", "-").replace(",", "."))
 
 
-def half_digit(text: str) -> float:
-    """Return half a unit of the last digit of a printed number, and a little for ties."""
-    return 0.5 * 10.0 ** -len(text.replace(",", ".").partition(".")[2]) * (1.0 + 1e-9)
+def recomputes(reckoned: float, text: str) -> bool:
+    """Whether a printed number is what other printed ones give, rounded as usual."""
+    return _agree(reckoned, number_of(text), len(text.replace(",", ".").partition(".")[2]))
 
 
 def _agreed(value: float, reckoned: float, digits: int = DIGITS) -> tuple[float, int]:
     """Return a value, and its decimals, so that it is as `reckoned` from printed numbers: with fewer digits, or that.
 
-    It has at most so many significant `digits`.
+    It has at most so many significant `digits`, and one more where the reckoned number is in the middle of two.
     """
     most = decimals_for(value, digits)
     for decimals in range(most, -1, -1):
         if _agree(reckoned, value, decimals):
             return value, decimals
+        if _halfway(reckoned, value, decimals):
+            return reckoned, decimals + 1
     return reckoned, 0
 
 
 def _agree(reckoned: float, value: float, decimals: int) -> bool:
-    """Whether a value with so many decimals is what printed numbers give, to its last digit."""
-    return abs(reckoned - round(value, decimals)) <= 0.5 * 10.0**-decimals * (1.0 + 1e-9)
+    """Whether a value with so many decimals is what printed numbers give, to its last digit: a half goes up."""
+    over = math.copysign(1.0, reckoned) * (reckoned - rounded(value, decimals)) * 10.0**decimals
+    return -HALF - TIE <= over < HALF - TIE
+
+
+def _halfway(reckoned: float, value: float, decimals: int) -> bool:
+    """Whether what printed numbers give is in the middle between a value with so many decimals and another number."""
+    return abs(abs(reckoned - rounded(value, decimals)) * 10.0**decimals - HALF) <= TIE
 
 
 def calculation(
@@ -394,12 +404,20 @@ def calculation(
     measured = read is not None or any(one.places is not None for one in inputs)
     for last, most in MEASURED if measured else FREE:
         decimals = decimals_for(result, last) if wanted is None else wanted
-        if read is not None and not _agree(read, abs(result), decimals):
+        if read is not None and not (_agree(read, abs(result), decimals) or _halfway(read, abs(result), decimals)):
             continue
         for digits in _digits(inputs, most):
             with suppress(ArithmeticError, ValueError):  # numbers that are rounded to nothing may give none at all
-                if _agree(law(*numbers.with_digits(digits)), result, decimals):
+                reckoned = law(*numbers.with_digits(digits))
+                if _agree(reckoned, result, decimals):
                     return _texts(words, inputs, digits), words.number(result, decimals)
+                if (
+                    measured
+                    and wanted is None
+                    and _halfway(reckoned, result, decimals)
+                    and read in (None, abs(reckoned))
+                ):
+                    return _texts(words, inputs, digits), words.number(reckoned, decimals + 1)
     if read is not None:  # no digits of it agree
         return calculation(words, law, inputs, wanted)
     with suppress(ArithmeticError, ValueError):
@@ -416,7 +434,7 @@ def as_printed(law: Callable[..., float], inputs: Sequence[Input]) -> float:
         reckoned = law(*(one.printed(AS_TOLD) for one in inputs))
     except ArithmeticError:  # a divisor that is rounded to nothing
         reckoned = law(*(one.value for one in inputs))
-    return float(round(reckoned, decimals_for(reckoned, DIGITS + 1)))
+    return rounded(reckoned, decimals_for(reckoned, DIGITS + 1))
 
 
 class Shown(NamedTuple):

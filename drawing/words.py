@@ -12,6 +12,7 @@ from typing import Any
 from ..plans.names import CORIOLIS, COUPLE, FORCES, LEVER, NORMAL, PARTS, POLE, POSITION, Name, couple, role, spelled
 from ..scales.errors import LANGUAGES, InputError
 from ..scales.names import unknown
+from ..scales.numbers import rounded
 from ..scales.packaged import home, packaged
 from ..scales.scale import AS_INSIDE, Display, Scale
 from ..scales.units import format_unit
@@ -100,7 +101,8 @@ class Words:
 
     def number(self, value: float, decimals: int) -> str:
         """Return a number with so many decimals, a true minus and the language's decimal sign."""
-        text = f"{value:.{max(decimals, 0)}f}"
+        decimals = max(decimals, 0)
+        text = f"{rounded(value, decimals):.{decimals}f}"
         if float(text) == 0.0:
             text = text.removeprefix("-")
         return self.decimal(text)

@@ -15,7 +15,17 @@ _NUMBER = re.compile(
 )
 _UNDER = re.compile(r"\s*/\s*([1-9][0-9]*)(?![0-9.,])")  # what makes a fraction of a whole number
 SHOWN = 200  # characters of a path, a reason or a list in a message
+TIE = 1e-14  # part of a number by which arithmetic may leave it below a half
 _PLAIN = str.maketrans({"\u2212": "-", "\u2013": "-", ",": ".", **dict.fromkeys(SPACES)})
+
+
+def rounded(value: float, decimals: int) -> float:
+    """Return a number with so many decimals, rounded as usual: a half goes up in size.
+
+    >>> rounded(0.2875, 3), rounded(-2.5, 0), rounded(115.0 * 0.0025, 3)
+    (0.288, -3.0, 0.288)
+    """
+    return float(round(float(value) * (1.0 + TIE), decimals))
 
 
 def quote(text: object, longest: int = 40) -> Written:

@@ -27,7 +27,7 @@ from kulman.drawing.words import Words, notations
 from kulman.scales.errors import LANGUAGES, InputError, messages
 from kulman.scales.packaged import packaged
 from kulman.scales.scale import Scale
-from kulman.tests.support.printed_numbers import equation_faults, half_digit, table, value
+from kulman.tests.support.printed_numbers import equation_faults, recomputes, table, value
 from kulman.tests.support.sheet_cases import Case, drawn, solved
 from kulman.tests.support.sources import trees
 from kulman.variants.kinds import KINDS
@@ -432,7 +432,7 @@ def test_sheet_of_bauman_has_segments_that_divide_by_its_scale_factors_and_angle
     shown = [row for name, rows in results.items() if name != "results_lever" for row in rows if row[1] != "–"]
     assert len(shown) > 20
     for symbol, mm, scale, printed, *_ in shown:
-        assert abs(value(mm) / value(scale) - value(printed)) <= half_digit(printed), symbol
+        assert recomputes(value(mm) / value(scale), printed), symbol
     assert equation_faults(sheet)[1] == []
     rows = {row[0]: row for row in results["results_velocity"]}
     assert velocity.x is not None

@@ -39,6 +39,12 @@ def half_digit(text: str) -> float:
     return 0.5 * 10.0 ** Decimal(number).as_tuple().exponent * (1 + 1e-9)
 
 
+def recomputes(number: float, printed: str) -> bool:
+    """Whether a number is the printed one, rounded as usual: a half goes up."""
+    over = math.copysign(1.0, number) * (number - value(printed)) / half_digit(printed)
+    return -1.0 <= over < 1.0 - 1e-8
+
+
 def table(view: View) -> list[list[str]]:
     """Return the rows of a table below its head, the cells from left to right."""
     rows: dict[int, list[Text]] = {}
@@ -76,7 +82,7 @@ def lever_faults(view: View, lang: str) -> Iterator[str]:
     """Rows of the lever's table of which the force times the arm in mm is not the moment to its last digit."""
     for symbol, force, _, arm, moment, sense in table(view):
         numbers_of(" ".join((force, arm, moment)), lang)
-        if "–" not in (force, arm) and abs(value(force) * value(arm) - value(moment)) > half_digit(moment):
+        if "–" not in (force, arm) and not recomputes(value(force) * value(arm), moment):
             yield f"{symbol}: {force}·{arm} is not {moment}"
         if (sense == "–") != (value(moment) == 0.0):
             yield f"{symbol}: the sense of {moment} is {sense}"
@@ -129,9 +135,8 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
         (head,) = [c.string for c in sheet[name].of("cell") if re.search(r", (mm|мм|cm|см)$", c.string)]
         for row in table(sheet[name]):
             symbol, mm, mu, printed = row[:4]
-            near = half_digit(printed)
             if mm != "–":
-                if abs(value(mm) * value(mu) - value(printed)) > near:
+                if not recomputes(value(mm) * value(mu), printed):
                     yield f"{symbol}: {mm}·{mu} is not {printed}"
                 finer = symbol in carried and ruled(mm, head.split()[-1], math.inf)  # laid off: a number, not a reading
                 if not finer and not ruled(mm, head.split()[-1]):
@@ -168,6 +173,6 @@ def equation_faults(sheet: Sheet) -> tuple[int, list[str]]:
             for line in lines_of(view):
                 for expression, result in calculations(line):
                     count += 1
-                    if abs(evaluate(expression) - value(result)) > half_digit(result):
+                    if not recomputes(evaluate(expression), result):
                         faults.append(f"{view.name}: {expression} = {evaluate(expression)}, printed {result}")
     return count, faults

@@ -14,7 +14,7 @@ from ....plans.linkages.structure import KINDS as GROUPS
 from ....plans.linkages.structure import Group, Structure
 from ....plans.names import COUPLE, role
 from ....plans.quantities import Quantity
-from ...printed import DIGITS, decimals_for, half_digit, number_of, value_text
+from ...printed import DIGITS, decimals_for, recomputes, value_text
 from ...tables import givens_view, table
 from ...view import View
 from ..reading import read
@@ -194,7 +194,7 @@ def _row(scene: Scene, q: Quantity) -> list[str]:
     if drawn_on(scene, q) in scene.scales or opposed(scene, q.name) is not None:
         mm, *printed = printed_segment(scene, q)
         read, told = reading_of(scene, q.name), result_of(scene, q.name)
-        if 0 < len(told) < len(printed[-1]) and (not read or abs(read - number_of(told)) <= half_digit(told)):
+        if 0 < len(told) < len(printed[-1]) and (not read or recomputes(read, told)):
             printed[-1] = told  # fewer digits are all that its equation gives
         printed = [mm, *printed] if mm else [none, none, printed[-1]]
     else:  # sizes, words tell the sense; what balances the driver as it is calculated
