@@ -139,7 +139,7 @@ def ratio(missed: float, allowed: float) -> float:
 
 
 class Verdict(StrEnum):
-    """What a line is; `passed` where it counts as right, `faulty` where there is an error in this very line."""
+    """What a line is; `passed` where nothing is wrong with it, `faulty` where there is an error in this very line."""
 
     RIGHT = "right"
     CARRIED = "carried"
@@ -147,6 +147,7 @@ class Verdict(StrEnum):
     UNCOUNTED = "uncounted"  # follows from numbers most of which are wrong
     ARITHMETIC = "arithmetic"
     SCALE = "scale"
+    SMALL = "small"  # within the tolerance, of a value too small for a hand: neither right nor wrong
     MISSING = "missing"
 
     passed: bool
@@ -154,7 +155,7 @@ class Verdict(StrEnum):
 
     def __init__(self, value: str) -> None:
         """Say once what is asked of every line again and again."""
-        self.passed, self.faulty = value in ("right", "carried"), value in ("wrong", "arithmetic", "scale")
+        self.passed, self.faulty = value in ("right", "carried", "small"), value in ("wrong", "arithmetic", "scale")
 
 
 @dataclass(frozen=True, slots=True)

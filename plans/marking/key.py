@@ -13,7 +13,7 @@ from ..board import POINTS, POSITION, Step
 from ..boards.exact import run
 from ..hands.shaky import Paper, Tolerance
 from ..laws import LAWS
-from ..names import role
+from ..names import COUPLE, role
 from ..quantities import RESULTS, results, shown_on, unit_of, worst_behind
 
 ROUNDED = 0.005  # part of a value by which three digits are rounded
@@ -215,6 +215,7 @@ class _Rule:
     slants: dict[str, float] = field(default_factory=dict)
     aside: dict[str, float] = field(default_factory=dict)
     astray: dict[str, float] = field(default_factory=dict)
+    arms: dict[str, float] = field(default_factory=dict)  # what arms may miss, by their moments
 
     def of(self, step: Step) -> Any:
         """Return by how much the result of a step may differ, SI."""
@@ -236,11 +237,14 @@ class _Rule:
             arm = abs(values[step.name]) / size if size else 0.0
             tilt = self._tilt(abs(values[at] - values[about]))
             missed = max(self.most.of_segment(arm / mu) * mu, tilt) + self.astray.get(at, 0.0)
-            missed += self.astray.get(about, 0.0)
-            return size * missed + arm * self.allowed.get(force, 0.0)
+            way = math.sqrt(max(abs(values[at] - values[about]) ** 2 - arm * arm, 0.0))
+            missed = math.hypot(missed, self._turned(force) * way)
+            self.arms[step.name] = missed + self.astray.get(about, 0.0)
+            return size * self.arms[step.name] + arm * self.allowed.get(force, 0.0)
         if step.verb == "arm":
-            size = abs(values[step.operands[1]])
-            return self.allowed[step.operands[0]] / size if size else 0.0
+            moment, size = step.operands[0], abs(values[step.operands[1]])
+            # measured on the drawing, however large the force is; that of a sum of moments is calculated
+            return self.arms[moment] if moment in self.arms else self.allowed[moment] / size if size else 0.0
         if step.verb == "calc":
             return self._inherited(step)
         is_point = step.verb in POINTS and "." not in step.name
@@ -270,15 +274,20 @@ class _Rule:
         """Return what a line of this length misses at its end when its direction does."""
         return math.hypot(math.radians(self.most.degrees), slant) * length if length == length else 0.0
 
+    def _turned(self, force: str) -> float:
+        """Return by how much the direction of a force may miss, radians: a couple's is normal to its link."""
+        size = abs(self.values[force])
+        return min(self.allowed.get(force, 0.0) / size, 1.0) if size and role(force).part != COUPLE else 0.0
+
     def _mu(self, mark: str) -> float:
         return float(self.paper.mus[role(mark).plan])
 
     def _inherited(self, step: Step) -> float:
-        """Return by how much a calculated value differs when what is in it does, each alone, together."""
+        """Return by how much a calculated value differs when what is in it does: errors of a hand add as variances."""
         operands = [self.values[name] for name in step.operands]
         with np.errstate(all="ignore"):  # a miss may lead out of where a law holds
             missed = (self.allowed.get(name, 0.0) for name in step.operands)
-            return inherited(step.law, operands, self.values[step.name], missed)
+            return math.hypot(*inherited(step.law, operands, self.values[step.name], missed))
 
 
 def _longest(paper: Paper, values: Mapping[str, Any]) -> dict[str, float]:
@@ -292,15 +301,15 @@ def _longest(paper: Paper, values: Mapping[str, Any]) -> dict[str, float]:
     return found
 
 
-def inherited(law: str, operands: list[Any], exact: Any, missed: Iterable[float]) -> float:
-    """Return by how much a law misses what is exact when each operand does, one after the other, all added up."""
-    total = 0.0
+def inherited(law: str, operands: list[Any], exact: Any, missed: Iterable[float]) -> list[float]:
+    """Return by how much a law misses what is exact when each operand does, one after the other."""
+    found = []
     for i, miss in enumerate(missed):
         if miss:
             changed = ([*operands[:i], x, *operands[i + 1 :]] for x in longer(operands[i], miss))
             changes = [abs(LAWS[law](*others) - exact) for others in changed]  # a load diagram may be steep one way
-            total += max((change for change in changes if change == change), default=0.0)
-    return total
+            found.append(max((change for change in changes if change == change), default=0.0))
+    return found
 
 
 def longer(value: Any, miss: float) -> tuple[Any, ...]:

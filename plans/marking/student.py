@@ -296,7 +296,7 @@ class Allowance:
 
     def _through(self, step: Step) -> float:
         operands = [self.drawn.values[operand] for operand in step.operands]
-        return inherited(step.law, operands, LAWS[step.law](*operands), map(self._slack, step.operands))
+        return sum(inherited(step.law, operands, LAWS[step.law](*operands), map(self._slack, step.operands)))
 
     def _slack(self, name: str) -> float:
         """Return by how much an operand may differ from that with which the student has gone on."""

@@ -38,8 +38,10 @@ SAME = 0.03  # part of a value by which a factor may miss: wide tolerances of sh
 AGREE = 0.05  # part by which segments of one plan may differ in the scale that they show
 SHOWN = 5.0  # mm from which a segment shows to which scale its plan is drawn
 CLEAR = 2.0  # tolerances from which an error is more than a slip of the hand
+NOTHING = 1e-6  # part of a tolerance that is rounding
 MANY = 3  # answers wrong by themselves, from which a line that hangs on them may follow by chance
 SLACK = 0.5  # part of a tolerance by which mm times mu may differ from the value written
+HALF = 0.5  # part of a value by which a hand may miss it at the most if it is to be judged
 
 
 @dataclass(frozen=True, slots=True)
@@ -382,7 +384,17 @@ class Marker:
                 return held._replace(verdict=Verdict.ARITHMETIC)
         if clear and self._is_scale(name, value):
             return held._replace(verdict=Verdict.SCALE)
-        return held
+        return held._replace(verdict=Verdict.SMALL) if self._too_small(name, held) else held
+
+    def _too_small(self, name: str, held: _Held) -> bool:
+        """Whether an answer is far from a value of which a hand may miss more than half: it says nothing then."""
+        if held.verdict is not Verdict.RIGHT or name in self.key.firm:
+            return False
+        allowed, sizes = self.key.allowed[name], [abs(value) for value in self.key.right(name)]
+        if not all(NOTHING * allowed < size < allowed / HALF for size in sizes):
+            return False
+        ways = (held.said, *self.ways[name])
+        return all(miss(way, x, HALF * abs(x), 0.0).off > 1.0 for way in ways for x in self.key.right(name))
 
     def _readings(self, name: str, values: tuple[float, ...]) -> tuple[Said, ...]:
         """Return all ways to take an answer; a number without a unit is no magnitude, and its sign counts."""

@@ -16,6 +16,7 @@ import pytest
 
 from kulman import check
 from kulman.plans.hands.shaky import preset
+from kulman.plans.hands.spread import drawn
 from kulman.plans.marking.answers import Answer, Said, Verdict
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.student import StudentBoard
@@ -42,7 +43,7 @@ TASK = "nau-slider-crank"
 EXAMPLE, OF = key(TASK, "example"), key(TASK, "3")
 MUS = EXAMPLE.paper.mus
 VELOCITIES = ("V_A", "V_BA", "V_B", "V_S2")
-DRAWN = {"V_BA": 1.03, "V_S2": 0.98, "a_B": 1.03, "a_S2": 0.97, "h_2": 0.95, "h_lever_F_i2": 1.04, "h_21": 1.06}
+DRAWN = {"V_BA": 1.03, "V_S2": 0.98, "a_B": 1.03, "a_S2": 0.97, "h_2": 0.95, "h_lever_F_i2": 1.04, "h_21": 1.05}
 
 
 def verdicts(marking: Marking, *names: str) -> list[str]:
@@ -113,6 +114,32 @@ def test_millimetres_of_honest_hands_are_right_without_scale_factors(everything:
 
     assert any(line.answer and line.answer.mm for line in lines)
     assert np.mean([line.verdict.passed for line in lines]) >= 0.97
+
+
+def test_a_value_too_small_for_a_hand_is_neither_right_nor_wrong_where_an_answer_misses_it() -> None:
+    of = key("scheme-12-shaking-conveyor")
+    small = ("a_ED_t", "epsilon_4", "h_4")
+
+    told = [[str(mark(of, [Answer(n, value=x * abs(of[n]))])[n].verdict) for n in small] for x in (0.0, 0.3, 1.0, 90.0)]
+
+    assert told == [["small"] * 3, ["small"] * 3, ["right"] * 3, ["wrong"] * 3]
+    opposite = mark(of, [answer("a_ED_t", -of["a_ED_t"])])
+    assert verdicts(opposite, "a_ED_t") == ["small"]
+
+
+@pytest.mark.parametrize("task", LINKAGES)
+def test_no_tolerance_is_much_wider_than_what_a_hand_misses(task: str) -> None:
+    of = key(task)
+    made = drawn(of.paper, preset("normal").hand, np.random.default_rng(SEED), 400)
+
+    wide = {}
+    for name, allowed in of.allowed.items():
+        size = abs(of[name]) if name in of.questions else 0.0
+        if 1e-6 * allowed < size < allowed / 0.15:  # neither nothing, nor held to the usual five per cent or so
+            missed = float(np.nanquantile(abs(np.abs(made[name]) - size), 0.99))
+            wide[name] = allowed / missed
+
+    assert max(wide.values(), default=0.0) <= 6.0, max(wide, key=lambda name: wide[name])
 
 
 def test_right_answers_are_right_in_every_line() -> None:

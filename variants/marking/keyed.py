@@ -72,7 +72,7 @@ class Rubric:
     ) -> dict[str, float]:
         """Return what part of the full mark each line is: by the rubric's weights, or else by plans.
 
-        A line counts the more the more of the later ones hang on it, `needed` being their part, and nothing where zero
+        A line whose verdict has no worth does not count. Others count the more the more of the later ones hang on it, `needed` being their part, and nothing where zero
         is right; a plan (or section of the form) counts as the root of what its lines come to, so that of four times as
         many lines each counts half as much.
         """
@@ -85,6 +85,7 @@ class Rubric:
             for name, share in shares.items():
                 whole[by_plan[name]] += share
             shares = {name: share / math.sqrt(whole[by_plan[name]] or 1.0) for name, share in shares.items()}
+        shares |= {line.name: 0.0 for line in lines if line.verdict not in self.worth}
         total = sum(shares.values())
         return {name: share / total if total else 1.0 / len(shares) for name, share in shares.items()}
 
@@ -93,7 +94,7 @@ class Rubric:
 
         def earned(line: Line) -> float:
             less = self.directions == "required" and wants_direction(line)
-            return parts[line.name] * (self.worth[line.verdict] * (SIZE_ALONE if less else 1.0))
+            return parts[line.name] * (self.worth.get(line.verdict, 1.0) * (SIZE_ALONE if less else 1.0))
 
         return round(self.out_of * sum(map(earned, lines)), 1)
 

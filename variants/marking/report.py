@@ -263,13 +263,13 @@ def report_text(report: Report) -> str:
 
 
 TAGS = {0: "", 1: "sup", -1: "sub"}
-SIGNS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.MISSING: "–"}
+SIGNS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.SMALL: "○", Verdict.MISSING: "–"}
 STYLE = """
 body{font:11pt/1.4 "Segoe UI",Arial,sans-serif;max-width:180mm;margin:8mm auto;color:#000}
 h1{font-size:15pt}h2{font-size:12pt;margin:6mm 0 2mm}
 table{border-collapse:collapse;width:100%}th,td{border:1px solid #888;padding:1mm 2mm;text-align:left}
 th{background:#eee}td.n{white-space:nowrap}tr.wrong td,tr.uncounted td,tr.arithmetic td,tr.scale td{background:#fbe3d6}
-tr.missing td{color:#666}.first{font-weight:bold}
+tr.missing td,tr.small td{color:#666}.first{font-weight:bold}
 sub,sup{font-size:70%;line-height:0}
 svg{width:100%;max-height:150mm;border:1px solid #ccc}svg path{fill:none;stroke-width:.5}
 svg path.right{stroke:#0072b2;stroke-dasharray:5 1.2 1 1.2;stroke-width:.8}svg path.own{stroke:#000}
