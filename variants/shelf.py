@@ -14,7 +14,7 @@ _TASKS = home(__package__) / "tasks"
 # what the files of the bundled tasks look like: a row of variants begins with its id, a given with unit or choices
 _ID = re.compile(r'^(?:  \{ )?id = "([^"]+)"', re.MULTILINE)
 _TABLE = re.compile(r"^variant = \[\n.*?^\]\n", re.MULTILINE | re.DOTALL)
-_HEADS = re.compile(r"^\[+(\w+)", re.MULTILINE)  # of tables
+HEADS = re.compile(r"^\[+(\w+)", re.MULTILINE)  # of tables
 _GIVEN = re.compile(r'^(\w+) = \{ (?:unit = "([^"]+)"|choices = \[([^]]+)\])', re.MULTILINE)
 
 
@@ -22,7 +22,7 @@ def bundled(kind: str | None = None) -> tuple[str, ...]:
     """Return the ids of the bundled tasks; only those of one kind where its table is said, `mechanism` or `cam`."""
     names = (entry.name for entry in _TASKS.iterdir())
     tasks = sorted(name.removesuffix(".toml") for name in names if name.endswith(".toml"))
-    return tuple(task for task in tasks if kind is None or kind == table_in(_HEADS.findall(bundled_text(task))))
+    return tuple(task for task in tasks if kind is None or kind == table_in(HEADS.findall(bundled_text(task))))
 
 
 tasks = bundled  # the name in Python

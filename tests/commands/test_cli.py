@@ -9,6 +9,7 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from collections.abc import Iterator
 from itertools import cycle
 from pathlib import Path
@@ -22,6 +23,7 @@ from kulman.scales.errors import LANGUAGES, messages
 from kulman.tests.support.commands import Run
 from kulman.variants.case import kind_of
 from kulman.variants.making.new_variants import _with_variants
+from kulman.variants.making.starter import template
 from kulman.variants.reader import check_text
 from kulman.variants.shelf import bundled, bundled_text
 from kulman.variants.solution import Solution, solve
@@ -471,14 +473,28 @@ def test_a_bundled_task_is_shown_and_copied_to_begin_with(folder: Path, run: Run
 
     assert run("show", "scheme-09-shaper") == (0, text, "")
     assert run("new", "--from", "scheme-09-shaper", "my shaper") == (0, "my shaper.toml\n", "")
-    copied = Path("my shaper.toml").read_text(encoding="utf-8")
-    assert copied.replace('"my-shaper"', '"scheme-09-shaper"') == text
-    assert run("solve", "my shaper.toml", "--json")[0] == 0
     assert run("new", "--from", "scheme-09-shaper", "my shaper.toml")[0] == 2  # it stays
     assert "did you mean scheme-09-shaper" in run("show", "scheme-09-shapr")[2]
     assert run("new", "--from", "nothing", "other.toml")[0] == run("show", "my shaper.toml")[0] == 2
     assert run("new", "--from", TASK, "--kind", "cam", "other.toml")[0] == 2
     assert not Path("other.toml").exists()
+
+
+@pytest.mark.parametrize("task", bundled())
+def test_a_copied_task_is_the_users_own(task: str, folder: Path, run: Run) -> None:
+    language = LANGUAGES[len(task) % 3]
+
+    run("new", "--from", task, "мій.toml", "--lang", language)
+
+    copied = Path("мій.toml").read_text(encoding="utf-8")
+    comments = " ".join(re.findall(r"#(.*)", copied))
+    own, source = tomllib.loads(copied), tomllib.loads(bundled_text(task))
+    assert own["source"] == tomllib.loads(template(language))["source"]
+    assert own["id"] == "мій" and "kulman solve мій.toml" in comments and source["title"][language] in comments
+    assert not any(line in copied for line in bundled_text(task).split("\n") if "#" in line)
+    assert own.keys() ^ source.keys() <= {"number", "note"} and "number" not in own
+    assert all(own[key] == source[key] for key in own.keys() - {"id", "source"})
+    assert run("list", "--check", "мій.toml")[0] == 0
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="consoles of Windows are asked in UTF-16")

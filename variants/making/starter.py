@@ -6,18 +6,23 @@ import json
 import math
 import os
 import re
+import textwrap
 from pathlib import Path
 
-from ...scales.errors import LANGUAGES, InputError
+from ...scales.errors import LANGUAGES, InputError, messages
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import home
 from ..case import kind_of
-from ..kinds import KINDS, MODULES
-from ..shelf import text_of
+from ..kinds import KINDS, MODULES, table_in
+from ..shelf import HEADS, summary, text_of
 
 VARIANTS = (__package__ or "").rpartition(".")[0]
 SUFFIX = ".toml"
 _OWN = re.compile(r'^id = "([^"]+)"', re.MULTILINE)  # what a template calls itself
+_HOW = re.compile(r"^#\n(?:#     kulman.*\n)+(?:#.*\n)*", re.MULTILINE)  # how to check, solve and draw it
+_FIRST = re.compile(r"((?:-v|variant|варіанта|варианта) )1\b")
+_KEYS = [re.compile(rf"^{key} = .*\n", re.MULTILINE) for key in ("id", "source")]  # with their comments
+_FOREIGN = re.compile(r"^#.*\n|(?<=\]\])  #.*|^number = .*\n(?=source)|^\[note\]\n(?:.+\n)+\n", re.MULTILINE)
 
 
 def template(language: str, kind: str = KINDS[0]) -> str:
@@ -51,6 +56,20 @@ def _drafted(name: str) -> str:
     ))  # fmt: skip
 
 
+def _copied(source: str, language: str) -> str:
+    """Return a bundled task as one of the user's own: comments in a language, no number, source or note of another's."""
+    whole = text_of(source)
+    usual = template(language, MODULES[table_in(HEADS.findall(whole))].rpartition(".")[2])
+    about = summary(source)
+    said = messages(language)["task-copied"].format(task=source, title=about["title"][language])
+    head = [f"# {line}\n" for line in textwrap.wrap(said, 118)]
+    how = _FIRST.sub(rf"\g<1>{about['variants'][0]}", "".join(_HOW.findall(usual)[:1]))
+    text = _FOREIGN.sub("", whole)
+    for key in _KEYS:
+        text = text.replace(key.findall(text)[0], key.findall(usual)[0], 1)
+    return "".join((*head, how, "\n", text)).replace(_OWN.findall(usual)[0], source)
+
+
 def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0], source: str | None = None) -> Path:
     """Write a task file to begin with: of a kind, its comments in a language, or a copy of a bundled one, `source`.
 
@@ -68,7 +87,7 @@ def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0], sou
     if not path.parent.is_dir():
         raise InputError("output-folder-missing", file=shown, folder=quote(path.parent, SHOWN))
     called = f'"{path}"' if " " in str(path) else str(path)
-    text = template(language, kind) if source is None else text_of(source)
+    text = template(language, kind) if source is None else _copied(source, language)
     own = _OWN.findall(text)[0]
     text = text.replace(f'"{own}"', f'"{_label(path.stem) or own}"').replace(f"{own}{SUFFIX}", called)
     try:
