@@ -57,7 +57,7 @@ def _drafted(name: str) -> str:
 
 
 def _copied(source: str, language: str) -> str:
-    """Return a bundled task as one of the user's own: comments in a language, no number, source or note of another's."""
+    """Return a bundled task as one's own: comments in a language, no number, source or note of another's."""
     whole = text_of(source)
     usual = template(language, MODULES[table_in(HEADS.findall(whole))].rpartition(".")[2])
     about = summary(source)
