@@ -334,6 +334,23 @@ GROUPS = re.compile(rb"(/OFF|/Order|/OCGs) \[([^]]*)\]")  # layers, as a catalog
 STREAM = b"stream"
 
 
+def on_leaves(files: Sequence[bytes]) -> list[bytes]:
+    """Return documents with an empty page behind each that has an odd number of them: printed on both sides none shares
+    a leaf with the next one. Where each is a page, which is printed on one side, they stay.
+    """
+    counts = [int(re.findall(rb"/Count (\d+)", data)[-1]) for data in files]
+    if all(count == 1 for count in counts):
+        return [*files]
+    found = list[bytes]()
+    for data, count in zip(files, counts, strict=True):
+        found.append(data)
+        if count % 2:
+            empty, (wide, high) = BytesIO(), map(float, re.findall(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+)", data)[-1])
+            write([Page(wide / POINT, high / POINT, (), "", "en")], empty)
+            found.append(empty.getvalue())
+    return found
+
+
 def joined(files: Sequence[bytes]) -> bytes:
     """Join documents that `write` has made into one, in their order; layers of one name are one layer."""
     objects, catalogs, trees = list[bytes](), list[bytes](), list[int]()

@@ -89,6 +89,12 @@ class Case(Request):
     choosers: Mapping[str, Chooser] = field(kw_only=True)
 
     @property
+    def title(self) -> str:
+        """The title of the task; where fewer plans are asked for, without what is studied, which a colon parts off."""
+        whole: str = self.task.title[self.language]
+        return whole if {*self.task.plans} <= {*self.plans} else whole.partition(":")[0]
+
+    @property
     def values(self) -> dict[str, float]:
         """Every number that the subject names, SI."""
         return self.task.values(self.variant, self.settings)

@@ -214,7 +214,7 @@ def stamp_of(case: Case) -> Stamp:
         student=said["student"],
         teacher=said["teacher"],
         date=said["date"],
-        title=case.task.title[case.language],
+        title=case.title,
         document_type=said["work"] or case.words()["sheet.document"],
         language=case.language,
         # a sheet of the cycle is marked by nothing: it is numbered in a series of its own

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from ...plans.board import POSITION
@@ -12,7 +12,7 @@ from ...plans.linkages.compound import ACCELERATION, VELOCITY
 from ...plans.linkages.mechanism import FRAME, Driver, Prismatic
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import TRIAD, Group
-from ...plans.names import FORCES, LEVER, role, scale_factor
+from ...plans.names import FORCES, LEVER, is_shown, role, scale_factor
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import UNITS, Choosers, CrankScale, Fixed, From, Round, Scale, steps
@@ -44,6 +44,8 @@ SPLIT = (150.0, 130.0)  # accelerations of compound motion, which stand on the m
 HEADING = (72.0, 42.0)
 # a slider, the driver; of insets, for each force that would be a point
 APART, CRANKS, INSET = (64.0, 90.0), (86.0, 108.0), (55.0, 70.0)
+RATES = frozenset(("velocity", "acceleration"))  # plans beside which nothing stands on the mechanism
+SCHEME = (110.0, 80.0)  # mm of a scheme off which lengths are taken
 POINT, ZERO = 0.035, 1e-4  # parts of the longest vector below which another is a point, and is not drawn
 # mm^2 of equations and tables: for the structure, a link, a quantity of a plan, the equations of moments of a group,
 # a load diagram
@@ -75,10 +77,23 @@ def mus_of(extents: Extents, rungs: Rungs) -> dict[str, float]:
 def extents_of(solved: SolvedLinkage, choosers: Choosers, plans: Sequence[str]) -> Extents:
     """Return what the figures of a linkage take up, what its texts do, and the ladders of its scale factors."""
     figures = tuple(_figures(solved, plans)) if POSITION in solved.scale_of_plan else ()  # a structure has no extent
-    return Extents(figures, _texts(solved, plans), _ladders(solved, choosers))
+    return Extents(figures, _texts(solved, plans), _ladders(solved, choosers, plans))
 
 
-def _ladders(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
+def scheme_only(plans: Collection[str]) -> bool:
+    """Whether the kinematic scheme of a blank is all that is drawn of the mechanism."""
+    return {*plans} <= RATES
+
+
+def scheme_mu(solved: SolvedLinkage, box: Size) -> float:
+    """Return the scale factor at which the links fill a box, mm."""
+    points = (point for link in solved.mechanism.links for point in link.points)
+    places = [solved.point(point) for point in dict.fromkeys((*points, *solved.mechanism.frame_points))]
+    sides = (max(of) - min(of) for of in zip(*((at.real, at.imag) for at in places), strict=True))
+    return float(max(side / most for side, most in zip(sides, box, strict=True)))
+
+
+def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) -> dict[str, Ladder]:
     """Return for each scale factor of the plans its values from the wanted one to ever coarser ones."""
 
     def value(name: str) -> float:
@@ -92,9 +107,12 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers) -> dict[str, Ladder]:
     own = [ARMS] if LEVER in solved.scale_of_plan else []
     longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys([*solved.scale_of_plan.values(), *own])}
     ladders: dict[str, Ladder] = {}
+    measured = any(step.verb == "measure" and is_shown(step.name) for step in solved.program)
     for symbol, size in longest.items():
         chooser, kind = choosers.get(symbol), role(symbol).of
-        if chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
+        if symbol == "mu_l" and chooser is None and scheme_only(plans) and measured:
+            values = steps(scheme_mu(solved, SCHEME))[:1]  # lengths are taken off the scheme
+        elif chooser is None:  # nobody has chosen: round, and any at all for a plan on which everything is zero
             values = Round(symbol, WEIGHTS[kind] * SEGMENTS["A1"][1][1]).ladder(value) if size > 0.0 else (1.0,)
         elif isinstance(chooser, CrankScale):
             values = chooser.ladder(value, ladders["mu_l"].values)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations, product
@@ -33,7 +34,7 @@ from .figures.group import driver_view, group_view, link_view
 from .figures.lever import lever_view
 from .figures.plan import plan_view
 from .figures.scheme import scheme
-from .ladders import ARMS, by_plan, extents_of, links_apart, marks_on, mus_of, ways_of
+from .ladders import ARMS, by_plan, extents_of, links_apart, marks_on, mus_of, scheme_only, ways_of
 from .reading import lettered
 from .scene import Scene
 
@@ -49,6 +50,7 @@ GROUPS_APART = 2  # from so many groups on each plan has equations and tables of
 TEXT_WIDTH = {"A1": 235.0, "A2": 190.0, "A3": 150.0, "A4": 175.0}
 MOST = 2  # texts and tables that may stand beside the statement of a task
 WRITTEN = 8.0  # mm of a row in which an answer is written by hand
+LEAF, COARSER = 2, 4  # pages of a leaf; scale factors that are tried for them
 SURELY = 0.85  # part of the excess of a view that certainly comes from what is drawn to scale
 
 
@@ -224,6 +226,11 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     fitting, fewest = Fitting(contents), None
     # on paper of which printers do not reach the edges plans are as large as on the whole of it
     whole = None if sheet is None else FORMATS[sheet.letters]
+    if sheet is not None and whole is not None and (blank := _as_blank(contents, whole)) is not None:
+        if sheet != whole:
+            return _composed(*blank, sheet)
+        if (same := _on_pages(fitting, whole, blank[1][1], count=1)) is not None:
+            return _composed(fitting, same, sheet)
     for way, rungs, pages in ways_of(fitting.extents, whole):
         if fewest is not None and last(fewest[1][2]) < pages:
             break
@@ -240,12 +247,37 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     way, (views, rungs, places) = fewest
     if sheet is not None and sheet != whole:
         fitting = Fitting(contents, stated=True)
-        found = _stated(fitting, sheet, rungs)
-        if found is None:
+        stated = _stated(fitting, sheet, rungs)
+        if stated is None:
             raise InputError("sheet-too-small", format=sheet.name)
-        way, (views, rungs, places) = sheet, found
+        way, (views, rungs, places) = sheet, stated
+    return _composed(fitting, (views, rungs, places), way, smaller=sheet is None)
+
+
+def _composed(fitting: Fitting, found: Found, sheet: Format, smaller: bool = False) -> Drawn:
+    contents, (views, rungs, places) = fitting.contents, found
     goes_on = contents.words["heading.continued"]
-    return compose(views, places, fitting.scales(rungs), way, contents.norm, goes_on, smaller=sheet is None)
+    return compose(views, places, fitting.scales(rungs), sheet, contents.norm, goes_on, smaller=smaller)
+
+
+def _as_blank(contents: Contents, sheet: Format) -> tuple[Fitting, Found] | None:
+    """Place a blank of few plans on a leaf: at the scale factors that `solve` shows, or at the next ones.
+
+    Its statement is on the first page. The sheet on the same format has these scale factors, too.
+    """
+    if sheet.letters != SIZES[0] or not {*contents.plans} <= {POSITION, *PLANS} or contents.cycle or contents.dead:
+        return None
+    fitting = Fitting(contents, stated=True)
+    _, wanted, _ = next(ways_of(fitting.extents, None))
+    own = {fitting.extents.root(contents.solved.scale_of_plan[plan]) for plan in contents.plans}
+    tops = {symbol: len(fitting.extents.ladders[symbol].values) - 1 for symbol in own}
+    for coarser in range(COARSER):
+        rungs = wanted | {symbol: min(wanted[symbol] + coarser, tops[symbol]) for symbol in own}
+        with suppress(InputError):
+            found = _stated(fitting, printable(sheet), rungs)
+            if found is not None and last(found[2]) < LEAF:
+                return fitting, found
+    return None
 
 
 def _on_a_page(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
@@ -395,10 +427,12 @@ class Fitting:
 
         contents = self.contents
         words, style = lettered(contents.words, contents.solved), STYLES[sheet.letters]
-        scene = Scene(contents.solved, words, style, contents.givens, {}, self.runs)
+        scene = Scene(contents.solved, words, style, contents.givens, self.scales(rungs), self.runs)
         width = min(TEXT_WIDTH[sheet.letters], room(sheet, contents.norm)[0])
-        by_plan = self.scales(rungs).items()
-        scales = dict.fromkeys(scale for plan, scale in by_plan if plan != POSITION or plan in contents.plans)
+        other = not scheme_only(contents.plans)  # plans on which groups and the driver stand, too
+        scales = dict.fromkeys(
+            scale for plan, scale in scene.scales.items() if plan in contents.plans or (other and plan != POSITION)
+        )
         fixed = [scale for scale in scales if isinstance(contents.choosers.get(scale.symbol), Fixed | Segment)]
         return statements(scene, contents.plans, contents.variant, width, fixed)
 

@@ -89,7 +89,10 @@ def test_a_class_is_printed_in_one_go_in_the_order_of_its_roster(tmp_path: Path)
     texts = [
         "".join(part.get_text() for part in page if isinstance(part, LTTextContainer)) for page in merged["cards.pdf"]
     ]
+    blanks = [len([*extract_pages(file)]) for file in sorted(out.glob("*-handout.pdf"))]
     assert len(done.students) == 3
+    assert [error.key for error in done.warnings] == ["batch-twice"]
+    assert 1 in blanks  # behind which stands an empty page: printed on both sides each has a leaf
     assert {name: len(pages) for name, pages in merged.items()} == dict(zip(merged, (6, 3, 3), strict=True))
     assert [next(name for name in names if name in text) for text in texts] == names
     layers = [(out / name).read_bytes().count(b"/Type /OCG") for name in ("handouts.pdf", "002-Bohdan-3-handout.pdf")]

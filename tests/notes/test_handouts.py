@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pdfminer.high_level import extract_pages
 from pdfminer.layout import LAParams, LTChar, LTCurve
 
-from kulman import cli, handout, note
+from kulman import cli, handout, note, solve
 from kulman.drawing.cams.diagrams_view import DIAGRAMS_FIGURE
 from kulman.drawing.cams.profile_view import FIGURES as PROFILE_FIGURES
 from kulman.drawing.cams.sizes_view import FIGURES as SIZE_FIGURES
@@ -26,7 +26,7 @@ from kulman.drawing.compose import Drawn
 from kulman.drawing.figure import family
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts import _done, begun_stages
-from kulman.drawing.linkages.statement import given_name
+from kulman.drawing.linkages.asking import given_name
 from kulman.drawing.notes.blocks import Figure, Steps
 from kulman.drawing.page import extent
 from kulman.drawing.pdf import MARGIN, tiles, write_tiles
@@ -37,6 +37,7 @@ from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.shapes import leaves, line_of
 from kulman.variants.case import Case, Request
 from kulman.variants.kinds.linkage import placed
+from kulman.variants.making.starter import start
 from kulman.variants.reader import load_task
 from kulman.variants.sheets import PAPER, Sheet, drawing_for_print
 from kulman.variants.shelf import bundled
@@ -131,7 +132,8 @@ def test_a_blank_has_no_answers(task: str) -> None:
             numbers = [t.markup for t in leaves(view.shapes) if isinstance(t, Text) and t.role in ("cell", "line")]
             assert not [text for text in numbers if re.search(r"\d[.,]\d", text)]
     said = {text.markup for page in blank.pages for text in leaves(page.shapes) if isinstance(text, Text)}
-    notes = {line for view in blank.views if not (view.rows or view.lines) for line in view.notes}
+    drawn = (view for view in blank.views if not (view.rows or view.lines or view.name.startswith("load_")))
+    notes = {line for view in drawn for line in view.notes}
     assert said & {line for view in blank.views for line in view.heading}
     assert not [line for line in said & notes if re.search(r"= ?\d", line)]
 
@@ -150,6 +152,59 @@ def test_a_blank_of_velocities_states_the_task_on_two_pages(task: str, lang: str
     assert not any(symbol and symbol.startswith("m_") for symbol, *_ in views["givens"].rows)  # no mass moves faster
     assert "V_" in " ".join(map(" ".join, views["task"].lines))
     assert min(b - a for a, b in pairwise(levels)) >= 8.0
+
+
+def test_a_blank_of_a_mechanism_of_one_s_own_has_all_that_it_takes(tmp_path: Path) -> None:
+    file = start(tmp_path / "own.toml", "en")
+    file.write_text(file.read_text("utf-8").replace('speed = "n_1"', 'speed = "120 rpm"'), encoding="utf-8")
+
+    blank = handout(file, "1", only="velocity", lang="en")
+    forces = handout(file, "1", only="forces", lang="en")
+
+    rows, loaded = (next(view.rows for view in sheet.views if view.name == "givens") for sheet in (blank, forces))
+    said = {called: (value, of) for _, called, value, of in rows}
+    assert said["Length CB (link 3)"] == ("220", "mm")
+    assert said["Coordinate x of pivot C"] == ("280", "mm")
+    assert said["Angular velocity of link 1"] == ("12.5663706", "rad/s")
+    assert said["Rotation of link 1"] == ("counter-clockwise", None)
+    assert not any("ass of" in called or "oment" in called for called in said if called)
+    assert ("m_{3}", "Mass of link 3", "2.4", "kg") in loaded
+    assert ("", "Sense of the moment M_{3}", "clockwise", None) in loaded
+
+
+def test_a_paper_speaks_of_what_it_asks_for() -> None:
+    velocities, whole = handout(TASK, only="velocity", lang="en"), handout(TASK, lang="en")
+
+    def said(sheet: Sheet) -> str:
+        return " ".join(" ".join(line) for view in sheet.views if view.name == "task" for line in view.lines)
+
+    assert "Of ω write the sense" in said(velocities)
+    assert "Of ω, ε and M write the sense" in said(whole)
+    assert velocities.pages[0].title == "Slider-crank"
+    assert "force" in whole.pages[0].title
+    assert not any("μ_{l}" in line for view in velocities.views for line in view.heading)
+
+
+@pytest.mark.parametrize("task", [TASK, "scheme-09-shaper", "scheme-14-jaw-crusher"])
+def test_blank_form_and_solution_have_the_same_scale_factors(task: str) -> None:
+    blank = handout(task, only="velocity")
+
+    solution = solve(task, only="velocity", format=PAPER)
+
+    for scale in (blank.scales[plan] for plan in ("position", "velocity")):
+        assert solution.scales[scale.symbol] == scale
+    if any("l_{CA}" in row for view in blank.views for row in view.rows):  # taken off the scheme
+        scheme = next(view for view in blank.views if view.name == "kinematic")
+        assert Words.of("uk").scale(blank.scales["position"]) in scheme.heading
+
+
+def test_a_load_diagram_is_given() -> None:
+    blank = handout("scheme-01-compressor", "1", only="forces", lang="en")
+
+    figure = next(view for view in views_of(blank) if view.name == "load_p_gas")
+    texts = {text.markup for text in leaves(figure.shapes) if isinstance(text, Text)}
+    assert {"0.4H", "1200", "3000"} <= texts
+    assert not [text for text in texts if text.startswith("F_{3} =")]
 
 
 def test_lines_of_a_task_break_within_no_index() -> None:

@@ -19,7 +19,7 @@ from ...drawing.formats import Norm, format_named
 from ...drawing.notes.blocks import Block, Document
 from ...drawing.notes.docx import Drawing, docx_bytes, drawings_of
 from ...drawing.notes.typst import Body, pdf_bytes
-from ...drawing.pdf import joined
+from ...drawing.pdf import joined, on_leaves
 from ...drawing.words import Words
 from ...drawing.writers import WRITERS, folder_for, page_files, save_all, slug, sweep_parts, write_whole
 from ...plans.quantities import measured
@@ -350,7 +350,8 @@ def batch(
     block : mapping of str to str, optional
         What is said in every title block: `teacher`, `department`, `designation`, `work`, `date`.
     merge : bool
-        Write the sheets (`pdf`), handouts and cards of the class as one document each, too, in the order of the roster.
+        Write the sheets (`pdf`), handouts and cards of the class as one document each, too, in the order of the roster,
+        to be printed on both sides: behind an odd number of pages of a student an empty one follows.
     jobs : int, optional
         Processes; as many as there are cores when left out. With 1 all is done in this one, and dies with it.
     dask : str, optional
@@ -388,12 +389,15 @@ def batch(
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
     works = ((student.entry.who, "" if student.entry.settings else student.data[1]) for student in students)
     doubled = shared_by_mistake(works, len(once[0].variants)) if len(once) == 1 else ()
-    done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled))
+    twice = (InputError("batch-twice"),) if {*kinds} >= FOR_STUDENTS else ()
+    done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *twice))
     for name, rows in _tables(done, once, lang):
         put(place / (name if name == MANIFEST else f"{making.folder()}{name}"), csv_table(rows, lang))
     for kind in making.kinds if merge else ():
         if kind in MERGED and (files := [place / name for name in _of_kind(outcomes, kind)]):
-            put(place / f"{making.folder(kind)}{MERGED[kind]}", joined([file.read_bytes() for file in files]))
+            put(
+                place / f"{making.folder(kind)}{MERGED[kind]}", joined(on_leaves([file.read_bytes() for file in files]))
+            )
     return done
 
 

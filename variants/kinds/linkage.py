@@ -195,10 +195,12 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         return replace(story(scene, texts), head=head, aims=tuple(aims(scene, case.plans)))
 
     def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
-        """Return what is drawn of the plans after their first steps."""
+        """Return what is drawn of the plans after their first steps, and load diagrams, which are given."""
+        from ...drawing.handouts import Shown
         from ...drawing.linkages.steps import begun
 
-        return begun(self.scene(case, scales, words), steps, case.plans)
+        given = {f"load_{d.name}": Shown(notes=True) for d in case.task.mechanism.diagrams}
+        return given | begun(self.scene(case, scales, words), steps, case.plans)
 
     def scene(self, case: Case, scales: Scales, words: Words) -> Scene:
         """Return what is drawn with its letters and scale factors."""
@@ -228,9 +230,9 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def pictured(self, case: Case, words: Words) -> View:
         """Draw the kinematic scheme."""
-        from ...drawing.linkages.asking import scheme_of
+        from ...drawing.linkages.statement import kinematic_scheme
 
-        return scheme_of(self.scene(case, {}, words))
+        return kinematic_scheme(self.scene(case, {}, words))
 
     def loaded(self, name: str) -> bool:
         """Whether a quantity hangs on loads and masses: all but motion and distances."""
@@ -238,9 +240,13 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
 
     def stated(self, case: Case, words: Words, loaded: bool = True) -> Iterator[tuple[str, str, str]]:
         """Go through the data; with loads how these act in this position."""
+        from ...drawing.linkages.asking import FORCES as LOADED
         from ...drawing.linkages.asking import rows_of
+        from ...drawing.tables import with_unit
 
-        return rows_of(self.scene(case, {}, words), loaded)
+        plans = LOADED if loaded else {"acceleration"}
+        rows = rows_of(self.scene(case, {}, words), plans, here=True)
+        return ((symbol, called, with_unit(value, of)) for symbol, called, value, of in rows)
 
     def sought(self, solved: SolvedLinkage, words: Words, name: str) -> str:
         """Return what a quantity of motion, a force, a reaction or what balances the driver is."""

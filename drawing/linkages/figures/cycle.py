@@ -19,6 +19,7 @@ from ....plans.linkages.strokes import OutputMotion
 from ....plans.names import role
 from ....scales.scale import Scale, rounded, steps
 from ...diagram import Axis, Field, Pole, axes, curve, rays
+from ...figure import ANSWERS, GIVEN
 from ...printed import value_text
 from ...shapes import Circle, HeadPlace, Line, Pen, Polyline, Vector
 from ...symbols import slider_up
@@ -298,11 +299,13 @@ def load_diagram(scene: Scene, diagram: Diagram) -> View:
     every: Sequence[Load | Couple] = (*scene.mechanism.loads, *scene.mechanism.couples)
     loads, (span, unit) = [load for load in every if load.magnitude == diagram.name], _span(scene, diagram)
     forth, back = (_points(scene, diagram, names, span) for names in (diagram.values, diagram.back or ()))
+    canvas.part(GIVEN)
     field = _load_field(scene, diagram, loads, [*forth, *back])
     axes(canvas, field)
     curve(canvas, field, forth, diagram.name)
     curve(canvas, field, back, f"{diagram.name}_back", Pen.DASHED)
     if loads:  # mark the calculated position and the load that acts there, which may not act in this stroke
+        canvas.part(ANSWERS)
         name, values = loads[0].name, scene.values
         part = min(max(float(values["_stroke_part"]), 0.0), 1.0) if not turns else 0.0
         place = float(values[f"_diagram_{diagram.name}_angle"]) if turns else part * span
