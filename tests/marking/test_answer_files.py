@@ -370,3 +370,34 @@ def test_a_workbook_of_two_programs_is_read_alike_whatever_looks_it_has(tmp_path
         assert [grid.shared(row, column) for row in (2, 3) for column in (1, 2, 3, 4)] == ["", "both", "both", ""] * 2
     (tmp_path / "answers.xlsx").write_bytes(zipped(good()))  # of which the hostile ones are made
     assert read_answers(tmp_path / "answers.xlsx", ASKED)[0].lines["V_B"].value == pytest.approx(2.76)
+
+
+@pytest.mark.parametrize(
+    "heads",
+    [
+        "Ф.И.О.;Вариант №",
+        "Фамилия И.О.;№ вар.",
+        "Прізвище, ім'я;В-т",
+        "ПІБ;Варіант",
+        "П.І.Б.;вар-т",
+        "Surname;No. variant",
+    ],
+)
+def test_columns_of_a_class_are_known_however_they_are_abbreviated_and_what_stands_below_is_no_student(
+    tmp_path: Path, heads: str
+) -> None:
+    below = "Итого по списку;28\nВсього;\nПреподаватель: Петренко;\n;Староста Сидоренко\nДата:;\n"
+    (file := tmp_path / "class.csv").write_text(
+        f"{heads};V_B, мм;V_B, м/с\nСтароста Олег;3;45мм?;4,5 м/с?\nІваненко;4;46;4,6\n{below}", encoding="utf-8"
+    )
+
+    first, second = read_answers(file, ASKED)
+
+    assert (first.who.student, first.about["variant"], second.who.student) == ("Староста Олег", "3", "Іваненко")
+    assert (first.lines["V_B"].mm, first.lines["V_B"].value, first.problems) == (45.0, 4.5, ())
+
+
+def test_a_class_without_a_column_of_names_is_refused(tmp_path: Path) -> None:
+    (file := tmp_path / "class.csv").write_text("who;V_B, mm;V_B, m/s\nOne;45;4.5\nTwo;44;4.4\n", encoding="utf-8")
+
+    assert "no column says whose answers these are" in refused(file)

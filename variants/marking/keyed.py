@@ -72,9 +72,9 @@ class Rubric:
     ) -> dict[str, float]:
         """Return what part of the full mark each line is: by the rubric's weights, or else by plans.
 
-        A line whose verdict has no worth does not count. Others count the more the more of the later ones hang on it, `needed` being their part, and nothing where zero
-        is right; a plan (or section of the form) counts as the root of what its lines come to, so that of four times as
-        many lines each counts half as much.
+        A line whose verdict has no worth does not count. Others count the more, the more of the later ones hang on
+        them, `needed` being their part, and nothing where zero is right; a plan (or section of the form) counts as the
+        root of what its lines come to, so that of four times as many lines each counts half as much.
         """
         if self.weights:
             shares = {line.name: self.weights.get(line.name, 1.0) for line in lines}

@@ -15,7 +15,7 @@ from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import unit
-from ..roster import Who
+from ..roster import NAMED, Who
 from ..spreadsheets.files import read_grid
 from ..spreadsheets.grid import LOOKED_AT, SUFFIXES, Grid, about_kind, column_kind, quantity_part, split_unit, tidy
 from ..task import LocatedError
@@ -63,7 +63,7 @@ def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answe
     Raises
     ------
     InputError
-        The file cannot be read, or no row of it says what its columns hold.
+        The file cannot be read, or no row of it says what its columns hold, or whose answers they are.
     """
     grid = read_grid(file)
     grid = replace(grid, file=called or grid.file)
@@ -75,7 +75,10 @@ def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answe
         columns = {column: part for column, part in parts if part is not None and part[0] in asked.names}
         about = _first(map(about_kind, texts))
         if len(columns) > 1 or (columns and about):
-            return list(_class(grid, row, columns, about, asked))
+            students = list(_class(grid, row, columns, about, asked))
+            if len(students) > 1 and about.keys().isdisjoint(NAMED):
+                raise LocatedError(grid.place(row), InputError("answers-nameless"))
+            return students
     raise InputError("answers-header", file=quote(grid.file, SHOWN))
 
 

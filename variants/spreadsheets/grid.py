@@ -32,7 +32,11 @@ _QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|sense|mu))?")
 _BEFORE = sorted((*UNDERSTOOD["about"]["variant"], *UNDERSTOOD["numbered"]["variant"]), key=len, reverse=True)
 _NUMBERED = re.compile(rf"\s*(?:{'|'.join(map(re.escape, _BEFORE))})\.?\s*№?\s*", re.IGNORECASE)
 # what stands in a row below a list that sums it up: `Всього: 28`, `Разом студентів – 28`, `Total`
-_TOTAL = re.compile(rf"(?:{'|'.join(UNDERSTOOD['totals'])})(?:\s+[^\W\d]+)?[\s:=.–—-]*\d*[\s.]*", re.IGNORECASE)
+_TOTAL = re.compile(rf"(?:{'|'.join(UNDERSTOOD['totals'])})\b")
+_SIGNED = re.compile(rf"(?:{'|'.join(UNDERSTOOD['signed'])})\b")
+_BESIDE = frozenset(UNDERSTOOD["beside"])
+_NUMBER_WORDS = frozenset(UNDERSTOOD["number_words"])
+_NUMBERED_KINDS = ("variant", "book", "group")  # of which "№" before or behind the word says no other thing
 MIXED = re.compile(r"[A-Za-z]+_\w+")
 _ORNAMENT = re.compile(r"[\s_{}$\\.^]")  # of a symbol: l_OA, l_{OA} and lOA are one
 _GREEK = re.compile(r"GREEK (?:SMALL LETTER |CAPITAL LETTER )?(\w+)")
@@ -65,9 +69,14 @@ class Grid:
         return cells[column] if column is not None and column < len(cells) else ""
 
     def totals(self, row: int) -> bool:
-        """Tell whether a row below a list of students only says how many they are."""
-        first = next(filter(None, self.rows[row]), "")
-        return _TOTAL.fullmatch(first) is not None
+        """Tell whether a row below a list of students only sums it up, or is signed: no row of a student's.
+
+        Words may stand in it, then, or numbers, but not both beside one another as of somebody who is called so.
+        """
+        first, *others = [*filter(None, self.rows[row])] or [""]
+        if _TOTAL.match(tidy(first)):
+            return not any(map(str.isalpha, "".join(others)))
+        return _SIGNED.match(tidy(first)) is not None and not any(map(str.isdigit, "".join(others)))
 
     def shared(self, row: int, column: int) -> str:
         """Return what a cell shows, within a merged one what that shows."""
@@ -178,7 +187,18 @@ def column_kind(text: str) -> str | None:
 
 def about_kind(text: str) -> str | None:
     """Return what a cell says of the student, by the word before it or over it."""
-    return _ABOUT_OF.get(tidy(text)) or _ABOUT_OF.get(tidy(split_unit(text)[0]))
+    head = split_unit(text)[0]
+    return _ABOUT_OF.get(tidy(text)) or _ABOUT_OF.get(tidy(head)) or _about_abbreviated(tidy(head))
+
+
+def _about_abbreviated(head: str) -> str | None:
+    """Return what a column says of whom by its word without initials, or by initials alone: `Фамилия И.О.`, `Ф.И.О.`"""
+    words = ["№" if word in _NUMBER_WORDS else word for word in head.replace("№", " № ").split()]
+    if all(len(word) == 1 for word in words):
+        return _ABOUT_OF.get("".join(words))
+    telling = [word for word in words if len(word) > 1 and word not in _BESIDE]
+    kind = _ABOUT_OF.get(telling[0]) if len(telling) == 1 else None
+    return kind if kind == "student" or (kind in _NUMBERED_KINDS and words[0] in ("№", telling[0])) else None
 
 
 def quantity_part(text: str) -> tuple[str, str, str] | None:
