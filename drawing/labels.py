@@ -6,6 +6,7 @@ from cmath import phase, rect
 from collections.abc import Collection, Sequence
 from copy import copy
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 import shapely
@@ -53,8 +54,14 @@ def place(requests: Sequence[Request], obstacles: Obstacles, gap: float = 0.6, b
     return Scene(requests, obstacles, gap, bounds).place()
 
 
+@lru_cache(maxsize=64)
+def scene_of(requests: tuple[Request, ...], obstacles: Obstacles, bounds: Box | None = None) -> Scene:
+    """Return what is to be lettered: the same scene for the same, as views of one variant come again on its pages."""
+    return Scene(requests, obstacles, bounds=bounds)
+
+
 class Scene:
-    """What is to be lettered, all that is in the way, and the places weighed so far."""
+    """What is to be lettered, all that is in the way, the places weighed so far, and what came of them."""
 
     def __init__(
         self, requests: Sequence[Request], obstacles: Obstacles, gap: float = 0.6, bounds: Box | None = None
@@ -62,12 +69,20 @@ class Scene:
         if len({request.name for request in requests}) != len(requests):
             raise ValueError("two labels have one name")
         self.requests, self.gap = requests, max(gap, 0.01)
+        self._asked: dict[tuple[Request, ...], Scene] = {}
+        self._placed: dict[tuple[frozenset[str], bool], Labels] = {}
         if requests:
             self._weigh(obstacles, bounds)
 
-    def asking(self, requests: Sequence[Request]) -> Scene:
+    def asking(self, requests: tuple[Request, ...]) -> Scene:
         """Return the scene for `requests` of other sizes, or that may go farther; what is weighed already stays."""
+        if requests not in self._asked:
+            self._asked[requests] = self._asking(requests)
+        return self._asked[requests]
+
+    def _asking(self, requests: tuple[Request, ...]) -> Scene:
         other = copy(self)
+        other._asked, other._placed = {}, {}
         other.requests = requests
         if [(r.width, r.height) for r in requests] != [(r.width, r.height) for r in self.requests]:
             half = np.array([(r.width / 2, r.height / 2) for r in requests], dtype=float).T
@@ -80,8 +95,12 @@ class Scene:
 
         Leaders cross lines at last, where they may.
         """
-        if not self.requests:
-            return Labels()
+        key = frozenset(without), may_cross
+        if key not in self._placed:
+            self._placed[key] = self._place(*key) if self.requests else Labels()
+        return self._placed[key]
+
+    def _place(self, without: Collection[str], may_cross: bool) -> Labels:
         board, first, cross = _Board(self, without, ()), tuple[int, ...](), False
         better, tried = board, (first, cross)
         for again in range(AGAIN):

@@ -12,7 +12,7 @@ from typing import NamedTuple, assert_never
 
 from .areas import around, beside, coarser
 from .formats import ZERO, Style
-from .labels import Labels, Scene
+from .labels import Labels, Scene, scene_of
 from .page import NOTE, extent, head_of
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted, sides_of
 from .spots import Obstacles, Request, first_clear, shelf
@@ -300,11 +300,11 @@ class Canvas:
 
     def _scene(self, drawn: Obstacles | Scene, last: bool = False) -> Scene:
         """Return what is to be lettered; at `last` vectors whose ends may have no letters have theirs far away."""
-        requests = [letter.request for letter in self._letters.values()]
+        requests = tuple(letter.request for letter in self._letters.values())
         if last:
             ends = {letter.spare for letter in self._letters.values() if letter.stays}
-            requests = [replace(r, afield=r.afield or self._letters[r.name].spare in ends) for r in requests]
-        return drawn.asking(requests) if isinstance(drawn, Scene) else Scene(requests, drawn, bounds=self.bounds)
+            requests = tuple(replace(r, afield=r.afield or self._letters[r.name].spare in ends) for r in requests)
+        return drawn.asking(requests) if isinstance(drawn, Scene) else scene_of(requests, drawn, self.bounds)
 
     def _settled(self, scene: Scene, last: bool = False, cross: bool = False) -> Labels:
         """Place the letters; leave out spare ones that cover something.
@@ -453,4 +453,5 @@ def _obstacles(shapes: list[Shape], boxes: list[Box], style: Style) -> Obstacles
 
     for shape in shapes:
         gather(shape)
-    return Obstacles(strokes[True], strokes[False], circles, texts, heads, boxes)
+    main, thin = strokes.values()
+    return Obstacles(*map(tuple, (main, thin, circles, texts, heads, boxes)))

@@ -22,7 +22,7 @@ import numpy as np
 import shapely
 import shapely.ops
 
-from kulman.tests.support.readback import Page, Ring, Sheet, Stroke, Text, View, boxes, polygon, read, thick
+from kulman.tests.support.readback import Page, Ring, Sheet, Stroke, Text, View, boxes, polygon, read
 
 TINY = 1e-6
 VISIBLE = 0.1  # mm by which a letter must be nearer to a foreign thing to be taken for its letter
@@ -82,8 +82,8 @@ def overlaps(sheet: Sheet) -> list[str]:
 
 def looks(sheet: Sheet) -> list[str]:
     """All that is wrong with paper, pens and words."""
-    found = (finding for sight in judged(sheet) for finding in sight.findings)
-    return [f"{finding.view}: {finding.said}" for finding in found if finding.kind in ("page", "pens", "words")]
+    found = (finding for page in sheet.pages for seen in (paper, pens, words) for finding in seen(page))
+    return [f"{finding.view}: {finding.said}" for finding in found]
 
 
 def faults(sheet: Sheet) -> list[str]:
@@ -108,10 +108,10 @@ def _sight(page: Page) -> Sight:
         for text, stroke in struck.values():
             said = f"{text.string!r} is struck by thin line {_called(stroke)}"
             found.append(_finding("struck", view, said, _middle(text)))
-        for kind, faults_of in (("nodes", astray), ("vectors", astray), ("leaders", crossing), ("forces", detached)):
-            for fault in faults_of(view, kind):
-                looked[kind] += 1
-                found += [fault] if fault else []
+        others = (("leaders", crossing(view)), ("forces", detached(view)))
+        for kind, fault in (*astray(view), *((kind, fault) for kind, faults_in in others for fault in faults_in)):
+            looked[kind] += 1
+            found += [fault] if fault else []
     for kind, faults_in in (("anonymous", anonymous), ("page", paper), ("pens", pens), ("words", words)):
         looked[kind] = 1
         found += faults_in(page)
@@ -153,7 +153,7 @@ def _middle(text: Text) -> complex:
 
 def _things(view: View) -> Iterator[tuple[shapely.Geometry, str]]:
     for stroke in _main(view):
-        yield thick(stroke), f"main line {_called(stroke)}"
+        yield stroke.ink, f"main line {_called(stroke)}"
     main = max((s.width for s in view.strokes), default=0.0)
     for ring in view.rings:
         round_it = ring.radius > WIDE and ring.fill == "none" and ring not in view.nodes
@@ -186,7 +186,7 @@ def thin_faults(view: View) -> Iterator[tuple[Text, Stroke]]:
     tree = shapely.STRtree(areas)
     for stroke in view.pieces:
         if 0 < stroke.width < main:
-            for i in tree.query(thick(stroke), predicate="intersects").tolist():
+            for i in tree.query(stroke.ink, predicate="intersects").tolist():
                 yield view.texts[i], stroke
 
 
@@ -230,25 +230,24 @@ def _blocks(page: Page) -> Iterator[tuple[float, float, float, float]]:
         yield min(xs), min(ys), max(xs), max(ys)
 
 
-def astray(view: View, kind: str) -> Iterator[Finding | None]:
-    """Letters of nodes, or of vectors, that stand nearer to a foreign one; a leader counts as a part of its letter."""
+def astray(view: View) -> Iterator[tuple[str, Finding | None]]:
+    """Letters of nodes and of vectors, and which stand nearer to a foreign one: a leader is a part of its letter."""
     nodes = [(ring.path[-1][1], _disc(ring)) for ring in view.nodes]
     vectors = [(name, _line(*ends)) for name, ends in _vectors(view)]
+    about = [(name, line.buffer(VISIBLE)) for name, line in vectors]
     for text, letter in _letters(view):
         own = shapely.MultiPoint([(p.real, p.imag) for p in text.of])
         at_node = [name for name, disc in nodes if len(text.of) == 1 and disc.covers(own)]
-        if at_node:
-            things, belongs = nodes, at_node
-        else:
-            things, belongs = vectors, [name for name, line in vectors if line.buffer(VISIBLE).covers(own)]
-        if not belongs or (things is nodes) != (kind == "nodes"):
+        kind, things = ("nodes", nodes) if at_node else ("vectors", vectors)
+        belongs = at_node or [name for name, area in about if area.covers(own)]
+        if not belongs:
             continue
         far = min(letter.distance(thing) for name, thing in things if name in belongs)
         near, name = min(
             ((letter.distance(thing), name) for name, thing in things if name not in belongs), default=(far, "")
         )
         said = f"{text.string!r} of {belongs[0]}, {far:.1f} mm away, is {near:.1f} mm from {name}"
-        yield _finding(kind, view, said, _middle(text)) if near < far - VISIBLE else None
+        yield kind, _finding(kind, view, said, _middle(text)) if near < far - VISIBLE else None
 
 
 def _line(*points: complex) -> shapely.Geometry:
@@ -278,7 +277,7 @@ def _gap(text: Text, leader: Stroke) -> float:
     return min(text.area.distance(shapely.Point(p.real, p.imag)) for p in (leader.points[0], leader.points[-1]))
 
 
-def crossing(view: View, kind: str = "leaders") -> Iterator[Finding | None]:
+def crossing(view: View) -> Iterator[Finding | None]:
     """Leaders that cross a main line or run through a node on their way."""
     main = [(_called(s), shapely.LineString([(p.real, p.imag) for p in s.points])) for s in _main(view)]
     main += [(f"node {ring.path[-1][1]}", _disc(ring)) for ring in view.nodes]
@@ -290,12 +289,12 @@ def crossing(view: View, kind: str = "leaders") -> Iterator[Finding | None]:
         if crossed:
             at = crossed[0][1].representative_point()
             said = f"leader of {leader.name} crosses {', '.join(dict.fromkeys(name for name, _ in crossed))}"
-            yield _finding(kind, view, said, complex(at.x, at.y))
+            yield _finding("leaders", view, said, complex(at.x, at.y))
         else:
             yield None
 
 
-def detached(view: View, kind: str = "forces") -> Iterator[Finding | None]:
+def detached(view: View) -> Iterator[Finding | None]:
     """Arrows of forces that stand away from every node; a leader may join them to one."""
     nodes = [ring.centre for ring in view.nodes]
     led = [leader.points for leader in view.lines("leader")]
@@ -306,7 +305,7 @@ def detached(view: View, kind: str = "forces") -> Iterator[Finding | None]:
         ends += [q for p, *_, q in (*led, *(line[::-1] for line in led)) if min(abs(p - end) for end in ends) < END]
         far = min(abs(end - node) for end in ends for node in nodes)
         said = f"{arrow.name} stands {far:.1f} mm from every node"
-        yield _finding(kind, view, said, arrow.tail) if far > REACH else None
+        yield _finding("forces", view, said, arrow.tail) if far > REACH else None
 
 
 def anonymous(page: Page) -> Iterator[Finding]:

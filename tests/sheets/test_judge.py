@@ -102,12 +102,12 @@ PLANTED = {
 }
 
 
-def counted(sheet: Sheet) -> Counter[str]:
-    return Counter(finding.kind for sight in judged(sheet) for finding in sight.findings)
-
-
 def found(sheet: Sheet) -> list[Finding]:
     return [finding for sight in judged(sheet) for finding in sight.findings]
+
+
+def counted(sheet: Sheet) -> Counter[str]:
+    return Counter(finding.kind for finding in found(sheet))
 
 
 def test_a_clean_page_has_no_fault_and_all_of_it_is_looked_at() -> None:
@@ -193,8 +193,9 @@ FILLED = {"A1": (0.59, 0.15), "A2": (0.58, 0.18), "A3": (0.53, 0.30), "A4": (0.4
 
 def short_of(sheet: Sheet) -> list[str]:
     """In which a sheet falls short of what others have reached."""
-    said = [f"{kind}: {count}" for kind, count in counted(sheet).items() if count > REACHED.get(kind, 0)]
     sights = judged(sheet)
+    counts = Counter(finding.kind for sight in sights for finding in sight.findings)
+    said = [f"{kind}: {count}" for kind, count in counts.items() if count > REACHED.get(kind, 0)]
     for sight in sights[:-1] or sights:
         least, barest = FILLED[sight.format]
         if sight.fill < least or sight.empty > barest:

@@ -10,6 +10,7 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -39,6 +40,11 @@ class Stroke:
     fill: str
     path: Path
     arc: tuple[complex, float, float] | None = None  # centre, radius, sweep
+
+    @cached_property
+    def ink(self) -> shapely.Geometry:
+        line = shapely.LineString([(p.real, p.imag) for p in self.points])
+        return line.buffer(self.width / 2, cap_style="flat")
 
 
 @dataclass(frozen=True)
@@ -118,18 +124,18 @@ class Text:
     turned: bool
     of: tuple[complex, ...] = ()  # the node, or the ends of the line, that it letters
 
-    @property
+    @cached_property
     def corners(self) -> list[complex]:
         """Corners of its runs and of the ink of its rules."""
         rules = [end + half for rule in self.rules for end in rule for half in (-0.1j, 0.1j)]
         return [*(corner for run in self.runs for corner in run.corners), *rules]
 
-    @property
+    @cached_property
     def box(self) -> Box:
         xs, ys = [p.real for p in self.corners], [p.imag for p in self.corners]
         return min(xs), min(ys), max(xs), max(ys)
 
-    @property
+    @cached_property
     def area(self) -> shapely.Geometry:
         """Its box, turned with it."""
         if not self.turned:
@@ -480,9 +486,3 @@ def polygon(points: Sequence[complex]) -> shapely.Polygon:
 def boxes(many: Sequence[Box]) -> np.ndarray:
     array = np.array(many, dtype=float).reshape(-1, 4)
     return shapely.box(*array.T)
-
-
-def thick(stroke: Stroke) -> shapely.Geometry:
-    """The ink of a stroke."""
-    line = shapely.LineString([(p.real, p.imag) for p in stroke.points])
-    return line.buffer(stroke.width / 2, cap_style="flat")
