@@ -149,6 +149,16 @@ class Ends:
     least_at: float
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Pieces:
+    """Pieces that formulas are of: where each begins, and the numbers that are given in it, a row for each piece."""
+
+    starts: NDArray[Any]
+    names: Sequence[str]
+    rows: NDArray[Any]
+
+
+AT = "_at"  # the place, counted from the beginning of the turn, as formulas of pieces are given it
 Rows = tuple[list[str], Sequence[Columned]]  # what stands before the rows of a table, and its columns
 
 
@@ -168,6 +178,18 @@ class Course(ABC):
     @abstractmethod
     def columns(self, places: Any) -> Sequence[Columned]:
         """Return the columns at places."""
+
+    @abstractmethod
+    def formulas(self, given: Callable[[str], Any]) -> dict[str, Any]:
+        """Return the columns at a place, by name, and points and directions that figures which move need.
+
+        They follow from numbers that are `given` by name: the place, in the first column, and those of its piece. The
+        numbers may be written down (`boards.formulas`), or arrays.
+        """
+
+    def pieces(self) -> Pieces | None:
+        """Return the pieces that the formulas are of, None where they hold everywhere."""
+        return None
 
     def rows(self, count: int | None) -> Rows:
         """Return the rows of a table: so many places, without a number what is marked."""

@@ -20,6 +20,7 @@ from ..scales.errors import InputError
 from ..scales.givens import Described, Givens
 from ..scales.names import all_known, by_name, names_of, of_kind, unknown
 from ..scales.numbers import quote
+from ..scales.packaged import packaged
 from ..scales.scale import AS_INSIDE, Chooser, Choosers, Display, Scale, Segment, chooser, segment_symbol
 from .checks.basics import Checker, Field, record
 from .checks.names import Names, check_numbers, word_or_choice
@@ -268,7 +269,16 @@ class Kind(Generic[Subject, Answer]):
 
     def moving(self, case: Case, words: Words) -> dict[str, Any]:
         """Return what a page on which the plans of a case move needs of it (`drawing.moving`)."""
-        raise InputError("kind-without", task=quote(case.task.id), text="-o *.html")
+        from ..drawing.moving.courses import moving_course
+
+        drawn, texts = self.draw(case, words), packaged("kulman.drawing.notes", "texts", case.language)
+        solved: Any = case.solved
+        course = self.course(solved)
+        if course is None:
+            raise InputError("kind-without", task=quote(case.task.id), text="-o *.html")
+        scene, story = self.scene(case, drawn.scales, words), self.story(case, drawn.scales, words, texts)
+        moved = self._in("drawing", "moving", "moving")(scene)
+        return moving_course(moved, course, drawn, story, case.givens, self.lettered(words, solved))
 
     def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:
         """Return what has been solved as large as a sheet draws it, and what a user should know of that."""

@@ -54,7 +54,7 @@ def page(data: Data, words: Words, title: str, about: str) -> str:
         "task": escape(about),
         "style": own.joinpath("page.css").read_text("utf-8"),
         "data": payload.replace("</", "<\\/"),
-        "solver": _unindented(script_names() + solve),
+        "solver": _unindented(script_names("cosines[" in solve) + solve),
         "places": _unindented(own.joinpath("places.js").read_text("utf-8")),
         "script": _unindented(own.joinpath("page.js").read_text("utf-8")),
         **{f"said.{key}": escape(text) for key, text in said.items()},

@@ -8,7 +8,7 @@ const locale = text => (D.lang === "en" ? text : text.replace(".", ",")).replace
 function said(x, digits = 4) {
   if (x === undefined || x !== x || x === null) return "–";
   if (Math.abs(x) < 1e-11) return "0";
-  const text = Math.abs(x) >= 1e6 || Math.abs(x) < 1e-3 ? x.toExponential(digits - 1) : String(Number(x.toPrecision(digits)));
+  const text = Math.abs(x) >= 1e6 || Math.abs(x) < 1e-3 ? x.toExponential(digits - 1).replace(/\.?0+e/, "e") : String(Number(x.toPrecision(digits)));
   return locale(text.replace(/e\+?(-?\d+)/, (_, power) => "·10" + [...power].map(sign => RAISED[sign]).join("")));
 }
 const long = mm => locale(mm.toFixed(mm < 100 ? 2 : 1));
@@ -19,7 +19,7 @@ function asked(spec) {
   const mm = views.get("position").mu;
   if (kind === "x" || kind === "y") return long(spot(found, of[0])[kind === "x" ? 0 : 1] / mm);
   if (kind === "apart") { const [a, b] = of.slice(0, 2).map(name => spot(found, name)); return long(Math.hypot(a[0] - b[0], a[1] - b[1]) / (of[2] ? views.get(of[2]).mu : mm)); }
-  if (kind === "place") return locale(shownPlace(here.at).toFixed(1)) + (drive.turns ? "°" : " " + W.unit_mm);
+  if (kind === "place") return shownAt(here.at);
   if (kind === "mu") return said(views.get(of[0]).mu * views.get(of[0]).by, 6);
   const q = plain.get(of[0]), v = value(found, of[0]);
   if (kind === "sense") return v > 0 ? D.senses[0] : v < 0 ? D.senses[1] : "–";
@@ -78,7 +78,7 @@ const named = (text, a, b) => { // a vector that is hardly seen has its letter w
   return short ? null : { text, a, b };
 };
 const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn again
-  bar: { z: 2, make: g => make("line", { class: "main" }, g), draw: (s, n, p) => { line(n, p(s.a), p(s.b)); return [[p(s.a), p(s.b)]]; } },
+  bar: { z: 2, make: (g, s) => make("line", { class: s.lit ? "main now" : "main" }, g), draw: (s, n, p) => { line(n, p(s.a), p(s.b)); return [[p(s.a), p(s.b)]]; } },
   side: { z: 1, make: (g, s) => make("line", { class: s.main ? "main" : "thin" }, g), draw: (s, n, p) => { line(n, p(s.a), p(s.b)); return [[p(s.a), p(s.b)]]; } },
   line: { z: 0, make: g => make("line", { class: "thin" }, g), draw: (s, n, p, v) => {
     const a = p(s.a), b = p(s.b), u = v(s.u), along = dot(sub(b, a), u), e = along < 0 ? -8 : 8;
@@ -87,8 +87,8 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
   vector: { z: 2, make: (g, s, high) => { const group = make("g", {}, g); make("line", { class: "main" }, group); make("polygon", { class: "solid" }, group); group.letter = letters(s.text, g, {}, high); return group; },
     draw: (s, n, p) => { const a = p(s.a), b = p(s.b); line(n.firstChild, a, arrow(n.lastChild, a, b)); s.label = named(n.letter, a, b); return [[a, b]]; } },
   force: { z: 2, make: (g, s, high) => { const group = make("g", {}, g); make("line", { class: "main" }, group); make("polygon", { class: "solid" }, group); group.letter = letters(s.text, g, {}, high); return group; },
-    draw: (s, n, p, v) => { const a = p(s.at), f = v(s.v), none = !(size(f) > 1e-12), b = add(a, unit(f), HANG); n.style.display = n.letter.style.display = none ? "none" : "";
-      if (none) { s.label = null; return []; } line(n.firstChild, a, arrow(n.lastChild, a, b)); s.label = { text: n.letter, a: add(a, unit(f), HANG * 0.6), b }; return [[a, b]]; } },
+    draw: (s, n, p, v) => { const a = p(s.at), f = v(s.v), none = !(size(f) > 1e-12), reach = s.long ? size(f) * s.long : HANG, b = add(a, unit(f), reach); n.style.display = n.letter.style.display = none ? "none" : "";
+      if (none) { s.label = null; return []; } line(n.firstChild, a, arrow(n.lastChild, a, b)); s.label = { text: n.letter, a: add(a, unit(f), reach * 0.6), b }; return [[a, b]]; } },
   arm: { z: 0, make: g => make("g", {}, g), draw: (s, n, p, v) => {
     if (!n.firstChild) { make("line", { class: "thin" }, n); make("line", { class: "thin" }, n); }
     const at = p(s.at), pole = p(s.pole), e = unit(v(s.v)), foot = add(at, e, dot(sub(pole, at), e));
@@ -113,7 +113,21 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
     const at = p(s.at), u = unit(v(s.u)), w = [-u[1], u[0]];
     n.setAttribute("points", round([[5, 3], [5, -3], [-5, -3], [-5, 3]].map(([x, y]) => add(add(at, u, x), w, y)))); return [];
   } },
-  pin: { z: 4, make: g => make("circle", { class: "paper", r: 1.4 }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { cx: x, cy: -y }); return []; } },
+  body: { z: 0, make: (g, s, high, view) => { // an outline that turns as a whole, so often about its centre
+      let d = "";
+      for (let k = 0; k < (s.times || 1); k++) {
+        const c = Math.cos(TURN * k / (s.times || 1)), e = Math.sin(TURN * k / (s.times || 1));
+        d += (d ? "L" : "M") + round(s.d.map(([x, y]) => [(x * c - y * e) / view.mu, (x * e + y * c) / view.mu])).replace(/ /g, "L");
+      }
+      return make("path", { class: s.class, d: d + (s.open ? "" : "Z") }, g);
+    },
+    draw: (s, n, p, v) => { const [x, y] = p(s.at), [c, e] = v(s.turn), by = s.by || 0;
+      n.setAttribute("transform", `translate(${x.toFixed(3)} ${(-y).toFixed(3)}) rotate(${(-(Math.atan2(e, c) + by) * 180 / Math.PI).toFixed(4)})`); return []; } },
+  disk: { z: 3, make: (g, s, high, view) => make("circle", { class: (s.class || "paper") + (s.lit ? " now" : ""), r: s.r / view.mu }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { cx: x, cy: -y }); return []; } },
+  bent: { z: 2, make: g => make("polyline", { class: "main" }, g), draw: (s, n, p, v) => { // a beam as far off as a force bends it
+    const w = v(s.v); n.setAttribute("points", round(s.d.map(([x, y], k) => [x / here.mu, (y + s.by[k] * w) / here.mu]))); return []; } },
+  box: { z: 3, make: (g, s, high, view) => make("rect", { class: "paper", width: s.wide / view.mu, height: s.high / view.mu }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { x: x - s.wide / here.mu / 2, y: -y - s.high / here.mu }); return []; } },
+  pin: { z: 4, make: (g, s) => make("circle", { class: s.lit ? "paper now" : "paper", r: 1.4 }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { cx: x, cy: -y }); return []; } },
   pivot: { z: 4, make: g => { const group = make("g", {}, g); make("path", { class: "main", d: "M0 0L-3 6H3Z" }, group); make("path", { class: "thin", d: "M-5 6H5M-4 6l-2 2M-1 6l-2 2M2 6l-2 2M5 6l-2 2" }, group); make("circle", { class: "paper", r: 1.4 }, group); return group; },
     draw: (s, n, p) => { const [x, y] = p(s.at); n.setAttribute("transform", `translate(${x.toFixed(3)} ${(-y).toFixed(3)})`); return []; } },
   centre: { z: 4, make: g => make("circle", { class: "solid", r: 1 }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { cx: x, cy: -y }); return []; } },
@@ -124,13 +138,20 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
 };
 function build(view, svg) {
   svg.replaceChildren();
+  view.shows = undefined;
   set(svg, { viewBox: view.box.map(x => x.toFixed(2)).join(" "), "aria-label": view.heading.replace(/<[^>]+>/g, "") });
   svg.style.setProperty("--wide", `${view.box[2].toFixed(1)}mm`);
   view.letter = Math.max(LETTER, SEEN * view.box[2] / (svg.clientWidth || 600));
   svg.style.fontSize = `${view.letter.toFixed(2)}px`;
+  view.lines = (view.drawn || []).map(([from, kind, ...of]) => {
+    if (kind !== "text") return [from, make("path", { class: kind, d: of[0] }, svg)];
+    const [html, x, y, angle, high, anchor] = of, text = letters(html, svg, { "text-anchor": anchor, "font-size": high * 1.3 }, high * 1.3);
+    set(text, { transform: `translate(${x} ${y}) rotate(${angle})` });
+    return [from, text];
+  });
   const layers = [0, 1, 2, 3, 4, 5].map(() => make("g", {}, svg));
   for (const shape of view.shapes) {
-    shape.node = DRAW[shape.k].make(layers[DRAW[shape.k].z], shape, view.letter);
+    shape.node = DRAW[shape.k].make(layers[DRAW[shape.k].z], shape, view.letter, view);
     shape.lights = lights(shape);
     for (const node of [shape.node, shape.node.letter]) if (node) {
       node.addEventListener("pointerenter", () => light(shape.lights));
@@ -138,7 +159,7 @@ function build(view, svg) {
     }
   }
   view.svg = svg;
-  if (view.name === "position") grip(view, svg);
+  if (view.name === "position" && drive.crank) grip(view, svg);
 }
 const bare = name => String(name).replace(/^.*\./, "");
 function lights(shape) { // points, links and vectors that belong together
@@ -198,8 +219,13 @@ function crosses(a, b, box) { // a segment and a box (Liang and Barsky)
 function draw(view) {
   const mu = here.mu = view.mu, found = here.found, segments = [];
   const p = end => { const [x, y] = spot(found, end); return [x / mu, y / mu]; }, v = name => value(found, name);
+  if (view.lines.length && view.shows !== view.until) {
+    view.shows = view.until;
+    for (const [from, node] of view.lines) node.classList.toggle("gone", view.until !== undefined && from > view.until);
+  }
   for (const shape of view.shapes) {
-    const hide = view.until !== undefined && shape.from > view.until;
+    const [of, low, high] = shape.when || [], away = of && !(v(of) >= low && v(of) <= high);
+    const hide = away || (view.until !== undefined && shape.from > view.until);
     for (const node of [shape.node, shape.node.letter]) if (node) node.classList.toggle("gone", hide);
     shape.hidden = hide; shape.label = null;
     for (const segment of DRAW[shape.k].draw(shape, shape.node, p, v)) if (!hide) segments.push(segment);
@@ -234,13 +260,14 @@ function grip(view, svg) {
 
 // ---- one place
 const TURN = 2 * Math.PI;
-const shownPlace = at => drive.turns ? ((at * 180 / Math.PI) % 360 + 360) % 360 : at * 1000;
+const shownPlace = at => drive.turns ? ((at * 180 / Math.PI) % 360 + 360) % 360 : at * drive.by;
+const shownAt = at => locale(shownPlace(at).toFixed(drive.digits)) + (drive.turns ? "°" : " " + drive.unit);
 function go(at) {
   if (drive.turns) { at = at % TURN; if (at < 0) at += TURN; } else at = Math.min(Math.max(at, drive.low), drive.high);
   const found = stand(at);
   here.at = at;
-  $("place").value = shownPlace(at).toFixed(2);
-  $("at").textContent = `= ${locale(shownPlace(at).toFixed(1))}${drive.turns ? "°" : " " + W.unit_mm}`;
+  $("place").value = shownPlace(at);
+  $("at").textContent = `= ${shownAt(at)}`;
   const failed = found[0] >= FAILED;
   $("status").textContent = failed ? found[0] === 3 ? W.apart : W.singular : found[0] === 1 ? W.flat : "";
   for (const view of shownViews()) view.svg.classList.toggle("faded", failed);
@@ -248,7 +275,7 @@ function go(at) {
   here.found = found;
   for (const view of shownViews()) draw(view);
   const view = views.get("position");
-  if (view.grip) { const [x, y] = spot(found, drive.crank[1]); set(view.grip, { cx: x / view.mu, cy: -y / view.mu, "aria-valuenow": shownPlace(at).toFixed(1), "aria-valuemin": 0, "aria-valuemax": drive.turns ? 360 : (drive.high * 1000).toFixed(1) }); }
+  if (view.grip) { const [x, y] = spot(found, drive.crank[1]); set(view.grip, { cx: x / view.mu, cy: -y / view.mu, "aria-valuenow": shownPlace(at).toFixed(drive.digits), "aria-valuetext": shownAt(at), "aria-valuemin": drive.turns ? 0 : shownPlace(drive.low).toFixed(drive.digits), "aria-valuemax": drive.turns ? 360 : shownPlace(drive.high).toFixed(drive.digits) }); }
   numbers(); now();
 }
 function numbers(none) { // where a position has no plan nothing has a value
@@ -262,7 +289,7 @@ function numbers(none) { // where a position has no plan nothing has a value
 }
 
 // ---- play at the speed of the task, slowed by a stated factor
-const period = drive.turns ? TURN / drive.speed : 2 * span / drive.speed, slow = period < 6 ? nice(6 / period) : 1;
+const period = drive.turns ? TURN / drive.speed : (drive.again || 2 * span) / drive.speed, slow = period < 6 ? nice(6 / period) : 1;
 let playing = null, way = 1;
 function pause() { if (playing) cancelAnimationFrame(playing); playing = null; $("play").setAttribute("aria-pressed", "false"); $("play").textContent = W.play; }
 function play() {
@@ -271,7 +298,8 @@ function play() {
   const tick = time => {
     let at = here.at + (drive.turns ? drive.sense : way) * drive.speed * Math.min(time - before, 100) / 1000 / slow;
     before = time;
-    if (!drive.turns && (at >= drive.high || at <= drive.low)) way = at >= drive.high ? -1 : 1;
+    if (drive.again && at > drive.high) at -= drive.again; // the next one takes its place
+    if (!drive.turns && !drive.again && (at >= drive.high || at <= drive.low)) way = at >= drive.high ? -1 : 1;
     for (let n = 0; n < COUNT && stand(at)[0] >= FAILED; n++) { // positions without a plan are passed by
       at += (drive.turns ? drive.sense * TURN : way * span) / COUNT;
       if (!drive.turns && (at > drive.high || at < drive.low)) { way = -way; at = Math.min(Math.max(at, drive.low), drive.high); }
@@ -302,18 +330,22 @@ function curves() {
     const svg = make("svg", { viewBox: `0 0 ${wide} ${high}`, role: "img", "aria-label": name }, $("diagrams"));
     make("path", { class: "thin", d: `M20 ${Y(0)}H${wide - 4}M22 3V${high - 3}` }, svg);
     for (let k = 0; k <= 12 && drive.turns; k++) { make("path", { class: "thin", d: `M${X(k * TURN / 12)} ${Y(0) - 1}v2` }, svg); if (k && k % 3 === 0) letters(String(k * 30) + "°", svg, { x: X(k * TURN / 12) - 4, y: Math.min(Y(0) + 5, high - 1) }); }
-    letters(`${q.symbol}, ${q.unit}`, svg, { x: 24, y: 5 });
+    if (!drive.turns) for (const [at, x] of [[drive.low, 22], [drive.high, wide - 8]]) letters(shownAt(at), svg, { x, y: Math.min(Y(0) + 5, high - 1), "text-anchor": at === drive.low ? "start" : "end" });
+    letters(q.symbol + (q.unit && ", " + q.unit), svg, { x: 24, y: 5 });
     for (const [y, at] of [[top, 0], [low, 0]]) if (y) letters(said(y, 3), svg, { x: 0, y: Y(y) + 1.5 });
     let d = "", last = null;
     for (const [at, y] of points) { d += `${last !== null && at - last < (drive.turns ? TURN : span) / COUNT * 2.5 ? "L" : "M"}${X(at).toFixed(2)} ${Y(y).toFixed(2)}`; last = at; }
-    make("path", { class: "curve", d }, svg);
+    make("path", { class: drive.grows ? "thin" : "curve", d }, svg);
+    const grown = drive.grows ? make("rect", { x: 22, y: 0, width: 0, height: high }, make("clipPath", { id: `grown-${name}` }, svg)) : null;
+    if (grown) make("path", { class: "curve", d, "clip-path": `url(#grown-${name})` }, svg); // the curve until now
     const mark = make("line", { class: "main lit", y1: 3, y2: high - 3 }, svg), dotted = make("circle", { class: "spot", r: 1.6 }, svg);
-    here.marks.push({ name, q, X, Y, mark, dotted });
+    here.marks.push({ name, q, X, Y, mark, dotted, grown });
   }
 }
 function now() {
-  for (const { name, q, X, Y, mark, dotted } of here.marks || []) {
-    const x = X(drive.turns ? here.at : here.at);
+  for (const { name, q, X, Y, mark, dotted, grown } of here.marks || []) {
+    const x = X(here.at);
+    if (grown) grown.setAttribute("width", Math.max(x - 22, 0));
     set(mark, { x1: x, x2: x });
     set(dotted, { cx: x, cy: Y(size(value(here.found, name)) * q.by) });
   }
@@ -322,6 +354,7 @@ function now() {
 // ---- the construction told and drawn again, step by step
 function tell() {
   const view = views.get($("replayed").value), list = $("told");
+  if (!view) { $("told").closest("section").classList.add("gone"); return; }
   list.replaceChildren();
   here.told = view.steps.map((html, k) => {
     const item = document.createElement("li");
@@ -349,11 +382,13 @@ function givens() {
   for (const item of D.givens) {
     const label = document.createElement("label"), input = document.createElement("input"), text = document.createElement("span");
     label.innerHTML = item.symbol; label.htmlFor = input.id = `given-${item.name}`; text.innerHTML = item.unit;
-    Object.assign(input, { type: "text", inputMode: "decimal", value: locale(String(item.value)), disabled: item.fixed });
+    Object.assign(input, { type: "text", inputMode: "decimal", value: item.fixed ? said(item.value, 6) : locale(String(item.value)), disabled: item.fixed });
     input.addEventListener("change", () => change(item, input));
     $("givens").append(label, input, text);
   }
-  if (D.givens.some(item => item.fixed)) $("givens").append(Object.assign(document.createElement("p"), { textContent: W.fixed }));
+  const fixed = D.givens.filter(item => item.fixed).length;
+  if (fixed) $("givens").append(Object.assign(document.createElement("p"), { textContent: D.pieces !== undefined ? W.given : W.fixed }));
+  $("again").classList.toggle("gone", fixed === D.givens.length);
   $("givens").addEventListener("submit", event => event.preventDefault());
   $("again").addEventListener("click", () => {
     Object.assign(given, D.board);
@@ -395,17 +430,24 @@ function right() {
   for (const other of D.views) if (other.name !== "position") other.svg = null;
   build(view, $("right")); heading(view, $("right-head"), true);
 }
-function heading(view, node, alone) { node.innerHTML = `${alone ? "" : view.heading + ", "}${view.symbol} = ${said(view.mu * view.by, 6)} ${view.per}`; }
+function heading(view, node, alone) {
+  const scale = view.symbol ? `${view.symbol} = ${said(view.mu * view.by, 6)} ${view.per}` : (view.under || []).join("; ");
+  node.innerHTML = [alone ? "" : view.heading, scale].filter(Boolean).join(", ");
+}
 
 // ---- begin
 function begin() {
   $("symbol").innerHTML = drive.symbol;
-  set($("place"), drive.turns ? { min: 0, max: 360, step: 0.5 } : { min: drive.low * 1000, max: drive.high * 1000, step: span * 2 });
-  $("place").addEventListener("input", () => { pause(); go($("place").value * (drive.turns ? Math.PI / 180 : 1e-3)); });
+  set($("place"), drive.turns ? { min: 0, max: 360, step: "any" } : { min: shownPlace(drive.low), max: shownPlace(drive.high), step: "any" });
+  $("place").addEventListener("input", () => { pause(); go($("place").value * (drive.turns ? Math.PI / 180 : 1 / drive.by)); });
+  $("place").addEventListener("keydown", event => { // steps that are the same for every span
+    const by = { ArrowRight: 0.5, ArrowUp: 0.5, ArrowLeft: -0.5, ArrowDown: -0.5, PageUp: 10, PageDown: -10 }[event.key];
+    if (by) { pause(); go(here.at + by * (drive.turns ? Math.PI / 180 : span / 360)); event.preventDefault(); }
+  });
   $("play").addEventListener("click", () => playing ? pause() : play());
   $("slow").textContent = slow > 1 ? W.slow.replace("{n}", said(slow)) : "";
   for (const view of D.views) for (const list of [$("which"), $("replayed")]) {
-    if (list.id === "which" && view.name === "position") continue;
+    if (list.id === "which" ? view.name === "position" : !view.steps.length) continue;
     const option = document.createElement("option");
     option.value = view.name; option.textContent = view.heading.replace(/<[^>]+>/g, "");
     list.appendChild(option);
@@ -414,6 +456,7 @@ function begin() {
   $("which").addEventListener("change", () => { right(); go(here.at); });
   $("replayed").addEventListener("change", tell);
   const until = () => views.get($("replayed").value).until;
+  $("values").classList.toggle("no-mm", !D.quantities.some(q => q.plan));
   $("first").addEventListener("click", () => replay(0));
   $("back").addEventListener("click", () => replay((until() === undefined ? Infinity : until()) - 1));
   $("next").addEventListener("click", () => replay(until() === undefined ? 1 : until() + 1));
@@ -429,6 +472,7 @@ function begin() {
     row.addEventListener("pointerenter", () => light([q.name]));
     row.addEventListener("pointerleave", () => light([]));
   }
+  if (D.opens) $("which").value = $("replayed").value = D.opens;
   givens(); sample();
   here.found = here.samples.find(found => found[0] < FAILED);
   left(); right(); curves(); tell(); go(drive.start);

@@ -3,7 +3,7 @@ const drive = D.drive;
 const index = new Map(D.names.map((name, k) => [name, k + 1]));
 const given = { ...D.board }, COUNT = 360, FAILED = 2, views = new Map(D.views.map(view => [view.name, view]));
 const span = drive.high - drive.low, here = { at: drive.start, found: null, samples: [] };
-const SIZES = { position: 170, lever: 120 }, USUAL = 0.9; // mm; part of the positions that a plan is sized by
+const NEARLY = 1e-9, SIZES = { position: 170, lever: 120 }, USUAL = 0.9; // mm; part of the positions that a plan is sized by
 
 function near(place) {
   if (!D.near) return;
@@ -18,7 +18,14 @@ function near(place) {
     given[cosine] /= long; given[sine] /= long;
   }
 }
-function stand(place) { given[drive.name] = place; near(place); return solve(given); }
+function piece(place) { // the numbers of the piece of formulas that a place is in
+  const { starts, names, rows } = D.pieces, turn = drive.turns ? 2 * Math.PI : Infinity;
+  const at = given._at = drive.turns ? place - turn * Math.floor((place + NEARLY) / turn) : place;
+  let k = starts.length - 1;
+  while (k > 0 && !(starts[k] < at + NEARLY)) k--;
+  names.forEach((name, n) => { given[name] = rows[k][n]; });
+}
+function stand(place) { given[drive.name] = place; near(place); if (D.pieces) piece(place); return solve(given); }
 const value = (found, name) => index.has(name) ? found[index.get(name)] : given[name];
 const size = v => Array.isArray(v) ? Math.hypot(v[0], v[1]) : v;
 function spot(found, end) {
@@ -66,6 +73,12 @@ function nice(x) {
 }
 const ends = shape => [shape.a, shape.b, shape.at, ...(shape.ends || [])].filter(end => end !== undefined);
 function frame(view) {
+  if (view.frame) { view.box = view.frame; return; }
+  if (view.extent) {
+    const [x0, y0, x1, y1] = view.extent, mu = view.mu = Math.max(x1 - x0, y1 - y0) / SIZES.position;
+    view.box = [x0 / mu - 4, -y1 / mu - 4, (x1 - x0) / mu + 8, (y1 - y0) / mu + 8];
+    return;
+  }
   const boxes = [], used = view.shapes.flatMap(ends);
   for (let k = 0; k < COUNT; k += 5) {
     if (here.samples[k][0] >= FAILED) continue;

@@ -213,13 +213,15 @@ JAVASCRIPT = {
     "power": "Math.pow({0}, {1})",
     "fmod": "({0} % {1})",
     "arctan2": "Math.atan2({0}, {1})",
+    "cos": "Math.cos({0})",
+    "sin": "Math.sin({0})",
     "mark": f"({{0}} === {{0}} ? (({{0}} - {ROUND!r}) % {MARKS} + {MARKS}) % {MARKS} : {MARKS})",
 }
 _ALONE = Kept[Callable[..., Any]](64)
 
 
 @dataclass(frozen=True)
-class _Script(Plain):
+class Script(Plain):
     """The program of a trace for one position, as source of JavaScript.
 
     The function it defines takes the givens as an object by name and returns an array, the code of the status first.
@@ -240,19 +242,11 @@ class _Script(Plain):
 
 
 @cache
-def script_names() -> str:
+def script_names(protractor: bool = True) -> str:
     """Return the source of what the source of JavaScript calls, the protractor's table as it is in Python."""
-    cosines, sines = graduation()
-    eighth = MARKS // 8 + 1
     return f"""\
 const nan = NaN, inf = Infinity;
-const [cosines, sines] = (function () {{
-  const sine = {json.dumps(sines[:eighth])}, cosine = {json.dumps(cosines[:eighth])};
-  const quarter = sine.concat(cosine.slice(0, -1).reverse());
-  const half = quarter.concat(quarter.slice(1, -1).reverse());
-  const turn = half.concat(half.map(value => -value));
-  return [turn.slice({MARKS // 4}).concat(turn.slice(0, {MARKS // 4})).concat([NaN]), turn.concat([NaN])];
-}})();
+{_protractor() if protractor else ""}\
 function floorDivide(a, b) {{
   const rest = a % b;
   let parts = (a - rest) / b;
@@ -260,6 +254,20 @@ function floorDivide(a, b) {{
   const whole = Math.floor(parts);
   return parts - whole > 0.5 ? whole + 1 : whole;
 }}
+"""
+
+
+def _protractor() -> str:
+    cosines, sines = graduation()
+    eighth = MARKS // 8 + 1
+    return f"""\
+const [cosines, sines] = (function () {{
+  const sine = {json.dumps(sines[:eighth])}, cosine = {json.dumps(cosines[:eighth])};
+  const quarter = sine.concat(cosine.slice(0, -1).reverse());
+  const half = quarter.concat(quarter.slice(1, -1).reverse());
+  const turn = half.concat(half.map(value => -value));
+  return [turn.slice({MARKS // 4}).concat(turn.slice(0, {MARKS // 4})).concat([NaN]), turn.concat([NaN])];
+}})();
 """
 
 
@@ -289,7 +297,7 @@ def script_of(program: Program, givens: Mapping[str, float], wanted: Sequence[st
 
     Raises TypeError: the program has steps that are more than arithmetic.
     """
-    script, results, code = _printed(_Script, program, givens, wanted, "[{}, {}]")
+    script, results, code = _printed(Script, program, givens, wanted, "[{}, {}]")
     return script.source("solve", ", ".join(results), code)
 
 
@@ -313,13 +321,13 @@ def _printed(
     values = [board.values[name] for name in wanted]
     places = [part.place for value in values for part in (value.real, value.imag) if isinstance(part, Real)]
     plain = printer(board.trace, in_order(board.trace, places), places)
-    return plain, [_result(plain, value, vector) for value in values], CODES[board.status]
+    return plain, [result_of(plain, value, vector) for value in values], CODES[board.status]
 
 
-def _result(plain: Plain, value: Any, vector: str) -> str:
+def result_of(plain: Plain, value: Any, vector: str) -> str:
     """Return what gives a value back, its zeros without a sign."""
     if isinstance(value, Vector | complex):
-        return vector.format(_result(plain, value.real, vector), _result(plain, value.imag, vector))
+        return vector.format(result_of(plain, value.real, vector), result_of(plain, value.imag, vector))
     if isinstance(value, Real):
         shown = plain.value(value.place)
         return f"0.0 - {shown}" if value.negative else f"{shown} + 0.0"

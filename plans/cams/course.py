@@ -12,23 +12,54 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..solved import Columned, Course, Ends, Rows
-from .followers import RIGHT_ANGLE, Limit, Range, Rocker, RollerCam
+from ..solved import AT, Columned, Course, Ends, Pieces, Rows
+from .followers import RIGHT_ANGLE, Limit, Range, Rocker, RollerCam, turned_back
 from .motion import FALL, RISE, TURN, Array, Motion, Phase, least
 from .sizes import HalfPlane, slacks
 from .solve import SolvedCam
 
+PSI = "psi."  # begins the names of numbers of the motion of a rocker
 NEAR = 1e-9  # rad, from a section line, where a jump is on it
 FINE = np.radians(0.5)  # between points of a curve
 TABLED = ("phi", "s", "ds", "d2s", "v", "a", "psi", "theta", "gamma", "theta_rocker", "gamma_rocker")
 SAME, IN_DWELL = 1e-9, 0.25  # part of a radius; of the lower dwell, at which the radius of its arc is shown
+
+
+@dataclass(frozen=True, slots=True)
+class _ReadMotion:
+    """A motion at a place, read from the numbers of its piece."""
+
+    motion: Motion
+    given: Callable[[str], Any]
+
+    def at(self, phi: Any, side: int = 1) -> tuple[Any, Any, Any]:
+        """Return s, ds/dphi, d2s/dphi2."""
+        return self.motion.read(self.given(AT), self.given)
+
+
+class _Read:
+    """A cam at a place: what its motion, and that of a rocker, is read from is given."""
+
+    def __init__(self, solved: SolvedCam, given: Callable[[str], Any]) -> None:
+        self.motion = cast("Motion", _ReadMotion(solved.motion, given))
+        self.rolling, self.plate = solved.rolling, solved.plate
+        if self.rolling is not None:
+            profile, own = self.rolling.profile, self.motion
+            if solved.rocker is not None:
+                of = _ReadMotion(profile.motion, lambda name: given(name if name == AT else PSI + name))
+                own = cast("Motion", of)
+            follower = replace(profile.follower, motion=own)
+            self.rolling = replace(self.rolling, profile=replace(profile, follower=follower))
+        if self.plate is not None:
+            self.plate = replace(self.plate, profile=replace(self.plate.profile, motion=self.motion))
 
 
 class CamCourse(Course):
@@ -46,16 +77,20 @@ class CamCourse(Course):
 
     def columns(self, places: Any, side: int = 1) -> list[Columned]:
         """Return the columns at angles of the cam, rad; where something jumps, the limits from one side."""
+        return [Columned(*column) for column in self._table(np.asarray(places, float), self.solved, side)]
 
-        def points(name: str, places: NDArray[Any]) -> list[tuple[str, str, Array]]:
+    def _table(self, phi: Any, cam: SolvedCam | _Read, side: int = 1) -> list[tuple[str, str, Any]]:
+        """Return names, units and values of the columns."""
+
+        def points(name: str, places: Any) -> list[tuple[str, str, Any]]:
             return [(f"{name}.x", "m", places.real), (f"{name}.y", "m", places.imag)]
 
-        phi, omega = np.asarray(places, float), self.solved.givens["omega"]
-        s, ds, d2s = self.motion.at(phi, side)
+        omega = self.solved.givens["omega"]
+        s, ds, d2s = cam.motion.at(phi, side)
         table = [("phi", "rad", phi), ("t", "s", phi / omega), ("s", "m", s), ("ds", "m", ds), ("d2s", "m", d2s)]
         table += [("v", "m/s", omega * ds), ("a", "m/s^2", omega * omega * d2s)]
-        if self.rolling is not None:
-            of, profile = self.of, self.rolling.profile
+        if cam.rolling is not None:
+            of, profile = self.of, cam.rolling.profile
             if of:
                 table.append(("psi", "rad", profile.motion.at(phi, side)[0]))
             pressure = profile.pressure(phi, side)
@@ -64,10 +99,39 @@ class CamCourse(Course):
             table += [(f"theta{of}", "rad", pressure), (f"gamma{of}", "rad", RIGHT_ANGLE - np.abs(pressure))]
             table += [*points(f"pitch{of}", profile.pitch(phi, side)), (f"rho_pitch{of}", "m", rho)]
             table += [*points(f"profile{of}", profile.practical(phi, side)), (f"rho{of}", "m", rho - profile.R)]
-        if self.solved.plate is not None:
-            plate = self.solved.plate.profile
+        if cam.plate is not None:
+            plate = cam.plate.profile
             table += [*points("profile_plate", plate.practical(phi, side)), ("rho_plate", "m", plate.bend(phi, side))]
-        return [Columned(*column) for column in table]
+        return table
+
+    def formulas(self, given: Callable[[str], Any]) -> dict[str, Any]:
+        """Return the columns, and points of cams and followers as they stand, and of followers about a cam that does.
+
+        `turn` is the direction of the cam, `up` and `across` are those of the follower about the cam that stands still.
+        """
+        phi, cam, sense = given("phi"), _Read(self.solved, given), self.solved.cam.sense
+        found = {name: value for name, _, value in self._table(phi, cam)}
+        turn, back = turned_back(phi, -sense), turned_back(phi, sense)
+        found |= {"turn": turn, "up": back * 1j, "across": back * 1.0}
+        if cam.rolling is not None:
+            rolling = cam.rolling.profile
+            found |= {"roller.B": rolling.follower.centre(rolling.sizes, phi)[0], "inverted.B": rolling.pitch(phi)}
+            found |= {"roller.K": rolling.practical(phi) * turn, "roller.n": rolling.normal(phi) * turn}
+            if isinstance(rolling.follower, Rocker):
+                found["inverted.A"] = rolling.follower.pivot(rolling.sizes) * back
+        if cam.plate is not None:
+            plate = cam.plate.profile
+            found |= {"plate.B": (plate.r_0 + found["s"]) * 1j, "inverted_plate.B": plate.centre(phi)}
+            found["plate.K"] = plate.practical(phi) * turn
+        return found
+
+    def pieces(self) -> Pieces:
+        """Return the smooth pieces of the motion, of a rocker with those of its angle, which begin where they do."""
+        starts, names, rows = self.motion.written
+        if self.solved.rocker is None:
+            return Pieces(starts, names, rows)
+        _, own, angles = self.solved.rocker.profile.motion.written
+        return Pieces(starts, [*names, *(PSI + name for name in own)], np.column_stack((rows, angles)))
 
     def rows(self, count: int | None) -> Rows:
         """Return the motion at so many places, without a number on the section lines, with both limits at jumps."""

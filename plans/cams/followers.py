@@ -377,8 +377,7 @@ class PlateProfile(Envelope):
 
 def turned_back(phi: Any, sense: int) -> Points:
     """Return exp(-i sense phi): what turns a vector of the frame onto the cam that stands still."""
-    angle = np.asarray(phi, float)
-    turn: Points = np.cos(angle) - 1j * (sense * np.sin(angle))
+    turn: Points = np.cos(phi) - 1j * (sense * np.sin(phi))
     return turn
 
 

@@ -196,17 +196,30 @@ class Motion:
         phi = phi - TURN * turns
         starts, origins, rates, tables = self._tables
         which = np.maximum(np.searchsorted(starts, phi + side * NEAR) - 1, 0)
-        t = phi - origins[which]
-        curves = []
-        for powers, waves in tables:
-            value = powers[0, which]
-            for row in powers[1:]:
-                value = value * t + row[which]
+        rows = [(powers[:, which], waves[which] if waves.any() else None) for powers, waves in tables]
+        return along(phi - origins[which], rates[which], rows)
+
+    @property
+    def written(self) -> tuple[Array, list[str], Array]:
+        """Where the pieces begin, and numbers by which each of them is known: their names, and a row for each."""
+        starts, origins, rates, tables = self._tables
+        columns = {"origin": origins, "rate": rates}
+        for order, (powers, waves) in enumerate(tables):
+            columns |= {f"power{order}_{k}": row for k, row in enumerate(powers)}
             if waves.any():
-                angle, wave = rates[which] * t, waves[which]
-                value = value + (wave.real * np.cos(angle) - wave.imag * np.sin(angle))
-            curves.append(np.asarray(value))
-        return curves[0], curves[1], curves[2]
+                columns |= {f"cosine{order}": waves.real, f"sine{order}": -waves.imag}
+        return starts, [*columns], np.column_stack([*columns.values()])
+
+    def read(self, phi: Any, given: Callable[[str], Any]) -> tuple[Any, Any, Any]:
+        """Return s, ds/dphi, d2s/dphi2 at an angle of the turn from the numbers of its piece, which are `given`."""
+        rows = [
+            (
+                [given(f"power{order}_{k}") for k in range(len(powers))],
+                (given(f"cosine{order}"), given(f"sine{order}")) if waves.any() else None,
+            )
+            for order, (powers, waves) in enumerate(self._tables[3])
+        ]
+        return along(phi - given("origin"), given("rate"), rows)
 
     def maximum(self, s: float, ds: float, d2s: float, phases: Iterable[str] = PHASES) -> Extreme:
         """Return the exact maximum of s * travel + ds * first + d2s * second derivative over some of the phases.
@@ -322,6 +335,23 @@ class Motion:
             for low, high in pairwise(self.corners)
         ]
         return np.append(np.concatenate(parts), TURN)
+
+
+def along(t: Any, rate: Any, rows: Iterable[tuple[Any, Any]]) -> tuple[Any, Any, Any]:
+    """Return the travel and its derivatives so far along a piece: of each powers, the highest first, and a wave.
+
+    A wave is complex, or the pair of its cosine and its sine; without one it is None.
+    """
+    curves = []
+    for powers, wave in rows:
+        value = powers[0]
+        for row in powers[1:]:
+            value = value * t + row
+        if wave is not None:
+            cosine, sine = wave if isinstance(wave, tuple) else (wave.real, -wave.imag)
+            value = value + (cosine * np.cos(rate * t) + sine * np.sin(rate * t))
+        curves.append(value)
+    return curves[0], curves[1], curves[2]
 
 
 def motion_of(cam: Cam, values: Mapping[str, float]) -> Motion:

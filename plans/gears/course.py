@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -50,7 +50,19 @@ class GearCourse(Course):
         `rho_i` and `r_i` are radii of curvature and distances from the centres, `v_ki` velocities along the profiles,
         `v_s` that of sliding, `theta_..` specific sliding, `pairs` how many pairs of teeth touch.
         """
-        sizes, rho_1 = self.sizes, np.asarray(places, float)
+        return [Columned(*column) for column in self._table(np.asarray(places, float))]
+
+    def formulas(self, given: Callable[[str], Any]) -> dict[str, Any]:
+        """Return the columns, directions of the wheels' teeth, and where this pair and its neighbours touch."""
+        rho_1, meshing = given("rho_1"), self.solved.meshing
+        found = {name: value for name, _, value in self._table(rho_1)}
+        for i, side, turned in zip((1, 2), (1j, -1j), meshing.turned(found["phi"]), strict=True):
+            found[f"turn_{i}"] = (np.cos(turned) + 1j * np.sin(turned)) * side
+        return found | {f"action.K{n}": meshing.place(rho_1 + n * self.pitch) for n in self.neighbours}
+
+    def _table(self, rho_1: Any) -> list[tuple[str, str, Any]]:
+        """Return names, units and values of the columns."""
+        sizes = self.sizes
         u, rho_2 = sizes["u"], LAWS["excess"](sizes["l_N1N2"], rho_1)
         v_k2 = LAWS["at_ratio"](rho_2, u)
         r_1, r_2 = (
@@ -60,17 +72,23 @@ class GearCourse(Course):
         lengths = {"rho_1": rho_1, "rho_2": rho_2, "r_1": r_1, "r_2": r_2, "v_k1": rho_1, "v_k2": v_k2}
         lengths["v_s"] = LAWS["excess"](rho_1, v_k2)
         return [
-            Columned("phi", "rad", LAWS["contact_angle"](rho_1, sizes["rho_w1"], 0.5 * sizes["d_b1"])),
-            *(Columned(name, "m", length) for name, length in lengths.items()),
-            Columned("theta_12", "1", LAWS["sliding_of_pinion"](rho_1, rho_2, u)),
-            Columned("theta_21", "1", LAWS["sliding_of_wheel"](rho_2, rho_1, u)),
-            Columned("pairs", "1", self.pairs(rho_1)),
+            ("phi", "rad", LAWS["contact_angle"](rho_1, sizes["rho_w1"], 0.5 * sizes["d_b1"])),
+            *((name, "m", length) for name, length in lengths.items()),
+            ("theta_12", "1", LAWS["sliding_of_pinion"](rho_1, rho_2, u)),
+            ("theta_21", "1", LAWS["sliding_of_wheel"](rho_2, rho_1, u)),
+            ("pairs", "1", self.pairs(rho_1)),
         ]
 
-    def pairs(self, rho_1: Array) -> Array:
+    def pairs(self, rho_1: Any) -> Any:
         """Return how many pairs of teeth touch when one of them does so at these places."""
         ways = (self.last - rho_1, rho_1 - self.first)
-        return np.asarray(sum(np.floor(way / self.pitch + NEAR) for way in ways) + 1.0)
+        return sum(np.floor(way / self.pitch + NEAR) for way in ways) + 1.0
+
+    @property
+    def neighbours(self) -> range:
+        """The pairs of teeth that may touch together with one, by how many pitches they are before it."""
+        most = math.floor((self.last - self.first) / self.pitch + NEAR)
+        return range(-most, most + 1)
 
     @property
     def zones(self) -> list[_Zone]:

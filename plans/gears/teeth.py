@@ -238,13 +238,19 @@ class Meshing:
 
     def directions(self, angle: float) -> tuple[complex, complex]:
         """Return from each centre the direction of the tooth that touches at the pole when the angle is zero."""
+        first, second = (
+            side * complex(math.cos(turned), math.sin(turned))
+            for side, turned in zip((1j, -1j), self.turned(angle), strict=True)
+        )
+        return first, second
+
+    def turned(self, angle: Any) -> list[Any]:
+        """Return how far those teeth are turned from the line of centres, rad."""
         found = []
-        ratio_of_wheel = self.teeth[0].z / self.teeth[1].z
-        for tooth, side, ratio in zip(self.teeth, (1j, -1j), (1.0, -ratio_of_wheel), strict=True):
+        for tooth, ratio in zip(self.teeth, (1.0, -self.teeth[0].z / self.teeth[1].z), strict=True):
             half = float(tooth.half_angle(tooth.r_b / math.cos(self.sizes["alpha_w"])))
-            turned = self.sense * (ratio * angle - half)
-            found.append(side * complex(math.cos(turned), math.sin(turned)))
-        return found[0], found[1]
+            found.append(self.sense * (ratio * angle - half))
+        return found
 
     def outlines(self, angle: float, points: int = POINTS, arc: float = ARC) -> tuple[Points, Points]:
         """Return the outlines of both wheels at an angle of the pinion, closed without a repeated point."""

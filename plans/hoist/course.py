@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
-from ..solved import Columned, Course, Rows
-from .forces import COLUMN_UNITS, course
+from ..solved import Columned, Course, Pieces, Rows
+from .forces import COLUMN_UNITS, course, formulas, pieces
 from .solve import SolvedHoist
 
 TABLED = 25  # times in the table, beside the marks
@@ -30,6 +30,17 @@ class HoistCourse(Course):
         """Return the columns at times."""
         columns = course(self.forces, places).columns
         return [Columned(name, unit, columns[name]) for name, unit in COLUMN_UNITS.items()]
+
+    def formulas(self, given: Callable[[str], Any]) -> dict[str, Any]:
+        """Return the columns; as vectors, how far load, beam and drum are off, and the forces on the load."""
+        found = formulas(self.forces, given)
+        moved = {"load.s": found["s"], "load.w_0": -found["w_0"], "drum.w_2": -found["w_2"]}
+        moved |= {"load.F_01": -found["F_01"], "load.F_12": found["F_12"]}
+        return found | {name: size * 1j for name, size in moved.items()}
+
+    def pieces(self) -> Pieces | None:
+        """Return the pieces of a motion for which the formulas are not valid."""
+        return pieces(self.forces)
 
     def rows(self, count: int | None) -> Rows:
         """Return even times with the marks among them."""

@@ -11,8 +11,8 @@ Source: Karpenko, Muzyka, Gudym, figure 3.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import astuple, dataclass, fields
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,10 +21,10 @@ from numpy.typing import NDArray
 from ..board import Board, recorded
 from ..boards.exact import ExactBoard
 from ..laws import TURN
-from ..solved import AT_LEAST, MORE, Check
+from ..solved import AT, AT_LEAST, MORE, Check, Pieces
 from .hoist import VALUES, Numbers, complete, in_range
 from .model import model, motion_given, rope_force
-from .onesided import OneSided, one_sided
+from .onesided import Curve, OneSided, one_sided
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -206,21 +206,62 @@ def rope_forces(found: Numbers, t: Any) -> tuple[Any, Any]:
 
 def course(forces: Forces, t: Array) -> Course:
     """Look at a hoist at times from its beginning on, s, of shape (N,), none after the end of its motion."""
-    found, motion, better = forces.found, forces.motion, {}
+    motion = forces.motion
     if motion is None:
-        F_01, F_12 = rope_forces(found, t)
-        states = tuple(np.where(t < found["t_1"], BOTH, ROPE).tolist())
+        borne, height = rope_forces(forces.found, t), None
+        states = tuple(np.where(t < forces.found["t_1"], BOTH, ROPE).tolist())
     else:
         F_12, height = (np.array([of(at) for at in t.tolist()]) for of in (motion.force, motion.height))
         pieces = [motion.at(time) for time in t.tolist()]
         states = tuple(BEARS[piece.rope, piece.support] for piece in pieces)
-        pressed = np.array([piece.support for piece in pieces])
-        F_01 = np.where(pressed, height, 0.0) * (found["C_01"] if np.isfinite(found["C_01"]) else 0.0)
-        better = {"s": height}
-    board = ExactBoard({**found, "t": t, "F_01": F_01, "F_12": F_12})
+        borne = _pressed(forces, height, np.array([piece.support for piece in pieces])), F_12
+    return Course(
+        {name: np.asarray(value, float) for name, value in _columns(forces, t, borne, height).items()}, states
+    )
+
+
+def _pressed(forces: Forces, height: Any, support: Any) -> Any:
+    """Return the force of a support that only pushes."""
+    C_01 = forces.found["C_01"]
+    return np.where(support, height, 0.0) * (C_01 if np.isfinite(C_01) else 0.0)
+
+
+def _columns(forces: Forces, t: Any, borne: tuple[Any, Any], height: Any) -> dict[str, Any]:
+    """Return the columns at times with the forces of support and rope, and the height of the load where it is known."""
+    board = ExactBoard({**forces.found, "t": t, "F_01": borne[0], "F_12": borne[1]})
     board.follow(recorded(_after))
-    values = {**board.values, **better}
-    return Course({name: np.asarray(values[name], float) for name in COLUMN_UNITS}, states)
+    values = board.values if height is None else {**board.values, "s": height}
+    return {name: values[name] for name in COLUMN_UNITS}
+
+
+NUMBERS = tuple(f.name for f in fields(Curve))  # of a curve
+
+
+def formulas(forces: Forces, given: Callable[[str], Any]) -> dict[str, Any]:
+    """Return the columns at a time, which is given with the numbers of its piece: none where the formulas are valid."""
+    t = given("t")
+    if forces.motion is None:
+        return _columns(forces, t, rope_forces(forces.found, t), None)
+    since = given(AT) - given("begin")
+    stretch, height = (Curve(*(given(f"{of}.{name}") for name in NUMBERS)) for of in ("stretch", "height"))
+    long, high = (
+        curve.ordinate(since, np.cos(curve.w * since), np.sin(curve.w * since)) for curve in (stretch, height)
+    )
+    pull = given("rope") * forces.motion.C_12 * long
+    borne = _pressed(forces, high, given("support") > 0.0), np.where(pull > 0.0, pull, 0.0)
+    return _columns(forces, t, borne, high)
+
+
+def pieces(forces: Forces) -> Pieces | None:
+    """Return the pieces of the motion where the formulas are not valid."""
+    if forces.motion is None:
+        return None
+    names = ["begin", "rope", "support", *(f"{of}.{name}" for of in ("stretch", "height") for name in NUMBERS)]
+    rows = [
+        [piece.begin, piece.rope, piece.support, *astuple(piece.stretch), *astuple(piece.height)]
+        for piece in forces.motion.pieces
+    ]
+    return Pieces(np.array([piece.begin for piece in forces.motion.pieces]), names, np.array(rows, float))
 
 
 LEAST, MOST = 0.05, 0.5  # of beta: nearer to its end a beam is rigid

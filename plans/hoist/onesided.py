@@ -48,7 +48,11 @@ class Curve:
         c, s = math.cos(self.w * t), math.sin(self.w * t)
         swing, rate = self.A * c + self.B * s, self.B * c - self.A * s
         slope = self.p_1 + 2.0 * self.p_2 * t + self.w * rate
-        return self.p_0 + (self.p_1 + self.p_2 * t) * t + swing, slope, 2.0 * self.p_2 - self.w * self.w * swing
+        return self.ordinate(t, c, s), slope, 2.0 * self.p_2 - self.w * self.w * swing
+
+    def ordinate(self, t: Any, cosine: Any, sine: Any) -> Any:
+        """Return the ordinate from cosine and sine of w t."""
+        return self.p_0 + (self.p_1 + self.p_2 * t) * t + (self.A * cosine + self.B * sine)
 
     def at(self, t: float) -> float:
         """Return the ordinate."""

@@ -1,0 +1,92 @@
+"""A hoist on the page that moves: beams bend, the load leaves its support, the forces on it grow with time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...plans.hoist.construction import ENDS
+from ...plans.hoist.course import HoistCourse
+from ...plans.laws import LAWS
+from ...scales.scale import steps
+from ..moving import Data, html, number
+from ..moving.courses import Moving
+from .scene import HoistScene
+
+BENT = 40  # pieces of a bent beam
+LOAD = 0.2  # of the rope's length, the load's height
+MOST = 0.4  # of the rope's length, the largest displacement as it is shown
+LONGEST = 45.0  # mm, the arrow of the largest force
+SHOWN = ("t", "y", "s", "F_01", "F_12", "sigma", "w_0", "w_2")
+FIRST = ("F_12", "F_01", "s", "sigma")
+
+
+def moving(scene: HoistScene) -> Moving:
+    """Return what moves of a hoist, its displacements enlarged."""
+    words, course = scene.words, HoistCourse(scene.solved)
+    size, end = scene.size, course.forces.end
+    columns = {column.name: column.values for column in course.columns(course.places(course.usual))}
+    rope, tall = size("L"), LOAD * size("L")
+    shift = max(float(np.abs(columns[name]).max()) for name in ("s", "w_0", "w_2"))
+    times = steps(0.5 * MOST * rope / shift)[0] if shift > 0.0 else 1.0
+    greatest = max(float(np.abs(columns[name]).max()) for name in ("F_01", "F_12"))
+    points, shapes = _beams(scene, times)
+    points |= {"A0": 0j, "A2": 1j * rope, "up": 1j * tall}
+    points |= {"below": complex(0.9 * tall), "above": complex(0.3 * tall, tall)}  # where the forces on the load stand
+    load, top = ["A0", "load.s", times, 0.0], ["up", "load.s", times, 0.0]
+    shapes += [
+        {"k": "bar", "a": top, "b": ["A2", "drum.w_2", times, 0.0]},
+        {"k": "box", "at": load, "wide": 1.3 * tall, "high": tall},
+        {"k": "disk", "at": ["A2", "drum.w_2", times, 0.0], "r": 0.25 * tall},
+        _force("F_12", html(words.symbol("F_12")), "above", times, greatest),
+        _force("F_01", html(words.symbol("F_01")), "below", times, greatest),
+    ]
+    xs, margin = [at.real for at in points.values()], 0.6 * tall
+    view = {
+        "name": "position",
+        "heading": words["moving.hoist"].format(n=f"{times:g}"),
+        "symbol": "",
+        "extent": [min(xs) - margin, -2.5 * tall, max(xs) + margin, rope + 2.0 * tall],
+        "shapes": shapes,
+    }
+    drive = {
+        "name": "t",
+        "symbol": "<i>t</i>",
+        "turns": False,
+        "sense": 1,
+        "start": 0.0,
+        "low": 0.0,
+        "high": end,
+        "speed": 1.0,
+        "again": end,
+        "grows": True,
+        "crank": None,
+        "by": 1.0,
+        "unit": words.unit("s"),
+        "digits": 4,
+    }
+    return Moving(drive, [view], points, SHOWN, FIRST, symbols={"s": "s", "sigma": "σ"}, opens="forces")
+
+
+def _force(name: str, text: str, at: str, times: float, greatest: float) -> Data:
+    """Return the arrow of a force on the load, as long as the force is great."""
+    place = [at, "load.s", times, 0.0]
+    return {"k": "force", "at": place, "v": f"load.{name}", "q": name, "text": text, "long": LONGEST / greatest}
+
+
+def _beams(scene: HoistScene, times: float) -> tuple[dict[str, complex], list[Data]]:
+    """Return the ends of the beams, and the beams with their supports, bent by what is above or below them."""
+    points: dict[str, complex] = {}
+    shapes: list[Data] = []
+    for i, level in ((0, 0j), (2, 1j * scene.size("L"))):
+        l, b = scene.size(f"l_{i}"), scene.size(f"b_{i}")
+        near_left = scene.solved.layout.near[i // 2] == "left"
+        left = level - (b if near_left else l - b)
+        points |= {ENDS[i][0]: left, ENDS[i][1]: left + l}
+        xs = np.linspace(0.0, l, BENT + 1)
+        places = xs if near_left else l - xs
+        bent = LAWS["deflection_of_unit"]
+        unit = bent(places, b, l, 1.0, 1.0) / bent(np.float64(b), b, l, 1.0, 1.0)
+        line = [[number(left.real + x, 6), number(left.imag, 6)] for x in xs.tolist()]
+        shapes.append({"k": "bent", "d": line, "by": [number(-times * w, 6) for w in unit.tolist()], "v": f"w_{i}"})
+        shapes += [{"k": "pivot", "at": end} for end in ENDS[i]]
+    return points, shapes
