@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import takewhile
+from itertools import chain, pairwise, takewhile
 
 from ..scales.scale import Scale
 from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
@@ -16,23 +16,26 @@ from .tables import part_of
 from .titleblock import Stamp, frame_shapes
 from .view import View
 
-HELD = 9  # of the corners to the views beside them
+HELD, BESIDE = 9, 1  # bonds of the corners to the views beside them, of a text to the figure before it
 SOON = 5  # views from which one may stand on a page before its turn
 ALONE = 0.95  # part of the width of a page that leaves no room for a view beside
 FULL = 0.69  # part of a page that views should take at least before the next one begins
-TEXT, FIGURE, GROUP, PART = range(-1, 3)  # what may begin with a view
+TOLD, TEXT, FIGURE, GROUP, PART = range(-2, 3)  # what may begin with a view
 MANY = 3  # pages on which views may come in another order
 ENOUGH = {"A4": 0.51, "A3": 0.66, "A2": 0.66, "A1": 0.66}  # part of a page below which tables and texts break for it
 PIECES = 2  # rows or lines at least on each page
 
 
-def on_a_page(sizes: Sequence[Size], sheet: Format, norm: Norm, first: bool = True) -> list[Placement] | None:
+def on_a_page(
+    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = (), first: bool = True
+) -> list[Placement] | None:
     """Place views of these sizes on one page of `sheet` in reading order; return None if they do not fit.
 
-    The title block stands in the lower right corner and, on the `first` page, column 26 in an upper one.
+    The title block stands in the lower right corner and, on the `first` page, column 26 in an upper one. A text stands
+    beside the figure before it where that can be; `begins` are as of `Pages`.
     """
     (x0, y0, x1, y1), (block, *turned) = usable(sheet, norm), reserved_boxes(sheet, norm, first=first)
-    own, joined, begun = list(sizes), [0 for _ in sizes], 0
+    own, joined, begun = list(sizes), [BESIDE * (kind == TOLD) for kind in begins] or [0 for _ in sizes], 0
     for box in turned:
         if box[0] > x0:  # upright on the right of a tall sheet
             x1 = box[0] - LEAST
@@ -57,21 +60,26 @@ def on_one_page(
     """Place views of these sizes on the only page, or on the last one; return None if they do not fit.
 
     Where they do not fit as one reads them, high ones stand before low ones, so that rows have little empty room: first
-    texts and tables alone, behind the figures, then all of them. Texts with which the page begins, as what is given,
-    stay first. `begins` are as of `Pages`.
+    tables alone, behind the figures, then figures with what tells of them, texts alone, in the end all. Texts with
+    which the page begins, as what is given, stay first. `begins` are as of `Pages`.
     """
     every = range(len(sizes))
     lead = [*takewhile(lambda i: bool(begins) and begins[i] == TEXT, every)]
     rest = every[len(lead) :]
-    texts = [i for i in rest if begins and begins[i] == TEXT]
-    figures = [i for i in rest if i not in texts]
 
     def low(i: int) -> float:
         return -sizes[i][1]
 
-    ways = ([*every], [*lead, *figures, *sorted(texts, key=low)] if texts else [], [*lead, *sorted(rest, key=low)])
-    for order in filter(None, ways):
-        if (placed := on_a_page([sizes[i] for i in order], sheet, norm, first)) is not None:
+    def behind(*kinds: int) -> list[int]:
+        texts = [i for i in rest if begins and begins[i] in kinds]
+        return [*lead, *(i for i in rest if i not in texts), *sorted(texts, key=low)]
+
+    starts = [*(i for i in rest if i == len(lead) or not begins or begins[i] != TOLD), len(sizes)]
+    told = sorted((range(i, j) for i, j in pairwise(starts)), key=lambda own: min(map(low, own)))
+    ways = [*every], behind(TEXT), [*lead, *chain(*told)], behind(TOLD, TEXT), [*lead, *sorted(rest, key=low)]
+    for order in dict.fromkeys(map(tuple, ways)):
+        kinds = [begins[i] for i in order] if begins else ()
+        if (placed := on_a_page([sizes[i] for i in order], sheet, norm, kinds, first)) is not None:
             return [placed[order.index(i)] for i in every]
     return None
 
@@ -111,8 +119,9 @@ class Pages:
     """The ways to part views of these sizes into pages of `sheet`.
 
     `begins` say how much begins with each view: a part of the work is more than a group, and that than a figure; a
-    text or a table is nothing of its own. Where nothing is said, all may stand before their turn as these may. Where
-    pages are `loose`, high views stand before low ones on a page that does not hold them in order, and texts on any.
+    table is nothing of its own, and a text belongs to the figure before it. Where nothing is said, all may stand before
+    their turn as tables may. Where pages are `loose`, high views stand before low ones on a page that does not hold
+    them in order, and tables on any.
     """
 
     sizes: Sequence[Size]
@@ -136,7 +145,7 @@ class Pages:
             elif self.loose:
                 self._tried[key] = on_one_page(sizes, *paper, begins, page == 0)
             else:
-                self._tried[key] = on_a_page(sizes, *paper, page == 0)
+                self._tried[key] = on_a_page(sizes, *paper, begins, page == 0)
         return [replace(place, page=page) for place in placed] if (placed := self._tried[key]) is not None else None
 
     def fill(self, own: Iterable[int], page: int) -> float:
@@ -181,7 +190,8 @@ class Pages:
             if placed is None:
                 return None
             for i in rest[len(own) :] if self.loose else rest[len(own) : len(own) + SOON]:
-                free = not self.begins or self.begins[i] == TEXT
+                kind = self.begins[i] if self.begins else TEXT
+                free = kind == TEXT or (kind == TOLD and i - 1 in {*own, *places})
                 if free and (more := self.tried([*own, i], page)) is not None:
                     own, placed = [*own, i], more
             places |= dict(zip(own, placed, strict=True))
@@ -205,7 +215,10 @@ class Breaking:
         pages = [*pages]
         for number in range(len(pages) - 1):
             while self._is_empty(pages[number], number):
-                later = ((k, i) for k in range(number + 1, len(pages)) for i in range(len(pages[k])))
+                told = {k: begins_of(view for view, _ in pages[k]) for k in range(number + 1, len(pages))}
+                later = sorted(
+                    ((k, i) for k in told for i in range(len(told[k]))), key=lambda at: told[at[0]][at[1]] == TOLD
+                )
                 moves = ((k, self._moved(pages[number], number, pages[k], i, k)) for k, i in later)
                 ways = ((k, *move) for k, move in moves if move and (move[1] or k == len(pages) - 1))
                 if (found := next(ways, None)) is None:
@@ -246,8 +259,12 @@ class Breaking:
 
 
 def begins_of(views: Iterable[View]) -> list[int]:
-    """Return what begins with each view: a figure, or nothing, since it is a text or a table."""
-    return [TEXT if view.rows or view.lines else FIGURE for view in views]
+    """Return what begins with each view: a figure, or nothing, since it is a table or a text, perhaps of a figure."""
+    found: list[int] = []
+    for view in views:
+        told = view.lines and found[-1:] == [FIGURE]
+        found.append(TOLD if told else TEXT if view.rows or view.lines else FIGURE)
+    return found
 
 
 def last(places: Sequence[Placement]) -> int:

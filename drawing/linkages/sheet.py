@@ -139,12 +139,14 @@ def _kinematics(
     if "position" in plans or dead:
         yield Figure("position", partial(scheme, dead=dead), ("mu_l",))
     drawn = [plan for plan in PLANS if plan in plans]
-    yield from (_plan(solved, plan) for plan in drawn)
     single = len(solved.structure.groups) < GROUPS_APART
-    for i, plan in enumerate(drawn[:1] if single else drawn):
+    for i, plan in enumerate(drawn):
+        yield _plan(solved, plan)
+        if single and plan != drawn[-1]:
+            continue
         own = drawn if single else [plan]
         about, heading = ("kinematics" if whole else plan for whole in (single, len(own) > 1))
-        lines = partial(kinematics_text, plans=own, before=drawn[:i])
+        lines = partial(kinematics_text, plans=own, before=() if single else drawn[:i])
         yield _text(f"equations_{about}", lines, width, f"heading.equations_{heading}")
 
 
@@ -175,7 +177,7 @@ def _compound(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
 def _forces(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
     """Go through the force plans from the last group to the driver, with their equations.
 
-    These are one text after all figures, or one for each group after its own.
+    These are one text after the figures of the only group, or one for each group after its own.
     """
     if solved.mechanism.diagrams:
         from .figures.cycle import load_diagram
@@ -191,10 +193,11 @@ def _forces(solved: SolvedLinkage, width: float) -> Iterator[LinkageFigure]:
     for group in reversed(solved.structure.groups):
         yield from _group(solved, group)
         yield from equations(group.name)
+    yield from equations(WHOLE)
     driver = str(solved.structure.driver)
     yield Figure("driver", driver_view, ("mu_l",))
     yield _plan(solved, f"forces_{driver}")
-    yield from equations(WHOLE, driver)
+    yield from equations(driver)
 
 
 def _group(solved: SolvedLinkage, group: Group) -> Iterator[LinkageFigure]:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 import shapely
 
-from kulman.drawing.compose import FULL, MANY, Pages, arrange, compose, last, on_a_page
+from kulman.drawing.compose import FIGURE, FULL, MANY, TOLD, Pages, arrange, compose, last, on_a_page
 from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
 from kulman.drawing.packing import LEAST, STEPS, Placement, Slicing, size_of, spread
@@ -127,6 +127,14 @@ def test_what_belongs_together_is_not_parted_first():
     ends = [Slicing([(100, 60)] * 3, (210, 130), bonds).cut().parts for bonds in ([0, 0, 1], [0, 1, 0])]
     assert [part.parts for part in pairs.parts] == [(0, 1), (2, 3)]
     assert (ends[0][0], ends[0][1].parts, ends[1][0].parts, ends[1][1]) == (0, (1, 2), (0, 1), 2)
+
+
+@pytest.mark.parametrize("views", [[(250, 200), (200, 60)], [(180, 220), (230, 70)]])
+def test_equations_stand_nearest_to_the_figure_that_they_explain(views):
+    placed = on_a_page(3 * views, FORMATS["A1"], "gost", 3 * [FIGURE, TOLD])
+    boxes = [shapely.box(p.x, p.y, p.x + w, p.y + h) for p, (w, h) in zip(placed, 3 * views, strict=True)]
+    nearest = [min((0, 2, 4), key=lambda k: boxes[k].distance(boxes[i])) for i in (1, 3, 5)]
+    assert nearest == [0, 2, 4]
 
 
 @pytest.mark.parametrize("name", COURSEWORK)
