@@ -277,7 +277,7 @@ class Drawn:
     """A sheet but for its title block: views in order of the work, and at their places, by page.
 
     `scales` are the scale factors that it has, by plan. `reduction` is what a millimetre of a drawing is there whose
-    lengths on paper the task has given.
+    lengths on paper the task has given. Unless it `begins` a work, its first page has the small title block, too.
     """
 
     views: tuple[View, ...]
@@ -286,6 +286,7 @@ class Drawn:
     sheets: tuple[Format, ...]
     norm: Norm
     reduction: float = 1.0
+    begins: bool = True
 
     @property
     def sheet(self) -> Format:
@@ -305,7 +306,7 @@ class Drawn:
         pages = []
         for number, (figures, sheet) in enumerate(zip(self.placed, self.sheets, strict=True)):
             own = replace(stamp, sheet=number + 1, sheets=len(self.placed))
-            frame = frame_shapes(sheet, own, self.norm, first=number == 0)
+            frame = frame_shapes(sheet, own, self.norm, first=self.begins and number == 0)
             pages.append(Page(sheet.width, sheet.height, (*frame, *figures), stamp.title, stamp.language, self.norm))
         return tuple(pages)
 

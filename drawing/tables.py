@@ -20,6 +20,7 @@ INDENT = "    "
 NUMBER = re.compile(r"([−±]?\d+)(?:[.,]\d+)?(?:·10\^\{−?\d+\})?")  # and what of it stands before the comma
 SENTENCE = re.compile(r"[^\W\d_]{3,} +[^\W\d_]{2,}(?![\w.])")  # two words, none cut short
 WORD, SCRIPTS = re.compile(r"[^\W\d_]{3,}"), re.compile(r"[_^]\{[^}]*\}")  # in words; in symbols what is no letter
+BREAKS = re.compile(r" +(?![^{]*\})")
 PITCH = 1.7  # heights of letters from line to line (GOST 2.304)
 CELL = 1.75  # mm at least on both sides of what stands in a cell
 BETWEEN, UNDERLINED = 0.45, 0.9  # heights of letters between lines of text, and below one that is underlined
@@ -176,8 +177,8 @@ def part_of(view: View, begin: int, end: int, heading: str) -> View:
 
 
 def words_of(sentence: str) -> tuple[str, ...]:
-    """Return a sentence as a line of text that may break between any two words."""
-    return tuple(sentence.split())
+    """Return a sentence as a line of text that may break between any two words, but within no index."""
+    return tuple(BREAKS.split(sentence))
 
 
 def _view(name: str, heading: str, shapes: list[Shape], box: Box, style: Style, role: str) -> View:

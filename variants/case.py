@@ -6,7 +6,7 @@ without knowing which it is.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from importlib import import_module
@@ -33,6 +33,7 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..drawing.formats import Format, Norm
     from ..drawing.handouts import Shown
     from ..drawing.notes.blocks import Story
+    from ..drawing.tables import Row
     from ..drawing.view import View
     from ..plans.condition import Condition
     from ..plans.hands.shaky import Paper, Tolerance
@@ -46,6 +47,8 @@ Plans = tuple[str, ...]
 Scales = Mapping[str, Scale]  # by plan
 Subject = TypeVar("Subject")  # what is described: a mechanism, a cam, a gear pair, a hoist
 Answer = TypeVar("Answer", bound=Solved)
+WIDTH = 170.0  # mm of lines of text of a card
+PARTS = (1.0, 0.8, 0.5, 0.4, 0.2)  # of its usual size that the picture of a card has
 
 
 @dataclass(frozen=True, slots=True)
@@ -314,8 +317,8 @@ class Kind(Generic[Subject, Answer]):
         """Return the words with the letters of the subject's quantities."""
         return cast("Words", self._in("drawing", "sheet", "lettered")(words))
 
-    def pictured(self, case: Case, words: Words) -> View | None:
-        """Return a figure of what is given, to stand beside a question; None where words tell it."""
+    def pictured(self, case: Case, words: Words, part: float = 1.0) -> View | None:
+        """Return a figure of what is given, to stand beside a question, so large; None where words tell it."""
         return None
 
     def loaded(self, name: str) -> bool:
@@ -324,12 +327,39 @@ class Kind(Generic[Subject, Answer]):
 
     def stated(self, case: Case, words: Words, loaded: bool = True) -> Iterable[tuple[str, str, str]]:
         """Go through the data of a case as markup: symbol, what it is, value with its unit; or those without loads."""
+        from ..drawing.tables import with_unit
+
+        for symbol, said, value, of in self.rows(case, words):
+            yield symbol or "", said or "", with_unit(value or "", of or "")
+
+    def rows(self, case: Case, words: Words) -> Sequence[Row]:
+        """Return the data as a table has them: symbol, what it is, value, unit."""
         from ..drawing.formats import STYLES
-        from ..drawing.tables import givens_view, with_unit
+        from ..drawing.tables import givens_view
 
         called = {name: words.texts.get(f"called.{self.table}.{name}", "") for name in case.givens}
-        rows = givens_view(case.givens, words, STYLES["A4"], called=called).rows[1:]
-        return ((symbol or "", said or "", with_unit(value or "", of or "")) for symbol, said, value, of in rows)
+        found = givens_view(case.givens, words, STYLES["A4"], called=called).rows[1:]
+        own = (words.texts.get(f"given.{self.table}_{name}") for name in case.givens)
+        return [
+            (row[0], about[:1].upper() + about[1:], *row[2:]) if about else row
+            for about, row in zip(own, found, strict=True)
+        ]
+
+    def statements(self, case: Case, words: Words, aims: Sequence[str]) -> Iterator[list[View]]:
+        """Go through the views of a task that stands alone, with ever smaller pictures: data, what is to be found."""
+        from ..drawing.formats import STYLES
+        from ..drawing.page import DATA, TASK
+        from ..drawing.tables import table, text_block, words_of
+
+        head = [words[f"table.{key}"] for key in ("symbol", "called", "value", "unit")]
+        data = table(DATA, words["heading.givens"], [head, *self.rows(case, words)], STYLES["A4"])
+        solved = cast("Answer", case.solved)
+        wanted = [words.symbol(name) for name in solved.quantities if self.sought(solved, words, name)]
+        lines = [*aims, words["task.find"].format(names=", ".join(wanted))]
+        heading = words["heading.task"].format(variant=case.variant)
+        task = text_block(TASK, heading, [*map(words_of, lines)], STYLES["A4"], WIDTH)
+        for part in PARTS:
+            yield [*filter(None, [self.pictured(case, words, part)]), data, task]
 
     def sought(self, solved: Answer, words: Words, name: str) -> str:
         """Return in words, as markup, what a quantity is that a question may ask for; nothing for any other."""

@@ -35,11 +35,11 @@ from ..scales.packaged import packaged
 from ..scales.scale import Fixed
 from .case import Case, Request, Settings, Wanted
 from .reader import load_task
+from .sheets import NOTE_TEXTS as TEXTS
 from .sheets import Sheet, draw_case, said_of, sheet_id, work_code
 from .tables import Saved
 from .task import AnyTask
 
-TEXTS = "kulman.drawing.notes"
 DOCUMENTS = (".pdf", ".docx", ".md")
 # documents that hold their figures
 ALONE: Mapping[str, Callable[[Document], bytes]] = {".pdf": pdf_bytes, ".docx": docx_bytes}

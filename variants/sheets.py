@@ -24,6 +24,7 @@ from ..drawing.writers import WRITERS, Files, page_files, save_all
 from ..scales.errors import InputError, KulmanError
 from ..scales.names import latin, legible, of_kind, unknown
 from ..scales.numbers import SHOWN, quote
+from ..scales.packaged import packaged
 from ..scales.scale import Fixed, Scale
 from .case import Case, Request, Settings, Wanted
 from .reader import load_task
@@ -44,6 +45,7 @@ APART = (  # what is not asked for together
     ("--steps", "--key"),
     ("--steps", "--over"),
 )
+NOTE_TEXTS = "kulman.drawing.notes"
 ALL = 1000  # steps: no plan has more
 PAGE = ".html"  # on which plans move
 SUFFIXES = (*WRITERS, PAGE)
@@ -366,16 +368,25 @@ def drawing_for_print(case: Case) -> Drawn:
 def card_of_case(case: Case, drawing: Drawn) -> Sheet:
     """Return the task of a case, whose `drawing` is for print, on a page of its own.
 
-    Raises InputError: what its kind draws begins with no statement of the task, or it takes more than a page.
+    Raises InputError: it takes more than a page.
     """
-    views = [view for view in drawing.views if (view.of or view.name) in STATEMENT]
-    if not {*STATEMENT} <= {view.name for view in views}:
-        raise InputError("kind-without", task=quote(case.task.id), text="--as card")
-    places = on_one_page([view.size for view in views], drawing.sheet, drawing.norm)
+    given = (*STATEMENT, *(view.name for view in drawing.views if view.name.startswith("load_")))
+    views, places = [view for view in drawing.views if (view.of or view.name) in given], None
+    paper = drawing.sheet, drawing.norm
+    if {*STATEMENT} <= {view.name for view in views}:
+        places = on_one_page([view.size for view in views], *paper)
+    begins = places is not None
+    if places is None:
+        words, said = case.words(), packaged(NOTE_TEXTS, "texts", case.language)
+        with lettered(case.lettering, case.language):
+            aims = case.kind.story(case, drawing.scales, words, said).aims
+            every = [*case.kind.statements(case, case.kind.lettered(words, case.solved), aims)]
+        ways = ((own, on_one_page([view.size for view in own], *paper, first=False)) for own in every)
+        views, places = next((way for way in ways if way[1] is not None), (views, None))
     if places is None:
         raise InputError("sheet-too-small", format=drawing.format)
     card = compose(views, places, drawing.scales, drawing.sheet, drawing.norm, goes_on="")
-    return replace(sheet_of(case, card, stamp_of(case)), warnings=())
+    return replace(sheet_of(case, replace(card, begins=begins), stamp_of(case)), warnings=())
 
 
 def begun_of_case(case: Case, drawing: Drawn, steps: int = 0) -> Sheet:

@@ -38,6 +38,7 @@ SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)  # of the line of a limit at which 
 CLEAR = 0.8  # mm around that text
 Number = tuple[str, float]  # of rays that end in almost one place, at their mean height, mm above the zero
 WIDE = {5.0: 160.0, 3.5: 120.0}  # mm of the axis of angles beyond which it is half as long as on the diagrams
+LAW = 120.0, 15.0  # mm of the axis of angles, and of each curve, where only their shape is told
 TALL = {5.0: 60.0, 3.5: 45.0}  # mm of the axis of pressure angles, by the height of letters
 
 
@@ -79,6 +80,27 @@ def _diagrams_view(scene: CamScene) -> View:
         linear(canvas, ends, out, text, name, chained=True)
     heading = (scene.words["heading.cam_diagrams"], f"{scene.factor(scene.across)}  ({scene.axis})")
     return canvas.finish("diagrams", heading)
+
+
+def law_view(scene: CamScene, part: float = 1.0) -> View:
+    """Draw what is given of the motion: the shapes of acceleration and travel without scales, the phases in degrees."""
+    canvas, solved, end = Canvas(scene.style), scene.solved, float(scene.solved.angles[-1])
+    wide, high = (part * size for size in LAW)
+    across = Axis(scene.symbol("phi"), Scale("mu_phi", end / wide, "rad"), 0.0, end, {})
+    level = 0.0
+    for plan in (ACCELERATION, TRAVEL):
+        pieces = diagram(solved, ORDER[plan], *solved.motion.phases[:3])
+        low, top = (pick([0.0, *(y for piece in pieces for _, y in piece)]) for pick in (min, max))
+        up = Axis(scene.symbol(LETTER[plan]), Scale("mu_s", (top - low) / high or 1.0, "m"), low, top, {})
+        field = Field(1j * (level - high), across, up)
+        axes(canvas, field, False, PAST * scene.style.label)
+        _exact(canvas, scene, plan, field)
+        level -= high - up.scale.drawn(low) + BETWEEN[scene.style.label]
+    below = field.y.low - field.y.scale.measured(3.5)
+    for phase in solved.motion.phases[:3]:
+        ends, name = (field.at(phase.start, below), field.at(phase.end, below)), f"phi_{phase.name}"
+        linear(canvas, ends, -2j * scene.style.text, scene.angle(name, phase.length), name, chained=True)
+    return canvas.finish("kinematic", (scene.words["heading.cam_law"],))
 
 
 def _nodes(scene: CamScene, plan: str) -> list[int]:

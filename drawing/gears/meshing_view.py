@@ -13,7 +13,7 @@ from ..dimensions import angle, linear, turning
 from ..figure import ANSWERS, Figure, stages
 from ..page import extent
 from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Polyline, Text
-from ..symbols import HALF_TURN, arc_between, fixed_pivot, right_angle, unit
+from ..symbols import HALF_TURN, arc_between, fixed_pivot, right_angle, turning_arrow, unit
 from ..view import Canvas, View
 from ..words import indexed
 from .scene import TOOTH, GearScene
@@ -28,6 +28,7 @@ SHELF = 5.0  # mm from the longest arc to the diameters
 SAME = 0.02  # mm between circles that are one line
 STAGE = {"w": "rolling_circles", "b": "line_of_action"}  # of the circles, but for those of the teeth
 WIDEST = 0.9 * HALF_TURN  # half the angle of circles at most
+SCHEME = 45.0  # mm between the centres where only the kind of the pair is told
 TURNING = 3.2  # radius of the arrows of omega, in heights of letters
 INSIDE = 1.8  # heights of letters from the root circle to the arc of the pitch
 TAU, PHI = 0.48, 0.76  # parts of the root's radius at which the angles of pitch and of action are dimensioned
@@ -38,6 +39,23 @@ Pair = tuple[Wheel, Wheel]
 STRIP, STROKES = 0.5, 0.5  # width of the strip along an active flank, distance of its strokes, in heights of letters
 ROUNDING = 1.0 + 1e-9
 ENDS = ("start", "end")  # of the engagement
+
+
+def pair_view(scene: GearScene, part: float = 1.0) -> View:
+    """Draw what is given of the pair: two wheels that roll on one another, their centres, the sense of the pinion."""
+    canvas, style, (first, second) = Canvas(scene.style), scene.style, (float(scene.size(f"z_{i}")) for i in (1, 2))
+    radii = [part * SCHEME * z / (first + second) for z in (first, second)]
+    for number, radius, up in ((1, radii[0], 1j), (2, radii[1], -1j)):
+        centre, letter = up * radius, indexed(f"O{number}")
+        canvas.group("wheel", str(number), Circle(centre, radius, Pen.MAIN))
+        canvas.add(fixed_pivot(centre, f"O{number}", style))
+        canvas.small(letter, centre, 1.0 + 0.6j, 2.0)
+        canvas.small(str(number), centre + radius * 1j * up, 1j * up, 1.2)
+    canvas.add(Line(1j * radii[0], -1j * radii[1], Pen.AXIS, role="axis"))
+    canvas.small("W", 0j, 1.0 + 0j, 2.0)
+    sense = scene.solved.pair.sense
+    canvas.add(turning_arrow(1j * radii[0], 0.6 * radii[0], 0.0, 0.5 * HALF_TURN, sense, "omega_1"))
+    return canvas.finish("kinematic", (scene.words["heading.kinematic"],))
 
 
 def _diameters(canvas: Canvas, scene: GearScene, wheel: Wheel, end: float, others: Sequence[complex]) -> None:

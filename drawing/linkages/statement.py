@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 
@@ -11,7 +10,7 @@ from ...plans.names import role
 from ...scales.scale import Scale, steps
 from ..extents import Size
 from ..page import DATA, SCHEME, TASK
-from ..tables import table, text_block
+from ..tables import table, text_block, words_of
 from ..view import View
 from .asking import FORCES, rows_of
 from .calculations.tables import results_parts
@@ -26,7 +25,6 @@ SKETCHED = BOXES[2]
 ROUND = (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0)  # scale factors of a scheme, but for powers of ten
 TURNING = ("omega", "epsilon", "M")  # kinds of quantities that have a sense
 FOUND = ("R", "M", "F")  # kinds of quantities that a force plan is drawn for
-BREAKS = re.compile(r" (?![^{]*\})")  # where a line may break: not within an index
 
 
 def statements(
@@ -62,13 +60,18 @@ def kinematic_scheme(scene: Scene, box: Size = SKETCHED, scaled: bool = False) -
     return replace(canvas.finish(SCHEME, heading), parts=())
 
 
-def data_table(scene: Scene, plans: Collection[str]) -> View:
-    """Return the data that the plans need, with what they are called; what has no value is said in sentences."""
+def data_table(scene: Scene, plans: Collection[str], here: bool = False) -> View:
+    """Return the data that the plans need, with what they are called; what has no value is said in sentences.
+
+    Where loads are said as they act `here`, in this position, no diagrams are needed.
+    """
     words = scene.words
     head = [words[f"table.{key}"] for key in ("symbol", "called", "value", "unit")]
     # a word, as of a sense, goes on over the column of units
     rows = [
-        [s, called, value, of or (None if not s else "")] for s, called, value, of in rows_of(scene, plans) if value
+        [s, called, value, of or (None if not s else "")]
+        for s, called, value, of in rows_of(scene, plans, here)
+        if value
     ]
     return table(DATA, words["heading.givens"], [head, *rows], scene.style)
 
@@ -89,9 +92,7 @@ def task_text(scene: Scene, plans: Collection[str], variant: str, width: float, 
     angle = words["task.angles"] if words.notation["angles"] else ""
     lines += [words["task.reading"]] * bool(sought) + [senses] * bool(turning)
     lines += [angle] if angle and sought else []
-    return text_block(
-        TASK, words["heading.task"].format(variant=variant), [BREAKS.split(line) for line in lines], scene.style, width
-    )
+    return text_block(TASK, words["heading.task"].format(variant=variant), [*map(words_of, lines)], scene.style, width)
 
 
 def aims(scene: Scene, plans: Collection[str]) -> list[str]:

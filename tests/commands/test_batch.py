@@ -14,7 +14,10 @@ from kulman import batch, check, load_task
 from kulman.scales.errors import InputError
 from kulman.tests.support.commands import Run, files, roster, table
 from kulman.variants.batches.batch import Making, Outcome, Student
+from kulman.variants.case import Request
+from kulman.variants.reader import load_task
 from kulman.variants.roster import Digits, Entry, Schemes, Who, read_roster, variant_of_book
+from kulman.variants.sheets import card_of_case, drawing_for_print
 from kulman.variants.task import Task
 
 TASK = "nau-slider-crank"
@@ -97,6 +100,20 @@ def test_a_class_is_printed_in_one_go_in_the_order_of_its_roster(tmp_path: Path)
     assert [next(name for name in names if name in text) for text in texts] == names
     layers = [(out / name).read_bytes().count(b"/Type /OCG") for name in ("handouts.pdf", "002-Bohdan-3-handout.pdf")]
     assert layers[0] == layers[1] > 0  # those of one name are one
+
+
+@pytest.mark.parametrize("task", ["madi-cam", "madi-gear", "karpenko-hoist", "scheme-16-hay-baler"])
+def test_a_card_has_picture_data_and_what_is_to_be_found(task: str) -> None:
+    case = Request(load_task(task), None, language="en").case()
+
+    card = card_of_case(case, drawing_for_print(case))
+
+    views = {view.name: view for view in card.views}
+    assert len(card.pages) == 1
+    assert {*views} >= {"kinematic", "givens", "task"}
+    assert len(views["givens"].rows) > 12
+    assert all(called for _, called, *_ in views["givens"].rows)
+    assert "ind" in " ".join(chunk for line in views["task"].lines for chunk in line)
 
 
 def test_only_what_is_drawn_page_by_page_is_merged(tmp_path: Path) -> None:

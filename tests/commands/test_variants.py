@@ -21,6 +21,7 @@ from kulman.drawing.words import Words
 from kulman.plans.boards.exact import SMALL
 from kulman.plans.hands.shaky import preset
 from kulman.plans.hands.spread import drawn
+from kulman.plans.names import role
 from kulman.scales.errors import InputError
 from kulman.scales.units import format_unit
 from kulman.tests.support.cases import solve_case
@@ -33,7 +34,7 @@ from kulman.variants.making.new_variants import (
     import_variants,
     read_variants,
 )
-from kulman.variants.making.questions import html
+from kulman.variants.making.questions import html, questions_of
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled
 from kulman.variants.task import Task
@@ -276,7 +277,8 @@ def set_by(data: Mapping[str, str], task: Task, words: Words) -> dict[str, str]:
         symbol = re.sub("<[^>]+>", "", html(words.symbol(name)))
         if given.choices:
             ways = {words.choice(name, choice)[1]: choice for choice in given.choices}
-            about = words.choice(name, given.choices[0])[0]
+            own = words.texts.get(f"given.{task.kind}_{name}")
+            about = own or words.choice(name, given.choices[0])[0]
             found[name] = ways[data[about[:1].upper() + about[1:]]]
         elif symbol in data:
             found[name] = data[symbol]
@@ -315,6 +317,8 @@ def test_a_question_for_moodle_is_answered_from_itself_alone(
         item = solve(task, other, set={**own})[quantity]
         shown = item.shown(words.display).value
         assert shown is not None
+        pascals = item.unit == "Pa"  # asked for in MPa
+        shown *= 1e-6 if pascals else 1.0
         value = abs(shown) if "no sign" in one.text or "без знак" in one.text or "without a sign" in one.text else shown
         (part, right, miss, told), *others = one.answers
         assert (part, right, told) == (100.0, pytest.approx(value, rel=1e-6), "")
@@ -326,8 +330,32 @@ def test_a_question_for_moodle_is_answered_from_itself_alone(
         assert all(feedback for *_, feedback in others)
         rule = {"uk": "проти годинникової стрілки", "ru": "против часовой стрелки", "en": "counter-clockwise"}[language]
         assert (f"{rule}, " in one.text) == turns
-        assert one.units[:1] == ([unit] if (unit := format_unit(item.shown(words.display).unit, language)) else [])
+        assert one.units[:1] == (
+            [unit] if (unit := format_unit("MPa" if pascals else item.shown(words.display).unit, language)) else []
+        )
         assert one.category.endswith(f" {variant}")
+        assert "@@PLUGINFILE@@" in one.text
+        assert not any(re.match(r"\d{7}", value) for value in one.data.values())  # 206000 MPa, not 206000000000 Pa
+    for variant, found_key in found.keys.items():
+        rates = [role(one.name.split("-", 1)[1]) for one in asked if one.name.startswith(f"{variant}-")]
+        sizes = [(q.kind, abs(found_key.solution[q].value)) for q in rates if q.kind in ("V", "a", "omega", "epsilon")]
+        assert names or len({(kind, f"{size:.9e}") for kind, size in sizes}) == len(sizes)  # each is asked for once
+
+
+def test_what_is_given_is_not_asked_for() -> None:
+    found = all_variants("scheme-18-hydraulic-drive", "0")
+
+    names = {one.name for key in found.keys.values() for one in questions_of(key, found.quantities, False, found.hand)}
+    assert "0-V_A" not in names
+    assert "0-V_D" in names
+
+
+def test_a_velocity_about_a_pivot_is_asked_for_as_that_of_the_point() -> None:
+    found = all_variants("scheme-09-shaper", "0")
+
+    names = {one.name for key in found.keys.values() for one in questions_of(key, found.quantities, False, found.hand)}
+    assert {"0-V_D", "0-V_A3", "0-omega_3"} <= names
+    assert not {"0-V_DC", "0-V_A3C", "0-omega_2"} & names
 
 
 def test_a_quiz_may_draw_one_variant_of_each_question(tmp_path: Path, run: Run) -> None:

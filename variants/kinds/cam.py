@@ -21,6 +21,7 @@ from ..task import Given
 
 if TYPE_CHECKING:
     from ...drawing.cams.scene import CamScene
+    from ...drawing.view import View
     from ...drawing.words import Words
     from ...plans.cams.solve import SolvedCam
     from ...plans.marking.key import Question
@@ -200,6 +201,13 @@ class Cams(Kind[cams.Cam, "SolvedCam"]):
         part = round(float(solved.values["mu_s"]) / scales[TRAVEL].mu, REDUCED_TO)
         mus = {scale.symbol: scale.mu for scale in scales.values() if scale.symbol in SYMBOLS}
         return CamScene(reduced(solved, part), self.lettered(words, solved), STYLES["A4"], case.givens, mus, part)
+
+    def pictured(self, case: Case, words: Words, part: float = 1.0) -> View:
+        """Draw the law of motion."""
+        from ...drawing.cams.diagrams_view import law_view
+
+        scales = self.first_scales(cast("SolvedCam", case.solved), case.choosers, case.plans)[1]
+        return law_view(self.scene(case, scales, words), part)
 
 
 KIND = Cams()

@@ -9,12 +9,14 @@ from ...plans.gears.gear import GIVENS, PLANS, SHIFTS, GearPair, impossible
 from ...plans.solved import Check
 from ...scales.errors import InputError
 from ...scales.scale import Display
-from ..case import Kind
+from ..case import Case, Kind
 from ..checks.basics import Checker
 from ..checks.names import Names
 from ..task import Given
 
 if TYPE_CHECKING:
+    from ...drawing.view import View
+    from ...drawing.words import Words
     from ...plans.gears.solve import SolvedGear
     from ...plans.marking.key import Question
 
@@ -80,6 +82,12 @@ class Gears(Kind[GearPair, "SolvedGear"]):
     def asks(self, solved: SolvedGear, question: Question) -> bool:
         """Ask not for what is given, nor for ordinates that are nothing or PW by construction."""
         return super().asks(solved, question) and question.step.operands != ("_zero",)
+
+    def pictured(self, case: Case, words: Words, part: float = 1.0) -> View:
+        """Draw both wheels."""
+        from ...drawing.gears.meshing_view import pair_view
+
+        return pair_view(self.scene(case, {}, words), part)
 
 
 KIND = Gears()

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, ClassVar
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, ClassVar, cast
 
 from ...plans.hoist import hoist as hoists
 from ...plans.names import role
 from ...plans.solved import Check
 from ...scales.errors import InputError
-from ..case import Kind
+from ..case import Case, Kind
 
 if TYPE_CHECKING:
+    from ...drawing.tables import Row
+    from ...drawing.view import View
     from ...drawing.words import Words
     from ...plans.hoist.solve import SolvedHoist
     from ...plans.marking.key import Question
@@ -55,6 +58,21 @@ class Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
         from ...drawing.hoist.scene import lettered
 
         return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
+
+    def pictured(self, case: Case, words: Words, part: float = 1.0) -> View:
+        """Draw the scheme."""
+        from ...drawing.hoist.scheme_view import SCHEME_FIGURE
+        from ...drawing.page import SCHEME as PICTURE
+
+        _, scales = self.first_scales(cast("SolvedHoist", case.solved), case.choosers, case.plans)
+        mus = {scale.symbol: scale.mu / part for scale in scales.values()}
+        return replace(SCHEME_FIGURE.draw(replace(self.scene(case, scales, words), mus=mus)), name=PICTURE)
+
+    def rows(self, case: Case, words: Words) -> Sequence[Row]:
+        """Return the data in the units in which people know them."""
+        from ...drawing.hoist.text import data_table
+
+        return data_table(self.scene(case, {}, words), stated=True).rows[1:]
 
 
 KIND = Hoists()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -23,7 +23,7 @@ from ...scales.errors import InputError
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.scale import Segment, chooser
-from ..case import Case, Choices, Kind, Numbers, Plans, Request, Scales
+from ..case import PARTS, WIDTH, Case, Choices, Kind, Numbers, Plans, Request, Scales
 from ..checks.mechanism import branched, place_of, read_mechanism, started
 from ..marking.wording import letter, texts
 from ..task import Given, Task
@@ -228,11 +228,20 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Let the usual rule hold for all quantities."""
         return {}
 
-    def pictured(self, case: Case, words: Words) -> View:
+    def pictured(self, case: Case, words: Words, part: float = 1.0) -> View:
         """Draw the kinematic scheme."""
-        from ...drawing.linkages.statement import kinematic_scheme
+        from ...drawing.linkages.statement import SKETCHED, kinematic_scheme
 
-        return kinematic_scheme(self.scene(case, {}, words))
+        wide, high = SKETCHED
+        return kinematic_scheme(self.scene(case, {}, words), (part * wide, part * high))
+
+    def statements(self, case: Case, words: Words, aims: Sequence[str]) -> Iterator[list[View]]:
+        """Go through the scheme, the data with the loads in this position, what is to be found."""
+        from ...drawing.linkages.statement import data_table, task_text
+
+        scene = self.scene(case, {}, words)
+        told = data_table(scene, case.plans, here=True), task_text(scene, case.plans, case.variant, WIDTH)
+        yield from ([self.pictured(case, words, part), *told] for part in PARTS)
 
     def loaded(self, name: str) -> bool:
         """Whether a quantity hangs on loads and masses: all but motion and distances."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 
 import numpy as np
@@ -20,13 +20,16 @@ from ...plans.hands.spread import SEED, drawn, kept
 from ...plans.names import role
 from ...plans.quantities import Quantity
 from ...scales.packaged import packaged
+from ..case import Case
 from ..marking.keyed import SIGNED, Keyed
 
 HALF = 2.0  # how many tolerances off an answer still gets half
 ROUNDED = 0.005  # part of a value that is lost when it is written with three digits
 SHARE, DRAWINGS = 0.98, 2000  # of honest drawings that pass, of so many
+LARGER = {"Pa": (1e-6, "MPa")}  # units in which people know what is shown in SI
+ALIKE, SAME = ("V", "a", "omega", "epsilon", "R"), 1e-9  # kinds of which one size is asked for once
 UNSURE = 0.25  # part of a value: drawings that miss by more do not tell it, and it is not asked for
-SCHEME, PER_MM = "scheme.svg", 4.0  # its file, pixels of a millimetre of it
+SCHEME, PER_MM, WIDEST = "scheme.svg", 4.0, 600.0  # its file, pixels of a millimetre of it, most of them
 PLACE = f"@@PLUGINFILE@@/{SCHEME}"  # by which a text calls the file of its own question
 BY = ("variant", "quantity")  # what a category holds: all questions of one, that a quiz may draw one of them
 
@@ -76,7 +79,7 @@ class _Statement:
         view = case.kind.pictured(case, key.words)
         page = None if view is None else _page(view, language)
         scheme = b"" if page is None else svg_text(page).encode("utf-8", "replace")
-        width = 0 if page is None else round(PER_MM * page.width)
+        width = 0 if page is None else round(min(PER_MM * page.width, WIDEST))
         return cls(key, packaged(__package__, "texts", language), scheme, width, {})
 
     def html(self, loaded: bool) -> str:
@@ -95,6 +98,9 @@ class _Statement:
         """Return the question for a quantity."""
         said, case, words, name = self.said, self.key.solution.case, self.key.words, item.name
         shown, signed = item.shown(words.display), item.unit in SIGNED
+        if shown.unit in LARGER and shown.value is not None:
+            times, of_it = LARGER[shown.unit]
+            shown = replace(shown, value=times * shown.value, unit=of_it)
         assert shown.value is not None
         assert item.value
         sized = item.kind == "vector" or item.unit == "N"  # which way a force balances is not asked for
@@ -119,23 +125,38 @@ class _Statement:
 def questions_of(key: Keyed, names: Iterable[str], named: bool, hand: Hand, by: str = BY[0]) -> Iterator[Question]:
     """Go through the questions of a variant, drawn by a `hand`.
 
-    What has no words of its own, and of two reactions that are one the second, is asked for only where it is `named`.
-    What such a hand does not find to a quarter of itself is not asked for.
+    What has no words of its own, what is a given, or as large as what has been asked for of its kind, as one of two
+    reactions that are one is, is asked for only where it is `named`. What such a hand does not find to a quarter of
+    itself is not asked for.
     """
     case, words = key.solution.case, key.words
-    statement, misses, pairs = _Statement.of(key), _misses(key, hand), set[frozenset[int]]()
+    statement, misses = _Statement.of(key), _misses(key, hand)
+    # a velocity about a pivot is that of the point
+    own = {name: role(name) for name in key.key.questions}
+    whole = {name: key.solution.quantities[name].value for name, said in own.items() if not said.about}
+    seen, absolute = [*_rates(case)], [(own[name].kind, abs(size)) for name, size in whole.items() if size]
     for name in names:
         question, item = key.key.questions.get(name), key.solution.quantities.get(name)
         if question is None or item is None or not item.value:
             continue
         miss = max(misses[name], ROUNDED * abs(item.value))
         meaning = case.kind.sought(case.solved, words, question.step.name)
-        pair = frozenset(role(question.step.name).links) if role(name).kind == "R" else frozenset()
-        again = pair in pairs and not named
-        if miss > UNSURE * abs(item.value) or again or not (meaning or named):
+        kind, size = role(name).kind, abs(item.value)
+        again = kind in ALIKE and any(
+            of == kind and abs(size - other) <= SAME * size for of, other in seen + absolute * bool(role(name).about)
+        )
+        if miss > UNSURE * size or (again and not named) or not (meaning or named):
             continue
-        pairs |= {pair} if pair else set()
+        seen.append((kind, size))
         yield statement.question(item, meaning, miss, by)
+
+
+def _rates(case: Case) -> Iterator[tuple[str, float]]:
+    """Go through the velocities and accelerations among the givens: kinds and sizes, SI."""
+    of_units = {"m/s": "V", "rad/s": "omega", "m/s^2": "a", "rad/s^2": "epsilon"}
+    for name, given in case.task.givens.items():
+        if given.unit is not None and given.unit.name in of_units:
+            yield of_units[given.unit.name], abs(float(case.values[name]))
 
 
 def _page(view: View, language: str) -> Page:
