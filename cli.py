@@ -239,7 +239,7 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
     """Write the explanatory note of TASK: the work step by step, with equations, figures, tables."""
     from .variants.notes import note as note_task
 
-    written = note_task(task, set=settings, lang=lang or "uk", **console.without_none(options))
+    written = note_task(task, set=settings, lang=console.of_documents(lang), **console.without_none(options))
     console.say_written(written.save(*files), False)
     console.warn(written.sheet.warnings)
 
@@ -265,7 +265,7 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     """Solve TASK (an id, or a TOML file) over its whole cycle: positions, dead positions, strokes, extremes."""
     from .variants.sweeps.sweeps import sweep as sweep_task
 
-    language = options.pop("lang") or system_language()
+    language = console.of_documents(options.pop("lang"), bool(files))
     block = console.without_none({name: options.pop(name) for name in (*console.BLOCK, "student")})
     swept = sweep_task(task, set=settings, lang=language, block=block, **options)
     console.hand_over(swept, files, as_json, tabled=swept.reason is None)
@@ -290,7 +290,7 @@ def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     """Measure TASK: speed against accuracy, stability, which parts of the model it needs, or how many sections."""
     from .variants.charts.charts import chart as measured
 
-    language = options.pop("lang") or system_language()
+    language = console.of_documents(options.pop("lang"), bool(files))
     with console.progress() as advance:
         found = measured(task, set=settings, lang=language, advance=advance, **options)
     console.hand_over(found, files, as_json)

@@ -15,7 +15,6 @@ from kulman.scales.errors import InputError
 from kulman.tests.support.commands import Run, files, roster, table
 from kulman.variants.batches.batch import Making, Outcome, Student
 from kulman.variants.case import Request
-from kulman.variants.reader import load_task
 from kulman.variants.roster import Digits, Entry, Schemes, Who, read_roster, variant_of_book
 from kulman.variants.sheets import card_of_case, drawing_for_print
 from kulman.variants.task import Task

@@ -28,6 +28,7 @@ from kulman.variants.reader import check_text
 from kulman.variants.shelf import bundled, bundled_text
 from kulman.variants.solution import Solution, solve
 
+SOURCED = ()  #
 TASK = "nau-slider-crank"
 EXAMPLE = ["-v", "example"]
 
@@ -524,3 +525,42 @@ def test_pipes_have_utf_8_whatever_the_console_has(folder: Path) -> None:
     done = shell(["solve", TASK, "-v", "3", "--only", "velocity", "--lang", "uk"], folder, PYTHONIOENCODING="cp866")
 
     assert "−" in done.stdout.decode("utf-8")
+
+
+@pytest.mark.parametrize("said", ["", "en"])
+def test_files_are_ukrainian_unless_a_language_is_said(
+    said: str, tmp_path: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("KULMAN_LANG", said)
+    monkeypatch.chdir(tmp_path)
+    Path("roster.csv").write_text("name,group,variant\nIryna,MM-21,3\n", encoding="utf-8")
+    velocity = TASK, "-v", "3", "--only", "velocity"
+
+    written = [
+        run("batch", TASK, "--form", "class.csv"),
+        run(
+            "batch", TASK, "--roster", "roster.csv", "--out", "out", "--as", "svg", "--only", "velocity", "--jobs", "1"
+        ),
+        run("check", *velocity, "--form", "form.csv"),
+        run("check", TASK, "--only", "velocity", "out/key.csv", "-o", "class.html"),
+        run("variants", *velocity, "--quantities", "V_B", "-o", "key.csv"),
+        run("handout", *velocity, "-o", "blank.svg"),
+        run("sheet", *velocity, "-o", "sheet.svg"),
+        run("note", *velocity, "-o", "note.md"),
+    ]
+    status, shown, _ = run("variants", *velocity, "--quantities", "V_B")
+
+    assert [code for code, _, _ in written] == [0] * len(written)
+    texts = {
+        file: file.read_text("utf-8-sig")
+        for file in tmp_path.rglob("*")
+        if file.suffix in (".csv", ".html", ".svg", ".md")
+    }
+    own = {
+        file.name: re.search("[а-яії]{4}", text) is not None
+        for file, text in texts.items()
+        if file.name != "roster.csv"
+    }
+    assert len(own) >= 10
+    assert {name for name, cyrillic in own.items() if cyrillic is bool(said)} == set()
+    assert (status, shown.split()[:2]) == (0, ["quantity", "unit"])

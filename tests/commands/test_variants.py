@@ -203,14 +203,6 @@ def test_a_spreadsheet_becomes_variants(turned: bool, tmp_path: Path, run: Run) 
     assert solve(task, "2")["V_B"].value == pytest.approx(solve(TASK, "1")["V_B"].value)
 
 
-def test_the_table_is_in_the_language_of_the_system_files_are_in_that_of_the_task(tmp_path: Path, run: Run) -> None:
-    _, out, _ = run("variants", TASK, "-v", "3", "--quantities", "V_B")
-    run("variants", TASK, "-v", "3", "--quantities", "V_B", "-o", str(tmp_path / "key.csv"))
-
-    assert out.splitlines()[1].split() == ["V_B", "m/s", "5.62234"]
-    assert "м/с;5,622" in (tmp_path / "key.csv").read_text("utf-8-sig")
-
-
 def test_only_the_variants_asked_for_are_solved(run: Run) -> None:
     asked = "variants", TASK, "-v", "3,example", "--quantities", "V_B"
     status, out, err = run(*asked, "--json")

@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from ..tables import Result
 
 CLOSED = 1
+WRITTEN = "uk"  # the language of files where none is said
 LONGEST = 10_000  # characters of a word of the command line: longer is no name, number or path
 # what the title blocks of a class have in common, but for the group that the roster says
 BLOCK = ("group", "teacher", "department", "designation", "work", "date")
@@ -151,6 +152,14 @@ def say_written(paths: Iterable[object], as_json: bool) -> None:
     """Show the names of files that have been written; beside a JSON object, which is alone on stdout, on stderr."""
     for path in paths:
         click.echo(str(path), err=as_json)
+
+
+def of_documents(lang: str | None, written: bool = True) -> str:
+    """Return the language of what is `written` into files: what has been said, else Ukrainian, which the tasks are in.
+
+    What stands on the console alone is in the language of messages.
+    """
+    return lang or (WRITTEN if written else system_language())
 
 
 def hand_over(found: Result, files: Sequence[Path], as_json: bool, tabled: bool = True) -> None:

@@ -52,7 +52,7 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     if flat and options["hidden_key"]:  # a picture has no layers
         raise InputError("handout-apart", first="--hidden-key", second=quote(f"-o {flat[0]}", SHOWN))
     block = console.without_none({name: options.pop(name) for name in (*console.BLOCK, "student")})
-    drawn = handout_task(task, set=settings, block=block, **{**options, "lang": options["lang"] or "uk"})
+    drawn = handout_task(task, set=settings, block=block, **{**options, "lang": console.of_documents(options["lang"])})
     console.say_written(drawn.save(*files, tile=tile), False)
     console.warn(drawn.warnings)
 
@@ -90,7 +90,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     """Show the answers of all variants of TASK beside one another; make new variants, or read them."""
     from ..making.all_variants import all_variants as solve_all
 
-    language = options.pop("lang") or ("uk" if files else system_language())
+    language = console.of_documents(options.pop("lang"), bool(files))
     with console.progress() as advance:
         found = solve_all(task, set=settings, lang=language, advance=advance, **options)
     console.hand_over(found, files, as_json)
@@ -134,7 +134,7 @@ def batch(tasks: tuple[str, ...], settings: dict[str, str], kinds: tuple[str, ..
     """Draw the sheets of TASK for a class and write their notes, with a list of files and the key."""
     if options.pop("variant") is not None:
         raise InputError("batch-variant")
-    language, form = options.pop("lang") or "uk", options.pop("form")
+    language, form = console.of_documents(options.pop("lang")), options.pop("form")
     if form is not None:
         from ..batches.batch import write_roster
 
@@ -207,7 +207,8 @@ def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[
     form = options.pop("form")
     if form is None and not answers:
         raise InputError("check-nothing")
-    asked = ready(task, set=settings, lang=lang or system_language(), **options)
+    written = form is not None or any(shown[name] for name in ("files", "folder", "moodle"))
+    asked = ready(task, set=settings, lang=console.of_documents(lang, written), **options)
     console.warn(asked.warnings)
     if form is not None:
         console.say_written([asked.write_form(form)], shown["as_json"])
@@ -241,6 +242,6 @@ def _mark(
         with console.progress() as advance:
             results = asked.mark_all(found, folder, advance, how["jobs"] or None)
         write_tables(asked, results, found, files, moodle)
-        for line in class_lines(asked.listed(found, results), asked.request.language):
+        for line in class_lines(asked.listed(found, results), system_language()):
             click.echo(line)
     console.say_written((*files, *filter(None, (folder, moodle))), how["as_json"])
