@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -83,22 +84,24 @@ class Cells(NamedTuple):
         size = complex(high.real.max(), high.imag.max()) - corner
         side = max(CELL, size.real / MOST, size.imag / MOST)
         corner -= side * (1 + 1j)
-        cells = np.zeros((int(size.imag / side) + 4, int(size.real / side) + 4), dtype=bool)
+        filled = np.zeros((int(size.imag / side) + 6, int(size.real / side) + 6), dtype=bool)
+        cells = filled[1:-1, 1:-1]
         # strokes by points that are denser than cells
         of, part, count = _counted(np.ceil(4 * abs(along) / side).astype(int) + 1)
         places = [middle[of] + along[of] * (2 * part / np.maximum(count - 1, 1) - 1)]
         places += _in_heads(middle, along, radius, side)
         wide = (along == 0) & (hx + hy + radius > 0)
-        for at, x, y, r in zip(*(column[wide].tolist() for column in (middle, hx, hy, radius)), strict=True):
+        for centre, x, y, r in zip(*(column[wide].tolist() for column in (middle, hx, hy, radius)), strict=True):
             across, upward = (np.arange(-reach - r, reach + r + side / 2, side / 2) for reach in (x, y))
             within = (across + 1j * upward[:, None]).ravel()
-            places.append(at + (within[abs(within) < r + side] if r else within))
-        filled = (np.concatenate(places) - corner) / side
-        cells[filled.imag.astype(int), filled.real.astype(int)] = True
+            places.append(centre + (within[abs(within) < r + side] if r else within))
+        at = (np.concatenate(places) - corner) / side
+        cells[at.imag.astype(int), at.real.astype(int)] = True
         total = np.zeros((cells.shape[0] + 1, cells.shape[1] + 1), dtype=np.int32)
-        cells.cumsum(axis=0, out=total[1:, 1:])
-        total.cumsum(axis=1, out=total)
-        return cls(side, corner, np.pad(cells, 1), total)
+        cells.cumsum(axis=1, out=total[1:, 1:])
+        for below, row in pairwise(total):  # four times as fast as a sum along columns
+            row += below
+        return cls(side, corner, filled, total)
 
     def free(self, at: Points, half: complex, gap: float) -> Flags:
         """Tell which boxes of one half size about places have nothing in them, nor nearer than a gap."""

@@ -438,15 +438,18 @@ class Surroundings:
             free[left] = ~self.cells.at(points.real, points.imag).any(axis=1)
         half = abs((hw * e).real) + abs((hh * e).imag) + 1j * (abs((hw * e).imag) + abs((hh * e).real))
         free &= ~self._beyond(at, half)
+        if not free.any():
+            return free
         left = free.nonzero()[0]
         corners = np.array([s * hw + t * 1j * hh for s, t in ((-1, -1), (1, -1), (1, 1), (-1, 1))]) * e
         boxes = shapely.polygons(pairs(at[left, None] + corners))
         k, j = self.tree.query(boxes, predicate="dwithin", distance=float(wanted.clear[i]) + NEAR[2] + SURELY)
         distance = shapely.distance(boxes[k], self.shapes[j])
-        far, one = abs(((at - wanted.a[i]) / e).imag) - hh, np.full(len(j), i)  # from its own segment
-        lead = np.where(self._belongs(wanted, one, j), -EVEN, SURELY)
+        far, one = abs(((at - wanted.a[i]) / e).imag) - hh, np.zeros(len(j), dtype=int)  # from its own segment
+        own = Wanted(*(column[i : i + 1] for column in wanted))
+        lead = np.where(self._belongs(own, one, j), -EVEN, SURELY)
         bad = (distance < self.gap - SLACK) & (self.kind[j] != NAMED)
-        bad |= self._same_kind(wanted, one, j) & (distance < far[left[k]] + lead)
+        bad |= self._same_kind(own, one, j) & (distance < far[left[k]] + lead)
         free[left] &= np.bincount(k, bad, len(left)) == 0
         return free
 
