@@ -74,10 +74,11 @@ def test_a_document_of_a_subject_shows_what_is_printed_and_drawn(
     assert all((refresh.PICTURES / f"{picture}.png").exists() for picture in pictures)
 
 
+# what is said in the other languages the commands print one after the other, above
 @pytest.mark.soak
-@pytest.mark.parametrize("path", refresh.DOCUMENTS, ids=lambda path: path.stem)
-def test_every_command_started_by_itself_prints_what_its_document_shows(path: Path, folder: Path) -> None:
-    assert refresh.refreshed(TEXTS[path.stem], str(folder), refresh.language(path)) == TEXTS[path.stem]
+@pytest.mark.parametrize("name", [path.stem for path in refresh.DOCUMENTS if refresh.language(path) == "en"])
+def test_every_command_started_by_itself_prints_what_its_document_shows(name: str, folder: Path) -> None:
+    assert refresh.refreshed(TEXTS[name], str(folder), "en") == TEXTS[name]
 
 
 @pytest.mark.parametrize("name", ["README", "cycle", "python"])

@@ -161,12 +161,19 @@ def words_of(stem: str) -> frozenset[str]:
     return frozenset(word for given in givens for word in given.choices)
 
 
+@cache
+def composed() -> tuple[re.Pattern[str], ...]:
+    """Return what fits the texts of the code that are composed of several words."""
+    several = (text for text in patterns() if text.count("*") > 1 and re.match("[a-z]{3}", text))
+    return tuple(re.compile(re.escape(text).replace(r"\*", r"(\w+)")) for text in several)
+
+
 def used(key: str) -> bool:
     """Whether the code names a text, whole or composed of a beginning and a word, or of the name of a subject, too."""
     if key in patterns() or any(key.replace(table, "*", 1) in patterns() for table in KINDS):
         return True
-    for made in (text for text in patterns() if text.count("*") > 1 and re.match("[a-z]{3}", text)):
-        fits = re.fullmatch(re.escape(made).replace(r"\*", r"(\w+)"), key)
+    for made in composed():
+        fits = made.fullmatch(key)
         if fits and all(len(word) == 1 or {word, re.sub(r"\d", "*", word)} & patterns() for word in fits.groups()):
             return True
     cuts = [at for at in range(1, len(key)) if key[at - 1] in "._-"]

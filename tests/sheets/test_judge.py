@@ -209,12 +209,9 @@ def pages_of(task: str, variant: str, languages: Iterable[str] = LANGUAGES) -> l
 
 
 # of which words of one language alone have too little room at first
+@pytest.mark.soak
 @pytest.mark.parametrize(
-    ("task", "variant"),
-    [
-        ("scheme-10-shaper-two-blocks", "7"),
-        pytest.param("scheme-18-hydraulic-drive", "0", marks=pytest.mark.soak),
-    ],
+    ("task", "variant"), [("scheme-10-shaper-two-blocks", "7"), ("scheme-18-hydraulic-drive", "0")]
 )
 def test_a_sheet_has_as_many_pages_in_each_language(task: str, variant: str) -> None:
     assert len(set(pages_of(task, variant))) == 1
@@ -251,7 +248,10 @@ def test_sheets_of_small_formats_are_as_good_as_any(task: str, format: str) -> N
 
 
 # a short crank between its rod and the axis x; a link that turns among others
-@pytest.mark.parametrize(("task", "variant"), [("scheme-14-jaw-crusher", "3"), ("scheme-17-sewing-machine", "8")])
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    [("scheme-14-jaw-crusher", "3"), pytest.param("scheme-17-sewing-machine", "8", marks=pytest.mark.soak)],
+)
 def test_letters_of_angles_and_senses_cross_no_link(task: str, variant: str) -> None:
     assert [finding for finding in found(sheet_of(task, variant)) if finding.kind == "leaders"] == []
 

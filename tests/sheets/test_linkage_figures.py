@@ -282,9 +282,12 @@ def unread(case: Linkage) -> list[tuple[str, ...]]:
     return faults + lost * (len(lost) > 2)
 
 
-def test_arms_of_crowded_groups_are_lettered_on_them() -> None:
-    assert unread(motion_and_forces("scheme-15-lever-shears", "3")) == []
-    assert unread(motion_and_forces("scheme-17-sewing-machine", "9", "A3")) == []
+@pytest.mark.parametrize(
+    "of",
+    [("scheme-15-lever-shears", "3"), pytest.param(("scheme-17-sewing-machine", "9", "A3"), marks=pytest.mark.soak)],
+)
+def test_arms_of_crowded_groups_are_lettered_on_them(of: tuple[str, ...]) -> None:
+    assert unread(motion_and_forces(*of)) == []
 
 
 def like_dimensions(case: Linkage) -> list[object]:
@@ -300,7 +303,7 @@ def like_dimensions(case: Linkage) -> list[object]:
     return faults
 
 
-@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(k, marks=pytest.mark.soak) for k in range(2, 30))])
+@pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.soak) for k in range(1, 30))])
 def test_random_forces_arcs_and_arms_stand_where_they_are_read(seed: int) -> None:
     """Forces at their nodes or led there from them, arcs about fixed pivots, arms beside forces, heads apart."""
     random = np.random.default_rng(seed)
