@@ -5,8 +5,7 @@ import io
 import math
 import re
 from base64 import b64decode
-from collections.abc import Sequence
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 from lxml import etree
@@ -72,14 +71,14 @@ class Lettering:
                     slanted = re.search(r"font-style:\s*(italic|oblique)", rule) is not None
                     self.faces[family[1].strip(), slanted] = _face(data[1])
 
-    def of(self, element: etree._Element) -> Sequence[Face]:
+    def of(self, element: etree._Element) -> tuple[Face, ...]:
         """Return the faces of a text, in the order in which a reader looks for its letters."""
         families = [name.strip(" '\"") for name in _inherited(element, "font-family").split(",")]
         slanted = _inherited(element, "font-style") in ("italic", "oblique")
         found = [
             self.faces[key] for name in families for key in ((name, slanted), (name, not slanted)) if key in self.faces
         ]
-        return found or [_screen()]
+        return tuple(found) or (_screen(),)
 
 
 def _inherited(element: etree._Element, name: str) -> str:
@@ -87,29 +86,27 @@ def _inherited(element: etree._Element, name: str) -> str:
     return next((e.get(name) for e in around if e.get(name)), "")
 
 
-def _glyphs(string: str, faces: Sequence[Face]) -> list[tuple[float, Box | None]]:
-    return [next(face for face in faces if letter in face).glyph(letter) for letter in string]
+def advance(string: str, faces: tuple[Face, ...]) -> float:
+    return _measured(string, faces)[0]
 
 
-def advance(string: str, faces: Sequence[Face]) -> float:
-    return sum(wide for wide, _ in _glyphs(string, faces))
-
-
-def _ink(string: str, faces: Sequence[Face]) -> Box:
+@lru_cache(maxsize=8192)
+def _measured(string: str, faces: tuple[Face, ...]) -> tuple[float, Box]:
+    """Advance and ink of a string, in ems."""
     pen, boxes = 0.0, []
-    for wide, box in _glyphs(string, faces):
+    for wide, box in (next(face for face in faces if letter in face).glyph(letter) for letter in string):
         if box is not None:
             boxes.append((pen + box[0], box[1], pen + box[2], box[3]))
         pen += wide
     x0, y0, x1, y1 = zip(*boxes or [(0.0,) * 4], strict=True)
-    return min(x0), min(y0), max(x1), max(y1)
+    return pen, (min(x0), min(y0), max(x1), max(y1))
 
 
 def ink(
-    string: str, faces: Sequence[Face], at: complex, size: float, transform: str | None, height: float
+    string: str, faces: tuple[Face, ...], at: complex, size: float, transform: str | None, height: float
 ) -> tuple[complex, ...]:
     """Corners of the ink of a string at a place, one after the other, turned and squeezed with it."""
-    x0, y0, x1, y1 = (v * size for v in _ink(string, faces))
+    x0, y0, x1, y1 = (v * size for v in _measured(string, faces)[1])
     corners = [at + complex(x, y) for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
     if transform:
         numbers = [float(n) for n in re.findall(r"-?\d+(?:\.\d+)?", transform)]
