@@ -8,11 +8,11 @@ from kulman.tests.corpus.corpus import MACHINE, digest, kept, machine
 
 CASES = [case for case in kept() if case != MACHINE]
 COMMANDS = [case.split()[0] for case in CASES]
-# every third case of a command, of charts the short ones; make corpus and the soak run all
+# every fourth case of a command, of charts the short ones; make corpus and the soak run all
 FEW = {
     case
     for at, case in enumerate(CASES)
-    if COMMANDS[:at].count(COMMANDS[at]) % 3 == 0 and not (COMMANDS[at] == "chart" and "--positions" in case)
+    if COMMANDS[:at].count(COMMANDS[at]) % 4 == 0 and not (COMMANDS[at] == "chart" and "--positions" in case)
 }
 
 

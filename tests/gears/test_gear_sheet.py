@@ -252,7 +252,7 @@ def test_the_examiner_sees_a_spoiled_sheet_of_a_pair(point: str, piece: str, oth
     assert faults(case, read(*spoiled), point)
 
 
-@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.soak) for seed in range(4, 20))])
+@pytest.mark.parametrize("seed", [*range(2), *(pytest.param(seed, marks=pytest.mark.soak) for seed in range(2, 20))])
 def test_no_circle_or_ray_runs_through_a_letter_of_the_meshing_of_a_random_pair(seed: int) -> None:
     chance = random.Random(seed)
     changes = {

@@ -303,7 +303,7 @@ CAM_FIGURES = (DIAGRAMS_FIGURE, *SIZE_FIGURES.values(), *PROFILE_FIGURES.values(
 CAM_STAGES = {figure.name: figure.stages for figure in CAM_FIGURES}
 
 
-FEW_STEPS = ("scheme-09-shaper", "scheme-18-hydraulic-drive", TASK, "madi-cam")
+FEW_STEPS = ("scheme-09-shaper", "madi-cam")
 OTHERS = [name for name in bundled() if name not in (*FEW_STEPS, "madi-gear", "karpenko-hoist")]
 
 

@@ -187,7 +187,13 @@ def test_plans_are_drawn_larger_where_pages_have_room() -> None:
     assert all(80.0 < millimetres < 300.0 for millimetres in longest.values())
 
 
-@pytest.mark.parametrize("task", ["scheme-14-jaw-crusher", "bertyaev-six-bar", "madi-gear", "karpenko-hoist"])
+@pytest.mark.parametrize(
+    "task",
+    [
+        *("scheme-14-jaw-crusher", "madi-gear"),
+        *(pytest.param(task, marks=pytest.mark.soak) for task in ("bertyaev-six-bar", "karpenko-hoist")),
+    ],
+)
 def test_figures_are_numbered_in_order_and_headings_have_common_baselines(task: str) -> None:
     numbers, above = list[str](), set[float]()
     for view in kulman.sheet(task, lang="uk").views:
