@@ -446,7 +446,7 @@ class Surroundings:
         k, j = self.tree.query(boxes, predicate="dwithin", distance=float(wanted.clear[i]) + NEAR[2] + SURELY)
         distance = shapely.distance(boxes[k], self.shapes[j])
         far, one = abs(((at - wanted.a[i]) / e).imag) - hh, np.zeros(len(j), dtype=int)  # from its own segment
-        own = Wanted(*(column[i : i + 1] for column in wanted))
+        own = Wanted._make(column[i : i + 1] for column in wanted)
         lead = np.where(self._belongs(own, one, j), -EVEN, SURELY)
         bad = (distance < self.gap - SLACK) & (self.kind[j] != NAMED)
         bad |= self._same_kind(own, one, j) & (distance < far[left[k]] + lead)

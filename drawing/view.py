@@ -453,5 +453,5 @@ def _obstacles(shapes: list[Shape], boxes: list[Box], style: Style) -> Obstacles
 
     for shape in shapes:
         gather(shape)
-    main, thin = strokes.values()
-    return Obstacles(*map(tuple, (main, thin, circles, texts, heads, boxes)))
+    main, thin = map(tuple, strokes.values())
+    return Obstacles(main, thin, tuple(circles), tuple(texts), tuple(heads), tuple(boxes))
