@@ -1,4 +1,4 @@
-# `make sheet` and `make test` set up everything they need in .venv; the same steps in plain pip: kulman guide install, docs/commands.md
+# `make sheet`, `make web` and `make test` set up everything they need in .venv; the same steps in plain pip: kulman guide install, docs/commands.md
 PYTHON ?= python3
 PY := .venv/bin/python
 VARIANT ?= 3
@@ -7,11 +7,15 @@ WORKERS ?= auto
 # what the tests start is compiled once, whatever the shell says: they start some hundred processes
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: sheet test soak browser corpus lint types bench speed clean
+.PHONY: sheet web test soak browser corpus lint types bench speed clean
 
 sheet: $(READY)
 	mkdir -p out
 	$(PY) -m kulman sheet nau-slider-crank -v $(VARIANT) -o out/sheet.svg -o out/sheet.pdf
+
+# the program in a browser
+web: $(READY)
+	$(PY) -m kulman serve --open
 
 test: $(READY)
 	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m "not soak"
@@ -19,7 +23,7 @@ test: $(READY)
 soak: $(READY)
 	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m soak
 
-# pages that move, driven in the system's Chromium
+# pages, driven in the system's Chromium
 browser: $(READY)
 	$(PY) -m pip install --quiet --disable-pip-version-check --editable ".[browser]"
 	KULMAN_BROWSER=required $(PY) -m pytest -q tests/browser

@@ -327,6 +327,35 @@ def show(task: str, lang: str | None) -> None:
     click.echo(text_of(task), nl=False)
 
 
+@console.command(
+    "kulman serve --open",
+    "kulman serve --host 0.0.0.0 --password-file passwords.txt --students sheets",
+)
+@console.counted("--port")
+@click.option("--host", default="127.0.0.1", show_default=True)
+@click.option("--name", "names", multiple=True)
+@click.option("--password-file", "passwords", metavar="FILE", shell_complete=completing.files)
+@click.option("--students", type=console.Word("forms", "sheets", "answers"))
+@click.option("--open", "opened", is_flag=True)
+@console.of_language
+def serve(passwords: str | None, students: str | None, lang: str | None, **options: Any) -> None:
+    """Open the whole program in a browser, on this machine."""
+    try:
+        from .variants.serving.app import serve as serve_pages
+    except ModuleNotFoundError as missing:
+        if missing.name not in ("starlette", "uvicorn"):
+            raise
+        raise InputError("serve-extra") from None
+
+    def tell(address: str) -> None:
+        click.echo(messages(system_language())["serve-at"].format(address=address))
+        console.flush()
+
+    if students is not None and passwords is None:
+        raise InputError("serve-students")
+    serve_pages(passwords, students or "forms", lang or "", tell, **options)
+
+
 for command in (
     list_tasks,
     solve,
@@ -340,6 +369,7 @@ for command in (
     all_variants,
     batch,
     check,
+    serve,
     show_guide,
     show_help,
 ):

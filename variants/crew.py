@@ -131,7 +131,7 @@ def _processes(begin: Begin[Any, Any], most: int, afresh: bool, at_once: int) ->
     executor = ProcessPoolExecutor(min(most, at_once), means, _begin, (begin, over))
 
     def submit(items: list[Any]) -> Task:
-        with _without_script() if afresh else nullcontext():
+        with without_script() if afresh else nullcontext():
             return executor.submit(_make_here, items)
 
     try:
@@ -142,7 +142,7 @@ def _processes(begin: Begin[Any, Any], most: int, afresh: bool, at_once: int) ->
 
 
 @contextmanager
-def _without_script() -> Iterator[None]:
+def without_script() -> Iterator[None]:
     """Keep a process that is started from running the user's script once more: nothing that it needs stands there."""
     script: dict[str, Any] = vars(sys.modules["__main__"])
     kept: dict[str, Any] = {name: script.pop(name) for name in ("__file__", "__spec__") if name in script}

@@ -25,6 +25,7 @@ from kulman.variants.case import kind_of
 from kulman.variants.making.new_variants import _with_variants
 from kulman.variants.making.starter import template
 from kulman.variants.reader import check_text
+from kulman.variants.serving.app import listening
 from kulman.variants.shelf import bundled, bundled_text
 from kulman.variants.solution import Solution, solve
 
@@ -63,9 +64,12 @@ LONG = ("batch", "chart", "handout", "sweep")  # whose first example runs by def
     ],
 )
 def test_the_help_of_every_command_shows_examples_that_run(
-    command: str, count: int | None, folder: Path, run: Run
+    command: str, count: int | None, folder: Path, run: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shown = examples(*command.split())
+    monkeypatch.setattr("uvicorn.Server.run", lambda server, sockets: None)  # which ends only when somebody ends it
+    monkeypatch.setattr("webbrowser.open", lambda address: True)
+    Path("passwords.txt").write_text("teacher: long enough\n")
 
     assert shown
     for arguments in shown[:count]:
@@ -74,6 +78,16 @@ def test_the_help_of_every_command_shows_examples_that_run(
         assert status == 0
         assert all("kulman solve --format" in line for line in err.splitlines())  # other scale factors on small paper
         assert out
+
+
+def test_nobody_else_is_let_in_without_passwords(run: Run) -> None:
+    with listening("127.0.0.1", 0) as taken:
+        port = str(taken.getsockname()[1])
+
+        assert run("serve", "--host", "0.0.0.0")[:2] == (2, "")
+        assert "--password-file" in run("serve", "--name", "plans.example.edu")[2]
+        assert "--password-file" in run("serve", "--students", "sheets")[2]
+        assert "taken" in run("serve", "--port", port, "--lang", "en")[2]
 
 
 def test_without_a_command_the_help_is_shown_and_the_version_where_it_is_asked_for(run: Run) -> None:

@@ -77,7 +77,7 @@ class _Statement:
         """Draw the scheme of a variant."""
         case, language = key.solution.case, key.words.language
         view = case.kind.pictured(case, key.words)
-        page = None if view is None else _page(view, language)
+        page = None if view is None else bare_page(view, language)
         scheme = b"" if page is None else svg_text(page).encode("utf-8", "replace")
         width = 0 if page is None else round(min(PER_MM * page.width, WIDEST))
         return cls(key, packaged(__package__, "texts", language), scheme, width, {})
@@ -159,7 +159,7 @@ def _rates(case: Case) -> Iterator[tuple[str, float]]:
             yield of_units[given.unit.name], abs(float(case.values[name]))
 
 
-def _page(view: View, language: str) -> Page:
+def bare_page(view: View, language: str) -> Page:
     """Return a view without its heading on a page of its own."""
     bare = [shape for shape in view.shapes if not (isinstance(shape, Text) and shape.role == "heading")]
     x0, y0, x1, y1 = extent(bare)

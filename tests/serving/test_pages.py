@@ -1,0 +1,180 @@
+"""The program in a browser gives what the same calls give, and says what is wrong where it is wrong."""
+
+from __future__ import annotations
+
+import io
+import re
+import time
+import zipfile
+from html import unescape
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+import kulman
+from kulman.variants.marking.checks import write_tables
+from kulman.variants.marking.report import report_html
+from kulman.variants.shelf import bundled, bundled_text
+
+TASK = "nau-slider-crank"
+ROSTER = "student;group;variant\nІ. Петренко;АТ-301;3\nО. Коваль;АТ-301;7\n".encode()
+
+
+def files(folder: Path) -> dict[str, bytes]:
+    found = (path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
+    return {path.relative_to(folder).as_posix(): path.read_bytes() for path in found}
+
+
+def unpacked(data: bytes) -> dict[str, bytes]:
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def finished(client: TestClient, begun: Any) -> str:
+    """Wait until the work for a class is done; return the address of its page."""
+    assert begun.status_code == 303, begun.text
+    path = begun.headers["location"].removeprefix(client.base_url.path.rstrip("/"))
+    for _ in range(600):
+        state = client.get(f"{path.partition('?')[0]}/state").json()
+        if state["over"]:
+            return str(path.partition("?")[0])
+        time.sleep(0.1)
+    raise AssertionError(state)
+
+
+def test_every_task_stands_on_the_first_page_with_its_picture(client: TestClient) -> None:
+    page = client.get("/").text
+
+    assert re.findall(r'/picture/([\w-]+)\.svg"', page) != []
+    assert sorted(re.findall(r'/picture/([\w-]+)\.svg"', page)) == [*bundled()]
+    for task in (TASK, "madi-gear"):
+        answer = client.get(f"/picture/{task}.svg")
+        assert answer.headers["content-type"] == "image/svg+xml"
+        assert answer.text.count("<path") + answer.text.count("<line") > 5
+
+
+def test_a_sheet_is_that_of_the_command(client: TestClient, tmp_path: Path) -> None:
+    page = client.get(f"/task/{TASK}?v=3&student=Eve+%3Cscript%3E").text
+    image = unescape(re.findall(r'<img src="[^"]*?(/task/[^"]*)"', page)[0])
+    drawn = kulman.sheet(TASK, "3", student="Eve <script>", lang="en")
+    drawn.save(tmp_path / "sheet.pdf")
+
+    assert "<script>" not in page.partition("<body>")[2]
+    assert client.get(image).text == drawn.svg(1)
+    pdf = client.get(f"/task/{TASK}/sheet.pdf?v=3&student=Eve+%3Cscript%3E")
+    assert pdf.content == (tmp_path / "sheet.pdf").read_bytes()
+    assert pdf.headers["content-disposition"] == f'attachment; filename="{TASK}-3-sheet.pdf"'
+
+
+def test_pages_of_a_sheet_are_turned(client: TestClient) -> None:
+    drawn = kulman.sheet(TASK, "3", format="A3", lang="en")
+    page = client.get(f"/task/{TASK}?v=3&format=A3&page=2").text
+
+    assert len(drawn.pages) > 1
+    assert f'aria-label="page 2 of {len(drawn.pages)}" aria-current="page"' in page
+    assert client.get(f"/task/{TASK}/page.svg?v=3&format=A3&page=2").text == drawn.svg(2)
+    assert client.get(f"/task/{TASK}/page.svg?v=3&format=A3&page=99").status_code == 404
+
+
+def test_data_of_ones_own_go_on_to_all_files_and_to_another_variant(client: TestClient) -> None:
+    given = {
+        "v": "7",
+        "of": "3",
+        "g.l_OA": "5,5 cm",
+        "g.l_AB": "190",
+        "g.phi": "120",
+    }  # l_AB, phi as variant 3 has them
+    own = kulman.solve(TASK, "7", set={"l_OA": "55 mm"})
+    page = client.get(f"/task/{TASK}", params=given).text
+    address = unescape(re.findall(r'href="[^"]*?(/task/[^"]*/results\.csv[^"]*)"', page)[0])
+
+    assert re.findall(r"g\.(\w+)=", address) == ["l_OA"]
+    assert client.get(address).text == own.csv("en")
+    refused = client.get(f"/task/{TASK}?v=3&g.l_OA=-5").text
+    assert 'role="alert"' in refused
+    assert "-5" in refused
+
+
+@pytest.mark.parametrize("file", ["handout.pdf", "key.svg", "note.md", "form.xlsx", "roster.csv", "moving.html"])
+def test_what_belongs_to_a_sheet_can_be_saved(file: str, client: TestClient) -> None:
+    answer = client.get(f"/task/{TASK}/{file}?v=3")
+
+    assert answer.status_code == 200
+    assert len(answer.content) > 50
+    policy = answer.headers["content-security-policy"]
+    assert "unsafe-inline" not in policy.partition("style-src-attr")[0] or "sandbox" in policy
+
+
+@pytest.mark.parametrize("language", ["uk", "ru", "en"])
+def test_pages_are_in_the_language_of_the_address_and_keep_it(language: str, client: TestClient) -> None:
+    page = client.get(f"/?lang={language}").text
+
+    assert f'<html lang="{language}">' in page
+    assert f"lang={language}" in re.findall(r'href="([^"]*/task/madi-cam[^"]*)"', page)[0]
+    assert kulman.load_task("madi-cam").title[language] in unescape(page)
+
+
+def test_answers_are_marked_as_the_command_marks_them(client: TestClient, tmp_path: Path) -> None:
+    page = client.get(f"/task/{TASK}/check?v=3").text
+    names = dict(re.findall(r'name="(a\.\d+\.5)"[^>]*aria-label="([^:"]+):', page))
+    field = {symbol: name for name, symbol in names.items()}
+    answer = client.post(f"/task/{TASK}/check?v=3", data={field["V_A"]: "5,86", field["V_B"]: "9,9"})
+    report = client.get(answer.headers["location"].removeprefix(client.base_url.path.rstrip("/"))).text
+    (tmp_path / "answers.csv").write_text("quantity,value\nV_A,5.86\nV_B,9.9\n")
+    asked = kulman.check(TASK, "3", lang="en")
+    expected = report_html(asked.mark(asked.read(str(tmp_path / "answers.csv"))[0]))
+    summary = re.findall(r"<p>Mark.*?</p>", expected)
+
+    assert summary[0] in report
+    assert "5.622" in report
+
+    nothing = client.post(f"/task/{TASK}/check?v=3", data={})
+    assert 'role="alert"' in nothing.text
+
+
+def test_a_task_of_ones_own_is_checked_at_its_lines_and_drawn(client: TestClient) -> None:
+    good = bundled_text(TASK).replace(f'id = "{TASK}"', 'id = "my-own"')
+    line = next(n for n, text in enumerate(good.splitlines(), 1) if text.startswith("l_AB"))
+    bad = client.post("/own", data={"text": good.replace("l_AB = {", "l_AB = { nonsense = 1,")}).text
+
+    assert re.search(rf'<li class="at"><code> +{line}  l_AB.*?</code><p class="fault">', bad)
+    upload = {"file": ("../../etc/passwd", good.encode("utf-16"))}
+    address = unescape(re.findall(r'href="[^"]*?(/task/own-[^"]*)"', client.post("/own", files=upload).text)[0])
+    assert kulman.load_task(TASK).title["en"] in client.get(address).text
+    assert client.get(f"{address}/form.csv?v=3").content == client.get(f"/task/{TASK}/form.csv?v=3").content.replace(
+        TASK.encode(), b"my-own"
+    )
+    assert client.get("/task/own-of-somebody").status_code == 404
+
+
+def test_a_class_is_drawn_as_the_command_draws_it(client: TestClient, tmp_path: Path) -> None:
+    form = {"tasks": TASK, "kinds": ["svg", "handout"], "merge": "1", "teacher": "Г. Вовк"}
+    page = finished(client, client.post("/class?lang=uk", data=form, files={"roster": ("x/../y.csv", ROSTER)}))
+    (tmp_path / "roster.csv").write_bytes(ROSTER)
+    kinds = ("svg", "handout")
+    kulman.batch(TASK, tmp_path / "roster.csv", tmp_path / "out", kinds=kinds, merge=True, block={"teacher": "Г. Вовк"})
+
+    archive = client.get(f"{page}/{page.rpartition('/')[2]}.zip")
+    assert unpacked(archive.content) == files(tmp_path / "out")
+    assert client.post("/class", data=form).status_code == 400
+
+
+def test_a_class_is_marked_as_the_command_marks_it(client: TestClient, tmp_path: Path) -> None:
+    head, forms = "student;V_A, m/s;V_B, m/s\n", [("forms", ("a.csv", b"")), ("forms", ("b.csv", b""))]
+    texts = {"a.csv": f"{head}І. Петренко;5,86;5,6\n", "b.csv": f"{head}О. Коваль;1;2\n"}
+    forms = [("forms", (name, text.encode())) for name, text in texts.items()]
+    page = finished(client, client.post("/marks", data={"tasks": TASK}, files=[*forms, ("roster", ("r.csv", ROSTER))]))
+    made = unpacked(client.get(f"{page}/{page.rpartition('/')[2]}.zip").content)
+    (tmp_path / "roster.csv").write_bytes(ROSTER)
+    for name, text in texts.items():
+        (tmp_path / name).write_bytes(text.encode())
+    asked = kulman.check(TASK, roster=tmp_path / "roster.csv", lang="en")
+    found = asked.ordered(asked.read(*(str(tmp_path / name) for name in texts)))
+    write_tables(asked, asked.mark_all(found, jobs=1), found, [], tmp_path / "moodle.csv")
+
+    assert made["moodle.csv"] == (tmp_path / "moodle.csv").read_bytes()
+    assert {"class.html", "gradebook.xlsx"} < {*made}
+    assert "І. Петренко" in client.get(f"{page}/class.html").text
+    assert "І. Петренко" in client.get(page).text

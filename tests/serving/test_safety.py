@@ -1,0 +1,175 @@
+"""Nothing from elsewhere is answered, nothing that is asked reaches a file, every job is bounded."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from kulman.scales.errors import InputError
+from kulman.tests.support.jobs import dies, dies_once, fails, sleeps, takes
+from kulman.tests.support.serving import asked
+from kulman.variants.serving import jobs
+from kulman.variants.serving.jobs import BusyError, CrashError, Crew, Seat
+from kulman.variants.serving.pages import tag
+from kulman.variants.serving.safety import doors_for, read_passwords
+
+TASK = "nau-slider-crank"
+
+
+@pytest.mark.parametrize(
+    ("headers", "status"),
+    [
+        pytest.param({"Host": "evil.example"}, 421, id="foreign host"),
+        pytest.param({"Host": "127.0.0.1.evil.example"}, 421, id="host that begins like ours"),
+        pytest.param({"Host": ""}, 421, id="no host"),
+        pytest.param({"Origin": "http://evil.example"}, 403, id="foreign origin"),
+        pytest.param({"Origin": "null"}, 403, id="no origin of a frame"),
+        pytest.param({"Origin": "http://127.0.0.1:9999"}, 403, id="origin of another port"),
+        pytest.param({"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "no-cors"}, 403, id="picture on another site"),
+        pytest.param({"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate"}, 200, id="link from elsewhere"),
+        pytest.param({"Host": "LOCALHOST:8765"}, 200, id="other name of ours"),
+        pytest.param({"Content-Length": "100000000"}, 413, id="100 MB"),
+        pytest.param({"Content-Length": "nonsense"}, 413, id="no length"),
+    ],
+)
+def test_foreign_requests_are_refused(headers: dict[str, str], status: int, client: TestClient) -> None:
+    assert client.get("/own", headers=headers).status_code == status
+
+
+@pytest.mark.parametrize("path", ["/", "/own", "/no-such-token/", "/task/madi-cam", "/static/web.css"])
+def test_without_the_token_nothing_is_shown(path: str, client: TestClient) -> None:
+    answer = client.get(f"http://127.0.0.1{path}")
+
+    assert answer.status_code == 403
+    assert client.base_url.path.strip("/") not in answer.text
+
+
+@pytest.mark.parametrize(
+    "name", ["../cli.py", "..%2f..%2fcli.py", "%2e%2e/%2e%2e/etc/passwd", "/etc/passwd", "a%00b", "con"]
+)
+@pytest.mark.parametrize(
+    "at", ["/static/{}", "/task/{}", "/picture/{}.svg", f"/task/{TASK}/{{}}.svg", "/result/{}", "/job/{}"]
+)
+def test_no_path_leads_to_a_file(at: str, name: str, client: TestClient) -> None:
+    answer = client.get(at.format(name))
+
+    assert answer.status_code == 404
+    assert "import" not in answer.text
+
+
+def test_an_answer_loads_nothing_from_elsewhere_and_leaves_no_cookie(client: TestClient) -> None:
+    answer = client.get(f"/task/{TASK}")
+
+    assert "default-src 'none'" in answer.headers["content-security-policy"]
+    assert "unsafe" not in answer.headers["content-security-policy"]
+    assert "set-cookie" not in answer.headers
+    assert answer.headers["referrer-policy"] == "same-origin"
+    assert answer.text.count("<script") == 1
+    assert "<style" not in answer.text
+    assert " style=" not in answer.text
+
+
+def test_texts_are_escaped() -> None:
+    assert tag("p", "<b>", title='"&') == '<p title="&quot;&amp;">&lt;b&gt;</p>'
+
+
+def chunks(megabytes: int) -> Iterator[bytes]:
+    yield from (b"x" * 1_000_000 for _ in range(megabytes))
+
+
+def test_a_body_without_a_length_is_bounded(client: TestClient) -> None:
+    answer = client.post("/own", content=chunks(60), headers={"Content-Type": "multipart/form-data; boundary=x"})
+
+    assert answer.status_code == 413
+
+
+@pytest.fixture(scope="module")
+def passwords(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    file = tmp_path_factory.mktemp("serving") / "passwords.txt"
+    file.write_text("# ours\nteacher: long enough\nstudent: quite long\n")
+    return file
+
+
+def test_students_see_what_they_may(passwords: Path) -> None:
+    doors = doors_for("127.0.0.1", ("plans.example.edu",), read_passwords(passwords))
+    student: Any = {"auth": ("student", "quite long")}
+    teacher: Any = {"auth": ("teacher", "long enough")}
+    with asked(doors) as client:
+        for allowed, seen in (("forms", "100"), ("sheets", "110"), ("answers", "111")):
+            client.app_state["desk"].allowed = allowed
+            found = (client.get(f"/task/{TASK}/{file}", **student) for file in ("form.csv", "sheet.svg", "results.csv"))
+            assert "".join("1" if answer.status_code == 200 else "0" for answer in found) == seen
+            page = client.get(f"/task/{TASK}", **student).text
+            linked = "1" + "".join("01"[f"/task/{TASK}/{file}" in page] for file in ("sheet.svg", "results.csv"))
+            assert linked == seen
+        assert client.get("/class", **student).status_code == 403
+        assert client.get("/class", **teacher).status_code == 200
+        begun = time.monotonic()
+        assert client.get("/", auth=("teacher", "wrong")).status_code == 401
+        assert time.monotonic() - begun > 0.4
+        assert client.get("/").headers["www-authenticate"].startswith("Basic")
+        assert client.get("http://plans.example.edu/", **teacher).status_code == 200
+
+
+@pytest.mark.parametrize(
+    "text", ["", "student: quite long", "teacher: short", "teacher: long enough\nroot: long enough"]
+)
+def test_a_wrong_file_of_passwords_is_refused(text: str, tmp_path: Path) -> None:
+    (tmp_path / "passwords").write_text(text)
+
+    with pytest.raises(InputError, match="teacher"):
+        read_passwords(tmp_path / "passwords")
+
+
+def test_a_process_is_bounded_and_mended(tmp_path: Path) -> None:
+    seat, far = Seat(tmp_path / "seat", memory=1_000_000_000), list[tuple[int, int]]()
+    try:
+        assert seat.do(sleeps, (0.0,), 60.0, lambda *said: far.append(said)) == str(tmp_path / "seat")
+        assert far == [(1, 2)]
+        with pytest.raises(InputError, match=r"longer than 1 s"):
+            seat.do(sleeps, (60.0,), 1.0, print)
+        assert seat.do(dies_once, (str(tmp_path / "once"),), 60.0, print) == "done"
+        with pytest.raises(InputError, match="crash"):
+            seat.do(dies, (), 60.0, print)
+        with pytest.raises(CrashError, match="ZeroDivisionError"):
+            seat.do(fails, (), 60.0, print)
+        assert seat.do(sleeps, (0.0,), 60.0, lambda *said: None)
+        assert [*(tmp_path / "seat").iterdir()] == []
+        if os.name == "posix":
+            with pytest.raises(InputError, match="memory"):
+                seat.do(takes, (4_000_000_000,), 60.0, print)
+    finally:
+        seat.stop()
+
+
+def test_more_than_may_wait_is_told_to_come_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(jobs.Seat, "do", lambda self, make, args, seconds, advance: time.sleep(0.2))
+
+    async def several() -> list[Any]:
+        crew = Crew(1, 2, 60.0, tmp_path, "seat")
+        return await asyncio.gather(*(crew.do(sleeps, 0.0) for _ in range(5)), return_exceptions=True)
+
+    found = asyncio.run(several())
+
+    assert [type(one) for one in found].count(BusyError) == 2
+
+
+def test_a_busy_server_says_so(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
+    desk = client.app_state["desk"]
+
+    async def busy(*args: Any, **how: Any) -> None:
+        raise BusyError
+
+    monkeypatch.setattr(desk.crew, "do", busy)
+    answer = client.get(f"/task/{TASK}?v=9&lang=uk")
+
+    assert answer.status_code == 503
+    assert answer.headers["retry-after"] == "10"
+    assert "за кілька секунд" in answer.text

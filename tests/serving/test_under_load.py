@@ -1,0 +1,117 @@
+"""A server of its own under what a class, or somebody who means it ill, does to it: it lives, and leaves nothing."""
+
+from __future__ import annotations
+
+import http.client
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, suppress
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from kulman import load_task
+from kulman.tests.support.serving import served
+
+pytestmark = pytest.mark.soak
+TASK = "nau-slider-crank"
+CLASS = "scheme-09-shaper"
+HUGE = 100_000_000
+
+
+def get(address: str, path: str) -> tuple[int, bytes]:
+    parts = urlsplit(address)
+    connection = http.client.HTTPConnection(parts.netloc, timeout=120)
+    connection.request("GET", f"{parts.path}{path}")
+    answer = connection.getresponse()
+    found = answer.status, answer.read()
+    connection.close()
+    return found
+
+
+def timed(address: str, path: str) -> float:
+    begun = time.perf_counter()
+    status, data = get(address, path)
+    assert status == 200
+    assert b"page.svg" in data
+    return time.perf_counter() - begun
+
+
+def children(process: int) -> list[int]:
+    found = subprocess.run(["ps", "-o", "pid=", "--ppid", str(process)], capture_output=True, text=True, check=False)
+    return [int(word) for word in found.stdout.split()]
+
+
+def test_thirty_sheets_at_once_come_within_fifteen_times_the_time_of_one() -> None:
+    task = load_task(CLASS)
+    paths = [f"task/{CLASS}?v={variant}" for variant in task.variants] * 3  # a class, as many variants as there are
+    assert len(paths) == 30
+    with served() as (address, _):
+        timed(address, f"task/{TASK}?v=3")  # the server is at work
+        alone = timed(address, f"{paths[0]}&g.phi=77")
+        begun = time.perf_counter()
+        with ThreadPoolExecutor(30) as many:
+            [*many.map(lambda path: timed(address, path), paths)]
+        together = time.perf_counter() - begun
+
+        assert together < 15.0 * alone, (together, alone)
+
+
+def test_a_server_lives_through_what_is_sent_to_it() -> None:
+    with served() as (address, process):
+        parts = urlsplit(address)
+        assert parts.hostname is not None
+        where = parts.hostname, parts.port
+        kind = "Content-Type: multipart/form-data; boundary=x"
+        head = f"POST {parts.path}own HTTP/1.1\r\nHost: {parts.netloc}\r\n{kind}\r\n"
+        half = [socket.create_connection(where) for _ in range(50)]
+        waiting = ExitStack()
+        for one in half:
+            waiting.enter_context(one)
+        for number, one in enumerate(half):  # requests that never end, bodies that hardly come
+            one.sendall((head[:40] if number % 2 else f"{head}Content-Length: 1000\r\n\r\n--x").encode())
+        with socket.create_connection(where) as large:
+            large.sendall(f"{head}Content-Length: {HUGE}\r\n\r\n".encode())
+            for _ in range(HUGE // 1_000_000):
+                large.sendall(b"x" * 1_000_000)
+            assert large.recv(100).startswith(b"HTTP/1.1 413")
+        with socket.create_connection(where) as endless:
+            endless.sendall(f"{head}Transfer-Encoding: chunked\r\n\r\n".encode())
+            with suppress(OSError):  # it hangs up
+                for _ in range(300):
+                    endless.sendall(b"f4240\r\n" + b"x" * 1_000_000 + b"\r\n")
+                raise AssertionError
+        assert timed(address, f"task/{TASK}?v=4") < 30.0
+        for one in half:
+            one.settimeout(70.0)
+            assert one.recv(100)[:12] in (b"", b"HTTP/1.1 408")
+        waiting.close()
+        for worker in children(process.pid):
+            os.kill(worker, 9)
+        assert timed(address, f"task/{TASK}?v=5") < 30.0
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
+def test_a_killed_server_leaves_nothing_behind() -> None:
+    before = {*Path(tempfile.gettempdir()).glob("kulman-serve-*")}
+    with served() as (address, process):
+        timed(address, f"task/{TASK}?v=3")
+        workers = children(process.pid)
+        made = {*Path(tempfile.gettempdir()).glob("kulman-serve-*")} - before
+        assert made
+        assert workers
+        process.kill()
+        process.wait()
+        for _ in range(100):
+            left = [path for path in made if path.exists()]
+            alive = [worker for worker in workers if Path(f"/proc/{worker}").exists()]
+            if not left and not alive:
+                break
+            time.sleep(0.1)
+        assert (left, alive) == ([], [])

@@ -1,0 +1,34 @@
+"""What processes of a server are given to do in tests; they import nothing else."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+from typing import Any
+
+
+def sleeps(advance: Any, seconds: float) -> str:
+    advance(1, 2)
+    time.sleep(seconds)
+    return os.getcwd()
+
+
+def dies(advance: Any) -> None:
+    os.kill(os.getpid(), 9)
+
+
+def dies_once(advance: Any, file: str) -> str:
+    if not os.path.exists(file):
+        Path(file).touch()
+        dies(advance)
+    return "done"
+
+
+def takes(advance: Any, size: int) -> int:
+    return len(bytearray(size))
+
+
+def fails(advance: Any) -> None:
+    Path("left").write_text("x")
+    raise ZeroDivisionError

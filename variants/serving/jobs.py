@@ -1,0 +1,259 @@
+"""Processes that do what requests ask for, each job within bounds of time and memory; one that dies is replaced.
+
+A process works in a folder of its own, which it leaves empty, and ends, and takes the folders with it, when the server
+that has started it does, however that ends.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import multiprocessing
+import os
+import shutil
+import signal
+import sys
+import tempfile
+import time
+import traceback
+from collections.abc import Callable, Hashable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from functools import partial
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+from threading import Thread
+from typing import Any, Generic, TypeVar
+
+from ...scales.errors import InputError, KulmanError
+from ..crew import Advance, without_script
+
+MEMORY = 2_000_000_000  # bytes of data that a process may have
+KEPT = "kept"  # the folder of what is to be fetched later
+Made = TypeVar("Made")
+Make = Callable[..., Any]  # told how far it is, what it is made from
+
+
+class BusyError(Exception):
+    """More is asked for than may wait."""
+
+
+class CrashError(Exception):
+    """A job has failed in a way that no message of ours tells; the text is its trace."""
+
+
+class Home:
+    """The folder of a server for what its processes need on disk."""
+
+    def __init__(self) -> None:
+        """Make it, for nobody else to read."""
+        self.path = Path(tempfile.mkdtemp(prefix="kulman-serve-"))
+        (self.path / KEPT).mkdir()
+
+    def remove(self) -> None:
+        """Remove it with all that is in it."""
+        shutil.rmtree(self.path, ignore_errors=True)
+
+
+class Seat:
+    """A process, begun when it is first needed and again where it has died, and what it did last."""
+
+    def __init__(self, folder: Path, memory: int = MEMORY) -> None:
+        """Have it work in a folder, which is made."""
+        self.folder, self.memory = folder, memory
+        self.last: Hashable = None
+        self.over = False  # whether no process is begun any more
+        self.process: BaseProcess | None = None
+        self._pipe: Connection | None = None
+
+    def _begun(self) -> Connection:
+        if self._pipe is None or self.process is None or not self.process.is_alive():
+            self.stop()
+            self.folder.mkdir(exist_ok=True)
+            means = multiprocessing.get_context("spawn")  # no copy of a server, which has threads
+            self._pipe, other = means.Pipe()
+            self.process = means.Process(target=_work, args=(other, str(self.folder), self.memory))
+            with without_script():
+                self.process.start()
+            other.close()
+        return self._pipe
+
+    def do(self, make: Make, args: tuple[Any, ...], seconds: float, advance: Advance) -> Any:
+        """Return what is made; a process that dies of it is replaced and tried once more.
+
+        Raises
+        ------
+        KulmanError
+            What was asked for cannot be made, takes too long or too much memory, or kills processes.
+        CrashError
+            Anything else.
+        """
+        for _ in range(0 if self.over else 2):
+            pipe, until = self._begun(), time.monotonic() + seconds
+            with suppress(EOFError, OSError):
+                pipe.send((make, args))
+                while pipe.poll(max(until - time.monotonic(), 0.0)):
+                    kind, said = pipe.recv()
+                    if kind == "advance":
+                        advance(*said)
+                    elif kind == "made":
+                        return said
+                    elif kind == "refused":
+                        raise said
+                    else:
+                        raise CrashError(said)
+                self.stop()
+                raise InputError("serve-late", n=round(seconds))
+            if self.over:
+                break
+            self.stop()
+        raise InputError("serve-died")
+
+    def stop(self) -> None:
+        """End the process, whatever it is at; what it leaves in its folder goes, too."""
+        if self.process is not None:
+            self.process.kill()
+            self.process.join()
+        if self._pipe is not None:
+            self._pipe.close()
+        self.process = self._pipe = None
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def _work(pipe: Connection, folder: str, memory: int) -> None:
+    """Do one job after the other, until the server ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    Thread(target=_end_with, args=(parent, Path(folder).parent), daemon=True).start()
+    _bound(memory)
+    os.chdir(folder)
+    sent = partial(_send, pipe)
+    while True:
+        try:
+            make, args = pipe.recv()
+        except (EOFError, OSError):
+            break
+        sent(*_outcome(make, args, sent))
+        for left in Path(folder).iterdir():
+            shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink(missing_ok=True)
+    _leave(Path(folder).parent)
+
+
+def _send(pipe: Connection, kind: str, said: Any) -> None:
+    with suppress(OSError):  # the server has gone: the next look at the pipe tells
+        pipe.send((kind, said))
+
+
+def _outcome(make: Make, args: tuple[Any, ...], sent: Callable[[str, Any], None]) -> tuple[str, Any]:
+    try:
+        return "made", make(lambda done, whole: sent("advance", (done, whole)), *args)
+    except KulmanError as error:
+        return "refused", error
+    except MemoryError:
+        return "refused", InputError("serve-memory")
+    except BaseException:  # what typst panics with is no Exception
+        return "failed", traceback.format_exc()
+
+
+def _bound(memory: int) -> None:
+    """Bound the memory of this process where the system can."""
+    if sys.platform != "win32":
+        import resource
+
+        hard = resource.getrlimit(resource.RLIMIT_DATA)[1]
+        with suppress(ValueError, OSError):
+            resource.setrlimit(resource.RLIMIT_DATA, (memory, hard))
+
+
+def _end_with(parent: BaseProcess, home: Path) -> None:
+    parent.join()
+    _leave(home)
+
+
+def _leave(home: Path) -> None:
+    """End this process and remove the folder of its server, which has ended."""
+    with suppress(OSError):
+        os.chdir(home.parent)  # a system may keep a folder in which somebody is
+    for _ in range(3):  # another process may still write there
+        shutil.rmtree(home, ignore_errors=True)
+        if not home.exists():
+            break
+        time.sleep(0.1)
+    os._exit(0)
+
+
+class Crew:
+    """So many processes, and so many jobs that may wait for one."""
+
+    def __init__(self, seats: int, waiting: int, seconds: float, home: Path, name: str) -> None:
+        """Have `seats` processes with folders in `home`; no job takes more than so many seconds."""
+        self.seats = [Seat(home / f"{name}-{number}") for number in range(seats)]
+        self.seconds, self._most = seconds, seats + waiting
+        self._idle, self._asked = [*self.seats], 0
+        self._free = asyncio.Semaphore(seats)
+        self._threads = ThreadPoolExecutor(seats)
+
+    async def do(self, make: Make, *args: Any, like: Hashable = None, advance: Advance | None = None) -> Any:
+        """Return what is made of `args`, by the process that did something `like` it last where it is free.
+
+        Raises
+        ------
+        BusyError
+            Too much waits already.
+        KulmanError, CrashError
+            As of `Seat.do`.
+        """
+        if self._asked >= self._most:
+            raise BusyError
+        self._asked += 1
+        # a task of its own: who waits may go, the process is still at it
+        return await asyncio.shield(asyncio.create_task(self._do(make, args, like, advance)))
+
+    async def _do(self, make: Make, args: tuple[Any, ...], like: Hashable, advance: Advance | None) -> Any:
+        try:
+            async with self._free:
+                seat = next((one for one in self._idle if like is not None and one.last == like), self._idle[0])
+                self._idle.remove(seat)
+                seat.last = like
+                job = partial(seat.do, make, args, self.seconds, advance or (lambda done, whole: None))
+                try:
+                    return await asyncio.get_running_loop().run_in_executor(self._threads, job)
+                finally:
+                    self._idle.append(seat)
+        finally:
+            self._asked -= 1
+
+    def stop(self) -> None:
+        """End all processes."""
+        for seat in self.seats:
+            seat.over = True
+            seat.stop()
+        self._threads.shutdown(wait=False, cancel_futures=True)
+
+
+class Store(Generic[Made]):
+    """What has been made, by what it was made from, within so many bytes and items; the longest unused goes first."""
+
+    def __init__(self, items: int, largest: int, size: Callable[[Made], int], gone: Callable[[Made], None]) -> None:
+        """Keep so many items of so many bytes in all; who goes is told to `gone`."""
+        self.items, self.largest, self._size, self._gone = items, largest, size, gone
+        self._made: dict[Hashable, Made] = {}
+
+    def get(self, key: Hashable) -> Made | None:
+        """Return what is kept under a key, or None."""
+        made = self._made.pop(key, None)
+        if made is not None:
+            self._made[key] = made
+        return made
+
+    def keep(self, key: Hashable, made: Made) -> Made:
+        """Keep something under a key."""
+        self._made.pop(key, None)
+        self._made[key] = made
+        while len(self._made) > 1 and (len(self._made) > self.items or self._whole() > self.largest):
+            self._gone(self._made.pop(next(iter(self._made))))
+        return made
+
+    def _whole(self) -> int:
+        return sum(map(self._size, self._made.values()))

@@ -1,0 +1,372 @@
+"""What the processes of a server make of requests: sheets, notes, forms, verdicts, classes; each by the usual call.
+
+They work in an empty folder, where what is uploaded is written under names of ours, and nothing of a request is a path.
+"""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from ...drawing.moving import html
+from ...drawing.svg import svg_text
+from ...drawing.words import Words
+from ...drawing.writers import SUFFIXES as DRAWN
+from ...drawing.writers import slug
+from ...scales.errors import InputError, KulmanError
+from ...scales.kept import Kept
+from ...scales.numbers import SHOWN, quote
+from ..batches.batch import batch, write_roster
+from ..case import Kind, Request, kind_of
+from ..crew import Advance
+from ..making.questions import bare_page
+from ..making.starter import start
+from ..marking.checks import Check, check, write_tables
+from ..marking.class_page import PAGE
+from ..marking.keyed import COLUMNS
+from ..marking.report import report_html
+from ..marking.result import class_lines
+from ..notes import Note, note
+from ..reader import check_file, load_task
+from ..sheets import BLOCK, Sheet, draw_case, handout, sheet
+from ..shelf import bundled
+from ..solution import Solution, solve
+from ..spreadsheets.files import read_grid
+from ..spreadsheets.grid import SUFFIXES as TABLES
+from ..tables import csv_table
+from ..task import LocatedError, Task, decoded
+from .jobs import KEPT as KEEP
+
+OWN = "task.toml"  # in the folder of the process
+ZIP = ".zip"
+LETTERS = ("format", "notation")
+HOW = (*LETTERS, "norm")
+LAST = 4  # sheets that a process keeps, for other kinds of files of them
+FIGURES = ("profile", "plate_profile", "meshing", "scheme")  # of subjects that have no scheme: the first that there is
+Rows = tuple[tuple[str, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What a page is about: a bundled task by its id, or the text of one's own, and what is said of it besides.
+
+    `settings` are what stands in the fields of givens that showed the variant `of`: what differs from that one's is
+    one's own.
+    """
+
+    task: str
+    own: bytes = b""
+    variant: str = ""
+    of: str = ""
+    settings: tuple[tuple[str, str], ...] = ()
+    how: tuple[tuple[str, str], ...] = ()  # format, norm, notation
+    block: tuple[tuple[str, str], ...] = ()
+    language: str = "uk"
+
+    def load(self) -> Task:
+        """Return the task."""
+        if not self.own:
+            return load_task(self.task)
+        Path(OWN).write_bytes(self.own)
+        return load_task(Path(OWN))
+
+
+@dataclass(frozen=True, slots=True)
+class GivenField:
+    """A given as a form shows it: name, symbol and meaning as HTML, unit, words to choose among, values."""
+
+    name: str
+    symbol: str
+    unit: str
+    choices: tuple[tuple[str, str], ...]
+    usual: str
+    value: str
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """What a page about a task shows: the task, its fields, a drawing or why there is none, what should be known."""
+
+    id: str
+    title: str
+    note: str
+    variants: tuple[str, ...]
+    variant: str
+    own: tuple[tuple[str, str], ...]  # settings that are not the variant's
+    fields: tuple[GivenField, ...]
+    moves: bool
+    pages: tuple[bytes, ...] = ()
+    problem: KulmanError | None = None
+    warnings: tuple[KulmanError, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Upload:
+    """A file as it came: only the letters of its name count."""
+
+    name: str
+    data: bytes
+
+    def put(self, stem: str, known: Sequence[str]) -> str:
+        """Write it under a name of ours and return that; one of another kind than those known is refused."""
+        suffix = f".{self.name.rpartition('.')[2].lower()}"
+        if suffix not in known:
+            raise InputError("answers-suffix", file=quote(self.name, SHOWN), known=", ".join(known))
+        Path(stem + suffix).write_bytes(self.data)
+        return stem + suffix
+
+
+def settled(asked: Asked, task: Task) -> tuple[tuple[str, str], ...]:
+    """Return what is set otherwise than the variant has it whose givens the form showed."""
+    usual = _written(task, asked.of or None, asked.language)
+    return tuple((name, text) for name, text in asked.settings if text and text != usual.get(name))
+
+
+def _written(task: Task, variant: str | None, language: str) -> dict[str, str]:
+    """Return the givens of a variant as the fields of a form show them."""
+    written = {}
+    for name, value in task.resolve(variant).items():
+        unit = task.givens[name].unit
+        text = value if isinstance(value, str) else f"{value if unit is None else unit.from_si(value):.12g}"
+        written[name] = text if isinstance(value, str) or language == "en" else text.replace(".", ",")
+    return written
+
+
+def request(asked: Asked, task: Task, *names: str) -> dict[str, Any]:
+    """Return the arguments that all calls have in common, and what is said of those that some have."""
+    said = {name: text for name, text in (*asked.how, *asked.block) if name in names}
+    return {"variant": asked.variant or None, "set": dict(settled(asked, task)), "lang": asked.language, **said}
+
+
+_SHEETS: Kept[Sheet] = Kept(LAST)
+
+
+def _sheet(asked: Asked) -> Sheet:
+    task = asked.load()
+    return _SHEETS.get(asked, lambda: sheet(task, **request(asked, task, *HOW, *BLOCK)))
+
+
+def _handout(asked: Asked, key: bool = False) -> Sheet:
+    task = asked.load()
+    return handout(task, **request(asked, task, *HOW), key=key, block=dict(asked.block))
+
+
+def _note(asked: Asked) -> Note:
+    task = asked.load()
+    return note(task, **request(asked, task, *LETTERS, "student", "group", "teacher", "department", "date"))
+
+
+def _solution(asked: Asked) -> Solution:
+    task = asked.load()
+    return solve(task, **request(asked, task, *LETTERS))
+
+
+@dataclass(frozen=True, slots=True)
+class _Form:
+    check: Check
+
+    def save(self, name: str) -> list[Path]:
+        return [self.check.write_form(name)]
+
+
+@dataclass(frozen=True, slots=True)
+class _Roster:
+    task: Task
+    language: str
+
+    def save(self, name: str) -> list[Path]:
+        return [write_roster(self.task, name, self.language)]
+
+
+def _check(asked: Asked, **more: Any) -> Check:
+    task = asked.load()
+    return check(task, **request(asked, task, *LETTERS), **more)
+
+
+# what can be downloaded, by the stem of its name
+SAVED: Mapping[str, Callable[[Asked], Any]] = {
+    "sheet": _sheet,
+    "moving": _sheet,
+    "handout": _handout,
+    "key": partial(_handout, key=True),
+    "note": _note,
+    "results": _solution,
+    "form": lambda asked: _Form(_check(asked)),
+    "roster": lambda asked: _Roster(asked.load(), asked.language),
+}
+KINDS: Mapping[str, tuple[str, ...]] = {
+    "sheet": DRAWN,
+    "moving": (PAGE,),
+    "handout": DRAWN,
+    "key": DRAWN,
+    "note": (".pdf", ".docx", ".md"),
+    "results": (".xlsx", ".csv", ".json"),
+    "form": (".xlsx", ".csv"),
+    "roster": (".xlsx", ".csv"),
+}
+
+
+def made(advance: Advance, asked: Asked, stem: str, suffix: str) -> tuple[str, bytes]:
+    """Return a file of what is asked, with its name; several are one archive."""
+    files = SAVED[stem](asked).save(f"{stem}{suffix}")
+    if len(files) == 1:
+        return files[0].name, files[0].read_bytes()
+    return f"{stem}{ZIP}", _zipped(files, Path(f"{stem}{ZIP}")).read_bytes()
+
+
+def _zipped(files: Sequence[Path], archive: Path, folder: Path = Path()) -> Path:
+    """Write files into an archive, which is the same for the same files."""
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as packed:
+        for file in files:
+            packed.writestr(zipfile.ZipInfo(file.relative_to(folder).as_posix()), file.read_bytes(), packed.compression)
+    return archive
+
+
+def shown(advance: Advance, asked: Asked, answers: bool) -> Shown:
+    """Return what a page about a task shows: its sheet, or where no `answers` may be seen its handout."""
+    task = asked.load()
+    variant = task.variant(asked.variant or None).id
+    asked = replace(asked, variant=variant)
+    own, language = settled(asked, task), asked.language
+    usual, words = _written(task, variant, language), Words.of(language, task.notation)
+    fields = tuple(
+        GivenField(
+            name,
+            words.choice(name, "")[0] if given.choices else html(words.symbol(name)),
+            words.spelled(given.unit.name) if given.unit is not None else "",
+            tuple((word, words.choice(name, word)[1]) for word in given.choices),
+            usual.get(name, ""),
+            dict(own).get(name, usual.get(name, "")),
+        )
+        for name, given in task.givens.items()
+    )
+    moves = type(kind_of(task.kind)).moving is not Kind.moving
+    about = Shown(task.id, task.title[language], task.note_in(language), (*task.variants,), variant, own, fields, moves)
+    try:
+        drawn = _sheet(asked) if answers else _handout(asked)
+    except KulmanError as error:
+        return replace(about, problem=error)
+    pages = tuple(drawn.svg(number).encode("utf-8", "replace") for number in range(1, len(drawn.pages) + 1))
+    return replace(about, pages=pages, warnings=drawn.warnings)
+
+
+def picture(advance: Advance, task: str, language: str) -> bytes:
+    """Return a picture of a bundled task: its kinematic scheme, or the figure that tells most of another subject."""
+    case = Request(load_task(task), language=language).case()
+    view = case.kind.pictured(case, case.words())
+    if view is None:
+        views = {one.name: one for one in draw_case(case).views}
+        view = views[next(name for name in (*FIGURES, *views) if name in views)]
+    return svg_text(bare_page(view, language)).encode("utf-8", "replace")
+
+
+def started(advance: Advance, kind: str, language: str) -> str:
+    """Return a task file with comments to begin with, of a kind or as a bundled task is written."""
+    return start(f"my-{kind}.toml", language, kind).read_text("utf-8")
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """What the checker says of a task file: its text, faults and remarks each with its line, which may be none."""
+
+    text: str
+    faults: tuple[tuple[int, str], ...]
+    remarks: tuple[tuple[int, str], ...]
+
+
+def judged(advance: Advance, data: bytes, language: str) -> Judged:
+    """Return what the checker says of a task file."""
+    Path(OWN).write_bytes(data)
+    try:
+        faults, remarks = check_file(Path(OWN))
+    except InputError as error:
+        faults, remarks = (error,), ()
+    text = ""
+    with suppress(UnicodeDecodeError):
+        text = decoded(data)
+    return Judged(text, tuple(_lined(faults, language)), tuple(_lined(remarks, language)))
+
+
+def _lined(errors: Sequence[InputError], language: str) -> Iterator[tuple[int, str]]:
+    for error in errors:
+        place = error.place.split(":") if isinstance(error, LocatedError) else [""]
+        line = int(place[1]) if len(place) > 1 and place[1].isdigit() else 0
+        yield line, (error.cause if line and isinstance(error, LocatedError) else error).text(language)
+
+
+def form(advance: Advance, asked: Asked) -> Rows:
+    """Return the rows of the empty form."""
+    return read_grid(_check(asked).write_form("form.csv")).rows
+
+
+def answered(advance: Advance, asked: Asked, cells: Mapping[tuple[int, int], str], preset: str, own: bool) -> str:
+    """Return the report on a form whose cells have been filled in, as a page; `own` is one without right numbers."""
+    ready = _check(asked, preset=preset, own=own)
+    rows = [list(row) for row in read_grid(ready.write_form("answers.csv")).rows]
+    for (row, column), text in cells.items():
+        if row < len(rows):
+            rows[row] += [""] * (len(COLUMNS) - len(rows[row]))
+            if column < len(rows[row]):
+                rows[row][column] = text
+    Path("answers.csv").write_bytes(csv_table(rows, asked.language))
+    return report_html(ready.mark(ready.read("answers.csv")[0]))
+
+
+@dataclass(frozen=True, slots=True)
+class Done:
+    """What has come of a class: an archive among what is kept, a page about it, lines that tell of it."""
+
+    archive: str
+    lines: tuple[str, ...]
+    page: bytes = b""
+
+
+def drawn_class(
+    advance: Advance, tasks: Sequence[Asked], roster: Upload, how: Mapping[str, Any], archive: str, jobs: int
+) -> Done:
+    """Draw the sheets of a class as `batch` does, into an archive of what it writes."""
+    language, folder = tasks[0].language, Path("class")
+    file = roster.put("roster", TABLES)
+    found = batch([one.load() for one in tasks], file, folder, lang=language, jobs=jobs, advance=advance, **how)
+    files = sorted(path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
+    _zipped(files, Path("..") / KEEP / archive, folder)
+    told = (*(warning.text(language) for warning in found.warnings), *found.problems)
+    return Done(archive, told)
+
+
+def marked_class(
+    advance: Advance,
+    asked: Asked,
+    forms: Sequence[Upload],
+    roster: Upload | None,
+    rubric: Upload | None,
+    how: Mapping[str, Any],
+    archive: str,
+    jobs: int,
+) -> Done:
+    """Mark what a class has handed in as `check` does: reports, the page about the class, tables of marks."""
+    language, out, told = asked.language, Path("marks"), list[str]()
+    listed = None if roster is None else roster.put("roster", TABLES)
+    weights = None if rubric is None else rubric.put("rubric", (".toml",))
+    ready = check(asked.load(), asked.variant or None, lang=language, roster=listed, rubric=weights, **how)
+    Path("forms").mkdir()
+    names = [one.put(f"forms/{n:03d}-{slug(one.name.rpartition('.')[0])}", TABLES) for n, one in enumerate(forms, 1)]
+    told += [warning.text(language) for warning in ready.warnings]
+    found = ready.ordered(ready.read(*names, warn=lambda error: told.append(error.text(language))))
+    results = ready.mark_all(found, out, advance, jobs)
+    page, moodle = out / f"class{PAGE}", out / "moodle.csv"
+    write_tables(ready, results, found, [page, out / "gradebook.xlsx"], moodle)
+    told += class_lines(ready.listed(found, results), language)
+    files = sorted(path for path in out.iterdir() if not path.name.startswith("."))
+    _zipped(files, Path("..") / KEEP / archive, out)
+    return Done(archive, tuple(told), page.read_bytes())
+
+
+def warmed(advance: Advance) -> None:
+    """Load what drawing needs, before anybody waits for it."""
+    draw_case(Request(load_task(bundled("mechanism")[0])).case())

@@ -1,0 +1,520 @@
+"""Pages as the browser gets them: elements that escape what they hold, forms, links that keep task and language."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from html import escape
+from urllib.parse import quote, urlencode
+
+from ...scales.choices import HANDS, SHEETS, SIZES
+from ...scales.errors import LANGUAGES, KulmanError
+from ...scales.packaged import packaged
+from ..batches.batch import FORMS
+from ..marking.keyed import ASKED_ABOUT, COLUMNS
+from ..marking.report import scripts
+from ..sheets import BLOCK
+from .making import Done, GivenField, Judged, Rows, Shown
+from .safety import ALLOWED, STUDENT
+
+TONGUES = {"uk": "Українська", "ru": "Русский", "en": "English"}
+ANSWERED = ("mm", "mu", "value", "direction")  # columns of a form that are filled in
+NORMS = ("gost", "iso")
+ACCEPTED = ".csv,.xlsx"
+# of files: what must be seen for them, else forms
+SEEN = {"sheet": "sheets", "moving": "sheets", "key": "answers", "note": "answers", "results": "answers"}
+VOID = {"img", "input", "link", "meta"}
+
+
+class Html(str):
+    """Text that is HTML already."""
+
+    __slots__ = ()
+
+
+def tag(name: str, /, *inside: object, **attributes: object) -> Html:
+    """Return an element; texts in it are escaped, what is HTML stays, None and False are left out.
+
+    >>> tag("a", "1 < 2", tag("b", "!"), href="/?a=1&b=2", hidden=False, class_="x", data_at=3)
+    '<a href="/?a=1&amp;b=2" class="x" data-at="3">1 &lt; 2<b>!</b></a>'
+    """
+    said = "".join(
+        f" {key.rstrip('_').replace('_', '-')}" + ("" if value is True else f'="{escape(str(value))}"')
+        for key, value in attributes.items()
+        if value is not None and value is not False
+    )
+    return Html(f"<{name}{said}>" if name in VOID else f"<{name}{said}>{joined(inside)}</{name}>")
+
+
+def joined(parts: Iterable[object]) -> Html:
+    """Return parts one after the other, texts escaped."""
+    return Html("".join(part if isinstance(part, Html) else escape(str(part)) for part in parts if part is not None))
+
+
+@dataclass(frozen=True, slots=True)
+class Door:
+    """What every page hangs on: what addresses begin with, language, who looks at it, what students may see."""
+
+    root: str
+    language: str
+    chosen: bool  # whether the address says the language
+    role: str
+    allowed: str
+    kinds: Mapping[str, Sequence[str]]  # files that can be written here, by stem
+
+    @property
+    def said(self) -> Mapping[str, str]:
+        """The words of pages."""
+        return packaged(__package__, "texts", self.language)
+
+    def sees(self, what: str) -> bool:
+        """Whether `forms`, `sheets` or `answers` may be seen."""
+        return self.role != STUDENT or ALLOWED.index(what) <= ALLOWED.index(self.allowed)
+
+    def link(self, path: str, query: Iterable[tuple[str, str]] = ()) -> str:
+        """Return the address of a page; the language goes on."""
+        own = [*query, *([("lang", self.language)] if self.chosen else [])]
+        return f"{self.root}{quote(path)}" + (f"?{urlencode(own)}" if own else "")
+
+    def told(self, error: KulmanError) -> str:
+        """Return the message of an error."""
+        return error.text(self.language)
+
+
+def page(door: Door, title: str, *inside: object, at: str = "/", query: Sequence[tuple[str, str]] = ()) -> str:
+    """Return a whole page; `at` and `query` are its own address."""
+    said = door.said
+    places = [("/", "nav.tasks"), ("/own", "nav.own")]
+    places += [("/class", "nav.class"), ("/marks", "nav.marks")] if door.role != STUDENT else []
+    nav = (tag("a", said[key], href=door.link(to), aria_current="page" if to == at else None) for to, key in places)
+    tongues = (
+        tag(
+            "a",
+            TONGUES[one],
+            href=replace(door, language=one, chosen=True).link(at, query),
+            lang=one,
+            aria_current="true" if one == door.language else None,
+        )
+        for one in LANGUAGES
+    )
+    head = (
+        tag("meta", charset="utf-8"),
+        tag("meta", name="viewport", content="width=device-width, initial-scale=1"),
+        tag("title", f"{title} – {said['name']}"),
+        tag("link", rel="icon", href=f"{door.root}/static/icon.svg"),
+        tag("link", rel="stylesheet", href=f"{door.root}/static/web.css"),
+        tag("script", src=f"{door.root}/static/web.js", defer=True),
+    )
+    body = (
+        tag("a", said["skip"], href="#main", class_="skip"),
+        tag(
+            "header",
+            tag("a", said["name"], href=door.link("/"), class_="name"),
+            tag("nav", *nav, aria_label=said["nav"]),
+            tag("nav", *tongues, aria_label=said["languages"], class_="tongues"),
+        ),
+        tag("main", tag("h1", title), *inside, id="main"),
+    )
+    return f"<!doctype html>\n{tag('html', tag('head', *head), tag('body', *body), lang=door.language)}\n"
+
+
+def note(*inside: object, kind: str = "note") -> Html:
+    """Return a box with what a user should know; `problem` is read out at once."""
+    return tag("div", *inside, class_=kind, role="alert" if kind == "problem" else None)
+
+
+def field(label: object, control: Html, of: str, hint: object = None) -> Html:
+    """Return a control under its label."""
+    return tag("p", tag("label", label, for_=of), control, tag("small", hint) if hint else None, class_="field")
+
+
+def chosen(name: str, options: Iterable[tuple[str, str]], now: str, /, **attributes: object) -> Html:
+    """Return a list to choose one from."""
+    made = (tag("option", text, value=value, selected=value == now) for value, text in options)
+    return tag("select", *made, name=name, id=attributes.pop("id", name), **attributes)
+
+
+def typed(name: str, value: str = "", /, **attributes: object) -> Html:
+    """Return a field to type in."""
+    usual = {"id": name, "autocomplete": "off", "maxlength": 200}
+    return tag("input", name=name, value=value, **{**usual, **attributes})
+
+
+def home(door: Door, groups: Mapping[str, Sequence[tuple[str, str, int]]]) -> str:
+    """Return the page of all tasks: by subject their ids, titles, numbers of variants."""
+    said, parts = door.said, list[Html]()
+    for kind, tasks in groups.items():
+        cards = [
+            tag(
+                "li",
+                tag(
+                    "a",
+                    tag("img", src=door.link(f"/picture/{id_}.svg"), alt="", loading="lazy", width=240, height=160),
+                    tag("span", title, class_="title"),
+                    tag("span", said["home.variants"].format(id=id_, n=n), class_="id"),
+                    href=door.link(f"/task/{id_}"),
+                ),
+            )
+            for id_, title, n in tasks
+        ]
+        parts += [tag("h2", said[f"kind.{kind}"]), tag("ul", *cards, class_="cards")]
+    return page(door, said["home.title"], tag("p", said["home.about"]), *parts)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a page about a task is: its path, what its address says, as fields of forms have it."""
+
+    path: str
+    query: tuple[tuple[str, str], ...]
+    number: int = 1
+    handout: bool = False
+
+    def get(self, name: str) -> str:
+        """Return what the address says."""
+        return dict(self.query).get(name, "")
+
+
+def settled(place: Place, shown: Shown) -> Place:
+    """Return a place whose address says only what is otherwise than usual."""
+    said = [("v", shown.variant)]
+    said += [pair for pair in place.query if pair[1] and not pair[0].startswith("g.") and pair[0] not in ("v", "of")]
+    own = (("g." + name, text) for name, text in shown.own)
+    return replace(place, query=(*said, *own))
+
+
+def task(door: Door, place: Place, shown: Shown) -> str:
+    """Return the page of a task: what can be chosen, its sheet, what can be downloaded."""
+    said = door.said
+    at = settled(place, shown)
+    parts = [
+        tag("p", shown.note, class_="about") if shown.note else None,
+        tag(
+            "div",
+            _asking(door, place, shown),
+            tag("section", *_drawn(door, at, shown), aria_label=said["task.sheet"], class_="sheet"),
+            tag("div", _downloads(door, at, shown), class_="side"),
+            class_="bench",
+        ),
+    ]
+    return page(door, shown.title, *parts, at=place.path, query=at.query)
+
+
+def _asking(door: Door, place: Place, shown: Shown) -> Html:
+    said = door.said
+    variants = [(name, name) for name in shown.variants]
+    formats = [("", said["task.smallest"]), *((size, size) for size in SIZES)]
+    norms = [("gost", said["norm.gost"]), ("iso", said["norm.iso"])]
+    own = (_given(one, dict(shown.own)) for one in shown.fields)
+    block = (field(said[f"block.{name}"], typed(name, place.get(name)), name) for name in BLOCK)
+    return tag(
+        "form",
+        field(said["task.variant"], chosen("v", variants, shown.variant), "v"),
+        tag("input", type="hidden", name="of", value=shown.variant),
+        tag("input", type="hidden", name="lang", value=door.language) if door.chosen else None,
+        tag("input", type="hidden", name="view", value="handout") if place.handout else None,
+        tag("details", tag("summary", said["task.own"]), *own, open=bool(shown.own)),
+        tag(
+            "details",
+            tag("summary", said["task.block"]),
+            field(said["task.format"], chosen("format", formats, place.get("format")), "format"),
+            field(said["task.norm"], chosen("norm", norms, place.get("norm") or NORMS[0]), "norm"),
+            *block,
+            open=any(place.get(name) for name in (*BLOCK, "format")),
+        ),
+        tag("button", said["task.show"], type="submit", class_="main"),
+        method="get",
+        class_="asking",
+        action=f"{door.root}{place.path}",
+    )
+
+
+def _given(one: GivenField, own: Mapping[str, str]) -> Html:
+    name = f"g.{one.name}"
+    control = chosen(name, one.choices, one.value) if one.choices else typed(name, one.value, inputmode="text")
+    label = joined((tag("span", Html(one.symbol), title=one.name), tag("span", one.unit, class_="unit")))
+    return field(label, control, name) if one.name not in own else tag("div", field(label, control, name), class_="own")
+
+
+def _drawn(door: Door, place: Place, shown: Shown) -> Iterable[Html | None]:
+    said, most = door.said, len(shown.pages)
+    if shown.problem is not None:
+        yield note(door.told(shown.problem), kind="problem")
+        return
+    number = min(max(place.number, 1), most)
+    turned = [("view", "handout")] if place.handout else []
+    if most > 1:
+        turns = (
+            tag(
+                "a",
+                str(n),
+                href=door.link(place.path, [*place.query, *turned, ("page", str(n))]),
+                aria_label=said["task.page"].format(number=n, n=most),
+                aria_current="page" if n == number else None,
+            )
+            for n in range(1, most + 1)
+        )
+        yield tag("nav", tag("span", said["task.pages"]), *turns, aria_label=said["task.pages"], class_="pager")
+    query = [*place.query, *turned, ("page", str(number))]
+    alt = said["task.alt"].format(title=shown.title, variant=shown.variant, number=number, n=most)
+    source = door.link(f"{place.path}/page.svg", query)
+    yield tag("a", tag("img", src=source, alt=alt), href=source, class_="paper")
+    for warning in shown.warnings:
+        yield note(door.told(warning))
+
+
+def _downloads(door: Door, place: Place, shown: Shown) -> Html:
+    said = door.said
+    rows = list[Html]()
+    for stem, kinds in door.kinds.items():
+        if (stem == "moving" and not shown.moves) or not door.sees(SEEN.get(stem, "forms")) or stem == "roster":
+            continue
+        files = (
+            tag(
+                "a",
+                said["task.open"] if stem == "moving" else kind[1:].upper(),
+                href=door.link(f"{place.path}/{stem}{kind}", place.query),
+                aria_label=f"{said[f'file.{stem}']}, {kind[1:].upper()}",
+            )
+            for kind in kinds
+        )
+        rows.append(tag("li", tag("span", said[f"file.{stem}"]), *files))
+    checked = tag("a", said["task.check"], href=door.link(f"{place.path}/check", place.query), class_="button")
+    views = list[Html]()
+    if door.sees("sheets"):
+        to, key = ([], "task.sheet") if place.handout else ([("view", "handout")], "task.blank")
+        views = [tag("a", said[key], href=door.link(place.path, [*place.query, *to]), class_="button")]
+    return joined((
+        tag("p", checked, *views, class_="buttons"),
+        tag("h2", said["task.files"]),
+        tag("ul", *rows, class_="files"),
+    ))  # fmt: skip
+
+
+def form(door: Door, place: Place, shown_as: str, rows: Rows, filled: Mapping[str, str], problem: str = "") -> str:
+    """Return the page of the form of measured answers; `filled` are answers by the names of their fields."""
+    said, parts = door.said, list[Html]()
+    head = next(number for number, row in enumerate(rows) if len([text for text in row if text]) == len(COLUMNS))
+    heads = dict(zip(COLUMNS, rows[head], strict=False))
+    hints = [row[0] for row in rows[len(ASKED_ABOUT) : head] if row[0]]
+    body = list[Html]()
+    for number, row in enumerate(rows[head + 1 :], head + 1):
+        cells = dict(zip(COLUMNS, (*row, *[""] * len(COLUMNS)), strict=False))
+        if not any(row[1:]):
+            body.append(tag("tr", tag("th", scripted(cells["name"]), colspan=len(ANSWERED) + 2, scope="rowgroup")))
+            continue
+        inputs = (
+            tag(
+                "td",
+                typed(
+                    f"a.{number}.{COLUMNS.index(column)}",
+                    filled.get(f"a.{number}.{COLUMNS.index(column)}", ""),
+                    aria_label=f"{cells['symbol']}: {heads[column]}",
+                    data_head=heads[column],
+                ),
+            )
+            for column in ANSWERED
+        )
+        body.append(tag("tr", tag("th", scripted(cells["symbol"]), scope="row"), *inputs, tag("td", cells["unit"])))
+    labels = (tag("th", heads[column], scope="col") for column in ("symbol", *ANSWERED, "unit"))
+    parts = [tag("p", hint) for hint in hints]
+    hands = [(name, said[f"hand.{name}"]) for name in HANDS]
+    table = tag("table", tag("thead", tag("tr", *labels)), tag("tbody", *body), class_="answers")
+    asked = tag(
+        "form",
+        tag("div", table, class_="scroll"),
+        field(said["form.preset"], chosen("preset", hands, filled.get("preset", "normal")), "preset"),
+        tag("p", tag("label", tag("input", type="checkbox", name="own", value="1", checked="own" in filled), " ",
+                     said["form.own"]), class_="tick") if door.sees("answers") else None,
+        tag("button", said["form.judge"], type="submit", class_="main"),
+        method="post",
+        action=door.link(f"{place.path}/check", place.query),
+    )  # fmt: skip
+    title = said["form.title"]
+    back = tag("p", tag("a", f"← {shown_as}", href=door.link(place.path, place.query)))
+    warned = note(problem, kind="problem") if problem else None
+    return page(door, title, back, warned, *parts, asked, at=f"{place.path}/check", query=place.query)
+
+
+def scripted(text: str) -> Html:
+    """Return a symbol with its indices lowered and raised."""
+    return Html(scripts(text))
+
+
+def own(door: Door, kinds: Sequence[str], text: str, judged: Judged | None, to: str) -> str:
+    """Return the page of a task file of one's own, with what the checker says of it; `to` is where it can be seen."""
+    said = door.said
+    begin = (
+        tag("a", said[f"kind.{kind}"], href=door.link("/own", [("kind", kind)]), class_="button") for kind in kinds
+    )
+    words = said["own.about"].split("`")  # a command stands between marks
+    about = (tag("code", word) if n % 2 else word for n, word in enumerate(words))
+    parts = [tag("p", *about), tag("p", said["own.begin"], " ", *begin, class_="buttons")]
+    if judged is not None:
+        parts += _judged(door, judged, to)
+    height = min(max(text.count("\n") + 2, 16), 40)
+    parts.append(
+        tag(
+            "form",
+            field(
+                said["own.text"],
+                tag("textarea", text, name="text", id="text", rows=height, spellcheck="false", class_="code"),
+                "text",
+            ),
+            field(said["own.file"], tag("input", type="file", name="file", id="file", accept=".toml"), "file"),
+            tag("button", said["own.check"], type="submit", class_="main"),
+            method="post",
+            enctype="multipart/form-data",
+            action=door.link("/own"),
+        )
+    )
+    return page(door, said["own.title"], *parts, at="/own")
+
+
+def _judged(door: Door, judged: Judged, to: str) -> Iterable[Html]:
+    said, by_line = door.said, dict[int, list[Html]]()
+    for kind, found in (("fault", judged.faults), ("remark", judged.remarks)):
+        for line, text in found:
+            by_line.setdefault(line, []).append(tag("p", text, class_=kind))
+    if judged.faults:
+        count = said["own.faults"].format(n=len(judged.faults))
+        yield note(tag("p", count), *by_line.get(0, []), kind="problem")
+    else:
+        go = tag("p", tag("a", said["own.see"], href=to, class_="button main"))
+        yield note(tag("p", said["own.good"]), *by_line.get(0, []), go)
+    lines = judged.text.splitlines()
+    around = {n for line in by_line if line for n in range(line - 2, line + 3) if 1 <= n <= len(lines)}
+    listed = list[Html]()
+    for n in sorted(around):
+        marks = by_line.get(n, [])
+        if n - 1 not in around and listed:
+            listed.append(tag("li", "…", class_="gap", aria_hidden="true"))
+        listed.append(tag("li", tag("code", f"{n:>4}  {lines[n - 1]}"), *marks, class_="at" if marks else None))
+    beyond = (mark for line in sorted(by_line) if line > len(lines) for mark in by_line[line])
+    if listed:
+        yield tag("ol", *listed, *beyond, class_="listing")
+
+
+def _upload(door: Door, name: str, label: str, several: bool = False, required: bool = True, hint: str = "") -> Html:
+    control = tag("input", type="file", name=name, id=name, accept=ACCEPTED, multiple=several, required=required)
+    return field(door.said[label], control, name, hint or None)
+
+
+def _task_file(door: Door) -> Html:
+    return field(door.said["class.own"], tag("input", type="file", name="own_task", id="own_task", accept=".toml"),
+                 "own_task")  # fmt: skip
+
+
+def class_(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> str:
+    """Return the page on which a class's sheets are asked for."""
+    said = door.said
+    ticks = (
+        tag("label", tag("input", type="checkbox", name="kinds", value=kind, checked=kind in ("pdf", "note")), " ",
+            said.get(f"as.{kind}", f"{said['file.sheet']}, {kind.upper()}"))
+        for kind in FORMS
+        if kind not in SHEETS or f".{kind}" in door.kinds["sheet"]
+    )  # fmt: skip
+    choices = (tag("option", f"{title} ({id_})", value=id_) for id_, title in tasks)
+    sizes = [("", said["task.smallest"]), *((size, size) for size in SIZES)]
+    asked = tag(
+        "form",
+        field(
+            said["class.tasks"],
+            tag("select", *choices, name="tasks", id="tasks", multiple=True, size=8),
+            "tasks",
+            said["class.several"],
+        ),
+        _task_file(door),
+        _upload(door, "roster", "class.roster", hint=said["class.columns"]),
+        tag("fieldset", tag("legend", said["class.kinds"]), *ticks, class_="ticks"),
+        tag("p", tag("label", tag("input", type="checkbox", name="merge", value="1"), " ", said["class.merge"]),
+            class_="tick"),
+        field(said["class.digits"], typed("digits"), "digits", said["class.digits_hint"]),
+        field(said["task.format"], chosen("format", sizes, ""), "format"),
+        *(field(said[f"block.{name}"], typed(name), name) for name in BLOCK if name not in ("student", "group")),
+        tag("button", said["class.draw"], type="submit", class_="main"),
+        method="post",
+        enctype="multipart/form-data",
+        action=door.link("/class"),
+    )  # fmt: skip
+    warned = note(problem, kind="problem") if problem else None
+    return page(door, said["class.title"], warned, tag("p", said["class.about"]), asked, at="/class")
+
+
+def marks(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> str:
+    """Return the page on which what a class has handed in is uploaded."""
+    said = door.said
+    asked = tag(
+        "form",
+        field(said["class.task"], chosen("tasks", [(id_, f"{title} ({id_})") for id_, title in tasks], ""), "tasks"),
+        _task_file(door),
+        _upload(door, "forms", "marks.forms", several=True, hint=said["marks.several"]),
+        _upload(door, "roster", "marks.roster", required=False),
+        field(
+            said["marks.rubric"], tag("input", type="file", name="rubric", id="rubric", accept=".toml"), "rubric"
+        ),
+        field(said["form.preset"], chosen("preset", [(name, said[f"hand.{name}"]) for name in HANDS], "normal"),
+              "preset"),
+        field(said["class.digits"], typed("digits"), "digits", said["class.digits_hint"]),
+        tag("p", tag("label", tag("input", type="checkbox", name="own", value="1"), " ", said["form.own"]),
+            class_="tick"),
+        tag("button", said["marks.mark"], type="submit", class_="main"),
+        method="post",
+        enctype="multipart/form-data",
+        action=door.link("/marks"),
+    )  # fmt: skip
+    warned = note(problem, kind="problem") if problem else None
+    return page(door, said["marks.title"], warned, tag("p", said["marks.about"]), asked, at="/marks")
+
+
+@dataclass(slots=True)
+class Job:
+    """How far the work for a class is, and what has come of it."""
+
+    name: str
+    title: str
+    done: int = 0
+    whole: int = 0
+    outcome: Done | None = None
+    problem: str = ""
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing more comes."""
+        return self.outcome is not None or bool(self.problem)
+
+    def advance(self, done: int, whole: int) -> None:
+        """Note that so many more are done."""
+        self.done, self.whole = self.done + done, whole
+
+
+def job(door: Door, work: Job) -> str:
+    """Return the page of the work for a class: how far it is, or what has come of it."""
+    said, path = door.said, f"/job/{work.name}"
+    if work.problem:
+        body = [note(work.problem, kind="problem")]
+    elif work.outcome is None:
+        far = said["job.far"].format(done=work.done, whole=work.whole or "…")
+        bar = tag("progress", far, value=work.done if work.whole else None, max=work.whole or 1, aria_label=far)
+        body = [tag("p", bar, " ", tag("output", far), id="far", data_state=f"{door.root}{path}/state"),
+                tag("p", tag("a", said["job.look"], href=door.link(path)))]  # fmt: skip
+    else:
+        body = [tag("p", tag("a", said["job.fetch"], href=door.link(f"{path}/{work.name}.zip"), class_="button main",
+                             download=True))]  # fmt: skip
+        if work.outcome.page:
+            body.append(tag("p", tag("a", said["job.page"], href=door.link(f"{path}/class.html"), class_="button")))
+        body.append(tag("ul", *(tag("li", line) for line in work.outcome.lines), class_="lines"))
+    return page(door, work.title, *body, at=path)
+
+
+def refusal(door: Door, title: str, text: str) -> str:
+    """Return a page that says why there is nothing to see."""
+    return page(
+        door, title, note(text, kind="problem"), tag("p", tag("a", door.said["home.back"], href=door.link("/")))
+    )
+
+
+def framed(document: str, href: str, text: str) -> str:
+    """Return a page that is not the server's own, a report, as the main part of one with a link before it."""
+    back = tag("nav", tag("a", text, href=href), aria_label=text)
+    return document.replace("<body>", f"<body>{back}<main>", 1).replace("</body>", "</main></body>", 1)
