@@ -272,13 +272,14 @@ def _as_blank(contents: Contents, sheet: Format) -> tuple[Fitting, Found] | None
         return None
     fitting = Fitting(contents, stated=True)
     _, wanted, _ = next(ways_of(fitting.extents, None))
+    ladders = fitting.extents.ladders
     own = {fitting.extents.root(contents.solved.scale_of_plan[plan]) for plan in contents.plans}
-    tops = {symbol: len(fitting.extents.ladders[symbol].values) - 1 for symbol in own}
+    tops = {symbol: len(ladders[symbol].values) - 1 for symbol in own if ladders[symbol].free}
     for coarser in range(COARSER):
-        rungs = wanted | {symbol: min(wanted[symbol] + coarser, tops[symbol]) for symbol in own}
+        rungs = wanted | {symbol: min(wanted[symbol] + coarser, top) for symbol, top in tops.items()}
         with suppress(InputError):
             found = _stated(fitting, printable(sheet), rungs)
-            if found is not None and last(found[2]) < LEAF:
+            if found is not None and last(found[2]) < LEAF and found[1] == rungs:
                 return fitting, found
     return None
 

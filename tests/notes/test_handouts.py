@@ -198,6 +198,13 @@ def test_blank_form_and_solution_have_the_same_scale_factors(task: str) -> None:
         assert Words.of("uk").scale(blank.scales["position"]) in scheme.heading
 
 
+def test_what_a_task_fixes_stays_on_a_blank() -> None:
+    blank = handout("madi-four-bar", only="velocity,acceleration")
+
+    assert [error.key for error in blank.warnings] == []
+    assert {scale.mu for plan, scale in blank.scales.items() if plan in ("velocity", "acceleration")} == {0.189, 21.318}
+
+
 def test_a_load_diagram_is_given() -> None:
     blank = handout("scheme-01-compressor", "1", only="forces", lang="en")
 
