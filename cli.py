@@ -223,6 +223,25 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
     console.warn(drawn.warnings)
 
 
+@console.command("kulman page --all site", "kulman page --all site scheme-09-shaper madi-cam --lang en")
+@click.argument(
+    "tasks", metavar="TASK...", nargs=-1, shell_complete=completing.completing(completing.tasks, with_files=True)
+)
+@click.option("--all", "folder", metavar="FOLDER", required=True, shell_complete=completing.files)
+@click.option("--jobs", metavar="N", callback=console.processes)
+@console.of_language
+def page(tasks: tuple[str, ...], folder: str, jobs: int, lang: str | None) -> int:
+    """Write a site of pages on which plans move: all variants of each TASK, or of all, with an index."""
+    from .variants.batches.site import site
+
+    with console.progress() as advance:
+        made = site(folder, tasks, lang=lang or "uk", jobs=jobs or None, advance=advance)
+    click.echo(messages(system_language())["site-done"].format(n=made.pages, file=made.index))
+    for problem in made.problems:
+        click.echo(problem, err=True)
+    return console.refuse(InputError("site-problems", n=len(made.problems))) if made.problems else 0
+
+
 @console.command(
     "kulman note nau-slider-crank -v 3 -o note.pdf -o note.md --student 'І. Петренко'",
     "kulman note madi-four-bar --figure velocity -o velocity.svg",
@@ -360,6 +379,7 @@ for command in (
     list_tasks,
     solve,
     sheet,
+    page,
     note,
     sweep,
     chart,

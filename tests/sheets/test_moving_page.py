@@ -16,10 +16,10 @@ from kulman.cli import main
 from kulman.plans.linkages.cycle import cycle
 from kulman.plans.names import role
 from kulman.plans.quantities import unit_of
-from kulman.scales.errors import LANGUAGES
-from kulman.variants.case import Request
+from kulman.scales.errors import LANGUAGES, InputError
+from kulman.variants.case import Case, Request
 from kulman.variants.reader import load_task
-from kulman.variants.shelf import bundled
+from kulman.variants.shelf import bundled, text_of
 
 from ..support.cams import ROCKER
 
@@ -28,6 +28,10 @@ COURSES = [("madi-cam", {}), (ROCKER, {}), ("madi-gear", {}), ("karpenko-hoist",
 LINKAGES = [task for task in bundled() if load_task(task).kind == "mechanism"]
 # a crank, a stroke with loads of its own, a sliding driver, a group of class III
 SOME = ("nau-slider-crank", "scheme-09-shaper", "scheme-18-hydraulic-drive", "scheme-20-press-automaton")
+# variants whose names are one on a disk
+ALIKE = "".join(
+    f'\n[[variant]]\nid = "{name}"\nm = "5 mm"\nz_1 = 15\nz_2 = 20\nx_1 = 0.2\nx_2 = 0.85\n' for name in ("1.7", "1-7")
+)
 PLACES = 24
 SAME = 1e-12
 LARGEST = 150_000  # bytes
@@ -173,3 +177,45 @@ def test_a_page_is_written_beside_the_sheet(tmp_path: Any, capsys: Any) -> None:
         main(["sheet", "nau-slider-crank", "-o", files[0], "-o", files[1]])
     assert done.value.code in (0, None)
     assert (tmp_path / "moving.html").read_text("utf-8") == page_of("nau-slider-crank")
+
+
+def test_a_site_has_a_page_for_every_variant_and_an_index(tmp_path: Any, capsys: Any) -> None:
+    own = tmp_path / "own.toml"
+    own.write_text(text_of("madi-gear").replace('id = "madi-gear"', 'id = "own"') + ALIKE, "utf-8")
+    with pytest.raises(SystemExit) as done:
+        main(["page", "--all", str(tmp_path / "site"), "madi-gear", str(own), "--lang", "ru", "--jobs", "1"])
+
+    index = (tmp_path / "site" / "index.html").read_text("utf-8")
+    links = re.findall(r'href="([^"]+)"', index)
+    assert (done.value.code, capsys.readouterr().err) == (0, "")
+    assert '<html lang="ru">' in index
+    assert links == ["madi-gear/17.html", "own/17.html", "own/1-7.html", "own/1-7-2.html"]
+    assert all('<html lang="ru">' in (tmp_path / "site" / link).read_text("utf-8") for link in links)
+    assert (tmp_path / "site" / links[0]).read_text("utf-8") == page_of("madi-gear", "ru")
+
+
+def test_a_site_is_bounded_and_says_what_it_could_not_draw(tmp_path: Any, monkeypatch: Any, capsys: Any) -> None:
+    monkeypatch.setattr("kulman.variants.batches.site.MOST", 3)
+    with pytest.raises(SystemExit) as refused:
+        main(["page", "--all", str(tmp_path / "site"), "nau-slider-crank", "--lang", "en"])
+    assert refused.value.code == 2
+    assert capsys.readouterr().err == "11 pages, 3 at most: name the tasks of the site\n"
+    assert not (tmp_path / "site").exists()
+
+
+def test_a_site_says_which_pages_it_could_not_make(tmp_path: Any, monkeypatch: Any, capsys: Any) -> None:
+    def broken(case: Case) -> str:
+        if case.variant == "4":
+            raise InputError("kind-without", task="x", text="y")
+        return "page"
+
+    monkeypatch.setattr("kulman.variants.batches.site.page_of", broken)
+    with pytest.raises(SystemExit) as done:
+        main(["page", "--all", str(tmp_path / "site"), "nau-slider-crank", "--lang", "en", "--jobs", "1"])
+
+    index, said = (tmp_path / "site" / "index.html").read_text("utf-8"), capsys.readouterr().err
+    assert done.value.code == 2
+    assert said.startswith("nau-slider-crank 4: ")
+    assert said.endswith("pages that could not be made: 1\n")
+    assert "nau-slider-crank/3.html" in index
+    assert "nau-slider-crank/4.html" not in index
