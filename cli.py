@@ -220,7 +220,7 @@ def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: st
 
     drawn = sheet_task(task, set=settings, **console.without_none(options))
     console.say_written(drawn.save(*files, tile=tile), False)
-    console.warn(drawn.warnings)
+    console.warn(drawn.warnings_of(*files))
 
 
 @console.command("kulman page --all site", "kulman page --all site scheme-09-shaper madi-cam --lang en")

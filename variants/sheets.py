@@ -49,6 +49,7 @@ NOTE_TEXTS = "kulman.drawing.notes"
 ALL = 1000  # steps: no plan has more
 PAGE = ".html"  # on which plans move
 SUFFIXES = (*WRITERS, PAGE)
+ABOUT_PAPER = {"scales-changed", "scale-coarser", "cam-smaller", "gear-smaller", "hoist-smaller"}  # keys of warnings
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -79,6 +80,11 @@ class Sheet:
             written: then none is.
         """
         return save_all(paths, SUFFIXES, lambda path: self._files(path, tile))
+
+    def warnings_of(self, *paths: str | os.PathLike[str]) -> tuple[InputError, ...]:
+        """Return what a user should know of these files: of pages that move nothing that is about paper."""
+        on_paper = any(Path(path).suffix.lower() != PAGE for path in paths)
+        return tuple(warning for warning in self.warnings if on_paper or warning.key not in ABOUT_PAPER)
 
     def _files(self, path: Path, tile: str | None) -> Files:
         if path.suffix.lower() != PAGE:
@@ -172,12 +178,15 @@ def page_of(case: Case) -> str:
     """
     from ..drawing.moving import page
 
-    data = case.kind.moving(case, case.words())
-    title, about = (
-        case.task.title[case.language],
-        (case.task.id, case.variant, sheet_id(case.task, case.variant, case.settings)),
+    if case.positions is not None:
+        raise InputError("handout-apart", first="--positions", second=f"-o *{PAGE}")
+    data, words, code = (
+        case.kind.moving(case, case.words()),
+        case.words(),
+        sheet_id(case.task, case.variant, case.settings),
     )
-    return page(data, case.words(), title, ", ".join(about))
+    about = words["moving.about"].format(task=case.task.id, variant=case.variant, code=code)
+    return page(data, words, case.task.title[case.language], about)
 
 
 def draw_case(case: Case) -> Sheet:

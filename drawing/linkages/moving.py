@@ -130,7 +130,7 @@ def moving_linkage(
             "speed": cycle.speed,
             "by": 1e3,
             "unit": words.unit("mm"),
-            "digits": 1,
+            "digits": 1 if drive.turns else 2,
             "crank": [str(getattr(cycle.mechanism.driver, "pivot", "")), str(cycle.mechanism.driver.point)],
         },
         "givens": [*_givens(scene, cycle, bounds)],

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from html import escape
 from importlib.resources import files
 from typing import Any, TypeAlias
@@ -16,6 +17,8 @@ from ..text import Ruling, read, told_apart
 from ..words import Words
 
 Data: TypeAlias = dict[str, Any]
+COMMENT = re.compile(r"(?:^|\s)// .*")
+SPACED = re.compile(r" ?([*/=<>&|?:,;{}()]) ?")  # signs of formulas; two minus signs stay apart
 TAGS = {"_": "sub", "^": "sup"}
 
 
@@ -47,16 +50,18 @@ def page(data: Data, words: Words, title: str, about: str) -> str:
     own = files(__name__)
     said = {key.removeprefix("moving."): text for key, text in words.texts.items() if key.startswith("moving.")}
     solve = data.pop("solve")
-    payload = json.dumps({**data, "words": said, "lang": words.language}, ensure_ascii=False, separators=(",", ":"))
+    script = own.joinpath("page.js").read_text("utf-8")
+    asked = {key: text for key, text in said.items() if re.search(rf"\b{key}\b", script)}
+    payload = json.dumps({**data, "words": asked, "lang": words.language}, ensure_ascii=False, separators=(",", ":"))
     parts = {
         "lang": words.language,
         "title": escape(title),
         "task": escape(about),
         "style": own.joinpath("page.css").read_text("utf-8"),
         "data": payload.replace("</", "<\\/"),
-        "solver": _unindented(script_names("cosines[" in solve) + solve),
-        "places": _unindented(own.joinpath("places.js").read_text("utf-8")),
-        "script": _unindented(own.joinpath("page.js").read_text("utf-8")),
+        "solver": _short(script_names("cosines[" in solve)) + "\n" + SPACED.sub(r"\1", _short(solve)),
+        "places": _short(own.joinpath("places.js").read_text("utf-8")),
+        "script": _short(script),
         **{f"said.{key}": escape(text) for key, text in said.items()},
     }
     text = own.joinpath("page.html").read_text("utf-8")
@@ -65,6 +70,6 @@ def page(data: Data, words: Words, title: str, about: str) -> str:
     return text
 
 
-def _unindented(script: str) -> str:
-    """Return a script without what only its readers need at the beginning of lines: pages go by mail, too."""
-    return "\n".join(line.strip() for line in script.splitlines())
+def _short(script: str) -> str:
+    """Return a script without what only its readers need, comments and indents: pages go by mail, too."""
+    return "\n".join(filter(None, (COMMENT.sub("", line).strip() for line in script.splitlines())))

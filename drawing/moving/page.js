@@ -181,29 +181,34 @@ function light(names) {
 const shownViews = () => [...new Set([views.get("position"), views.get($("which").value)])].filter(view => view && view.svg);
 
 // ---- letters beside what they name, away from lines and from one another
-const AROUND = Array.from({ length: 12 }, (_, k) => [Math.cos(k * Math.PI / 6), Math.sin(k * Math.PI / 6)]);
+const COVERS = 6, AROUND = Array.from({ length: 12 }, (_, k) => [Math.cos(k * Math.PI / 6), Math.sin(k * Math.PI / 6)]);
 function settle(view, segments) {
   const taken = [];
   if (view.grip) { const [x, y] = spot(here.found, drive.crank[1]).map(z => z / view.mu); taken.push([x - 5, y - 5, x + 5, y + 5]); }
   for (const shape of view.shapes) {
     const label = shape.label;
     if (!label || shape.hidden) continue;
-    const wide = label.text.wide, high = view.letter * 0.9, tries = [];
+    const wide = label.text.wide, high = view.letter * 1.1, tries = [];
     if (label.b) {
       const e = unit(sub(label.b, label.a)), n = [-e[1], e[0]], off = (label.off || 1.4) + Math.abs(n[0]) * wide / 2 + Math.abs(n[1]) * high / 2;
-      for (const part of [0.5, 0.35, 0.65, 0.2, 0.8]) for (const way of [1, -1]) tries.push(add(add(label.a, sub(label.b, label.a), part), n, way * off));
-    } else for (const far of [2.4, 4.2, 6.4]) for (const e of AROUND) tries.push(add(label.a, [e[0] * (far + wide / 2), e[1] * (far + high / 2)]));
+      for (const part of [0.5, 0.35, 0.65, 0.2, 0.8]) for (const way of [1, -1]) for (const more of [0, high]) tries.push(add(add(label.a, sub(label.b, label.a), part), n, way * (off + more)));
+    } else for (const far of [2.4, 4.2, 6.4, 9]) for (const e of AROUND) tries.push(add(label.a, [e[0] * (far + wide / 2), e[1] * (far + high / 2)]));
     let best = null;
-    tries.forEach((at, k) => {
-      const box = [at[0] - wide / 2, at[1] - high / 2, at[0] + wide / 2, at[1] + high / 2];
-      let cost = k * 0.02 + (shape.tried === k ? -0.6 : 0);
-      for (const other of taken) if (box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]) cost += 6;
+    const attempt = k => {
+      const at = tries[k], box = [at[0] - wide / 2, at[1] - high / 2, at[0] + wide / 2, at[1] + high / 2];
+      let cost = k * 0.02;
+      for (const other of taken) if (box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]) cost += COVERS;
       for (const [a, b] of segments) if (crosses(a, b, box)) cost += 1.5;
       if (!best || cost < best.cost) best = { cost, at, box, k };
-    });
+    };
+    if (shape.tried < tries.length) attempt(shape.tried); // where it was it stays as long as it is clear there
+    if (!best || best.cost >= 1.5) for (let k = 0; k < tries.length && !(best && best.cost < k * 0.02); k++) attempt(k);
     shape.tried = best.k;
+    const crowded = best.cost > COVERS && !label.text.classList.contains("lit"); // it is read when it is pointed at
+    label.text.classList.toggle("crowded", crowded);
+    if (crowded) continue;
     taken.push(best.box);
-    set(label.text, { x: (best.at[0] - wide / 2).toFixed(2), y: (-best.at[1] + high * 0.4).toFixed(2) });
+    set(label.text, { x: (best.at[0] - wide / 2).toFixed(2), y: (-best.at[1] + view.letter * 0.36).toFixed(2) });
   }
 }
 function crosses(a, b, box) { // a segment and a box (Liang and Barsky)
@@ -252,10 +257,13 @@ function grip(view, svg) {
   };
   node.addEventListener("pointerdown", event => { pause(); node.setPointerCapture(event.pointerId); event.preventDefault(); node.focus(); });
   node.addEventListener("pointermove", event => { if (node.hasPointerCapture(event.pointerId)) goal(event); });
-  node.addEventListener("keydown", event => {
-    const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
-    if (by) { go(here.at + drive.sense * by * (drive.turns ? Math.PI / 180 : span / 200)); event.preventDefault(); }
-  });
+  node.addEventListener("keydown", event => nudge(event, drive.sense));
+}
+
+function nudge(event, sense) { // a degree, or a part of the span; with Shift a tenth of it, for the ends of strokes
+  const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
+  if (!by) return;
+  pause(); go(here.at + sense * by * (event.shiftKey ? 0.1 : 1) * (drive.turns ? Math.PI / 180 : span / 360)); event.preventDefault();
 }
 
 // ---- one place
@@ -269,7 +277,7 @@ function go(at) {
   $("place").value = shownPlace(at);
   $("at").textContent = `= ${shownAt(at)}`;
   const failed = found[0] >= FAILED;
-  $("status").textContent = failed ? found[0] === 3 ? W.apart : W.singular : found[0] === 1 ? W.flat : "";
+  $("status").textContent = failed ? found[0] === 3 ? W.apart : W.singular : performance.now() < here.told_until ? here.passed : found[0] === 1 ? W.flat : "";
   for (const view of shownViews()) view.svg.classList.toggle("faded", failed);
   if (failed && here.found) { numbers(true); now(); return; }
   here.found = found;
@@ -300,9 +308,14 @@ function play() {
     before = time;
     if (drive.again && at > drive.high) at -= drive.again; // the next one takes its place
     if (!drive.turns && !drive.again && (at >= drive.high || at <= drive.low)) way = at >= drive.high ? -1 : 1;
+    const gap = stand(at)[0], from = at;
     for (let n = 0; n < COUNT && stand(at)[0] >= FAILED; n++) { // positions without a plan are passed by
       at += (drive.turns ? drive.sense * TURN : way * span) / COUNT;
       if (!drive.turns && (at > drive.high || at < drive.low)) { way = -way; at = Math.min(Math.max(at, drive.low), drive.high); }
+    }
+    if (gap >= FAILED) { // and told
+      here.passed = W.passed.replace("{from}", shownAt(from)).replace("{to}", shownAt(at)) + " " + (gap === 3 ? W.apart : W.singular);
+      here.told_until = performance.now() + 2500;
     }
     go(at);
     playing = requestAnimationFrame(tick);
@@ -362,11 +375,13 @@ function tell() {
     list.appendChild(item);
     return [item, html];
   });
+  if (view.name !== "position" && $("which").value !== view.name) { $("which").value = view.name; right(); }
   replay(view.until);
 }
 function replay(count) {
   const view = views.get($("replayed").value), most = view.steps.length;
   for (const other of D.views) if (other !== view) other.until = undefined;
+  for (const side of ["left", "right"]) $(side).closest("figure").classList.toggle("replayed", (view.name === "position") === (side === "left"));
   view.until = count === undefined ? undefined : Math.min(Math.max(count, 0), most);
   if (view.until !== undefined && view.name !== "position" && $("which").value !== view.name) { $("which").value = view.name; right(); }
   here.told.forEach(([item], k) => {
@@ -382,7 +397,7 @@ function givens() {
   for (const item of D.givens) {
     const label = document.createElement("label"), input = document.createElement("input"), text = document.createElement("span");
     label.innerHTML = item.symbol; label.htmlFor = input.id = `given-${item.name}`; text.innerHTML = item.unit;
-    Object.assign(input, { type: "text", inputMode: "decimal", value: item.fixed ? said(item.value, 6) : locale(String(item.value)), disabled: item.fixed });
+    Object.assign(input, { type: "text", inputMode: "decimal", autocomplete: "off", value: item.fixed ? said(item.value, 6) : locale(String(item.value)), disabled: item.fixed });
     input.addEventListener("change", () => change(item, input));
     $("givens").append(label, input, text);
   }
@@ -394,6 +409,7 @@ function givens() {
     Object.assign(given, D.board);
     here.changed = false;
     for (const item of D.givens) $(`given-${item.name}`).value = locale(String(item.value));
+    here.at = drive.start;
     remade();
   });
 }
@@ -440,10 +456,7 @@ function begin() {
   $("symbol").innerHTML = drive.symbol;
   set($("place"), drive.turns ? { min: 0, max: 360, step: "any" } : { min: shownPlace(drive.low), max: shownPlace(drive.high), step: "any" });
   $("place").addEventListener("input", () => { pause(); go($("place").value * (drive.turns ? Math.PI / 180 : 1 / drive.by)); });
-  $("place").addEventListener("keydown", event => { // steps that are the same for every span
-    const by = { ArrowRight: 0.5, ArrowUp: 0.5, ArrowLeft: -0.5, ArrowDown: -0.5, PageUp: 10, PageDown: -10 }[event.key];
-    if (by) { pause(); go(here.at + by * (drive.turns ? Math.PI / 180 : span / 360)); event.preventDefault(); }
-  });
+  $("place").addEventListener("keydown", event => nudge(event, 1));
   $("play").addEventListener("click", () => playing ? pause() : play());
   $("slow").textContent = slow > 1 ? W.slow.replace("{n}", said(slow)) : "";
   for (const view of D.views) for (const list of [$("which"), $("replayed")]) {

@@ -84,7 +84,7 @@ def test_a_wrong_argument_is_answered_in_one_line(verb: str, name: str) -> None:
     assert all(caught.value.text(language).isprintable() for language in LANGUAGES)
 
 
-_APART = ("help", "guide", "list", "show", "new", "variants")
+_APART = ("help", "guide", "list", "show", "new", "variants", "page")
 VERBS = {name: getattr(kulman, name) for name in commands.commands if name not in _APART}
 VERBS["variants"] = kulman.all_variants
 

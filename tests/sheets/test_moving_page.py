@@ -54,7 +54,7 @@ def data_of(page: str) -> dict[str, Any]:
 
 def engine(page: str) -> Any:
     """What calculates in a page, in an engine that has no page."""
-    script = page.rpartition("<script>")[2].partition("// The page that moves")[0]
+    script = page.split("<script>")[1].partition("</script>")[0]
     context = quickjs.Context()
     context.set("text", json.dumps(data_of(page)))
     context.eval(script.replace('document.getElementById("data").textContent', "text"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from html import escape
 from importlib.resources import files
@@ -32,7 +33,8 @@ class Item(NamedTuple):
     place: str
 
 
-class Site(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Site:
     """A site that has been written: its index, how many pages it has, and why some variants have none, a line each."""
 
     index: Path
