@@ -61,7 +61,7 @@ function letters(html, parent, attributes, high = LETTER) { // scripts, slanted 
       }
     }
   })(holder.content, { drop: 0, small: false, slanted: false, over: false });
-  text.wide = count * high * 0.58;
+  text.wide = count * high * 0.63;
   return text;
 }
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1]], add = (a, b, k = 1) => [a[0] + b[0] * k, a[1] + b[1] * k];

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import kulman
+from kulman.variants.batches.site import site
 from kulman.variants.case import Request
 from kulman.variants.reader import load_task
 
@@ -173,6 +174,57 @@ def test_what_a_position_has_not_is_not_shown(opened: Opened) -> None:
     assert values(page) == {}
 
 
+def test_play_says_what_it_passes_by(opened: Opened) -> None:
+    page = opened("nau-slider-crank")
+    page.locator("#given-l_AB").fill("20")
+    page.locator("#given-l_AB").press("Tab")
+    page.evaluate("for (let k = 0; k < 360 && stand(place(k))[0] < FAILED; k++) go(place(k))")  # to the edge of the arc
+    page.locator("#play").click()
+    page.wait_for_function("$('status').textContent.startsWith('Пропущено від')", timeout=20_000)
+    page.locator("#play").click()
+    assert values(page) != {}
+
+    page.locator("#again").click()
+    assert at(page) == page.evaluate("drive.start")
+
+
+def test_the_construction_that_is_chosen_is_seen_at_once_and_stays_in_view(opened: Opened) -> None:
+    page = opened("scheme-09-shaper", 390)
+    page.select_option("#replayed", "acceleration")
+    assert page.locator("#which").input_value() == "acceleration"
+    page.locator("#next").scroll_into_view_if_needed()
+    for _ in range(6):
+        page.locator("#next").click()
+    box = page.locator("#right").bounding_box()
+    assert -1.0 <= box["y"] <= page.viewport_size["height"] - box["height"]
+
+
+@pytest.mark.parametrize("task", ["scheme-09-shaper", "scheme-20-press-automaton"])
+def test_no_letter_of_a_crowded_plan_stands_on_another_and_a_frame_is_quick(task: str, opened: Opened) -> None:
+    page = opened(task)
+    boxes = """() => [...document.querySelectorAll("#right text:not(.crowded):not(.short):not(.gone)")]
+        .map(text => [text.getBoundingClientRect(), text.textContent])
+        .map(([box, text]) => [box.x, box.y, box.right, box.bottom, text])"""
+    for part in range(0, 360, 30):
+        page.evaluate(f"go({math.radians(part)})")
+        placed = page.evaluate(boxes)
+        for k, (x0, y0, x1, y1, one) in enumerate(placed):
+            for u0, v0, u1, v1, other in placed[k + 1 :]:
+                across, down = min(x1, u1) - max(x0, u0), min(y1, v1) - max(y0, v0)
+                assert across <= 0.35 * min(x1 - x0, u1 - u0) or down <= 0.35 * min(y1 - y0, v1 - v0), (
+                    part,
+                    one,
+                    other,
+                )
+
+    # the quickest of many, lest it be the machine that is slow
+    frames = """() => Math.min(...Array.from({ length: 40 }, (_, k) => {
+        const begin = performance.now();
+        for (let n = 0; n < 9; n++) go(place(k * 9 + n));
+        return (performance.now() - begin) / 9 }))"""
+    assert page.evaluate(frames) < 2.0
+
+
 def test_keyboard_alone_suffices_and_nothing_is_out_of_reach(opened: Opened) -> None:
     page = opened("nau-slider-crank")
     reached = set[str]()
@@ -185,6 +237,17 @@ def test_keyboard_alone_suffices_and_nothing_is_out_of_reach(opened: Opened) -> 
     page.keyboard.press("ArrowUp")
     turned = (before - at(page)) % math.tau
     assert min(turned, math.tau - turned) == pytest.approx(math.radians(1.0), abs=1e-6)
+
+
+def test_the_index_of_a_site_can_be_read_by_all_and_leads_to_its_pages(browser: Any, tmp_path: Path) -> None:
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    page = browser.new_page(viewport={"width": 390, "height": 800})
+    page.goto(site(tmp_path, ["madi-gear"], lang="en", jobs=1).index.as_uri())
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+    assert axe.Axe().run(page).response["violations"] == []
+    page.locator("a").first.press("Enter")
+    page.wait_for_selector("#play")
+    assert page.url.endswith("/madi-gear/17.html")
 
 
 @pytest.mark.parametrize("width", [1300, 390])

@@ -179,6 +179,19 @@ def test_a_page_is_written_beside_the_sheet(tmp_path: Any, capsys: Any) -> None:
     assert (tmp_path / "moving.html").read_text("utf-8") == page_of("nau-slider-crank")
 
 
+def test_a_page_has_neither_paper_nor_positions(tmp_path: Any, capsys: Any) -> None:
+    def told(*words: str) -> tuple[object, str]:
+        with pytest.raises(SystemExit) as done:
+            main(["sheet", "nau-slider-crank", "--lang", "en", *words])
+        return done.value.code, capsys.readouterr().err
+
+    page, sheet = (["-o", str(tmp_path / name)] for name in ("page.html", "sheet.svg"))
+    assert told(*page, "--format", "A4") == (0, "")
+    assert "scale factors are not those" in told(*page, *sheet, "--format", "A4")[1]
+    assert told("-o", str(tmp_path / "x.html"), "--positions", "12") == (2, "expected --positions without -o *.html\n")
+    assert not (tmp_path / "x.html").exists()
+
+
 def test_a_site_has_a_page_for_every_variant_and_an_index(tmp_path: Any, capsys: Any) -> None:
     own = tmp_path / "own.toml"
     own.write_text(text_of("madi-gear").replace('id = "madi-gear"', 'id = "own"') + ALIKE, "utf-8")
