@@ -235,9 +235,11 @@ class Breaking:
     ) -> tuple[list[Standing], list[Standing]] | None:
         """Return a page with as much of a text of another one as it has room for, and that other one without it.
 
-        Whatever stands alone may move, too.
+        Whatever stands alone may move, too; of one table no two parts stand on a page but to spare another page.
         """
         (whole, at), own = other[i], [view for view, _ in page]
+        if len(other) > 1 and whole.of in {view.of for view in own if view.of}:
+            return None
         before, after = ([view for view, _ in part] for part in (other[:i], other[i + 1 :]))
         if (whole.pieces or len(other) == 1) and (placed := self._placed([*own, whole], number)):
             return placed, self._placed([*before, *after], k) or [*other[:i], *other[i + 1 :]]
@@ -248,7 +250,8 @@ class Breaking:
             found = placed, count
         if found is None:
             return None
-        tail = part_of(whole, found[1], whole.pieces, self.goes_on.format(heading=said))
+        goes_on = said if whole.of else self.goes_on.format(heading=said)  # of a part its heading says so already
+        tail = part_of(whole, found[1], whole.pieces, goes_on)
         below = replace(at, y=at.y + whole.size[1] - tail.size[1])
         return found[0], self._placed([*before, tail, *after], k) or [*other[:i], (tail, below), *other[i + 1 :]]
 

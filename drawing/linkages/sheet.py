@@ -100,10 +100,11 @@ def figures(contents: Contents, width: float) -> Iterator[LinkageFigure]:
 
 def _courses(cycle: Cycle) -> Iterator[LinkageFigure]:
     """Go through the diagrams of what is found over the cycle, and the plans of all positions."""
-    from .figures.course import course_of, course_view, plans_view
+    from .figures.course import course_of, course_view, extremes_table, plans_view
 
     for names in course_of(cycle):
         yield Figure(f"course_{names[0]}", partial(course_view, cycle=cycle, names=names))
+    yield Figure("extremes", partial(extremes_table, cycle=cycle))
     for plan in (plan for plan in PLANS if plan in cycle.program.plans):
         yield Figure(f"{plan}_positions", partial(plans_view, cycle=cycle, plan=plan))
 

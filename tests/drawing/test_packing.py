@@ -258,3 +258,16 @@ def test_tables_and_texts_break_for_a_page_that_were_too_empty() -> None:
         assert (*first.rows, *rest.rows[1:], *first.lines, *rest.lines) == (*view.rows, *view.lines)
         full = compose((replace(figure, box=(0.0, 0.0, 170.0, 120.0)), view), alone, {}, paper, "gost", "{heading}")
         assert [part for part in full.views if part.of] == []
+
+
+def test_a_table_over_many_pages_is_continued_once_on_each():
+    style, paper = STYLES["A4"], FORMATS["A4"]
+    long = table("values", "Values", [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(75))], style)
+    figures = [View(f"plan {k}", (), (0.0, 0.0, 170.0, 80.0)) for k in range(3)]
+    alone = [*(Placement(k, 25.0, 190.0) for k in range(3)), Placement(2, 25.0, 30.0)]
+
+    drawn = compose((*figures, long), alone, {}, paper, "gost", "{heading} (continued)")
+
+    headings = [part.heading for part in drawn.views if part.of]
+    assert headings == [("Values",), ("Values (continued)",), ("Values (continued)",)]
+    assert max(sum(group.name.startswith("values") for group in page) for page in drawn.placed) == 1

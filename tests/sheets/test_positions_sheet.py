@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 
 from kulman import KulmanError, sheet, sweep
 from kulman.tests.sheets.judge import overlaps
-from kulman.tests.support.printed_numbers import half_digit, value
-from kulman.tests.support.readback import Sheet, read
+from kulman.tests.support.printed_numbers import half_digit, table, value
+from kulman.tests.support.readback import Sheet, View, read
 from kulman.variants.shelf import bundled
 
 USUAL = ("nau-slider-crank", "scheme-09-shaper")
@@ -57,18 +59,27 @@ def assert_plans(swept: Any, made: Sheet) -> None:
 
 
 def assert_grid(made: Sheet) -> None:
-    """Assert that the poles of each kind of plan stand on straight rows and columns."""
+    """Assert that the plans of each kind stand apart, in order on rows and columns, with their middles on these."""
     for plan in PLANS:
-        poles = [ring.centre for ring in made[f"{plan}_positions"].rings if ring.radius > 0.4]
-        columns = {round(pole.real, 3) for pole in poles}
-        rows = {round(pole.imag, 3) for pole in poles}
-        assert len(poles) > 8
+        view = made[f"{plan}_positions"]
+        poles = [ring.centre for ring in view.rings if ring.radius > 0.4]
+        lines = shapely.unary_union([shapely.LineString([(z.real, z.imag) for z in v]) for v in _ends(view)]).buffer(
+            1.0
+        )
+        boxes = [next(g for g in lines.geoms if g.distance(shapely.Point(p.real, p.imag)) < 1.0).bounds for p in poles]
+        columns, rows = ({round((box[i] + box[i + 2]) / 2) for box in boxes} for i in (0, 1))
+        assert len(lines.geoms) == len(poles) > 8
         assert len(columns) * (len(rows) - 1) < len(poles) <= len(columns) * len(rows)
+
+
+def _ends(view: View) -> list[tuple[complex, complex]]:
+    return [(vector.tail, vector.tip) for vector in view.vectors]
 
 
 def assert_extremes(swept: Any, made: Sheet) -> None:
     """Assert that the extremes of what is drawn over the cycle are printed, but those without a limit."""
     views = [view for view in made.views if view.name.startswith("course_")]
+    rows = table(made["extremes"])
     assert views
     for view in views:
         said = [text.string for text in view.texts if text.role == "label"]
@@ -77,6 +88,7 @@ def assert_extremes(swept: Any, made: Sheet) -> None:
             bounded = 8.0 * float(np.nanmedian(np.abs(known)))
             for end in swept.cycle.extremes([name])[name]:
                 assert any(shows(text, end.value) for text in said) or abs(end.value) > bounded, (name, end.value, said)
+                assert any(shows(cell, end.value) for row in rows for cell in row) or math.isinf(end.value), name
 
 
 def shows(text: str, number: float) -> bool:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ....plans.laws import TURN
 from ....plans.linkages.cycle import Cycle
+from ....plans.linkages.mechanism import FRAME
 from ....plans.linkages.solved import solve_linkage
 from ....plans.names import role
 from ....plans.quantities import BALANCES, unit_of
@@ -20,9 +21,10 @@ from ....scales.scale import Scale, rounded, steps
 from ...diagram import Axis, Field, axes, curve
 from ...printed import value_text
 from ...shapes import Circle, Pen
+from ...tables import table
 from ...view import Canvas, View
 from ..scene import Scene
-from .cycle import PEAK, SECTIONS, TALL, cut, main_output
+from .cycle import PEAK, SECTIONS, TALL, cut, main_output, output_point
 from .plan import TOGETHER, headed, told_apart
 
 Array = NDArray[Any]
@@ -44,11 +46,10 @@ def plans_view(scene: Scene, cycle: Cycle, plan: str) -> View:
     every = [(number, stand, _reach(stand, plan)) for number, stand in _stands(scene, cycle, plan)]
     usual_reach = float(np.median([max(reach) for _, _, reach in every]))
     stands = [item for item in every if max(item[2]) <= PEAK * usual_reach]
-    mu, (across, up) = _grid([reach for _, _, reach in stands], scene)
+    mu, poles = _grid([reach for _, _, reach in stands], scene)
     scale = Scale(usual.symbol, mu, usual.unit)
-    for k, (number, stand, _) in enumerate(stands):
-        own = replace(stand, scales={**stand.scales, plan: scale})
-        _small_plan(canvas, own, plan, complex(across[k % len(across)], up[k // len(across)]), number)
+    for pole, (number, stand, _) in zip(poles, stands, strict=True):
+        _small_plan(canvas, replace(stand, scales={**stand.scales, plan: scale}), plan, pole, number)
     heading = (scene.words[f"heading.positions_{plan}"].format(n=len(stands)), scene.words.scale(scale))
     left = ", ".join(str(number) for number, _, reach in every if max(reach) > PEAK * usual_reach)
     return canvas.finish(f"{plan}_positions", heading, (scene.words["said.left"].format(numbers=left),) if left else ())
@@ -73,35 +74,30 @@ def _marks(scene: Scene, plan: str) -> list[str]:
     return list(dict.fromkeys(edge.tip for edge in scene.reading.on(plan) if scene.defined(edge.tip)))
 
 
-def _grid(plans: Sequence[Reach], scene: Scene) -> tuple[float, tuple[list[float], list[float]]]:
-    """Return the round scale factor with which so many plans are largest, and the places of columns and rows, mm."""
+def _grid(plans: Sequence[Reach], scene: Scene) -> tuple[float, list[complex]]:
+    """Return the round scale factor with which so many plans are largest, each in the middle of its cell, and poles."""
     wide, high = WIDE[scene.style.label], HIGH[scene.style.label]
     around, best = AROUND * scene.style.text, (math.inf, 1)
     for count in range(1, len(plans) + 1):
-        (left, right), (low, top) = _lines(plans, count)
-        rows, columns = len(low), len(left)
-        sums = (
-            (sum(left) + sum(right), wide - 2.0 * around * columns),
-            (sum(low) + sum(top), high - 2.0 * around * rows),
-        )
+        columns, rows = _lines(plans, count)
+        sums = (sum(columns), wide - 2.0 * around * len(columns)), (sum(rows), high - 2.0 * around * len(rows))
         best = min(best, (max(size / room if room > LEAST else math.inf for size, room in sums), count))
-    mu = steps(best[0])[0] if math.isfinite(best[0]) else 1.0
-    (left, right), (low, top) = _lines(plans, best[1])
-    before, above = [0.0, *right], [0.0, *low]
-    across = accumulate((a + b) / mu + 2.0 * around for a, b in zip(before, left, strict=False))
-    up = accumulate(-(a + b) / mu - 2.0 * around for a, b in zip(above, top, strict=False))
-    return mu, ([*across], [*up])
+    mu, count = steps(best[0])[0] if math.isfinite(best[0]) else 1.0, best[1]
+    across, up = ([*accumulate(size / mu + 2.0 * around for size in line)] for line in _lines(plans, count))
+    columns, rows = ([size / mu for size in line] for line in _lines(plans, count))
+    poles = list[complex]()
+    for k, (left, right, below, above) in enumerate(plans):
+        i, j = k % count, k // count
+        middle = complex(across[i] - 0.5 * columns[i], -up[j] + 0.5 * rows[j])
+        poles.append(middle + 0.5 * complex(left - right, below - above) / mu)
+    return mu, poles
 
 
-def _lines(plans: Sequence[Reach], count: int) -> tuple[tuple[list[float], list[float]], ...]:
-    """Return how far plans in so many columns reach to the left and right in each, in each row down and up."""
-    columns = [plans[k::count] for k in range(count)]
-    rows = [plans[k : k + count] for k in range(0, len(plans), count)]
-
-    def most(lines: Sequence[Sequence[Reach]], side: int) -> list[float]:
-        return [max(plan[side] for plan in line) for line in lines]
-
-    return (most(columns, 0), most(columns, 1)), (most(rows, 2), most(rows, 3))
+def _lines(plans: Sequence[Reach], count: int) -> tuple[list[float], list[float]]:
+    """Return how wide the widest plan of each of so many columns is, and how high the highest one of each row."""
+    sizes = [(left + right, below + above) for left, right, below, above in plans]
+    rows = (sizes[k : k + count] for k in range(0, len(sizes), count))
+    return [max(size[0] for size in sizes[k::count]) for k in range(count)], [max(s[1] for s in row) for row in rows]
 
 
 def _small_plan(canvas: Canvas, scene: Scene, plan: str, pole: complex, number: int) -> None:
@@ -128,10 +124,11 @@ def _small_plan(canvas: Canvas, scene: Scene, plan: str, pole: complex, number: 
 def course_of(cycle: Cycle) -> list[tuple[str, ...]]:
     """Return what diagrams over the cycle show beside the main output: how links turn, what balances the driver.
 
-    What belongs to a link stands in one diagram over another; of links that turn alike the first one has them, and what
-    is the same all round is in none.
+    What belongs to a link stands in one diagram over another; of links that turn alike the first one on the frame has
+    them, or the first one, and what is the same all round is in none.
     """
     main, driver = main_output(cycle), cycle.mechanism.driver.link
+    on_frame = {number for pair in cycle.mechanism.pairs if FRAME in pair.links for number in pair.links}
     shown = {driver, main.output.link if main is not None and not main.output.slides else driver}
     links = (link.number for link in cycle.mechanism.links if link.number not in shown)
     parts: list[tuple[str, ...]] = [(f"omega_{n}", f"epsilon_{n}") for n in links]
@@ -139,7 +136,8 @@ def course_of(cycle: Cycle) -> list[tuple[str, ...]]:
     varying = (tuple(name for name in part if _varies(cycle.values.get(name))) for part in parts)
     found: dict[bytes, tuple[str, ...]] = {}
     for part in filter(None, varying):
-        found.setdefault(cycle.values[part[0]].round(ALIKE).tobytes(), part)
+        key, number = cycle.values[part[0]].round(ALIKE).tobytes(), role(part[0]).of
+        found[key] = part if number.isdigit() and int(number) in on_frame else found.get(key, part)
     return [*found.values()]
 
 
@@ -177,6 +175,26 @@ def course_view(scene: Scene, cycle: Cycle, names: Sequence[str]) -> View:
     of = ", ".join(scene.words.symbol(name) for name in names)
     heading = (scene.words["heading.course"].format(names=of), scene.words.scale(across))
     return canvas.finish(f"course_{names[0]}", heading)
+
+
+def extremes_table(scene: Scene, cycle: Cycle) -> View:
+    """Return the table of the largest and smallest values over the cycle, with the places of the driver."""
+    words, found, main = scene.words, course_of(cycle), main_output(cycle)
+    if main is not None:
+        point, link = output_point(cycle), main.output.link
+        found.insert(0, (f"V_{point}", f"a_{point}") if main.output.slides else (f"omega_{link}", f"epsilon_{link}"))
+    names = [name for part in found for name in part if name in cycle.quantities]
+    at = words.symbol(role(cycle.drive.variable).shown)
+    rows = [[words[f"table.{key}"] for key in ("quantity", "unit")]]
+    rows[0][1:1] = [words["sweep.most"], at, words["sweep.least"], at]
+    for name, ends in cycle.extremes(names).items():
+        of, row = unit_of(name), [words.symbol(name)]
+        for end in ends:
+            place = math.degrees(end.at % TURN) if cycle.drive.turns else 1e3 * end.at
+            size = value_text(words, words.display.value(end.value, of)) if math.isfinite(end.value) else "∞"
+            row += [size, words.number(place, 1) + ("°" if cycle.drive.turns else f" {words.unit('mm')}")]
+        rows.append([*row, words.unit(words.display.unit(of))])
+    return table("extremes", words["heading.extremes"], rows, scene.style)
 
 
 def _mark(canvas: Canvas, scene: Scene, at: complex, value: float) -> None:

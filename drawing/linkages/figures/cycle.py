@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ....plans.board import POSITION
 from ....plans.laws import dot
 from ....plans.linkages.cycle import MARGIN, Cycle, Diagrams, diagrams, pole_distance, velocity_field
-from ....plans.linkages.mechanism import ANGLE, BOTH, FRAME, WORKING, Couple, Diagram, Driver, Load
+from ....plans.linkages.mechanism import ANGLE, BOTH, FRAME, WORKING, Couple, Diagram, Driver, Load, Revolute
 from ....plans.linkages.solved import SolvedLinkage, solve_linkage
 from ....plans.linkages.strokes import OutputMotion
 from ....plans.names import role
@@ -65,8 +65,8 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
         lay_down(canvas, stand, Pen.THIN, f"position_{number}")
     for _, stand in _stands(scene, cycle, dead):
         lay_down(canvas, stand, Pen.EXTREME, "dead-position")
-    _number(canvas, scene, stands, cycle.mechanism.driver.point)
-    _number(canvas, scene, stands, _output_point(cycle))
+    for point in _numbered(scene, cycle):
+        _number(canvas, scene, stands, point)
     scene = replace(scene, runs={**scene.runs, **_ways(scene, stands.values())})
     figures = draw_links(canvas, scene, scene.numbers, whole=True)
     driver = scene.mechanism.driver
@@ -113,7 +113,18 @@ def _paths(scene: Scene, cycle: Cycle) -> Iterator[tuple[str, tuple[complex, ...
         yield from ((name, tuple(piece.tolist())) for piece in pieces if len(piece) > 1)
 
 
-def _output_point(cycle: Cycle) -> str:
+def _numbered(scene: Scene, cycle: Cycle) -> list[str]:
+    """Return the points that have a number in each position: the crank's, that of the output, hinges between them."""
+    mechanism = cycle.mechanism
+    hinges = (pair.point for pair in mechanism.pairs if isinstance(pair, Revolute) and FRAME not in pair.links)
+    found: dict[complex, str] = {}
+    for point in (mechanism.driver.point, output_point(cycle), *hinges):
+        if all(abs(scene.mm(point) - place) > CLOSE for place in found):
+            found[scene.mm(point)] = point
+    return [*found.values()]
+
+
+def output_point(cycle: Cycle) -> str:
     """Return a point of the main output that moves, to be numbered like the crank's."""
     mechanism, motion = cycle.mechanism, main_output(cycle)
     number = mechanism.driver.link if motion is None else motion.output.link
