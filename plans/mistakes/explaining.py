@@ -34,6 +34,7 @@ SLIP = 1.5  # tolerances by which a line that stays wrong misses clearly
 ODD = 1e4  # times the right scale factor that none is
 EXACT, CLOSE = 0.006, 0.03  # parts of a number by which mm times mu, and a calculation, may differ from it
 ASIDE, ALMOST = 0.1, 6  # tolerances by which another number is worse, and decimals to which explanations are as good
+CLOSELY = 0.6  # misses of what explains no more than it leaves
 BY_HAND = Step("read", "", ())
 BEAM = 4  # chains of mistakes that are made longer
 LOCAL = 16  # mistakes at one line that are looked at closely
@@ -170,7 +171,13 @@ class _Search:
         candidates = _simplest(_grouped(sorted(found, key=lambda one: one.order), self.said))
         if not candidates or candidates[0].misses > 1.0:
             candidates = _simplest((*self._put_right(off), *candidates))
+        candidates = tuple(filter(self._tells, candidates))
         return Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
+
+    def _tells(self, candidate: Candidate) -> bool:
+        """Whether a candidate explains more than it leaves: some mistake gives nearly any one number by chance."""
+        left = sum(not self.faulty.get(name, 0.0) <= SLIP for name in candidate.left)
+        return len(candidate.explained) > left or (len(candidate.explained) == left and candidate.misses <= CLOSELY)
 
     def _alone(self, made: Iterable[Signature]) -> list[_Found]:
         """Return the single mistakes that explain the first wrong line."""

@@ -26,6 +26,7 @@ TELLING = 3  # lines that must tell that a scale factor is not theirs
 SHORT = 2.0  # mm; shorter segments are read too coarsely to tell
 FEWEST = 4  # answers that must be right under the key of another variant
 MANY, MOST = 0.5, 0.8  # parts of the answers: not right under one's own key; that agree, or are right under the other
+TOLD_APART = 2  # mistakes that are told together
 KEPT = 32  # answer keys
 
 
@@ -142,6 +143,12 @@ class Marked:
         questions = self.marking.key.questions
         small = (line.verdict is Verdict.WRONG and line.off <= CLEAR for line in faulty)
         return bool(faulty) and all(small) and all(questions[line.name].step.verb != "calc" for line in faulty)
+
+    @property
+    def untold(self) -> bool:
+        """Whether the answers fit so many mistakes, or are so few, that none of these can be named."""
+        best = self.candidates[0].ids if self.candidates else ()
+        return len(best) > TOLD_APART or (len(best) > 1 and len(self.marking.answered) < TELLING)
 
     def count(self, verdict: Verdict) -> int:
         """Return how many lines have a verdict."""

@@ -170,13 +170,19 @@ class Report:
         """Go through the mistakes that explain the answers, the simplest first, each with those that look the same."""
         if self.marked.slips:
             yield self.said["report.slip"]
+        elif self.marked.untold:
+            yield self.said["report.untold"]
+        faulty = sum(line.verdict is Verdict.WRONG for line in self.marked.marking.lines)
+        if faulty and not self.marked.candidates and not self.marked.fits:
+            yield self.said["report.unexplained"].format(n=faulty)
         for number, candidate in enumerate(self.marked.candidates[:SHOWN_CANDIDATES], start=1):
             names = ", ".join(self.symbol(name) for name in candidate.explained)
             explains = f"; {self.said['report.explains'].format(names=names)}" if names else ""
             told = self._mistakes(candidate.mistakes)
             yield f"{number}. {told}{explains}"
             others = dict.fromkeys(text for text in map(self._mistakes, candidate.same) if text != told)
-            yield from (self.said["report.same"].format(texts=text) for text in list(others)[:SHOWN_CANDIDATES])
+            shown = list(others)[: None if self.marked.untold else SHOWN_CANDIDATES]
+            yield from (self.said["report.same"].format(texts=text) for text in shown)
 
     def _mistakes(self, together: tuple[Broken, ...]) -> str:
         """Return mistakes that were made together, in the order of the list: what was done, and where."""

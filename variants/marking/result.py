@@ -216,7 +216,7 @@ def result_of(marked: Marked, language: str) -> Result:
         if question is not None and mu is not None and question.plan in ours:
             mus[question.plan] = mu.nearest(ours[question.plan])
     segments = measured(answers, marked.marking.key, mus, follows)
-    best = marked.candidates[0].mistakes if marked.candidates and not marked.slips else ()
+    best = marked.candidates[0].mistakes if marked.candidates and not (marked.slips or marked.untold) else ()
     return Result(
         answers.source,
         marked.entry.who if marked.entry else answers.who,
