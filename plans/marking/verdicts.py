@@ -79,7 +79,7 @@ def mark(key: Key, answers: Iterable[Answer]) -> Marking:
     """
     marker = Marker.begun(key, answers)
     lines = tuple(marker.lines())
-    return Marking(lines, first_wrong(lines), marker)
+    return Marking(lines, first_wrong(lines, marker), marker)
 
 
 def judge(key: Key, answers: Iterable[Answer], first: str = "") -> tuple[Line, ...] | None:
@@ -104,14 +104,18 @@ def count_right(key: Key, answers: Iterable[Answer], least: float) -> int:
     return left
 
 
-def first_wrong(lines: Iterable[Line]) -> str | None:
+def first_wrong(lines: Iterable[Line], marker: Marker) -> str | None:
     """Return the first line with an error of its own.
 
-    One that misses by little more than its tolerance may be a slip of the hand: it comes first only if there is no
-    line that misses clearly.
+    One that is measured and misses by little more than its tolerance may be a slip of the hand: it comes first only if
+    there is no line that misses clearly. No hand slips in what is calculated.
     """
     faulty = [line for line in lines if line.verdict.faulty]
-    clear = (line for line in faulty if line.off > CLEAR or line.verdict is not Verdict.WRONG)
+    clear = (
+        line
+        for line in faulty
+        if line.off > CLEAR or line.verdict is not Verdict.WRONG or marker.allowance.calculation(line.name) is not None
+    )
     first = next(clear, faulty[0] if faulty else None)
     return None if first is None else first.name
 

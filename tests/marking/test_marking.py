@@ -127,6 +127,17 @@ def test_a_value_too_small_for_a_hand_is_neither_right_nor_wrong_where_an_answer
     assert verdicts(opposite, "a_ED_t") == ["small"]
 
 
+def test_a_number_calculated_wrongly_comes_before_a_later_line_that_misses_more() -> None:
+    of = key(TASK)
+    factors = {"a_BA_n": 1.15, "h_lever_F_i2": 1.6}
+    said = [replace(a, value=(a.value or 0.0) * factors.get(a.name, 1.0)) for a in right_answers(of, False)]
+
+    marking = mark(of, said)
+
+    assert marking["a_BA_n"].off < CLEAR < marking["h_lever_F_i2"].off
+    assert marking.first_wrong == "a_BA_n"
+
+
 @pytest.mark.parametrize("task", LINKAGES)
 def test_no_tolerance_is_much_wider_than_what_a_hand_misses(task: str) -> None:
     of = key(task)

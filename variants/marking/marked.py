@@ -93,7 +93,7 @@ def _counted_once(
         replace(line, verdict=Verdict.SCALE, about="size") if line.name in bearers and line.verdict.passed else line
         for line in marking.lines
     )
-    return replace(marking, lines=lines, first_wrong=first_wrong(lines)), bearers
+    return replace(marking, lines=lines, first_wrong=first_wrong(lines, marking.marker)), bearers
 
 
 def _fits_other(marking: Marking, given: Sequence[Answer], others: Iterable[str], key: Callable[[str], Key]) -> str:
