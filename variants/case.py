@@ -383,6 +383,10 @@ class Kind(Generic[Subject, Answer]):
         """
         raise InputError("kind-without", task=quote(case.task.id), text="--readings ruler")
 
+    def magnified(self, case: Case, scales: Scales, words: Words) -> Mapping[str, float]:
+        """Return how many times as large as on its plan a quantity is read in a detail beside it, where one is."""
+        return {}
+
     def limits(self, drawn: Answer, paper: Paper, tolerance: Tolerance) -> dict[str, float]:
         """Return by how much single quantities may miss, SI, where the usual rule does not hold: errors add up.
 

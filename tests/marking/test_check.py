@@ -443,3 +443,29 @@ def test_figures_are_well_formed_and_scripts_go_back_to_their_line(tmp_path: Pat
         width, height = map(float, figure.attrib["viewBox"].split()[2:])
         numbers = [float(n) for path in figure.iter("path") for n in re.findall(r"-?\d+\.\d+", path.attrib["d"])]
         assert 0.0 <= min(numbers) < max(numbers) <= max(width, height)
+
+
+@pytest.mark.parametrize(
+    ("times", "factors"),
+    [
+        pytest.param(10.0, "", id="measured in the detail"),
+        pytest.param(1.0, "", id="measured on the plan"),
+        pytest.param(10.0, "{mu}", id="with the scale factor of the detail"),
+    ],
+)
+def test_a_force_that_is_read_in_a_detail_is_judged_by_its_scale_factor(
+    tmp_path: Path, times: float, factors: str
+) -> None:
+    task = "scheme-13-toggle-press"
+    solution = solve(task)
+    mu, size = solution.scales["mu_F_23"].mu, abs(solution["R_12_t"].value or 0.0)
+    row = f"R_12_t;{size / mu * times:.1f};{factors.format(mu=mu / times)};{size:.1f}"
+    whole = f"R_12;{abs(solution['R_12'].value or 0.0) / mu:.1f};;"
+    (file := tmp_path / "answers.csv").write_text(f"quantity;mm;mu;value\n{row}\n{whole}\n", encoding="utf-8")
+    asked = check(task, "0", lang="en")
+
+    report = asked.mark(asked.read(str(file))[0])
+
+    told = {row.line.name: (str(row.line.verdict), row.answer) for _, rows in report.parts for row in rows}
+    assert told["R_12_t"] == ("right", f"{size / mu * times:.1f} mm; {size:.1f} N")
+    assert told["R_12"][0] == "right"

@@ -210,6 +210,12 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         solved = placed(case)
         return Scene(solved, self.lettered(words, solved), STYLES["A4"], case.givens, scales)
 
+    def magnified(self, case: Case, scales: Scales, words: Words) -> Mapping[str, float]:
+        """Return what is read in the insets of force plans."""
+        from ...drawing.linkages.figures.plan import magnified
+
+        return magnified(self.scene(case, scales, words))
+
     def read_by_ruler(self, case: Case, scales: Scales) -> SolvedLinkage:
         """Read every segment to half a millimetre."""
         return read_by_ruler(placed(case), {plan: scale.mu for plan, scale in scales.items()})

@@ -331,6 +331,14 @@ class Keyed:
         """What every mistake would give: costs more than the key, and is needed where an answer is wrong."""
         return book(self.key)
 
+    @cached_property
+    def magnified(self) -> Mapping[str, float]:
+        """How many times as large as on its plan a vector is read in the detail where the sheet shows it."""
+        solution = self.solution
+        symbols = solution.solved.scale_of_plan.items()
+        scales = {plan: solution.scales[symbol] for plan, symbol in symbols if symbol in solution.scales}
+        return solution.kind.magnified(solution.case, scales, solution.words)
+
     def scale_of(self, name: str, written: Container[str] = ()) -> str:
         """Return the scale factor of the plan on which a quantity stands; nothing where there is none.
 

@@ -26,6 +26,7 @@ TELLING = 3  # lines that must tell that a scale factor is not theirs
 SHORT = 2.0  # mm; shorter segments are read too coarsely to tell
 FEWEST = 4  # answers that must be right under the key of another variant
 MANY, MOST = 0.5, 0.8  # parts of the answers: not right under one's own key; that agree, or are right under the other
+INSET = 5.0  # mm; longer segments are read on their plan
 TOLD_APART = 2  # mistakes that are told together
 KEPT = 32  # answer keys
 
@@ -266,10 +267,26 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
             written = own or answers.scales.get(symbol)
             mu = None if written is None else fits.get(symbol, written.value) if own is None else own.value
             elsewhere = own is None and _on_other_drawing(line, symbol, answers, key)
-            given.append(replace(line, mm=None if elsewhere else line.mm, mu=mu))
+            times = _times(line, symbol, answers, key)
+            mm = None if elsewhere or line.mm is None else line.mm / times
+            given.append(replace(line, mm=mm, mu=mu if own is None or mu is None else mu * times))
         else:
             notes.append(InputError("marked-undefined", place=quote(line.place, SHOWN), text=line.name))
     return given, notes
+
+
+def _times(line: Reply, symbol: str, answers: Answers, key: Keyed) -> float:
+    """Return how many times as large as on its plan a segment was measured: in a detail, where it fits better."""
+    shown, scale = key.solution.quantities[line.name], key.solution.scales.get(symbol)
+    if not line.mm or scale is None or not shown.mm or shown.mm >= INSET:
+        return 1.0
+    times, own = key.magnified.get(line.name, 1.0), answers.scales.get(symbol)
+    mu = own.nearest(scale.mu) if own else scale.mu
+    if line.factor is not None:  # beside the segment, that of the detail itself
+        factor = line.factor.nearest(mu / times)
+        return times if abs(factor * times - mu) <= NEAR * mu else 1.0
+    value = abs(line.value if line.value is not None else key.key[line.name])
+    return min((times, 1.0), key=lambda by: apart(line.mm * mu / by, value)) if value else 1.0
 
 
 def _on_other_drawing(line: Reply, symbol: str, answers: Answers, key: Keyed) -> bool:

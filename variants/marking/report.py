@@ -228,7 +228,8 @@ class Report:
             return "–"
         parts = []
         if answer.mm is not None:
-            parts.append(f"{self.words.short(answer.mm, DIGITS)} {self.words.spelled('mm')}")
+            written = self.marked.answers.lines[line.name].mm  # in a detail
+            parts.append(f"{self.words.short(written or answer.mm, DIGITS)} {self.words.spelled('mm')}")
         if answer.value is not None:
             parts.append("+" * answer.plus + self._value(line.name, answer.value))
         if answer.direction is not None:

@@ -179,6 +179,12 @@ def enlarged(scene: Scene, quantity: str, plan: str) -> float:
     return min((window.times for window in forces.windows() if quantity in forces.read_in(window)), default=1.0)
 
 
+def magnified(scene: Scene) -> dict[str, float]:
+    """Return how many times as large as on their plans forces stand in insets, those that can be read there alone."""
+    windows = ((Plan(scene, plan), window) for plan in scene.scales for window in Plan(scene, plan).windows())
+    return {quantity: window.times for plan, window in windows for quantity in plan.read_in(window)}
+
+
 def in_inset(scene: Scene, shown: Iterable[Window], ends: tuple[complex, complex]) -> bool:
     """Whether a vector is too short to be read in its figure and stands in an inset."""
     return abs(ends[1] - ends[0]) < scene.style.arrow and any(window.shows(*ends) for window in shown)
