@@ -373,3 +373,27 @@ def test_a_form_asks_for_what_the_rubric_asks(tmp_path: Path) -> None:
 
     names = [line.split(",")[0] for line in form.splitlines()]
     assert names[names.index("quantity") + 1 :] == ["Velocity plan", "mu_V", "V_B", "omega_2"]
+
+
+def test_who_has_answered_nothing_has_no_mark_and_who_copies_a_short_work_of_values_is_seen(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    dice, mu, of = random.Random(1), 0.1, key(TASK, "3")
+    names = ("V_BA", "V_B", "V_S2")
+    rows = [
+        [
+            f"Student {n}",
+            *(round(mu * (abs(of[name]) / mu + dice.gauss(0, 0.5)), 3) for name in names),
+        ]
+        for n in range(1, 5)
+    ]
+    rows[3][1:] = rows[0][1:]
+    answers = write(tmp_path, [["student", *names], *rows, ["Student 5", "", "", ""]])
+
+    status, out, _ = run(capsys, answers, "-v", "3", "-o", tmp_path / "m.csv", "--lang", "en")
+
+    lines = {line[:9]: " ".join(line.split()) for line in out.splitlines()}
+    assert status == 0
+    assert lines["Student 5"] == "Student 5 – nothing handed in"
+    assert ["the same millimetres" in lines[f"Student {n}"] for n in range(1, 5)] == [True, False, False, True]
+    assert "students: 5, marked: 4" in out

@@ -30,7 +30,7 @@ from .keyed import asked_of, class_header, form_rows, read_rubric, solved
 from .marked import Desk, Terms, variant_of
 from .reading import Answers, read_all
 from .report import REPORTS, Report, report_bytes
-from .result import Result, class_rows, failed, moodle_rows, result_of
+from .result import Result, class_rows, failed, moodle_rows, nothing, result_of
 from .wording import texts
 
 PathLike = str | os.PathLike[str]
@@ -312,6 +312,9 @@ def _seldom_collected() -> Iterator[None]:
 
 def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     """Mark a student and write the reports; answers that cannot be marked are a result, too."""
+    if not (answers.lines or answers.problems or answers.unread):
+        entry = job.terms.roster.find(answers.who) if job.terms.roster else None
+        return nothing(answers, entry, _variant(job.terms, answers), job.terms.request.language)
     try:
         report, result = _marked(desk, answers)
     except KulmanError as error:

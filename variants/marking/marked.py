@@ -278,7 +278,8 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
 def _times(line: Reply, symbol: str, answers: Answers, key: Keyed) -> float:
     """Return how many times as large as on its plan a segment was measured: in a detail, where it fits better."""
     shown, scale = key.solution.quantities[line.name], key.solution.scales.get(symbol)
-    if not line.mm or scale is None or not shown.mm or shown.mm >= INSET:
+    mm = line.mm
+    if not mm or scale is None or not shown.mm or shown.mm >= INSET:
         return 1.0
     times, own = key.magnified.get(line.name, 1.0), answers.scales.get(symbol)
     mu = own.nearest(scale.mu) if own else scale.mu
@@ -286,7 +287,7 @@ def _times(line: Reply, symbol: str, answers: Answers, key: Keyed) -> float:
         factor = line.factor.nearest(mu / times)
         return times if abs(factor * times - mu) <= NEAR * mu else 1.0
     value = abs(line.value if line.value is not None else key.key[line.name])
-    return min((times, 1.0), key=lambda by: apart(line.mm * mu / by, value)) if value else 1.0
+    return min((times, 1.0), key=lambda by: apart(mm * mu / by, value)) if value else 1.0
 
 
 def _on_other_drawing(line: Reply, symbol: str, answers: Answers, key: Keyed) -> bool:

@@ -26,8 +26,9 @@ LEAST_MM = 5.0  # shorter segments say little
 HAND = 0.25  # mm, by which a usual hand misses at the least
 UNLIKELY = 1e-3  # that an honest hand is so exact
 SHARED = 0.03  # ratio of likelihoods of all pairs of a class together at which one of them is told of
-UNLIKELY_PAIR = 1e-3  # that of a pair in a small class
-FEWEST = 4  # segments that two students must share
+UNLIKELY_PAIR = 5e-3  # that of a pair in a small class
+FEWEST = 3  # segments that two students must share
+READ_TO = 0.1  # mm to which a segment is read at best of which only the value is said
 CHANGED = 0.5  # mm by which somebody who copies changes some of them
 SAME, AGREE = 0.65, 0.9  # parts of the segments that must be the same, and at the most changed so
 SAME_OF_ALL = 0.5  # part that must be the same where all others are changed so
@@ -43,12 +44,14 @@ class Measured:
     """A segment of one student, mm on his own scale: as written, as it should be, what it is read to, its spread.
 
     It should be what follows from the student's earlier errors: who goes on honestly from the same mistake is no copy.
+    What is not `said` is that of a value alone.
     """
 
     mm: float
     right: float
     step: float
     spread: float
+    said: bool = True
 
 
 def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapping[str, float]) -> dict[str, Measured]:
@@ -60,7 +63,7 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapp
     found: dict[str, tuple[Reply, float]] = {}
     for name, line in answers.lines.items():
         question = key.questions.get(name)
-        if question is None or line.mm is None or question.step.verb not in ("read", "arm"):
+        if question is None or line.empty or question.step.verb not in ("read", "arm"):
             continue
         mu = mus.get(question.plan)
         ends = question.step.operands if question.step.verb == "read" else ()
@@ -71,19 +74,22 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapp
     decimals = min(max((line.decimals for line, _ in found.values()), default=0), 3)
     halves = all((2.0 * (line.mm or 0.0)).is_integer() for line, _ in found.values())
     step, segments = 0.5 if decimals == 1 and halves else 10.0**-decimals, dict[str, Measured]()
+    values = {name: (abs(line.value or 0.0) / mu, (line.rounded or 0.0) / mu) for name, (line, mu) in found.items()}
+    coarse = all(abs(2.0 * mm - round(2.0 * mm)) <= 2.0 * last for mm, last in values.values())
     for name, (line, mu) in found.items():
         right, spread = follows.get(name, abs(key[name])) / mu, max(HAND, key.allowed[name] / mu / 3.0)
-        segments[name] = Measured(line.mm or 0.0, right, step, spread)
+        mm, last = (values[name][0], max(0.5 if coarse else READ_TO, 2.0 * values[name][1]))
+        said = line.mm is not None
+        segments[name] = Measured(line.mm or mm, right, step if said else last, spread, said)
     return segments
 
 
 def too_exact(segments: Mapping[str, Measured]) -> bool:
     """Whether all segments are so near to the calculated ones that no hand has measured them."""
-    if not segments:
-        return False
-    off = max(max(abs(s.mm - s.right), s.step / 2.0) for s in segments.values())
+    read = [segment for segment in segments.values() if segment.said]
+    off = max((max(abs(s.mm - s.right), s.step / 2.0) for s in read), default=0.0)
     chance = math.erf(off / (HAND * math.sqrt(2.0)))
-    return chance ** len(segments) < UNLIKELY
+    return bool(read) and chance ** len(read) < UNLIKELY
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,13 +117,15 @@ def shared(students: Sequence[Mapping[str, Measured]]) -> Iterator[Pair]:
     names = sorted({name for student in students for name in student})
     if not names or len(students) < 2:
         return
-    mm = np.full((len(students), len(names)), np.nan)
+    mm, right = np.full((2, len(students), len(names)), np.nan)
     for i, student in enumerate(students):
         for j, name in enumerate(names):
             if name in student:
-                mm[i, j] = student[name].mm
+                mm[i, j], right[i, j] = student[name].mm, student[name].right
     reach = np.array([max([CHANGED, *(s.step for s in student.values())]) for student in students]) + ROUNDING
-    least = math.log(min(UNLIKELY_PAIR, SHARED / (len(students) * (len(students) - 1) / 2)))
+    # pairs of other variants have no millimetres alike
+    like = sum(int(((abs(right[i + 1 :] - own) <= CHANGED).sum(axis=1) >= FEWEST).sum()) for i, own in enumerate(right))
+    least = math.log(min(UNLIKELY_PAIR, SHARED / max(like, 1)))
     for i in range(len(students) - 1):
         apart = np.abs(mm[i + 1 :] - mm[i])
         both, same = np.isfinite(apart).sum(axis=1), (apart < ROUNDING).sum(axis=1)
@@ -231,6 +239,13 @@ def result_of(marked: Marked, language: str) -> Result:
         segments,
         (),
         marked.fits,
+    )
+
+
+def nothing(answers: Answers, entry: Entry | None, variant: str, language: str) -> Result:
+    """Return what is kept of a student who stands in the list of a class and has answered nothing."""
+    return Result(
+        answers.source, entry.who if entry else answers.who, variant, notes=(texts(language)["class.absent"],)
     )
 
 
