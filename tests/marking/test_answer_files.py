@@ -401,3 +401,18 @@ def test_a_class_without_a_column_of_names_is_refused(tmp_path: Path) -> None:
     (file := tmp_path / "class.csv").write_text("who;V_B, mm;V_B, m/s\nOne;45;4.5\nTwo;44;4.4\n", encoding="utf-8")
 
     assert "no column says whose answers these are" in refused(file)
+
+
+def test_arms_on_the_lever_are_asked_and_read_in_millimetres_and_those_of_couples_where_they_have_some(
+    tmp_path: Path,
+) -> None:
+    arms = {"nau-slider-crank": ["F_i2", "F_i3", "F_3", "M_i2_B", "M_i2_A"]}
+    arms["scheme-09-shaper"] = ["F_i3", "G_3", "F_i4", "G_4", "F_i5", "G_5", "F_5"]  # on the sheet a couple has one arm
+    for task, names in arms.items():
+        rows = form(tmp_path, "form.csv", "uk", task).read_text(encoding="utf-8-sig").splitlines()
+        lever = [row.split(";") for row in rows if row.startswith("h_lever")]
+        assert [(row[0], row[6]) for row in lever] == [(f"h_lever_{name}", "мм") for name in names]
+
+    (file := tmp_path / "answers.csv").write_text(f"{HEAD}h_lever_F_i2;;;12,5;мм;\n", encoding="utf-8")
+
+    assert read_answers(file, ASKED)[0].lines["h_lever_F_i2"].mm == 12.5

@@ -270,7 +270,17 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         return "" if name in found_here(solved.program) else meaning(solved.mechanism, words, name)
 
     def asks(self, solved: SolvedLinkage, question: Question) -> bool:
-        """Ask not for each force of a couple: these are as large as the couple's force."""
+        """Ask not for each force of a couple: these are as large as the couple's force; nor for arms that none has.
+
+        On a lever of many forces the arm of a couple is the line between its forces.
+        """
+        from ...drawing.linkages.figures.lever import ARMS, POLE
+
+        if question.step.verb == "arm":
+            program = solved.program
+            taken = {step.name: step.operands[0] for step in program.which(("moment",)) if step.operands[2] == POLE}
+            force = taken.get(question.step.operands[0], "")
+            return not force or len(taken) <= ARMS or role(force).part != COUPLE
         return not (role(question.name).part == COUPLE and role(question.name).about)
 
     def section(self, solved: SolvedLinkage, question: Question, current: str) -> str:

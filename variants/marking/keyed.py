@@ -275,7 +275,8 @@ def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()
             unit = f"({asked.display.of_scales.unit(asked.scales[name])})/{asked.display.paper}"
             yield (name, keyed.symbol(name), "", "", "", "", words.spelled(unit))
         for name in (question.name for question in questions):
-            unit = words.spelled(asked.unit(name))
+            on_paper = is_arm_of_lever(name)
+            unit = words.spelled(asked.display.paper if on_paper else asked.unit(name))
             yield (name, keyed.symbol(name), letters.get(name, ""), "", "", "", unit)
 
 
@@ -295,10 +296,17 @@ def class_header(keyed: Keyed, directions: bool, only: Collection[str] = ()) -> 
             name, unit = _shown(question.name), words.spelled(keyed.asked.unit(question.name))
             length = keyed.asked.quantities[question.name].unit == "m"  # of which mm alone would be the value
             columns += [f"{name}.mm" if length else f"{name}, {words.spelled(paper)}"] if drawn(question) else []
+            if is_arm_of_lever(question.name):
+                continue
             columns.append(f"{name}, {unit}" if unit else name)
             if directions and (question.vector or has_sense(question.name)):
                 columns.append(f"{name}, {said['class.direction']}")
     return tuple(columns)
+
+
+def is_arm_of_lever(name: str) -> bool:
+    """Whether a quantity is an arm on Zhukovsky's lever: one of paper, though it has the unit of a velocity."""
+    return role(name).kind == "h" and role(name).part == LEVER
 
 
 def _shown(name: str) -> str:

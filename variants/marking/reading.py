@@ -270,8 +270,12 @@ def _form_row(sheet: _Sheet, row: int, kinds: Mapping[str, int], columns: Column
         sheet.scale(_Cell(row, kinds["mu"] if in_mu else of_value, name, written))
         return
     here = {**columns}
+    paper = cells.of_paper(written) and asked.quantities[name].unit != "m"
     if of_value is not None:
-        here["value"] = of_value, written or columns["value"][1]
+        here["value"] = of_value, columns["value"][1] if paper else written or columns["value"][1]
+    if paper and of_value is not None and not sheet.filled(row, kinds.get("mm")):
+        here["mm"] = of_value, written  # of an arm on the lever
+        here.pop("value")
     if in_mu and asked.quantities[name].unit.endswith("/mm"):
         # what is asked is a scale factor itself: that it stands in the column of scales makes it no scale of its own
         factor = here.pop("mu")[0]
