@@ -549,3 +549,13 @@ def test_two_symbols_of_one_name_are_not_taken_for_a_given(tmp_path: Path) -> No
     [read] = read_variants(table(tmp_path, "Варіант;phi;Відношення l_OA до l_AB\n1;30;0,2\n"), load_task(TASK))
 
     assert set(read.row) == {"phi"}
+
+
+def test_the_key_of_all_variants_is_a_page_to_print(tmp_path: Path) -> None:
+    page = all_variants("nau-slider-crank", lang="en").save(tmp_path / "key.html")[0].read_text(encoding="utf-8")
+
+    solution = solve("nau-slider-crank", "3", lang="en")
+    size, mm = solution["V_B"].value or 0.0, solution["V_B"].mm or 0.0
+    assert f"<td>{size:.4g}<br><small>{mm:.1f} mm</small></td>" in page
+    assert page.count("<section>") == 2  # of eleven variants
+    assert "@page{size:A4 landscape" in page

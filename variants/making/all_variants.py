@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -20,14 +21,21 @@ from ..case import Settings, Wanted
 from ..crew import Advance
 from ..marking.checks import Check, check
 from ..marking.keyed import Keyed, keyed
-from ..marking.wording import texts
+from ..marking.report import DIGITS, STYLE, scripts
+from ..marking.wording import plain, texts
 from ..tables import FILES, Cell, Result, Table, aligned
 from ..task import AnyTask
 from .new_variants import NewVariants, import_variants, make_variants
 from .questions import BY, Question, gift_bytes, questions_of, xml_bytes
 
 TASK_FILE = ".toml"
+PAGE = ".html"
 SUFFIXES = (*FILES, ".xml", ".gift", TASK_FILE)
+ACROSS = 9  # variants beside one another on a page to be printed
+PAGE_STYLE = """
+@page{size:A4 landscape;margin:10mm}body{max-width:277mm}td{white-space:nowrap;font-size:9pt}td small{color:#555}
+tr.part th{background:#fff;border-left:0;border-right:0}tr{break-inside:avoid}section+section{break-before:page}
+"""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -91,12 +99,14 @@ class AllVariants(Result):
         return {"task": self.check.request.task.id, "variants": found, "problems": problems}
 
     def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
-        """Return a table, questions for Moodle for .xml, .gift, new variants for .toml, a task file."""
+        """Return a table, a page to print (.html), questions for Moodle (.xml, .gift), new variants as a task file."""
         suffix = path.suffix.lower()
         if suffix == TASK_FILE:
             if self.new is None:
                 raise InputError("variants-new", file=quote(path))
             return [(path, self.new.text.encode("utf-8"))]
+        if suffix == PAGE:
+            return [(path, self._page().encode("utf-8"))]
         if suffix in FILES:
             return Result._files(self, path, drawn)
         write = xml_bytes if suffix == ".xml" else gift_bytes
@@ -114,6 +124,30 @@ class AllVariants(Result):
             unit = next(key.asked.unit(name) for key in self.keys.values() if name in key.asked.quantities)
             values = (_shown(key, name) for key in self.keys.values())
             yield (name, format_unit(unit, language), *values)
+
+    def _page(self) -> str:
+        """Return the answers as a page to be printed: plan by plan, values and segments, some variants to a sheet."""
+        request, variants = self.check.request, [*self.keys]
+        title = escape(f"{texts(self._language)['key.title']}: {request.task.title[self._language]}")
+        parts = (variants[i : i + ACROSS] for i in range(0, len(variants), ACROSS))
+        body = "".join(f"<section><h1>{title}</h1>{self._sheet(shown)}</section>" for shown in parts)
+        head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}{PAGE_STYLE}</style>'
+        return f'<!DOCTYPE html>\n<html lang="{self._language}"><head>{head}</head><body>{body}</body></html>\n'
+
+    def _sheet(self, variants: Sequence[str]) -> str:
+        """Return a table of some variants."""
+        said, first = texts(self._language), next(iter(self.keys.values()))
+        heads = "".join(f"<th>{escape(one)}</th>" for one in variants)
+        rows = f"<tr><th>{said['column.name']}</th><th>{said['column.unit']}</th>{heads}</tr>"
+        for part in first.parts:
+            names = [q.name for q in part.questions if q.name in self.quantities]
+            if names:
+                rows += f'<tr class="part"><th colspan="{len(variants) + 2}">{escape(plain(part.heading))}</th></tr>'
+            for name in names:
+                cells = "".join(f"<td>{_printed(self.keys[one], name)}</td>" for one in variants)
+                unit = escape(format_unit(first.asked.unit(name), self._language))
+                rows += f"<tr><td>{scripts(first.symbol(name))}</td><td>{unit}</td>{cells}</tr>"
+        return f"<table>{rows}</table>"
 
     def _questions(self) -> Iterator[Question]:
         """Go through the questions, those of one category after the other."""
@@ -133,6 +167,15 @@ def _si(key: Keyed, name: str) -> float | None:
 def _shown(key: Keyed, name: str) -> float | None:
     quantity = key.solution.quantities.get(name)
     return None if quantity is None else quantity.shown(key.words.display).value
+
+
+def _printed(key: Keyed, name: str) -> str:
+    """Return a value as it is printed, and the segment that shows it."""
+    quantity, words, value = key.solution.quantities.get(name), key.words, _shown(key, name)
+    if quantity is None or value is None:
+        return "–"
+    mm = f"<br><small>{words.number(quantity.mm, 1)} {words.spelled('mm')}</small>" if quantity.mm else ""
+    return f"{words.short(value, DIGITS)}{mm}"
 
 
 def all_variants(
