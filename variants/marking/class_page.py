@@ -105,6 +105,9 @@ class ClassPage:
                 told = "; ".join(mistake_texts(language)[one] for one in line.mistakes)
                 cells = *about, mark, scripts(line.first), scripts(told), escape("; ".join((*flags, *notes)))
                 kind = "flag" if flags or notes else ""
+                kind = (
+                    kind if line.counts or line.mark is not None or line.notes != (said["class.absent"],) else "absent"
+                )
             shown = "".join(f"<td{' class=m' if at == 3 else ''}>{cell}</td>" for at, cell in enumerate(cells))
             rows.append(f'<tr class="{kind}"><td>{len(rows) + 1}</td>{shown}</tr>')
         return f"<table><tr><th>№</th>{heads}</tr>{''.join(rows)}</table>"
@@ -133,7 +136,7 @@ class ClassPage:
         wrong = next((figure for figure in found if 'class="wrong' in figure[1]), None)
         if wrong is None:
             return ""
-        caption = f"{escape(wrong[0])}. {escape(self.said['class.figure'].format(student=name))}"
+        caption = f"{escape(wrong[0])}. {escape(self.said['class.figure'].format(student=name.removesuffix('.')))}"
         return f"<figure>{wrong[1]}<figcaption>{caption}</figcaption></figure>"
 
     def _pairs(self) -> str:

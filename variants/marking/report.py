@@ -20,7 +20,7 @@ from ..roster import WHO
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import aligned
 from .figures import plan_figures
-from .keyed import Rubric
+from .keyed import Rubric, is_arm_of_lever
 from .marked import Marked, Misfit
 from .wording import letter, mistake_texts, plain, script_runs, texts
 
@@ -213,11 +213,11 @@ class Report:
         """Put a line into words."""
         right = tolerance = weight = ""
         if not self.own:
-            right, answered = self._value(line.name, line.right), line.answer is not None
+            right, answered = self._shown(line, line.right), line.answer is not None
             if answered and abs(line.follows - line.right) > TOLD * line.allowed:  # NaN is none
-                right += f" → {self._value(line.name, line.follows)}"
+                right += f" → {self._shown(line, line.follows)}"
             weight = self.words.short(round(self.rubric.out_of * self.marked.parts[line.name], 1), DIGITS)
-            tolerance = f"± {self._value(line.name, line.allowed)}" if line.allowed else ""
+            tolerance = f"± {self._shown(line, line.allowed)}" if line.allowed else ""
         verdict = self.said[f"verdict.{line.verdict}"]
         return Row(line, self.symbol(line.name), self._answer(line), right, tolerance, verdict, weight)
 
@@ -240,6 +240,14 @@ class Report:
 
     def _degrees(self, radians: float) -> str:
         return f"{self.words.short(round(math.degrees(radians), 1) % 360.0, DIGITS)}°"
+
+    def _shown(self, line: Line, value: float | complex) -> str:
+        """Return what is right, or a tolerance: of an arm on the lever in the millimetres in which it is answered."""
+        mu = self.marked.marking.key.paper.mus.get(line.plan)
+        in_mm = line.answer is not None and line.answer.mm is not None and line.answer.value is None
+        if not mu or isinstance(value, complex) or not (in_mm and is_arm_of_lever(line.name)):
+            return self._value(line.name, value)
+        return f"{self.words.number(abs(value) / mu, 1)} {self.words.spelled('mm')}"
 
     def _value(self, name: str, value: float | complex) -> str:
         """Return a value in the units of the task, of a vector its magnitude and direction; rounding alone is zero."""
