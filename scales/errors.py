@@ -18,6 +18,9 @@ VARIABLE = "KULMAN_LANG"
 _spoken: ContextVar[str | None] = ContextVar("spoken", default=None)
 _DECIMAL = re.compile(r"(?<![\w.=/])(\d+)\.(\d+(?:e[-+]?\d+)?)(?![\w.])")  # no part of a name, a path, a date
 
+_NUMBER = re.compile(r"(-?)(\d+(?:\.\d+)?)(?:e([-+]?\d+))?")
+RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
 
 class Written(str):
     """What the user has written or may type: a message leaves it as it is."""
@@ -80,11 +83,15 @@ def _shown(value: object, language: str) -> object:
         return value.text(language)
     if isinstance(value, tuple):
         return ", ".join(str(_shown(one, language)) for one in value)
-    if language == "en" or isinstance(value, Written) or not isinstance(value, (str, float)):
+    if isinstance(value, Written) or not isinstance(value, (str, float)):
         return value
     if isinstance(value, Spoken):
-        return value.said(language)
-    return _DECIMAL.sub(r"\1,\2", str(value))
+        return value if language == "en" else value.said(language)
+    number = _NUMBER.fullmatch(str(value))
+    if number:  # -1.7201e+08 as it is written by hand
+        power = f"·10{str(int(number[3])).translate(RAISED)}" if number[3] else ""
+        value = f"{'−' if number[1] else ''}{number[2]}{power}"
+    return value if language == "en" else _DECIMAL.sub(r"\1,\2", str(value))
 
 
 class InputError(KulmanError, ValueError):

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import NamedTuple
 
-from .errors import InputError, Spoken
+from .errors import RAISED, InputError, Spoken
 from .numbers import quote, split_number
 
 
@@ -96,7 +96,6 @@ SMALLEST, LARGEST = 1e-12, 1e9
 LARGEST_OF = {_PRESSURE: 1e15}  # what is large in SI already
 
 _SUPERSCRIPT = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
-_RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 _TOKEN = re.compile(
     r"\s*(?:(?P<power>(?:\^|\*\*)\s*(?:[-−]?[0-9]|\([-−]?[0-9]\))|[-−]?[0-9]|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹])"
     r"|(?P<sign>[*·⋅×∙/()])|(?P<symbol>[A-Za-zµμА-Яа-яІіЇїЄєҐґ]+|[°º˚′'’%]))\s*"
@@ -353,7 +352,7 @@ def format_unit(written: Unit | str, language: str, *, raised: bool = False) -> 
     words = {name: str(getattr(symbol, language)) for name, symbol in SYMBOLS.items()}
 
     def power(exponent: int) -> str:
-        return f"^{{{exponent}}}".replace("-", "−") if raised else str(exponent).translate(_RAISED)
+        return f"^{{{exponent}}}".replace("-", "−") if raised else str(exponent).translate(RAISED)
 
     if language != "en" and len(spelled.powers) == 1 and spelled.powers[0][1] < 0:
         name, exponent = spelled.powers[0]
