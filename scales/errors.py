@@ -52,7 +52,8 @@ class KulmanError(Exception):
         Key of the template in `scales/messages/*.toml`.
     **data
         What the template names: `file`, `row`, `column`, `name`, `expected`, ... Numbers in texts have the decimal
-        sign of the language, but for what is `Written`; what is `Spoken` is said in it, a tuple has commas between.
+        sign of the language, but for what is `Written`; what is `Spoken` is said in it, a tuple has commas between,
+        of errors semicolons.
     """
 
     status = 2
@@ -82,7 +83,8 @@ def _shown(value: object, language: str) -> object:
     if isinstance(value, KulmanError):
         return value.text(language)
     if isinstance(value, tuple):
-        return ", ".join(str(_shown(one, language)) for one in value)
+        between = "; " if any(isinstance(one, KulmanError) for one in value) else ", "
+        return between.join(str(_shown(one, language)) for one in value)
     if isinstance(value, Written) or not isinstance(value, (str, float)):
         return value
     if isinstance(value, Spoken):

@@ -11,7 +11,7 @@ from .errors import InputError, Written
 SPACES = " \u00a0\u2007\u2009\u202f"
 _GROUPED = rf"[0-9]{{1,3}}(?:[{SPACES}][0-9]{{3}})+(?![0-9])"
 _NUMBER = re.compile(
-    rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?"
+    rf"[+\-\u2212\u2013]?(?:(?:{_GROUPED}|[0-9]+)(?:\.[0-9]*|,[0-9]+)?|[.,][0-9]+)(?:[eE][+\-\u2212]?[0-9]+)?"
 )
 _UNDER = re.compile(r"\s*/\s*([1-9][0-9]*)(?![0-9.,])")  # what makes a fraction of a whole number
 SHOWN = 200  # characters of a path, a reason or a list in a message

@@ -14,9 +14,9 @@ from pathlib import Path as FilePath
 from typing import Any
 
 from ..drawing.words import notations
-from ..scales.errors import LANGUAGES, InputError, messages
+from ..scales.errors import LANGUAGES, InputError, Written, messages
 from ..scales.names import cyrillic, latin, of_kind, unknown
-from ..scales.numbers import quote
+from ..scales.numbers import SHOWN, quote
 from ..scales.scale import ANGLES, LENGTHS, METRE, PAPER, chooser
 from .case import Kind, kind_of
 from .checks.basics import (
@@ -44,6 +44,14 @@ TRIED_FOR = 1.3  # seconds of processor time in which a file is read and its var
 _LONG_KEY = re.compile(r"""(?<![\w-])(?:(?:[\w-]++|"[^"\n]*+"|'[^'\n]*+')[ \t]*+\.[ \t]*+){64}""")
 
 _BARE = re.compile(r"""(?<![\w"'.-])[-+−]?[0-9]+([.][0-9]+)?(,[0-9]+|[ \t]*(?!\d)[\w°][^,#\]}]*)""")  # 50,5 or 50 deg
+_ROWS = re.compile(r"\s*\[+\s*(variant|(?:mechanism|cam)\.(?!driver)\w+)\s*\]")  # what stands several times
+_MARKS = re.compile(r"[“”„‟«»″]|(?<!\w)[‘’‚‹›]|[‘’‚‹›](?!\w)")  # word processors put them for straight ones
+_COLON = re.compile(r"([\w.-]+)\s*:\s*(.+)")
+_ENDED = re.compile(r"""([\w.-]+\s*=\s*(?:[-+]?[0-9][0-9.]*|"[^"]*"|'[^']*'|\[[^]]*\]|\{[^}]*\}))\s*[,;.]""")
+_WORDS = re.compile(
+    r"""([\w.-]+)\s*=\s*([^\W\d_][^"'=]*|[-+−]?[0-9]+(?:[.][0-9]+)?(?:,[0-9]+|\s*[^\W\d][^"'=]*|\s*°[^"'=]*))"""
+)
+_OPEN = re.compile(r"""[\w.-]+\s*=\s*"[^"]*""")
 
 
 class TaskFileError(InputError):
@@ -119,7 +127,7 @@ def _read(
     except RecursionError as error:
         raise LocatedError(file, InputError("toml-nested")) from error
     except ValueError as error:
-        return None, (_syntax(toml, file, str(error)),), ()
+        return None, (syntax_fault(toml, file, str(error)),), ()
     found = None
     with suppress(EnoughError):
         found = _task(checker, raw, thorough)
@@ -173,8 +181,8 @@ def _file_text(task: str | os.PathLike[str], shown: str) -> str:
     return text
 
 
-def _syntax(toml: str, file: str, reason: str) -> InputError:
-    """Return the fault that tomllib found, at its place."""
+def syntax_fault(toml: str, file: str, reason: str) -> InputError:
+    """Return the fault that tomllib found in a text, at its place, with its cure."""
     lines = toml.replace("\r\n", "\n").split("\n")
     found = re.search(r"\(at line ([0-9]+), column ([0-9]+)\)", reason)
     # Python refuses to read a number of so many digits, and tomllib does not say where it stands
@@ -188,13 +196,36 @@ def _syntax(toml: str, file: str, reason: str) -> InputError:
     if re.match("Cannot (overwrite|declare|mutate)|Duplicate", reason):
         column = len(written) - len(written.lstrip()) + 1
         key = re.search(r"(?:inline table key |immutable namespace \()'(.*?)'", reason)
-        cause = InputError("toml-twice", text=quote(key[1] if key else written.split("=")[0].strip()))
-    else:  # a letter that looks Latin, a value that lacks its quotes
-        word = next((word[0] for word in re.finditer(r"\w+", written) if word.start() < column <= word.end()), "")
-        bare = any(value.start() < column <= value.end() + 1 for value in _BARE.finditer(written))
-        bad = InputError("toml-bare" if bare else "toml-bad", text=quote(written.strip()))
-        cause = bad if latin(word) == word else cyrillic(word)
-    return LocatedError(f"{file}:{line}:{column}", cause)
+        text = quote(key[1] if key else written.split("=")[0].strip())
+        rows = _ROWS.match(written)
+        single = re.search(rf"^\s*\[\s*{re.escape(rows[1])}\s*\]", toml, re.MULTILINE) if rows else None
+        if rows and single:  # where it should be [[...]]
+            line = toml.count("\n", 0, toml.index("[", single.start())) + 1
+            return LocatedError(f"{file}:{line}:1", InputError("toml-rows", text=text, cure=Written(f"[[{rows[1]}]]")))
+        return LocatedError(f"{file}:{line}:{column}", InputError("toml-twice", text=text))
+    return LocatedError(f"{file}:{line}:{column}", _ill_written(written, column))
+
+
+def _ill_written(line: str, column: int) -> InputError:
+    """Return what is wrong at a column of a line that is no TOML, with the cure where it is known."""
+    plain = line.partition(" #")[0].strip()
+    shown = quote(plain)
+    marks = _MARKS.findall(plain)
+    if marks and (line[column - 1 : column] in marks or plain.count('"') % 2):
+        return InputError("toml-quotes", text=shown, mark=Written(marks[0]), cure=quote(_MARKS.sub('"', plain), SHOWN))
+    if colon := _COLON.fullmatch(plain):
+        return InputError("toml-colon", text=shown, cure=quote(f"{colon[1]} = {colon[2]}", SHOWN))
+    if ended := _ENDED.fullmatch(plain):
+        return InputError("toml-end", text=shown, cure=quote(ended[1], SHOWN))
+    if bare := _WORDS.fullmatch(plain):
+        return InputError("toml-bare", text=shown, cure=quote(f'{bare[1]} = "{bare[2]}"', SHOWN))
+    for value in _BARE.finditer(line):
+        if value.start() < column <= value.end() + 1:
+            return InputError("toml-bare", text=shown, cure=quote(f'"{value[0].strip()}"', SHOWN))
+    if _OPEN.fullmatch(plain):
+        return InputError("toml-open", text=shown, cure=quote(f'{plain}"', SHOWN))
+    word = next((word[0] for word in re.finditer(r"\w+", line) if word.start() < column <= word.end()), "")
+    return InputError("toml-bad", text=shown) if latin(word) == word else cyrillic(word)
 
 
 def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:

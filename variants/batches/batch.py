@@ -24,7 +24,7 @@ from ...drawing.words import Words
 from ...drawing.writers import WRITERS, folder_for, page_files, save_all, slug, sweep_parts, write_whole
 from ...plans.quantities import measured
 from ...scales.choices import SHEETS
-from ...scales.errors import InputError, KulmanError, Written
+from ...scales.errors import InputError, KulmanError, Written, system_language
 from ...scales.kept import Kept
 from ...scales.names import all_known, by_name
 from ...scales.numbers import SHOWN, quote
@@ -168,6 +168,7 @@ class Making:
 
     asked: Mapping[str, Request]
     kinds: tuple[str, ...]
+    spoken: str = field(default_factory=system_language, compare=False)  # the language of messages
     _works: Kept[_Work] = field(default_factory=partial(Kept, KEPT), init=False, repr=False, compare=False)
 
     @property
@@ -181,7 +182,7 @@ class Making:
 
     @property
     def language(self) -> str:
-        """The language of all that is made."""
+        """The language of all that is made; messages are in `spoken`."""
         return next(iter(self.asked.values())).language
 
     def digests(self) -> dict[str, str]:
@@ -200,14 +201,14 @@ class Making:
             return self._made(student)
         except KulmanError as error:
             place = "" if error is entry.problem else f"{entry.place}: "
-            return Outcome(entry.variant, problem=f"{place}{error.text(self.language)}")
+            return Outcome(entry.variant, problem=f"{place}{error.text(self.spoken)}")
         except (KeyboardInterrupt, SystemExit):
             raise
         except BaseException as error:  # what typst panics with is no Exception
             source = traceback.extract_tb(error.__traceback__)[-1]
             name = quote(f"{type(error).__name__}: {error}".rstrip(": "), SHOWN)
             crash = InputError("student-crash", error=name, source=f"{Path(source.filename).name}:{source.lineno}")
-            return Outcome(entry.variant, problem=f"{entry.place}: {crash.text(self.language)}")
+            return Outcome(entry.variant, problem=f"{entry.place}: {crash.text(self.spoken)}")
 
     def _made(self, student: Student) -> Outcome:
         who, work = student.entry.who, self._work(student)
@@ -219,7 +220,7 @@ class Making:
         stem = f"{student.number:03d}-{slug(f'{who.student} {what}')}"
         made = ((kind, self._files(work, case, drawn, kind, stem)) for kind in self.kinds)
         files = {f"{self.folder(kind)}{name}": data for kind, own in made for name, data in own}
-        notes = tuple(warning.text(self.language) for warning in drawn.warnings)
+        notes = tuple(warning.text(self.spoken) for warning in drawn.warnings)
         return Outcome(case.variant, sheet_id(case.task, case.variant, case.settings), files, work.key, notes)
 
     def folder(self, kind: str = "") -> str:
@@ -274,7 +275,7 @@ def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, a
     for done in crew(making.begin, [students[number] for number in todo]):
         for place, made in done:
             number = todo[place]
-            found[number] = _kept(made, students[number], folder, making.language)
+            found[number] = _kept(made, students[number], folder, making.spoken)
             journal.note(digests[number], found[number])
         advance(len(done), len(students))
     outcomes = tuple(found[number] for number in range(len(students)))

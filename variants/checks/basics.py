@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from ...scales.errors import InputError, KulmanError
+from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import cyrillic, latin, seen, unknown
 from ...scales.numbers import quote
 from ..task import LocatedError
@@ -312,6 +312,7 @@ def one_of(key: str, known: Callable[[], tuple[str, ...]]) -> Read:
 def rows(checker: Checker, path: Path, raw: object) -> list[tuple[Path, object]]:
     """Return the tables of an array of tables with their paths."""
     if not isinstance(raw, list) or not raw:
-        checker.fault(path, InputError("type-tables"))
+        heading = Written(f"[[{'.'.join(str(part) for part in path if isinstance(part, str))}]]")
+        checker.fault(path, InputError("type-tables", cure=heading))
         return []
     return [((*path, i), row) for i, row in enumerate(raw)]

@@ -61,34 +61,53 @@ def settings() -> dict[str, str]:
     Raises
     ------
     InputError
-        The file cannot be read, or a key of it is none of `PARAMETERS` or has no value that it can have.
+        The file cannot be read, or keys of it, which are all named, are none of `PARAMETERS` or have no value that they
+        can have.
     """
     file = settings_file()
     if file is None or not file.exists():
         return {}
-    shown = quote(file, SHOWN)
+    shown, text = quote(file, SHOWN), ""
     try:
         if not file.is_file():
             raise InputError("file-not-regular", file=shown)
-        raw = tomllib.loads(file.read_bytes().decode("utf-8-sig"))
+        text = file.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
+        raw = tomllib.loads(text)
     except OSError:
         raise InputError("file-unreadable", file=shown) from None
     except UnicodeDecodeError:
         raise InputError("settings-encoding", file=shown) from None
     except (tomllib.TOMLDecodeError, RecursionError) as problem:
-        raise InputError("settings-toml", file=shown, reason=quote(problem, SHOWN)) from None
-    return {PARAMETERS[key]: value for key, given in raw.items() if (value := _value(shown, key, given))}
+        from ..reader import syntax_fault
+
+        raise syntax_fault(text, shown, str(problem)) from None
+    values, faults = {}, {}
+    for key, given in raw.items():
+        try:
+            values[PARAMETERS.get(key, key)] = _value(key, given)
+        except InputError as fault:
+            faults[key] = fault
+    if faults:
+        from ..checks.basics import Checker, Places
+
+        checker = Checker(shown, Places(text))
+        for key, fault in faults.items():
+            checker.fault((key,), fault)
+        raise InputError(
+            "settings-faults", faults=tuple(fault for _, _, fault in sorted(checker.faults, key=lambda one: one[:2]))
+        )
+    return {name: value for name, value in values.items() if value}
 
 
-def _value(file: str, key: str, given: object) -> str:
+def _value(key: str, given: object) -> str:
     """Return the value of a key, checked."""
     if key not in PARAMETERS:
-        raise unknown("settings-key", key, PARAMETERS, file=file)
+        raise unknown("key-unknown", key, PARAMETERS)
     if not isinstance(given, str):
-        raise InputError("settings-text", file=file, name=key)
+        raise InputError("type-text")
     if key not in _CHOICES or not given.strip():
         return given.strip()
     value = given.strip().lower()
     if value not in (known := _CHOICES[key]()):
-        raise InputError("settings-choice", file=file, name=key, text=quote(given), known=", ".join(known))
+        raise unknown("choice-unknown", given.strip(), known)
     return value
