@@ -11,7 +11,7 @@ from pdfminer.high_level import extract_pages
 from pdfminer.layout import LTTextContainer
 
 from kulman import batch, check, load_task
-from kulman.scales.errors import InputError
+from kulman.scales.errors import InputError, speaking
 from kulman.tests.support.commands import Run, files, roster, table
 from kulman.variants.batches.batch import Making, Outcome, Student
 from kulman.variants.case import Request
@@ -66,6 +66,13 @@ def test_every_student_gets_a_sheet_and_who_does_not_is_named(tmp_path: Path, ru
     keys = table(out / "key.csv")
     assert float(keys[1]["V_B [m/s]"]) != float(keys[0]["V_B [m/s]"])
     assert keys[2]["V_B [m/s]"] == ""
+
+
+def test_problems_of_a_class_are_said_in_the_language_of_messages(tmp_path: Path) -> None:
+    with speaking([], "ru"):
+        done = batch(TASK, roster(tmp_path, "Bad;MM-21;77;"), tmp_path / "out", lang="uk", jobs=1)
+
+    assert "нет варианта" in done.problems[0]
 
 
 def test_a_student_gets_a_note_and_a_handout(tmp_path: Path) -> None:

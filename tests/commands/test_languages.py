@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from kulman.cli import commands
-from kulman.scales.errors import LANGUAGES
+from kulman.scales.errors import LANGUAGES, KulmanError
 from kulman.tests.support.sources import ROOT
 from kulman.variants.shelf import bundled, bundled_text
 
@@ -83,3 +83,11 @@ def test_a_bundled_task_says_what_it_is_in_every_language(task: str) -> None:
         assert said.keys() == {*LANGUAGES}
         assert len({*said.values()}) == len(LANGUAGES)
         assert not any(FOREIGN[language].search(said[language]) for language in FOREIGN)
+
+
+@pytest.mark.parametrize(("number", "said"), [("-1.7201e+08", "−1,7201·10⁸"), ("2e-05", "2·10⁻⁵"), ("-67.9", "−67,9")])
+def test_numbers_of_messages_are_written_as_by_hand(number: str, said: str) -> None:
+    error = KulmanError("hoist-rule-strength", value=number, limit=5.0)
+
+    assert f" {said}," in error.text("uk")
+    assert f" {said.replace(',', '.')}," in error.text("en")
