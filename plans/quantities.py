@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from ..scales.scale import Display, Scale
-from ..scales.units import converted, unit
+from ..scales.units import converted, parse, unit
 from .board import POINTS, POSITION, Program, Step
 from .boards.exact import ILL
 from .names import LEVER, by_lever, is_shown, role, spelled
@@ -82,6 +82,62 @@ class Quantity:
         if self.kind == "point":
             raise TypeError(f"{self.name} is a point: it has coordinates x and y")
         return math.nan if self.value is None else self.value
+
+    def __lt__(self, other: Any) -> bool:
+        """Compare with a quantity, a text with its unit, or a number in its own unit."""
+        return float(self) < self._number(other)
+
+    def __gt__(self, other: Any) -> bool:
+        """Compare as `<` does."""
+        return float(self) > self._number(other)
+
+    def __le__(self, other: Any) -> bool:
+        """Compare as `<` does."""
+        return float(self) <= self._number(other)
+
+    def __ge__(self, other: Any) -> bool:
+        """Compare as `<` does."""
+        return float(self) >= self._number(other)
+
+    def __add__(self, other: Any) -> float:
+        """Return a number in its unit; what is added is a quantity, a text with its unit, or a number in it."""
+        return float(self) + self._number(other)
+
+    def __sub__(self, other: Any) -> float:
+        """Return a number in its unit, as `+` does."""
+        return float(self) - self._number(other)
+
+    def __mul__(self, other: Any) -> float:
+        """Return a number: units of products are not kept."""
+        return float(self) * float(other)
+
+    def __truediv__(self, other: Any) -> float:
+        """Return a number: units of ratios are not kept."""
+        return float(self) / float(other)
+
+    def __rtruediv__(self, other: Any) -> float:
+        """Return a number, as `/` does."""
+        return float(other) / float(self)
+
+    def __rsub__(self, other: Any) -> float:
+        """Return a number in its unit, as `-` does."""
+        return self._number(other) - float(self)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __neg__(self) -> float:
+        """Return the value with the other sign."""
+        return -float(self)
+
+    def __abs__(self) -> float:
+        """Return the size of the value."""
+        return abs(float(self))
+
+    def _number(self, other: Any) -> float:
+        """Return in the unit of this quantity what is added to it, or compared with it."""
+        if isinstance(other, str):
+            return unit(self.unit).from_si(parse(other, unit(self.unit)))
+        return float(other.to(self.unit)) if isinstance(other, Quantity) else float(other)
 
     def __format__(self, spec: str) -> str:
         """Return the value, of a point its coordinates, as numbers are formatted, with the unit.

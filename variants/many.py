@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -21,12 +22,13 @@ from ..plans.quantities import results, unit_of
 from ..plans.solved import Columned
 from ..scales.errors import InputError
 from ..scales.names import all_known, names_of, unknown
+from ..scales.numbers import quote
 from ..scales.series import Series
 from ..scales.units import converted, parse, unit
 from .case import Case, Request, Settings, Wanted
 from .kinds.linkage import Linkages
 from .reader import load_task
-from .tables import Arrays
+from .tables import Arrays, html_table
 from .task import AnyTask, Given, LocatedError
 
 Array = NDArray[Any]
@@ -99,6 +101,17 @@ class ManyStates(Arrays):
         found = (pair for pair in zip(STATUSES, counts.tolist(), strict=True) if pair[1])
         return "\n".join(f"{words.texts.get(f'status.{status}', status)}: {count}" for status, count in found)
 
+    def _repr_html_(self) -> str:
+        """Show the range of each column in a notebook, in the units of the task, and how many states have no plan."""
+        words = self.words
+        rows = [["", words["table.unit"], words["sweep.least"], words["sweep.most"]]]
+        for column in self.arrays():
+            finite = column.values[np.isfinite(column.values)]
+            ends = (finite.min(), finite.max()) if finite.size else ()
+            shown = (words.short(words.display.value(float(end), column.unit), 6) for end in ends)
+            rows.append([column.name, words.spelled(words.display.unit(column.unit)), *shown])
+        return html_table(rows) + "".join(f"<p>{escape(line)}</p>" for line in self.table().split("\n"))
+
     def __repr__(self) -> str:
         """Return task, variant, the shape, and of how many states there is a plan."""
         return f"<ManyStates {self.task.id} {self.variant}: {self.shape}, {int(self.ok.sum())} with a plan>"
@@ -132,7 +145,8 @@ def solve_many(
         The quantities and points wanted, `"V_B,M_bal"`; all of the plans without it. Fewer are found sooner.
     **givens : str, number, array, or a pair of these and a unit
         Givens by name: a text with a unit, `"190 mm"`; numbers are in SI, `phi=numpy.linspace(0, 6.28, 361)`, with a
-        unit behind them in that, `l_AB=([100, 110], "mm")`. They broadcast.
+        unit behind them in that, `l_AB=([100, 110], "mm")`. They broadcast. In `set` numbers would be in the unit of
+        the task, as on the command line: here they have to say theirs, `set={"phi": "75 deg"}`.
 
     Returns
     -------
@@ -151,6 +165,10 @@ def solve_many(
     [0.0, 2.032, 4.006]
     """
     asked, first, read = load_task(task), dict[str, Any](set or {}), dict[str, Array]()
+    for name, value in first.items():
+        of = asked.givens[name].unit if name in asked.givens else None
+        if of is not None and of.name and not isinstance(value, str):  # 75 degrees here, 75 radians a word further
+            raise LocatedError(name, InputError("number-of-what", text=quote(value), unit=of.name))
     for name, value in givens.items():
         if name not in asked.givens:
             raise unknown("given-unknown", name, asked.givens, task=asked.id)
@@ -184,13 +202,19 @@ def _in_si(given: Given, value: Any) -> Array:
         own, of = value
     one = converted(1.0, unit(of), given.unit)
     try:
-        array = np.asarray(own, float) * one
+        plain = np.asarray(own, float)
+        array = plain * one
     except (TypeError, ValueError):
         raise InputError("type-quantity", expected=given.unit.si.name) from None
     if not array.size:
         raise InputError("arrays-shapes", text=f"{array.shape}")
-    for number in {float(np.min(array)), float(np.max(array)), float(array.flat[np.argmin(np.abs(array))])}:
-        given.read(given.unit.from_si(number))  # which refuses what is no number, or out of bounds
+    for worst in {int(np.argmin(array)), int(np.argmax(array)), int(np.argmin(np.abs(array)))}:
+        try:
+            given.read(given.unit.from_si(float(array.flat[worst])))  # refuses what is none, or out of bounds
+        except InputError as refused:
+            error = InputError(refused.key, **{**refused.data, "text": quote(f"{plain.flat[worst]:.7g} {of}")})
+            place = ", ".join(map(str, np.unravel_index(worst, array.shape)))
+            raise (LocatedError(f"[{place}]", error) if place else error) from refused
     return array
 
 

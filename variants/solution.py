@@ -16,7 +16,7 @@ from ..scales.names import unknown
 from ..scales.scale import Scale
 from .case import Case, Kind, Request, Settings, Wanted
 from .reader import load_task
-from .tables import FILES, OfCase, Table, aligned
+from .tables import FILES, OfCase, Table, aligned, html_table
 from .task import AnyTask
 
 if TYPE_CHECKING:
@@ -91,7 +91,16 @@ class Solution(OfCase):
         """Show the table in a notebook, what the task says of its data, and why a position has no plan."""
         said = [] if self.reason is None else [self.reason.text(self.words.language)]
         said += filter(None, [self.task.note_in(self.words.language)])
-        return "".join(f"<p>{escape(text)}</p>" for text in said) + f"<pre>{escape(self.table())}</pre>"
+        return "".join(f"<p>{escape(text)}</p>" for text in said) + html_table(self._shown())
+
+    def _shown(self) -> list[list[str]]:
+        """Return the rows of a notebook: quantities under their headings, the scale factors below."""
+        rows, headings = [[""] * 5], self.kind.headings(self.solved, self.words)
+        for quantity in self._tidy():
+            if quantity.name in headings:
+                rows.append([headings[quantity.name]])
+            rows.append([*_row(self.words, quantity.shown(self.words.display))])
+        return [*rows, [self.scaled(self.words)]] if self.scales else rows
 
     def to_json(self) -> dict[str, Any]:
         """Return what `kulman solve --json` prints."""

@@ -99,6 +99,16 @@ class Table:
         head = f'<html lang="{self.language}"><meta charset="utf-8"><title>{escape(self.title)}</title>'
         return f"<!DOCTYPE html>\n{head}\n<table>\n{rows}\n</table></html>\n"
 
+    def small(self, most: int = 24) -> str:
+        """Return it as a table of a notebook: of many rows the first and the last ones."""
+        cut = max(0, len(self.rows) - most)
+        rows = [*self.rows[: most // 2], ["…"], *self.rows[-most // 2 :]] if cut else self.rows
+
+        def shown(cell: Cell) -> str:
+            return cell if isinstance(cell, str) else _text(cell, self.language != "en", "{:.6g}".format)
+
+        return html_table([self.columns, *([*map(shown, row)] for row in rows)])
+
     def file(self, suffix: str) -> bytes:
         """Return what a file holds, of one of `FILES` but JSON."""
         match suffix.lower():
@@ -162,7 +172,7 @@ class Result(Saved):
 
     def _repr_html_(self) -> str:
         """Show the table in a notebook."""
-        return f"<pre>{escape(self.table())}</pre>"
+        return self.data().small()
 
     def _words(self, language: str | None) -> Words:
         return self.words if language is None else self.words.speaking(language)
@@ -203,6 +213,11 @@ class Arrays(OfCase):
         """Return what has been found, for JSON: everything in SI."""
 
     @property
+    @abstractmethod
+    def statuses(self) -> Any:
+        """The status of each state, an array of texts."""
+
+    @property
     def status(self) -> str:
         """The status of all: `ok` where something moves."""
         return "ok"
@@ -229,8 +244,8 @@ class Arrays(OfCase):
         return any(name == column.name for column in self.arrays())
 
     def __len__(self) -> int:
-        """Return the number of columns."""
-        return sum(1 for _ in self.arrays())
+        """Return the number of states, as a pandas data frame does."""
+        return int(self.statuses.size)
 
     def to_dict(self) -> dict[str, Series]:
         """Return all columns by name, in SI."""
@@ -278,6 +293,20 @@ class Swept(Arrays):
     def reason(self) -> PositionError | None:
         """Why no position at all can be assembled, or None."""
         return None
+
+
+def html_table(rows: Sequence[Sequence[str]]) -> str:
+    """Return rows, the first one the head, as a table in a notebook; a row of one cell goes over all columns."""
+    aside, wide = ' style="text-align: left"', max(map(len, rows))
+    lines = []
+    for number, row in enumerate(rows):
+        tag = "td" if number else "th"
+        if len(row) == 1 < wide:
+            lines.append(f'<tr><td colspan="{wide}"{aside}>{escape(row[0])}</td></tr>')
+            continue
+        cells = (f"<{tag}{'' if k else aside}>{escape(text)}</{tag}>" for k, text in enumerate(row))
+        lines.append(f"<tr>{''.join(cells)}</tr>")
+    return f'<table style="text-align: right">{"".join(lines)}</table>'
 
 
 def picture(svg: str | bytes, said: str = "") -> str:

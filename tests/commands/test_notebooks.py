@@ -41,7 +41,7 @@ def test_a_notebook_runs_and_shows_what_its_cells_end_with(path: Path, folder: P
     assert len(results) > 2
     for value in results:
         [text] = {getattr(value, name)() for name in SHOWN if hasattr(value, name)}
-        assert "<pre>" in text or "data:image/svg+xml;base64," in text
+        assert "<table" in text or "data:image/svg+xml;base64," in text
         assert len(repr(value)) < 100, value
     assert len([*folder.iterdir()]) >= 3
 

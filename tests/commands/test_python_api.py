@@ -149,7 +149,8 @@ def test_a_notebook_shows_a_solution_as_its_table_or_why_there_is_none(solution:
     apart = kulman.solve(TASK, set={"l_AB": 20, "phi": 90}, lang="uk")
     same = pickle.loads(pickle.dumps(apart))
 
-    assert solution.table() in solution._repr_html_()
+    assert solution._repr_html_().startswith("<table")
+    assert all(f">{name}<" in solution._repr_html_() for name in solution.listed)
     assert apart.status == "no-assembly"
     assert apart.reason is not None
     assert apart.reason.text("uk") in apart._repr_html_()
@@ -244,7 +245,10 @@ def test_rows_are_the_same_in_every_kind_of_file(name: str, tmp_path: Path) -> N
             assert all(map(same, own, row)), (kind, own, row)
     assert json.loads(written[".json"].read_text(encoding="ascii")) == json.loads(json.dumps(found.to_json()))
     assert found.csv("uk").count(";") >= len(found.columns) - 1
-    assert "<pre>" in found._repr_html_()
+    shown = found._repr_html_()
+    assert shown.count("<table") == 1
+    assert "<pre>" not in shown
+    assert all(f">{html.escape(str(name))}<" in shown for name in found.columns) or name == "solve"
 
 
 @pytest.mark.parametrize("command", ["solve", "sweep", "chart --chart depth --positions 36", "variants"])
@@ -272,3 +276,33 @@ def test_of_several_charts_each_has_rows_of_its_own(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="each chart has rows of its own: depth, stability"):
         charts.csv()
     assert [path.name for path in charts.save(tmp_path / "x.html")] == ["x-depth.html", "x-stability.html"]
+
+
+def test_a_quantity_is_compared_and_calculated_with_as_a_number_in_its_unit(solution: Solution) -> None:
+    speed, size = solution["V_B"], float(solution["V_B"])
+
+    assert speed < size + 1
+    assert speed > f"{size * 1000 - 1} mm/s"
+    assert speed <= speed.to("km/h") * 1
+    assert speed + speed.to("mm/s") == pytest.approx(2 * size)
+    assert 1 / speed == pytest.approx(1 / size)
+    assert (abs(speed), -speed, 1 - speed, 2 * speed, speed / speed) == (size, -size, 1 - size, 2 * size, 1)
+    with pytest.raises(KulmanError):
+        speed + solution["a_B"]
+
+
+def test_answers_are_marked_as_a_mapping_too(solution: Solution) -> None:
+    checked = kulman.check(TASK, "3", lang="en")
+    right = solution["V_B"]
+
+    for value in (right, float(right), f"{float(right) * 1000:.2f} mm/s"):
+        assert checked.mark({"V_B": value}).marked.mark > 0
+    assert checked.mark({"V_B": 77}).marked.mark == 0
+    for wrong in ({"V_Q": 3}, {"V_B": None}, 3):
+        with pytest.raises(KulmanError):
+            checked.mark(wrong)  # type: ignore[arg-type]
+
+
+def test_an_argument_that_a_note_lacks_is_compared_with_those_it_has() -> None:
+    with pytest.raises(KulmanError, match="unknown argument 'studnt'; did you mean student"):
+        kulman.note(TASK, studnt="x")

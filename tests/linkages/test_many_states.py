@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from types import SimpleNamespace
 from typing import Any
@@ -87,7 +88,7 @@ def test_units_are_as_they_are_written_and_numbers_in_si() -> None:
 def test_words_are_chosen_and_settings_hold_for_all_states() -> None:
     left, right = (solve_many(TASK, side=side, phi=[0.3], names="B")["B.x"][0] for side in ("left", "right"))
     assert left * right < 0.0
-    assert solve_many(TASK, set={"l_OA": 30}, phi=[0.3], names="V_A")["V_A"] == pytest.approx(
+    assert solve_many(TASK, set={"l_OA": "30 mm"}, phi=[0.3], names="V_A")["V_A"] == pytest.approx(
         solve(TASK, set={"l_OA": "30 mm"})["V_A"].value
     )
 
@@ -119,6 +120,34 @@ def test_what_is_wrong_with_an_array_is_said(givens: dict[str, Any], key: str) -
     assert next(iter(givens)) in error.value.text("en") or key == "quantity-unknown"
 
 
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (([50, 40, -3], "mm"), "l_OA: [2]: '-3 mm': must be greater than zero"),
+        ([[0.05, 0.04], [float("nan"), 0.03]], "l_OA: [1, 0]: 'nan m'"),
+    ],
+)
+def test_a_bad_value_of_an_array_is_named_with_its_index_and_unit(value: Any, said: str) -> None:
+    with pytest.raises(KulmanError) as error:
+        solve_many(TASK, l_OA=value)
+    assert said in str(error.value)
+
+
+def test_numbers_in_set_say_their_unit_where_others_are_in_si() -> None:
+    with pytest.raises(KulmanError, match='phi: 75 is a number without its unit; write "75 deg"'):
+        solve_many(TASK, set={"phi": 75})
+
+
+def test_many_states_show_their_ranges_in_a_notebook() -> None:
+    states = solve_many(TASK, l_AB=([10, 110], "mm"), phi="90 deg", names="V_B", lang="en")
+
+    shown = re.sub("<[^>]*>", " ", states._repr_html_()).split()
+
+    assert len(states) == 2
+    assert " ".join(shown).startswith(f"Unit min max l_AB m 0.01 0.11 V_B m/s {states['V_B'][1]:.6g}")
+    assert " ".join(shown).endswith("ok: 1 cannot be assembled: 1")
+
+
 def test_a_gear_pair_is_no_linkage() -> None:
     with pytest.raises(KulmanError, match="no linkage"):
         solve_many("madi-gear")
@@ -130,7 +159,7 @@ def test_a_sweep_gives_its_columns_as_arrays(task: str) -> None:
     columns = swept.to_dict()
 
     assert [*swept] == [*columns]
-    assert len(swept) == len(columns)
+    assert len(swept) == swept.statuses.size == len(next(iter(columns.values())))
     data = swept.to_json()
     for name, found in data.get("columns", {}).items():
         assert columns[name].unit == found["unit"]

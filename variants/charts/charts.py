@@ -321,7 +321,8 @@ class Charts(OfCase):
         """Show the pictures and the table in a notebook."""
         titles = (chart.scene.title(chart.heading) for chart in self.charts.values())
         shown = map(picture, saved(self.drawn(), ".svg"), titles)
-        return "".join((*shown, OfCase._repr_html_(self)))
+        tables = (chart.data(self.words).small() for chart in self.charts.values())
+        return "".join((*shown, *tables))
 
     def __repr__(self) -> str:
         """Return task, variant and the names of the charts."""

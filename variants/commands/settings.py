@@ -85,8 +85,8 @@ def settings() -> dict[str, str]:
     for key, given in raw.items():
         try:
             values[PARAMETERS.get(key, key)] = _value(key, given)
-        except InputError as fault:
-            faults[key] = fault
+        except InputError as refused:
+            faults[key] = refused
     if faults:
         from ..checks.basics import Checker, Places
 

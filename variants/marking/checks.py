@@ -8,13 +8,14 @@ from __future__ import annotations
 import gc
 import json
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ...drawing.formats import format_named
 from ...drawing.writers import Files, folder_for, save_all, slug, write_whole
+from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError
 from ...scales.names import by_name
 from ...scales.version import __version__
@@ -28,7 +29,7 @@ from ..task import Task
 from .class_page import PAGE, ClassPage
 from .keyed import asked_of, class_header, form_rows, read_rubric, solved
 from .marked import Desk, Terms, variant_of
-from .reading import Answers, read_all
+from .reading import Answers, answers_of, read_all
 from .report import REPORTS, Report, report_bytes
 from .result import Result, class_rows, failed, moodle_rows, nothing, result_of
 from .wording import texts
@@ -126,14 +127,16 @@ class Check(Terms):
         lines = (found.get(one, [entry]) for one, entry in absent.items())
         return [*(line for several in lines for line in several), *strangers]
 
-    def mark(self, answers: Answers) -> Report:
-        """Mark one student.
+    def mark(self, answers: Answers | Mapping[str, Quantity | str | float]) -> Report:
+        """Mark one student: answers that have been read, or values by quantity, `{"V_B": "2,03 m/s"}`, numbers in SI.
 
         Raises
         ------
         InputError, PositionError
             The variant or its data have no answer key.
         """
+        if not isinstance(answers, Answers):
+            answers = answers_of(by_name("answers", answers), self.asked)
         return _marked(Desk(self), answers)[0]
 
     def mark_all(

@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from pathlib import Path
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, SupportsFloat, TypeVar
 
 from ...plans.marking.answers import FREE, Answer
+from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
@@ -80,6 +81,23 @@ def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answe
                 raise LocatedError(grid.place(row), InputError("answers-nameless"))
             return students
     raise InputError("answers-header", file=quote(grid.file, SHOWN))
+
+
+def answers_of(said: Mapping[str, Any], asked: Asked) -> Answers:
+    """Return the answers of a mapping by quantity: a `Quantity`, a text with its unit, a number in SI."""
+    rows = [("name", "value", "unit")]
+    for name, value in said.items():
+        if isinstance(value, Quantity):
+            rows.append((name, f"{float(value)!r}", value.unit))
+        elif isinstance(value, str):
+            rows.append((name, value, ""))
+        elif isinstance(value, SupportsFloat) and name in asked.quantities:
+            rows.append((name, f"{float(value)!r}", asked.quantities[name].unit))
+        else:
+            if name not in asked.names:
+                raise unknown("quantity-unknown", name, asked.names)
+            raise LocatedError(name, InputError("type-quantity", expected=asked.quantities[name].unit))
+    return _form(Grid("answers", tuple(rows)), 0, {"name": 0, "value": 1, "unit": 2}, asked)
 
 
 def _first(kinds: Iterable[str | None]) -> dict[str, int]:

@@ -73,6 +73,11 @@ class Sweep(Swept):
         return cls(case, case.words(), cycle(mechanism, values, plans, count, first, last), chosen, chords)
 
     @property
+    def statuses(self) -> NDArray[np.str_]:
+        """The status of each position, the words of `kulman.Status`."""
+        return np.array(self.cycle.statuses)
+
+    @property
     def status(self) -> str:
         """`ok` when some position has its plans, otherwise the status of all."""
         statuses = self.cycle.statuses

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...drawing.words import Words
 from ...drawing.writers import Files
@@ -38,6 +39,12 @@ class CourseSweep(Swept):
     def count(self) -> int:
         """The number of places in files."""
         return self.positions or self.course.usual
+
+    @property
+    def statuses(self) -> NDArray[np.str_]:
+        """What is said of each place: `ok`, where a follower rests on an undercut, what bears the load."""
+        places = self.course.places(self.count)
+        return np.array(next(iter(self.course.states(places).values()), ["ok"] * len(places)))
 
     def table(self, language: str | None = None) -> str:
         """Return the columns at what is marked, or at the positions asked for, then extremes and remarks."""
