@@ -282,12 +282,15 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
 @console.as_json
 def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Solve TASK (an id, or a TOML file) over its whole cycle: positions, dead positions, strokes, extremes."""
+    from .drawing.writers import WRITERS
     from .variants.sweeps.sweeps import sweep as sweep_task
 
     language = console.of_documents(options.pop("lang"), bool(files))
     block = console.without_none({name: options.pop(name) for name in (*console.BLOCK, "student")})
     swept = sweep_task(task, set=settings, lang=language, block=block, **options)
     console.hand_over(swept, files, as_json, tabled=swept.reason is None)
+    if any(file.suffix.lower() in WRITERS for file in files):
+        console.warn(swept.warnings)
     return console.refuse(swept.reason) if swept.reason is not None else 0
 
 

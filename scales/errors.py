@@ -53,7 +53,7 @@ class KulmanError(Exception):
     **data
         What the template names: `file`, `row`, `column`, `name`, `expected`, ... Numbers in texts have the decimal
         sign of the language, but for what is `Written`; what is `Spoken` is said in it, a tuple has commas between,
-        of errors semicolons.
+        a list semicolons.
     """
 
     status = 2
@@ -82,8 +82,8 @@ def _shown(value: object, language: str) -> object:
     """Return a value of a message in a language, with its decimal sign and its units; an error, and several, too."""
     if isinstance(value, KulmanError):
         return value.text(language)
-    if isinstance(value, tuple):
-        between = "; " if any(isinstance(one, KulmanError) for one in value) else ", "
+    if isinstance(value, (tuple, list)):
+        between = "; " if isinstance(value, list) else ", "
         return between.join(str(_shown(one, language)) for one in value)
     if isinstance(value, Written) or not isinstance(value, (str, float)):
         return value

@@ -38,7 +38,7 @@ from .reader import load_task
 from .sheets import NOTE_TEXTS as TEXTS
 from .sheets import Sheet, draw_case, said_of, sheet_id, work_code
 from .tables import Saved
-from .task import AnyTask
+from .task import WITH_FORCES, AnyTask
 
 DOCUMENTS = (".pdf", ".docx", ".md")
 # documents that hold their figures
@@ -183,12 +183,17 @@ def body_of(case: Case, drawn: Drawn | Sheet) -> tuple[Block, ...]:
     cited = said["note.source" if len(sources) > 1 else "note.source_alone"]
     read = said["note.ruler" if case.readings == RULER else "note.sheet"]
     about = Sentences((said["note.about"].format(sheet=identity, by=by), read, cited))
-    end = (Heading(said["note.conclusions"]), Steps(story.conclusions)) if story.conclusions else ()
+    end = (Heading(said["note.conclusions"], numbered=False), Steps(story.conclusions)) if story.conclusions else ()
+    forces = case.kind.room == "linkages" and WITH_FORCES.intersection(case.plans)
+    aim = said.get("note.aim.forces" if forces else f"note.aim.{case.kind.room}", "")
+    studied = said["note.studied"].format(title=escape(case.title.partition(":")[0]), variant=escape(case.variant))
     return (
-        Heading(said["note.task"]),
+        Heading(said["note.introduction"], numbered=False),
+        Sentences(tuple(filter(None, (studied, aim)))),
         about,
+        Heading(said["note.task"]),
         *blocks_of(drawn.views, story, said),
         *end,
-        Heading(said["note.literature"]),
+        Heading(said["note.literature"], numbered=False),
         Steps(tuple(sources)),
     )

@@ -344,7 +344,7 @@ def handout(
     """
     of_kind("steps", steps, (int,), "int")
     if steps < 0:
-        raise InputError("handout-steps", text=str(steps))
+        raise InputError("handout-steps", text=quote(steps))
     asked = {"--key": key, "--over": over is not None, "--hidden-key": hidden_key, "--grid": grid, "--steps": steps > 0}
     for first, second in APART:
         if asked[first] and asked[second]:

@@ -294,6 +294,11 @@ class Swept(Arrays):
         """Why no position at all can be assembled, or None."""
         return None
 
+    @property
+    def warnings(self) -> tuple[InputError, ...]:
+        """What a user of its drawing should know."""
+        return ()
+
 
 def html_table(rows: Sequence[Sequence[str]]) -> str:
     """Return rows, the first one the head, as a table in a notebook; a row of one cell goes over all columns."""

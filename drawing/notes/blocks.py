@@ -25,9 +25,15 @@ ROOM = (180.0, 215.0)  # mm of a page of A4 for a figure, its caption under it
 
 @dataclass(frozen=True, slots=True)
 class Heading:
-    """The heading of a section."""
+    """The heading of a section; one that is not `numbered`, of an introduction or of conclusions, is in capitals."""
 
     text: str
+    numbered: bool = True
+
+    def __post_init__(self) -> None:
+        """Put what has no number in capitals, as standards of reports do."""
+        if not self.numbered:
+            object.__setattr__(self, "text", self.text.upper())
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import cache, lru_cache
 from importlib.util import find_spec
 from io import BytesIO
-from itertools import count, groupby
+from itertools import accumulate, count, groupby
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...scales.errors import InputError
@@ -48,6 +48,7 @@ OF_NUMBER = 14.0  # mm at the end of a line for the number of an equation
 KEPT = "<w:keepNext/>"  # of a paragraph that stands on the page of what follows
 TOGETHER = 3  # rows of a table that no end of a page parts, at its beginning and at its end
 INDENT = 8.0  # mm before an equation; what goes on in another line stands in twice as far
+UNNUMBERED = '<w:numPr><w:numId w:val="0"/></w:numPr><w:jc w:val="center"/>'
 FIGURES = 1000  # before the number of a figure to which something refers, among those of headings
 LISTS = 3  # the number of the first list of steps
 _END = '<w:r><w:fldChar w:fldCharType="end"/></w:r>'  # of a field
@@ -334,10 +335,12 @@ def _contents(document: Document) -> Iterator[str]:
     """Go through the contents, a field with its entries; their pages are known when it is updated."""
     yield _paragraph("TOCHeading", words(packaged(__package__, "texts", document.language)["contents"]))
     before = _begun(r'TOC \o "1-2" \h \z \u')
-    entries = [note.letters(block.text) for block in document.blocks if isinstance(block, Heading)]
-    for number, entry in enumerate(entries, 1):
+    entries = [block for block in document.blocks if isinstance(block, Heading)]
+    counted = accumulate(block.numbered for block in entries)
+    for number, (block, place) in enumerate(zip(entries, counted, strict=True), 1):
+        entry = f"{f'{place} ' if block.numbered else ''}{note.letters(block.text)}"
         page = _begun(rf"PAGEREF {_mark(number)} \h") + _END
-        shown = f"{words(f'{number} {entry}')}<w:r><w:tab/></w:r>{page}"
+        shown = f"{words(entry)}<w:r><w:tab/></w:r>{page}"
         linked = f'<w:hyperlink w:anchor="{_mark(number)}" w:history="1">{shown}</w:hyperlink>'
         yield _paragraph("TOC1", before + linked)
         before = ""
@@ -363,8 +366,9 @@ def folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
 
 def _block(block: Block, number: int, said: dict[str, str], pictures: Sequence[Picture]) -> Iterator[str]:
     match block:
-        case Heading(text=text):
-            yield _paragraph("Heading1", _bookmark(line(text), _mark(number), number))  # the contents lead there
+        case Heading(text=text, numbered=numbered):
+            marked = _bookmark(line(text), _mark(number), number)  # the contents lead there
+            yield _paragraph("Heading1", marked, "" if numbered else UNNUMBERED)
         case Sentences(texts=texts, leads=leads):
             yield _paragraph("", words(" ").join(map(line, texts)), KEPT if leads else "")
         case Steps(texts=texts):

@@ -265,8 +265,8 @@ def _framed(document: Document, form: str) -> bytes:
 def _block(block: Block, number: int, place: int, said: dict[str, str]) -> str:
     at = f"#at({place})"
     match block:
-        case Heading(text=text):
-            return f"= {_line(text)}"
+        case Heading(text=text, numbered=numbered):
+            return f"= {_line(text)}" if numbered else f"#align(center, heading(numbering: none)[{_line(text)}])"
         case Sentences(texts=texts, leads=leads):
             text = " ".join(map(_sentence, texts)) + at
             return f"#block(sticky: true, spacing: 0.8em)[{text}]\n" if leads else f"{text}\n"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ import kulman
 from kulman import KulmanError
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.commands import Run
+from kulman.variants.sweeps import linkage
 
 TASK = "nau-slider-crank"
 SHORT_ROD = ["--set", "l_AB=20"]  # cannot reach the guide all round
@@ -179,3 +181,16 @@ def test_the_drawing_of_a_cycle_has_a_title_block(folder: Path, run: Run) -> Non
     assert run("sweep", TASK, *said, "-o", "cycle.svg")[0] == 0
     text = Path("cycle-1.svg").read_text(encoding="utf-8")
     assert all(word in text for word in said[1::2])
+
+
+def test_a_drawing_of_very_many_positions_shows_some_of_them_and_says_so(
+    run: Run, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(linkage, "DRAWN", 12)
+
+    status, _, err = run("sweep", TASK, "--positions", "24", "-o", "x.svg", "-o", "x.csv", "--lang", "en")
+
+    drawing = "".join(path.read_text(encoding="utf-8") for path in folder.glob("x*.svg"))
+    assert (status, err) == (0, "the drawing shows 12 of the 24 positions, spread evenly; tables and .csv have all\n")
+    assert {int(name) for name in re.findall("position_([0-9]+)", drawing)} == {*range(12)}
+    assert len(Path("x.csv").read_text(encoding="utf-8").splitlines()) == 25

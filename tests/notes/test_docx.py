@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
 from io import BytesIO
+from itertools import accumulate
 from math import sqrt
 from pathlib import Path
 from typing import Any
@@ -155,18 +156,23 @@ def test_a_document_is_read_by_the_library_with_its_looks() -> None:
 
 
 def test_what_leads_somewhere_leads_there_and_the_contents_to_every_heading() -> None:
-    body, headings = part(written(), "document"), [letters(block.text) for block in kinds(Heading)]
+    body, headings = part(written(), "document"), kinds(Heading)
     told = paragraphs(body)
 
     marks = {mark.get(f"{W}name") for mark in body.iter(f"{W}bookmarkStart")}
     assert {link.get(f"{W}anchor") for link in body.iter(f"{W}hyperlink")} == marks
     assert len(marks) == len(headings)
     entries = [line.strip() for style, line in told if style == "TOC1" and line.strip()]
-    assert entries == [f"{number} {heading}" for number, heading in enumerate(headings, 1)]
+    counted = accumulate(heading.numbered for heading in headings)
+    assert entries == [
+        f"{number} {letters(one.text)}" if one.numbered else one.text
+        for one, number in zip(headings, counted, strict=True)
+    ]
+    assert [one.text for one in headings if not one.numbered] == ["ВСТУП", "ВИСНОВКИ", "СПИСОК ВИКОРИСТАНИХ ДЖЕРЕЛ"]
     styles = {style.get(f"{W}styleId") for style in part(written(), "styles").iter(f"{W}style")}
     assert {style for style, _ in told} - {""} <= styles
     lists = {item.get(f"{W}numId") for item in part(written(), "numbering").iter(f"{W}num")}
-    used = {item.get(f"{W}val") for item in body.iter(f"{W}numId")}
+    used = {item.get(f"{W}val") for item in body.iter(f"{W}numId")} - {"0"}
     assert used <= lists
     assert len(used) == len(kinds(Steps))
 

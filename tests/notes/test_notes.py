@@ -345,7 +345,7 @@ def test_a_name_is_never_taken_for_a_sign(name: str) -> None:
 
 @pytest.mark.parametrize(("notation", "by"), [("nau", "times its"), ("bauman", "over its")])
 def test_a_note_says_what_scale_factors_are_for(notation: str, by: str) -> None:
-    about = note(TASK, only="structure", notation=notation, lang="en").document.blocks[1]
+    about = note(TASK, only="structure", notation=notation, lang="en").document.blocks[2]
 
     assert isinstance(about, Sentences)
     assert f"segment {by} scale factor is the quantity" in about.texts[0]

@@ -94,7 +94,7 @@ def settings() -> dict[str, str]:
         for key, fault in faults.items():
             checker.fault((key,), fault)
         raise InputError(
-            "settings-faults", faults=tuple(fault for _, _, fault in sorted(checker.faults, key=lambda one: one[:2]))
+            "settings-faults", faults=[fault for _, _, fault in sorted(checker.faults, key=lambda one: one[:2])]
         )
     return {name: value for name, value in values.items() if value}
 

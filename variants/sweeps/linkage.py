@@ -32,6 +32,7 @@ from ..task import LocatedError, Task, plain_number
 
 Array = NDArray[Any]
 SECTIONS = POSITIONS = 12
+DRAWN = 36  # positions in a drawing: its letters take time as the square of their number, and stand on one another
 DIGITS = 6  # of a number in the table
 ROUGHLY = 4  # decimals of the angle of an extreme, near which values hardly change
 ROUNDING = 1e-12  # part of the largest value of a column below which one is zero
@@ -50,6 +51,7 @@ class Sweep(Swept):
     cycle: Cycle
     chosen: tuple[str, ...]
     compared: str | None = None
+    ends: tuple[float | None, float | None] = (None, None)  # where the driver begins and ends, as asked for
 
     @classmethod
     def of(
@@ -70,7 +72,9 @@ class Sweep(Swept):
         values = case.values
         plans = (*case.plans, "position")  # a cycle is one of positions, whatever else is wanted
         count = POSITIONS if positions is None else positions
-        return cls(case, case.words(), cycle(mechanism, values, plans, count, first, last), chosen, chords)
+        return cls(
+            case, case.words(), cycle(mechanism, values, plans, count, first, last), chosen, chords, (first, last)
+        )
 
     @property
     def statuses(self) -> NDArray[np.str_]:
@@ -175,6 +179,18 @@ class Sweep(Swept):
         """Return all columns for tables, the drawing for other kinds of files."""
         return Result._files(self, path, drawn) if path.suffix.lower() in FILES else page_files(drawn().pages, path)
 
+    @property
+    def pictured(self) -> int:
+        """How many positions the drawing shows: of very many every so manieth, else no line is told from another."""
+        whole = len(self)
+        return whole if whole <= DRAWN else next((n for n in range(DRAWN, 11, -1) if whole % n == 0), DRAWN)
+
+    @property
+    def warnings(self) -> tuple[InputError, ...]:
+        """What a user of the drawing should know."""
+        shown, whole = self.pictured, len(self)
+        return (InputError("sweep-pictured", n=shown, whole=whole),) if shown < whole else ()
+
     def drawn(self) -> Sheet:
         """Return the sheet with the plan of positions and the diagrams by plans and by chords.
 
@@ -184,9 +200,10 @@ class Sweep(Swept):
         error = case.solved.error()
         if error is not None:
             raise error
-        contents = Contents(
-            placed(case), ("cycle",), case.choosers, case.givens, words, "gost", self.cycle, courses=True
-        )
+        run = self.cycle
+        if self.pictured < len(self):
+            run = cycle(case.task.mechanism, case.values, (*case.plans, "position"), self.pictured, *self.ends)
+        contents = Contents(placed(case), ("cycle",), case.choosers, case.givens, words, "gost", run, courses=True)
         return sheet_of(case, draw(contents), replace(stamp_of(case), identity="", series=1))
 
     def __repr__(self) -> str:
