@@ -161,14 +161,18 @@ class Pens:
         """Return the width of `pen`."""
         return self.main if pen is Pen.MAIN else self.thin
 
+    def pattern(self, pen: Pen) -> tuple[float, ...]:
+        """Return dashes and gaps of `pen` as the norm has them; none are a solid line."""
+        extreme = (*self.axis, *self.axis[2:])  # the axis with two dots (GOST 2.303, line 9)
+        return {Pen.DASHED: self.dashed, Pen.AXIS: self.axis, Pen.EXTREME: extreme}.get(pen, ())
+
     def dashes(self, pen: Pen, length: float) -> tuple[float, ...]:
         """Return dashes and gaps for a line of `length`, stretched so that it starts and ends with a dash.
 
         An empty tuple means a solid line, which is also right for a line too short for two dashes.
         """
-        extreme = (*self.axis, *self.axis[2:])  # the axis with two dots (GOST 2.303, line 9)
-        pattern = {Pen.DASHED: self.dashed, Pen.AXIS: self.axis, Pen.EXTREME: extreme}.get(pen)
-        if pattern is None:
+        pattern = self.pattern(pen)
+        if not pattern:
             return ()
         period, dash = sum(pattern), pattern[0]
         repeats = round((length - dash) / period) if isfinite(length) else 0

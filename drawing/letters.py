@@ -21,6 +21,7 @@ UNIT = 100  # of the font, to h/10: capitals are 1000 units high
 GAP = 1.6  # between the widths of letters, h/10
 WORD_GAP = 6.0  # h/10
 SLANT = math.tan(math.radians(15.0))  # of slanted letters, 75 degrees to the line
+DOT = 0.062  # radius of a dot, in heights of a capital
 FINE = math.radians(7.5)  # steps of a rounded corner
 NEAR = 0.6  # units by which a curve of the font may miss the outline
 CORNER = math.radians(15.0)  # a turn of an outline that is seen
@@ -80,6 +81,19 @@ def _arc(corner: complex, before: complex, after: complex, radius: float) -> Ite
         yield centre + start * complex(math.cos(angle), math.sin(angle))
 
 
+def drawn(string: str, height: float, slanted: bool = False) -> Iterator[tuple[complex, ...]]:
+    """Go through the strokes of a line of letters with capitals of `height` mm, from its start; a dot is one point.
+
+    Raises KeyError: the alphabet lacks a character.
+    """
+    x, grid, lean = 0.0, height / 10.0, SLANT if slanted else 0.0
+    for letter in string:
+        glyph = glyphs()[letter]
+        for stroke in glyph.strokes:
+            yield tuple(complex(x + p.real + lean * p.imag, p.imag) * grid for p in stroke)
+        x += glyph.width + GAP
+
+
 def outline(glyph: Glyph, slant: float = 0.0) -> BaseGeometry:
     """Return the area that the strokes of a letter cover, h/10, leaning by `slant` to a height of one."""
     from shapely import affinity
@@ -90,7 +104,7 @@ def outline(glyph: Glyph, slant: float = 0.0) -> BaseGeometry:
     for stroke in glyph.strokes:
         points = [(p.real, p.imag) for p in stroke]
         line = Point(points[0]) if len(points) == 1 else LineString(points)
-        drawn.append(line.buffer(0.62 if len(points) == 1 else 0.5, quad_segs=12))
+        drawn.append(line.buffer(10 * DOT if len(points) == 1 else 0.5, quad_segs=12))
     area = unary_union(drawn)
     return affinity.affine_transform(area, [1.0, slant, 0.0, 1.0, 0.0, 0.0]) if slant else area
 

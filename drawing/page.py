@@ -10,13 +10,16 @@ from cmath import rect
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from itertools import groupby
 from math import pi, tau
 from typing import TypeAlias, assert_never
 
 from ..scales.packaged import packaged
+from .font import SCREEN, SLANTED, font
 from .formats import HEAD_HALF_WIDTH, ZERO, Norm, Pens, pens_for
+from .letters import DOT, drawn
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, sides_of
-from .text import LETTERING, Box, Run, corners, lay_out, lettered, placer
+from .text import LETTERING, STROKES, Box, Run, corners, lay_out, lettered, placer
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,14 +232,33 @@ class Walk(ABC):
     def _text(self, text: Text) -> None:
         """Put down the runs of a text, and its rules as thin lines."""
         lines, place = lay_out(text.markup, text.height), placer(text)
-        alone = len(lines.runs) == 1 and not lines.rules
+        alone = len(lines.runs) == 1 and not lines.rules and self.page.lettering != STROKES
         if not alone:
             self.begin(text)
-        self.letters(text, [(run, place(run.x, run.y)) for run in lines.runs], alone)
+        for as_lines, some in groupby(lines.runs, self._as_lines):
+            runs = [(run, place(run.x, run.y)) for run in some]
+            if as_lines:
+                for run, at in runs:
+                    self.strokes(text, run, at)
+            else:
+                self.letters(text, runs, alone)
         for x0, y0, x1, y1 in lines.rules:
             self.draw(Line(place(x0, y0), place(x1, y1), Pen.THIN, "rule", "", text.colour))
         if not alone:
             self.end(text)
+
+    def _as_lines(self, run: Run) -> bool:
+        return self.page.lettering == STROKES and run.face != SCREEN
+
+    def strokes(self, text: Text, run: Run, at: complex) -> None:
+        """Put down letters of the drafting alphabet as lines."""
+        along, height = rect(1.0, text.angle), run.size / font(run.face).size
+        for line in drawn(run.string, height, run.face == SLANTED):
+            points = tuple(at + complex(text.squeeze * point.real, point.imag) * along for point in line)
+            if len(points) == 1:
+                self.draw(Circle(*points, DOT * height, Pen.THIN, fill=True, role="letter", colour=text.colour))
+            else:
+                self.draw(Polyline(points, Pen.THIN, role="letter", colour=text.colour))
 
     def _arrow(self, arrow: Vector | Arrow) -> None:
         """Put down the shaft and the head of an arrow, or the dot of a zero vector.

@@ -26,7 +26,13 @@ DROP, LIFT = 0.35, 0.62  # of a script's baseline, in heights of its parent
 CLEAR, BEHIND = 0.08, 0.14  # before a superscript, and behind scripts, in heights of their parent
 GAP = 0.22  # between text and a bar or an underline, and between two underlines, in heights
 RULES = {"bar": 0, "u": 1, "uu": 2}
-FACES = {"gost": (UPRIGHT, SLANTED), "gost-slanted": (SLANTED, SLANTED), "dejavu": (SCREEN, SCREEN)}  # words, symbols
+STROKES = "strokes"  # the lettering whose letters are lines
+FACES = {  # of words, of symbols
+    "gost": (UPRIGHT, SLANTED),
+    "gost-slanted": (SLANTED, SLANTED),
+    "dejavu": (SCREEN, SCREEN),
+    STROKES: (UPRIGHT, SLANTED),
+}
 SLOPE = tan(pi / 12)  # of slanted letters, by which a superscript stands farther to the right
 STEEP = "|)]"  # marks into which a leaning letter before them would run at its top
 _FUNCTION = r"(?:(?:arc)?(?:sin|cos|tg|tan|ctg)|inv|ln|exp|max|min)"

@@ -159,6 +159,7 @@ class Pieces:
 
 
 AT = "_at"  # the place, counted from the beginning of the turn, as formulas of pieces are given it
+FINE = 5e-7  # m, between an outline to be cut and its chords
 Rows = tuple[list[str], Sequence[Columned]]  # what stands before the rows of a table, and its columns
 
 
@@ -210,6 +211,10 @@ class Course(ABC):
 
     def data(self, places: Any) -> Mapping[str, Any]:
         """Return what JSON has beside columns and extremes, SI."""
+        return {}
+
+    def outlines(self) -> Mapping[str, NDArray[Any]]:
+        """Return the closed outlines of parts to be cut, by name: points, m, about the axis, chords within `FINE`."""
         return {}
 
 

@@ -29,6 +29,7 @@ from .solve import SolvedCam
 PSI = "psi."  # begins the names of numbers of the motion of a rocker
 NEAR = 1e-9  # rad, from a section line, where a jump is on it
 FINE = np.radians(0.5)  # between points of a curve
+CUT, MANY = math.radians(0.02), 400  # between points of a profile to be cut; cells of its arcs
 TABLED = ("phi", "s", "ds", "d2s", "v", "a", "psi", "theta", "gamma", "theta_rocker", "gamma_rocker")
 SAME, IN_DWELL = 1e-9, 0.25  # part of a radius; of the lower dwell, at which the radius of its arc is shown
 
@@ -191,6 +192,11 @@ class CamCourse(Course):
                 for cut in profile.undercuts
             ],
         }
+
+    def outlines(self) -> dict[str, NDArray[Any]]:
+        """Return the profiles as they are cut, as the cam stands at phi = 0."""
+        every = self.solved.profiles
+        return {f"profile_{follower}": profile.outline(CUT, MANY) for _, follower, profile in every}
 
 
 # Dense curves.

@@ -161,13 +161,14 @@ class Envelope(ABC):
         cuts = (_undercut(self, ends, k, edges) for k, ends in enumerate(ring))
         return sorted(cuts, key=lambda cut: cut.start)
 
-    def outline(self, most: float = OUTLINE) -> Points:
+    def outline(self, most: float = OUTLINE, cells: int = ARC) -> Points:
         """Return points of the profile as it is cut, in order of phi, at most `most` rad apart, without loops.
 
+        An arc where the velocity jumps has so many `cells`.
         The corner of an undercut stands in the place of its loop.
         """
         phi, cuts = self.motion.samples(most)[:-1], self.undercuts
-        pieces = [*self.arcs(np.arange(ARC) / ARC), (self.places(phi), self.practical(phi))]
+        pieces = [*self.arcs(np.arange(cells) / cells), (self.places(phi), self.practical(phi))]
         pieces += [(np.array([cut.along[0] % self.length]), np.array([cut.corner])) for cut in cuts]
         t, points = (np.concatenate(part) for part in zip(*pieces, strict=True))
         kept = np.ones(len(t), bool)

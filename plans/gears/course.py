@@ -20,6 +20,7 @@ from ..solved import Columned, Course, Ends, Rows
 from .solve import SolvedGear
 from .teeth import Array, Wheel
 
+MANY, CUT = 200, math.radians(0.05)  # points of flanks and fillets of a wheel to be cut; between those of its arcs
 NEAR = 1e-9  # part of the base pitch within which a contact begins or ends
 
 
@@ -78,6 +79,11 @@ class GearCourse(Course):
             ("theta_21", "1", LAWS["sliding_of_wheel"](rho_2, rho_1, u)),
             ("pairs", "1", self.pairs(rho_1)),
         ]
+
+    def outlines(self) -> dict[str, Any]:
+        """Return both wheels, a tooth of each on the x axis."""
+        teeth = enumerate(self.solved.meshing.teeth, start=1)
+        return {f"wheel_{i}": tooth.teeth(round(tooth.z), MANY, CUT)[:-1] for i, tooth in teeth}
 
     def pairs(self, rho_1: Any) -> Any:
         """Return how many pairs of teeth touch when one of them does so at these places."""

@@ -25,6 +25,7 @@ SUFFIXES = Swept.suffixes
 SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
 DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of what drives
 DRIVES = "phi"
+CUT = ".dxf"  # of outlines
 NOTHING = 1e-9  # part of the largest value of a column below which one is rounding
 
 
@@ -84,7 +85,12 @@ class CourseSweep(Swept):
         return {"columns": columns, **({"extremes": extremes} if extremes else {}), **self.course.data(places)}
 
     def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
-        """Return the file of the columns: diagrams are on the sheet."""
+        """Return the file of the columns, or of outlines to be cut: diagrams are on the sheet."""
+        outlines = self.course.outlines() if path.suffix.lower() == CUT else {}
+        if outlines:
+            from ...drawing.dxf import outlined
+
+            return [(path, outlined(outlines))]
         if path.suffix.lower() not in FILES:
             key = f"{self.task.kind}-sweep-drawing"
             raise InputError(key, task=quote(self.task.id), file=quote(path.name))
