@@ -9,10 +9,11 @@ from __future__ import annotations
 import re
 from cmath import rect
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from io import StringIO
 from math import degrees, tau
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any, BinaryIO, cast
 
 from ..plans.solved import FINE
 from ..scales.errors import InputError
@@ -26,6 +27,7 @@ from .text import Run
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
+    from ezdxf.layouts.base import BaseLayout
 
 APP = "KULMAN"
 # LibreCAD takes the name of a style for that of its font; this one of its own has Cyrillic, Greek, scripts and marks
@@ -55,7 +57,7 @@ def write(pages: Sequence[Page], stream: BinaryIO) -> None:
     stream.write(_bytes(document))
 
 
-def outlined(outlines: Mapping[str, Sequence[complex]]) -> bytes:
+def outlined(outlines: Mapping[str, Iterable[complex]]) -> bytes:
     """Return outlines, m, as a drawing to cut from: closed polylines beside each other, each in a layer of its name.
 
     The axis of the first is the origin. Chords are as few as stay within `FINE` of the points. Errors as of `write`.
@@ -76,23 +78,31 @@ def outlined(outlines: Mapping[str, Sequence[complex]]) -> bytes:
 
 def _new() -> Drawing:
     try:
-        import ezdxf
+        from ezdxf import units
+        from ezdxf.filemanagement import new
     except ImportError:
         raise InputError("extra-missing", packages="ezdxf", suffix=".dxf") from None
-    return ezdxf.new("R2010", units=ezdxf.units.MM)
+    with _undated():
+        return new("R2010", units=units.MM)
 
 
 def _bytes(document: Drawing) -> bytes:
-    """Return a document, without what would tell when it was written."""
-    from ezdxf import options
-
-    text, before = StringIO(), options.write_fixed_meta_data_for_testing
-    options.write_fixed_meta_data_for_testing = True
-    try:
+    text = StringIO()
+    with _undated():
         document.write(text)
+    return text.getvalue().encode("utf-8", "dxfreplace")
+
+
+@contextmanager
+def _undated() -> Iterator[None]:
+    """Leave out of a document when it was made: the same drawing is always the same bytes."""
+    from ezdxf import options  # type: ignore[attr-defined]
+
+    before, options.write_fixed_meta_data_for_testing = options.write_fixed_meta_data_for_testing, True
+    try:
+        yield
     finally:
         options.write_fixed_meta_data_for_testing = before
-    return text.getvalue().encode("utf-8", "dxfreplace")
 
 
 def _tables(document: Drawing, page: Page) -> None:
@@ -136,7 +146,7 @@ class _Walk(Walk):
 
     def __init__(self, page: Page, document: Drawing) -> None:
         super().__init__(page)
-        self.document, self.space = document, document.modelspace()
+        self.document, self.space = document, cast("BaseLayout", document.modelspace())
         self.layer = Layer.FRAME.value
         self.blocks: dict[str, str] = {}
         self.shaft: Vector | Arrow | None = None
@@ -156,7 +166,7 @@ class _Walk(Walk):
         key = _DIGITS.sub(lambda found: f"{round(float(found[0]), 6) + 0.0}", repr(lines))
         name = self.blocks.get(key)
         if name is None:
-            name = self.blocks[key] = f"{(group.name or group.role).upper()}_{len(self.blocks) + 1}"
+            name = self.blocks[key] = f"{group.role.upper()}_{len(self.blocks) + 1}"
             before, self.space, layer, self.layer = self.space, self.document.blocks.new(name), self.layer, "0"
             for part in lines:
                 self.draw(part)

@@ -189,13 +189,11 @@ def _form_2(stamp: Stamp) -> list[Shape]:
     return [*_ruled(FORM_2), *filled]
 
 
-_FILLED = ("title", "designation", "organisation", "student", "teacher", "date", "document_type")
-
-
 def fields(form: str, language: str) -> dict[str, Text]:
     """Return a mark at the place of each field of a title block by its name, from its corner; none of other forms."""
     blocks = {"form-1": _form_1, "form-2a": _form_2a, "iso-7200": _iso_block}
-    parts = blocks[form](Stamp(**dict.fromkeys(_FILLED, "-"), language=language)) if form in blocks else []
+    stamp = Stamp("-", "-", "-", "", "-", "-", "-", "-", language=language)
+    parts = blocks[form](stamp) if form in blocks else []
     return {part.name: part for part in parts if isinstance(part, Text) and part.markup == "-"}
 
 

@@ -227,7 +227,7 @@ def test_a_line_is_seen_on_its_tile_and_cut_off_elsewhere() -> None:
 @pytest.mark.parametrize(
     ("names", "tile", "key", "told"),
     [
-        (["x.docx"], None, "output-suffix", ".svg, .pdf, .png"),
+        (["x.docx"], None, "output-suffix", ".svg, .pdf, .png, .dxf"),
         (["x.svg"], "A4", "tile-suffix", ".svg"),
         (["x.pdf"], "A5", "tile-unknown", "A5"),
         (["none/x.svg"], None, "output-folder-missing", "x.svg"),
