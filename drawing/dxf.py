@@ -149,7 +149,7 @@ class _Walk(Walk):
         self.document, self.space = document, cast("BaseLayout", document.modelspace())
         self.layer = Layer.FRAME.value
         self.blocks: dict[str, str] = {}
-        self.shaft: Vector | Arrow | None = None
+        self.in_arrow = False
 
     def draw(self, shape: Shape) -> None:
         """Put down a shape; a group that is a block is inserted."""
@@ -193,11 +193,8 @@ class _Walk(Walk):
         looks = self.looks(shape.pen, shape.colour, dashes)
         match shape:
             case Line(a=a, b=b):
-                if self.shaft is None:
+                if not self.in_arrow:  # whose line is there already, and on paper ends inside the head
                     self.space.add_line(_place(a), _place(b), looks)
-                else:  # on paper it ends inside the head
-                    line = self.space.add_line(_place(self.shaft.tail), _place(self.shaft.tip), looks)
-                    line.set_xdata(APP, _named(self.shaft))
             case Polyline(points=points, closed=closed):
                 self.area(filled(shape), lambda hatch: hatch.paths.add_polyline_path([_place(p) for p in points]))
                 self.space.add_lwpolyline([_place(point) for point in points], close=closed, dxfattribs=looks)
@@ -262,15 +259,17 @@ class _Walk(Walk):
         return {"style": STYLE, "layer": self.layer, "height": height, "lineweight": _weight(height / 10)}
 
     def begin(self, part: Part) -> None:
-        """Go on in a layer, or remember the vector whose shaft comes."""
+        """Go on in a layer, or put down the line of an arrow from tail to tip."""
         if isinstance(part, Layer):
             self.layer = part.value
         elif isinstance(part, Vector | Arrow) and abs(part.tip - part.tail) >= ZERO:
-            self.shaft = part
+            line = self.space.add_line(_place(part.tail), _place(part.tip), self.looks(part.pen, part.colour))
+            line.set_xdata(APP, _named(part))
+            self.in_arrow = True
 
     def end(self, part: Part) -> None:
-        """Forget it."""
-        self.shaft = None if isinstance(part, Vector | Arrow) else self.shaft
+        """Go on behind it."""
+        self.in_arrow = False
 
 
 def _coloured(colour: str) -> dict[str, int]:
