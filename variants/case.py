@@ -309,6 +309,10 @@ class Kind(Generic[Subject, Answer]):
         aims = (texts.get(f"{self.table}.aim.{plan}") for plan in case.plans)
         return replace(told, aims=told.aims or tuple(filter(None, aims)))
 
+    def given_views(self, case: Case) -> tuple[str, ...]:
+        """Return the views, beside those of the statement, of what is given."""
+        return ()
+
     def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what is drawn, after the first steps, of views that are not drawn in stages: of tables."""
         return cast("Mapping[str, Shown]", self._in("drawing", "text", "begun")(self.scene(case, scales, words), steps))

@@ -379,7 +379,7 @@ def card_of_case(case: Case, drawing: Drawn) -> Sheet:
 
     Raises InputError: it takes more than a page.
     """
-    given = (*STATEMENT, *(view.name for view in drawing.views if view.name.startswith("load_")))
+    given = (*STATEMENT, *case.kind.given_views(case))
     views, places = [view for view in drawing.views if (view.of or view.name) in given], None
     paper = drawing.sheet, drawing.norm
     if {*STATEMENT} <= {view.name for view in views}:

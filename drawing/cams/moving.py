@@ -58,7 +58,7 @@ def moving(scene: CamScene) -> Moving:
         "sense": 1,
         "start": 0.0,
         "low": 0.0,
-        "high": 2.0 * math.pi,
+        "high": math.tau,
         "speed": float(solved.givens["omega"]),
         "crank": ["O", ["O", "turn", 0.0, TURNED * nearest]],
         "by": 1.0,

@@ -41,20 +41,19 @@ ROUNDING = 1.0 + 1e-9
 ENDS = ("start", "end")  # of the engagement
 
 
-def pair_view(scene: GearScene, part: float = 1.0) -> View:
+def pair_view(scene: GearScene) -> View:
     """Draw what is given of the pair: two wheels that roll on one another, their centres, the sense of the pinion."""
-    canvas, style, (first, second) = Canvas(scene.style), scene.style, (float(scene.size(f"z_{i}")) for i in (1, 2))
-    radii = [part * SCHEME * z / (first + second) for z in (first, second)]
-    for number, radius, up in ((1, radii[0], 1j), (2, radii[1], -1j)):
-        centre, letter = up * radius, indexed(f"O{number}")
-        canvas.group("wheel", str(number), Circle(centre, radius, Pen.MAIN))
-        canvas.add(fixed_pivot(centre, f"O{number}", style))
-        canvas.small(letter, centre, 1.0 + 0.6j, 2.0)
-        canvas.small(str(number), centre + radius * 1j * up, 1j * up, 1.2)
-    canvas.add(Line(1j * radii[0], -1j * radii[1], Pen.AXIS, role="axis"))
+    canvas, style, (pinion, wheel) = Canvas(scene.style), scene.style, scene.wheels()
+    for one in (pinion, wheel):
+        letter, radius = indexed(f"O{one.number}"), one.radius("w")
+        canvas.group("wheel", str(one.number), Circle(one.centre, radius, Pen.MAIN))
+        canvas.add(fixed_pivot(one.centre, f"O{one.number}", style))
+        canvas.small(letter, one.centre, 1.0 + 0.6j, 2.0)
+        canvas.small(str(one.number), one.on(radius, 0.5 * HALF_TURN), 1j * one.up, 1.2)
+    canvas.add(Line(pinion.centre, wheel.centre, Pen.AXIS, role="axis"))
     canvas.small("W", 0j, 1.0 + 0j, 2.0)
     sense = scene.solved.pair.sense
-    canvas.add(turning_arrow(1j * radii[0], 0.6 * radii[0], 0.0, 0.5 * HALF_TURN, sense, "omega_1"))
+    canvas.add(turning_arrow(pinion.centre, 0.6 * pinion.radius("w"), 0.0, 0.5 * HALF_TURN, sense, "omega_1"))
     return canvas.finish("kinematic", (scene.words["heading.kinematic"],))
 
 

@@ -85,6 +85,6 @@ def _wheels(scene: GearScene, course: GearCourse, size: float) -> list[Data]:
         one = outline(points, size)
         shapes.append({**wheel, "d": one, "times": round(tooth.z), "class": "cam"})
         for n in course.neighbours:
-            by = way * scene.meshing.sense * n * 2.0 * math.pi / tooth.z
+            by = way * scene.meshing.sense * n * math.tau / tooth.z
             shapes.append({**wheel, "d": one, "by": by, "class": "touching", "open": True, "when": _while(course, n)})
     return shapes

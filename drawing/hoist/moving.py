@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from ...plans.hoist.construction import ENDS
 from ...plans.hoist.course import HoistCourse
-from ...plans.laws import LAWS
-from ...scales.scale import steps
 from ..moving import Data, html, number
 from ..moving.courses import Moving
 from .scene import HoistScene
@@ -26,10 +22,9 @@ def moving(scene: HoistScene) -> Moving:
     size, end = scene.size, course.forces.end
     columns = {column.name: column.values for column in course.columns(course.places(course.usual))}
     rope, tall = size("L"), LOAD * size("L")
-    shift = max(float(np.abs(columns[name]).max()) for name in ("s", "w_0", "w_2"))
-    times = steps(0.5 * MOST * rope / shift)[0] if shift > 0.0 else 1.0
-    greatest = max(float(np.abs(columns[name]).max()) for name in ("F_01", "F_12"))
-    points, shapes = _beams(scene, times)
+    times = course.enlarged(0.5 * MOST)
+    greatest = max(abs(float(force)) for name in ("F_01", "F_12") for force in columns[name])
+    points, shapes = _beams(scene, course, times)
     points |= {"A0": 0j, "A2": 1j * rope, "up": 1j * tall}
     points |= {"below": complex(0.9 * tall), "above": complex(0.3 * tall, tall)}  # where the forces on the load stand
     load, top = ["A0", "load.s", times, 0.0], ["up", "load.s", times, 0.0]
@@ -73,7 +68,7 @@ def _force(name: str, text: str, at: str, times: float, greatest: float) -> Data
     return {"k": "force", "at": place, "v": f"load.{name}", "q": name, "text": text, "long": LONGEST / greatest}
 
 
-def _beams(scene: HoistScene, times: float) -> tuple[dict[str, complex], list[Data]]:
+def _beams(scene: HoistScene, course: HoistCourse, times: float) -> tuple[dict[str, complex], list[Data]]:
     """Return the ends of the beams, and the beams with their supports, bent by what is above or below them."""
     points: dict[str, complex] = {}
     shapes: list[Data] = []
@@ -82,11 +77,8 @@ def _beams(scene: HoistScene, times: float) -> tuple[dict[str, complex], list[Da
         near_left = scene.solved.layout.near[i // 2] == "left"
         left = level - (b if near_left else l - b)
         points |= {ENDS[i][0]: left, ENDS[i][1]: left + l}
-        xs = np.linspace(0.0, l, BENT + 1)
-        places = xs if near_left else l - xs
-        bent = LAWS["deflection_of_unit"]
-        unit = bent(places, b, l, 1.0, 1.0) / bent(np.float64(b), b, l, 1.0, 1.0)
-        line = [[number(left.real + x, 6), number(left.imag, 6)] for x in xs.tolist()]
-        shapes.append({"k": "bent", "d": line, "by": [number(-times * w, 6) for w in unit.tolist()], "v": f"w_{i}"})
+        bent = course.bent(i, BENT + 1)
+        line = [[number(left.real + x, 6), number(left.imag, 6)] for x, _ in bent]
+        shapes.append({"k": "bent", "d": line, "by": [number(-times * w, 6) for _, w in bent], "v": f"w_{i}"})
         shapes += [{"k": "pivot", "at": end} for end in ENDS[i]]
     return points, shapes

@@ -7,8 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from ...scales.scale import steps
+from ..laws import LAWS
 from ..solved import Columned, Course, Pieces, Rows
 from .forces import COLUMN_UNITS, course, formulas, pieces
+from .hoist import LEFT
 from .solve import SolvedHoist
 
 TABLED = 25  # times in the table, beside the marks
@@ -20,7 +23,7 @@ class HoistCourse(Course):
     usual, called = 361, "times"
 
     def __init__(self, solved: SolvedHoist) -> None:
-        self.forces = solved.forces
+        self.solved, self.forces = solved, solved.forces
 
     def places(self, count: int) -> Any:
         """Return so many times, s."""
@@ -37,6 +40,24 @@ class HoistCourse(Course):
         moved = {"load.s": found["s"], "load.w_0": -found["w_0"], "drum.w_2": -found["w_2"]}
         moved |= {"load.F_01": -found["F_01"], "load.F_12": found["F_12"]}
         return found | {name: size * 1j for name, size in moved.items()}
+
+    def enlarged(self, part: float) -> float:
+        """Return the round number that makes the largest displacement about such a part of the rope's length."""
+        columns = course(self.forces, self.places(self.usual)).columns
+        shift = max(float(np.abs(columns[name]).max()) for name in ("s", "w_0", "w_2"))
+        return steps(part * float(self.forces.found["L"]) / shift)[0] if shift > 0.0 else 1.0
+
+    def bent(self, i: int, count: int) -> list[tuple[float, float]]:
+        """Return so many places along the beam `i`, from its left end, m, and how far it bends there.
+
+        That is in parts of the deflection under what it bears.
+        """
+        of = LAWS["deflection_of_unit"]
+        l, b = (float(self.forces.found[f"{name}_{i}"]) for name in "lb")
+        from_left = np.linspace(0.0, l, count)
+        places = from_left if self.solved.layout.near[i // 2] == LEFT else l - from_left
+        parts = of(places, b, l, 1.0, 1.0) / of(np.float64(b), b, l, 1.0, 1.0)
+        return list(zip(from_left.tolist(), parts.tolist(), strict=True))
 
     def pieces(self) -> Pieces | None:
         """Return the pieces of a motion for which the formulas are not valid."""

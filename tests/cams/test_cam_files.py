@@ -111,7 +111,7 @@ def test_a_choice_may_set_numbers() -> None:
         ('gamma_rise = "75 deg"', 'gamma_rise = "90 deg"', "variant.gamma_rise", "less than 90°"),
         ('gamma_fall = "60 deg"', "gamma_fall = 0", "variant.gamma_fall", "greater than 0°"),
         ('margin = "5 mm"\n', "r_0 = 7\n", "variant", "the roller, 7 mm, is not smaller than r_0 = 7 mm"),
-        ('margin = "5 mm"\n', "r_0 = 60\ne = -60\n", "variant", "the eccentricity e = -60 mm"),
+        ('margin = "5 mm"\n', "r_0 = 60\ne = -60\n", "variant", "the eccentricity e = −60 mm"),
         ('h = { unit = "mm" }\n', "", "givens", "the key 'h' is missing"),
         ('h = { unit = "mm" }', 'h = { unit = "N" }', "givens.h", "expected one in mm"),
         ("R_roller = {", "r_roller = {", "givens.r_roller", "did you mean 'R_roller'?"),
@@ -230,12 +230,12 @@ def test_what_no_rocker_can_have_is_explained(settings: dict[str, str], said: st
 
 
 TOLD = {
-    "h=1e9": "h = 1e+09 mm is unusual: most cams have 0.1 to 500 mm; is the unit right?",
+    "h=1e9": "h = 1·10⁹ mm is unusual: most cams have 0.1 to 500 mm; is the unit right?",
     "phi_rise=0.5": "phi_rise = 0.5° is unusual: most cams have 5 to 355°; is the unit right?",
     "u=0.999": "u = 0.999 is unusual: most cams have 0.05 to 0.95",
-    "rho_flat=1e6": "rho_flat = 1e+06 mm is unusual: most cams have at most 200 mm; is the unit right?",
+    "rho_flat=1e6": "rho_flat = 1·10⁶ mm is unusual: most cams have at most 200 mm; is the unit right?",
     "r_0=3000": "r_0 = 3000 mm is unusual: most cams have 2 to 1000 mm; is the unit right?",
-    "omega=2500": "a_max = 4.116e+05 m/s² is unusual: most cams have at most 1e+05 m/s²; is the unit right?",
+    "omega=2500": "a_max = 4.116·10⁵ m/s² is unusual: most cams have at most 1·10⁵ m/s²; is the unit right?",
 }
 
 
@@ -264,7 +264,7 @@ def test_the_cams_of_books_are_usual() -> None:
 
 @pytest.mark.parametrize("name", ["phi_rise", "phi_fall"])
 def test_a_phase_that_nobody_can_draw_is_refused(name: str) -> None:
-    with pytest.raises(InputError, match=rf"{name} = 1e-06°: no phase of a cam is shorter than 0\.01°"):
+    with pytest.raises(InputError, match=rf"{name} = 1·10⁻⁶°: no phase of a cam is shorter than 0\.01°"):
         solve(TASK, set={name: "1e-6 deg"})
 
 

@@ -50,7 +50,7 @@ BAD = [
     ('m = "5 mm"', "m = -5", "variant.m", "must be greater than zero"),
     ('m = "5 mm"', 'm = "5 deg"', "variant.m", "the unit deg does not fit"),
     ("x_1 = 0.2", "x_1 = 3", "variant.17", "x_1 = 3 leaves wheel 1 no tooth"),  # pointed below its flank
-    ("x_1 = 0.2", "x_1 = -1.4", "variant.17", "x_1 = -1.4 leaves wheel 1 no tooth"),  # cut away
+    ("x_1 = 0.2", "x_1 = -1.4", "variant.17", "x_1 = −1.4 leaves wheel 1 no tooth"),  # cut away
     (BOTH, "x_1 = -0.5\nx_2 = -0.4\n", "variant.17", "the pair cannot mesh"),
     (BOTH, "a_w = 60\n", "variant.17", "a_w = 60 mm: the pair cannot mesh"),
     (BOTH, "a_w = 95\nx_1 = 3\n", "variant.17", "from x_1, a_w follows"),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ...plans.gears.gear import GIVENS, PLANS, SHIFTS, GearPair, impossible
@@ -85,9 +86,10 @@ class Gears(Kind[GearPair, "SolvedGear"]):
 
     def pictured(self, case: Case, words: Words, part: float = 1.0) -> View:
         """Draw both wheels."""
-        from ...drawing.gears.meshing_view import pair_view
+        from ...drawing.gears.meshing_view import SCHEME, pair_view
 
-        return pair_view(self.scene(case, {}, words), part)
+        scene = self.scene(case, {}, words)
+        return pair_view(replace(scene, mu_l=scene.size("a_w") / (part * SCHEME)))
 
 
 KIND = Gears()

@@ -194,12 +194,16 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         head = kinematic_scheme(scene), data_table(scene, case.plans)
         return replace(story(scene, texts), head=head, aims=tuple(aims(scene, case.plans)))
 
+    def given_views(self, case: Case) -> tuple[str, ...]:
+        """Return the diagrams of loads."""
+        return tuple(f"load_{diagram.name}" for diagram in case.task.mechanism.diagrams)
+
     def begun(self, case: Case, scales: Scales, words: Words, steps: int) -> Mapping[str, Shown]:
         """Return what is drawn of the plans after their first steps, and load diagrams, which are given."""
         from ...drawing.handouts import Shown
         from ...drawing.linkages.steps import begun
 
-        given = {f"load_{d.name}": Shown(notes=True) for d in case.task.mechanism.diagrams}
+        given = {name: Shown(notes=True) for name in self.given_views(case)}
         return given | begun(self.scene(case, scales, words), steps, case.plans)
 
     def scene(self, case: Case, scales: Scales, words: Words) -> Scene:

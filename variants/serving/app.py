@@ -107,8 +107,8 @@ class _Answers:
     def asked(self, request: Request) -> Asked:
         """Return what an address asks about a task; one that is not there is 404."""
         name, query = request.path_params["task"], request.query_params.multi_items()
-        own = self.desk.own.get(name) if name.startswith(OWN) else b""
-        if own is None or (not own and name not in bundled()):
+        own = b"" if name in bundled() else self.desk.own.get(name)
+        if own is None:
             raise HTTPException(404)
         said = {key: value.strip() for key, value in query if len(value) <= 200 and len(key) <= 100}
         settings = tuple((key[2:], value) for key, value in said.items() if key.startswith("g."))

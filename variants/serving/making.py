@@ -114,7 +114,7 @@ class Upload:
 
     def put(self, stem: str, known: Sequence[str]) -> str:
         """Write it under a name of ours and return that; one of another kind than those known is refused."""
-        suffix = f".{self.name.rpartition('.')[2].lower()}"
+        suffix = Path(self.name).suffix.lower()
         if suffix not in known:
             raise InputError("answers-suffix", file=quote(self.name, SHOWN), known=", ".join(known))
         Path(stem + suffix).write_bytes(self.data)
@@ -333,7 +333,7 @@ def drawn_class(
     language, folder = tasks[0].language, Path("class")
     file = roster.put("roster", TABLES)
     found = batch([one.load() for one in tasks], file, folder, lang=language, jobs=jobs, advance=advance, **how)
-    files = sorted(path for path in folder.rglob("*") if path.is_file() and not path.name.startswith("."))
+    files = sorted(path for path in folder.rglob("[!.]*") if path.is_file())
     _zipped(files, Path("..") / KEEP / archive, folder)
     told = (*(warning.text(language) for warning in found.warnings), *found.problems)
     return Done(archive, told)
@@ -355,14 +355,14 @@ def marked_class(
     weights = None if rubric is None else rubric.put("rubric", (".toml",))
     ready = check(asked.load(), asked.variant or None, lang=language, roster=listed, rubric=weights, **how)
     Path("forms").mkdir()
-    names = [one.put(f"forms/{n:03d}-{slug(one.name.rpartition('.')[0])}", TABLES) for n, one in enumerate(forms, 1)]
+    names = [one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", TABLES) for n, one in enumerate(forms, 1)]
     told += [warning.text(language) for warning in ready.warnings]
     found = ready.ordered(ready.read(*names, warn=lambda error: told.append(error.text(language))))
     results = ready.mark_all(found, out, advance, jobs)
     page, moodle = out / f"class{PAGE}", out / "moodle.csv"
     write_tables(ready, results, found, [page, out / "gradebook.xlsx"], moodle)
     told += class_lines(ready.listed(found, results), language)
-    files = sorted(path for path in out.iterdir() if not path.name.startswith("."))
+    files = sorted(out.glob("[!.]*"))
     _zipped(files, Path("..") / KEEP / archive, out)
     return Done(archive, tuple(told), page.read_bytes())
 
