@@ -252,8 +252,26 @@ class Breaking:
             return None
         goes_on = said if whole.of else self.goes_on.format(heading=said)  # of a part its heading says so already
         tail = part_of(whole, found[1], whole.pieces, goes_on)
-        below = replace(at, y=at.y + whole.size[1] - tail.size[1])
-        return found[0], self._placed([*before, tail, *after], k) or [*other[:i], (tail, below), *other[i + 1 :]]
+        left = self._placed([*before, tail, *after], k)
+        if left is None:
+            below = replace(at, y=at.y + whole.size[1] - tail.size[1])
+            if not self._is_clear(tail, below, (*other[:i], *other[i + 1 :])):
+                return None
+            left = [*other[:i], (tail, below), *other[i + 1 :]]
+        return found[0], left
+
+    def _is_clear(self, view: View, at: Placement, others: Iterable[Standing]) -> bool:
+        """Whether a view at a place, by a longer heading wider than before, is on the page and covers no other."""
+        end, (x0, _, x1, _) = at.x + view.size[0], usable(self.sheet, self.norm)
+        top = at.y + view.size[1]
+        return (
+            x0 <= at.x
+            and end <= x1
+            and all(
+                end <= place.x or place.x + one.size[0] <= at.x or top <= place.y or place.y + one.size[1] <= at.y
+                for one, place in others
+            )
+        )
 
     def _placed(self, views: Sequence[View], number: int) -> list[Standing] | None:
         sizes = [view.size for view in views]

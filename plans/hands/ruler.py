@@ -11,6 +11,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+from ...scales.numbers import rounded
 from ..boards.exact import ExactBoard
 from ..laws import dot
 from ..names import role
@@ -57,7 +58,8 @@ class RulerBoard(ExactBoard):
             return value * self._share(size, self._operands[-1])
         if name.kind not in WRITTEN or not 0.0 < size < math.inf:
             return value
-        return value * (float(f"{size:.{DIGITS + (name.of in BALANCING)}g}") / size)
+        decimals = DIGITS + (name.of in BALANCING) - 1 - math.floor(math.log10(size))
+        return value * (rounded(size, decimals) / size)
 
     def _along(self, start: Any, end: Any, _: Any) -> Any:
         """Return the direction of a line, which is as it is drawn however long the line is read to be."""

@@ -12,6 +12,8 @@ from kulman.drawing.compose import FIGURE, FULL, MANY, TOLD, Pages, arrange, com
 from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
 from kulman.drawing.packing import LEAST, STEPS, Placement, Slicing, size_of, spread
+from kulman.drawing.page import extent
+from kulman.drawing.shapes import Line
 from kulman.drawing.tables import table, text_block
 from kulman.drawing.view import View
 
@@ -262,12 +264,30 @@ def test_tables_and_texts_break_for_a_page_that_were_too_empty() -> None:
 
 def test_a_table_over_many_pages_is_continued_once_on_each():
     style, paper = STYLES["A4"], FORMATS["A4"]
-    long = table("values", "Values", [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(75))], style)
-    figures = [View(f"plan {k}", (), (0.0, 0.0, 170.0, 80.0)) for k in range(3)]
-    alone = [*(Placement(k, 25.0, 190.0) for k in range(3)), Placement(2, 25.0, 30.0)]
+    long = table("values", "Values", [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(120))], style)
+    figures = [View(f"plan {k}", (), (0.0, 0.0, 130.0, 80.0)) for k in range(3)]
+    alone = [*(Placement(k, 70.0, 190.0) for k in range(3)), Placement(2, 25.0, 30.0)]
 
     drawn = compose((*figures, long), alone, {}, paper, "gost", "{heading} (continued)")
 
     headings = [part.heading for part in drawn.views if part.of]
     assert headings == [("Values",), ("Values (continued)",), ("Values (continued)",)]
     assert max(sum(group.name.startswith("values") for group in page) for page in drawn.placed) == 1
+
+
+def test_a_text_whose_longer_heading_is_wider_covers_nothing():
+    style, paper = STYLES["A4"], FORMATS["A4"]
+    text = text_block("sums", "Velocities of the transport", [[f"a + {k}"] for k in range(40)], style, 60)
+    wide = 172.0 - text.size[0]
+    figure, high = (
+        View(name, (Line(0j, complex(*size)),), (0.0, 0.0, *size))
+        for name, size in (("plan", (170.0, 80.0)), ("high", (wide, 240.0)))
+    )
+    places = Placement(0, 25.0, 150.0), Placement(1, 25.0, 30.0), Placement(1, 29.0 + text.size[0], 30.0)
+
+    drawn = compose((figure, text, high), places, {}, paper, "gost", "{heading} (continued)")
+
+    for page in drawn.placed:
+        boxes = [shapely.box(*extent(group.shapes)) for group in page]
+        assert all(a.intersection(b).area == 0.0 for a, b in itertools.combinations(boxes, 2))
+        assert all(corners[2] <= paper.width - 5.0 for corners in (one.bounds for one in boxes))
