@@ -18,7 +18,7 @@ from ..board import Step
 from ..hands.shaky import Paper
 from ..marking.again import Judged
 from ..marking.answers import FREE, Answer, Line, Said, Verdict, known, nearest
-from ..marking.verdicts import Marking
+from ..marking.verdicts import CLEAR, Marking
 from .book import Book, Complex, Floats, Signature, key_of, signatures
 from .data import other_orders, transposed
 from .rules import BY_SCALE, Broken, Scene, broken
@@ -176,7 +176,7 @@ class _Search:
 
     def _tells(self, candidate: Candidate) -> bool:
         """Whether a candidate explains more than it leaves: some mistake gives nearly any one number by chance."""
-        left = sum(not self.faulty.get(name, 0.0) <= SLIP for name in candidate.left)
+        left = sum(not self.faulty.get(name, 0.0) <= CLEAR for name in candidate.left)
         return len(candidate.explained) > left or (len(candidate.explained) == left and candidate.misses <= CLOSELY)
 
     def _alone(self, made: Iterable[Signature]) -> list[_Found]:
