@@ -21,9 +21,9 @@ from . import titleblock
 from .font import SCREEN, SLANTED, font
 from .formats import ZERO
 from .letters import GAP
-from .page import BLACK, Layer, Page, Part, Stroke, Walk, filled
-from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, shifted
-from .text import Run
+from .page import BLACK, Layer, Page, Part, Stroke, Walk, extent, filled
+from .shapes import Arc, Arrow, Circle, Group, Line, Pen, Polyline, Shape, Text, Vector, shifted
+from .text import Run, plain
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -42,7 +42,6 @@ PENS = {Layer.FRAME: Pen.MAIN, Layer.RESULT: Pen.MAIN}  # of layers; of others t
 PATTERNS = {Pen.DASHED: "KULMAN_DASHED", Pen.AXIS: "KULMAN_AXIS", Pen.EXTREME: "KULMAN_EXTREME"}
 _PARTS = re.compile(rf"[{LACKING}]|[^{LACKING} ]+(?: +[^{LACKING} ]+)*")
 _DIGITS = re.compile(r"-?\d+\.\d+(?:e[-+]\d+)?")
-_ESCAPE = re.compile(r"\\([\\{}_^])")
 
 
 def write(pages: Sequence[Page], stream: BinaryIO) -> None:
@@ -182,11 +181,11 @@ class _Walk(Walk):
         from ezdxf.enums import TextEntityAlignment
 
         looks = self.lettered(text.height) | {"width": text.squeeze}
-        plain = _written(_ESCAPE.sub(r"\1", text.markup))
+        said = _written(plain(text.markup))
         place = TextEntityAlignment.CENTER if text.anchor == "middle" else TextEntityAlignment.LEFT
-        field = add(tag=tag.upper(), text=plain, dxfattribs=looks)
+        field = add(tag=tag.upper(), text=said, dxfattribs=looks)
         field.set_placement(_place(text.at), align=place)
-        field.is_invisible = bool(plain)
+        field.is_invisible = bool(said)
 
     def stroke(self, shape: Stroke, dashes: tuple[float, ...]) -> None:
         """Add a line with its width and pattern, an area before it."""
@@ -304,21 +303,7 @@ def _fields(group: Group, at: complex, language: str) -> dict[str, Text]:
     return found
 
 
-def _points(shapes: Iterable[Shape]) -> Iterator[complex]:
-    """Go through points that tell where shapes are, centres first."""
-    parts = [part for shape in shapes for part in (shape.shapes if isinstance(shape, Group) else (shape,))]
-    yield from (part.centre for part in parts if isinstance(part, Circle | Arc))
-    for part in parts:
-        match part:
-            case Line(a=point) | Polyline(points=(point, *_)) | Text(at=point) | Head(tip=point):
-                yield point
-            case Vector(tail=point) | Arrow(tail=point):
-                yield point
-
-
 def _base(group: Group) -> complex:
-    """Return the point by which a block is inserted: the centre of its first circle, of a title block its corner."""
-    if group.role == "titleblock":
-        points = list(_points(group.shapes))
-        return complex(min(point.real for point in points), min(point.imag for point in points))
-    return next(_points(group.shapes), 0j)
+    """Return the point by which a block is inserted: the centre of its first circle, else the corner of its box."""
+    centres = (part.centre for part in group.shapes if isinstance(part, Circle))
+    return next(centres, complex(*extent(group.shapes)[:2]))

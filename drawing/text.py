@@ -101,6 +101,11 @@ def escape(plain: str) -> str:
     return "".join("\\" + letter if letter in ESCAPED else letter for letter in plain)
 
 
+def plain(markup: str) -> str:
+    """Return what markup without scripts shows: the way back of `escape`."""
+    return _ESCAPE.sub(r"\1", markup)
+
+
 class Ruling(NamedTuple):
     """A group under a vector bar (`bar`), or over one line or two (`u`, `uu`)."""
 
@@ -132,9 +137,9 @@ def _read(markup: str, at: int, nested: bool) -> tuple[list[Piece], int]:
                 raise _broken(markup, at)
             inner, at = _read(markup, at + len(kind) + 2, nested=True)
             pieces.append(Ruling(kind, inner))
-        elif plain := _PLAIN.match(markup, at):
-            pieces.append(_ESCAPE.sub(r"\1", plain.group()))
-            at = plain.end()
+        elif found := _PLAIN.match(markup, at):
+            pieces.append(plain(found.group()))
+            at = found.end()
         else:
             raise _broken(markup, at)
     if nested and at >= len(markup):
