@@ -169,6 +169,7 @@ class Unit:
 
 
 ONE = Unit(())
+SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}  # SI units, with those in which columns over a motion are read
 
 
 @cache

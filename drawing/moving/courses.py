@@ -13,6 +13,8 @@ from typing import Any
 from ...plans.boards.formulas import script_of_formulas
 from ...plans.solved import Course, Pieces
 from ...scales.scale import Scale
+from ...scales.units import SHOWN
+from ...scales.units import unit as unit_of
 from ..areas import coarser, thinned
 from ..compose import Drawn
 from ..figure import ANSWERS
@@ -28,7 +30,6 @@ FINE = 0.03  # mm by which curves of figures may be simplified
 HEAD, SLIM = 3.0, 6.0  # mm, length of an arrowhead; its parts that half of it is wide
 CLASSES = {Pen.MAIN: "main", Pen.THIN: "thin", Pen.DASHED: "dashed", Pen.AXIS: "axis", Pen.EXTREME: "axis"}
 FILLS = {"white": "paper", "black": "solid", True: "solid"}
-SHOWN = {"rad": ("deg", DEGREES), "m": ("mm", 1e3), "Pa": ("MPa", 1e-6)}  # SI units, with those that pages have
 BESIDE = 6.0  # mm beside a figure, for letters that are wider than those of the sheet
 SIZE = 170.0  # mm that a view takes, about
 HALF = 3.14  # rad: arcs of more are drawn in two
@@ -87,7 +88,8 @@ def _pieces(pieces: Pieces | None) -> Data | None:
 
 
 def _quantity(name: str, unit_name: str, symbols: Mapping[str, str], words: Words) -> Data:
-    shown, by = SHOWN.get(unit_name, (unit_name, 1.0))
+    shown = SHOWN.get(unit_name, unit_name)
+    by = unit_of(shown).from_si(1.0) if shown != unit_name else 1.0
     said = html(words.unit(shown)) if shown != "1" else ""
     return {"name": name, "symbol": html(symbols.get(name) or words.symbol(name)), "unit": said, "by": by, "plan": ""}
 

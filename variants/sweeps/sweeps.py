@@ -15,14 +15,13 @@ from ...drawing.writers import Files
 from ...plans.solved import Columned, Course, Ends
 from ...scales.errors import InputError
 from ...scales.numbers import quote
-from ...scales.units import unit
+from ...scales.units import SHOWN, unit
 from ..case import Request, Settings, Wanted, positions_of
 from ..reader import load_task
 from ..tables import FILES, Result, Swept, aligned, ends_data
 from ..task import AnyTask
 
 SUFFIXES = Swept.suffixes
-SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}
 DIGITS, PLACES = 6, 9  # of a number in the table; decimals of the degrees of what drives
 DRIVES = "phi"
 CUT = ".dxf"  # of outlines
