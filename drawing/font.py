@@ -116,13 +116,16 @@ class _Font:
 
     @cache  # noqa: B019
     def beyond(self, character: str) -> tuple[float, float]:
-        """Return how far the ink of a character begins before its place and ends behind its advance, at least 0."""
+        """Return how far the ink of a character begins before its place and ends behind its advance.
+
+        Where it begins behind its place, or ends before its advance, that is negative.
+        """
         glyph = self.strict_glyph(character)
         outline, advance = self.outline(glyph), self.metric(glyph)[0]
         if not outline:
             return 0.0, 0.0
         left, right = struct.unpack_from(">h", outline, 2)[0], struct.unpack_from(">h", outline, 6)[0]
-        return max(0.0, -left / self.units), max(0.0, (right - advance) / self.units)
+        return -left / self.units, (right - advance) / self.units
 
     def outline(self, glyph: int) -> bytes:
         """Return the outline of a glyph as it stands in the file; empty for a space."""

@@ -414,9 +414,9 @@ class Surroundings:
         begins = (abs((starts[k] - q).real) < hx + TOUCH) & (abs((starts[k] - q).imag) < hy + TOUCH)
         few = (is_head & begins).nonzero()[0]
         begins[few] = shapely.dwithin(self.shapes[j[few]], shapely.points(pairs(starts[k[few]])), TOUCH)
-        for which, reach in ((runs & ~crosses, TOUCH), ((((kind == BOX) & self.bars[j]) | is_head) & ~begins, 0.0)):
-            few = which.nonzero()[0]
-            crosses[few] = shapely.dwithin(self.shapes[j[few]], leaders[k[few]], reach)
+        solid = ((kind == BOX) & self.bars[j]) | is_head
+        few = ((runs & ~crosses) | (solid & ~begins)).nonzero()[0]
+        crosses[few] = shapely.dwithin(self.shapes[j[few]], leaders[k[few]], TOUCH)
         count: Numbers = np.bincount(k, crosses, len(starts))
         return count
 

@@ -74,7 +74,7 @@ class Run:
 class _TextLayout:
     """Runs and rules (bars, underlines) of one line of text, from `x = 0` on the baseline `y = 0`, mm.
 
-    Letters that lean may reach beyond it: from `left`, at most 0, to `right`, at least its width.
+    Its ink goes from `left` to `right`: letters have room on both sides, and those that lean may reach beyond it.
     """
 
     runs: tuple[Run, ...]
@@ -188,9 +188,12 @@ def _lay_out(markup: str, height: float, lettering: Lettering) -> _TextLayout:
     width, top, bottom = pen.line(read(markup), 0.0, 0.0, height, height)
     if top < bottom:
         top = bottom = 0.0
-    left = min((run.x - font(run.face).beyond(run.string[0])[0] * run.size for run in pen.runs), default=0.0)
-    ends = (run.x + run.width + font(run.face).beyond(run.string[-1])[1] * run.size for run in pen.runs)
-    return _TextLayout(tuple(pen.runs), tuple(pen.rules), width, top, bottom, min(0.0, left), max(width, *ends, 0.0))
+    left = [run.x - font(run.face).beyond(run.string[0])[0] * run.size for run in pen.runs]
+    right = [run.x + run.width + font(run.face).beyond(run.string[-1])[1] * run.size for run in pen.runs]
+    left += [rule[0] for rule in pen.rules]
+    right += [rule[2] for rule in pen.rules]
+    ends = min(left, default=0.0), max(right, default=0.0)
+    return _TextLayout(tuple(pen.runs), tuple(pen.rules), width, top, bottom, *ends)
 
 
 def told_apart(pieces: list[Piece], latin_units: bool = True) -> Iterator[tuple[Piece, bool]]:
@@ -282,7 +285,7 @@ class _Pen:
         """Return by how much farther a steep mark stands behind a letter that leans over its own place."""
         face = font(self.faces[True])
         past = face.beyond(letter)[1] if face.glyph(letter) else 0.0
-        return past * height * face.size + CLEAR * height if past else 0.0
+        return past * height * face.size + CLEAR * height if past > 0.0 else 0.0
 
     def word(self, string: str, x: float, y: float, height: float, face: str) -> _Span:
         """Lay plain characters out; spaces at the ends become distance, since SVG would drop them."""

@@ -15,6 +15,7 @@ from kulman.drawing.labels import Labels, Request, Scene, place
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Arc, Circle, Group, Line, Pen, Text
 from kulman.drawing.spots import FINE, MAIN, Obstacles, Surroundings, first_clear
+from kulman.drawing.text import lay_out
 from kulman.drawing.view import ELSEWHERE, Canvas
 from kulman.tests.support.shapes import places, within
 
@@ -590,12 +591,17 @@ def chords(shapes: object) -> list[tuple[str, shapely.Geometry]]:
     return found
 
 
+def inked(text: Text) -> shapely.Geometry:
+    (x0, y0, x1, y1), layout = extent((text,)), lay_out(text.markup, text.height)
+    return shapely.box(x0 + layout.left, y0, x1 + layout.right - layout.width, y1)
+
+
 @pytest.mark.parametrize("seed", range(6))
 def test_thin_lines_break_off_at_letters_that_they_would_strike_and_nowhere_else(seed: int) -> None:
     canvas = crowded_canvas(seed)
     before, drawn = chords(canvas.shapes), canvas.finish("thicket").shapes
     after = chords([shape for shape in drawn if getattr(shape, "role", "") != "leader"])
-    boxes = shapely.union_all([shapely.box(*extent((text,))) for text in drawn if isinstance(text, Text)])
+    boxes = shapely.union_all([inked(text) for text in drawn if isinstance(text, Text)])
     near = boxes.buffer(1.3)  # half a millimetre beside a letter, at a corner more, of an arc a quarter more
     gone = 0
     for name, line in before:

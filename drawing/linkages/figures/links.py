@@ -369,12 +369,15 @@ def _up(scene: Scene, number: int, at: complex, u: complex, figures: Sequence[Sk
 
 def _letter_beside(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) -> None:
     """Draw and letter a point that is no joint; a centre of mass is tied to its link where it stands beside it."""
-    at, radius = scene.mm(point), scene.style.centre
+    at, radius, last = scene.mm(point), scene.style.centre, ""
+    mark = scene.words.mark(point)
     if point == scene.mechanism.link(figure.number).centre:
         foot = min((*(_nearest(*s, at) for s in figure.strokes), *figure.nodes), key=lambda foot: abs(foot - at))
         ring = [a for a, _ in figure.bars]
         sides = pairwise([*ring, *ring[:1]])
         inside = len(ring) > 2 and all(((b - a).conjugate() * (at - a)).imag > 0 for a, b in sides)
+        if inside:  # a leader would cross a side
+            last = scene.words["said.inside"].format(point=mark, link=figure.number)
         reach, e = abs(foot - at), (at - foot) / (abs(foot - at) or 1.0)
         start = _rim(scene, figure, foot, e)
         if reach > start + radius and not inside:
@@ -382,7 +385,7 @@ def _letter_beside(canvas: Canvas, scene: Scene, figure: Skeleton, point: str) -
         canvas.group("centre", point, Circle(at, radius, Pen.MAIN, fill="black"))
     else:
         canvas.add(scene.point(at, point))
-    canvas.label(scene.words.mark(point), at, clear=radius + 0.8)
+    canvas.label(mark, at, clear=radius + 0.8, last=last)
 
 
 def lay_down(canvas: Canvas, scene: Scene, pen: Pen, role: str) -> None:
