@@ -49,6 +49,7 @@ class Parameter:
     choices: tuple[str, ...] = ()
     forms: tuple[str, ...] = ()  # of the subject that have it; all where none is said
     row: tuple[float, ...] = ()  # the values that a standard has, of which new variants choose
+    whole: bool = False  # what is counted: new variants have whole numbers of it
 
 
 Givens = Mapping[str, Parameter]

@@ -162,6 +162,7 @@ class Kind(Generic[Subject, Answer]):
     judged: ClassVar[str] = ""  # key of the heading of its checks, where a list of quantities ends in these
     rules: ClassVar[Mapping[str, str]] = {}  # keys of what is told of checks that fail
     unasked: ClassVar[tuple[str, ...]] = ()  # quantities that no form asks for
+    unequal: ClassVar[bool] = False  # whether some variants of a task have more quantities than others
     limits_add_up: ClassVar[bool] = False  # whether limits are those of errors of drawing, else of what is read off
     # keys, after `form.`, of what a form says beside what every form does, by the plan to which it belongs, or by none
     form_notes: ClassVar[Mapping[str, str]] = {}

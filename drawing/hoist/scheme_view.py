@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -19,6 +20,8 @@ from ..view import Canvas, View
 from .scene import HoistScene
 from .text import formula
 
+LONGEST = 26.0  # mm of a rope in a picture that need not be to scale
+TORN, ACROSS = 1.5, 2.5  # mm: half the gap of a broken rope, half its strokes
 LOAD = 0.45  # of the rope's length, the height of the load at most
 BOX = 12.0  # mm, the load's height at most
 DRUM = 3.0  # mm, radius
@@ -40,17 +43,24 @@ KINDS = {"begin": "terminator", "end": "terminator", "data": "data", "places": "
 KINDS |= {"larger": "decision", "strong": "decision"}
 
 
-def _scheme_view(scene: HoistScene) -> View:
-    """Draw the scheme with its dimensions."""
+def picture(scene: HoistScene) -> View:
+    """Draw the scheme to stand beside a question: a long rope is broken."""
+    return _scheme_view(scene, LONGEST)
+
+
+def _scheme_view(scene: HoistScene, longest: float = math.inf) -> View:
+    """Draw the scheme with its dimensions, with no longer rope than so many millimetres."""
     canvas, words, style = SCHEME_FIGURE.canvas(scene), scene.words, scene.style
     canvas.breaks = {"extension": False}
     at = {mark: scene.mm(f"{SCHEME}.{mark}") for mark in ("O1", "O2", "A0", "A2", "B1", "B2")}
-    rope = abs(at["A2"] - at["A0"])
+    rope = min(abs(at["A2"] - at["A0"]), longest)
+    lower = at["A2"] - at["A0"] - 1j * rope
+    at |= {mark: at[mark] - lower for mark in ("A2", "B1", "B2")}
     canvas.part("support")
     tall = min(BOX, LOAD * rope)
     corners = tuple(at["A0"] + complex(x * 0.8 * tall, y * tall) for x, y in ((-1, 0), (1, 0), (1, 1), (-1, 1)))
     canvas.group("link", "1", Polyline(corners, Pen.MAIN, closed=True, fill="white"))
-    canvas.part("rope", Line(at["A0"] + 1j * tall, at["A2"], Pen.MAIN, role="rope", name="L"))
+    canvas.part("rope", *_rope(at["A0"] + 1j * tall, at["A2"], broken=bool(lower)))
     canvas.group("drum", "A2", Circle(at["A2"], DRUM, Pen.MAIN, fill="white"))
     for left, right, number in (("O1", "O2", "0"), ("B1", "B2", "2")):
         canvas.part(STAGE_OF_BEAM[number], Group((Line(at[left], at[right]),), "link", number))
@@ -69,6 +79,17 @@ def _scheme_view(scene: HoistScene) -> View:
     _dimensions(canvas, scene, at)
     ratio = f"{words.drawn_at(scene.mus['mu_l'])};  {scene.factors('mu_l')}"
     return canvas.finish("scheme", (words["heading.hoist_scheme"], ratio))
+
+
+def _rope(low: complex, high: complex, *, broken: bool) -> Iterator[Line]:
+    """Go through the lines of a rope, torn in its middle where it is broken."""
+    if not broken:
+        yield Line(low, high, Pen.MAIN, role="rope", name="L")
+        return
+    middle = 0.5 * (low + high)
+    for end, at in ((low, middle - 1j * TORN), (high, middle + 1j * TORN)):
+        yield Line(end, at, Pen.MAIN, role="rope", name="L")
+        yield Line(at - complex(ACROSS, 0.5 * ACROSS), at + complex(ACROSS, 0.5 * ACROSS), Pen.THIN)
 
 
 def _dimensions(canvas: Canvas, scene: HoistScene, at: dict[str, complex]) -> None:

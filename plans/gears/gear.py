@@ -30,8 +30,8 @@ GIVENS: Givens = {
     # whether the teeth are of one structure, or hard outside: these must be thicker at the tip
     "material": Parameter(choices=MATERIALS, default=HOMOGENEOUS),
     "m": Parameter("m", row=MODULES),  # module
-    "z_1": Parameter(),
-    "z_2": Parameter(),
+    "z_1": Parameter(whole=True),  # teeth
+    "z_2": Parameter(whole=True),
     "x_1": Parameter(bound=Bound.FREE, needed=False),  # shifts of the rack in modules
     "x_2": Parameter(bound=Bound.FREE, needed=False),
     "x_sum": Parameter(bound=Bound.FREE, needed=False),
@@ -97,7 +97,7 @@ def impossible(values: Mapping[str, float]) -> Iterator[tuple[str, InputError]]:
     m = found["m"]
     if not (math.isfinite(m) and m > 0.0):
         yield "m", InputError("gear-module", text=f"{m * 1e3:.7g}")
-    for name in ("z_1", "z_2"):
+    for name in (name for name, of in GIVENS.items() if of.whole):
         z = found[name]
         if not (math.isfinite(z) and FEWEST <= z <= MOST and z == round(z)):
             yield name, InputError("gear-teeth", name=name, text=f"{z:.7g}", least=FEWEST, most=MOST)

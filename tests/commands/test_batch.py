@@ -108,9 +108,15 @@ def test_a_class_is_printed_in_one_go_in_the_order_of_its_roster(tmp_path: Path)
     assert layers[0] == layers[1] > 0  # those of one name are one
 
 
-@pytest.mark.parametrize("task", ["madi-cam", "madi-gear", "karpenko-hoist", "scheme-16-hay-baler"])
-def test_a_card_has_picture_data_and_what_is_to_be_found(task: str) -> None:
-    case = Request(load_task(task), None, language="en").case()
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    [
+        *(("madi-cam", None), ("madi-gear", None), ("scheme-16-hay-baler", None)),
+        *(("karpenko-hoist", variant) for variant in ("V01", "V07", "V09")),  # ropes of 8, 24 and 60 m
+    ],
+)
+def test_a_card_has_picture_data_and_what_is_to_be_found(task: str, variant: str | None) -> None:
+    case = Request(load_task(task), variant, language="en").case()
 
     card = card_of_case(case, drawing_for_print(case))
 

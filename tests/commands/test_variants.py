@@ -145,6 +145,14 @@ def test_ranges_about_the_only_variant_of_a_task_have_round_steps_some_twenty_of
         assert 8 <= (usual.high - usual.low) / usual.step <= 21, name
 
 
+def test_what_is_counted_is_whole_in_new_variants() -> None:
+    spans = _ranges_of(load_task("madi-gear"), {"z_2": "12..40"})
+
+    for name in ("z_1", "z_2"):
+        assert spans[name].low % 1 == spans[name].step % 1 == 0, name
+        assert spans[name].high > spans[name].low
+
+
 def test_made_variants_keep_to_ranges_and_steps() -> None:
     new = all_variants(TASK, make=2, ranges={"l_OA": "20..40/5 мм", "n_1": "600..1400/100"}, set={"m_3": "1 kg"}).new
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import math
 import re
@@ -17,7 +18,7 @@ import pytest
 from kulman import check, cli, load_task, sheet, solve
 from kulman.plans.hands.shaky import PRESETS
 from kulman.scales.errors import InputError
-from kulman.tests.support.answer_files import ASKED, messages
+from kulman.tests.support.answer_files import ASKED, messages, write
 from kulman.tests.support.answer_files import HEAD as COLUMNS
 from kulman.tests.support.marking_cases import key, right_answers
 from kulman.tests.support.mechanisms import SEED
@@ -179,6 +180,23 @@ def test_what_cannot_be_checked_is_answered_in_one_line(
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert what in err
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("variant", ["V01", "V04", "V07"])  # of no, three and two times of equation (12)
+@pytest.mark.parametrize("own", [True, False])
+def test_the_form_of_any_variant_filled_rightly_has_the_full_mark(tmp_path: Path, variant: str, own: bool) -> None:
+    """What one variant is asked and another is not was refused as unknown, or missing without having been asked."""
+    solution, asked = solve("karpenko-hoist", variant), check("karpenko-hoist", lang="en")
+    form = (check("karpenko-hoist", variant, lang="en") if own else asked).write_form(tmp_path / "form.csv")
+    rows = [*csv.reader(form.read_text(encoding="utf-8-sig").splitlines())]
+    for row in rows:
+        if row[0] in solution.quantities and len(row) > 6:
+            row[5:7] = [f"{solution[row[0]].value:.6g}", solution[row[0]].unit]
+        row[1:2] = [variant] if row[0] == "variant" else row[1:2]
+
+    report = asked.mark(asked.read(str(write(tmp_path, rows)))[0])
+
+    assert (report.marked.mark, report.marked.notes) == (100.0, ())
 
 
 def test_another_variant_and_a_wrong_sheet_id_are_told_of(tmp_path: Path, capsys: Printed) -> None:

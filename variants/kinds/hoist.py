@@ -27,6 +27,7 @@ class Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
     room, made, givens = "hoist", hoists.Hoist, hoists.GIVENS
     symbols = ("mu_l", "mu_F_circle")  # those of the diagrams are found
     unasked = ("s_min", "t_P12_max")
+    unequal = True  # as many times of equation (12) as it has roots
     rules: ClassVar[Mapping[str, str]] = {  # where the formulas are not valid, or a rope is not strong enough
         "rope_phase_1": "hoist-rule-rope-phase-1",
         "rope_phase_2": "hoist-rule-rope-phase-2",
@@ -61,12 +62,12 @@ class Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
 
     def pictured(self, case: Case, words: Words, part: float = 1.0) -> View:
         """Draw the scheme."""
-        from ...drawing.hoist.scheme_view import SCHEME_FIGURE
+        from ...drawing.hoist.scheme_view import picture
         from ...drawing.page import SCHEME as PICTURE
 
         _, scales = self.first_scales(cast("SolvedHoist", case.solved), case.choosers, case.plans)
         mus = {scale.symbol: scale.mu / part for scale in scales.values()}
-        return replace(SCHEME_FIGURE.draw(replace(self.scene(case, scales, words), mus=mus)), name=PICTURE)
+        return replace(picture(replace(self.scene(case, scales, words), mus=mus)), name=PICTURE)
 
     def rows(self, case: Case, words: Words) -> Sequence[Row]:
         """Return the data in the units in which people know them."""

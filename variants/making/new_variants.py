@@ -148,7 +148,7 @@ def _task_with(task: Task, rows: Mapping[str, Mapping[str, str]]) -> NewVariants
 class _Range:
     """A given's values: from `low` to `high` in steps, in its own unit; exact decimals.
 
-    Where a standard has a `row` of values, only these.
+    Where a standard has a `row` of values, only these. Of what is counted low and step are whole.
     """
 
     unit: str
@@ -172,6 +172,8 @@ def _ranges_of(task: Task, asked: Mapping[str, str]) -> dict[str, _Range]:
         one, given = found.get(name), task.givens.get(name)
         if one is not None and given is not None and given.unit is not None:
             found[name] = replace(one, row=tuple(_decimal(given.unit.from_si(value)) for value in parameter.row))
+            if parameter.whole:
+                found[name] = replace(one, low=Decimal(math.ceil(one.low)), step=Decimal(math.ceil(one.step)))
     for name, text in asked.items():
         given = task.givens.get(name)
         if given is None or given.unit is None:

@@ -27,7 +27,7 @@ from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, table_bytes
 from ..task import Task
 from .class_page import PAGE, ClassPage
-from .keyed import asked_of, class_header, form_rows, read_rubric, solved
+from .keyed import asked_of, class_header, form_rows, fullest, read_rubric, solved
 from .marked import Desk, Terms, variant_of
 from .reading import Answers, answers_of, read_all
 from .report import REPORTS, Report, report_bytes
@@ -59,7 +59,7 @@ class Check(Terms):
             A kind of file that is no form, or a place where none can be written.
         """
         task, variant, language = self.request.task, self.request.variant, self.request.language
-        key = Desk(self).keyed(variant or next(iter(task.variants)), {})
+        key = Desk(self).keyed(fullest(self.request), {})
         if self.roster is not None:
             rows = [class_header(key, self.rubric.directions != "ignored", self.rubric.asked)]
             for entry in self.roster.entries:  # the sheet id is for them to copy
@@ -233,7 +233,7 @@ def check(
     Digits.of(digits)
     plans, language = None if only is None else plans_wanted(only, of), "en" if lang is None else lang
     request = Request(of, variant, by_name("set", set), plans, by_name("scales", scales), notation, language, format)
-    unformatted = replace(request, format=None)  # the same is asked on every format
+    unformatted = replace(request, variant=fullest(request), format=None)  # the same is asked on every format
     asked = asked_of(solved(unformatted))
     if plans is not None:
         whole = asked_of(solved(replace(unformatted, only=None)))

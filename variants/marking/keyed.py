@@ -20,10 +20,10 @@ from ...plans.marking.key import Key, Question, answer_key, hanging_on
 from ...plans.mistakes.book import Book, book
 from ...plans.names import COUPLE, LEVER, role
 from ...plans.quantities import unit_of
-from ...scales.errors import InputError
+from ...scales.errors import InputError, KulmanError
 from ...scales.names import all_known, unknown
 from ...scales.numbers import SHOWN, quote
-from ..case import Request, Settings
+from ..case import Request, Settings, kind_of
 from ..checks.basics import Checker, EnoughError, Field, Places, Read, one_of, record, trying
 from ..sheets import sheet_id
 from ..solution import Solution, solution_of
@@ -408,6 +408,20 @@ def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> A
     }
     scales = {s.symbol: s.unit for s in solution.scales.values() if s.symbol not in solution}  # chosen, not found
     return Asked(quantities, scales, solution.words.display)
+
+
+def fullest(request: Request) -> str:
+    """Return the variant of a request; without one that which has most to answer, so that a form suits them all."""
+    of = request.task
+
+    def asks(variant: str) -> int:
+        with suppress(KulmanError):  # a variant without a solution asks nothing
+            return len(asked_of(solved(replace(request, variant=variant))).quantities)
+        return 0
+
+    if request.variant is not None or not kind_of(of.kind).unequal:
+        return request.variant or next(iter(of.variants))
+    return max(of.variants, key=asks)
 
 
 def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) -> Keyed:
