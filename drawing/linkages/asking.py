@@ -272,6 +272,19 @@ def meaning(mechanism: Mechanism, words: Words, name: str) -> str:
     return ""
 
 
+def meanings(scene: Scene) -> dict[str, str]:
+    """Return what the symbols of quantities mean that are found, in words, as markup."""
+    found = dict[str, str]()
+    for name in scene.quantities:
+        said, symbol = role(name), scene.words.symbol(name)
+        if said.kind in ("omega", "epsilon") and not said.part:  # as data are called
+            called = scene.words[f"called.{said.kind}"].format(link=said.of)
+            found[symbol] = f"{called[:1].lower()}{called[1:]}"
+        elif told := meaning(scene.mechanism, scene.words, name):
+            found[symbol] = told
+    return found
+
+
 def _of_point(mechanism: Mechanism, words: Words, said: Name) -> str:
     """Name a velocity or acceleration of a point, or a part of it, relative to another point or absolute."""
     if said.part not in PARTS:

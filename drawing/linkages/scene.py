@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ...plans.linkages.cycle import Runs
 
 Made = TypeVar("Made")
+NORMAL_TO = "⊥"
 ROUNDING = 1e-12  # part of the largest quantity of its unit below which a value is nothing but rounding
 
 
@@ -240,10 +241,15 @@ def _arms_of_driver(solved: SolvedLinkage) -> frozenset[str]:
 
 def line_of(scene: Scene, direction: str) -> str:
     """Return a line by the name of its direction: ∥ AB, ⊥ AB, ∥ x–x."""
+    return " ".join(sided(scene, direction))
+
+
+def sided(scene: Scene, direction: str) -> tuple[str, str]:
+    """Return the sign of a direction, and the letters of the line to which it is normal or parallel."""
     step = scene.made[direction]
-    sign, along = ("⊥", step.operands[0]) if step.verb == "normal" else ("∥", direction)
+    sign, along = (NORMAL_TO, step.operands[0]) if step.verb == "normal" else ("∥", direction)
     letters = guide_letters(scene.program).get(along)
-    return f"{sign} {letters or ''.join(map(scene.words.mark, ends_of(scene.reading, along)))}"
+    return sign, letters or "".join(map(scene.words.mark, ends_of(scene.reading, along)))
 
 
 def is_at_point(plan: str) -> bool:

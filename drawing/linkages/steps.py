@@ -16,6 +16,7 @@ from ..figure import GIVEN
 from ..handouts import Shown
 from ..notes.blocks import Block, Equations, Heading, Story
 from ..printed import DIGITS, value_text
+from .asking import meanings
 from .calculations.equations import kinematics_lines, printed_segment, rate_of, sensed, size_of, stated
 from .calculations.forces import LOADS, balance, differ, force_lines, force_parts, lines_by_plan
 from .compound import block_name, compound_lines, compound_told
@@ -50,7 +51,8 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
         views |= {"equations_forces", *(f"equations_forces_{part}" for part in force_parts(scene.solved))}
         loads = Heading(scene.words["heading.equations_loads"]), Equations(tuple(map(tuple, force_lines(scene, LOADS))))
         before[f"group_{groups[-1].name}"] = loads
-    return Story(steps, equations, frozenset(views), tuple(conclusions(teller)), before)
+    ends = tuple(conclusions(teller))
+    return Story(steps, equations, frozenset(views), ends, before, meanings=meanings(scene))
 
 
 def drawn_views(teller: Teller) -> list[str]:

@@ -30,7 +30,7 @@ from .calculations.equations import (
 from .calculations.forces import found_by
 from .figures.lever import Couple, couples_on_lever, hung_on_lever, letter_of, moments_on_lever
 from .reading import ends_of
-from .scene import Scene, line_of
+from .scene import NORMAL_TO, Scene, sided
 
 DOWN = 270.0  # degrees
 FIRST_PATH, OF_PATH = 6, 4  # where the paths of a template's joints begin among its operands, operands of a path
@@ -131,16 +131,19 @@ class Teller(Scene):
         return sensed(self.words, rate_of(self, rate))
 
     def line(self, direction: str, back: bool = False) -> str:
-        """Return a line by its direction, with the sense in which a normal part is laid off."""
-        text, made = line_of(self, direction), self.made.get(direction)
-        if back and made is not None and made.verb in ("direction", "turn") and text.startswith("∥"):
+        """Return how a line lies, in words, with the sense in which a normal part is laid off."""
+        (sign, letters), made = sided(self, direction), self.made.get(direction)
+        if sign == NORMAL_TO:
+            return self.say("normal_to", line=letters)
+        if back and made is not None and made.verb in ("direction", "turn"):
             start, end = (self.mark(point) for point in ends_of(self.reading, direction))
-            return f"{text} ({end} → {start})"
-        return text
+            return self.say("parallel_from", line=letters, start=end, end=start)
+        return self.say("parallel_to", line=letters)
 
     def plain_line(self, direction: str) -> str:
         """Return a line by its letters alone, such as a guide."""
-        return self.line(direction).removeprefix("∥ ")
+        sign, letters = sided(self, direction)
+        return letters if sign != NORMAL_TO else self.line(direction)
 
     def through(self, mark: str, direction: str) -> str:
         """Return a line through a mark; one that is a guide needs no mark."""
@@ -171,8 +174,9 @@ class Teller(Scene):
             case "transport_speed" | "transport_tangential" | "transport_normal":  # of a turn about a pin
                 pin, point = (self.mark(mark) for mark in self.made[made.operands[1]].operands)
                 if made.law == "transport_normal":
-                    return f"∥ {pin}{point} ({point} → {pin})"
-                return self.say("in_sense", line=f"⊥ {pin}{point}", rate=self.words.symbol(made.operands[0]))
+                    return self.say("parallel_from", line=f"{pin}{point}", start=point, end=pin)
+                across = self.say("normal_to", line=f"{pin}{point}")
+                return self.say("in_sense", line=across, rate=self.words.symbol(made.operands[0]))
             case "coriolis":
                 rate, turned = made.operands
                 return self.say("turned_by", vector=self.letter(turned), rate=self.words.symbol(rate))
@@ -216,7 +220,9 @@ def _lay(teller: Teller, step: Step) -> str:
     if edge is not None and teller.vanishes(edge.name):
         return teller.say("zero", vector=teller.letter(edge.name), start=a, end=b)
     parts = {"start": a, "length": teller.lettered(f"{a}{b}", size, step.plan)}
-    if edge is None:
+    if edge is None:  # on the mechanism, along the line on which it begins
+        sign, letters = sided(teller, direction)
+        line = teller.say("along", line=letters) if sign != NORMAL_TO and a in letters else line
         return teller.say("lay", line=teller.angle(direction) or line, **parts)
     return teller.say("vector", line=line, vector=teller.letter(edge.name), by=teller.given_by(edge.name), **parts)
 

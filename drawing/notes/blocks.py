@@ -166,7 +166,7 @@ class Story:
     is `said` put in. `equations` stand before the steps of a plan, and in the place of views that are `told` so;
     `conclusions` are sentences for the end; the blocks `before` a view have headings of their own. The views named
     `first` come so, before all others; those of the statement, `head`, take the place of what is called so on the
-    sheet. The `aims` say what is to be found.
+    sheet. The `aims` say what is to be found. The `meanings` of symbols stand under the equations that use them first.
     """
 
     steps: Mapping[str, Sequence[str]] = field(default_factory=dict)
@@ -179,6 +179,7 @@ class Story:
     first: tuple[str, ...] = ("kinematic", "givens", "data")
     head: tuple[View, ...] = ()
     aims: tuple[str, ...] = ()
+    meanings: Mapping[str, str] = field(default_factory=dict)
 
     def steps_of(self, view: View) -> tuple[str, ...]:
         """Return what is done, step by step, until a view is drawn."""
@@ -188,6 +189,7 @@ class Story:
 
 REFERS = "⟦{}⟧"  # in a step, what refers to the equation that gives a symbol, or to nothing where none does
 _REFERRING = re.compile(r"⟦(.*?)⟧")
+_BARRED = re.compile(r"\\bar\{(\w+)\}")
 _DISPLAYED = re.compile(r"[=≤≥]|\\u{1,2}\{")
 
 
@@ -205,6 +207,7 @@ class _Writing:
     equations: int = 0
     counts: Counter[type[Block]] = field(default_factory=Counter)
     given: dict[str, int] = field(default_factory=dict)  # numbers of equations, also by the symbols that they give
+    explained: set[str] = field(default_factory=set)
 
     def refer(self, key: str, first: int, last: int = 0, leads: bool = True) -> Sentences:
         """Return a sentence that refers to a number, or to those from the first to the last."""
@@ -223,6 +226,16 @@ class _Writing:
         if self.equations > before:
             yield self.refer("calculated", before + 1, self.equations)
         yield Equations(told, tuple(numbers))
+        yield from self.explaining(" ".join(" ".join(line) for line in told))
+
+    def explaining(self, markup: str) -> Iterator[Sentences]:
+        """Say what the symbols mean that equations use and none before them has used."""
+        used = _BARRED.sub(r"\1", markup)
+        new = [symbol for symbol in self.story.meanings if symbol in used and symbol not in self.explained]
+        self.explained.update(new)
+        if new:
+            said = (self.said["note.meaning"].format(symbol=s, meaning=self.story.meanings[s]) for s in new)
+            yield Sentences((self.said["note.where"].format(meanings="; ".join(said)),))
 
     def section(self, view: View) -> Iterator[Block]:
         """Write of a view: its heading, equations, steps, and the figure that they make."""
@@ -312,7 +325,7 @@ def said_under(figure: Figure, said: dict[str, str]) -> tuple[str, ...]:
 
 
 _WORD = re.compile(r"[^\W\d_]$|(?:^|\d |, )\(?[^\W\d_]+/$")  # a letter at the end, or a unit: 2 m/s²
-TIE = "\u00a0"  # a space at which no line ends
+TIE, JOINER = "\u00a0", "\u2060"  # a space at which no line ends, what keeps one from ending behind a sign
 _BEFORE_SIGN, _AFTER_NUMBER = re.compile(r" (?=[=≤≥<>] )"), re.compile(r"(?<=\d) (?=\w)")
 
 
@@ -401,12 +414,18 @@ def printable(text: str) -> str:
     >>> printable("a\\u202eb\\x07")
     'a b '
     """
-    return text if text.isprintable() else "".join(c if c.isprintable() or c == TIE else " " for c in text)
+    kept = (TIE, JOINER)
+    return text if text.isprintable() else "".join(c if c.isprintable() or c in kept else " " for c in text)
 
 
 def tied(text: str) -> str:
     """Return words of which no line ends between a letter and what it is equal to, a number and its unit."""
     return _BEFORE_SIGN.sub(TIE, _AFTER_NUMBER.sub(TIE, text))
+
+
+def is_letter(text: str) -> bool:
+    """Whether a text is one letter, with its primes: a symbol, which is slanted."""
+    return len(bare := text.rstrip("′″")) == 1 and bare.isalpha()
 
 
 def joined(parts: Sequence[Node], place: int) -> bool:

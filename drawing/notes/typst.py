@@ -42,8 +42,10 @@ PREAMBLE = """\
 #show figure.caption.where(kind: table): it => align(left, block(sticky: true, it))
 #set figure.caption(separator: [ – ])
 #show math.equation: set text(font: ("New Computer Modern Math", "Libertinus Serif", "DejaVu Sans"))
-#let equation(body, number) = block(width: 100%, spacing: 0.75em, inset: (left: 8mm), grid(
-  columns: (1fr, auto), column-gutter: 4mm, align: (left, right + bottom), body, number))
+#let equation(body, number) = block(width: 100%, spacing: {equation}em, inset: (left: 8mm), {{
+  set par(leading: 0.45em)
+  grid(columns: (1fr, auto), column-gutter: 4mm, align: (left, right + bottom), body, number)
+}})
 #let at(block) = box[#metadata(block)<at>]
 """
 IMAGE = re.compile(r'image\("\d+\.svg", width: ([\d.]+)mm, height: ([\d.]+)mm\)')
@@ -154,7 +156,9 @@ class Body:
             "page": FRAMED if looks.framed and before else NUMBERED,
         }
         sizes = {name: getattr(looks, name) for name in ("left", "right", "top", "bottom", "size", "leading")}
-        preamble = PREAMBLE.format(**named, **sizes, spacing=looks.leading + 0.1, heading=looks.size + 1.0)
+        preamble = PREAMBLE.format(
+            **named, **sizes, spacing=looks.leading + 0.1, heading=looks.size + 1.0, equation=looks.leading
+        )
         preamble = f"{SHEET}\n{preamble}"
         return {"main.typ": "\n".join((preamble, before, self.text)).encode("utf-8"), **self.figures}
 
@@ -300,7 +304,7 @@ def _table(table: Table, number: int, place: int, said: dict[str, str]) -> str:
     marked = f"#box[#metadata(none)<table{number}>]"
     there = f"query(<table{number}>).first().location().page() < here().page()"
     text = _text(f"{said['table.more']} {number}")  # no column becomes wider for it
-    more = f"#context if {there} [#block(width: 0pt, below: 3pt, box(width: 60mm)[{text}])]"
+    more = f"#context if {there} [#block(width: 0pt, inset: (bottom: 5pt), box(width: 60mm)[{text}])]"
     top = f"table.cell(colspan: {wide}, stroke: none, inset: 0pt, align: left)[{more}]"
     few = len(rows) < 2 * TOGETHER
     kept = {0: len(rows)} if few else {0: TOGETHER, len(rows) - TOGETHER: TOGETHER}
@@ -338,14 +342,14 @@ def _line(markup: str, plain: Callable[[str], str] | None = None) -> str:
 
 
 def _sentence(markup: str) -> str:
-    """Return a sentence in which no line ends between a letter and what it is equal to, a number and its unit."""
-    return _line(markup, lambda plain: _text(note.tied(plain)))
+    """Return a sentence in which no line ends before what a letter is equal to, before a unit or within one."""
+    return _line(markup, lambda plain: _text(note.tied(plain).replace("/", f"/{note.JOINER}")))
 
 
 def _formula(node: note.Node, upright: bool = False) -> str:
     """Return a node within a formula; a letter alone is slanted, unless it is `upright`."""
     if isinstance(node, note.Plain):
-        slanted = len(node.text) == 1 and node.text.isalpha() and not upright
+        slanted = note.is_letter(node.text) and not upright
         return f"italic({_quoted(node.text)})" if slanted else _quoted(node.text)
     if isinstance(node, note.Ruled):
         inner = " ".join(map(_formula, node.parts)) or '""'

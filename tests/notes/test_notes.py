@@ -42,6 +42,7 @@ from kulman.variants.case import Case, Settings
 from kulman.variants.notes import Note
 from kulman.variants.shelf import bundled, bundled_text
 
+PATH = pypdfium2.raw.FPDF_PAGEOBJ_PATH
 TASK, CAM, GEAR, HOIST = "nau-slider-crank", "madi-cam", "madi-gear", "karpenko-hoist"
 MEASURED = re.compile(r"= ([\d.,]+) [^:=]+: ([^=]+) = ([\d.,]+)([·/])([\d.,]+) = ([\d.,]+) (\S+)\.(?: The.*)?$")
 
@@ -164,9 +165,14 @@ def test_a_note_of_every_task_is_complete_and_right(place: int, task: str, lang:
 
 
 def test_steps_and_equations_stand_before_their_figure() -> None:
-    blocks = note(TASK, "3").document.blocks
+    whole = note(TASK, "3").document.blocks
+    meant = [text for block in whole if isinstance(block, Sentences) for text in block.texts if text.startswith("де ")]
+    blocks = [block for block in whole if not (isinstance(block, Sentences) and block.texts[0] in meant)]
     places = {block.view.name: place for place, block in enumerate(blocks) if isinstance(block, Figure)}
+    symbols = re.findall(rf"(?:^де|;) (\S+){TIE}– ", "\n".join(meant), re.M)
 
+    assert meant[0].startswith(f"де ω_{{1}}{TIE}– кутова швидкість ланки 1; V_{{A}}{TIE}– модуль швидкості точки A; ")
+    assert len(symbols) == len({*symbols}) >= 20  # each is explained once
     for plan in ("velocity", "acceleration", "forces_23"):
         before = [type(block) for block in blocks[places[plan] - 5 : places[plan]]]
         assert before == [Heading, Sentences, Equations, Sentences, Steps]
@@ -473,6 +479,23 @@ def test_scripts_of_a_script_stand_close_and_the_head_of_a_table_on_every_page()
     assert ("table.header(" in head, "φ" in head, "0.00" in head) == (True, True, False)
     assert "0.00" in body
     assert "colspan: 2" in body
+
+
+def test_no_rule_of_a_page_strikes_a_letter() -> None:
+    equations = tuple(b for b in note("scheme-09-shaper", "3").document.blocks if isinstance(b, Equations))
+    rows = Table((("i", "φ"), *((f"p_{{{k}}}", "0.00") for k in range(60))), "Angles")
+    written = replace(note_of().document, blocks=(Heading("Plans"), *equations, rows))
+    struck = []
+
+    for page in pypdfium2.PdfDocument(pdf_bytes(written)):
+        text = page.get_textpage()
+        letters = [text.get_charbox(k) for k in range(text.count_chars())]
+        for x0, y0, x1, y1 in (thing.get_bounds() for thing in page.get_objects(filter=[PATH])):
+            y, is_rule = (y0 + y1) / 2.0, x1 - x0 > 5.0 > y1 - y0
+            over = [(low, high) for a, low, b, high in letters if min(b, x1) - max(a, x0) > 2.0]
+            struck += [(y, low, high) for low, high in over if is_rule and low + 0.4 < y < high - 0.4]
+
+    assert struck == []
 
 
 def test_a_figure_that_would_be_too_small_stands_on_a_larger_sheet_at_the_end() -> None:
