@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from .variants.many import solve_many as solve_many
     from .variants.marking.checks import Check as Check
     from .variants.marking.checks import check as check
+    from .variants.marking.reading import Answers as Answers
+    from .variants.marking.report import Report as Report
     from .variants.notes import Note as Note
     from .variants.notes import note as note
     from .variants.reader import load_task as load_task
@@ -34,6 +36,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "AllVariants": "variants.making.all_variants",
+    "Answers": "variants.marking.reading",
     "Batch": "variants.batches.batch",
     "Charts": "variants.charts.charts",
     "Check": "variants.marking.checks",
@@ -41,6 +44,7 @@ _HOMES = {
     "ManyStates": "variants.many",
     "Note": "variants.notes",
     "Quantity": "plans.quantities",
+    "Report": "variants.marking.report",
     "Series": "scales.series",
     "Sheet": "variants.sheets",
     "Solution": "variants.solution",

@@ -287,7 +287,7 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 
     language = console.of_documents(options.pop("lang"), bool(files))
     block = console.without_none({name: options.pop(name) for name in (*console.BLOCK, "student")})
-    swept = sweep_task(task, set=settings, lang=language, block=block, **options)
+    swept = sweep_task(task, set=settings, lang=language, **block, **options)
     console.hand_over(swept, files, as_json, tabled=swept.reason is None)
     if any(file.suffix.lower() in WRITERS for file in files):
         console.warn(swept.warnings)

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from copy import copy
 from itertools import pairwise
 from typing import Any
 
@@ -15,6 +16,9 @@ from .packaged import packaged
 
 LANGUAGES = ("uk", "ru", "en")
 VARIABLE = "KULMAN_LANG"
+# options, but for those of a command that is named, and what those are called in Python that have another name there
+_OPTION = re.compile(r"kulman \w+ [^;:,`]*|(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
+ARGUMENTS = {"scale": "scales", "range": "ranges", "from": "table", "to": "end", "as": "kinds", "out": "folder"}
 _spoken: ContextVar[str | None] = ContextVar("spoken", default=None)
 _DECIMAL = re.compile(r"(?<![\w.=/])(\d+)\.(\d+(?:e[-+]?\d+)?)(?![\w.])")  # no part of a name, a path, a date
 
@@ -26,6 +30,19 @@ class Written(str):
     """What the user has written or may type: a message leaves it as it is."""
 
     __slots__ = ()
+
+
+class Option(Written):
+    """An option of a command; in Python another `argument` says the same."""
+
+    __slots__ = ("argument",)
+    argument: str
+
+    def __new__(cls, text: str, argument: str) -> Option:
+        """Return the option with the name of the argument."""
+        option = super().__new__(cls, text)
+        option.argument = argument
+        return option
 
 
 class Spoken(str):
@@ -74,8 +91,15 @@ class KulmanError(Exception):
         return " ".join(line.split())
 
     def __str__(self) -> str:
-        """Return the message in English."""
-        return self.text()
+        """Return the message in the language of `KULMAN_LANG`, else in English; options as arguments of functions."""
+        said, language = copy(self), of_environment()
+        said.data = {name: getattr(value, "argument", value) for name, value in self.data.items()}
+        line = said.text(language if language in LANGUAGES else "en")
+        return _OPTION.sub(lambda found: found[0] if found[1] is None else _argument(found[1]), line)
+
+
+def _argument(option: str) -> str:
+    return ARGUMENTS.get(option, option.replace("-", "_"))
 
 
 def _shown(value: object, language: str) -> object:

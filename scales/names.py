@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import textwrap
 import unicodedata
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
@@ -32,11 +31,14 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Input
     data = {name: Written(value) if isinstance(value, str) else value for name, value in data.items()}
     if text != latin(text) and latin(text).casefold() in map(str.casefold, names):
         return cyrillic(text)
-    if 2 < len(text) < 100:
+    folded = [name for name in names if text and name.casefold() == text.lstrip("0").casefold()]  # mu_v, 03
+    if 2 < len(text) < 100 or folded:
         turned = [name for name in names if sorted(name) == sorted(text)]  # l_BA for l_AB
-        for meant in turned or difflib.get_close_matches(text, names, n=1, cutoff=0.6):
+        for meant in folded or turned or difflib.get_close_matches(text, names, n=1, cutoff=0.6):
             return InputError(f"{key}-like", text=quote(text), like=Written(meant), **data)
-    shown = textwrap.shorten(", ".join(names), LONGEST, placeholder=" …")
+    names.sort(key=lambda name: len(text) < 3 or text.casefold() not in name.casefold())  # shaper: first what has it
+    shown = ", ".join(names)
+    shown = shown if len(shown) <= LONGEST else f"{shown[:LONGEST].rpartition(', ')[0]}, …"
     return InputError(key, text=quote(text), known=Written(shown or "—"), **data)
 
 

@@ -252,7 +252,7 @@ def _unknown(text: str) -> InputError:
     like = [known for known in _SPELLINGS if known.lower() == folded.lower()]
     like = like or get_close_matches(folded, [known for known in _SPELLINGS if len(known) > 1], n=1, cutoff=0.6)
     if like:
-        return InputError("unit-unknown-like", text=quote(text), like=_SPELLINGS[like[0]])
+        return InputError("unit-unknown-like", text=quote(text), like=UnitName(_SPELLINGS[like[0]]))
     return InputError("unit-unknown", text=quote(text), known=", ".join(_COMMON))
 
 
@@ -300,7 +300,7 @@ def converted(value: float, written: Unit, expected: Unit, least: float = SMALLE
     if dimension != expected.dimension:
         unturned = expected.dimension._replace(angle=0)
         if dimension != unturned or not expected.dimension.angle or not dimension.time:
-            raise InputError("unit-wrong", text=quote(written), expected=UnitName(expected.name))
+            raise InputError("unit-wrong", text=UnitName(written.name), expected=UnitName(expected.name))
         if written == unit("1/min"):
             written = RPM
     result = written.to_si(value)

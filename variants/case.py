@@ -17,17 +17,19 @@ from ..plans.names import role
 from ..plans.solved import Check, Course, Solved
 from ..scales.choices import RULER, SHEET
 from ..scales.errors import InputError
-from ..scales.givens import Described, Givens
+from ..scales.givens import Bound, Described, Givens
 from ..scales.names import all_known, by_name, names_of, of_kind, unknown
 from ..scales.numbers import quote
 from ..scales.packaged import packaged
 from ..scales.scale import AS_INSIDE, Chooser, Choosers, Display, Scale, Segment, chooser, segment_symbol
+from ..scales.units import UnitName
 from .checks.basics import Checker, Field, record
 from .checks.names import Names, check_numbers, word_or_choice
 from .kinds import MODULES
 from .task import WITH_FORCES, Instead, LocatedError, Task
 from .task import Given as Stated
 
+FAR = 100.0  # times more, or less, than any variant has
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..drawing.compose import Drawn
     from ..drawing.formats import Format, Norm
@@ -128,8 +130,20 @@ class Case(Request):
 
     @property
     def warnings(self) -> tuple[InputError, ...]:
-        """What a user should know of what has been solved: lines that meet at a small angle."""
-        return self.kind.warnings(self.solved)
+        """What a user should know: data far from those of the task, lines that meet at a small angle."""
+        return *self._far(), *self.kind.warnings(self.solved)
+
+    def _far(self) -> Iterator[InputError]:
+        """Go through what was set to hundreds of times more or less than any variant has: metres for millimetres."""
+        for name, value in self.task.resolve(self.variant, {**self.settings}).items():
+            given, row = self.task.givens[name], (variant.values.get(name) for variant in self.task.variants.values())
+            if name not in self.settings or isinstance(value, str) or given.unit is None or given.bound is Bound.FREE:
+                continue
+            sizes = [size for size in row if not isinstance(size, str) and size]
+            if sizes and value and not min(sizes) / FAR < value < max(sizes) * FAR:
+                own = {"text": value, "least": min(sizes), "most": max(sizes)}
+                said = {key: f"{given.unit.from_si(size):.6g}" for key, size in own.items()}
+                yield LocatedError(name, InputError("given-far", unit=UnitName(given.unit.name), **said))
 
     @property
     def kind(self) -> Kind[Any, Any]:
@@ -461,13 +475,13 @@ def _choosable(task: Task, name: str, text: str | float, solved: Solved) -> None
         raise InputError("scale-no-segments", text=quote(segment), known=", ".join(known))
 
 
-def positions_of(argument: str, value: int) -> int:
-    """Return a number of positions or sections that a cycle can have."""
+def positions_of(argument: str, value: int, most: int | None = None) -> int:
+    """Return a number of positions or sections that a cycle can have, at `most` so many."""
     from ..plans.linkages.cycle import FEWEST, MOST  # brings numpy, which most commands do without
 
     of_kind(argument, value, (int,), "int")
-    if not FEWEST <= value <= MOST:
-        raise InputError("positions-number", n=quote(value), least=FEWEST, most=MOST)
+    if not FEWEST <= value <= (most or MOST):
+        raise InputError("positions-number", n=quote(value), least=FEWEST, most=most or MOST)
     return value
 
 

@@ -22,11 +22,11 @@ from ..drawing.titleblock import Stamp
 from ..drawing.view import View
 from ..drawing.writers import WRITERS, Files, page_files, save_all
 from ..scales.errors import InputError, KulmanError
-from ..scales.names import latin, legible, of_kind, unknown
+from ..scales.names import all_known, latin, legible, of_kind, unknown
 from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
 from ..scales.scale import Fixed, Scale
-from .case import Case, Request, Settings, Wanted
+from .case import Case, Request, Settings, Wanted, positions_of
 from .reader import load_task
 from .tables import picture
 from .task import AnyTask, Task
@@ -46,6 +46,7 @@ APART = (  # what is not asked for together
     ("--steps", "--over"),
 )
 NOTE_TEXTS = "kulman.drawing.notes"
+MOST_DRAWN = 36  # positions whose plans one sheet shows
 ALL = 1000  # steps: no plan has more
 PAGE = ".html"  # on which plans move
 SUFFIXES = (*WRITERS, PAGE)
@@ -199,13 +200,21 @@ def drawing_of(case: Case) -> Drawn:
     paper = None if case.format is None else format_named(case.format)
     if case.norm not in get_args(Norm):
         raise unknown("norm-unknown", case.norm, get_args(Norm))
-    if case.positions is not None and case.kind.moves:
-        raise InputError("kind-without", task=quote(case.task.id), text="--positions")
+    if case.positions is not None:
+        if case.kind.moves:
+            raise InputError("kind-without", task=quote(case.task.id), text="--positions")
+        positions_of("positions", case.positions, MOST_DRAWN)
     error = case.solved.error()
     if error is not None:
         raise error
     with lettered(case.lettering, case.language):
         return case.kind.draw(case, case.words(), case.norm, paper)
+
+
+def titled(block: Mapping[str, str]) -> Mapping[str, str]:
+    """Return what a title block is asked to say; refuse what it has no place for."""
+    all_known("argument-unknown", block, BLOCK)
+    return block
 
 
 def said_of(block: Mapping[str, str]) -> dict[str, str]:
@@ -314,7 +323,7 @@ def handout(
     lettering: str = "gost",
     notation: str | None = None,
     lang: str = "uk",
-    block: Mapping[str, str] | None = None,
+    **block: str,
 ) -> Sheet:
     """Draw a handout: the sheet of a variant with its answers left out, at the same places and scales as the key.
 
@@ -333,8 +342,8 @@ def handout(
         The view that is drawn alone on its page, to be printed on a transparency and laid over a student's plan.
     grid : bool
         Lay a light grid of 5 mm under the drawing.
-    block : mapping of str to str, optional
-        What the title block says, as for `sheet`.
+    **block : str
+        `student`, `group` and so on for the title block, as for `sheet`.
 
     Raises
     ------
@@ -349,7 +358,7 @@ def handout(
     for first, second in APART:
         if asked[first] and asked[second]:
             raise InputError("handout-apart", first=first, second=second)
-    how = set, only, scales, notation, lang, format, norm, block or {}, lettering
+    how = set, only, scales, notation, lang, format, norm, titled(block), lettering
     case = Request(load_task(task), variant, *how).case()
     drawing = drawing_for_print(case)
     if over is None and not key:

@@ -29,8 +29,8 @@ ROUNDING = 1e-14  # part of the largest quantity of a unit
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Solution(OfCase):
-    """The answer to one variant of a task.
+class Solution(OfCase, Mapping[str, Quantity]):
+    """The answer to one variant of a task: a mapping of its quantities by name, in order of construction.
 
     `solution["V_B"]` is a `Quantity`; `reason` says why a position has no plan; `conditions`, and the `drawing` of a
     hand, are there when asked for.
@@ -82,6 +82,10 @@ class Solution(OfCase):
     def __len__(self) -> int:
         """Return the number of quantities."""
         return len(self.quantities)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return what a notebook offers behind `solution["`."""
+        return list(self)
 
     def __repr__(self) -> str:
         """Return task, variant, status and the number of quantities."""

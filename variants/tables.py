@@ -243,6 +243,10 @@ class Arrays(OfCase):
         """Tell whether there is a column of this name."""
         return any(name == column.name for column in self.arrays())
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """Return what a notebook offers behind `swept["`."""
+        return list(self)
+
     def __len__(self) -> int:
         """Return the number of states, as a pandas data frame does."""
         return int(self.statuses.size)

@@ -130,6 +130,7 @@ def test_a_solution_is_asked_by_the_names_of_its_quantities(solution: Solution) 
     assert "V_B" in solution
     assert "V_Q" not in solution
     assert None not in solution
+    assert dict(solution.items()) == solution.quantities
     assert list(solution) == list(solution.quantities)
     assert len(solution) == len(solution.quantities)
     for name in ("V_Q", None, 3):
@@ -304,5 +305,37 @@ def test_answers_are_marked_as_a_mapping_too(solution: Solution) -> None:
 
 
 def test_an_argument_that_a_note_lacks_is_compared_with_those_it_has() -> None:
-    with pytest.raises(KulmanError, match="unknown argument 'studnt'; did you mean student"):
-        kulman.note(TASK, studnt="x")
+    for call in (kulman.note, kulman.handout, kulman.sweep):
+        with pytest.raises(KulmanError, match="unknown argument 'studnt'; did you mean student"):
+            call(TASK, studnt="x")
+
+
+@pytest.mark.parametrize(
+    ("verb", "arguments", "said"),
+    [
+        ("sweep", {"end": "2 deg"}, "a crank makes a full turn: end is for sliding drivers only"),
+        ("sweep", {"task": "madi-cam", "start": "2 deg"}, "madi-cam: start is not available for tasks of this kind"),
+        ("handout", {"steps": 3, "key": True}, "steps without key"),
+        ("all_variants", {"ranges": {"l_OA": "20..30/5 mm"}}, "ranges and seed go with make"),
+        ("solve", {"scales": {"mu_v": 1}}, "no scale factor 'mu_v'; did you mean 'mu_V'"),
+        ("solve", {"set": {"l_oa": 1}}, "no given 'l_oa'; did you mean 'l_OA'"),
+        ("solve", {"variant": "03"}, "no variant '03'; did you mean '3'"),
+        ("solve", {"task": "shaper"}, "the tasks are: scheme-09-shaper, scheme-10-shaper-two-blocks, "),
+        ("sheet", {"positions": 37}, "a cycle has from 3 to 36 positions, not 37"),
+    ],
+)
+def test_an_error_speaks_of_arguments_and_knows_what_was_meant(
+    verb: str, arguments: dict[str, Any], said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(KulmanError, match=said) as caught:
+        getattr(kulman, verb)(**{"task": TASK, **arguments})
+    monkeypatch.setenv("KULMAN_LANG", "uk")
+
+    assert re.search("[а-яі]{3}", str(caught.value))
+
+
+def test_what_was_set_far_from_all_variants_is_warned_of() -> None:
+    (warning,) = solve(TASK, "3", set={"l_OA": 0.04}, only="position").warnings
+
+    assert "l_OA: 0.04 mm is far from what the variants of the task have, from 25 to 50 mm" in str(warning)
+    assert solve(TASK, "3", set={"l_OA": "4 cm", "phi": 1.3}, only="position").warnings == ()

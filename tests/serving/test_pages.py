@@ -154,7 +154,7 @@ def test_a_class_is_drawn_as_the_command_draws_it(client: TestClient, tmp_path: 
     page = finished(client, client.post("/class?lang=uk", data=form, files={"roster": ("x/../y.csv", ROSTER)}))
     (tmp_path / "roster.csv").write_bytes(ROSTER)
     kinds = ("svg", "handout")
-    kulman.batch(TASK, tmp_path / "roster.csv", tmp_path / "out", kinds=kinds, merge=True, block={"teacher": "Г. Вовк"})
+    kulman.batch(TASK, tmp_path / "roster.csv", tmp_path / "out", kinds=kinds, merge=True, teacher="Г. Вовк")
 
     archive = client.get(f"{page}/{page.rpartition('/')[2]}.zip")
     assert unpacked(archive.content) == files(tmp_path / "out")

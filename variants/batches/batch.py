@@ -38,7 +38,7 @@ from ..marking.wording import texts
 from ..notes import body_of, title_page
 from ..reader import load_task
 from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, read_roster, shared_by_mistake
-from ..sheets import PAPER, Sheet, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of
+from ..sheets import PAPER, Sheet, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of, titled
 from ..spreadsheets.grid import SUFFIXES
 from ..tables import Cell, csv_table, table_bytes
 from ..task import AnyTask, Task
@@ -319,11 +319,11 @@ def batch(
     lettering: str = "gost",
     notation: str | None = None,
     lang: str = "uk",
-    block: Mapping[str, str] | None = None,
     merge: bool = False,
     jobs: int | None = None,
     dask: str | None = None,
     advance: Advance | None = None,
+    **block: str,
 ) -> Batch:
     """Draw the sheet of every student of a class.
 
@@ -348,8 +348,6 @@ def batch(
     digits : int or str, optional
         How many last digits of the record book give the variant, where the roster has none; or what each of them is
         for, from left to right: `"variant,scheme"`, which is usual for several tasks.
-    block : mapping of str to str, optional
-        What is said in every title block: `teacher`, `department`, `designation`, `work`, `date`.
     merge : bool
         Write the sheets (`pdf`), handouts and cards of the class as one document each, too, in the order of the roster,
         to be printed on both sides: behind an odd number of pages of a student an empty one follows.
@@ -359,6 +357,8 @@ def batch(
         The address of a Dask scheduler, whose workers do the work in the place of processes here.
     advance : callable, optional
         Told how many students more are done, and of how many.
+    **block : str
+        What is said in every title block: `teacher`, `department`, `designation`, `work`, `date`.
 
     Raises
     ------
@@ -369,7 +369,7 @@ def batch(
     all_known("batch-kind", kinds, FORMS)
     if merge and not MERGED.keys() & {*kinds}:
         raise InputError("batch-merge", known=", ".join(MERGED))
-    wanted, block = only if only is None or isinstance(only, str) else tuple(only), dict(block or {})
+    wanted, block = only if only is None or isinstance(only, str) else tuple(only), dict(titled(block))
     how = by_name("set", set), wanted, by_name("scales", scales), notation, lang, format, norm, block, lettering
     once = _once(tasks)
     making = Making({one.id: _asked_of(Request(one, None, *how)) for one in once}, tuple(dict.fromkeys(kinds)))

@@ -343,7 +343,7 @@ def chart(
     hand: str = HAND,
     notation: str | None = None,
     lang: str | None = None,
-    advance: Advance = lambda done, whole: None,
+    advance: Advance | None = None,
 ) -> Charts:
     """Measure one variant of a task.
 
@@ -363,7 +363,7 @@ def chart(
         Per cent by which a simpler model may miss.
     hand : str
         Preset of the hand that draws: `cad`, `careful`, `normal`, `lenient`.
-    advance : callable
+    advance : callable, optional
         Is told how many charts more are made, and of how many.
 
     Returns
@@ -405,7 +405,8 @@ def chart(
             if names or error.key in WRONG:
                 raise
             warnings.append(error)
-        advance(1, len(made))
+        if advance is not None:
+            advance(1, len(made))
     if not found:
         raise next(error for error in warnings if error.key != "chart-unused")
     return Charts(scene.case, scene.words, found, tuple(warnings))

@@ -52,7 +52,7 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     if flat and options["hidden_key"]:  # a picture has no layers
         raise InputError("handout-apart", first="--hidden-key", second=quote(f"-o {flat[0]}", SHOWN))
     block = console.without_none({name: options.pop(name) for name in (*console.BLOCK, "student")})
-    drawn = handout_task(task, set=settings, block=block, **{**options, "lang": console.of_documents(options["lang"])})
+    drawn = handout_task(task, set=settings, **block, **{**options, "lang": console.of_documents(options["lang"])})
     console.say_written(drawn.save(*files, tile=tile), False)
     console.warn(drawn.warnings)
 
@@ -153,7 +153,7 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
 
     block = console.without_none({name: options.pop(name) for name in console.BLOCK})
     with console.progress() as advance:
-        made = draw_class(tasks, roster, folder, block=block, advance=advance, jobs=jobs or None, **options)
+        made = draw_class(tasks, roster, folder, **block, advance=advance, jobs=jobs or None, **options)
     console.warn(made.warnings)
     n, bad = len(made.students), made.problems
     click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))

@@ -39,7 +39,7 @@ class Reply(Answer):
     factor: Mu | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Answers:
     """All answers of one student; `about` is what the file says of task, variant and sheet id, as written.
 
@@ -56,6 +56,10 @@ class Answers:
     problems: tuple[LocatedError, ...] = ()
     columns: tuple[str, ...] = ()
     unread: KulmanError | None = None
+
+    def __repr__(self) -> str:
+        """Return where they come from, and how many there are."""
+        return f"<Answers {self.source}: {len(self.lines)}>"
 
 
 def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answers]:

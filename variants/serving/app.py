@@ -252,7 +252,7 @@ class _Answers:
         if not tasks or roster is None or not kinds:
             return HTMLResponse(pages.class_(door, self.listed(door), door.said["class.missing"]), 400)
         said = form.said(**dict.fromkeys(BLOCK))
-        how: dict[str, Any] = {"kinds": kinds, "merge": "merge" in form.texts, "block": said}
+        how: dict[str, Any] = {"kinds": kinds, "merge": "merge" in form.texts, **said}
         how |= form.said(digits=None, format=SIZES)
         job = self.desk.begin(door.said["class.title"], making.drawn_class, tasks, roster, how=how)
         return RedirectResponse(door.link(f"/job/{job.name}"), 303)

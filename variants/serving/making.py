@@ -153,7 +153,7 @@ def _sheet(asked: Asked) -> Sheet:
 
 def _handout(asked: Asked, key: bool = False) -> Sheet:
     task = asked.load()
-    return handout(task, **request(asked, task, *HOW), key=key, block=dict(asked.block))
+    return handout(task, **request(asked, task, *HOW, *BLOCK), key=key)
 
 
 def _note(asked: Asked) -> Note:

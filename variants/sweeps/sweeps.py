@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from ...drawing.words import Words
 from ...drawing.writers import Files
 from ...plans.solved import Columned, Course, Ends
-from ...scales.errors import InputError
+from ...scales.errors import InputError, Option
 from ...scales.numbers import quote
 from ...scales.units import SHOWN, unit
 from ..case import Request, Settings, Wanted, positions_of
 from ..reader import load_task
+from ..sheets import titled
 from ..tables import FILES, Result, Swept, aligned, ends_data
 from ..task import AnyTask
 
@@ -167,7 +168,7 @@ def sweep(
     chords: str | None = None,
     notation: str | None = None,
     lang: str | None = None,
-    block: Mapping[str, str] | None = None,
+    **block: str,
 ) -> Swept:
     """Solve one variant of a task over its whole cycle.
 
@@ -188,8 +189,8 @@ def sweep(
         Where a sliding driver stops; without `start` and `end` it moves as far as the links let it.
     chords : str, optional
         A point's letter, or the number of a link: the table shows its motion by plans and by chords.
-    block : mapping of str to str, optional
-        What the title block of the drawing says, as for `handout`.
+    **block : str
+        `student`, `group` and so on for the title block of the drawing, as for `sheet`.
 
     Returns
     -------
@@ -210,13 +211,14 @@ def sweep(
     if positions is not None:
         positions_of("positions", positions)
     language = "en" if lang is None else lang
-    case = Request(load_task(task), variant, set, only, scales, notation, language, block=block or {}).case()
+    case = Request(load_task(task), variant, set, only, scales, notation, language, block=titled(block)).case()
     course = case.kind.course(case.solved)
     if course is None:
         from .linkage import Sweep  # brings its drawings
 
         return Sweep.of(case, positions, points, (start, end), chords)
-    for option, value in {"--points": points, "--from": start, "--to": end, "--chords": chords}.items():
+    asked = {"--points": points, Option("--from", "start"): start, "--to": end, "--chords": chords}
+    for option, value in asked.items():
         if value is not None:  # what only the cycle of a linkage has
             raise InputError("kind-without", task=quote(case.task.id), text=option)
     return CourseSweep(case, case.words(), course, positions)
