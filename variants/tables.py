@@ -11,13 +11,14 @@ import re
 from abc import ABC, abstractmethod
 from base64 import b64encode
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass
 from datetime import datetime
 from functools import cache
 from html import escape
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, TypeVar, cast
 
 from ..drawing.writers import WRITERS, Files, save_all
 from ..scales.errors import InputError
@@ -33,11 +34,15 @@ if TYPE_CHECKING:
 
 Cell: TypeAlias = str | float | int | None
 Rows: TypeAlias = Sequence[Sequence[Cell]]
+Item = TypeVar("Item")
 DANGEROUS = tuple("=+-@|%\t\r\n＝＋－＠")  # with which programs begin a formula or a command
 # the same behind what another program, or one of another country, takes for the end of a cell; -5 mm is no formula
 _INSIDE = re.compile(r"([,;\t\r\n][^\S\t\r\n]*+)(?=[=@|%＝＠]|[-+－＋][^,;\t\r\n]*[(|!=@])")
 _CREATED = datetime(2000, 1, 1)
 _WIDEST, _PIXELS = 60, 7  # characters of a column, and how wide each is
+MANY = 5_000  # rows from which on writing them takes seconds
+# who is told how much more of a long table is written, and of how much
+watching: ContextVar[Callable[[int, int], None] | None] = ContextVar("watching", default=None)
 LONGEST = 32_000  # characters of a cell: programs take 32,767
 
 
@@ -388,10 +393,20 @@ def csv_text(
     head, *under = [tuple(row) for row in rows] or [()]
     writer.writerow([_text(cell, comma, told) for cell in head])
     if told is exact and {*map(len, under)} == {len(head)}:  # whole columns of numbers take a fifth of the time
-        writer.writerows(zip(*(_texts(column, comma) for column in zip(*under, strict=True)), strict=True))
+        columns = [*zip(*under, strict=True)]
+        writer.writerows(zip(*(_texts(column, comma) for column in _watched(columns, len(under))), strict=True))
     else:
         writer.writerows([_text(cell, comma, told) for cell in row] for row in under)
     return stream.getvalue()
+
+
+def _watched(parts: Sequence[Item], rows: int) -> Iterator[Item]:
+    """Go through parts of a table; of a long one whoever is watching is told of each."""
+    told = watching.get() if rows >= MANY else None
+    for part in parts:
+        yield part
+        if told is not None:
+            told(1, len(parts))
 
 
 def _texts(column: Sequence[Cell], comma: bool) -> list[str]:
@@ -458,7 +473,7 @@ def xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 0
         sheet, looks = book.add_worksheet(name or "1"), dict.fromkeys(bold, book.add_format({"bold": True}))
         if frozen:
             sheet.freeze_panes(frozen, 0)
-        for at, row in enumerate(rows):
+        for at, row in enumerate(_watched(rows, len(rows))):
             for column, cell in enumerate(row):
                 if len(row) > 1:
                     widths[column] = max(widths.get(column, 8), len(str(cell)) if cell is not None else 0)

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -35,7 +35,7 @@ from ..zeros import Extreme, extremes
 from .chain import USUAL, constructed, moving_bodies
 from .limits import NEAR_LIMIT, Arc, Reach, Swept, reach_of, swept
 from .mechanism import Driver, Mechanism, Prismatic
-from .solved import SolvedLinkage, board_givens
+from .solved import SolvedLinkage, board_givens, solve_linkage
 from .strokes import Output, OutputMotion, measured, output_motions, outputs, unwound, zero_position
 from .structure import Structure
 
@@ -66,6 +66,15 @@ class Cycle:
     reach: Reach
     motions: tuple[OutputMotion, ...]  # of the links on the frame
     zero: float  # the driver's place at the zero position, where the working stroke begins
+    _solved: dict[tuple[float, str], SolvedLinkage] = field(default_factory=dict, compare=False, repr=False)
+
+    def solved(self, place: float, plan: str) -> SolvedLinkage:
+        """Return the mechanism solved with the driver at a place, as far as a plan, for whatever draws it."""
+        key = place, plan
+        if key not in self._solved:
+            givens = {**self.givens, self.drive.variable: place}
+            self._solved[key] = solve_linkage(self.mechanism, givens, (plan,))
+        return self._solved[key]
 
     @property
     def mechanism(self) -> Mechanism:

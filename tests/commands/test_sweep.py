@@ -10,9 +10,10 @@ from pathlib import Path
 import pytest
 
 import kulman
-from kulman import KulmanError
+from kulman import KulmanError, sweep
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.commands import Run
+from kulman.variants import tables
 from kulman.variants.sweeps import linkage
 
 TASK = "nau-slider-crank"
@@ -194,3 +195,17 @@ def test_a_drawing_of_very_many_positions_shows_some_of_them_and_says_so(
     assert (status, err) == (0, "the drawing shows 12 of the 24 positions, spread evenly; tables and .csv have all\n")
     assert {int(name) for name in re.findall("position_([0-9]+)", drawing)} == {*range(12)}
     assert len(Path("x.csv").read_text(encoding="utf-8").splitlines()) == 25
+
+
+def test_writing_a_long_table_is_told_of_part_by_part_and_a_short_one_is_not(tmp_path: Path) -> None:
+    told: list[tuple[int, int]] = []
+    token = tables.watching.set(lambda done, whole: told.append((done, whole)))
+    try:
+        sweep(TASK, positions=360).save(tmp_path / "short.csv")
+        assert told == []
+        for name in ("long.csv", "long.xlsx"):
+            sweep(TASK, positions=tables.MANY, only="position").save(tmp_path / name)
+            assert sum(done for done, _ in told) == told[-1][1] > 3
+            told.clear()
+    finally:
+        tables.watching.reset(token)

@@ -99,7 +99,7 @@ def shows(text: str, number: float) -> bool:
 
 
 def test_only_linkages_have_positions_and_three_at_least() -> None:
-    with pytest.raises(KulmanError, match="--positions"):
+    with pytest.raises(KulmanError, match="positions is not available"):
         sheet("madi-gear", positions=12)
     with pytest.raises(KulmanError, match="positions"):
         sheet("nau-slider-crank", positions=2)

@@ -10,7 +10,8 @@ import re
 import sys
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TextIO, TypeVar
@@ -164,7 +165,15 @@ def of_documents(lang: str | None, written: bool = True) -> str:
 
 def hand_over(found: Result, files: Sequence[Path], as_json: bool, tabled: bool = True) -> None:
     """Write what has been found to files and name these; print it as JSON, or as a table where no file is wanted."""
-    say_written(found.save(*files), as_json)
+    from ..tables import watching
+
+    with progress(lazy=True) as advance:
+        token = watching.set(advance)
+        try:
+            written = found.save(*files)
+        finally:
+            watching.reset(token)
+    say_written(written, as_json)
     if as_json:
         print_json(found.to_json())
     elif tabled and not files:
@@ -172,15 +181,23 @@ def hand_over(found: Result, files: Sequence[Path], as_json: bool, tabled: bool 
 
 
 @contextmanager
-def progress() -> Iterator[Callable[[int, int], None]]:
-    """Show on a console how far long work is: told how many students, or charts, more are done, and of how many."""
+def progress(lazy: bool = False) -> Iterator[Callable[[int, int], None]]:
+    """Show on a console how far long work is: told how many students, or charts, more are done, and of how many.
+
+    What may not be long is `lazy`: nothing is shown before it is told of.
+    """
     if sys.stderr is None or not sys.stderr.isatty():
         yield lambda done, whole: None
         return
-    with click.progressbar(length=0, file=sys.stderr) as bar:
+    bar = click.progressbar(length=0, file=sys.stderr)
+    with ExitStack() as shown:
+        begin = cache(lambda: shown.enter_context(bar))
+        if not lazy:
+            begin()
 
         def advance(done: int, whole: int) -> None:
             bar.length = whole
+            begin()
             bar.update(done)
 
         yield advance

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from ....plans.laws import TURN
 from ....plans.linkages.cycle import Cycle
 from ....plans.linkages.mechanism import FRAME
-from ....plans.linkages.solved import solve_linkage
 from ....plans.names import role
 from ....plans.quantities import BALANCES, unit_of
 from ....scales.scale import Scale, rounded, steps
@@ -58,7 +57,7 @@ def plans_view(scene: Scene, cycle: Cycle, plan: str) -> View:
 def _stands(scene: Scene, cycle: Cycle, plan: str) -> Iterator[tuple[int, Scene]]:
     """Go through the numbered positions that have this plan."""
     for number, place in enumerate(cycle.angles.tolist()):
-        solved = solve_linkage(cycle.mechanism, {**cycle.givens, cycle.drive.variable: place}, (plan,))
+        solved = cycle.solved(place, plan)
         if solved.trouble is None:
             yield number, replace(scene, solved=solved)
 
@@ -77,12 +76,20 @@ def _marks(scene: Scene, plan: str) -> list[str]:
 def _grid(plans: Sequence[Reach], scene: Scene) -> tuple[float, list[complex]]:
     """Return the round scale factor with which so many plans are largest, each in the middle of its cell, and poles."""
     wide, high = WIDE[scene.style.label], HIGH[scene.style.label]
-    around, best = AROUND * scene.style.text, (math.inf, 1)
+    around, needed, lines = AROUND * scene.style.text, dict[int, float](), dict[int, tuple[list[float], list[float]]]()
     for count in range(1, len(plans) + 1):
-        columns, rows = _lines(plans, count)
+        columns, rows = lines[count] = _lines(plans, count)
         sums = (sum(columns), wide - 2.0 * around * len(columns)), (sum(rows), high - 2.0 * around * len(rows))
-        best = min(best, (max(size / room if room > LEAST else math.inf for size, room in sums), count))
-    mu, count = steps(best[0])[0] if math.isfinite(best[0]) else 1.0, best[1]
+        needed[count] = max(size / room if room > LEAST else math.inf for size, room in sums)
+    least = min(needed.values(), default=math.inf)
+    mu = steps(least)[0] if math.isfinite(least) else 1.0
+    # of all that have room at the round factor those that take the least of the page
+    taken = {
+        count: math.prod(sum(line) / mu + 2.0 * around * len(line) for line in lines[count])
+        for count in needed
+        if needed[count] <= mu
+    }
+    count = min(taken, key=lambda count: taken[count], default=1)
     across, up = ([*accumulate(size / mu + 2.0 * around for size in line)] for line in _lines(plans, count))
     columns, rows = ([size / mu for size in line] for line in _lines(plans, count))
     poles = list[complex]()

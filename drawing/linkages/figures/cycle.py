@@ -14,7 +14,7 @@ from ....plans.board import POSITION
 from ....plans.laws import dot
 from ....plans.linkages.cycle import MARGIN, Cycle, Diagrams, diagrams, pole_distance, velocity_field
 from ....plans.linkages.mechanism import ANGLE, BOTH, FRAME, WORKING, Couple, Diagram, Driver, Load, Revolute
-from ....plans.linkages.solved import SolvedLinkage, solve_linkage
+from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.strokes import OutputMotion
 from ....plans.names import role
 from ....scales.scale import Scale, rounded, steps
@@ -87,7 +87,7 @@ def positions_view(scene: Scene, cycle: Cycle) -> View:
 def _stands(scene: Scene, cycle: Cycle, places: Iterable[float]) -> Iterator[tuple[int, Scene]]:
     """Go through the scenes with the driver at these places, numbered, but those where the mechanism cannot stand."""
     for number, place in enumerate(places):
-        solved = solve_linkage(cycle.mechanism, {**cycle.givens, cycle.drive.variable: place}, ("position",))
+        solved = cycle.solved(place, POSITION)
         if solved.trouble is None:
             # a guide on a moving link is drawn as far as the slider: its run is counted from the calculated position
             yield number, replace(scene, solved=solved, runs={})
