@@ -205,7 +205,7 @@ def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
     "kulman sheet nau-slider-crank -v 3 -o sheet.svg -o sheet.pdf",
     "kulman sheet nau-slider-crank -o sheet.pdf --format A3 --student 'І. Петренко'",
     "kulman sheet scheme-09-shaper --positions 12 -o positions.pdf",
-    "kulman sheet scheme-09-shaper -o moving.html",
+    "kulman sheet scheme-09-shaper -o moving.html -o construction.ggb",
 )
 @console.of_task
 @console.counted("--positions")
@@ -215,7 +215,7 @@ def solve(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 @console.tiled
 @console.titled("student", *console.BLOCK)
 def sheet(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
-    """Draw the sheet of TASK (an id, or a TOML file) to scale; as HTML a page on which its plans move."""
+    """Draw the sheet of TASK (an id, or a TOML file) to scale; as HTML, GGB what moves."""
     from .variants.sheets import sheet as sheet_task
 
     drawn = sheet_task(task, set=settings, **console.without_none(options))

@@ -298,6 +298,13 @@ class Kind(Generic[Subject, Answer]):
         moved = self._in("drawing", "moving", "moving")(scene)
         return moving_course(moved, course, drawn, story, case.givens, self.lettered(words, solved))
 
+    def construction(self, case: Case, scales: Scales, words: Words, titles: tuple[str, str]) -> bytes:
+        """Return a construction as a file of GeoGebra, with scale factors by plan, its name and that of its variant.
+
+        Raises InputError: those of this kind are not written.
+        """
+        raise InputError("construction-kinds", task=quote(case.task.id))
+
     def fitted(self, solved: Answer, drawn: Drawn) -> tuple[Answer, tuple[InputError, ...]]:
         """Return what has been solved as large as a sheet draws it, and what a user should know of that."""
         if drawn.reduction == 1.0:

@@ -48,8 +48,8 @@ APART = (  # what is not asked for together
 NOTE_TEXTS = "kulman.drawing.notes"
 MOST_DRAWN = 36  # positions whose plans one sheet shows
 ALL = 1000  # steps: no plan has more
-PAGE = ".html"  # on which plans move
-SUFFIXES = (*WRITERS, PAGE)
+BESIDE = PAGE, CONSTRUCTION = ".html", ".ggb"  # a page on which plans move, a construction for GeoGebra
+SUFFIXES = (*WRITERS, *BESIDE)
 ABOUT_PAPER = {"scales-changed", "scale-coarser", "cam-smaller", "gear-smaller", "hoist-smaller"}  # keys of warnings
 
 
@@ -62,10 +62,13 @@ class Sheet:
     format: str
     warnings: tuple[InputError, ...] = ()
     views: tuple[View, ...] = ()
-    moving: Callable[[], str] | None = field(default=None, compare=False)  # the page on which the same plans move
+    # files that hold more than pages, by their suffixes: on which the same plans move
+    beside: Mapping[str, Callable[[], bytes]] = field(default_factory=dict, compare=False)
 
     def save(self, *paths: str | os.PathLike[str], tile: str | None = None) -> list[Path]:
-        """Write the sheet to each of `paths`; the suffix picks the writer: HTML is a page on which the plans move.
+        """Write the sheet to each of `paths`; the suffix picks the writer.
+
+        HTML is a page on which the plans move, GGB their construction for GeoGebra.
 
         A PDF is spread at full size on pages of small paper where a `tile` is said, `A4` or `A3`.
 
@@ -84,15 +87,16 @@ class Sheet:
 
     def warnings_of(self, *paths: str | os.PathLike[str]) -> tuple[InputError, ...]:
         """Return what a user should know of these files: of pages that move nothing that is about paper."""
-        on_paper = any(Path(path).suffix.lower() != PAGE for path in paths)
+        on_paper = any(Path(path).suffix.lower() not in BESIDE for path in paths)
         return tuple(warning for warning in self.warnings if on_paper or warning.key not in ABOUT_PAPER)
 
     def _files(self, path: Path, tile: str | None) -> Files:
-        if path.suffix.lower() != PAGE:
+        suffix = path.suffix.lower()
+        if suffix not in BESIDE:
             return page_files(self.pages, path, tile)
-        if self.moving is None:
+        if suffix not in self.beside:
             raise InputError("output-suffix", file=quote(path, SHOWN), known=", ".join(WRITERS))
-        return [(path, self.moving().encode("utf-8"))]
+        return [(path, self.beside[suffix]())]
 
     def svg(self, page: int = 1) -> str:
         """Return one page, counted from 1, as SVG text; one that the sheet has not is refused."""
@@ -169,7 +173,26 @@ def sheet(
     block |= {"designation": designation, "work": work, "date": date}
     how = set, only, scales, notation, lang, format, norm, block, lettering, positions
     case = Request(load_task(task), variant, *how).case()
-    return replace(draw_case(case), moving=partial(page_of, case))
+    drawn = draw_case(case)
+    made = partial(_page_bytes, case), partial(construction_of, case, drawn.scales)
+    return replace(drawn, beside=dict(zip(BESIDE, made, strict=True)))
+
+
+def _page_bytes(case: Case) -> bytes:
+    return page_of(case).encode("utf-8")
+
+
+def construction_of(case: Case, scales: Mapping[str, Scale]) -> bytes:
+    """Return the construction of a case, with scale factors by plan, as a file of GeoGebra.
+
+    Raises InputError: constructions of this kind of task are not written.
+    """
+    if case.positions is not None:
+        raise InputError("handout-apart", first="--positions", second=f"-o *{CONSTRUCTION}")
+    words = case.words()
+    code = sheet_id(case.task, case.variant, case.settings)
+    about = words["moving.about"].format(task=case.task.id, variant=case.variant, code=code)
+    return case.kind.construction(case, scales, words, (case.task.title[case.language], about))
 
 
 def page_of(case: Case) -> str:

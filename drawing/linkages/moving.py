@@ -242,9 +242,7 @@ def _views(teller: Live) -> Iterator[Data]:
         since = dict.fromkeys(teller.program.names, 0)
         for count in range(len(told), -1, -1):
             since |= {name: count for name, drawn in drawn_by(teller, view, told, count).items() if drawn}
-        shapes = [
-            *(_mechanism(teller) if view == POSITION else _lever(teller) if view == "lever" else _plan(teller, view))
-        ]
+        shapes = [*shapes_of(teller, view)]
         for shape in shapes:
             shape["from"] = since.get(shape.pop("step", ""), 0)
         scale = teller.scales[view]
@@ -252,16 +250,22 @@ def _views(teller: Live) -> Iterator[Data]:
             "name": view,
             "heading": html(plan_heading(teller.words, teller.solved.structure, view)),
             "symbol": html(teller.words.symbol(scale.symbol)),
-            "per": _per(teller, scale),
+            "per": html(per(teller, scale)),
             "by": number_of(teller.words.display.value(1.0, scale.unit)),
             "shapes": shapes,
             "steps": [html(REFERRED.sub("", step.text)) for step in told],
         }
 
 
-def _per(scene: Scene, scale: Scale) -> str:
+def shapes_of(scene: Scene, view: str) -> Iterator[Data]:
+    """Go through the shapes of a view, the mechanism, a plan or the lever; `step` names what draws each of them."""
+    return _mechanism(scene) if view == POSITION else _lever(scene) if view == "lever" else _plan(scene, view)
+
+
+def per(scene: Scene, scale: Scale) -> str:
+    """Return the unit of a scale factor."""
     unit, paper = (scene.words.unit(name) for name in (scene.words.display.unit(scale.unit), scene.words.display.paper))
-    return html(f"({unit})/{paper}" if "/" in unit else f"{unit}/{paper}")
+    return f"({unit})/{paper}" if "/" in unit else f"{unit}/{paper}"
 
 
 def _mechanism(scene: Scene) -> Iterator[Data]:

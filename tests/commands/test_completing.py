@@ -44,7 +44,7 @@ def offered(run: Run, monkeypatch: pytest.MonkeyPatch) -> Offered:
         ("kulman --lang ru batch madi-cam nau-slider-crank --variant V", []),
         ("kulman sheet madi-gear --only mesh", ["meshing"]),
         ("kulman sheet madi-gear --format a", [*SIZES]),
-        ("kulman sheet madi-gear -o x", ["x.svg", "x.pdf", "x.png", "x.dxf", "x.html"]),
+        ("kulman sheet madi-gear -o x", ["x.svg", "x.pdf", "x.png", "x.dxf", "x.html", "x.ggb"]),
         ("kulman sheet madi-gear -o x.p", ["x.pdf", "x.png"]),
         ("kulman sheet madi-gear -o ../my.sheets/", ["file,../my.sheets/"]),
         ("kulman variants nau-slider-crank --quantities M_bal,omega_", ["M_bal,omega_1", "M_bal,omega_2"]),

@@ -185,6 +185,16 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         bounds = {name: given.bound.value for name, given in case.task.givens.items()}
         return moving_linkage(solved, cycle(case.task.mechanism, case.values, plans), case.givens, words, bounds)
 
+    def construction(self, case: Case, scales: Scales, words: Words, titles: tuple[str, str]) -> bytes:
+        """Return the recorded construction with its plans as a file of GeoGebra."""
+        from ...drawing.linkages.geogebra import Construction
+        from ...plans.linkages.cycle import cycle
+
+        solved = placed(case)
+        plans = case.plans if solved is case.solved else (*case.plans, POSITION)
+        turn = cycle(case.task.mechanism, case.values, plans)
+        return Construction(self.scene(case, scales, words), turn).packed(titles)
+
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Tell what is given and what is to be found, then every plan step by step, its equations before it."""
         from ...drawing.linkages.statement import aims, data_table, kinematic_scheme

@@ -33,7 +33,7 @@ from ..marking.report import report_html
 from ..marking.result import class_lines
 from ..notes import Note, note
 from ..reader import check_file, load_task
-from ..sheets import BLOCK, Sheet, draw_case, handout, sheet
+from ..sheets import BESIDE, BLOCK, Sheet, draw_case, handout, sheet
 from ..shelf import bundled
 from ..solution import Solution, solve
 from ..spreadsheets.files import read_grid
@@ -201,7 +201,7 @@ SAVED: Mapping[str, Callable[[Asked], Any]] = {
 }
 KINDS: Mapping[str, tuple[str, ...]] = {
     "sheet": DRAWN,
-    "moving": (PAGE,),
+    "moving": BESIDE,
     "handout": DRAWN,
     "key": DRAWN,
     "note": (".pdf", ".docx", ".md"),

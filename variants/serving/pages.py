@@ -272,7 +272,7 @@ def _downloads(door: Door, place: Place, shown: Shown) -> Html:
         files = (
             tag(
                 "a",
-                said["task.open"] if stem == "moving" else kind[1:].upper(),
+                said["task.open"] if (stem, kind) == ("moving", ".html") else kind[1:].upper(),
                 href=door.link(f"{place.path}/{stem}{kind}", place.query),
                 aria_label=f"{said[f'file.{stem}']}, {kind[1:].upper()}",
             )
