@@ -17,12 +17,14 @@ from .text import Piece, Ruling, read
 INK, THIN, GRIP = (0, 0, 0), (110, 110, 110), (179, 38, 30)  # results, construction, what is meant to be dragged
 FULL, DASHED, AXIS, DOTTED = 0, 10, 30, 20  # types of lines
 FILLED, RING, SUPPORT = 0, 2, 6  # styles of points
-WIDE, HIGH = 1400, 800  # pixels of the view
+WIDE, HIGH = 1240, 760  # pixels of the view, beside the list of objects
 DIGITS = 4  # of numbers
-LINE, LETTER = 18.0, 6.5  # pixels of a line of text and of a letter
-HEADING, VALUE = 46, 18  # letters of a heading, of a value
+LINE, LETTER = 18.0, 7.5  # pixels of a line of text and of a letter
+HEADING, VALUE = 32, 15  # letters of a line of a heading, of a value
 MARGIN, APART = 8.0, 15.0  # mm about drawings, and between them
-SETTLING, TRIED = 4, 24  # times that plans are arranged anew, and widths of shelves each time
+HEAD = 5  # lines over the drawings: titles, a slider
+LARGEST, SMALLEST, STEP = 3.0, 0.01, 0.96  # pixels of a millimetre that are tried, one after the other
+TRIED = 24  # widths of shelves
 RAISED = dict(zip("23nktrem", "²³ⁿᵏᵗʳᵉᵐ", strict=True))
 Colour = tuple[int, int, int]
 Box = tuple[float, float, float, float]  # left, low, right, high, mm
@@ -139,26 +141,28 @@ class Arranged:
 
 def arranged(drawings: Mapping[str, tuple[Box, int]]) -> Arranged:
     """Put drawings beside each other: their boxes about their origins, each with lines of text on its right side."""
-    scale, found = 1.0, Arranged({}, (0.0, 0.0, 1.0, 1.0), LINE)
-    for _ in range(SETTLING):  # texts keep their size on the screen: the smaller the scale, the more room they take
+    scale = LARGEST
+    while True:  # texts keep their size on the screen: the smaller the scale, the more room they take
         cells = {name: _cell(*drawing, scale) for name, drawing in drawings.items()}
         least, most = (of(right - left for left, _, right, _ in cells.values()) for of in (max, sum))
         ways = (_shelved(cells, least + (most - least) * part / TRIED) for part in range(TRIED + 1))
-        places, box = max(ways, key=lambda way: fit(way[1]))
-        found, scale = Arranged(places, box, LINE / scale), fit(box)
-    return found
+        places, (wide, low) = max(ways, key=lambda way: min(WIDE / way[1][0], HIGH / -way[1][1]))
+        found = Arranged(places, (-APART, low, wide, HEAD * LINE / scale), LINE / scale)
+        if fit(found.box) >= scale or scale < SMALLEST:
+            return found
+        scale *= STEP
 
 
 def _cell(box: Box, lines: int, scale: float) -> Box:
     """Return the room of a drawing with its heading and its text."""
     (left, low, right, high), line = box, LINE / scale
     low = min(low, high - line * (lines + 2)) - APART
-    right = max(right + APART + (VALUE * LETTER / scale if lines else 0.0), left + HEADING * LETTER / scale)
-    return left, low, right, high + 2 * line
+    right = max(right + APART + (VALUE * LETTER / scale if lines else 0.0), left + HEADING * LETTER / scale + APART)
+    return left, low, right, high + 3 * line
 
 
-def _shelved(cells: Mapping[str, Box], wide: float) -> tuple[dict[str, complex], Box]:
-    """Put boxes on shelves so wide, in their order; return where the origin of each is, and the box of all of them."""
+def _shelved(cells: Mapping[str, Box], wide: float) -> tuple[dict[str, complex], tuple[float, float]]:
+    """Put boxes on shelves so wide, in their order; return where the origin of each is, and the far corner of all."""
     places: dict[str, complex] = {}
     x = y = deepest = end = 0.0
     for name, (left, low, right, high) in cells.items():
@@ -167,7 +171,7 @@ def _shelved(cells: Mapping[str, Box], wide: float) -> tuple[dict[str, complex],
         places[name] = complex(round(x - left), round(y - high))
         x, deepest = x + right - left, max(deepest, high - low)
         end = max(end, x)
-    return places, (0.0, y - deepest, end, 0.0)
+    return places, (end, y - deepest)
 
 
 def fit(box: Box) -> float:

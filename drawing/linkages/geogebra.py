@@ -58,7 +58,7 @@ LOOKED_AT = 36  # positions whose plans make room for themselves
 USUAL = 0.6  # part of them, the smallest; near a singular position a plan is of any size
 BLOCK, FORCE, RUN = 7.0, 25.0, 12.0  # mm: half a block, a force on the lever, a guide beyond its slider
 HAIR = Look(seen=True, colour=THIN, width=1)
-ARROW = Look(seen=True, labelled=True, width=4)
+ARROW = Look(seen=True, labelled=True, width=3)
 SHAPES = {  # looks of what is drawn between points, by kind
     "bar": Look(seen=True, width=5),
     "guide": replace(HAIR, dashes=AXIS),
@@ -72,6 +72,7 @@ SHAPES = {  # looks of what is drawn between points, by kind
 MARK = Look(seen=True, labelled=True)
 GRABBED = replace(MARK, size=4, colour=GRIP, lists=True)
 POINTS = {"pin": replace(MARK, size=4, style=RING), "pivot": replace(MARK, size=6, style=SUPPORT)}
+NEWLINE = "\n"
 RATES, BALANCES = ("omega", "epsilon"), (M_BAL, F_BAL, by_lever(M_BAL), by_lever(F_BAL))
 
 
@@ -104,13 +105,14 @@ class Construction:
         self._values()
 
     def packed(self, titles: tuple[str, str]) -> bytes:
-        """Return the file; `titles` are the names of the mechanism and of its variant."""
-        left, low, right, _ = self._room.box
+        """Return the file; `titles` are the names of mechanism and variant, there from the first step on."""
         stroke = self.words["geogebra.stroke"] if END in self._needs else ""
         about = " ".join(filter(None, (self.words["geogebra.about"], stroke)))
-        for row, text in ((3, ". ".join(titles)), (2, about)):
-            self._text(string(text), f"({left:.6g}, {row * self._room.line:.6g})")
-        return packed(self.objects, titles[0], (left - APART, low, right, 5 * self._room.line))
+        head = [
+            self._texted(string(text), f"(0, {row * self._room.line:.6g})")
+            for row, text in ((3, ". ".join(titles)), (2, about))
+        ]
+        return packed([*head, *self.objects], titles[0], self._room.box)
 
     def _needed(self) -> Iterator[str]:
         """Go through what the program needs; a rate with its sense may be called like the one that is given."""
@@ -165,7 +167,7 @@ class Construction:
         symbol = self.words.symbol(own if own != "driver" else "phi_1")
         start, si = float(self.cycle.givens[drive.variable]), 1.0 if drive.turns else 1e-3
         low, high = (0.0, TURN) if drive.turns else sorted((self.cycle.range.low / si, self.cycle.range.high / si))
-        at = {"x": f"{room.box[0]:.6g}", "y": f"{room.line:.6g}", "absoluteScreenLocation": False}
+        at = {"x": 0, "y": f"{room.line:.6g}", "absoluteScreenLocation": False}
         more = (
             tag("value", val=repr(start % TURN if drive.turns else start / si)),
             tag("slider", min=repr(low), max=repr(high), width=250, fixed=True, horizontal=True, **at),
@@ -333,17 +335,20 @@ class Construction:
     # texts
 
     def _text(self, said: str, at: str, latex: bool = False) -> None:
+        self._add(*self._texted(said, at, latex))
+
+    def _texted(self, said: str, at: str, latex: bool = False) -> tuple[Item, Look]:
         parts = tag("isLaTeX", val=latex), tag("font", serif=latex, size=-1 if latex else 0, style=0)
         look = Look(seen=True, more="".join((*parts, tag("startPoint", exp=at))))
-        self._add(Item(self._labels.take("t"), "text", "", said), look)
+        return Item(self._labels.take("t"), "text", "", said), look
 
     def _heading(self, plan: str, origin: str) -> None:
         """Add the heading of a plan over it, with its scale factor."""
         words, scale, (left, _, _, high) = self.words, self.teller.scales[plan], self._boxes[plan]
-        name = indexed(f"{self._called(role(plan))}, {words.symbol(scale.symbol)} = ")
+        name = indexed(f"{self._called(role(plan))}{NEWLINE}{words.symbol(scale.symbol)} = ")
         value = _times(self.scales[plan], words.display.value(1.0, scale.unit))
         said = f"{string(name)} + ({value}) + {string(indexed(f' {per(self.teller, scale)}'))}"
-        self._text(said, f"{origin} + ({left:.6g}, {high + 0.3 * self._room.line:.6g})")
+        self._text(said, f"{origin} + ({left:.6g}, {high + 1.6 * self._room.line:.6g})")
 
     def _called(self, plan: Name) -> str:
         if plan.kind == ACCELERATION:
@@ -355,9 +360,10 @@ class Construction:
     def _values(self) -> None:
         """Add what has been found, in SI: beside each plan its quantities, beside the mechanism all others."""
         for plan, (_, _, right, high) in self._boxes.items():
-            rows = f" + {string(chr(10))} + ".join(map(self._value, self._listed(plan)))
+            rows = f" + {string(NEWLINE)} + ".join(map(self._value, self._listed(plan)))
             if rows:
-                self._text(rows, f"{self.board.origin(plan)} + ({right:.6g}, {high - self._room.line:.6g})")
+                at = f"({right + 0.5 * APART:.6g}, {high - self._room.line:.6g})"
+                self._text(rows, f"{self.board.origin(plan)} + {at}")
 
     def _listed(self, plan: str) -> list[str]:
         """Return the names of the quantities that stand beside a plan."""

@@ -191,7 +191,7 @@ def test_letters_are_those_of_the_sheet() -> None:
     }
     assert "e" in texts  # no label of GeoGebra
     assert r"a^{n}_{ED}" in texts
-    assert any(text.startswith("План швидкостей, μ_{V} = 0.004") for text in texts)
+    assert any(text.startswith("План швидкостей\nμ_{V} = 0.004") for text in texts)
     speeds = next(text for text in texts if text.startswith("V_{A} = ")).splitlines()
     (speed,) = (float(line.split()[2]) for line in speeds if line.startswith("V_{E} "))
     assert speed == pytest.approx(abs(solved_with("scheme-09-shaper")["V_E"]))
