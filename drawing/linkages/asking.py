@@ -277,9 +277,8 @@ def meanings(scene: Scene) -> dict[str, str]:
     found = dict[str, str]()
     for name in scene.quantities:
         said, symbol = role(name), scene.words.symbol(name)
-        if said.kind in ("omega", "epsilon") and not said.part:  # as data are called
-            called = scene.words[f"called.{said.kind}"].format(link=said.of)
-            found[symbol] = f"{called[:1].lower()}{called[1:]}"
+        if said.kind in ("omega", "epsilon") and not said.part:
+            found[symbol] = scene.words[f"meant.{said.kind}"].format(link=said.of)
         elif told := meaning(scene.mechanism, scene.words, name):
             found[symbol] = told
     return found

@@ -211,6 +211,8 @@ def _segment(scene: Scene, name: str, plan: str) -> Line:
 
 def _length(scene: Scene, start: str, end: str) -> Factor:
     words, name = scene.words, f"l_{start}{end}"
+    if name in scene.quantities:  # which is measured
+        return factor(scene, name)
     size = words.display.value(abs(scene.solved.point(end) - scene.solved.point(start)), "m")
     exact = name in scene.givens
     return Factor(words.symbol(name), float(f"{size:.12g}") if exact else size, exact)

@@ -10,10 +10,12 @@ from functools import lru_cache
 from itertools import repeat
 
 from ...scales.choices import DSTU_3008, PLAIN
+from ..formats import FORMATS
 from ..page import Page, extent
 from ..shapes import Text, shifted
 from ..svg import svg_text
 from ..text import Piece, Ruling, read
+from ..titleblock import Stamp, text_frame
 from ..view import View
 
 FOLDED, FOLDED_ROOM = "A3", (267.0, 340.0)  # the sheet of a figure that is too large, and its room there, mm
@@ -316,6 +318,24 @@ def figure_page(figure: Figure, language: str) -> Page:
 def figure_svg(figure: Figure, language: str) -> bytes:
     """Return the figure as SVG for a reader that has its font."""
     return svg_text(figure_page(figure, language), with_font=False).encode("utf-8", "replace")
+
+
+def framed_pages(document: Document) -> dict[str, Page]:
+    """Return frames of pages of a text by their forms: of the first one bare, then with title blocks `2` and `2a`."""
+    page, sheet = document.title, FORMATS["A4"]
+    stamp = Stamp(
+        title=page.title,
+        designation=page.designation,
+        organisation=page.department,
+        group=page.group,
+        student=page.student,
+        teacher=page.teacher,
+        date=page.date,
+        document_type=page.document_type,
+        language=document.language,
+    )
+    forms = {form: text_frame(sheet, stamp, form) for form in ("", "2", "2a")}
+    return {form: Page(sheet.width, sheet.height, forms[form], page.title, document.language) for form in forms}
 
 
 def said_under(figure: Figure, said: dict[str, str]) -> tuple[str, ...]:

@@ -19,6 +19,7 @@ from ...scales.packaged import home, packaged
 from ..font import SCREEN, SLANTED, UPRIGHT, font
 from ..formats import FORMATS
 from ..pdf import write_png
+from ..svg import svg_text
 from ..tables import cells as cells_of
 from ..text import lay_out
 from . import blocks as note
@@ -43,6 +44,14 @@ HEIGHT = 2.8  # mm of a capital of the text: lines are estimated with the font o
 _BEFORE = 85.0, 30.0  # mm before names, before the date
 EMU = 36000  # of a millimetre
 WIDE = 180.0  # mm of a line
+FRAMES = 9001  # numbers of the pictures of frames, beyond those of figures
+HIGH_2 = 37.0  # mm of the foot of a page that form 2 takes, over the distance of footers
+# fields in cells of title blocks by their form: mm from the top left corner of a page, width, height
+NUMBERED = {
+    "": (),
+    "2": (("PAGE", (170.0, 272.0, 15.0, 5.0)), ("NUMPAGES", (185.0, 272.0, 20.0, 5.0))),
+    "2a": (("PAGE", (195.0, 284.0, 10.0, 8.0)),),
+}
 PERCENT = 5000  # fiftieths of a per cent
 OF_NUMBER = 14.0  # mm at the end of a line for the number of an equation
 KEPT = "<w:keepNext/>"  # of a paragraph that stands on the page of what follows
@@ -83,12 +92,16 @@ def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) ->
     _pages(word, document.profile)
     _sign(word, document)
     drawings = drawings_of(document.blocks, document.language) if drawings is None else drawings
-    pictures = [_picture(word, drawing, number) for number, drawing in enumerate(drawings, 1)]
-    _append(word, f"{''.join((*_title(document), *_contents(document)))}{blocks_in_word(document, pictures)}")
+    pictures = [_picture(word.part, drawing, number) for number, drawing in enumerate(drawings, 1)]
+    _append(word, "".join(_title(document)))
+    if document.profile.framed:
+        _frame(word, document)
+    _append(word, f"{''.join(_contents(document))}{blocks_in_word(document, pictures)}")
     if any(isinstance(block, Figure) and block.folded for block in document.blocks):
         section, sheet = word.add_section(), FORMATS[f"{note.FOLDED}-portrait"]  # for what is too large for a page
         section.page_width, section.page_height = docx.shared.Mm(sheet.width), docx.shared.Mm(sheet.height)
         section.different_first_page_header_footer = False  # numbers of pages go on
+        section.header.is_linked_to_previous = False  # no frame of a smaller page
         _append(word, folded_in_word(document, pictures))
     stream = BytesIO()
     word.save(stream)
@@ -145,7 +158,7 @@ def _dress(word: Word, document: Document) -> None:
     for kind, name in dressed.items():
         text = (home(__package__) / "word" / f"{name}.xml").read_text(encoding="utf-8")
         looks = document.profile
-        sizes = {"size": round(2 * looks.size), "between": round(240 * looks.lines)}
+        sizes = {"size": round(2 * looks.size), "between": round(240 * looks.lines), "wide": round(looks.wide * TWIPS)}
         locale = packaged(__package__, "texts", document.language)["locale"]
         filled = parse_xml(text.format(lang=locale, lists=numbers, **sizes))
         parts.part_related_by(kind).element[:] = list(filled)
@@ -158,12 +171,46 @@ def _pages(word: Word, profile: Profile) -> None:
     section = word.sections[0]
     section.page_width, section.page_height = Mm(210), Mm(297)
     section.left_margin, section.right_margin = Mm(profile.left), Mm(profile.right)
-    section.top_margin, section.bottom_margin = Mm(profile.top), Mm(20)
+    section.top_margin, section.bottom_margin = Mm(profile.top), Mm(profile.bottom)
     section.header_distance = section.footer_distance = Mm(10)
     section.different_first_page_header_footer = True
     section.footer.is_linked_to_previous = False
-    section.footer.part.element[:] = _parsed(
-        _paragraph("Footer", f'<w:fldSimple w:instr=" PAGE ">{words("2")}</w:fldSimple>')
+    section.footer.part.element[:] = _parsed(_paragraph("Footer", "" if profile.framed else _field("PAGE")))
+
+
+def _field(code: str) -> str:
+    return f'<w:fldSimple w:instr=" {code} ">{words("2")}</w:fldSimple>'
+
+
+def _frame(word: Word, document: Document) -> None:
+    """Draw the frame of each page behind its text: of the title page, with form 2 of the contents, then form 2a.
+
+    Numbers stand in cells of the title blocks; what forms take is left free by a footer.
+    """
+    word.add_section()
+    first, own = word.sections
+    first.different_first_page_header_footer, own.different_first_page_header_footer = False, True
+    headers = {"": first.header, "2": own.first_page_header, "2a": own.header}
+    for number, (form, page) in enumerate(note.framed_pages(document).items(), FRAMES):
+        header, png = headers[form], BytesIO()
+        header.is_linked_to_previous = False
+        write_png([page], png, DPI)
+        svg = outlined(svg_text(page, with_font=False).encode("utf-8"))
+        picture = _picture(header.part, Drawing(png.getvalue(), svg), number)
+        cells = "".join(_paragraph("Footer", _field(code), _placed(*box)) for code, box in NUMBERED[form])
+        size = round(page.width * EMU), round(page.height * EMU)
+        header.part.element[:] = _parsed(cells + _paragraph("Footer", _behind(picture, number, size)))
+    own.first_page_footer.is_linked_to_previous = False
+    high = f'<w:spacing w:before="0" w:after="0" w:line="{round(HIGH_2 * TWIPS)}" w:lineRule="exact"/>'
+    own.first_page_footer.part.element[:] = _parsed(_paragraph("Footer", "", high))
+
+
+def _placed(x: float, y: float, wide: float, high: float) -> str:
+    """Return where a paragraph stands on its page, mm from the top left corner."""
+    box = {"w": wide, "h": high, "x": x, "y": y}
+    sizes = " ".join(f'w:{name}="{round(mm * TWIPS)}"' for name, mm in box.items())
+    return (
+        f'<w:framePr {sizes} w:hRule="exact" w:wrap="around" w:vAnchor="page" w:hAnchor="page"/><w:jc w:val="center"/>'
     )
 
 
@@ -184,15 +231,15 @@ def _short(text: str) -> str:
     return note.printable(text)[:LONGEST]
 
 
-def _picture(word: Word, drawing: Drawing, number: int) -> Picture:
-    """Put the picture of a figure into the document."""
+def _picture(owner: Any, drawing: Drawing, number: int) -> Picture:
+    """Put the picture of a figure into a part of the document."""
     from docx.opc.constants import RELATIONSHIP_TYPE as KIND
     from docx.opc.packuri import PackURI
     from docx.opc.part import Part
 
     name = PackURI(f"/word/media/figure{number}.svg")
-    part = Part(name, "image/svg+xml", drawing.svg, word.part.package)
-    return word.part.get_or_add_image(BytesIO(drawing.png))[0], word.part.relate_to(part, KIND.IMAGE)
+    part = Part(name, "image/svg+xml", drawing.svg, owner.package)
+    return owner.get_or_add_image(BytesIO(drawing.png))[0], owner.relate_to(part, KIND.IMAGE)
 
 
 def _undated(data: bytes) -> bytes:
@@ -333,7 +380,7 @@ def _title(document: Document) -> Iterator[str]:
 
 def _contents(document: Document) -> Iterator[str]:
     """Go through the contents, a field with its entries; their pages are known when it is updated."""
-    yield _paragraph("TOCHeading", words(packaged(__package__, "texts", document.language)["contents"]))
+    yield _paragraph("TOCHeading", words(packaged(__package__, "texts", document.language)["contents"].upper()))
     before = _begun(r'TOC \o "1-2" \h \z \u')
     entries = [block for block in document.blocks if isinstance(block, Heading)]
     counted = accumulate(block.numbered for block in entries)
@@ -483,19 +530,37 @@ def _drawing(figure: Figure, picture: Picture, number: int) -> str:
     """Return a picture as large as the figure is shown; what it shows is told to who cannot see it."""
     cx, cy = (round(mm * figure.share * EMU) for mm in figure.view.size)
     told = quoted("; ".join(map(note.letters, (figure.caption, *figure.under))))
-    size = f'cx="{cx}" cy="{cy}"'
-    name = f'id="{number}" name="{quoted(figure.view.name)}" descr="{told}"'
+    name, size = f'id="{number}" name="{quoted(figure.view.name)}" descr="{told}"', f'cx="{cx}" cy="{cy}"'
+    return (
+        f'<w:r><w:drawing><wp:inline distT="0" distB="0" distL="0" distR="0"><wp:extent {size}/><wp:docPr {name}/>'
+        f"{_graphic(picture, name, size)}</wp:inline></w:drawing></w:r>"
+    )
+
+
+def _behind(picture: Picture, number: int, extent: tuple[int, int]) -> str:
+    """Return a picture that covers its page behind the text."""
+    name, size = f'id="{number}" name="frame{number}"', f'cx="{extent[0]}" cy="{extent[1]}"'
+    at = "".join(
+        f'<wp:position{way} relativeFrom="page"><wp:posOffset>0</wp:posOffset></wp:position{way}>' for way in "HV"
+    )
+    return (
+        '<w:r><w:drawing><wp:anchor distT="0" distB="0" distL="0" distR="0" simplePos="0" relativeHeight="0" '
+        'behindDoc="1" locked="0" layoutInCell="1" allowOverlap="1"><wp:simplePos x="0" y="0"/>'
+        f'{at}<wp:extent {size}/><wp:effectExtent l="0" t="0" r="0" b="0"/><wp:wrapNone/><wp:docPr {name}/>'
+        f"<wp:cNvGraphicFramePr/>{_graphic(picture, name, size)}</wp:anchor></w:drawing></w:r>"
+    )
+
+
+def _graphic(picture: Picture, name: str, size: str) -> str:
     sharp = (
         f'<a:extLst><a:ext uri="{{96DAC541-7B7A-43D3-8B79-37D633B846F1}}"><asvg:svgBlip xmlns:asvg="{_SVG}" '
         f'r:embed="{picture[1]}"/></a:ext></a:extLst>'
     )
     return (
-        f'<w:r><w:drawing><wp:inline distT="0" distB="0" distL="0" distR="0"><wp:extent {size}/><wp:docPr {name}/>'
         f'<a:graphic xmlns:a="{_PICTURES}/main"><a:graphicData uri="{_PICTURES}/picture">'
         f'<pic:pic xmlns:pic="{_PICTURES}/picture"><pic:nvPicPr><pic:cNvPr {name}/><pic:cNvPicPr/></pic:nvPicPr>'
         f'<pic:blipFill><a:blip r:embed="{picture[0]}">{sharp}</a:blip>'
         "<a:stretch><a:fillRect/></a:stretch></pic:blipFill>"
         f'<pic:spPr><a:xfrm><a:off x="0" y="0"/><a:ext {size}/></a:xfrm>'
         '<a:prstGeom prst="rect"><a:avLst/></a:prstGeom></pic:spPr></pic:pic></a:graphicData></a:graphic>'
-        "</wp:inline></w:drawing></w:r>"
     )

@@ -15,11 +15,8 @@ from typing import Any
 from ...scales.choices import PLAIN
 from ...scales.errors import InputError
 from ...scales.packaged import home, packaged
-from ..formats import FORMATS
-from ..page import Page
 from ..svg import svg_text
 from ..tables import cells
-from ..titleblock import Stamp, text_frame
 from . import blocks as note
 from .blocks import Block, Document, Equations, Figure, Heading, Profile, Sentences, Steps, Table
 
@@ -204,7 +201,10 @@ def pdf_bytes(document: Document, body: Body | None = None) -> bytes:
     typst, body = _typst(), body or Body.of(document.blocks, document.language, document.profile)
     files = body.source(document.title.title, document.language, _title(document))
     if document.profile.framed:
-        files |= {f"form-{form}.svg" if form else "frame.svg": _framed(document, form) for form in ("", "2", "2a")}
+        files |= {
+            f"form-{form}.svg" if form else "frame.svg": svg_text(page, with_font=False).encode()
+            for form, page in note.framed_pages(document).items()
+        }
     return bytes(typst.compile(files, font_paths=_fonts()))
 
 
@@ -244,26 +244,8 @@ def _title(document: Document) -> str:
 #align(center)[{_text(page.date)}]
 #align(center)[#text(size: 9pt)[{_text(page.identity)}]]
 ]
-{reserved}#outline(title: {_quoted(said["contents"])})
+{reserved}#outline(title: align(center, {_quoted(said["contents"].upper())}))
 #pagebreak()"""
-
-
-def _framed(document: Document, form: str) -> bytes:
-    """Return the frame of a page, with the title block of a form, as SVG."""
-    page, sheet = document.title, FORMATS["A4"]
-    stamp = Stamp(
-        title=page.title,
-        designation=page.designation,
-        organisation=page.department,
-        group=page.group,
-        student=page.student,
-        teacher=page.teacher,
-        date=page.date,
-        document_type=page.document_type,
-        language=document.language,
-    )
-    shapes = text_frame(sheet, stamp, form)
-    return svg_text(Page(sheet.width, sheet.height, shapes, page.title, document.language), with_font=False).encode()
 
 
 def _block(block: Block, number: int, place: int, said: dict[str, str]) -> str:

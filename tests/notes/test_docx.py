@@ -382,3 +382,22 @@ def test_without_the_extra_a_line_says_so_and_nothing_is_written(
     assert (left.value.code, out, err.count("\n")) == (2, "", 1)
     assert "pip install fonttools pypdfium2 python-docx" in err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_framed_note_has_its_frames_behind_the_text_and_numbers_in_their_cells() -> None:
+    pages = word_of(docx_bytes(note("nau-slider-crank", "3", profile="dstu3008").document))
+    first, own = pages.sections
+    headers = [part.part for part in (first.header, own.first_page_header, own.header)]
+    fields = [re.findall(r' w:x="(\d+)"|instr=" (\w+) "', part.blob.decode()) for part in headers]
+
+    assert [own.different_first_page_header_footer, first.different_first_page_header_footer] == [True, False]
+    assert [["".join(field) for field in found] for found in fields] == [
+        [],
+        ["9638", "PAGE", "10488", "NUMPAGES"],
+        ["11055", "PAGE"],
+    ]
+    for part in headers:
+        assert 'behindDoc="1"' in part.blob.decode()
+        pictures = {rel.target_part.partname.ext for rel in part.rels.values()}
+        assert pictures == {"png", "svg"}
+    assert len({rel.target_part.sha1 for part in headers for rel in part.rels.values() if "png" in rel.target_ref}) == 3
