@@ -307,7 +307,7 @@ def test_a_profile_frames_all_pages_with_their_title_blocks() -> None:
         30,
         10,
         20,
-        20,
+        25,
     ]
     with pytest.raises(InputError, match="dstu3008"):
         note(TASK, profile="dstu")
