@@ -13,7 +13,7 @@ from ..scales.errors import InputError, Written
 from ..scales.names import latin, of_kind, unknown
 from ..scales.numbers import SHOWN, quote
 from .spreadsheets.files import read_grid
-from .spreadsheets.grid import LOOKED_AT, Grid, about_kind, quantity_part, split_unit, symbol
+from .spreadsheets.grid import LOOKED_AT, ORDINALS, Grid, about_kind, quantity_part, split_unit, symbol, tidy
 from .task import LocatedError, Task
 
 WHO = ("student", "group", "book", "number", "email")
@@ -183,7 +183,8 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
             return Entry(Who.of(columns.said(row)), "", {}, grid.place(row), error)
 
     said = {*columns.about.values(), *columns.givens}
-    unread = (text for n, text in enumerate(grid.rows[header]) if n not in said and any(map(str.isalpha, text)))
+    others = (text for column, text in enumerate(grid.rows[header]) if column not in said)
+    unread = (text for text in others if any(map(str.isalpha, text)) and tidy(text) not in ORDINALS)
     return Roster(tuple(map(read, rows)), tuple(unread))
 
 
@@ -306,11 +307,7 @@ def variant_of_book(task: Task, book: str, digits: int | str | Digits = 1) -> st
     number = meant.number(VARIANT, book)
     if number is None:
         return ""
-    names = dict[int, str]()
-    for name in task.variants:  # by the one number in the id of each, `7`, `V07`; those without one are left out
-        if own := re.fullmatch(r"[^\W\d]*(\d{1,9})", name):
-            names.setdefault(int(own[1]), name)
-    names = names or dict(enumerate(task.variants, 1))
+    names = task.numbered or dict(enumerate(task.variants, 1))
     if number not in names:
         number = number or meant.top(VARIANT)
     order = list(names.values())

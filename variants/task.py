@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from numbers import Real
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from ..plans.hoist.hoist import Hoist
 
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+_NUMBERED = re.compile(r"[^\W\d]*(\d{1,9})")  # the id of a variant
 ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written, with a unit or without
 
 AnyTask: TypeAlias = "str | os.PathLike[str] | Task"  # an id or a file, or one that is read already
@@ -156,12 +158,23 @@ class Task:
         return decoded(Path(self.file).read_bytes()) if self.file else bundled_text(self.id)
 
     def variant(self, variant_id: str | None = None) -> Variant:
-        """Return a variant, the first one without an id."""
+        """Return a variant, the first one without an id; a number alone means that which has it: 4 is `V04`."""
         if variant_id is None:
             return next(iter(self.variants.values()))
-        if str(variant_id) not in self.variants:
+        said = str(variant_id).strip()
+        found = said if said in self.variants else self.numbered.get(int(said) if said.isdecimal() else -1)
+        if found is None:
             raise unknown("variant-unknown", variant_id, self.variants, task=self.id)
-        return self.variants[str(variant_id)]
+        return self.variants[found]
+
+    @property
+    def numbered(self) -> dict[int, str]:
+        """The ids of the variants by the one number in each, `7`, `V07`; those without one are left out."""
+        names = dict[int, str]()
+        for name in self.variants:
+            if own := _NUMBERED.fullmatch(name):
+                names.setdefault(int(own[1]), name)
+        return names
 
     def resolve(
         self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None

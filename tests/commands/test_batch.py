@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -366,6 +367,9 @@ def entry_of(folder: Path, head: str, row: str) -> Entry:
         ("Фамилия;Имя;Зачётка;Вариант", "Петренко;Иван;7;3", Who("Петренко Иван", book="7")),
         ("First name,Last name,ID number,Variant", "Ivan,Petrenko,42,3", Who("Petrenko Ivan", number="42")),
         ("Ім’я;Варіант", "Іван;3", Who("Іван")),
+        ("Ф.И.О. студента;Гр.;№ зач. книжки;Вар.", "Иван П;АТ;12;3", Who("Иван П", "АТ", "12")),
+        ("П.І.Б.;Шифр групи;Залікова книжка №;Вар.", "Іван П;АТ;12;3", Who("Іван П", "АТ", "12")),
+        ("Фамилия И.О.;Учебная группа;Зач. кн.;Вар.", "Иван П;АТ;12;3", Who("Иван П", "АТ", "12")),
         ("Прізвище, ім'я;Варіант", "Петренко Іван;3", Who("Петренко Іван")),
     ],
 )
@@ -390,3 +394,12 @@ def test_columns_that_say_nothing_are_named(tmp_path: Path, run: Run) -> None:
 
     assert status == 2
     assert err.splitlines()[0] == "class.csv: columns that are not read: Кут, note"
+
+
+def test_what_is_wrong_with_many_students_is_told_once(tmp_path: Path) -> None:
+    rows = [f"Student {n};MM;{'x' if n in (2, 3, 4, 7) else 3};" for n in range(1, 9)]
+
+    told = batch(TASK, roster(tmp_path, *rows), tmp_path / "out", kinds=["card"], jobs=1).told
+
+    assert len(told) == 1
+    assert re.search(r"csv: C3–C5, C8: .*x", told[0])

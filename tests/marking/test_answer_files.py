@@ -416,3 +416,12 @@ def test_arms_on_the_lever_are_asked_and_read_in_millimetres_and_those_of_couple
     (file := tmp_path / "answers.csv").write_text(f"{HEAD}h_lever_F_i2;;;12,5;мм;\n", encoding="utf-8")
 
     assert read_answers(file, ASKED)[0].lines["h_lever_F_i2"].mm == 12.5
+
+
+def test_greek_letters_that_a_code_page_has_not_are_known_by_what_is_left(tmp_path: Path) -> None:
+    text = "студент;μ_V;V_B, мм;ω_1, рад/с;ω_2, рад/с;ω_2, направление;ε_2, рад/с²\nА;0,1;56;-147;15,7;+;-3940\n"
+
+    (student,) = read(tmp_path, text.encode("cp1251", "replace"))
+
+    assert {*student.scales, *student.lines} == {"mu_V", "V_B", "omega_1", "omega_2", "epsilon_2"}
+    assert (student.lines["omega_2"].sense, student.lines["epsilon_2"].value) == (1, -3940.0)

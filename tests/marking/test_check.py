@@ -244,6 +244,8 @@ def test_a_record_book_gives_the_variant() -> None:
         assert variant_of_book(load_task(TASK), book, digits) == variant
     with pytest.raises(InputError, match="at least so many digits: 1"):
         variant_of_book(load_task(TASK), "АТ")
+    hoists = Schemes((load_task("karpenko-hoist"),), Digits.of(1))
+    assert hoists.variant_of(hoists.tasks[0], "4", "") == "V04"
     schemes = Schemes((load_task(TASK),), Digits.of(1))  # of a class that is drawn
     assert schemes.variant_of(schemes.tasks[0], "", "АТ-2023/417") == "7"
     with pytest.raises(InputError, match="record book"):

@@ -54,6 +54,7 @@ NOTES = {NOTE: ".pdf", "docx": ".docx"}
 FORMS = (*SHEETS, *NOTES, HANDOUT, CARD)
 _SUFFIXES = {*WRITERS, *NOTES.values()}
 JOURNAL = ".kulman-batch.jsonl"
+_PLACED = re.compile(r"(.+?: )([A-Z]{0,3})([0-9]+)([:,] .+)", re.DOTALL)  # a problem: file, column, row, what it is
 _OWN = re.compile(rf"[0-9]{{3,}}-.+|(?:manifest|key)\b.*\.csv|{re.escape(JOURNAL)}")  # names of files of a batch
 
 
@@ -116,6 +117,27 @@ class Batch:
     def problems(self) -> list[str]:
         """Why students have got nothing, a line each."""
         return [outcome.problem for outcome in self.outcomes if outcome.problem]
+
+    @property
+    def told(self) -> list[str]:
+        """The same problems, in one line those that several students have: `class.csv: E3–E6, E9: no such variant`."""
+        several = dict[tuple[str, str, str], list[int]]()
+        for problem in self.problems:
+            found = _PLACED.fullmatch(problem)
+            before, column, row, after = found.groups() if found else (problem, "", "", "")
+            several.setdefault((before, column, after), []).extend([int(row)] if row else [])
+        return [f"{before}{_spans(rows, column)}{after}" for (before, column, after), rows in several.items()]
+
+
+def _spans(rows: Sequence[int], column: str) -> str:
+    """Return the places of cells of a column, of neighbours the first and the last.
+
+    >>> _spans([3, 4, 5, 9], "E")
+    'E3–E5, E9'
+    """
+    starts = [row for row in rows if row - 1 not in rows]
+    ends = [row for row in rows if row + 1 not in rows]
+    return ", ".join(f"{column}{a}" + f"–{column}{b}" * (b > a) for a, b in zip(starts, ends, strict=True))
 
 
 @dataclass(frozen=True)

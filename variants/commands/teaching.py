@@ -157,7 +157,7 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
     console.warn(made.warnings)
     n, bad = len(made.students), made.problems
     click.echo(messages(system_language())["batch-done"].format(n=n, done=n - len(bad)))
-    for problem in bad:
+    for problem in made.told:
         click.echo(problem, err=True)
     return (
         console.refuse(InputError("batch-problems", n=len(bad), file=quote(Path(folder) / MANIFEST, SHOWN)))

@@ -82,7 +82,7 @@ class Mu:
 class Asked:
     """What can be answered in a task: its quantities, its scale factors, and the units in which it shows results.
 
-    `others` are names of plans that are not marked now; answers to them are passed over.
+    `others` are names of what is not marked now, of other plans or given; answers to them are passed over.
     """
 
     quantities: Mapping[str, Quantity]

@@ -226,18 +226,17 @@ def check(
     [80.9]
     """
     of = load_task(task)
-    if variant is not None:
-        of.variant(variant)
+    variant = None if variant is None else of.variant(variant).id
     if format is not None:
         format_named(format)
     Digits.of(digits)
     plans, language = None if only is None else plans_wanted(only, of), "en" if lang is None else lang
     request = Request(of, variant, by_name("set", set), plans, by_name("scales", scales), notation, language, format)
     unformatted = replace(request, variant=fullest(request), format=None)  # the same is asked on every format
-    asked = asked_of(solved(unformatted))
-    if plans is not None:
-        whole = asked_of(solved(replace(unformatted, only=None)))
-        asked = replace(asked, others=frozenset(whole.names).difference(asked.names))
+    solution = solved(unformatted)
+    asked, whole = asked_of(solution), solution if plans is None else solved(replace(unformatted, only=None))
+    every = *whole.quantities, *asked_of(whole).names  # the key of a class says them all
+    asked = replace(asked, others=frozenset(every).difference(asked.names))
     marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked, directions)
     students = None if roster is None else read_roster(os.fspath(roster), of)
     return Check(request, marking, asked, students, digits, own)

@@ -171,6 +171,8 @@ def variant_of(terms: Terms, answers: Answers, entry: Entry | None) -> tuple[str
     if other and other != task.id:
         notes.append(InputError("marked-task", text=quote(other), task=quote(task.id)))
     book = answers.who.book or (entry.who.book if entry else "")
+    with suppress(InputError):
+        said = task.variant(said).id if said else ""
 
     def by_book() -> str:
         return variant_of_book(task, book, terms.digits) if book else ""

@@ -5,11 +5,13 @@ from __future__ import annotations
 import glob
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, NamedTuple, SupportsFloat, TypeVar
 
+from ...drawing.words import GREEK
 from ...plans.marking.answers import FREE, Answer
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError, Written
@@ -62,8 +64,14 @@ class Answers:
         return f"<Answers {self.source}: {len(self.lines)}>"
 
 
-def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answers]:
+Warn = Callable[[KulmanError], None]
+
+
+def read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn | None = None) -> list[Answers]:
     """Return the answers that a file holds: of one student, or of a class; `called` is its name in messages.
+
+    Whoever is there to `warn` is told of columns of a class that nobody knows; else they are a problem of the first
+    student who has answered.
 
     Raises
     ------
@@ -76,15 +84,46 @@ def read_answers(file: str | Path, asked: Asked, called: str = "") -> list[Answe
         kinds = _first(map(column_kind, texts))
         if "name" in kinds and not kinds.keys().isdisjoint(PARTS):
             return [_form(grid, row, kinds, asked)]
+        texts = _with_greek(texts, asked)
         parts = ((column, quantity_part(text)) for column, text in enumerate(texts))
         columns = {column: part for column, part in parts if part is not None and part[0] in asked.names}
         about = _first(map(about_kind, texts))
         if len(columns) > 1 or (columns and about):
-            students = list(_class(grid, row, columns, about, asked))
+            students = list(_class(grid, row, columns, about, asked, warn))
             if len(students) > 1 and about.keys().isdisjoint(NAMED):
                 raise LocatedError(grid.place(row), InputError("answers-nameless"))
             return students
     raise InputError("answers-header", file=quote(grid.file, SHOWN))
+
+
+def _with_greek(texts: Sequence[str], asked: Asked) -> list[str]:
+    """Return headers of a class with their Greek letters where cp1251, which has none, left question marks.
+
+    What stands behind the letter tells the quantity, and its unit; of several it is the next in the form's order.
+    """
+    left = [name for name in asked.names if name.partition("_")[0] in GREEK]
+    found, whole = "", list[str]()
+    for text in texts:
+        head, written = split_unit(text)
+        if not head.startswith("?_"):
+            whole.append(text)
+            continue
+        if column_kind(written) != "direction" or not found.endswith(head[1:]):
+            fits = (
+                n for n in left if n.partition("_")[2] == head[2:] and _has_unit(n, written.replace("?", "2"), asked)
+            )
+            found = next(fits, "")
+            left = [name for name in left if name != found]
+        whole.append(text.replace("?", found.partition("_")[0] or "?", 1))
+    return whole
+
+
+def _has_unit(name: str, written: str, asked: Asked) -> bool:
+    """Whether a unit may stand over a quantity; none does over scale factors and plain numbers."""
+    wanted = unit("1" if name in asked.scales else asked.quantities[name].unit)
+    with suppress(InputError):
+        return unit(written or "1").dimension == wanted.dimension
+    return False
 
 
 def answers_of(said: Mapping[str, Any], asked: Asked) -> Answers:
@@ -307,7 +346,12 @@ def _form_row(sheet: _Sheet, row: int, kinds: Mapping[str, int], columns: Column
 
 
 def _class(
-    grid: Grid, header: int, columns: Mapping[int, tuple[str, str, str]], about: Mapping[str, int], asked: Asked
+    grid: Grid,
+    header: int,
+    columns: Mapping[int, tuple[str, str, str]],
+    about: Mapping[str, int],
+    asked: Asked,
+    warn: Warn | None,
 ) -> Iterator[Answers]:
     """Go through the students of a class; `columns` hold answers: name, part and unit of each."""
     by_name: dict[str, dict[str, tuple[int, str]]] = {}
@@ -320,21 +364,27 @@ def _class(
     asked_here = tuple(name for name in by_name if name in asked.quantities)
     strangers = list[LocatedError]()
     for column, text in enumerate(grid.rows[header]):  # what looks like a quantity and is none
-        of, read = quantity_part(text), column in columns or column in about.values()
+        lost = (text, "", "") if text.startswith("?_") else None
+        of, read = quantity_part(text) or lost, column in columns or column in about.values()
         if of is not None and not read and of[0] not in asked.others and ("_" in text or of[1]):
             error = unknown("quantity-unknown", of[0], asked.names)
             strangers.append(LocatedError(f"{grid.place(header, column)}, {quote(text)}", error))
+    if warn is not None:
+        for error in strangers:
+            warn(error)
     for row in range(header + 1, len(grid.rows)):
         if cells.NONE.issuperset(grid.rows[row]) or grid.totals(row):
             continue
         said = {kind: grid.text(row, column) for kind, column in about.items() if grid.text(row, column)}
-        sheet, strangers = _Sheet(grid, asked, strangers), []  # told once, not for each student
+        sheet = _Sheet(grid, asked)
         for name, parts in by_name.items():
             first, written = next(iter(parts.values()))
             if name in asked.scales:
                 sheet.scale(_Cell(row, first, name, written))
             else:
                 sheet.reply(row, name, parts, grid.place(row, min(column for column, _ in parts.values())))
+        if strangers and not warn and sheet.lines:
+            sheet.problems[:0], strangers = strangers, []  # told once, not for each student
         yield sheet.answers(grid.place(row), said, asked_here)
 
 
@@ -394,9 +444,7 @@ def _exchanged(line: Reply, asked: Asked) -> Reply:
     return replace(line, mm=mm, value=value, rounded=None)
 
 
-def read_all(
-    names: Sequence[str], task: str, asked: Asked, warn: Callable[[KulmanError], None] | None
-) -> list[Answers]:
+def read_all(names: Sequence[str], task: str, asked: Asked, warn: Warn | None) -> list[Answers]:
     """Read all answers; a file that cannot be read is told of and has its place, and those beside it are marked.
 
     Raises
@@ -408,7 +456,7 @@ def read_all(
     for file in inside:
         try:
             of_source = file == _printed(task)
-            answers = read_answers(file, asked, PRINTED if of_source else "")
+            answers = read_answers(file, asked, PRINTED if of_source else "", warn)
         except InputError as error:
             if warn is None or len(inside) == 1:
                 raise

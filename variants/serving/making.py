@@ -335,7 +335,7 @@ def drawn_class(
     found = batch([one.load() for one in tasks], file, folder, lang=language, jobs=jobs, advance=advance, **how)
     files = sorted(path for path in folder.rglob("[!.]*") if path.is_file())
     _zipped(files, Path("..") / KEEP / archive, folder)
-    told = (*(warning.text(language) for warning in found.warnings), *found.problems)
+    told = (*(warning.text(language) for warning in found.warnings), *found.told)
     return Done(archive, told)
 
 

@@ -26,6 +26,8 @@ LONGEST_HEAD = 300  # characters over a column; what is longer says nothing of o
 UNDERSTOOD: Mapping[str, Any] = packaged(__package__, "texts", "understood")
 _COLUMN_OF = {word: kind for kind, words in UNDERSTOOD["columns"].items() for word in words}
 _ABOUT_OF = {word: kind for kind, words in UNDERSTOOD["about"].items() for word in words}
+_ABOUT_LIKE = {kind: re.compile("|".join(words)) for kind, words in UNDERSTOOD["about_like"].items()}
+ORDINALS = frozenset(UNDERSTOOD["ordinals"])  # over the numbers of rows
 _COMMA = re.compile("[,:]")  # before a unit without brackets
 # a column of a class: a quantity, a part of its answer, a unit
 _QUANTITY = re.compile(r"(?P<name>[A-Za-z]\w*)(?:\.(?P<part>mm|dir|sense|mu))?")
@@ -193,6 +195,8 @@ def about_kind(text: str) -> str | None:
 
 def _about_abbreviated(head: str) -> str | None:
     """Return what a column says of whom by its word without initials, or by initials alone: `Фамилия И.О.`, `Ф.И.О.`"""
+    if (kind := next((kind for kind, words in _ABOUT_LIKE.items() if words.fullmatch(head)), None)) is not None:
+        return kind
     words = ["№" if word in _NUMBER_WORDS else word for word in head.replace("№", " № ").split()]
     if all(len(word) == 1 for word in words):
         return _ABOUT_OF.get("".join(words))
