@@ -9,15 +9,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping
+from itertools import chain, count
 from typing import Any, NamedTuple
 
 from ..board import POINTS, POSITION, Program
 from ..names import ORIGIN, role
 from .trace import Real, TracingBoard, Vector
 
-# names that stand for something else in GeoGebra: coordinates, constants, functions of one letter
-RESERVED = frozenset(("x", "y", "z", "e", "i", "pi", "π", "ί", "ℯ"))
+# names that stand for something else in GeoGebra: coordinates, constants, functions, axes
+_WORDS = """x y z e i pi π ί ℯ abs sgn sqrt cbrt exp ln ld lg log cos sin tan sec csc cot cosh sinh tanh acos asin atan
+atan2 floor ceil round random gamma arg alt real imaginary conjugate xAxis yAxis zAxis true false"""
+RESERVED = frozenset(_WORDS.split())
 _SCRIPT = re.compile(r"[_^]\{([^{}]*)\}|[_^](.)")
+_STEM = re.compile(r"[^\W\d]+'*")
 _LEFT = re.compile(r"\W|_")  # what an index does not hold
 LONGEST = 160  # characters of an expression, where parts of it come again
 SUM, PRODUCT, ATOM = 1, 2, 3  # how strongly an expression holds together
@@ -70,18 +74,15 @@ class Labels:
         ('a_{nBA}', 'e_{45}', 'e_{452}', 'S_{3}')
         """
         scripts = "".join(one or other for one, other in _SCRIPT.findall(wanted))
-        base = _SCRIPT.sub("", wanted).replace("′", "'").replace("″", "''")
-        letters = re.sub(r"[^\w']|_", "", base)
-        stem = re.match(r"[^\W\d]+'*", letters) or re.match("", "")
-        head = stem[0] if stem and stem[0] else "k"
-        index, beside = (_LEFT.sub("", text) for text in (letters[len(stem[0]) if stem else 0 :] + scripts, beside))
-        for count in range(10_000):
-            tried = index if count == 0 else f"{index}{beside}{count if count > 1 or not beside else ''}"
-            label = head + (f"_{{{tried}}}" if tried else "")
-            if label not in self._taken:
-                self._taken.add(label)
-                return label
-        raise ValueError(f"no label for {wanted}")
+        letters = re.sub(r"[^\w']|_", "", _SCRIPT.sub("", wanted).replace("′", "'").replace("″", "''"))
+        stem = _STEM.match(letters)
+        head, rest = (stem[0], letters[stem.end() :]) if stem else ("k", letters)
+        index, beside = (_LEFT.sub("", text) for text in (rest + scripts, beside))
+        tried = (f"{index}{beside}{at if at > 1 or not beside else ''}" for at in count(1))
+        labels = (head + (f"_{{{one}}}" if one else "") for one in chain((index,), tried))
+        label = next(label for label in labels if label not in self._taken)
+        self._taken.add(label)
+        return label
 
 
 class _Mark(NamedTuple):
@@ -105,6 +106,8 @@ class GeoGebraBoard(TracingBoard):
         Labels of the scale factors, SI units in a millimetre, by plan.
     label : callable
         Gives a name of the program a label; the second argument says whether it is seen.
+    helper : callable
+        Gives a label with a letter to what the program does not name.
     """
 
     def __init__(

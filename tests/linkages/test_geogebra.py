@@ -18,6 +18,7 @@ from kulman.plans.boards.exact import run
 from kulman.plans.linkages.cycle import cycle
 from kulman.plans.names import ORIGIN, role
 from kulman.scales.errors import LANGUAGES, InputError
+from kulman.tests.support.chains import chain
 from kulman.tests.support.geogebra import Evaluator, is_near
 from kulman.variants.case import Request
 from kulman.variants.kinds.linkage import placed
@@ -136,6 +137,14 @@ def test_a_size_that_is_changed_moves_all_that_hangs_on_it(task: str) -> None:
 
     assert changed
     compare(written, evaluator.at(changed), values)
+
+
+def test_mechanisms_of_ones_own_are_written_with_two_digits_and_bent_links(tmp_path: Path) -> None:
+    path = tmp_path / "own.toml"
+    path.write_text(chain(5), encoding="utf-8")
+    written, evaluator = construction(str(path))
+
+    assert compare(written, evaluator.at({}, flipped=True), solved_with(str(path))) > 400
 
 
 def test_poles_are_points_to_drag_and_leave_all_values_as_they_are() -> None:
