@@ -84,8 +84,7 @@ def read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn | 
         kinds = _first(map(column_kind, texts))
         if "name" in kinds and not kinds.keys().isdisjoint(PARTS):
             return [_form(grid, row, kinds, asked)]
-        texts = _with_greek(texts, asked)
-        parts = ((column, quantity_part(text)) for column, text in enumerate(texts))
+        parts = ((column, quantity_part(text)) for column, text in enumerate(_with_greek(texts, asked)))
         columns = {column: part for column, part in parts if part is not None and part[0] in asked.names}
         about = _first(map(about_kind, texts))
         if len(columns) > 1 or (columns and about):

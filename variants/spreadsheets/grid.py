@@ -26,7 +26,9 @@ LONGEST_HEAD = 300  # characters over a column; what is longer says nothing of o
 UNDERSTOOD: Mapping[str, Any] = packaged(__package__, "texts", "understood")
 _COLUMN_OF = {word: kind for kind, words in UNDERSTOOD["columns"].items() for word in words}
 _ABOUT_OF = {word: kind for kind, words in UNDERSTOOD["about"].items() for word in words}
-_ABOUT_LIKE = {kind: re.compile("|".join(words)) for kind, words in UNDERSTOOD["about_like"].items()}
+_ABOUT_LIKE: dict[str, re.Pattern[str]] = {
+    kind: re.compile("|".join(words)) for kind, words in UNDERSTOOD["about_like"].items()
+}
 ORDINALS = frozenset(UNDERSTOOD["ordinals"])  # over the numbers of rows
 _COMMA = re.compile("[,:]")  # before a unit without brackets
 # a column of a class: a quantity, a part of its answer, a unit
