@@ -10,6 +10,7 @@ import re
 from collections.abc import Collection, Iterator
 from typing import TypeAlias
 
+from ...plans.linkages.compound import found_here
 from ...plans.linkages.mechanism import (
     FORCE,
     FRAME,
@@ -274,8 +275,8 @@ def meaning(mechanism: Mechanism, words: Words, name: str) -> str:
 
 def meanings(scene: Scene) -> dict[str, str]:
     """Return what the symbols of quantities mean that are found, in words, as markup."""
-    found = dict[str, str]()
-    for name in scene.quantities:
+    found, compound = dict[str, str](), found_here(scene.program)
+    for name in (name for name in scene.quantities if name not in compound):
         said, symbol = role(name), scene.words.symbol(name)
         if said.kind in ("omega", "epsilon") and not said.part:
             found[symbol] = scene.words[f"meant.{said.kind}"].format(link=said.of)

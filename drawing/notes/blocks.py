@@ -191,13 +191,14 @@ class Story:
 
 REFERS = "⟦{}⟧"  # in a step, what refers to the equation that gives a symbol, or to nothing where none does
 _REFERRING = re.compile(r"⟦(.*?)⟧")
+_WORDS = re.compile(r"(?:[^\W\d_]|’){4,} ")
 _BARRED = re.compile(r"\\bar\{(\w+)\}")
 _DISPLAYED = re.compile(r"[=≤≥]|\\u{1,2}\{")
 
 
 def displayed(markup: str) -> bool:
-    """Whether a line is an equation, not words."""
-    return _DISPLAYED.search(markup) is not None
+    """Whether a line is an equation, not words, in which something may be equal to something, too."""
+    return _DISPLAYED.search(markup) is not None and _WORDS.match(markup) is None
 
 
 @dataclass(slots=True)

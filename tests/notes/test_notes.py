@@ -479,6 +479,16 @@ def test_scripts_of_a_script_stand_close_and_the_head_of_a_table_on_every_page()
     assert "colspan: 2" in body
 
 
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_words_in_which_something_is_equal_have_no_number_of_an_equation(lang: str) -> None:
+    blocks = [block for block in note(CAM, lang=lang).document.blocks if isinstance(block, Equations)]
+    numbers = [number for _, number in blocks[0].told]
+    told = [" ".join(line) for block in blocks for line, number in block.told if number]
+
+    assert numbers == [0] * len(numbers)  # the law of motion, the senses
+    assert not any(re.match(r"[^\W\d_’]{3,}[ ’]", line) for line in told)
+
+
 def test_no_rule_of_a_page_strikes_a_letter() -> None:
     equations = tuple(b for b in note("scheme-09-shaper", "3").document.blocks if isinstance(b, Equations))
     rows = Table((("i", "φ"), *((f"p_{{{k}}}", "0.00") for k in range(60))), "Angles")
