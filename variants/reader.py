@@ -225,7 +225,11 @@ def _ill_written(line: str, column: int) -> InputError:
     if _OPEN.fullmatch(plain):
         return InputError("toml-open", text=shown, cure=quote(f'{plain}"', SHOWN))
     word = next((word[0] for word in re.finditer(r"\w+", line) if word.start() < column <= word.end()), "")
-    return InputError("toml-bad", text=shown) if latin(word) == word else cyrillic(word)
+    if latin(word) != word:
+        return cyrillic(word)
+    if word and re.search(rf"=\s*{word}\s*[,}}\]]", line):  # phi = sixty, in a row
+        return InputError("toml-bare", text=shown, cure=quote(f'"{word}"', SHOWN))
+    return InputError("toml-bad", text=shown)
 
 
 def _scales(checker: Checker, path: Path, raw: object) -> dict[str, str]:

@@ -162,8 +162,8 @@ def course_view(scene: Scene, cycle: Cycle, names: Sequence[str]) -> View:
     across = Scale("mu_phi" if turns else "mu_s", rounded(whole / length, 6), "rad" if turns else "m")
     ways = np.linspace(0.0, whole, 2 * SECTIONS + 1)
     found, extremes = cycle.at(span.low + sense * ways, names), cycle.extremes(names)
-    stations = (abs(at - span.low) for at in cycle.angles.tolist())
-    divisions = {at: str(k) for k, at in enumerate(stations)} | ({whole: "0"} if turns else {})
+    stations = [abs(at - span.low) for at in cycle.angles.tolist()]
+    divisions = {at: str(k) for k, at in enumerate(stations)} | ({whole: str(len(stations))} if turns else {})
     symbol = scene.words.symbol(role(cycle.drive.variable).shown)
     for number, name in enumerate(names):
         values, _ = cut(found[name], found[name])
