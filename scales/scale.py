@@ -244,13 +244,14 @@ class Display:
     """`length` stands for the metre in units of lengths, velocities, accelerations; `paper` measures segments.
 
     With `size` lengths alone have this unit, those of a cam millimetres, say, while its velocities stay in m/s; `angle`
-    is the unit of angles.
+    is the unit of angles, `stress` that of stresses.
     """
 
     length: str = METRE
     paper: str = "mm"
     size: str = ""
     angle: str = RADIAN
+    stress: str = "Pa"
 
     def unit(self, si: str) -> str:
         """Return the unit in which a value of an SI unit is shown.
@@ -260,6 +261,8 @@ class Display:
         """
         if si == RADIAN:
             return self.angle
+        if si == "Pa":
+            return self.stress
         if self.size and si == METRE:
             return self.size
         powers = unit(si).powers

@@ -169,7 +169,8 @@ class Unit:
 
 
 ONE = Unit(())
-SHOWN = {"m": "mm", "rad": "deg", "Pa": "MPa"}  # SI units, with those in which columns over a motion are read
+USUAL = {"Pa": "MPa", "m^2": "mm^2"}  # SI units, with those in which people know what has them
+SHOWN = {"m": "mm", "rad": "deg", "Pa": USUAL["Pa"]}  # SI units, with those in which columns over a motion are read
 
 
 @cache

@@ -12,6 +12,7 @@ from ...plans.hoist.solve import SCALED, unit_of
 from ...plans.laws import form_of
 from ...plans.names import role
 from ...scales.scale import Scale
+from ...scales.units import USUAL, unit
 from ..handouts import Shown
 from ..notes.blocks import Story
 from ..printed import Input, Symbol, calculation
@@ -20,7 +21,6 @@ from ..view import View
 from ..words import Given, Words
 from .scene import HoistScene
 
-USUAL = {"Pa": (1e-6, "MPa"), "m^2": (1e6, "mm^2")}
 ROUNDING = 12  # digits
 READING = 0.3  # mm by which a drawing is read
 WIDTH = 120.0  # mm of lines of text
@@ -37,8 +37,8 @@ def data_table(scene: HoistScene, stated: bool = False) -> View:
     givens = dict(scene.givens)
     for name, given in givens.items():
         if given.unit in USUAL and not isinstance(given.value, str):
-            times, unit = USUAL[given.unit]
-            givens[name] = Given(float(f"{given.value * times:.{ROUNDING}g}"), unit)
+            usual = USUAL[given.unit]
+            givens[name] = Given(float(f"{unit(usual).from_si(given.value):.{ROUNDING}g}"), usual)
     numbers = [name for name, given in givens.items() if not isinstance(given.value, str)]
     called = {name: scene.words[f"called.hoist.{name}"] for name in numbers} if stated else None
     return givens_view(givens, scene.words, scene.style, called=called)
@@ -51,12 +51,12 @@ def results_table(scene: HoistScene) -> View:
     for name, quantity in solved.quantities.items():
         if section_of(name) == DRAWN or name in SCALED:
             continue
-        times, unit = USUAL.get(unit_of(name), (1.0, unit_of(name)))
+        usual = USUAL.get(unit_of(name), unit_of(name))
         value = words["table.calculated"]
         if quantity.value is not None:
-            size = quantity.value * times
+            size = unit(usual).from_si(quantity.value)
             value = _number(scene, size) if abs(size) >= LARGE else scene.value(size)
-        cells.append([words.symbol(name), value, "" if unit == "1" else words.unit(unit)])
+        cells.append([words.symbol(name), value, "" if usual == "1" else words.unit(usual)])
     half = (len(cells) + 1) // 2
     head = _head(words, "symbol", "value", "unit")
     rows = [left + right for left, right in zip(cells[:half], [*cells[half:], ["", "", ""]], strict=False)]

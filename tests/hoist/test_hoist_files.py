@@ -140,9 +140,10 @@ def verdicts(path: Path, answers: dict[str, float]) -> dict[str, Verdict]:
 
 def test_right_answers_are_right_also_when_they_are_read_off_the_drawing(tmp_path: Path) -> None:
     solution = solve(TASK, "V04")
-    form = check(TASK, "V04", lang="en").write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
+    asked = check(TASK, "V04", lang="en")
+    form = asked.write_form(tmp_path / "form.csv").read_text(encoding="utf-8-sig")
     names = [name for name in (line.split(",")[0] for line in form.splitlines()) if name in solution]
-    answers = {name: solution[name].shown(solution.words.display).value or 0.0 for name in names}
+    answers = {name: solution[name].shown(asked.asked.display).value or 0.0 for name in names}
     answers |= {name: solution[f"{name}_drawn"].value or math.nan for name in ("t_1", "t_2_1", "t_2_2")}
 
     found = verdicts(tmp_path / "class.csv", answers)

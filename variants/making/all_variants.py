@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -13,6 +14,7 @@ from ...drawing.words import Words
 from ...drawing.writers import Files
 from ...plans.hands.shaky import Hand
 from ...plans.hands.shaky import preset as preset_of
+from ...plans.names import role
 from ...scales.errors import InputError, KulmanError
 from ...scales.names import all_known, names_of, unknown
 from ...scales.numbers import quote
@@ -20,21 +22,22 @@ from ...scales.units import format_unit
 from ..case import Settings, Wanted
 from ..crew import Advance
 from ..marking.checks import Check, check
-from ..marking.keyed import Keyed, keyed
+from ..marking.keyed import Keyed, is_arm_of_lever, keyed
 from ..marking.report import DIGITS, STYLE, scripts
 from ..marking.wording import plain, texts
 from ..tables import FILES, Cell, Result, Table, aligned
 from ..task import AnyTask
 from .new_variants import NewVariants, import_variants, make_variants
-from .questions import BY, Question, gift_bytes, questions_of, xml_bytes
+from .questions import BY, Question, gift_bytes, html, questions_of, xml_bytes
 
 TASK_FILE = ".toml"
 PAGE = ".html"
 SUFFIXES = (*FILES, ".xml", ".gift", TASK_FILE)
-ACROSS = 9  # variants beside one another on a page to be printed
+ACROSS = 11  # variants beside one another on a page to be printed
 PAGE_STYLE = """
-@page{size:A4 landscape;margin:10mm}body{max-width:277mm}td{white-space:nowrap;font-size:9pt}td small{color:#555}
-tr.part th{background:#fff;border-left:0;border-right:0}tr{break-inside:avoid}section+section{break-before:page}
+@page{size:A4 landscape;margin:10mm}body{max-width:277mm}td,th{white-space:nowrap;font-size:9pt}td small{color:#555}
+table{width:100%;table-layout:fixed}tr.part th{background:#fff;border-left:0;border-right:0;break-after:avoid}
+tr{break-inside:avoid}tr.part{break-after:avoid}tr.mu td{background:#f6f6f6}section+section{break-before:page}
 """
 
 
@@ -129,7 +132,8 @@ class AllVariants(Result):
         """Return the answers as a page to be printed: plan by plan, values and segments, some variants to a sheet."""
         request, variants = self.check.request, [*self.keys]
         title = escape(f"{texts(self._language)['key.title']}: {request.task.title[self._language]}")
-        parts = (variants[i : i + ACROSS] for i in range(0, len(variants), ACROSS))
+        each = math.ceil(len(variants) / math.ceil(len(variants) / ACROSS))
+        parts = (variants[i : i + each] for i in range(0, len(variants), each))
         body = "".join(f"<section><h1>{title}</h1>{self._sheet(shown)}</section>" for shown in parts)
         head = f'<meta charset="utf-8"><title>{title}</title><style>{STYLE}{PAGE_STYLE}</style>'
         return f'<!DOCTYPE html>\n<html lang="{self._language}"><head>{head}</head><body>{body}</body></html>\n'
@@ -138,15 +142,17 @@ class AllVariants(Result):
         """Return a table of some variants."""
         said, first = texts(self._language), next(iter(self.keys.values()))
         heads = "".join(f"<th>{escape(one)}</th>" for one in variants)
-        rows = f"<tr><th>{said['column.name']}</th><th>{said['column.unit']}</th>{heads}</tr>"
+        rows = f"<thead><tr><th>{said['column.name']}</th><th>{said['column.unit']}</th>{heads}</tr></thead>"
         for part in first.parts:
             names = [q.name for q in part.questions if q.name in self.quantities]
             if names:
-                rows += f'<tr class="part"><th colspan="{len(variants) + 2}">{escape(plain(part.heading))}</th></tr>'
-            for name in names:
-                cells = "".join(f"<td>{_printed(self.keys[one], name)}</td>" for one in variants)
-                unit = escape(format_unit(first.asked.unit(name), self._language))
-                rows += f"<tr><td>{scripts(first.symbol(name))}</td><td>{unit}</td>{cells}</tr>"
+                rows += f'<tr class="part"><th colspan="{len(variants) + 2}">{html(part.heading)}</th></tr>'
+            for name in (*(part.scales if names else ()), *names):
+                told = [_told(self.keys[one], name) for one in variants]
+                unit = escape(format_unit(next((unit for _, unit in told if unit), ""), self._language))
+                cells = "".join(f"<td>{cell}</td>" for cell, _ in told)
+                of = ' class="mu"' if name in part.scales else ""
+                rows += f"<tr{of}><td>{_symbol(first, name)}</td><td>{unit}</td>{cells}</tr>"
         return f"<table>{rows}</table>"
 
     def _questions(self) -> Iterator[Question]:
@@ -169,13 +175,29 @@ def _shown(key: Keyed, name: str) -> float | None:
     return None if quantity is None else quantity.shown(key.words.display).value
 
 
-def _printed(key: Keyed, name: str) -> str:
-    """Return a value as it is printed, and the segment that shows it."""
-    quantity, words, value = key.solution.quantities.get(name), key.words, _shown(key, name)
+def _told(key: Keyed, name: str) -> tuple[str, str]:
+    """Return a value as it is printed, and the segment that shows it, with its unit; arms, and no others, in mm."""
+    words, display, scale = key.words, key.words.display, key.solution.scales.get(name)
+    quantity, value = key.solution.quantities.get(name), _shown(key, name)
+    if quantity is None and scale is not None:  # of a plan
+        of = display.of_scales
+        return words.short(of.value(scale.mu, scale.unit), DIGITS), f"({of.unit(scale.unit)})/{display.paper}"
     if quantity is None or value is None:
-        return "–"
-    mm = f"<br><small>{words.number(quantity.mm, 1)} {words.spelled('mm')}</small>" if quantity.mm else ""
-    return f"{words.short(value, DIGITS)}{mm}"
+        return "–", ""
+    unit, mm = key.asked.unit(name), f"{words.number(quantity.mm, 1)}" if quantity.mm else ""
+    if is_arm_of_lever(name):
+        return mm or "–", display.paper
+    if unit == "m" and role(name).kind == "h":
+        value, unit = 1e3 * value, "mm"
+    drawn = f"<br><small>{mm} {words.spelled('mm')}</small>" if mm else ""
+    return f"{words.short(value, DIGITS)}{drawn}", unit
+
+
+def _symbol(key: Keyed, name: str) -> str:
+    """Return the symbol of a quantity, with what tells it from another that has the same."""
+    markup, whole = key.words.symbol(name), key.symbol(name)
+    found = plain(markup)
+    return f"{html(markup)}{escape(whole.removeprefix(found))}" if whole.startswith(found) else scripts(whole)
 
 
 def all_variants(

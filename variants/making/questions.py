@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from html import escape
 
 import numpy as np
@@ -26,7 +26,6 @@ from ..marking.keyed import SIGNED, Keyed
 HALF = 2.0  # how many tolerances off an answer still gets half
 ROUNDED = 0.005  # part of a value that is lost when it is written with three digits
 SHARE, DRAWINGS = 0.98, 2000  # of honest drawings that pass, of so many
-LARGER = {"Pa": (1e-6, "MPa")}  # units in which people know what is shown in SI
 ALIKE, SAME = ("V", "a", "omega", "epsilon", "R"), 1e-9  # kinds of which one size is asked for once
 UNSURE = 0.25  # part of a value: drawings that miss by more do not tell it, and it is not asked for
 SCHEME, PER_MM, WIDEST = "scheme.svg", 4.0, 600.0  # its file, pixels of a millimetre of it, most of them
@@ -98,9 +97,6 @@ class _Statement:
         """Return the question for a quantity."""
         said, case, words, name = self.said, self.key.solution.case, self.key.words, item.name
         shown, signed = item.shown(words.display), item.unit in SIGNED
-        if shown.unit in LARGER and shown.value is not None:
-            times, of_it = LARGER[shown.unit]
-            shown = replace(shown, value=times * shown.value, unit=of_it)
         assert shown.value is not None
         assert item.value
         sized = item.kind == "vector" or item.unit == "N"  # which way a force balances is not asked for

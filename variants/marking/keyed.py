@@ -23,6 +23,8 @@ from ...plans.quantities import unit_of
 from ...scales.errors import InputError, KulmanError
 from ...scales.names import all_known, unknown
 from ...scales.numbers import SHOWN, quote
+from ...scales.scale import Display
+from ...scales.units import USUAL
 from ..case import Request, Settings, kind_of
 from ..checks.basics import Checker, EnoughError, Field, Places, Read, one_of, record, trying
 from ..sheets import sheet_id
@@ -407,7 +409,12 @@ def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> A
         name: q for name, q in solution.quantities.items() if name in made and q.kind != "point" and q.unit != "%"
     }
     scales = {s.symbol: s.unit for s in solution.scales.values() if s.symbol not in solution}  # chosen, not found
-    return Asked(quantities, scales, solution.words.display)
+    return Asked(quantities, scales, display_of(solution))
+
+
+def display_of(solution: Solution) -> Display:
+    """Return the units in which a solution is asked for and marked: those of the task, stresses as people know them."""
+    return replace(solution.words.display, stress=USUAL["Pa"])
 
 
 def fullest(request: Request) -> str:
@@ -443,7 +450,7 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     unit_of = {name: quantity.unit for name, quantity in solution.quantities.items()}
     key = answer_key(paper, rubric.tolerance, firm, units=unit_of.__getitem__, drawn=limits)
     key = key.or_else(solution.solved.values)
-    words = kind.lettered(solution.words, solution.solved)
+    words = kind.lettered(replace(solution.words, display=display_of(solution)), solution.solved)
     parts = tuple(sections(solution, key.questions.values(), words))
     asked = asked_of(solution, key.questions)
     own = sheet_id(request.task, solution.variant, request.settings)
