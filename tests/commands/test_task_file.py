@@ -417,3 +417,11 @@ def test_machine_tools_cut_slowly_and_return_fast(scheme: str, out: complex) -> 
         places, _ = batch(program, board_givens(task.mechanism, {**values, "phi": turned}), [tool])
         way = np.diff((places[tool] * np.conj(out)).real, append=(places[tool][0] * np.conj(out)).real)
         assert np.count_nonzero(way > 0.0) >= POSITIONS / 2
+
+
+def test_a_bare_word_in_a_row_is_told_how_to_be_written(tmp_path: Path) -> None:
+    file = tmp_path / "t.toml"
+    file.write_text('variant = [\n  { id = "1", phi = sixty, l_OA = 30 },\n]\n', encoding="utf-8")
+
+    with pytest.raises(InputError, match=r't.toml:2:21: .* stands in straight quotes: "sixty"'):
+        load_task(file)

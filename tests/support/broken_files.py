@@ -101,7 +101,6 @@ BROKEN: dict[str, tuple[str, ...]] = {
     "speed without a unit": ("unit-missing", "driver.speed", "one such as rpm", 'speed = "n_1"', "speed = 120"),
     "unit without quotes": ("toml-bare", "", "stands in straight quotes: phi = \"60 deg\"", "phi = 60",
         "phi = 60 deg"),
-    "word without quotes": ("toml-bare", "", 'straight quotes: "deg"', '{ unit = "deg" }', "{ unit = deg }"),
     "comma without quotes": ("toml-bare", "", "stands in straight quotes", "l_OA = 100", "l_OA = 100,5"),
     "branch of two": ("sign-bad", "branch", "'2': a sense or a branch is 1 or -1", "branch = 1\n", "branch = 2\n"),
     "group of class four": ("no-construction", "mechanism.link",
