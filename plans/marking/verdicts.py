@@ -10,7 +10,7 @@ import math
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field, replace
-from statistics import median
+from statistics import median, median_high, median_low
 from typing import Any, NamedTuple
 
 from ...scales.names import unknown
@@ -35,6 +35,7 @@ UNITS = {
     "rad/s^2": (*ANGLES[:2], *(x * x for x in ANGLES[2:])),
 }  # by what factors a value is wrong when only its unit is
 SAME = 0.03  # part of a value by which a factor may miss: wide tolerances of short vectors let any factor fit
+LARGE = 1e300  # no ratio is larger
 AGREE = 0.05  # part by which segments of one plan may differ in the scale that they show
 SHOWN = 5.0  # mm from which a segment shows to which scale its plan is drawn
 CLEAR = 2.0  # tolerances from which an error is more than a slip of the hand
@@ -223,7 +224,9 @@ class Marker:
                 self.segments.setdefault(plan, []).append(name)
         drawn = {}
         for plan, names in self.segments.items():
-            written = next((mu for name in names if (mu := self.mus[name])), None) or self._from_pairs(names)
+            written = next((mu for name in names if (mu := self.mus[name])), None) or self._from_pairs(
+                names, self.key.paper.mus.get(plan, 0.0)
+            )
             mu = written or self._likeliest(names)
             if written is None:
                 self.guessed = True
@@ -248,14 +251,21 @@ class Marker:
 
         return min((self._drawn_to(name) for name in names), key=misses)
 
-    def _from_pairs(self, names: list[str]) -> float | None:
-        """Return the scale factor by which students went on from millimetres to values, also to those of opposites."""
+    def _from_pairs(self, names: list[str], ours: float) -> float | None:
+        """Return the scale factor by which students went on from millimetres to values, also to those of opposites.
+
+        Where half of them has one and half another, it is that which is nearer to ours.
+        """
         questions = self.key.questions.values()
         opposite = {q.step.operands[0]: q.name for q in questions if q.step.law == "opposite"}
         pairs = [(self.answers[name], self.answers.get(opposite.get(name, ""))) for name in names]
         values = [(own.mm, own.value or (other and other.value)) for own, other in pairs]
         found = [abs(value / mm) for mm, value in values if value and mm]
-        return median(found) if found else None
+        if not found or median_high(found) - median_low(found) <= AGREE * median(found) or not ours:
+            return median(found) if found else None
+        return min(
+            median_low(found), median_high(found), key=lambda mu: abs(math.log(max(min(mu / ours, LARGE), 1.0 / LARGE)))
+        )
 
     def _true(self, plan: str) -> float | None:
         """Return to which scale the segments of a plan seem to be drawn."""

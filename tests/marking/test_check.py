@@ -382,6 +382,16 @@ def test_a_segment_may_be_that_of_the_drawing_on_which_the_sheet_shows_it(
     assert {str(line.verdict) for line in marking.lines if line.answer is not None} == {verdict}
 
 
+def test_a_line_bears_no_wrong_segment_of_another(tmp_path: Path) -> None:
+    """Of two lines of a plan without a scale factor the mean was taken, which is that of neither."""
+    marking = (
+        check(TASK, "0", lang="en").mark(read(tmp_path, "R_32;169;;2535;;\nR_23;2540;;2535;;\n", "0")).marked.marking
+    )
+
+    told = {line.name: str(line.verdict) for line in marking.lines if line.answer is not None}
+    assert told == {"R_32": "right", "R_23": "arithmetic"}
+
+
 def test_a_single_slip_of_the_hand_is_called_one(tmp_path: Path) -> None:
     right, allowed = abs(key(TASK, "3")["V_BA"]), key(TASK, "3").allowed["V_BA"]
     for times, slip in ((1.5, True), (4.0, False)):
