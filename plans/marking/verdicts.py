@@ -35,6 +35,8 @@ UNITS = {
     "rad/s^2": (*ANGLES[:2], *(x * x for x in ANGLES[2:])),
 }  # by what factors a value is wrong when only its unit is
 SAME = 0.03  # part of a value by which a factor may miss: wide tolerances of short vectors let any factor fit
+RATES = ("rad/s", "rad/s^2")  # units of what links turn with
+EQUAL = 1e-9  # part of a value by which the rounding of two ways to it may differ
 LARGE = 1e300  # no ratio is larger
 AGREE = 0.05  # part by which segments of one plan may differ in the scale that they show
 SHOWN = 5.0  # mm from which a segment shows to which scale its plan is drawn
@@ -376,13 +378,27 @@ class Marker:
         if name not in self.answers:
             return None, False
         if name not in self.held:
-            self.held[name] = self._verdict(name, value)
+            self.held[name] = self._as_its_equal(name, self._verdict(name, value))
             self.failed |= self.held[name].verdict.faulty
         held = self.held[name]
         wrong = held.verdict is Verdict.WRONG
         if not wrong and self._missed(held.said, name, value, self.allowance.by_hand(name, value)).off <= 1.0:
             return None, False
         return held.said, wrong
+
+    def _as_its_equal(self, name: str, held: _Held) -> _Held:
+        """Let pass an angular velocity or acceleration that is taken over from an equal one which has passed.
+
+        That of a link by compound motion, where what carries it turns evenly, is that of its plan.
+        """
+        if held.verdict is not Verdict.WRONG or self.key.questions[name].unit not in RATES:
+            return held
+        own = self.answers[name].value
+        for other, before in self.held.items():
+            same = abs(self.key[other] - self.key[name]) <= EQUAL * abs(self.key[name])
+            if same and before.verdict.passed and own and own == self.answers[other].value:
+                return held._replace(verdict=before.verdict)
+        return held
 
     def _verdict(self, name: str, value: Any) -> _Held:
         answer = self.answers[name]

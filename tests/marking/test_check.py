@@ -392,6 +392,16 @@ def test_a_line_bears_no_wrong_segment_of_another(tmp_path: Path) -> None:
     assert told == {"R_32": "right", "R_23": "arithmetic"}
 
 
+def test_equal_rates_of_a_link_are_judged_alike() -> None:
+    """The source prints 0,0063 for both: for one it was drawn, for the other it did not follow to half a per cent."""
+    asked = check("bertyaev-six-bar", lang="en")
+
+    marking = asked.mark(asked.read("printed")[0]).marked.marking
+
+    told = {line.name: str(line.verdict) for line in marking.lines}
+    assert told["epsilon_2"] == told["epsilon_r_2"] == "right"
+
+
 def test_a_single_slip_of_the_hand_is_called_one(tmp_path: Path) -> None:
     right, allowed = abs(key(TASK, "3")["V_BA"]), key(TASK, "3").allowed["V_BA"]
     for times, slip in ((1.5, True), (4.0, False)):
