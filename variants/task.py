@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from ..plans.hoist.hoist import Hoist
 
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+_PLAIN = re.compile("0|[1-9][0-9]{0,8}")  # a number as people write it
 _NUMBERED = re.compile(r"[^\W\d]*(\d{1,9})")  # the id of a variant
 ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written, with a unit or without
 
@@ -162,7 +163,7 @@ class Task:
         if variant_id is None:
             return next(iter(self.variants.values()))
         said = str(variant_id).strip()
-        found = said if said in self.variants else self.numbered.get(int(said) if said.isdecimal() else -1)
+        found = said if said in self.variants else self.numbered.get(int(said) if _PLAIN.fullmatch(said) else -1)
         if found is None:
             raise unknown("variant-unknown", variant_id, self.variants, task=self.id)
         return self.variants[found]

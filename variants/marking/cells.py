@@ -82,13 +82,15 @@ class Mu:
 class Asked:
     """What can be answered in a task: its quantities, its scale factors, and the units in which it shows results.
 
-    `others` are names of what is not marked now, of other plans or given; answers to them are passed over.
+    `others` are names of plans that are not marked now; answers to them are passed over. So are columns of a class over
+    what is `unasked`, such as what is given: its key has them.
     """
 
     quantities: Mapping[str, Quantity]
     scales: Mapping[str, str]  # SI unit of what a scale factor draws, by symbol
     display: Display = field(default_factory=Display)
     others: frozenset[str] = frozenset()
+    unasked: frozenset[str] = frozenset()
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -235,8 +235,8 @@ def check(
     unformatted = replace(request, variant=fullest(request), format=None)  # the same is asked on every format
     solution = solved(unformatted)
     asked, whole = asked_of(solution), solution if plans is None else solved(replace(unformatted, only=None))
-    every = *whole.quantities, *asked_of(whole).names  # the key of a class says them all
-    asked = replace(asked, others=frozenset(every).difference(asked.names))
+    others = frozenset(asked_of(whole).names).difference(asked.names)
+    asked = replace(asked, others=others, unasked=frozenset(whole.quantities).difference(asked.names))
     marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked, directions)
     students = None if roster is None else read_roster(os.fspath(roster), of)
     return Check(request, marking, asked, students, digits, own)

@@ -365,7 +365,7 @@ def _class(
     for column, text in enumerate(grid.rows[header]):  # what looks like a quantity and is none
         lost = (text, "", "") if text.startswith("?_") else None
         of, read = quantity_part(text) or lost, column in columns or column in about.values()
-        if of is not None and not read and of[0] not in asked.others and ("_" in text or of[1]):
+        if of is not None and not read and of[0] not in asked.others | asked.unasked and ("_" in text or of[1]):
             error = unknown("quantity-unknown", of[0], asked.names)
             strangers.append(LocatedError(f"{grid.place(header, column)}, {quote(text)}", error))
     if warn is not None:
