@@ -245,7 +245,8 @@ def test_extremes_are_at_the_ends_of_the_contact_and_ends_of_an_undercut_one_are
     fine = {column.name: column.values for column in course.columns(rho_1)}
     for one in course.extremes():
         assert (one.most, one.least) == (np.max(fine[one.name]), np.min(fine[one.name]))
-    assert {one.name: one.least for one in course.extremes()}["theta_12"] == solved.sizes["theta_12_A1"]
+    least = {one.name: one.least for one in course.extremes()}["theta_12"]
+    assert least == pytest.approx(solved.sizes["theta_12_A1"], rel=1e-13)  # arrays and numbers round apart by machine
     assert list(course.marks) == ["A1", "K2", "P", "K1", "A2"]
     assert next(iter(GearCourse(solved_for({"z_1": 10.0, "x_1": -0.2}, CCW)).marks)) == "start"
 
