@@ -20,7 +20,7 @@ from .scene import TOOTH, GearScene
 
 PENS = {"a": Pen.THIN, "w": Pen.EXTREME, "": Pen.AXIS, "b": Pen.DASHED, "f": Pen.THIN}
 # lines that break off at letters, and whether letters take no heed of them
-BREAKS = dict.fromkeys(("circle", "tangent", "ray", "axis", "extension", "swing", "position"), True)
+BREAKS = dict.fromkeys(("circle", "tangent", "axis", "extension", "swing", "position"), True)
 BREAKS |= {"line-of-action": False}
 PAST = 8.0  # mm of a line beyond what it goes to
 PITCH = 1.9  # heights of letters between diameters written under one another
