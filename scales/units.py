@@ -100,6 +100,8 @@ _TOKEN = re.compile(
     r"\s*(?:(?P<power>(?:\^|\*\*)\s*(?:[-−]?[0-9]|\([-−]?[0-9]\))|[-−]?[0-9]|⁻?[⁰¹²³⁴⁵⁶⁷⁸⁹])"
     r"|(?P<sign>[*·⋅×∙/()])|(?P<symbol>[A-Za-zµμА-Яа-яІіЇїЄєҐґ]+|[°º˚′'’%]))\s*"
 )
+# Нм, kgm²: moments as they are written by hand
+_JOINED = re.compile(r"\b([kк]?[NН]|kg|кг)((?:[mм]|[cс])?[mм])(?![A-Za-zА-Яа-яІіЇїЄєҐґ])")
 _TIMES = frozenset("*·⋅×∙")
 _LONGEST = 40
 
@@ -204,9 +206,11 @@ def unit(text: str) -> Unit:
 def _tokens(text: str) -> list[tuple[str, str]]:
     """Cut a unit into (kind, token), the last one first."""
     tokens: list[tuple[str, str]] = []
-    at = 0
-    while at < len(text):
-        found = _TOKEN.match(text, at) if len(text) <= _LONGEST else None
+    at, apart = 0, _JOINED.sub(r"\1*\2", text) if len(text) <= _LONGEST else ""
+    if text and not apart:
+        raise _unknown(text)
+    while at < len(apart):
+        found = _TOKEN.match(apart, at)
         if found is None:
             raise _unknown(text)
         kind = str(found.lastgroup)

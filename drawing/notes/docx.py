@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from functools import cache, lru_cache
 from importlib.util import find_spec
 from io import BytesIO
-from itertools import accumulate, count, groupby
+from itertools import accumulate, chain, count, groupby
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...scales.errors import InputError
@@ -62,6 +62,7 @@ FIGURES = 1000  # before the number of a figure to which something refers, among
 LISTS = 3  # the number of the first list of steps
 _END = '<w:r><w:fldChar w:fldCharType="end"/></w:r>'  # of a field
 PAD = 4.0  # mm in a cell beside its text
+SERIF = 1.35  # times as wide as on the sheet a word is in the bold roman of a table's head
 _PICTURES = "http://schemas.openxmlformats.org/drawingml/2006"
 _SVG = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
 _UNITS = re.compile(r"(?:\b(?:kg|N|rad|mm|cm|m)[/·]|\bm)$")
@@ -397,7 +398,9 @@ def _contents(document: Document) -> Iterator[str]:
 def blocks_in_word(document: Document, pictures: Sequence[Picture]) -> str:
     """Return all that follows the contents; `pictures` are those of the figures, in order."""
     said = packaged(__package__, "texts", document.language)
-    return "".join(part for block, n in note.numbered(document.blocks) for part in _block(block, n, said, pictures))
+    looks = document.profile
+    parts = (_block(block, n, said, pictures, looks) for block, n in note.numbered(document.blocks))
+    return "".join(chain.from_iterable(parts))
 
 
 def folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
@@ -411,7 +414,9 @@ def folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
     )
 
 
-def _block(block: Block, number: int, said: dict[str, str], pictures: Sequence[Picture]) -> Iterator[str]:
+def _block(
+    block: Block, number: int, said: dict[str, str], pictures: Sequence[Picture], profile: Profile
+) -> Iterator[str]:
     match block:
         case Heading(text=text, numbered=numbered):
             marked = _bookmark(line(text), _mark(number), number)  # the contents lead there
@@ -428,7 +433,7 @@ def _block(block: Block, number: int, said: dict[str, str], pictures: Sequence[P
             if caption:
                 here = _number_field(rf"SEQ {said['table']} \* ARABIC", number)
                 yield _paragraph("TableCaption", f"{words(said['table'] + ' ')}{here}{words(' – ')}{line(caption)}")
-            yield _table(rows)
+            yield _table(rows, profile)
             yield _paragraph("Cell", "")
         case Figure():
             here = _number_field(rf"SEQ {said['figure']} \* ARABIC", number)
@@ -489,15 +494,16 @@ def _fits(markup: str, indents: int) -> bool:
     return lay_out(markup, HEIGHT).width <= WIDE - OF_NUMBER - indents * INDENT
 
 
-def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
+def _table(rows: tuple[tuple[str | None, ...], ...], profile: Profile) -> str:
     """Return a table whose first row is repeated on every page; no row is parted by the end of a page."""
     wide = [PAD] * len(rows[0])
+    times = SERIF * profile.size / Profile().size
     for row in rows:
         for start, end, cell in cells_of(row):
             if end == start + 1:
-                wide[start] = max(wide[start], lay_out(cell, HEIGHT).width + PAD)
-    share = min(1.0, WIDE / sum(wide))
-    grid = "".join(f'<w:gridCol w:w="{round(mm * share * TWIPS)}"/>' for mm in wide)
+                wide[start] = max(wide[start], lay_out(cell, HEIGHT).width * times + PAD)
+    most = _narrowed(wide, profile.wide)
+    grid = "".join(f'<w:gridCol w:w="{round(min(mm, most) * TWIPS)}"/>' for mm in wide)
     look = '<w:tblLook w:val="0020" w:firstRow="1" w:lastRow="0" w:firstColumn="0" w:lastColumn="0"'
     properties = (
         '<w:tblPr><w:tblStyle w:val="TableGrid"/><w:tblW w:w="0" w:type="auto"/><w:jc w:val="center"/>'
@@ -507,6 +513,16 @@ def _table(rows: tuple[tuple[str | None, ...], ...]) -> str:
     kept = (n < few - 1 or len(rows) - few < n < len(rows) - 1 for n in count())
     body = "".join(map(_row, rows, count(), kept))
     return f"<w:tbl>{properties}<w:tblGrid>{grid}</w:tblGrid>{body}</w:tbl>"
+
+
+def _narrowed(wide: Sequence[float], room: float) -> float:
+    """Return how wide the widest columns of a table may be, mm, for all to stand in a room; the others stay."""
+    left, several = room, len(wide)
+    for mm in sorted(wide):
+        if mm * several >= left:
+            return left / several
+        left, several = left - mm, several - 1
+    return max(wide)
 
 
 def _row(row: tuple[str | None, ...], number: int, kept: bool) -> str:

@@ -62,6 +62,20 @@ def marked(capsys: Printed, *arguments: str) -> dict[str, Any]:
     return {**found, "verdicts": {line["quantity"]: line["verdict"] for line in found["lines"]}}
 
 
+def test_an_arm_of_the_lever_is_told_in_the_millimetres_in_which_it_was_drawn(capsys: Printed, tmp_path: Path) -> None:
+    solution = solve(TASK, "example")
+    arms = {q.name: round(4.0 * q.mm, 1) for q in solution.values() if q.name.startswith("h_lever_F") and q.mm}
+    (form := tmp_path / "a.csv").write_text(
+        HEAD.format(about="") + "".join(f"{name};;;{mm};mm;\n" for name, mm in arms.items()), encoding="utf-8"
+    )
+
+    _, out, _ = run(capsys, TASK, str(form), "--lang", "en")
+
+    told = re.findall(r"h_F\w+ +([\d.]+) mm +([\d.]+) mm .*right", out)
+    assert len(told) == len(arms) > 2
+    assert [float(answer) for answer, _ in told] == pytest.approx([float(right) for _, right in told], abs=0.11)
+
+
 def rubric(tmp_path: Path, text: str) -> str:
     file = tmp_path / "rubric.toml"
     file.write_text(text, encoding="utf-8")

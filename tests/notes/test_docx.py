@@ -16,7 +16,9 @@ from pathlib import Path
 from typing import Any
 
 import docx
+import matplotlib
 import pytest
+from fontTools.ttLib import TTFont
 from lxml import etree
 from PIL import Image
 
@@ -322,6 +324,28 @@ def test_pictures_are_as_large_as_the_figures() -> None:
         sides = [float(svg.get(name).removesuffix("mm")) for name in ("width", "height")]
         assert sides == pytest.approx(figure.view.size, abs=1e-6)
         assert {etree.QName(element).localname for element in svg.iter()} & {"text", "style", "image"} == set()
+
+
+@pytest.mark.parametrize("profile", ["plain", "dstu3008"])
+def test_no_column_of_a_table_parts_a_word_or_a_number(profile: str) -> None:
+    document = note("nau-slider-crank", "3", lang="uk", profile=profile).document
+    bold = TTFont(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "STIXGeneralBol.ttf")
+    widths, letter = bold["hmtx"], bold.getBestCmap()
+    em = document.profile.size / 72 * 25.4 / bold["head"].unitsPerEm
+
+    body = part(docx_bytes(document), "document")
+
+    for table in body.iter(f"{W}tbl"):
+        wide = [int(column.get(f"{W}w")) / 1440 * 25.4 for column in table.iter(f"{W}gridCol")]
+        if len(wide) == 2:  # an equation and its number
+            continue
+        rows = [[said(cell).split() for cell in row.iter(f"{W}tc")] for row in table.iter(f"{W}tr")]
+        rows = [[[word for word in words if not {*"_^"} & {*word}] for words in row] for row in rows]  # no scripts
+        for row in (row for row in rows if len(row) == len(wide)):
+            for column, words in zip(wide, row, strict=True):
+                long = max((sum(widths[letter[ord(c)]][0] for c in word) * em for word in words), default=0.0)
+                assert long <= column - 3.81, words
+        assert sum(wide) <= document.profile.wide + 0.1
 
 
 def test_a_figure_too_large_for_a_page_stands_on_a_larger_one() -> None:

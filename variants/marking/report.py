@@ -242,10 +242,10 @@ class Report:
         return f"{self.words.short(round(math.degrees(radians), 1) % 360.0, DIGITS)}°"
 
     def _shown(self, line: Line, value: float | complex) -> str:
-        """Return what is right, or a tolerance: of an arm on the lever in the millimetres in which it is answered."""
-        mu = self.marked.marking.key.paper.mus.get(line.plan)
-        in_mm = line.answer is not None and line.answer.mm is not None and line.answer.value is None
-        if not mu or isinstance(value, complex) or not (in_mm and is_arm_of_lever(line.name)):
+        """Return what is right, or a tolerance: of an arm on the lever in the student's own millimetres."""
+        mm = line.answer.mm if line.answer and line.answer.value is None and is_arm_of_lever(line.name) else None
+        mu = line.way.size / abs(mm) if mm and line.way and line.way.size else None
+        if not mu or isinstance(value, complex):
             return self._value(line.name, value)
         return f"{self.words.number(abs(value) / mu, 1)} {self.words.spelled('mm')}"
 
