@@ -193,4 +193,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    million() if sys.argv[1:] == ["million"] else main()
+    {"million": million, "states": states}.get(" ".join(sys.argv[1:]), main)()

@@ -31,10 +31,13 @@ def unknown(key: str, asked: object, known: Iterable[str], **data: Any) -> Input
     data = {name: Written(value) if isinstance(value, str) else value for name, value in data.items()}
     if text != latin(text) and latin(text).casefold() in map(str.casefold, names):
         return cyrillic(text)
-    folded = [name for name in names if text and name.casefold() == text.lstrip("0").casefold()]  # mu_v, 03
+    plain = text.lstrip("0").casefold().replace("_", "")
+    folded = [name for name in names if plain and name.casefold().replace("_", "") == plain]  # mu_v, VB, 03
     if 2 < len(text) < 100 or folded:
         turned = [name for name in names if sorted(name) == sorted(text)]  # l_BA for l_AB
-        for meant in folded or turned or difflib.get_close_matches(text, names, n=1, cutoff=0.6):
+        having = [name for name in names if text.casefold() in name.casefold()]  # scheme-03, crank-rocker
+        only = having if len(having) == 1 else []
+        for meant in folded or turned or only or difflib.get_close_matches(text, names, n=1, cutoff=0.6):
             return InputError(f"{key}-like", text=quote(text), like=Written(meant), **data)
     names.sort(key=lambda name: len(text) < 3 or text.casefold() not in name.casefold())  # shaper: first what has it
     shown = ", ".join(names)

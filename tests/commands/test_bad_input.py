@@ -292,6 +292,8 @@ ARGUMENTS = {
     "file with a zero byte": (["solve", "a\0.toml"], "no such file"),
     "file with a long name": (["solve", "a" * 5000 + ".toml"], "no such file"),
     "unknown variant": (["solve", TASK, "-v", "11"], "no variant '11'"),
+    "part of one task's name": (["solve", "scheme-03"], "did you mean scheme-03-crank-rocker?"),
+    "given without its line": (["solve", TASK, "--set", "phi=1", "--set", "n1=5"], "did you mean 'n_1'?"),
     "unknown given": (["solve", TASK, "--set", "l_0A=5"], "did you mean 'l_OA'?"),
     "set without a value": (["solve", TASK, "--set", "l_OA"], "NAME=VALUE"),
     "set twice": (["solve", TASK, "--set", "l_OA=5", "--set", "l_OA=6"], "twice"),
