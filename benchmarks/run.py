@@ -1,4 +1,4 @@
-"""Measure what is promised of speed: `make speed`. Every row is a ratio to a yardstick of the same run, too."""
+"""Measure what is promised of speed (`make speed`), in ratios to a yardstick of the run. Alone: `million`, `states`."""
 
 from __future__ import annotations
 
