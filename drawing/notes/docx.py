@@ -41,7 +41,7 @@ SPACES = {
 _LONG_AGO = (1980, 1, 1, 0, 0, 0)  # the first date that a file in a ZIP can have: the same note, the same bytes
 TWIPS = 1440 / 25.4  # of a millimetre
 HEIGHT = 2.8  # mm of a capital of the text: lines are estimated with the font of the sheet, which is wider
-_BEFORE = 85.0, 30.0  # mm before names, before the date
+_BEFORE = 85.0, 30.0  # mm before names, before the date; larger lines leave less
 EMU = 36000  # of a millimetre
 WIDE = 180.0  # mm of a line
 FRAMES = 9001  # numbers of the pictures of frames, beyond those of figures
@@ -370,7 +370,9 @@ def _title(document: Document) -> Iterator[str]:
     yield _paragraph("Title", words(said["title.note"]))
     yield _paragraph("Subtitle", words(page.title))
     yield _paragraph("TitleLine", words(said["title.variant"].format(variant=page.variant)))
-    names, date = (f'<w:spacing w:before="{round(mm * TWIPS)}"/>' for mm in _BEFORE)
+    usual, looks = note.Profile(), document.profile
+    share = usual.size * usual.lines / (looks.size * looks.lines)
+    names, date = (f'<w:spacing w:before="{round(mm * share * TWIPS)}"/>' for mm in _BEFORE)
     for name in ("student", "group", "teacher"):
         value = words(getattr(page, name) or "_" * 24)
         yield _paragraph("TitleName", f"{words(said[f'title.{name}'])}<w:r><w:tab/></w:r>{value}", names)
@@ -497,7 +499,7 @@ def _fits(markup: str, indents: int) -> bool:
 def _table(rows: tuple[tuple[str | None, ...], ...], profile: Profile) -> str:
     """Return a table whose first row is repeated on every page; no row is parted by the end of a page."""
     wide = [PAD] * len(rows[0])
-    times = SERIF * profile.size / Profile().size
+    times = SERIF * profile.size / note.Profile().size
     for row in rows:
         for start, end, cell in cells_of(row):
             if end == start + 1:

@@ -327,6 +327,27 @@ def test_pictures_are_as_large_as_the_figures() -> None:
 
 
 @pytest.mark.parametrize("profile", ["plain", "dstu3008"])
+def test_the_title_is_one_page_under_a_title_of_two_lines(profile: str) -> None:
+    looks = note("nau-slider-crank", "3", only="velocity", student="І. Петренко", profile=profile).document
+    high = looks.profile.size * looks.profile.lines * 1.15 / 72 * 25.4  # of a line of Times New Roman
+
+    body = part(docx_bytes(looks), "document")
+
+    lines, apart = 1, 3402 / 1440 * 25.4  # what a long title has more, what stands before the heading
+    for paragraph in body.iter(f"{W}p"):
+        style = next((of.get(f"{W}val") for of in paragraph.iter(f"{W}pStyle")), "")
+        if style == "TOCHeading":
+            break
+        lines += 1
+        apart += (
+            120 / 1440 * 25.4
+            + sum(int(space.get(f"{W}before", "0")) for space in paragraph.iter(f"{W}spacing")) / 1440 * 25.4
+        )
+    assert lines > 8
+    assert lines * high + apart < 297.0 - looks.profile.top - looks.profile.bottom
+
+
+@pytest.mark.parametrize("profile", ["plain", "dstu3008"])
 def test_no_column_of_a_table_parts_a_word_or_a_number(profile: str) -> None:
     document = note("nau-slider-crank", "3", lang="uk", profile=profile).document
     bold = TTFont(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "STIXGeneralBol.ttf")
