@@ -48,7 +48,13 @@ def test_commands_print_what_their_page_shows(
     assert refresh.filled(block, str(folder)) == block
 
 
-@pytest.mark.parametrize("name", [name for name in TEXTS if "." in name or name in ("README", "cycle")])
+# documents that are in three languages take turns, in the long run all are read
+IN_TURN = [name for name in TEXTS if "." in name or name in ("README", "cycle")]
+
+
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.soak] * (k % 3 > 0)) for k, name in enumerate(IN_TURN)]
+)
 def test_commands_one_after_the_other_print_what_a_document_shows(
     name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -14,7 +14,7 @@ from kulman.tests.support.mutated_runs import faults, judged, run
 from kulman.tests.support.task_files import with_changes
 from kulman.variants.shelf import bundled_text
 
-CASES, DRAWN, CLASSES = 250, 30, 40  # of each quarter of the soak: half a minute
+CASES, DRAWN, CLASSES = 250, 30, 40  # of each half of the soak: half a minute
 HANG = 30.0  # seconds: a slow machine is no fault; the long run has the bound that counts
 
 
@@ -95,11 +95,14 @@ FOUND = {
 }  # fmt: skip
 
 
-# others are as far off, and need no whole sheet to be drawn
+# others are as far off, and need no whole sheet to be drawn and no class to be solved
 SLOW = (
     "a field over millions of kilometres",
     "a plan of joints that is a point",
     "a length beside which others are nothing",
+    "a point hundreds of kilometres off",
+    "a link beside which the others are points",
+    "a miss that leads out of where a law holds",
 )
 
 
@@ -142,12 +145,12 @@ def test_a_crash_a_flood_and_a_hang_are_faults(fault: Any, kind: str, monkeypatc
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("quarter", range(4))
-def test_no_mutated_input_crashes_hangs_or_floods(quarter: int) -> None:
+@pytest.mark.parametrize("half", range(2))
+def test_no_mutated_input_crashes_hangs_or_floods(half: int) -> None:
     found = [
-        *faults(range(quarter * CASES, (quarter + 1) * CASES), seconds=HANG),
-        *faults(range(quarter * DRAWN, (quarter + 1) * DRAWN), "drawn", seconds=HANG),
-        *faults(range(quarter * CLASSES, (quarter + 1) * CLASSES), "classes", seconds=HANG),
+        *faults(range(half * CASES, (half + 1) * CASES), seconds=HANG),
+        *faults(range(half * DRAWN, (half + 1) * DRAWN), "drawn", seconds=HANG),
+        *faults(range(half * CLASSES, (half + 1) * CLASSES), "classes", seconds=HANG),
     ]
 
     assert not found, "\n".join(f"case {fault.n}: {fault.what}\n{fault.line}\n{fault.trace}" for fault in found)

@@ -263,7 +263,7 @@ def test_who_goes_on_honestly_from_the_same_mistake_has_not_copied() -> None:
     assert sum(abs(one[name].mm - other[name].mm) < 1e-6 for name in one) > 6
 
 
-@pytest.mark.parametrize("step", [0.1, 0.5, 1.0])
+@pytest.mark.parametrize("step", [0.5, *(pytest.param(step, marks=pytest.mark.soak) for step in (0.1, 1.0))])
 def test_honest_hands_seldom_share_their_segments(step: float) -> None:
     """Fifty classes of thirty, 12 segments each, in which chance alone makes hardly a pair: one at most."""
     dice, pairs = random.Random(1), 0

@@ -238,7 +238,9 @@ def test_every_given_of_a_bundled_linkage_has_a_name(lang: str) -> None:
 
 
 @pytest.mark.usefixtures("drawn_once")
-@pytest.mark.parametrize("task", EVERY_KIND)
+@pytest.mark.parametrize(
+    "task", [pytest.param(task, marks=[pytest.mark.soak] * (task == "madi-cam")) for task in EVERY_KIND]
+)
 def test_a_table_of_a_blank_asks_and_a_text_has_only_its_heading(task: str) -> None:
     case = Request(load_task(task)).case()
     texts = case.words().texts
@@ -269,7 +271,7 @@ def test_no_distance_can_be_measured_on_a_blank_of_gears() -> None:
 
 @pytest.mark.usefixtures("drawn_once")
 @pytest.mark.parametrize(
-    "task", [pytest.param(task, marks=() if task == "scheme-09-shaper" else pytest.mark.soak) for task in LINKAGES]
+    "task", [pytest.param(task, marks=() if task == "madi-four-bar" else pytest.mark.soak) for task in LINKAGES]
 )
 def test_all_steps_of_plans_draw_all_that_they_show(task: str) -> None:
     whole, done = (plans(handout(task, format="A1", **how)) for how in ({"key": True}, {"steps": 1000}))
@@ -310,7 +312,7 @@ CAM_FIGURES = (DIAGRAMS_FIGURE, *SIZE_FIGURES.values(), *PROFILE_FIGURES.values(
 CAM_STAGES = {figure.name: figure.stages for figure in CAM_FIGURES}
 
 
-FEW_STEPS = ("scheme-09-shaper", "madi-cam")
+FEW_STEPS = (TASK, "madi-cam")
 OTHERS = [name for name in bundled() if name not in (*FEW_STEPS, "madi-gear", "karpenko-hoist")]
 
 

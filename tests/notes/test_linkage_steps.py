@@ -22,7 +22,7 @@ from kulman.variants.case import Case
 from kulman.variants.kinds.linkage import KIND
 from kulman.variants.shelf import bundled
 
-FEW = ("bertyaev-six-bar", "scheme-09-shaper", "scheme-20-press-automaton", "scheme-18-hydraulic-drive")
+FEW = ("bertyaev-six-bar", "scheme-20-press-automaton")
 DRAWING = ("pole", "lay", "back", "chain", "meet", "arc", "arcs", "divide", "similar", "same", "template", "tangent")
 LAID = re.compile(r" = ([\d.]+)([/·])([\d.]+) = ([\d.]+) [cm]m")
 TASKS: list[Any] = [

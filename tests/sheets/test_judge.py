@@ -178,6 +178,7 @@ def sheet_of(task: str, variant: str | None = None, language: str = "uk", format
     return read(*(drawn.svg(number + 1) for number in range(len(drawn.pages))))
 
 
+@pytest.mark.soak
 def test_nothing_touches_and_other_faults_become_fewer() -> None:
     every = [finding for task in SOME for finding in found(sheet_of(task))]
     assert [finding for finding in every if finding.kind == "overlaps"] == []
@@ -218,7 +219,9 @@ def test_a_sheet_has_as_many_pages_in_each_language(task: str, variant: str) -> 
 
 
 # where all scale factors are fixed an estimate may cover more of a page
-@pytest.mark.parametrize(("task", "count"), [("madi-four-bar", 1), ("bertyaev-six-bar", 2)])
+@pytest.mark.parametrize(
+    ("task", "count"), [("madi-four-bar", 1), pytest.param("bertyaev-six-bar", 2, marks=pytest.mark.soak)]
+)
 def test_fixed_plans_take_no_page_more_than_they_need(task: str, count: int) -> None:
     assert pages_of(task, next(iter(load_task(task).variants))) == [count] * len(LANGUAGES)
 

@@ -262,10 +262,13 @@ def misturned(case: Linkage) -> list[object]:
     return faults
 
 
-def test_arcs_of_slotted_links_and_triads_turn_about_the_fixed_pivots() -> None:
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    [("scheme-11-slotter", "4"), pytest.param("scheme-20-press-automaton", "0", marks=pytest.mark.soak)],
+)
+def test_arcs_of_slotted_links_and_triads_turn_about_the_fixed_pivots(task: str, variant: str) -> None:
     """Seen from the free end of its link an arc shows the opposite sense."""
-    for task, variant in (("scheme-11-slotter", "4"), ("scheme-20-press-automaton", "0")):
-        assert misturned(motion_and_forces(task, variant)) == []
+    assert misturned(motion_and_forces(task, variant)) == []
 
 
 def unread(case: Linkage) -> list[tuple[str, ...]]:
@@ -577,7 +580,9 @@ def test_dead_positions_stand_thin_on_the_plan_of_the_mechanism_from_the_zero_on
     ("task", "slider", "before"),
     [
         pytest.param("nau-slider-crank", "B", -60.0, id="a stroke"),
-        pytest.param("scheme-18-hydraulic-drive", "A", math.inf, id="the range of a sliding driver"),
+        pytest.param(
+            "scheme-18-hydraulic-drive", "A", math.inf, id="the range of a sliding driver", marks=pytest.mark.soak
+        ),
     ],
 )
 def test_guide_is_as_long_as_what_slides_on_it_moves(task: str, slider: str, before: float) -> None:

@@ -16,7 +16,7 @@ from kulman.tests.support.printed_numbers import half_digit, table, value
 from kulman.tests.support.readback import Sheet, View, read
 from kulman.variants.shelf import bundled
 
-USUAL = ("nau-slider-crank", "scheme-09-shaper")
+USUAL = ("nau-slider-crank",)
 TASKS = [*USUAL, *(pytest.param(t, marks=pytest.mark.soak) for t in bundled("mechanism") if t not in USUAL)]
 PLANS = ("velocity", "acceleration")
 DOTS = 1e-3  # mm, the length of a vector that is no more than a point

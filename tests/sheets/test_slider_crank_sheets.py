@@ -292,10 +292,12 @@ def test_the_same_command_gives_the_same_bytes_later(tmp_path: Path) -> None:
 @pytest.mark.soak
 @pytest.mark.parametrize("number", range(len(NAU_VARIANTS)))
 def test_every_sheet_of_a_variant_is_without_fault(number: int) -> None:
-    """On every format and side, over the variants in every language and rotation there, by GOST and by ISO."""
+    """On two thirds of formats and sides, over the variants on all, in every language and rotation, by GOST and ISO."""
     variant = [*NAU_VARIANTS][number]
     turns = [*itertools.product(("cw", "ccw"), LANGUAGES)]
     for k, (name, side) in enumerate(itertools.product(FORMATS, SIDES)):
+        if k % 3 == number % 3:  # other ones of each variant
+            continue
         rotation, lang = turns[(k + number) % len(turns)]
         case = Case(variant, name, lang, side, rotation)
         assert all_faults(case) == []
@@ -313,11 +315,11 @@ def test_sheets_near_a_special_position_are_without_fault(base: int) -> None:
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("phi", range(0, 360, 15))
+@pytest.mark.parametrize("phi", range(0, 360, 30))
 def test_sheets_all_round_the_circle_are_without_fault(phi: int) -> None:
     both = ("example", "A1"), ("4", "A3")
     cases = [
-        Case(*both[(phi // 15 + k) % 2], "uk", side, rotation, phi=phi + 0.5)
+        Case(*both[(phi // 30 + k) % 2], "uk", side, rotation, phi=phi + 0.5)
         for k, (side, rotation) in enumerate(itertools.product(SIDES, ("cw", "ccw")))
     ]
 
