@@ -18,10 +18,11 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from kulman import __version__, cli, load_task
+from kulman import __version__, cli
 from kulman.scales.errors import LANGUAGES, messages
 from kulman.tests.support.commands import Run
 from kulman.variants.case import kind_of
+from kulman.variants.kinds import MODULES
 from kulman.variants.making.new_variants import _with_variants
 from kulman.variants.making.starter import template
 from kulman.variants.reader import check_text
@@ -426,8 +427,9 @@ SELDOM = ("structure", "position", "acceleration", "meshing")  # what is like an
 TYPICAL = ("nau-slider-crank", "madi-gear")  # the others take all plans, and their first two alone
 PLANS = [
     pytest.param(task, plan, marks=[] if quick else pytest.mark.soak, id=f"{task}-{plan}")
-    for task in bundled()
-    for plan in (None, *kind_of(load_task(task).kind).plans[: None if task in TYPICAL else 2])
+    for kind in MODULES
+    for task in bundled(kind)
+    for plan in (None, *kind_of(kind).plans[: None if task in TYPICAL else 2])
     for quick in [(task in TYPICAL and plan not in SELDOM) or (task, plan) == ("karpenko-hoist", "scheme")]
 ]
 COMMANDS = (

@@ -26,7 +26,7 @@ from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 
 FEW = ("madi-four-bar", "scheme-09-shaper")
-TASKS = [task for task in bundled() if load_task(task).kind == "mechanism"]
+TASKS = bundled("mechanism")
 EXACT = 1e-9  # part of the largest value of its kind on its plan
 NEAR_LIMIT = 0.02  # part of the range of a sliding driver at its ends, where the least rounding moves links far
 

@@ -224,7 +224,7 @@ def test_lines_of_a_task_break_within_no_index() -> None:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_every_given_of_a_bundled_linkage_has_a_name(lang: str) -> None:
-    tasks = [task for task in map(load_task, bundled()) if task.kind == "mechanism"]
+    tasks = [*map(load_task, bundled("mechanism"))]
 
     named = {
         (task.id, name): given_name(task.mechanism, Words.of(lang, task.notation), name)

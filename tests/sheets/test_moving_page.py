@@ -26,7 +26,7 @@ from ..support.cams import ROCKER
 # among them a rocker, and a hoist whose rope goes slack, so that its motion is in pieces
 COURSES = [("madi-cam", {}), ("madi-gear", {}), ("karpenko-hoist", {"V_0": 1.5})]
 COURSES += [pytest.param(*of, marks=pytest.mark.soak) for of in ((ROCKER, {}), ("karpenko-hoist", {}))]
-LINKAGES = [task for task in bundled() if load_task(task).kind == "mechanism"]
+LINKAGES = bundled("mechanism")
 # a crank, a stroke with loads of its own, a group of class III
 SOME = ("nau-slider-crank", "scheme-09-shaper", "scheme-20-press-automaton")
 # variants whose names are one on a disk

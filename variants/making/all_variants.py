@@ -95,7 +95,9 @@ class AllVariants(Result):
     def to_json(self) -> dict[str, Any]:
         """Return what `kulman variants --json` prints: values in SI by variant."""
         found = {
-            variant: {name: _si(key, name) for name in self.quantities if name in key.solution.quantities}
+            variant: {
+                name: key.solution.quantities[name].value for name in self.quantities if name in key.solution.quantities
+            }
             for variant, key in self.keys.items()
         }
         problems = {variant: problem.text(self._language) for variant, problem in self.problems.items()}
@@ -164,10 +166,6 @@ class AllVariants(Result):
         ]
         order = {place: number for number, place in enumerate(dict.fromkeys(one.category for one in found))}
         return iter(sorted(found, key=lambda one: order[one.category]))
-
-
-def _si(key: Keyed, name: str) -> float | None:
-    return key.solution.quantities[name].value
 
 
 def _shown(key: Keyed, name: str) -> float | None:

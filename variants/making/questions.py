@@ -109,7 +109,7 @@ class _Statement:
             f"<p>{escape(title)}. {escape(variant)}.</p>\n{self.html(case.kind.loaded(name))}\n"
             f"<p><strong>{said['question.find'].format(**told)}</strong> {rule}</p>"
         )
-        category = (title, variant if by == BY[0] else plain_of(words.symbol(name)))
+        category = (title, variant if by == BY[0] else re.sub(r"<[^>]+>", "", html(words.symbol(name))))
         latin = shown.unit.replace("^2", "²").replace("*", "·")
         right = f"{symbol} = {words.short(value, 4)} {of}".rstrip()
         units = tuple(dict.fromkeys((of, latin))) if of else ()
@@ -191,11 +191,6 @@ def _node(node: Node) -> str:
     above, below = ("".join(map(_node, parts)) for parts in (node.above, node.below))
     raised, lowered = f"<sup>{above}</sup>" * bool(above), f"<sub>{below}</sub>" * bool(below)
     return f"{_node(node.base)}{raised}{lowered}"
-
-
-def plain_of(markup: str) -> str:
-    """Return markup as a name of a category."""
-    return re.sub(r"<[^>]+>", "", html(markup))
 
 
 def xml_bytes(questions: Iterable[Question]) -> bytes:
