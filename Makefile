@@ -2,6 +2,7 @@
 PYTHON ?= python3
 PY := .venv/bin/python
 VARIANT ?= 3
+USABLE := .venv/usable
 READY := .venv/ready
 WORKERS ?= auto
 # what the tests start is compiled once, whatever the shell says: they start some hundred processes
@@ -9,12 +10,12 @@ unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: sheet web test soak browser corpus lint types bench speed clean
 
-sheet: $(READY)
+sheet: $(USABLE)
 	mkdir -p out
 	$(PY) -m kulman sheet nau-slider-crank -v $(VARIANT) -o out/sheet.svg -o out/sheet.pdf
 
 # the program in a browser
-web: $(READY)
+web: $(USABLE)
 	$(PY) -m kulman serve --open
 
 test: $(READY)
@@ -50,8 +51,14 @@ bench: $(READY)
 speed: $(READY)
 	$(PY) benchmarks/run.py
 
-$(READY): pyproject.toml
+# what a user needs; what the tests need takes several times as long
+$(USABLE): pyproject.toml
+	@echo "The first time packages are fetched and installed: a minute or so ..."
 	$(PYTHON) -m venv .venv
+	$(PY) -m pip install --quiet --disable-pip-version-check --editable ".[docx,dxf,note,png,web]"
+	touch $(USABLE)
+
+$(READY): $(USABLE)
 	$(PY) -m pip install --quiet --disable-pip-version-check --editable ".[dev,png]"
 	touch $(READY)
 
