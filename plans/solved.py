@@ -192,6 +192,27 @@ class Course(ABC):
         """Return the pieces that the formulas are of, None where they hold everywhere."""
         return None
 
+    @property
+    def changeable(self) -> Mapping[str, float]:
+        """The givens and sizes, SI, that the formulas ask for, so that others may stand in their place.
+
+        The formulas of other numbers are right while all of their columns `limit.` are not negative at any place.
+        """
+        return {}
+
+    @property
+    def kept(self) -> Mapping[str, float]:
+        """What is found again, as it is for the numbers of the course."""
+        return {}
+
+    def found_again(self, given: Callable[[str], Any]) -> Mapping[str, tuple[Any, Any, Any]]:
+        """Return what other numbers make anew of names that the formulas ask for, too.
+
+        Each is the one zero of a rising function: with its name go the value at the given number, and two places
+        between which the zero is.
+        """
+        return {}
+
     def rows(self, count: int | None) -> Rows:
         """Return the rows of a table: so many places, without a number what is marked."""
         many = self.usual if count is None else count

@@ -296,7 +296,8 @@ class Kind(Generic[Subject, Answer]):
             raise InputError("kind-without", task=quote(case.task.id), text="-o *.html")
         scene, story = self.scene(case, drawn.scales, words), self.story(case, drawn.scales, words, texts)
         moved = self._in("drawing", "moving", "moving")(scene)
-        return moving_course(moved, course, drawn, story, case.givens, self.lettered(words, solved))
+        bounds = {name: given.bound.value for name, given in case.task.givens.items()}
+        return moving_course(moved, course, drawn, story, case.givens, self.lettered(words, solved), bounds)
 
     def construction(self, case: Case, scales: Scales, words: Words, titles: tuple[str, str]) -> bytes:
         """Return a construction as a file of GeoGebra, with scale factors by plan, its name and that of its variant.

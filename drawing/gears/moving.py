@@ -10,7 +10,7 @@ from ..moving.courses import Moving, outline
 from ..words import indexed
 from .scene import GearScene
 
-FLANK, ARC = 12, 0.1  # points of a flank; rad between those of tips and roots
+FLANK, ARC = 40, 0.01  # points of a flank; rad between those of tips and roots
 NEAR = 2.6  # modules that are seen to both sides of the pole at least, beside the active line
 AROUND = 1.15
 SECONDS = 6.0  # that the contact of a pair of teeth takes on the page

@@ -261,7 +261,7 @@ def _magnified(canvas: Canvas, scene: HoistScene, corner: complex) -> None:
 def _forces_view(scene: HoistScene) -> View:
     """Draw the forces over time."""
     canvas, words = FORCES_FIGURE.canvas(scene), scene.words
-    field = _forces_field(scene)
+    field = forces_field(scene)
     canvas.part("axes")
     _ruled(canvas, field)
     canvas.part("levels")
@@ -291,7 +291,7 @@ def _forces_view(scene: HoistScene) -> View:
     return canvas.finish("forces", heading, tuple(notes))
 
 
-def _forces_field(scene: HoistScene) -> Field:
+def forces_field(scene: HoistScene) -> Field:
     """Return the axes: from -m g to beyond the greatest force, that of the article among them."""
     words, force = scene.words, scene.scale("mu_F")
     high = TALLEST * max(scene.size("F_max"), scene.size("P_12_max_printed"))

@@ -6,7 +6,8 @@ the note tells them. What moves is said by the subject: shapes between points th
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -42,6 +43,7 @@ class Moving:
     The `views` are those that move, the first of them the mechanism; `over` are shapes that move over figures of the
     sheet, by their names. `points` stand, in SI; `shown` are the columns of the table, `first` those of the diagrams;
     `symbols` are those of columns that have other ones than quantities. The figure that `opens` is shown at first.
+    `measured` are numbers by which views are as large as what moves in them: see `measure` in `places.js`.
     """
 
     drive: Data
@@ -52,27 +54,42 @@ class Moving:
     over: Mapping[str, list[Data]] = field(default_factory=dict)
     symbols: Mapping[str, str] = field(default_factory=dict)
     opens: str = ""
+    measured: Mapping[str, Data] = field(default_factory=dict)
 
 
 def moving_course(
-    moving: Moving, course: Course, drawn: Drawn, story: Story, givens: Mapping[str, Given], words: Words
+    moving: Moving,
+    course: Course,
+    drawn: Drawn,
+    story: Story,
+    givens: Mapping[str, Given],
+    words: Words,
+    bounds: Mapping[str, str],
 ) -> Data:
-    """Return what the page needs of a subject that has a course over its motion."""
+    """Return what the page needs of a subject that has a course over its motion; `bounds` are those of givens."""
     solve, names = script_of_formulas(course.formulas)
+    if (again := _found_again(course)) is not None:
+        solve += again
     figures = [_figure(view, story, drawn.scales.get(view.name), moving.over) for view in drawn.views if view.stages]
     units = {column.name: column.unit for column in course.columns(course.places(2))}
     return {
         "solve": solve,
         "names": names,
-        "board": {name: [number(at.real), number(at.imag)] for name, at in moving.points.items()},
+        "board": {
+            **{name: [number(at.real), number(at.imag)] for name, at in moving.points.items()},
+            **{name: one["now"] for name, one in moving.measured.items()},
+            **course.changeable,
+            **course.kept,
+        },
         "near": None,
         "pieces": _pieces(course.pieces()),
         "turned": [],
         "drive": moving.drive,
-        "givens": [*_givens(givens, words)],
+        "measured": moving.measured,
+        "givens": [*_givens(givens, course.changeable, words, bounds)],
         "stroke": None,
         "views": [*({"steps": [], **view} for view in moving.views), *figures],
-        "asked": [],
+        "asked": [["given", name] for name, one in moving.measured.items() if "round" in one],
         "opens": moving.opens if moving.opens in {figure["name"] for figure in figures} else "",
         "quantities": [_quantity(name, units[name], moving.symbols, words) for name in moving.shown if name in units],
         "shown": [name for name in moving.first if name in units],
@@ -94,11 +111,37 @@ def _quantity(name: str, unit_name: str, symbols: Mapping[str, str], words: Word
     return {"name": name, "symbol": html(symbols.get(name) or words.symbol(name)), "unit": said, "by": by, "plan": ""}
 
 
-def _givens(givens: Mapping[str, Given], words: Words) -> Iterator[Data]:
-    for name, given in givens.items():
-        if not isinstance(given.value, str):
-            said = {"symbol": html(words.symbol(name)), "unit": html(words.unit(given.unit))}
-            yield {"name": name, "board": [], **said, "value": given.value, "si": 1.0, "bound": "", "fixed": True}
+def _found_again(course: Course) -> str | None:
+    """Return what other numbers make anew as source of JavaScript: by name value, and two places around its zero."""
+    names = list[str]()
+
+    def zeros(given: Callable[[str], Any]) -> dict[str, Any]:
+        found = course.found_again(given)
+        names.extend(found)
+        return {f"{name}.{k}": part for name, parts in found.items() for k, part in enumerate(parts)}
+
+    source, _ = script_of_formulas(zeros, "zeros")
+    return f"{source}const ZEROS = {json.dumps(names)};\n" if names else None
+
+
+def _givens(
+    givens: Mapping[str, Given], changeable: Mapping[str, float], words: Words, bounds: Mapping[str, str]
+) -> Iterator[Data]:
+    """Go through the givens, then through sizes that were found; those that cannot be changed are fixed."""
+    lengths = {name: Given(unit_of("mm").from_si(now), "mm") for name, now in changeable.items() if name not in givens}
+    for name, given in {**givens, **lengths}.items():
+        if isinstance(given.value, str):
+            continue
+        yield {
+            "name": name,
+            "board": [name],
+            "symbol": html(words.symbol(name)),
+            "unit": html(words.unit(given.unit)),
+            "value": given.value if name in givens else number(given.value, 6),
+            "si": 1.0 if given.unit == "1" else unit_of(given.unit).to_si(1.0),
+            "bound": bounds.get(name, ""),
+            "fixed": name not in changeable,
+        }
 
 
 def _figure(view: View, story: Story, scale: Scale | None, over: Mapping[str, list[Data]]) -> Data:

@@ -3,18 +3,10 @@ const W = D.words, $ = id => document.getElementById(id), SVG = "http://www.w3.o
 const LETTER = 4.6, READABLE = 9, SEEN = 12; // mm, and pixels that letters have at least
 
 // ---- numbers and words
-const RAISED = Object.fromEntries([..."-0123456789"].map((sign, k) => [sign, "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"[k]]));
-const locale = text => (D.lang === "en" ? text : text.replace(".", ",")).replace("-", "\u2212");
-function said(x, digits = 4) {
-  if (x === undefined || x !== x || x === null) return "–";
-  if (Math.abs(x) < 1e-11) return "0";
-  const text = Math.abs(x) >= 1e6 || Math.abs(x) < 1e-3 ? x.toExponential(digits - 1).replace(/\.?0+e/, "e") : String(Number(x.toPrecision(digits)));
-  return locale(text.replace(/e\+?(-?\d+)/, (_, power) => "·10" + [...power].map(sign => RAISED[sign]).join("")));
-}
-const long = mm => locale(mm.toFixed(mm < 100 ? 2 : 1));
 const plain = new Map(D.quantities.map(q => [q.name, q]));
 function asked(spec) {
   const [kind, ...of] = spec, found = here.found, mu = of.length > 1 && views.has(of[1]) ? views.get(of[1]).mu : 1;
+  if (kind === "given") return said(given[of[0]], 6);
   if (kind === "mm") return long(Math.abs(size(value(found, of[0]))) / mu);
   const mm = views.get("position").mu;
   if (kind === "x" || kind === "y") return long(spot(found, of[0])[kind === "x" ? 0 : 1] / mm);
@@ -64,9 +56,6 @@ function letters(html, parent, attributes, high = LETTER) { // scripts, slanted 
   text.wide = count * high * 0.63;
   return text;
 }
-const sub = (a, b) => [a[0] - b[0], a[1] - b[1]], add = (a, b, k = 1) => [a[0] + b[0] * k, a[1] + b[1] * k];
-const unit = v => { const l = Math.hypot(v[0], v[1]); return l > 1e-9 ? [v[0] / l, v[1] / l] : [0, 0]; };
-const cross = (a, b) => a[0] * b[1] - a[1] * b[0], dot = (a, b) => a[0] * b[0] + a[1] * b[1];
 function arrow(node, a, b, head = 3.5) {
   const e = unit(sub(b, a)), n = [-e[1], e[0]], long = Math.min(head, Math.hypot(...sub(b, a)) / 2), foot = add(b, e, -long);
   node.setAttribute("points", round([b, add(foot, n, long / 6), add(foot, n, -long / 6)]));
@@ -87,7 +76,7 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
   vector: { z: 2, make: (g, s, high) => { const group = make("g", {}, g); make("line", { class: "main" }, group); make("polygon", { class: "solid" }, group); group.letter = letters(s.text, g, {}, high); return group; },
     draw: (s, n, p) => { const a = p(s.a), b = p(s.b); line(n.firstChild, a, arrow(n.lastChild, a, b)); s.label = named(n.letter, a, b); return [[a, b]]; } },
   force: { z: 2, make: (g, s, high) => { const group = make("g", {}, g); make("line", { class: "main" }, group); make("polygon", { class: "solid" }, group); group.letter = letters(s.text, g, {}, high); return group; },
-    draw: (s, n, p, v) => { const a = p(s.at), f = v(s.v), none = !(size(f) > 1e-12), reach = s.long ? size(f) * s.long : HANG, b = add(a, unit(f), reach); n.style.display = n.letter.style.display = none ? "none" : "";
+    draw: (s, n, p, v) => { const a = p(s.at), f = v(s.v), none = !(size(f) > 1e-12), reach = s.long ? size(f) * s.long / views.get("position").force : HANG, b = add(a, unit(f), reach); n.style.display = n.letter.style.display = none ? "none" : "";
       if (none) { s.label = null; return []; } line(n.firstChild, a, arrow(n.lastChild, a, b)); s.label = { text: n.letter, a: add(a, unit(f), reach * 0.6), b }; return [[a, b]]; } },
   arm: { z: 0, make: g => make("g", {}, g), draw: (s, n, p, v) => {
     if (!n.firstChild) { make("line", { class: "thin" }, n); make("line", { class: "thin" }, n); }
@@ -115,18 +104,21 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
   } },
   body: { z: 0, make: (g, s, high, view) => { // an outline that turns as a whole, so often about its centre
       let d = "";
+      const outline = s.of && here.changed ? Array.from({ length: 4 * COUNT }, (_, k) => { const found = stand(place(k / 4)); return s.of.map(name => value(found, name)); }) : s.d;
       for (let k = 0; k < (s.times || 1); k++) {
         const c = Math.cos(TURN * k / (s.times || 1)), e = Math.sin(TURN * k / (s.times || 1));
-        d += (d ? "L" : "M") + round(s.d.map(([x, y]) => [(x * c - y * e) / view.mu, (x * e + y * c) / view.mu])).replace(/ /g, "L");
+        d += (d ? "L" : "M") + round(outline.map(([x, y]) => [(x * c - y * e) / view.mu, (x * e + y * c) / view.mu])).replace(/ /g, "L");
       }
       return make("path", { class: s.class, d: d + (s.open ? "" : "Z") }, g);
     },
     draw: (s, n, p, v) => { const [x, y] = p(s.at), [c, e] = v(s.turn), by = s.by || 0;
       n.setAttribute("transform", `translate(${x.toFixed(3)} ${(-y).toFixed(3)}) rotate(${(-(Math.atan2(e, c) + by) * 180 / Math.PI).toFixed(4)})`); return []; } },
-  disk: { z: 3, make: (g, s, high, view) => make("circle", { class: (s.class || "paper") + (s.lit ? " now" : ""), r: s.r / view.mu }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { cx: x, cy: -y }); return []; } },
+  disk: { z: 3, make: (g, s, high, view) => make("circle", { class: (s.class || "paper") + (s.lit ? " now" : ""), r: sized(s.r) / view.mu }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { cx: x, cy: -y }); return []; } },
   bent: { z: 2, make: g => make("polyline", { class: "main" }, g), draw: (s, n, p, v) => { // a beam as far off as a force bends it
-    const w = v(s.v); n.setAttribute("points", round(s.d.map(([x, y], k) => [x / here.mu, (y + s.by[k] * w) / here.mu]))); return []; } },
-  box: { z: 3, make: (g, s, high, view) => make("rect", { class: "paper", width: s.wide / view.mu, height: s.high / view.mu }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { x: x - s.wide / here.mu / 2, y: -y - s.high / here.mu }); return []; } },
+    const w = v(s.v) * given.times; n.setAttribute("points", round(s.d.map(([x, y], k) => [x / here.mu, (y + s.by[k] * w) / here.mu]))); return []; } },
+  moment: { z: 5, make: (g, s) => { const group = make("g", { class: "lit" }, g); make("line", { class: "main lit", y1: -s.low, y2: -s.high }, group); for (const name of s.of) make("circle", { class: "spot", r: 1.6 }, group); return group; },
+    draw: (s, n, p, v) => { const x = here.at * s.x; set(n.firstChild, { x1: x, x2: x }); s.of.forEach((name, k) => set(n.children[k + 1], { cx: x, cy: -v(name) * s.y })); return []; } },
+  box: { z: 3, make: (g, s, high, view) => make("rect", { class: "paper", width: s.wide / view.mu, height: s.high / view.mu }, g), draw: (s, n, p) => { const [x, y] = p(s.at); const w = s.wide / here.mu / 2, h = s.high / here.mu; set(n, { x: x - w, y: -y - h }); return [[[x - w, y], [x - w, y + h]], [[x + w, y], [x + w, y + h]]]; } },
   pin: { z: 4, make: (g, s) => make("circle", { class: s.lit ? "paper now" : "paper", r: 1.4 }, g), draw: (s, n, p) => { const [x, y] = p(s.at); set(n, { cx: x, cy: -y }); return []; } },
   pivot: { z: 4, make: g => { const group = make("g", {}, g); make("path", { class: "main", d: "M0 0L-3 6H3Z" }, group); make("path", { class: "thin", d: "M-5 6H5M-4 6l-2 2M-1 6l-2 2M2 6l-2 2M5 6l-2 2" }, group); make("circle", { class: "paper", r: 1.4 }, group); return group; },
     draw: (s, n, p) => { const [x, y] = p(s.at); n.setAttribute("transform", `translate(${x.toFixed(3)} ${(-y).toFixed(3)})`); return []; } },
@@ -139,7 +131,7 @@ const HANG = 16, DRAW = { // how each kind of shape is made, and how it is drawn
 function build(view, svg) {
   svg.replaceChildren();
   view.shows = undefined;
-  set(svg, { viewBox: view.box.map(x => x.toFixed(2)).join(" "), "aria-label": view.heading.replace(/<[^>]+>/g, "") });
+  set(svg, { viewBox: view.box.map(x => x.toFixed(2)).join(" "), "aria-label": filled(view.heading).replace(/<[^>]+>/g, "") });
   svg.style.setProperty("--wide", `${view.box[2].toFixed(1)}mm`);
   view.letter = Math.max(LETTER, SEEN * view.box[2] / (svg.clientWidth || 600));
   svg.style.fontSize = `${view.letter.toFixed(2)}px`;
@@ -149,9 +141,15 @@ function build(view, svg) {
     set(text, { transform: `translate(${x} ${y}) rotate(${angle})` });
     return [from, text];
   });
+  if (view.frame && svg.getBBox) { // letters are wider than those of the sheet
+    const { x, y, width, height } = svg.getBBox(), [x0, y0, wide, high] = view.frame, low = [Math.min(x, x0), Math.min(y, y0)];
+    view.box = [...low, Math.max(x + width + 2, x0 + wide) - low[0], Math.max(y + height, y0 + high) - low[1]];
+    svg.setAttribute("viewBox", view.box.map(x => x.toFixed(2)).join(" "));
+  }
   const layers = [0, 1, 2, 3, 4, 5].map(() => make("g", {}, svg));
   for (const shape of view.shapes) {
     shape.node = DRAW[shape.k].make(layers[DRAW[shape.k].z], shape, view.letter, view);
+    if (shape.node.letter) layers[5].appendChild(shape.node.letter); // nothing covers a letter
     shape.lights = lights(shape);
     for (const node of [shape.node, shape.node.letter]) if (node) {
       node.addEventListener("pointerenter", () => light(shape.lights));
@@ -211,16 +209,6 @@ function settle(view, segments) {
     set(label.text, { x: (best.at[0] - wide / 2).toFixed(2), y: (-best.at[1] + view.letter * 0.36).toFixed(2) });
   }
 }
-function crosses(a, b, box) { // a segment and a box (Liang and Barsky)
-  let low = 0, high = 1;
-  for (const i of [0, 1]) {
-    const d = b[i] - a[i];
-    if (Math.abs(d) < 1e-9) { if (a[i] < box[i] || a[i] > box[i + 2]) return false; continue; }
-    const one = (box[i] - a[i]) / d, other = (box[i + 2] - a[i]) / d;
-    low = Math.max(low, Math.min(one, other)); high = Math.min(high, Math.max(one, other));
-  }
-  return low < high;
-}
 function draw(view) {
   const mu = here.mu = view.mu, found = here.found, segments = [];
   const p = end => { const [x, y] = spot(found, end); return [x / mu, y / mu]; }, v = name => value(found, name);
@@ -268,8 +256,6 @@ function nudge(event, sense) { // a degree, or a part of the span; with Shift a 
 
 // ---- one place
 const TURN = 2 * Math.PI;
-const shownPlace = at => drive.turns ? ((at * 180 / Math.PI) % 360 + 360) % 360 : at * drive.by;
-const shownAt = at => locale(shownPlace(at).toFixed(drive.digits)) + (drive.turns ? "°" : " " + drive.unit);
 function go(at) {
   if (drive.turns) { at = at % TURN; if (at < 0) at += TURN; } else at = Math.min(Math.max(at, drive.low), drive.high);
   const found = stand(at);
@@ -297,8 +283,12 @@ function numbers(none) { // where a position has no plan nothing has a value
 }
 
 // ---- play at the speed of the task, slowed by a stated factor
-const period = drive.turns ? TURN / drive.speed : (drive.again || 2 * span) / drive.speed, slow = period < 6 ? nice(6 / period) : 1;
-let playing = null, way = 1;
+let playing = null, way = 1, slow = 1;
+function slowed() {
+  const period = (drive.turns ? TURN : drive.again || 2 * span) / drive.speed;
+  slow = period < 6 ? nice(6 / period) : 1;
+  $("slow").textContent = slow > 1 ? W.slow.replace("{n}", said(slow)) : "";
+}
 function pause() { if (playing) cancelAnimationFrame(playing); playing = null; $("play").setAttribute("aria-pressed", "false"); $("play").textContent = W.play; }
 function play() {
   let before = performance.now();
@@ -397,39 +387,44 @@ function givens() {
   for (const item of D.givens) {
     const label = document.createElement("label"), input = document.createElement("input"), text = document.createElement("span");
     label.innerHTML = item.symbol; label.htmlFor = input.id = `given-${item.name}`; text.innerHTML = item.unit;
-    Object.assign(input, { type: "text", inputMode: "decimal", autocomplete: "off", value: item.fixed ? said(item.value, 6) : locale(String(item.value)), disabled: item.fixed });
+    Object.assign(input, { type: "text", inputMode: "decimal", autocomplete: "off", value: item.fixed ? said(item.value, 6) : written(item.value), disabled: item.fixed });
     input.addEventListener("change", () => change(item, input));
     $("givens").append(label, input, text);
   }
   const fixed = D.givens.filter(item => item.fixed).length;
-  if (fixed) $("givens").append(Object.assign(document.createElement("p"), { textContent: D.pieces !== undefined ? W.given : W.fixed }));
+  if (fixed) $("givens").append(Object.assign(document.createElement("p"), { textContent: D.pieces === undefined ? W.fixed : fixed < D.givens.length ? W.some : W.given }));
   $("again").classList.toggle("gone", fixed === D.givens.length);
   $("givens").addEventListener("submit", event => event.preventDefault());
   $("again").addEventListener("click", () => {
     Object.assign(given, D.board);
     here.changed = false;
-    for (const item of D.givens) $(`given-${item.name}`).value = locale(String(item.value));
+    taken();
+    for (const item of D.givens) $(`given-${item.name}`).value = written(item.value);
     here.at = drive.start;
     remade();
   });
 }
-const BOUNDS = { "not-positive": [x => x > 0, "positive"], negative: [x => x >= 0, "not_negative"], "is-zero": [x => x !== 0, "not_zero"] };
+const LIMITS = { undercut: W.undercut, slack: W.slack, returns: W.returns };
+const BOUNDS = { "not-positive-or-inf": [x => x > 0, "positive"], "not-positive": [x => x > 0, "positive"], negative: [x => x >= 0, "not_negative"], "is-zero": [x => x !== 0, "not_zero"] };
 function change(item, input) {
   const before = { ...given }, text = input.value.trim().replace(",", ".").replace("\u2212", "-");
   const wanted = text === "" ? NaN : Number(text), [admits, said] = BOUNDS[item.bound] || [() => true, ""];
   const fault = !Number.isFinite(wanted) ? W.number : !admits(wanted) ? W[said] : "";
   if (!fault) for (const name of item.board) given[name] = wanted * item.si;
+  const was = here.changed, beyond = fault ? "" : taken();
   here.changed = true;
-  if (fault || !Array.from({ length: 60 }, (_, k) => stand(place(k * COUNT / 60))).some(found => found[0] < FAILED)) {
+  if (fault || beyond || !Array.from({ length: 60 }, (_, k) => stand(place(k * COUNT / 60))).some(found => found[0] < FAILED)) {
     Object.assign(given, before);
-    input.value = locale(String(Number((given[item.board[0]] / item.si).toPrecision(12))));
-    $("status").textContent = fault || W.refused;
+    here.changed = was;
+    taken();
+    input.value = written(Number((given[item.board[0]] / item.si).toPrecision(12)));
+    $("status").textContent = fault || (beyond && LIMITS[beyond.split(/[._]/)[1]]) || W.refused;
     return;
   }
   remade();
 }
 function remade() {
-  sample();
+  sample(); reach(); figures();
   here.found = null;
   let at = here.at;
   if (stand(at)[0] >= FAILED) {
@@ -439,26 +434,39 @@ function remade() {
   }
   left(); right(); curves(); go(at);
 }
+function reach() {
+  set($("place"), drive.turns ? { min: 0, max: 360, step: "any" } : { min: shownPlace(drive.low), max: shownPlace(drive.high), step: "any" });
+  slowed();
+}
+const stale = name => Boolean(here.changed && views.get(name).drawn);
+function figures() { // those of the sheet, and what tells them, are of its data
+  for (const id of ["which", "replayed"]) {
+    const list = $(id), options = [...list.options];
+    for (const option of options) option.hidden = option.disabled = stale(option.value);
+    const now = options.find(option => option.selected && !option.disabled) || options.find(option => !option.disabled);
+    if (now) list.value = now.value;
+    (id === "which" ? $("right").closest("figure") : $("told").closest("section")).classList.toggle("gone", !now);
+  }
+  for (const view of D.views) if (stale(view.name)) { view.svg = null; view.until = undefined; }
+}
 function left() { build(views.get("position"), $("left")); heading(views.get("position"), $("left-head")); }
 function right() {
   const view = views.get($("which").value);
-  if (!view) return;
+  if (!view || stale(view.name)) return;
   for (const other of D.views) if (other.name !== "position") other.svg = null;
   build(view, $("right")); heading(view, $("right-head"), true);
 }
 function heading(view, node, alone) {
   const scale = view.symbol ? `${view.symbol} = ${said(view.mu * view.by, 6)} ${view.per}` : (view.under || []).join("; ");
-  node.innerHTML = [alone ? "" : view.heading, scale].filter(Boolean).join(", ");
+  node.innerHTML = [alone ? "" : filled(view.heading), scale].filter(Boolean).join(", ");
 }
 
 // ---- begin
 function begin() {
   $("symbol").innerHTML = drive.symbol;
-  set($("place"), drive.turns ? { min: 0, max: 360, step: "any" } : { min: shownPlace(drive.low), max: shownPlace(drive.high), step: "any" });
   $("place").addEventListener("input", () => { pause(); go($("place").value * (drive.turns ? Math.PI / 180 : 1 / drive.by)); });
   $("place").addEventListener("keydown", event => nudge(event, 1));
   $("play").addEventListener("click", () => playing ? pause() : play());
-  $("slow").textContent = slow > 1 ? W.slow.replace("{n}", said(slow)) : "";
   for (const view of D.views) for (const list of [$("which"), $("replayed")]) {
     if (list.id === "which" ? view.name === "position" : !view.steps.length) continue;
     const option = document.createElement("option");
@@ -486,7 +494,7 @@ function begin() {
     row.addEventListener("pointerleave", () => light([]));
   }
   if (D.opens) $("which").value = $("replayed").value = D.opens;
-  givens(); sample();
+  givens(); sample(); reach();
   here.found = here.samples.find(found => found[0] < FAILED);
   left(); right(); curves(); tell(); go(drive.start);
 }

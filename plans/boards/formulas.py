@@ -169,8 +169,8 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
 }
 
 
-def script_of_formulas(formulas: Formulas) -> tuple[str, list[str]]:
-    """Return formulas as source of JavaScript, the function `solve(given)`, and the names of what it finds, in order.
+def script_of_formulas(formulas: Formulas, function: str = "solve") -> tuple[str, list[str]]:
+    """Return formulas as source of JavaScript, such as `solve(given)`, and the names of what it finds, in order.
 
     The `formulas` are a function that asks for what is given by its name, and returns numbers by their names. The
     function of JavaScript takes the given numbers by name and returns an array as that of a program does
@@ -181,4 +181,4 @@ def script_of_formulas(formulas: Formulas) -> tuple[str, list[str]]:
     values = [number.x if _is_zero(number.y) else Vector(number.x, number.y) for number in found.values()]
     places = [part.place for number in found.values() for part in (number.x, number.y) if isinstance(part, Real)]
     script = Script(trace, in_order(trace, places), places)
-    return script.source("solve", ", ".join(result_of(script, value, "[{}, {}]") for value in values)), [*found]
+    return script.source(function, ", ".join(result_of(script, value, "[{}, {}]") for value in values)), [*found]

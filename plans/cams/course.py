@@ -21,12 +21,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..solved import AT, Columned, Course, Ends, Pieces, Rows
-from .followers import RIGHT_ANGLE, Limit, Range, Rocker, RollerCam, turned_back
+from .followers import RIGHT_ANGLE, Limit, Range, Rocker, RollerCam, RollerProfile, Sizes, turned_back
 from .motion import FALL, RISE, TURN, Array, Motion, Phase, least
 from .sizes import HalfPlane, slacks
 from .solve import SolvedCam
 
 PSI = "psi."  # begins the names of numbers of the motion of a rocker
+STROKES = ("h", "l_rocker")  # what the stroke is proportional to: that of a rocker is the arc of its roller
 NEAR = 1e-9  # rad, from a section line, where a jump is on it
 FINE = np.radians(0.5)  # between points of a curve
 CUT, MANY = math.radians(0.02), 400  # between points of a profile to be cut; cells of its arcs
@@ -36,31 +37,51 @@ SAME, IN_DWELL = 1e-9, 0.25  # part of a radius; of the lower dwell, at which th
 
 @dataclass(frozen=True, slots=True)
 class _ReadMotion:
-    """A motion at a place, read from the numbers of its piece."""
+    """A motion at a place, read from the numbers of its piece; of another stroke it is so many times as large."""
 
     motion: Motion
     given: Callable[[str], Any]
+    times: Any
 
     def at(self, phi: Any, side: int = 1) -> tuple[Any, Any, Any]:
         """Return s, ds/dphi, d2s/dphi2."""
-        return self.motion.read(self.given(AT), self.given)
+        s, ds, d2s = self.motion.read(self.given(AT), self.given)
+        return s * self.times, ds * self.times, d2s * self.times
 
 
 class _Read:
-    """A cam at a place: what its motion, and that of a rocker, is read from is given."""
+    """A cam at a place: what its motion, and that of a rocker, is read from is given, and so are changeable sizes."""
 
-    def __init__(self, solved: SolvedCam, given: Callable[[str], Any]) -> None:
-        self.motion = cast("Motion", _ReadMotion(solved.motion, given))
+    def __init__(self, solved: SolvedCam, given: Callable[[str], Any], changeable: Mapping[str, float]) -> None:
+        of = {name: given(name) for name in changeable}
+        times = {name: of[name] / changeable[name] for name in STROKES if name in of}
+        self.omega = of.get("omega", solved.givens["omega"])
+        self.motion = cast("Motion", _ReadMotion(solved.motion, given, math.prod(times.values())))
         self.rolling, self.plate = solved.rolling, solved.plate
         if self.rolling is not None:
             profile, own = self.rolling.profile, self.motion
-            if solved.rocker is not None:
-                of = _ReadMotion(profile.motion, lambda name: given(name if name == AT else PSI + name))
-                own = cast("Motion", of)
-            follower = replace(profile.follower, motion=own)
-            self.rolling = replace(self.rolling, profile=replace(profile, follower=follower))
+            follower = profile.follower
+            if isinstance(follower, Rocker):
+                read = partial(_ReadMotion, profile.motion, lambda name: given(name if name == AT else PSI + name))
+                own, follower = cast("Motion", read(1.0)), replace(follower, l=of.get("l_rocker", follower.l))
+            sizes, R = _sizes(profile, of), of.get("R_roller", profile.R)
+            profile = replace(profile, follower=replace(follower, motion=own), sizes=sizes, R=R)
+            self.rolling = replace(self.rolling, profile=profile)
         if self.plate is not None:
-            self.plate = replace(self.plate, profile=replace(self.plate.profile, motion=self.motion))
+            plate = self.plate.profile
+            plate = replace(plate, motion=self.motion, r_0=of.get("r_0_flat", plate.r_0))
+            self.plate = replace(self.plate, profile=plate)
+
+
+def _sizes(profile: RollerProfile, of: Mapping[str, Any]) -> Sizes:
+    """Return the sizes of a cam with a roller, of which others may be given."""
+    if "r_0" not in of:
+        return profile.sizes
+    r_0, e = of["r_0"], of.get("e")
+    if e is None:  # pivot, centre and the roller in its lowest place are a triangle of l, r_0 and l_OC
+        l, l_OC = of["l_rocker"], of["l_OC"]
+        e = (l * l + r_0 * r_0 - l_OC * l_OC) / (2.0 * l)
+    return replace(profile.sizes, r_0=r_0, e=e, s_0=np.sqrt(r_0 * r_0 - e * e))
 
 
 class CamCourse(Course):
@@ -86,7 +107,7 @@ class CamCourse(Course):
         def points(name: str, places: Any) -> list[tuple[str, str, Any]]:
             return [(f"{name}.x", "m", places.real), (f"{name}.y", "m", places.imag)]
 
-        omega = self.solved.givens["omega"]
+        omega = cam.omega if isinstance(cam, _Read) else self.solved.givens["omega"]
         s, ds, d2s = cam.motion.at(phi, side)
         table = [("phi", "rad", phi), ("t", "s", phi / omega), ("s", "m", s), ("ds", "m", ds), ("d2s", "m", d2s)]
         table += [("v", "m/s", omega * ds), ("a", "m/s^2", omega * omega * d2s)]
@@ -110,7 +131,8 @@ class CamCourse(Course):
 
         `turn` is the direction of the cam, `up` and `across` are those of the follower about the cam that stands still.
         """
-        phi, cam, sense = given("phi"), _Read(self.solved, given), self.solved.cam.sense
+        phi, sense = given("phi"), self.solved.cam.sense
+        cam = _Read(self.solved, given, self.changeable)
         found = {name: value for name, _, value in self._table(phi, cam)}
         turn, back = turned_back(phi, -sense), turned_back(phi, sense)
         found |= {"turn": turn, "up": back * 1j, "across": back * 1.0}
@@ -118,12 +140,34 @@ class CamCourse(Course):
             rolling = cam.rolling.profile
             found |= {"roller.B": rolling.follower.centre(rolling.sizes, phi)[0], "inverted.B": rolling.pitch(phi)}
             found |= {"roller.K": rolling.practical(phi) * turn, "roller.n": rolling.normal(phi) * turn}
+            found |= {"limit.undercut": rolling.bend(phi), "roller.0": rolling.sizes.e + rolling.sizes.s_0 * 1j}
             if isinstance(rolling.follower, Rocker):
-                found["inverted.A"] = rolling.follower.pivot(rolling.sizes) * back
+                pivot = rolling.follower.pivot(rolling.sizes)
+                found |= {"rocker.C": pivot, "inverted.A": pivot * back}
         if cam.plate is not None:
             plate = cam.plate.profile
+            found["limit.undercut_plate"] = plate.bend(phi)
             found |= {"plate.B": (plate.r_0 + found["s"]) * 1j, "inverted_plate.B": plate.centre(phi)}
             found["plate.K"] = plate.practical(phi) * turn
+        return found
+
+    @property
+    def changeable(self) -> Mapping[str, float]:
+        """The stroke, the speed and the sizes, where the profiles are what the roller and the plate envelop.
+
+        Laws and lengths of the phases are none of them: they are other pieces.
+        """
+        profiles = self.solved.profiles
+        if self.motion.velocity_jumps or any(profile.undercuts for _, _, profile in profiles):
+            return {}
+        found = {name: float(self.solved.givens[name]) for name in (*STROKES, "omega") if name in self.solved.givens}
+        if self.rolling is not None:
+            profile = self.rolling.profile
+            sizes, follower = profile.sizes, profile.follower
+            found |= {"R_roller": profile.R, "r_0": sizes.r_0}
+            found |= {"l_OC": abs(follower.pivot(sizes))} if isinstance(follower, Rocker) else {"e": sizes.e}
+        if self.solved.plate is not None:
+            found["r_0_flat"] = self.solved.plate.profile.r_0
         return found
 
     def pieces(self) -> Pieces:

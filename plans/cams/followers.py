@@ -179,7 +179,7 @@ class Rocker:
 
     def pivot(self, sizes: Sizes) -> complex:
         """Return the rocker's pivot, seen from the cam's centre."""
-        return complex(sizes.e - self.l, sizes.s_0)
+        return sizes.e - self.l + 1j * sizes.s_0
 
     def centre(self, sizes: Sizes, phi: Any, side: int = 1) -> tuple[Points, Points, Points]:
         """Return q, q', q''."""

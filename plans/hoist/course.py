@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,12 @@ import numpy as np
 from ...scales.scale import steps
 from ..laws import LAWS
 from ..solved import Columned, Course, Pieces, Rows
-from .forces import COLUMN_UNITS, course, formulas, pieces
+from .forces import COLUMN_UNITS, changed, course, formulas, pieces
 from .hoist import LEFT
+from .model import lift_off_between
 from .solve import SolvedHoist
 
+CHANGEABLE = ("G_1", "G_2", "S", "E_k", "I_0", "E_0", "I_2", "E_2", "V_0", "a", "slack", "g")
 TABLED = 25  # times in the table, beside the marks
 
 
@@ -36,10 +39,30 @@ class HoistCourse(Course):
 
     def formulas(self, given: Callable[[str], Any]) -> dict[str, Any]:
         """Return the columns; as vectors, how far load, beam and drum are off, and the forces on the load."""
-        found = formulas(self.forces, given)
+        found = formulas(self.forces, given, self.changeable)
         moved = {"load.s": found["s"], "load.w_0": -found["w_0"], "drum.w_2": -found["w_2"]}
         moved |= {"load.F_01": -found["F_01"], "load.F_12": found["F_12"]}
         return found | {name: size * 1j for name, size in moved.items()}
+
+    @property
+    def changeable(self) -> Mapping[str, float]:
+        """What is lifted, what bears it, and how, as long as the formulas are valid and no beam is rigid.
+
+        Lengths and places of beams and rope are none of them: their scheme would be another.
+        """
+        given = {name: float(self.forces.found[name]) for name in CHANGEABLE}
+        return given if self.forces.motion is None and all(map(math.isfinite, given.values())) else {}
+
+    @property
+    def kept(self) -> Mapping[str, float]:
+        """The lift-off."""
+        return {"t_1": float(self.forces.found["t_1"])} if self.changeable else {}
+
+    def found_again(self, given: Callable[[str], Any]) -> Mapping[str, tuple[Any, Any, Any]]:
+        """Return the lift-off."""
+        if not self.changeable:
+            return {}
+        return {"t_1": lift_off_between(changed(self.forces, given, self.changeable))}
 
     def enlarged(self, part: float) -> float:
         """Return the round number that makes the largest displacement about such a part of the rope's length."""

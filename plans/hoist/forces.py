@@ -11,7 +11,7 @@ Source: Karpenko, Muzyka, Gudym, figure 3.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import astuple, dataclass, fields
 from typing import Any, NamedTuple
 
@@ -23,7 +23,7 @@ from ..boards.exact import ExactBoard
 from ..laws import TURN
 from ..solved import AT, AT_LEAST, MORE, Check, Pieces
 from .hoist import VALUES, Numbers, complete, in_range
-from .model import model, motion_given, rope_force
+from .model import model, motion_given, rope_force, swinging
 from .onesided import Curve, OneSided, one_sided
 
 Array = NDArray[np.float64]
@@ -216,7 +216,7 @@ def course(forces: Forces, t: Array) -> Course:
         states = tuple(BEARS[piece.rope, piece.support] for piece in pieces)
         borne = _pressed(forces, height, np.array([piece.support for piece in pieces])), F_12
     return Course(
-        {name: np.asarray(value, float) for name, value in _columns(forces, t, borne, height).items()}, states
+        {name: np.asarray(value, float) for name, value in _columns(forces.found, t, borne, height).items()}, states
     )
 
 
@@ -226,9 +226,9 @@ def _pressed(forces: Forces, height: Any, support: Any) -> Any:
     return np.where(support, height, 0.0) * (C_01 if np.isfinite(C_01) else 0.0)
 
 
-def _columns(forces: Forces, t: Any, borne: tuple[Any, Any], height: Any) -> dict[str, Any]:
+def _columns(found: Numbers, t: Any, borne: tuple[Any, Any], height: Any) -> dict[str, Any]:
     """Return the columns at times with the forces of support and rope, and the height of the load where it is known."""
-    board = ExactBoard({**forces.found, "t": t, "F_01": borne[0], "F_12": borne[1]})
+    board = ExactBoard({**found, "t": t, "F_01": borne[0], "F_12": borne[1]})
     board.follow(recorded(_after))
     values = board.values if height is None else {**board.values, "s": height}
     return {name: values[name] for name in COLUMN_UNITS}
@@ -237,11 +237,29 @@ def _columns(forces: Forces, t: Any, borne: tuple[Any, Any], height: Any) -> dic
 NUMBERS = tuple(f.name for f in fields(Curve))  # of a curve
 
 
-def formulas(forces: Forces, given: Callable[[str], Any]) -> dict[str, Any]:
-    """Return the columns at a time, which is given with the numbers of its piece: none where the formulas are valid."""
+def changed(forces: Forces, given: Callable[[str], Any], names: Iterable[str]) -> dict[str, Any]:
+    """Return the givens of a hoist with those of some names that are `given` in their place, and so t_1."""
+    return {name: forces.found[name] for name in VALUES} | {name: given(name) for name in (*names, "t_1")}
+
+
+def formulas(forces: Forces, given: Callable[[str], Any], names: Collection[str] = ()) -> dict[str, Any]:
+    """Return the columns at a time, which is given with the numbers of its piece: none where the formulas are valid.
+
+    Where these are, the givens of some `names` are given, too; then there are an end of the time, and columns `limit.`
+    that are not negative where the formulas of these givens are valid: a rope that always pulls, a load that stays up.
+    """
     t = given("t")
+    if forces.motion is None and not names:
+        return _columns(forces.found, t, rope_forces(forces.found, t), None)
     if forces.motion is None:
-        return _columns(forces, t, rope_forces(forces.found, t), None)
+        found = swinging(changed(forces, given, names))
+        columns = _columns(found, t, rope_forces(found, t), None)
+        swing = np.sqrt(found["D_0"] * found["D_0"] + found["D_1"] * found["D_1"])
+        limits = {"slack": columns["F_12"], "slack_after": found["P_m"] - swing}
+        limits["returns"] = np.where(t < found["t_1"], 0.0, columns["s"])
+        return (
+            columns | {"end": found["t_1"] + TURN / found["k_1"]} | {f"limit.{name}": of for name, of in limits.items()}
+        )
     since = given(AT) - given("begin")
     stretch, height = (Curve(*(given(f"{of}.{name}") for name in NUMBERS)) for of in ("stretch", "height"))
     long, high = (
@@ -249,7 +267,7 @@ def formulas(forces: Forces, given: Callable[[str], Any]) -> dict[str, Any]:
     )
     pull = given("rope") * forces.motion.C_12 * long
     borne = _pressed(forces, high, given("support") > 0.0), np.where(pull > 0.0, pull, 0.0)
-    return _columns(forces, t, borne, high)
+    return _columns(forces.found, t, borne, high)
 
 
 def pieces(forces: Forces) -> Pieces | None:

@@ -178,13 +178,23 @@ def _reduced(board: Board) -> None:
     board.calc("V_t", "taut_speed", "V_0", "a", "slack")
 
 
-def _lifting_off(board: Board) -> None:
-    """The end of phase 1, formula (11), and what the rope and the load do there."""
+def _shared(board: Board) -> None:
+    """How much of what oscillates comes to the rope."""
     board.calc("_mu", "support_share", "C_12", "C_01")
     board.calc("_C_osc", "product", "_mu", "C_12")
+
+
+def _lifting_off(board: Board) -> None:
+    """The end of phase 1, formula (11), and what the rope and the load do there."""
+    _shared(board)
     board.calc("_height", "ratio", "P_st", "C")
     board.calc("_t_1", "lift_off", "V_t", "a", "k", "_height")
     board.calc("t_1", "later", "_t_1", "_rest")
+    _lifted_off(board)
+
+
+def _lifted_off(board: Board) -> None:
+    """What the rope and the load do at the end of phase 1."""
     rope_force(board, "F_12_t1", "t_1")
     board.calc("_dosc_t1", "oscillation_rate", "V_t", "a", "k", "t_1")
     board.calc("_dy_t1", "winding_speed", "V_t", "a", "t_1")
@@ -196,6 +206,25 @@ def rope_force(board: Board, name: str, time: str) -> None:
     board.calc(f"_y_{name}", "wound", "V_t", "a", time)
     board.calc(f"_osc_{name}", "oscillation", "V_t", "a", "k", time)
     board.calc(name, "rope_force", "C", f"_y_{name}", "_C_osc", f"_osc_{name}")
+
+
+def swinging(values: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return what the forces over time follow from, of complete givens and t_1."""
+    board = ExactBoard(values)
+    board.follow(recorded(_reduced, _shared, _lifted_off, _hanging))
+    return board.values
+
+
+def lift_off_between(values: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+    """Return of (11) by how much a t_1 is too great, as a length times k, and two times between which it is not.
+
+    The `values` are complete givens and t_1; no beam is rigid.
+    """
+    board = ExactBoard(values)
+    board.follow(recorded(_reduced, lambda board: board.calc("_height", "ratio", "P_st", "C")))
+    V, a, k, height = (board.values[name] for name in ("V_t", "a", "k", "_height"))
+    low, high = roots.bracket(V, a, k, height)
+    return roots.lag(V, a / k, k * values["t_1"]) - k * height, low / k, high / k
 
 
 CIRCLE, HORIZONTAL = "circle", "_right"
@@ -213,11 +242,16 @@ def _extremes(board: Board) -> None:
     board.calc("F_12_min", "smaller_of", "_F_first", "F_12_t1")
 
 
-def _circle(board: Board) -> None:
-    """Phase 2 as a circle: abscissas are the force of the rope, ordinates its rate by k_1; formula (13)."""
+def _hanging(board: Board) -> None:
+    """The mean force of the rope in phase 2, formula (13), and what it swings about that with."""
     board.calc("P_m", "mean_force", "m", "g", "a")
     board.calc("D_0", "excess", "F_12_t1", "P_m")
     board.calc("D_1", "ratio", "_dF_t1", "k_1")
+
+
+def _circle(board: Board) -> None:
+    """Phase 2 as a circle: abscissas are the force of the rope, ordinates its rate by k_1."""
+    _hanging(board)
     board.place(f"{CIRCLE}.C", "P_m", "zero")
     board.place(f"{CIRCLE}.1", "F_12_t1", "D_1")
     board.distance("R", f"{CIRCLE}.C", f"{CIRCLE}.1")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import random
 import re
 from functools import cache
 from typing import Any
@@ -13,6 +14,10 @@ import quickjs
 
 import kulman
 from kulman.cli import main
+from kulman.plans.cams import cam as cams
+from kulman.plans.cams.solve import solve_cam
+from kulman.plans.hoist import hoist as hoists
+from kulman.plans.hoist.solve import solve_hoist
 from kulman.plans.linkages.cycle import cycle
 from kulman.plans.names import role
 from kulman.plans.quantities import unit_of
@@ -123,6 +128,52 @@ def test_a_page_of_a_course_finds_what_python_finds(task: str, settings: dict[st
         )
     assert {q["name"] for q in data_of(page)["quantities"]} <= expected.keys()
     assert len(page.encode()) <= LARGEST
+
+
+@pytest.mark.parametrize("task", ["madi-cam", ROCKER, "karpenko-hoist"])
+def test_a_page_of_a_course_finds_what_python_finds_of_other_data(task: str) -> None:
+    choose = random.Random(13)
+    before = Request(load_task(task)).case()
+    now = before.kind.course(before.solved)
+    assert now is not None
+    page = kulman.sheet(task, lang="en").beside[".html"]().decode("utf-8")
+    context, names = engine(page), data_of(page)["names"]
+    solve, known = (solve_hoist, hoists) if "hoist" in task else (solve_cam, cams)
+    numbers = {name: before.solved.givens[name] for name in known.VALUES if name in before.solved.givens}
+    for _ in range(4):
+        other = {name: value * choose.uniform(0.97, 1.03) for name, value in now.changeable.items()}
+        solved = solve(getattr(before.solved, before.task.kind), {**numbers, **other, "rho_flat": 1e-3})
+        course = before.kind.course(solved)
+        assert course is not None
+        beyond = context.eval(f"Object.assign(given, {json.dumps(other)}); taken()")
+        at = course.places(90) + (0.00137 if before.task.kind == "cam" else 0.0)
+        expected = {column.name: column.values for column in course.columns(at)}
+
+        found = found_at(context, names, at)
+
+        assert beyond is None
+        for name, right in expected.items():
+            size = np.abs(right[np.isfinite(right)]).max()
+            right = np.where(np.isfinite(right), right, np.nan)
+            np.testing.assert_allclose(found[name], right, 0.0, 10.0 * SAME * size, err_msg=name)
+
+
+@pytest.mark.parametrize(
+    ("task", "other", "limit"),
+    [
+        ("madi-cam", {"R_roller": 0.04}, "limit.undercut"),
+        ("madi-cam", {"e": 0.05}, "."),
+        ("madi-cam", {"r_0_flat": 0.02}, "limit.undercut_plate"),
+        ("karpenko-hoist", {"V_0": 1.5}, "limit.slack"),
+        ("karpenko-hoist", {"V_0": 0.0, "a": 0.0}, "."),
+    ],
+)
+def test_a_page_refuses_data_for_which_its_formulas_are_not_valid(task: str, other: Any, limit: str) -> None:
+    context = engine(kulman.sheet(task, lang="en").beside[".html"]().decode("utf-8"))
+
+    assert context.eval("taken()") is None
+    assert context.eval(f"Object.assign(given, {json.dumps(other)}); taken()") == limit
+    assert context.eval("Object.assign(given, D.board); taken()") is None
 
 
 @pytest.mark.parametrize(("task", "name", "times"), CHANGED)

@@ -27,11 +27,13 @@ def asked(doors: Doors, **how: Any) -> Iterator[TestClient]:
 
 
 @contextmanager
-def served(*options: str) -> Iterator[tuple[str, subprocess.Popen[str]]]:
+def served(*options: str, **how: Any) -> Iterator[tuple[str, subprocess.Popen[str]]]:
     """Start `kulman serve` and go on with its address."""
     words = [sys.executable, "-m", "kulman", "serve", "--port", "0", "--lang", "uk", *options]
     environment = {**os.environ, "KULMAN_CONFIG": ""}
-    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, encoding="utf-8", env=environment) as process:
+    with subprocess.Popen(
+        words, stdout=subprocess.PIPE, text=True, encoding="utf-8", env=environment, **how
+    ) as process:
         assert process.stdout is not None
         try:
             found = re.search(r"http://\S+", process.stdout.readline())

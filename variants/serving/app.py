@@ -8,6 +8,7 @@ import contextlib
 import hashlib
 import re
 import secrets
+import signal
 import socket
 import sys
 import webbrowser
@@ -36,8 +37,8 @@ from ..shelf import bundled, summary
 from . import making, pages
 from .desk import Desk, Served
 from .jobs import KEPT, BusyError, CrashError
-from .making import Asked, Upload
-from .pages import Door, Job, Place
+from .making import Asked, Job, Upload
+from .pages import Door, Place
 from .safety import STUDENT, Gate, Patient, doors_for, read_passwords
 
 CONNECTIONS = 300
@@ -450,15 +451,13 @@ def serve(
     number = listens.getsockname()[1]
     shown = f"[{host}]" if ":" in host else "127.0.0.1" if host == "0.0.0.0" else host
     address = f"http://{shown}:{number}{doors.root}/"
-    desk = Desk(doors, allowed, language)
+    # what is begun is also ended where the signal comes before the server listens for it, or once more after it
+    signal.signal(signal.SIGTERM, lambda number, frame: sys.exit(0))
     bounds: Any = {"limit_concurrency": CONNECTIONS, "timeout_graceful_shutdown": 3, "timeout_keep_alive": 5}
     quiet: Any = {"log_level": "warning", "access_log": False, "server_header": False}
-    config = Config(application(desk), http=Patient, ws="none", lifespan="on", **quiet, **bounds)
-    tell(address)
-    if opened:
-        webbrowser.open(address)
-    with listens:
-        try:
-            Server(config).run(sockets=[listens])
-        finally:
-            desk.close()
+    with listens, contextlib.closing(Desk(doors, allowed, language)) as desk:
+        config = Config(application(desk), http=Patient, ws="none", lifespan="on", **quiet, **bounds)
+        tell(address)
+        if opened:
+            webbrowser.open(address)
+        Server(config).run(sockets=[listens])

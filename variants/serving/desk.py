@@ -16,8 +16,8 @@ from starlette.requests import Request
 from ...scales.errors import LANGUAGES, KulmanError
 from ...scales.packaged import packaged
 from .jobs import KEPT, BusyError, CrashError, Crew, Home, Store
-from .making import KINDS
-from .pages import Door, Job
+from .making import KINDS, Job
+from .pages import Door
 from .safety import Doors
 
 SECONDS, CLASS_SECONDS = 60.0, 3600.0  # that a job may take, and one for a class

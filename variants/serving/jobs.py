@@ -1,7 +1,8 @@
 """Processes that do what requests ask for, each job within bounds of time and memory; one that dies is replaced.
 
 A process works in a folder of its own, which it leaves empty, and ends, and takes the folders with it, when the server
-that has started it does, however that ends.
+that has started it does, however that ends. Where all of them are killed at once, the next server
+removes what they left.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import multiprocessing
 import os
 import shutil
 import signal
+import stat
 import sys
 import tempfile
 import time
@@ -22,13 +24,16 @@ from functools import partial
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
-from threading import Thread
-from typing import Any, Generic, TypeVar
+from threading import Lock, Thread
+from typing import IO, Any, Generic, TypeVar
 
 from ...scales.errors import InputError, KulmanError
 from ..crew import Advance, without_script
 
 MEMORY = 2_000_000_000  # bytes of data that a process may have
+PREFIX, LOCK = "kulman-serve-", "lock"  # of folders of servers; the file in them that its server keeps locked
+LEAVING = 100  # times that a process tries to remove the folder of its server, in about ten seconds
+YOUNG = 60.0  # seconds within which a folder may be one of a server that is just beginning
 KEPT = "kept"  # the folder of what is to be fetched later
 Made = TypeVar("Made")
 Make = Callable[..., Any]  # told how far it is, what it is made from
@@ -46,13 +51,41 @@ class Home:
     """The folder of a server for what its processes need on disk."""
 
     def __init__(self) -> None:
-        """Make it, for nobody else to read."""
-        self.path = Path(tempfile.mkdtemp(prefix="kulman-serve-"))
+        """Make it, for nobody else to read; remove those that servers have left."""
+        for left in Path(tempfile.gettempdir()).glob(f"{PREFIX}*"):
+            with suppress(OSError):
+                _sweep(left)
+        self.path = Path(tempfile.mkdtemp(prefix=PREFIX))
+        self._lock = (self.path / LOCK).open("wb")  # the system lets go of it when this process ends, however that does
+        _locked(self._lock)
         (self.path / KEPT).mkdir()
 
     def remove(self) -> None:
         """Remove it with all that is in it."""
+        self._lock.close()
         shutil.rmtree(self.path, ignore_errors=True)
+
+
+def _sweep(left: Path) -> None:
+    """Remove the folder of a server of the same user that has ended; an OSError says that none has."""
+    about = left.lstat()
+    owned = about.st_uid == os.getuid() if sys.platform != "win32" else True
+    # one that has just been made may not have its lock yet
+    if stat.S_ISDIR(about.st_mode) and owned and time.time() - about.st_mtime > YOUNG:
+        if sys.platform == "win32":
+            (left / LOCK).unlink()  # refused while it is open
+        else:
+            with (left / LOCK).open("rb") as lock:
+                _locked(lock)
+        shutil.rmtree(left, ignore_errors=True)
+
+
+def _locked(lock: IO[bytes]) -> None:
+    """Lock a file until it is closed, or raise an OSError where another process has."""
+    if sys.platform != "win32":
+        import fcntl
+
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 class Seat:
@@ -65,10 +98,17 @@ class Seat:
         self.over = False  # whether no process is begun any more
         self.process: BaseProcess | None = None
         self._pipe: Connection | None = None
+        self._changing = Lock()  # nobody begins a process while it is ended for good
 
     def _begun(self) -> Connection:
+        with self._changing:
+            return self._alive()
+
+    def _alive(self) -> Connection:
+        if self.over:
+            raise InputError("serve-died")
         if self._pipe is None or self.process is None or not self.process.is_alive():
-            self.stop()
+            self._stop()
             self.folder.mkdir(exist_ok=True)
             means = multiprocessing.get_context("spawn")  # no copy of a server, which has threads
             self._pipe, other = means.Pipe()
@@ -109,8 +149,13 @@ class Seat:
             self.stop()
         raise InputError("serve-died")
 
-    def stop(self) -> None:
-        """End the process, whatever it is at; what it leaves in its folder goes, too."""
+    def stop(self, over: bool = False) -> None:
+        """End the process, whatever it is at; what it leaves in its folder goes, too. None is begun when it is over."""
+        with self._changing:
+            self.over |= over
+            self._stop()
+
+    def _stop(self) -> None:
         if self.process is not None:
             self.process.kill()
             self.process.join()
@@ -122,12 +167,14 @@ class Seat:
 
 def _work(pipe: Connection, folder: str, memory: int) -> None:
     """Do one job after the other, until the server ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for sign in (signal.SIGINT, signal.SIGTERM):  # whoever ends a whole group ends the server, which ends this process
+        signal.signal(sign, lambda number, frame: None)
     parent = multiprocessing.parent_process()
     assert parent is not None
     Thread(target=_end_with, args=(parent, Path(folder).parent), daemon=True).start()
     _bound(memory)
-    os.chdir(folder)
+    with suppress(OSError):  # the server may have ended meanwhile, and its folder with it
+        os.chdir(folder)
     sent = partial(_send, pipe)
     while True:
         try:
@@ -135,8 +182,9 @@ def _work(pipe: Connection, folder: str, memory: int) -> None:
         except (EOFError, OSError):
             break
         sent(*_outcome(make, args, sent))
-        for left in Path(folder).iterdir():
-            shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink(missing_ok=True)
+        with suppress(OSError):
+            for left in Path(folder).iterdir():
+                shutil.rmtree(left, ignore_errors=True) if left.is_dir() else left.unlink(missing_ok=True)
     _leave(Path(folder).parent)
 
 
@@ -173,9 +221,9 @@ def _end_with(parent: BaseProcess, home: Path) -> None:
 
 def _leave(home: Path) -> None:
     """End this process and remove the folder of its server, which has ended."""
-    with suppress(OSError):
-        os.chdir(home.parent)  # a system may keep a folder in which somebody is
-    for _ in range(3):  # another process may still write there
+    if sys.platform == "win32":  # it keeps a folder in which somebody is
+        os.chdir(home.parent)
+    for _ in range(LEAVING):  # other processes, and a job in this one, may still write there
         shutil.rmtree(home, ignore_errors=True)
         if not home.exists():
             break
@@ -227,8 +275,7 @@ class Crew:
     def stop(self) -> None:
         """End all processes."""
         for seat in self.seats:
-            seat.over = True
-            seat.stop()
+            seat.stop(over=True)
         self._threads.shutdown(wait=False, cancel_futures=True)
 
 

@@ -326,6 +326,27 @@ class Done:
     page: bytes = b""
 
 
+@dataclass(slots=True)
+class Job:
+    """How far the work for a class is, and what has come of it."""
+
+    name: str
+    title: str
+    done: int = 0
+    whole: int = 0
+    outcome: Done | None = None
+    problem: str = ""
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing more comes."""
+        return self.outcome is not None or bool(self.problem)
+
+    def advance(self, done: int, whole: int) -> None:
+        """Note that so many more are done."""
+        self.done, self.whole = self.done + done, whole
+
+
 def drawn_class(
     advance: Advance, tasks: Sequence[Asked], roster: Upload, how: Mapping[str, Any], archive: str, jobs: int
 ) -> Done:

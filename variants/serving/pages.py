@@ -14,13 +14,13 @@ from ..batches.batch import FORMS
 from ..marking.keyed import ASKED_ABOUT, COLUMNS
 from ..marking.report import scripts
 from ..sheets import BLOCK
-from .making import Done, GivenField, Judged, Rows, Shown
+from .making import GivenField, Job, Judged, Rows, Shown
 from .safety import ALLOWED, STUDENT
 
 TONGUES = {"uk": "Українська", "ru": "Русский", "en": "English"}
 ANSWERED = ("mm", "mu", "value", "direction")  # columns of a form that are filled in
 NORMS = ("gost", "iso")
-ACCEPTED = ".csv,.xlsx"
+TABLES, TOML = ".csv,.xlsx", ".toml"  # what files end in that are sent
 # of files: what must be seen for them, else forms
 SEEN = {"sheet": "sheets", "moving": "sheets", "key": "answers", "note": "answers", "results": "answers"}
 VOID = {"img", "input", "link", "meta"}
@@ -267,7 +267,8 @@ def _downloads(door: Door, place: Place, shown: Shown) -> Html:
     said = door.said
     rows = list[Html]()
     for stem, kinds in door.kinds.items():
-        if (stem == "moving" and not shown.moves) or not door.sees(SEEN.get(stem, "forms")) or stem == "roster":
+        hidden = (stem == "moving" and not shown.moves) or (stem == "roster" and door.role == STUDENT)
+        if hidden or not door.sees(SEEN.get(stem, "forms")):
             continue
         files = (
             tag(
@@ -318,14 +319,12 @@ def form(door: Door, place: Place, shown_as: str, rows: Rows, filled: Mapping[st
         body.append(tag("tr", tag("th", scripted(cells["symbol"]), scope="row"), *inputs, tag("td", cells["unit"])))
     labels = (tag("th", heads[column], scope="col") for column in ("symbol", *ANSWERED, "unit"))
     parts = [tag("p", hint) for hint in hints]
-    hands = [(name, said[f"hand.{name}"]) for name in HANDS]
     table = tag("table", tag("thead", tag("tr", *labels)), tag("tbody", *body), class_="answers")
     asked = tag(
         "form",
         tag("div", table, class_="scroll"),
-        field(said["form.preset"], chosen("preset", hands, filled.get("preset", "normal")), "preset"),
-        tag("p", tag("label", tag("input", type="checkbox", name="own", value="1", checked="own" in filled), " ",
-                     said["form.own"]), class_="tick") if door.sees("answers") else None,
+        _hand(door, filled.get("preset", "normal")),
+        tag("p", _tick("own", "1", said["form.own"], "own" in filled), class_="tick") if door.sees("answers") else None,
         tag("button", said["form.judge"], type="submit", class_="main"),
         method="post",
         action=door.link(f"{place.path}/check", place.query),
@@ -361,7 +360,7 @@ def own(door: Door, kinds: Sequence[str], text: str, judged: Judged | None, to: 
                 tag("textarea", text, name="text", id="text", rows=height, spellcheck="false", class_="code"),
                 "text",
             ),
-            field(said["own.file"], tag("input", type="file", name="file", id="file", accept=".toml"), "file"),
+            _file(door, "file", "own.file"),
             tag("button", said["own.check"], type="submit", class_="main"),
             method="post",
             enctype="multipart/form-data",
@@ -395,97 +394,77 @@ def _judged(door: Door, judged: Judged, to: str) -> Iterable[Html]:
         yield tag("ol", *listed, *beyond, class_="listing")
 
 
-def _upload(door: Door, name: str, label: str, several: bool = False, required: bool = True, hint: str = "") -> Html:
-    control = tag("input", type="file", name=name, id=name, accept=ACCEPTED, multiple=several, required=required)
-    return field(door.said[label], control, name, hint or None)
+def _file(
+    door: Door, name: str, label: str, accept: str = TOML, several: bool = False, required: bool = False, hint: str = ""
+) -> Html:
+    """Return a file to be chosen."""
+    control = tag("input", type="file", name=name, id=name, accept=accept, multiple=several, required=required)
+    return field(door.said[label], control, name, hint and door.said[hint])
 
 
-def _task_file(door: Door) -> Html:
-    return field(door.said["class.own"], tag("input", type="file", name="own_task", id="own_task", accept=".toml"),
-                 "own_task")  # fmt: skip
+def _tick(name: str, value: str, label: str, checked: bool = False) -> Html:
+    """Return a box to be ticked, before its label."""
+    return tag("label", tag("input", type="checkbox", name=name, value=value, checked=checked), " ", label)
+
+
+def _hand(door: Door, now: str = "normal") -> Html:
+    """Return the choice of how exactly is drawn."""
+    hands = [(name, door.said[f"hand.{name}"]) for name in HANDS]
+    return field(door.said["form.preset"], chosen("preset", hands, now), "preset")
+
+
+def _of_class(door: Door, at: str, problem: str, button: str, *fields: Html) -> str:
+    """Return the page on which the sheets of a class or its marks are asked for: a form that is sent with files."""
+    said = door.said
+    digits = field(said["class.digits"], typed("digits"), "digits", said["class.digits_hint"])
+    send = tag("button", said[button], type="submit", class_="main")
+    asked = tag("form", *fields, digits, send, method="post", enctype="multipart/form-data", action=door.link(f"/{at}"))
+    warned = note(problem, kind="problem") if problem else None
+    return page(door, said[f"{at}.title"], warned, tag("p", said[f"{at}.about"]), asked, at=f"/{at}")
 
 
 def class_(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> str:
     """Return the page on which a class's sheets are asked for."""
     said = door.said
     ticks = (
-        tag("label", tag("input", type="checkbox", name="kinds", value=kind, checked=kind in ("pdf", "note")), " ",
-            said.get(f"as.{kind}", f"{said['file.sheet']}, {kind.upper()}"))
+        _tick("kinds", kind, said.get(f"as.{kind}", f"{said['file.sheet']}, {kind.upper()}"), kind in ("pdf", "note"))
         for kind in FORMS
         if kind not in SHEETS or f".{kind}" in door.kinds["sheet"]
-    )  # fmt: skip
+    )
     choices = (tag("option", f"{title} ({id_})", value=id_) for id_, title in tasks)
+    several = tag("select", *choices, name="tasks", id="tasks", multiple=True, size=8)
     sizes = [("", said["task.smallest"]), *((size, size) for size in SIZES)]
-    asked = tag(
-        "form",
-        field(
-            said["class.tasks"],
-            tag("select", *choices, name="tasks", id="tasks", multiple=True, size=8),
-            "tasks",
-            said["class.several"],
-        ),
-        _task_file(door),
-        _upload(door, "roster", "class.roster", hint=said["class.columns"]),
+    return _of_class(
+        door,
+        "class",
+        problem,
+        "class.draw",
+        field(said["class.tasks"], several, "tasks", said["class.several"]),
+        _file(door, "own_task", "class.own"),
+        _file(door, "roster", "class.roster", TABLES, required=True, hint="class.columns"),
         tag("fieldset", tag("legend", said["class.kinds"]), *ticks, class_="ticks"),
-        tag("p", tag("label", tag("input", type="checkbox", name="merge", value="1"), " ", said["class.merge"]),
-            class_="tick"),
-        field(said["class.digits"], typed("digits"), "digits", said["class.digits_hint"]),
+        tag("p", _tick("merge", "1", said["class.merge"]), class_="tick"),
         field(said["task.format"], chosen("format", sizes, ""), "format"),
         *(field(said[f"block.{name}"], typed(name), name) for name in BLOCK if name not in ("student", "group")),
-        tag("button", said["class.draw"], type="submit", class_="main"),
-        method="post",
-        enctype="multipart/form-data",
-        action=door.link("/class"),
-    )  # fmt: skip
-    warned = note(problem, kind="problem") if problem else None
-    return page(door, said["class.title"], warned, tag("p", said["class.about"]), asked, at="/class")
+    )
 
 
 def marks(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> str:
     """Return the page on which what a class has handed in is uploaded."""
     said = door.said
-    asked = tag(
-        "form",
+    return _of_class(
+        door,
+        "marks",
+        problem,
+        "marks.mark",
         field(said["class.task"], chosen("tasks", [(id_, f"{title} ({id_})") for id_, title in tasks], ""), "tasks"),
-        _task_file(door),
-        _upload(door, "forms", "marks.forms", several=True, hint=said["marks.several"]),
-        _upload(door, "roster", "marks.roster", required=False),
-        field(
-            said["marks.rubric"], tag("input", type="file", name="rubric", id="rubric", accept=".toml"), "rubric"
-        ),
-        field(said["form.preset"], chosen("preset", [(name, said[f"hand.{name}"]) for name in HANDS], "normal"),
-              "preset"),
-        field(said["class.digits"], typed("digits"), "digits", said["class.digits_hint"]),
-        tag("p", tag("label", tag("input", type="checkbox", name="own", value="1"), " ", said["form.own"]),
-            class_="tick"),
-        tag("button", said["marks.mark"], type="submit", class_="main"),
-        method="post",
-        enctype="multipart/form-data",
-        action=door.link("/marks"),
-    )  # fmt: skip
-    warned = note(problem, kind="problem") if problem else None
-    return page(door, said["marks.title"], warned, tag("p", said["marks.about"]), asked, at="/marks")
-
-
-@dataclass(slots=True)
-class Job:
-    """How far the work for a class is, and what has come of it."""
-
-    name: str
-    title: str
-    done: int = 0
-    whole: int = 0
-    outcome: Done | None = None
-    problem: str = ""
-
-    @property
-    def over(self) -> bool:
-        """Whether nothing more comes."""
-        return self.outcome is not None or bool(self.problem)
-
-    def advance(self, done: int, whole: int) -> None:
-        """Note that so many more are done."""
-        self.done, self.whole = self.done + done, whole
+        _file(door, "own_task", "class.own"),
+        _file(door, "forms", "marks.forms", TABLES, several=True, required=True, hint="marks.several"),
+        _file(door, "roster", "marks.roster", TABLES),
+        _file(door, "rubric", "marks.rubric"),
+        _hand(door),
+        tag("p", _tick("own", "1", said["form.own"]), class_="tick"),
+    )
 
 
 def job(door: Door, work: Job) -> str:
