@@ -183,10 +183,7 @@ class Pages:
         places: dict[int, Placement] = {}
         page = 0
         while rest := [i for i in range(len(self.sizes)) if i not in places]:
-            own, placed = next(
-                ((run, way) for k in range(len(rest), 0, -1) if (way := self.tried(run := rest[:k], page)) is not None),
-                ([], None),
-            )
+            own, placed = self._most(rest, page)
             if placed is None:
                 return None
             for i in rest[len(own) :] if self.loose else rest[len(own) : len(own) + SOON]:
@@ -197,6 +194,18 @@ class Pages:
             places |= dict(zip(own, placed, strict=True))
             page += 1
         return [places[i] for i in range(len(self.sizes))]
+
+    def _most(self, rest: Sequence[int], page: int) -> tuple[list[int], list[Placement] | None]:
+        """Return the longest run of these views that one page holds: it holds every shorter one."""
+        least, most = 0, len(rest)
+        held: list[Placement] | None = None
+        while least < most:
+            middle = (least + most + 1) // 2
+            if (placed := self.tried(rest[:middle], page)) is not None:
+                held, least = placed, middle
+            else:
+                most = middle - 1
+        return [*rest[:least]], held
 
 
 Standing = tuple[View, Placement]  # a view and where it stands

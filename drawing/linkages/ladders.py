@@ -32,6 +32,7 @@ SEGMENTS = {
 WEIGHTS = {"l": 2.0, "V": 1.25, "a": 1.25, "F": 1.0, "h": 1.5}
 LARGER = {"l": 2.8, "V": 1.4, "a": 1.4, "F": 0.9, "h": 2.6}
 KEPT = {"l": 250.0}  # mm of A1 below which a plan becomes shorter only after the others
+HUNG = 14.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
 ALIKE = 3.0  # times as long as the longest force of another plan, at most, where both are drawn to one scale factor
 CRANK = 45.0  # mm, the least length of a crank drawn apart
 ARROW = 0.7  # of the crank, where the arrow of its rotation stands
@@ -52,7 +53,7 @@ POINT, ZERO = 0.035, 1e-4  # parts of the longest vector below which another is 
 STRUCTURE, LINK, DIAGRAM, HEADINGS = 13500.0, 1500.0, 12500.0, 3600.0
 TEXTS = {"velocity": 3000.0, "acceleration": 3000.0, "forces": 4200.0, "lever": 1800.0}
 TEXTS |= {VELOCITY: 8000.0, ACCELERATION: 8000.0}
-MOMENTS = {"RRR": 16000.0, TRIAD: 95000.0}
+MOMENTS = {"RRR": 16000.0, TRIAD: 50000.0}
 
 
 def first_scales(
@@ -108,6 +109,7 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
     longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys([*solved.scale_of_plan.values(), *own])}
     ladders: dict[str, Ladder] = {}
     measured = any(step.verb == "measure" and is_shown(step.name) for step in solved.program)
+    moments = sum(step.verb == "moment" and role(step.operands[2]).plan == LEVER for step in solved.program)
     for symbol, size in longest.items():
         chooser, kind = choosers.get(symbol), role(symbol).of
         if symbol == "mu_l" and chooser is None and scheme_only(plans) and measured:
@@ -124,7 +126,7 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
             size,
             weight=WEIGHTS[kind],
             share=LARGER[kind],
-            kept=KEPT.get(kind, 0.0),
+            kept=HUNG * moments if symbol == ARMS else KEPT.get(kind, 0.0),
             root="mu_l" if isinstance(chooser, CrankScale) else "",
             # of what the task or the user has fixed several pages are better than a coarser one
             fixed=isinstance(chooser, Fixed) or (chooser is not None and chooser.firm),

@@ -29,7 +29,7 @@ from ..notes.blocks import REFERS
 from ..symbols import unit
 from ..words import Given, Words
 from .figures.cycle import main_output
-from .figures.lever import BALANCE, Couple, hung_on_lever, letter_of, lever_lines
+from .figures.lever import BALANCE, Couple, hung_on_lever, is_main, letter_of, lever_lines
 from .figures.links import NEAR, Skeleton, guide_of, pins_of, skeleton
 from .reading import lettered
 from .scene import Scene, plan_heading
@@ -361,7 +361,7 @@ def _lever(scene: Scene) -> Iterator[Data]:
     last = images[-1]
     for line in lever_lines(scene):
         a, b = (_image(scene, end) for end in (line.tail, line.tip))
-        yield {"k": "side", "a": a, "b": b, "main": True, "step": last}
+        yield {"k": "side", "a": a, "b": b, "main": is_main(scene, line), "step": last}
     for name, mark in hung:
         at, step = _image(scene, mark), name if name in scene.made else last
         yield {"k": "force", "at": at, "v": name, "q": role(name).shown, "text": html(scene.letter(name)), "step": step}

@@ -300,7 +300,7 @@ def l12_lever(case: Judged, sheet: Sheet) -> Faults:
         if view.has(f"lever.{name}"):
             turned = case.oracle.moves(name)[0] * 1j / mu
             yield from unless(same(view.point(f"lever.{name}") - p, turned), f"lever: {name} is not turned by 90°")
-    yield from _whole_plan(sheet, view, mu)
+    yield from _whole_plan(case, sheet, view, mu)
     for one in dict.fromkeys(x.name.rpartition("_")[0] for x in view.arrows if "_couple_" in x.name):
         ends = [x.unit for x in view.arrows if x.name.startswith(f"{one}_")]
         yield from unless(len(ends) == 2 and same(ends[0], -ends[1]), f"lever: {one} is no pair of opposite forces")
@@ -327,11 +327,16 @@ def l12_lever(case: Judged, sheet: Sheet) -> Faults:
     yield from unless(abs(total) <= 1e-3 * largest, f"lever: the sum of moments is {total}, the largest {largest}")
 
 
-def _whole_plan(sheet: Sheet, lever: View, mu: float) -> Faults:
-    """Every vector of the velocity plan has its line on the lever, all lines of one weight."""
+def _whole_plan(case: Judged, sheet: Sheet, lever: View, mu: float) -> Faults:
+    """Every vector of the velocity plan has its line on the lever: main between joints, thin to other points."""
+    pairs = case.solution.solved.mechanism.pairs
+    pins = {f"lever.{pair.point}{n}" for pair in pairs for n in ("", *pair.links)} | {"lever.p"}
     for plan in [v for v in sheet.views if v.name == "velocity"]:
         p, q, lines = plan.point("velocity.p"), lever.point("lever.p"), lever.lines("lever")
-        yield from unless(len({s.width for s in lines}) == 1, "lever: lines of the turned plan have several weights")
+        joints, main = [lever.point(pin) for pin in pins if lever.has(pin)], max(s.width for s in lines)
+        for line in lines:
+            ends = [any(same(end, joint) for joint in joints) for end in (line.points[0], line.points[-1])]
+            yield from unless(all(ends) == (line.width == main), f"lever: the weight of {line.name}")
         for vector in plan.vectors:
             ends = [q + (end - p) * 1j * vector.mu / mu for end in (vector.tail, vector.tip)]
             found = any(same(ends[0], s.points[i]) and same(ends[1], s.points[1 - i]) for s in lines for i in (0, 1))

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from ....plans.board import Step
 from ....plans.names import COUPLE, lever_arm, role, spelled
-from ...shapes import Line
+from ...shapes import Line, Pen
 from ...view import View
 from ..reading import Edge
 from ..scene import Scene
@@ -42,12 +42,17 @@ class Couple(NamedTuple):
 
 def couples_on_lever(scene: Scene) -> dict[str, Couple]:
     """Return the couples that have one arm, by the first of their moments; all others follow it."""
+    return scene.once(_couples_on_lever, "couples_on_lever")
+
+
+def _couples_on_lever(scene: Scene) -> dict[str, Couple]:
     steps = [*moments_on_lever(scene)]
     if len(steps) <= ARMS:
         return {}
     marks, couples = dict(hung_on_lever(scene)), dict[str, Couple]()
-    for force in (name for name in marks if role(name).part == COUPLE):
-        both = tuple(name for name in marks if role(name).whole == role(force).whole)
+    halves = [name for name in marks if role(name).part == COUPLE]
+    for force in halves:
+        both = tuple(name for name in halves if role(name).whole == role(force).whole)
         moments = tuple(step.name for step in steps if step.operands[0] in both)
         couples[moments[0]] = Couple(both, moments, (marks[both[0]], marks[both[-1]]))
     return couples
@@ -64,7 +69,7 @@ def lever_view(scene: Scene) -> View:
     strokes = [(_image(scene, line.tail), _image(scene, line.tip)) for line in lines]
     for stroke, line in zip(strokes, lines, strict=True):
         canvas.part(scene.last(canvas.parts.get(mark, mark) for mark in (line.tail, line.tip)))
-        canvas.add(Line(*stroke, role="lever", name=line.name))
+        canvas.add(Line(*stroke, Pen.MAIN if is_main(scene, line) else Pen.THIN, role="lever", name=line.name))
     sketch, places, pole = (
         Sketch(canvas, scene, strokes),
         {m: _image(scene, m) for m in marks},
@@ -147,6 +152,12 @@ def lever_lines(scene: Scene) -> list[Edge]:
         if len(places) == 2:
             kept.setdefault(places, line)
     return list(kept.values())
+
+
+def is_main(scene: Scene, line: Edge) -> bool:
+    """Whether a line of the lever joins joints; one to a centre of mass is thin, as forces lie beside it."""
+    joints = {"p", *(point for points in _joints(scene) for point in points)}
+    return {role(line.tail).of, role(line.tip).of} <= joints
 
 
 def hung_on_lever(scene: Scene) -> list[tuple[str, str]]:
