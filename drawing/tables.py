@@ -24,6 +24,7 @@ BREAKS = re.compile(r" +(?![^{]*\})")
 PITCH = 1.7  # heights of letters from line to line (GOST 2.304)
 CELL = 1.75  # mm at least on both sides of what stands in a cell
 BETWEEN, UNDERLINED = 0.45, 0.9  # heights of letters between lines of text, and below one that is underlined
+SURELY = 0.9  # part of the width of a text in which chunks surely have room that together are no longer
 LONG, DENOMINATOR, ROUNDING = 10, 100, 1e-11  # characters of a number that may be a simple fraction
 
 
@@ -149,10 +150,12 @@ def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: S
     shapes: list[Shape] = []
     base, low, widest = 0.0, 0.0, 0.0  # of the line before
     for first, *others in lines:
-        broken = [first]
+        broken, wide = [first], lay_out(first, h).width
         for chunk in others:
-            longer = f"{broken[-1]} {chunk}"
-            broken[-1:] = [broken[-1], INDENT + chunk] if lay_out(longer, h).width > width else [longer]
+            longer, own = f"{broken[-1]} {chunk}", h + lay_out(chunk, h).width
+            # few lines are laid out whole: only those whose chunks tell nearly as much as there is room for
+            fits = wide + own <= SURELY * width or lay_out(longer, h).width <= width
+            broken[-1:], wide = ([longer], wide + own) if fits else ([broken[-1], INDENT + chunk], 2.0 * h + own)
         for line in broken:
             layout = lay_out(line, h)
             base = min(low - layout.top, base - PITCH * h) if shapes else -layout.top
