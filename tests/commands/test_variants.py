@@ -289,12 +289,14 @@ def set_by(data: Mapping[str, str], task: Task, words: Words) -> dict[str, str]:
     ("key", "variant", "language", "names"),
     [
         pytest.param(TASK, "3,example", "uk", None, id="slider-crank"),
-        pytest.param("madi-four-bar", None, "ru", "V_C,omega_3,a_C,R_03", id="moment on a rocker"),
+        pytest.param(
+            "madi-four-bar", None, "ru", "V_C,omega_3,a_C,R_03", id="moment on a rocker", marks=pytest.mark.soak
+        ),
         pytest.param("scheme-09-shaper", "0,4", "en", "a_A3A2_k,epsilon_3,M_bal,R_34", id="guide that turns, weights"),
-        pytest.param("scheme-18-hydraulic-drive", "0", "uk", "V_D,F_bal", id="sliding driver"),
+        pytest.param("scheme-18-hydraulic-drive", "0", "uk", "V_D,F_bal", id="sliding driver", marks=pytest.mark.soak),
         pytest.param("madi-cam", None, "ru", None, id="cam"),
         pytest.param("madi-gear", None, "en", None, id="gears"),
-        pytest.param("karpenko-hoist", "V01,V10", "uk", None, id="hoist"),
+        pytest.param("karpenko-hoist", "V01,V10", "uk", None, id="hoist", marks=pytest.mark.soak),
     ],
 )
 def test_a_question_for_moodle_is_answered_from_itself_alone(

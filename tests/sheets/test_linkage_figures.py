@@ -86,8 +86,8 @@ def test_rigid_corners_are_marked(task: str, corners: int, arcs: int) -> None:
     [
         pytest.param("scheme-17-sewing-machine", l5_similarity, id="three sides of a triangle named by similarity"),
         pytest.param("scheme-02-forging-press", l1_plan, id="no link across the hatching of a guide"),
-        pytest.param("scheme-13-toggle-press", l1_plan, id="nor of a guide under a ram"),
-        pytest.param("scheme-19-scotch-yoke", l1_plan, id="nor of a guide of a yoke"),
+        pytest.param("scheme-13-toggle-press", l1_plan, id="nor of a guide under a ram", marks=pytest.mark.soak),
+        pytest.param("scheme-19-scotch-yoke", l1_plan, id="nor of a guide of a yoke", marks=pytest.mark.soak),
         pytest.param("scheme-11-slotter", l7_senses, id="senses across their own link"),
         pytest.param("scheme-20-press-automaton", l7_senses, id="senses across links of a triad"),
     ],

@@ -118,7 +118,7 @@ TASKS = {task: tuple(summary(task)["variants"]) for task in bundled("mechanism")
 SAMPLE = [Linkage(task, variants[k % len(variants)], format="A1") for k, (task, variants) in enumerate(TASKS.items())]
 
 
-@pytest.mark.parametrize("case", SAMPLE[::8], ids=str)
+@pytest.mark.parametrize("case", SAMPLE[::12], ids=str)
 def test_sheet_of_a_scheme_is_without_fault(case: Linkage) -> None:
     assert linkage_faults(case) == []
 

@@ -354,7 +354,11 @@ def test_joints_that_nearly_coincide_are_named() -> None:
 
 
 @pytest.mark.parametrize(
-    ("task", "language"), [("nau-slider-crank", "ru"), ("madi-cam", "en"), ("karpenko-hoist", "uk")]
+    ("task", "language"),
+    [
+        ("nau-slider-crank", "ru"),
+        *(pytest.param(*of, marks=pytest.mark.soak) for of in (("madi-cam", "en"), ("karpenko-hoist", "uk"))),
+    ],
 )
 def test_letters_of_a_pdf_can_be_selected_and_faces_of_an_svg_are_whole_fonts(
     task: str, language: str, tmp_path: Path
