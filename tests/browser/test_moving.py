@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -30,21 +31,31 @@ SHOWN = 2e-3  # part of a value within which four digits show it
 Opened = Callable[[str], Any]
 
 
+@cache
+def written(task: str, language: str) -> bytes:
+    """The page of a task, drawn once for all tests."""
+    return kulman.sheet(task, lang=language).beside[".html"]()
+
+
 @pytest.fixture
 def opened(browser: Any, tmp_path: Path) -> Any:
     """Open the page of a task; nothing may be asked of a network, nor said on the console, while it is used."""
     wrong: list[str] = []
+    pages: list[Any] = []
 
     def open_page(task: str, width: int = 1300, language: str = "uk") -> Any:
-        kulman.sheet(task, lang=language).save(tmp_path / "moving.html")
+        (tmp_path / "moving.html").write_bytes(written(task, language))
         page = browser.new_page(viewport={"width": width, "height": 900})
         page.on("console", lambda message: wrong.append(message.text))
         page.on("pageerror", lambda error: wrong.append(str(error)))
         page.on("request", lambda request: wrong.append(request.url) if request.url[:5] != "file:" else None)
         page.goto((tmp_path / "moving.html").as_uri())
+        pages.append(page)
         return page
 
     yield open_page
+    for page in pages:
+        page.close()
     assert wrong == []
 
 
