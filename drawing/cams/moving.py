@@ -38,7 +38,7 @@ def moving(scene: CamScene) -> Moving:
         left, top = -1.05 * far, (1.0 + ROD) * far
         if plate:
             assert solved.plate is not None
-            shapes = _plate(solved.plate.sizes.R_plate / solved.motion.h, reach)
+            shapes = _plate(solved.plate.part, reach)
         elif solved.rocker is not None:
             pivot = complex(solved.rocker.profile.follower.pivot(solved.rocker.sizes))  # type: ignore[union-attr]
             left, top, shapes = min(left, 1.1 * pivot.real), far, _rocker()

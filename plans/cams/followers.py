@@ -418,6 +418,11 @@ class PlateCam:
     profile: PlateProfile
     given: bool = False  # whether r_0 is given
 
+    @property
+    def part(self) -> float:
+        """Half of the plate as a part of the stroke."""
+        return self.sizes.R_plate / self.profile.motion.h
+
     def givens(self, division: Division) -> dict[str, float]:
         """Return the least radius as a part of the stroke."""
         return {"_r_0_flat_part": self.sizes.r_0_min / self.profile.motion.h}
