@@ -1,0 +1,450 @@
+"""A student's own drawing of the plans read back: which line is which vector, wherever the poles were put.
+
+Of a drawing nothing is known but its lines: no names, no scale factors, no order. What may be drawn is known: the plan of
+the right construction, and that of every construction with one rule broken. Each is laid on the drawing wherever one of
+its long vectors finds a line of its direction; the plan of which most vectors are joined by lines is the one drawn. Its
+points are then those of the student: what is measured is what was drawn.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..board import POSITION, Program, Step
+from ..mistakes.book import Book
+from ..mistakes.rules import BY_SCALE
+from ..names import LEVER, role
+from .answers import Answer
+from .key import Key
+from .lines import Complex, Floats, Indices, Lines, lines_of
+
+SHORT = 1.5  # mm below which a vector shows nothing
+FULL = 12.0  # mm from which a vector counts whole
+LEAST, LARGEST = 12.0, 900.0  # mm, the longest vector of a plan
+GENERATOR = 0.3  # part of the longest vector of a plan that a vector must have to lay the plan by
+ASTRAY = 0.5  # mm that ends of lines may be astray, which turns short ones
+DEGREES = 0.4  # by which lines may miss their direction besides
+NEAR = 0.8  # mm from where a point should be to where it is, once the plan lies where it fits best
+FARTHER = 1.5  # mm, of points whose neighbour is found
+LAID = 3  # vectors by which a plan is laid
+MANY = 4000  # places to which a plan is laid by one vector
+KEPT = 12  # of which so many are looked at closely
+ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
+AGAIN = 0.5  # what a line is worth that is a vector of another plan already
+USUAL = 0.3  # what it is worth that a plan is drawn to its usual scale
+SAME_MU = 0.01  # part by which scale factors that count as one may differ
+ALL = 0.02  # part of a plan that may lack where it counts as the right one
+OTHER = 1.0  # vectors more than the mistake that explains all plans must a mistake of one plan explain
+ENOUGH = 0.5  # part of a plan that must be there
+SKEW = math.radians(2.0)  # by which a plan may be turned against the sheet
+TURNS = tuple(math.pi / 2.0 * quarter for quarter in range(4))
+
+
+@dataclass(frozen=True, slots=True)
+class Letter:
+    """A text of a drawing: its middle and its height, mm."""
+
+    text: str
+    place: complex
+    height: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drawn:
+    """What a drawing holds, in millimetres of paper, y up: segments as they were found, complex of shape (N,)."""
+
+    tails: Complex
+    tips: Complex
+    letters: tuple[Letter, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A vector as the student has drawn it, from `tail` to `tip` in mm of the drawing, on a plan; 0 to 1 how surely."""
+
+    tail: complex
+    tip: complex
+    plan: str
+    certainty: float
+
+
+@dataclass(frozen=True, slots=True)
+class FoundPlan:
+    """Where a plan lies: SI per mm, by how much it is turned (radians), where its pole is.
+
+    `quality` is the part of its vectors that are drawn, 0 to 1; `mistake` the number of the rule that it breaks, if any.
+    """
+
+    mu: float
+    turn: float
+    pole: complex
+    quality: float
+    mistake: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Recognised:
+    """What was found in a drawing: plans, vectors by the names of their quantities, and why others were not."""
+
+    plans: Mapping[str, FoundPlan]
+    vectors: Mapping[str, Found]
+    missing: Mapping[str, str]
+
+    @property
+    def quality(self) -> float:
+        """What part of all plans is drawn, 0 to 1: little of a drawing of something else."""
+        known = [plan.quality for plan in self.plans.values()]
+        return sum(known) / len(known) if known else 0.0
+
+    def answers(self) -> Iterator[Answer]:
+        """Go through what the drawing says of each vector: its segment, scale factor and direction."""
+        for name, found in self.vectors.items():
+            plan, way = self.plans[found.plan], found.tip - found.tail
+            turned = cmath.phase(way * cmath.rect(1.0, -plan.turn))
+            yield Answer(name, mm=abs(way), mu=plan.mu, value=abs(way) * plan.mu, direction=turned)
+
+
+def recognise(drawn: Drawn, key: Key, book: Book | None = None, mus: Mapping[str, float] | None = None) -> Recognised:
+    """Find the plans of a key in a drawing.
+
+    The `book` has the constructions with a rule broken; without it wrong plans are found as far as they are right.
+    `mus` are scale factors of plans that are given, SI per mm.
+    """
+    search = _Search(lines_of(drawn.tails, drawn.tips), key, book, dict(mus or {}))
+    return search.found()
+
+
+# What may be drawn.
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Shape:
+    """How a plan may be drawn: places of its marks from the pole, SI; vectors by name, and the marks of their ends.
+
+    Vectors between the same two marks are one line; `lines` are the first ones of these. `broken` are the numbers of
+    the signatures in the book that draw it so, none for the right one.
+    """
+
+    plan: str
+    marks: tuple[str, ...]
+    places: Complex
+    names: tuple[str, ...]
+    tails: Indices
+    tips: Indices
+    lines: Indices
+    broken: tuple[int, ...] = ()
+
+    @property
+    def spans(self) -> Complex:
+        """The vectors of the lines, SI."""
+        return np.asarray(self.places[self.tips[self.lines]] - self.places[self.tails[self.lines]])
+
+    @property
+    def longest(self) -> float:
+        """The size of the longest vector, SI."""
+        return float(np.abs(self.spans).max(initial=0.0))
+
+
+Edges = tuple[tuple[str, str, str], ...]
+
+
+def _edges(program: Program, plan: str) -> Edges:
+    """Return the vectors of a plan, name, tail and tip; of the mechanism its links."""
+    if plan == POSITION:
+        return tuple((s.name, *s.operands[:2]) for s in program.on(plan) if s.verb in ("direction", "tangent"))
+    found = []
+    for step in program.on(plan):
+        if step.verb == "read":
+            found.append((_quantity(step.name), *step.operands))
+        elif step.verb == "chain":
+            found.append((_quantity(step.operands[1]), step.operands[0], step.name))
+    return tuple(found)
+
+
+def _quantity(name: str) -> str:
+    """Return the quantity that a vector shows, which a mistake may have put aside before it is misread."""
+    return role(name.removeprefix("_right_")).shown
+
+
+def _shape(plan: str, edges: Edges, values: Mapping[str, Any], broken: tuple[int, ...] = ()) -> _Shape | None:
+    """Return how a plan is drawn with some values; None where these are none."""
+    marks = tuple(dict.fromkeys(mark for _, *ends in edges for mark in ends))
+    places = np.array([values.get(mark, math.nan) for mark in marks], complex)
+    number = {mark: place for place, mark in enumerate(marks)}
+    if not len(marks) or not np.isfinite(places).all():
+        return None
+    tails, tips = (np.array([number[edge[side]] for edge in edges], np.intp) for side in (1, 2))
+    lines = {frozenset(pair): at for at, pair in reversed([*enumerate(zip(tails.tolist(), tips.tolist(), strict=True))])}
+    of_lines = np.array(sorted(lines.values()), np.intp)
+    return _Shape(plan, marks, places, tuple(edge[0] for edge in edges), tails, tips, of_lines, broken)
+
+
+def _shapes(key: Key, book: Book | None, plan: str, by_size: bool) -> tuple[_Shape, ...]:
+    """Return all ways in which a plan may be drawn, the right one first; those that look alike are one.
+
+    Where its scale factor is known, not `by_size`, larger ones are other ones.
+    """
+    program = key.paper.program
+    right_edges = _edges(program, plan)
+    right = _shape(plan, right_edges, key.values)
+    if right is None or not right.longest:
+        return ()
+    found = {_look(right, by_size): right}
+    for number, one in enumerate(book.signatures if book else ()):
+        if one.broken.mistake in BY_SCALE:
+            continue
+        changed = any(step.plan == plan for steps in one.broken.change.steps.values() for step in steps)
+        edges = _edges(one.broken.program, plan) if changed else right_edges
+        shape = _shape(plan, edges, one.values, (number,))
+        if shape is not None and shape.longest:
+            look = _look(shape, by_size)
+            before = found.get(look)
+            found[look] = shape if before is None else replace(before, broken=(*before.broken, number))
+    return tuple(found.values())
+
+
+def _look(shape: _Shape, by_size: bool) -> tuple[Any, ...]:
+    size = shape.longest if not by_size else 1.0
+    ends = np.round(np.concatenate((shape.places[shape.tails], shape.places[shape.tips])) / shape.longest, 3) + 0.0
+    return (shape.names, f"{size:.3e}", *ends.tolist())
+
+
+# Where it lies.
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Fit:
+    """A shape laid on a drawing: mm = `origin` + `factor` * place; the node of each mark or -1, lines that are there.
+
+    `worth` is what its lines count, those that are not there against it.
+    """
+
+    shape: _Shape
+    origin: complex
+    factor: complex
+    nodes: Indices
+    there: np.ndarray[Any, np.dtype[np.bool_]]
+    worth: float
+    weights: Floats
+
+    @property
+    def quality(self) -> float:
+        """The part of the plan that is there."""
+        whole = float(self.weights.sum())
+        return float(self.weights[self.there].sum()) / whole if whole else 0.0
+
+    @property
+    def mu(self) -> float:
+        """The scale factor, SI per mm."""
+        return 1.0 / abs(self.factor)
+
+    @property
+    def pairs(self) -> list[tuple[int, int]]:
+        """The nodes that its lines join, the smaller number first."""
+        s = self.shape
+        ends = zip(self.nodes[s.tails[s.lines]][self.there], self.nodes[s.tips[s.lines]][self.there], strict=True)
+        return [(int(min(pair)), int(max(pair))) for pair in ends]
+
+
+@dataclass(eq=False)
+class _Search:
+    """The search for the plans of a key among lines; `used` are pairs of nodes that are vectors of plans already."""
+
+    lines: Lines
+    key: Key
+    book: Book | None
+    mus: dict[str, float]
+    used: set[tuple[int, int]] = field(default_factory=set)
+
+    @cached_property
+    def plans(self) -> dict[str, _Shape]:
+        """The right plans with the most vectors first."""
+        program, found = self.key.paper.program, list[_Shape]()
+        for plan in program.plans:
+            shape = _shape(plan, _edges(program, plan), self.key.values)
+            if role(plan).kind != LEVER and shape is not None and shape.longest:
+                found.append(shape)
+        return {shape.plan: shape for shape in sorted(found, key=lambda shape: -len(shape.lines))}
+
+    def found(self) -> Recognised:
+        """Lay all plans, and name what they find."""
+        turn = self._turn()
+        fits = self._fits(turn)
+        plans, vectors = dict[str, FoundPlan](), dict[str, Found]()
+        asked = {n: q for n, q in self.key.questions.items() if q.vector and q.plan in self.plans and q.plan != POSITION}
+        missing = {name: f"no plan of {question.plan}" for name, question in asked.items()}
+        for plan, fit in fits.items():
+            mistake = ""
+            if fit.shape.broken and self.book is not None:
+                mistake = self.book.signatures[fit.shape.broken[0]].broken.mistake
+            pole = complex(fit.origin)
+            plans[plan] = FoundPlan(fit.mu, cmath.phase(fit.factor), pole, fit.quality, mistake)
+            for name, one in self._vectors(fit).items():
+                if name in asked and asked[name].plan == plan:
+                    if isinstance(one, Found):
+                        vectors[name] = one
+                        missing.pop(name, None)
+                    else:
+                        missing[name] = one
+        return Recognised(plans, vectors, missing)
+
+    def _turn(self) -> float:
+        """Return by how much the sheet is turned, a multiple of a right angle: so that most of all plans is there."""
+        return max(TURNS, key=lambda turn: sum(self._worth(self._best(s, turn)) for s in self.plans.values()))
+
+    @staticmethod
+    def _worth(fit: _Fit | None) -> float:
+        return 0.0 if fit is None else fit.worth
+
+    def _fits(self, turn: float) -> dict[str, _Fit]:
+        """Return where each plan lies that is drawn, the right one or one with a mistake that explains it best."""
+        fits: dict[str, _Fit] = {}
+        doubtful: dict[str, list[_Fit]] = {}
+        for plan, right in self.plans.items():
+            fit = self._best(right, turn)
+            if fit is not None and 1.0 - fit.quality <= ALL:
+                self._take(fits, fit)
+            else:
+                shapes = _shapes(self.key, self.book, plan, plan not in self.mus)
+                doubtful[plan] = [one for shape in shapes if (one := self._best(shape, turn)) is not None]
+        by_mistake: dict[int, float] = {}
+        for ways in doubtful.values():
+            for fit in ways:
+                for number in fit.shape.broken:
+                    by_mistake[number] = by_mistake.get(number, 0.0) + fit.worth
+        for plan, ways in doubtful.items():
+            if not ways:
+                continue
+            best = max(ways, key=lambda fit: fit.worth)
+            common = max(
+                (by_mistake.get(number, 0.0), -number, fit) for fit in ways for number in (*fit.shape.broken, -1)
+            ) if False else None
+            del common
+            close = [fit for fit in ways if fit.worth > best.worth - OTHER]
+            chosen = max(
+                close, key=lambda fit: (max((by_mistake[n] for n in fit.shape.broken), default=0.0), fit.worth)
+            )
+            if chosen.quality >= ENOUGH:
+                self._take(fits, chosen)
+        return fits
+
+    def _take(self, fits: dict[str, _Fit], fit: _Fit) -> None:
+        fits[fit.shape.plan] = fit
+        self.used.update(fit.pairs)
+
+    def _expected(self, plan: str) -> float:
+        """Return the scale factor that a plan should have, SI per mm; zero where nobody knows."""
+        return float(self.mus.get(plan, self.key.paper.mus.get(plan, 0.0)))
+
+    def _best(self, shape: _Shape, turn: float) -> _Fit | None:
+        """Return where a shape fits best."""
+        lines, best = self.lines, None
+        origins, factors = self._laid(shape, turn)
+        if not len(origins):
+            return None
+        worth = np.concatenate(
+            [self._worths(shape, origins[at : at + MANY], factors[at : at + MANY]) for at in range(0, len(origins), MANY)]
+        )
+        for at in np.argsort(-worth, kind="stable")[:KEPT]:
+            fit = self._settled(shape, complex(origins[at]), complex(factors[at]))
+            if best is None or fit.worth > best.worth:
+                best = fit
+        del lines
+        return best
+
+    def _laid(self, shape: _Shape, turn: float) -> tuple[Complex, Complex]:
+        """Return all ways to lay a shape so that one of its long vectors lies on a line; few by those that say most."""
+        spans, longest, lines = shape.spans, shape.longest, self.lines
+        unit, given = cmath.rect(1.0, turn), self.mus.get(shape.plan)
+        if given is None and len(shape.lines) < 2:
+            given = self._expected(shape.plan) or None  # one line has a direction, and any length
+        ways: list[tuple[int, Complex, Complex]] = []
+        for at, span in zip(shape.lines, spans.tolist(), strict=True):
+            if abs(span) < GENERATOR * longest:
+                continue
+            pairs = lines.along(cmath.phase(span) + turn, math.radians(4.0))
+            ways_of = lines.nodes[lines.second[pairs]] - lines.nodes[lines.first[pairs]]
+            sizes = lines.sizes[pairs]
+            off = np.abs(np.angle(ways_of / (span * unit)))
+            drawn = sizes * (longest / abs(span))
+            good = (off < math.radians(DEGREES) + ASTRAY / sizes) & (drawn > LEAST) & (drawn < LARGEST)
+            if given is not None:
+                good &= np.abs(sizes - abs(span) / given) < ASTRAY + SAME_MU * sizes
+            pairs, sizes = pairs[good], sizes[good]
+            factors = unit * sizes / abs(span)
+            middles = (lines.nodes[lines.first[pairs]] + lines.nodes[lines.second[pairs]]) / 2.0
+            middle = (shape.places[shape.tails[at]] + shape.places[shape.tips[at]]) / 2.0
+            if len(pairs):
+                ways.append((len(pairs), middles - factors * middle, factors))
+        ways.sort(key=lambda way: way[0])
+        kept = ways[:LAID]
+        nothing = np.zeros(0, complex)
+        return tuple(np.concatenate([nothing, *(way[side] for way in kept)]) for side in (1, 2))  # type: ignore[return-value]
+
+    def _worths(self, shape: _Shape, origins: Complex, factors: Complex) -> Floats:
+        """Return what the lines count of a shape laid in many ways."""
+        places = origins[:, None] + factors[:, None] * shape.places
+        nodes = self.lines.near(places)
+        return self._counted(shape, nodes, np.abs(factors))[0]
+
+    def _counted(self, shape: _Shape, nodes: Indices, per_unit: Floats) -> tuple[Floats, Any, Floats]:
+        """Return for marks at nodes, of shape (ways, marks): what is worth how much, which lines are there, weights."""
+        one, other = nodes[:, shape.tails[shape.lines]], nodes[:, shape.tips[shape.lines]]
+        there = self.lines.joined(one, other)
+        sizes = np.abs(shape.spans)[None, :] * per_unit[:, None]
+        weights = np.where(sizes < SHORT, 0.0, np.clip(sizes / FULL, 0.2, 1.0))
+        worth = np.where(there, weights, -ABSENT * weights).sum(axis=1)
+        if expected := self._expected(shape.plan):
+            worth = worth + USUAL * (np.abs(per_unit * expected - 1.0) < SAME_MU)
+        return worth, there, weights
+
+    def _settled(self, shape: _Shape, origin: complex, factor: complex) -> _Fit:
+        """Return a fit, moved to where it fits best: the squares of what its points miss are least."""
+        for _ in range(3):
+            places = origin + factor * shape.places
+            nodes = self._nodes(places)
+            worth, there, weights = self._counted(shape, nodes[None, :], np.array([abs(factor)]))
+            ends = np.unique(np.concatenate((shape.tails[shape.lines][there[0]], shape.tips[shape.lines][there[0]])))
+            if len(ends) < 2:
+                break
+            at, drawn = shape.places[ends], self.lines.nodes[nodes[ends]]
+            about, middle = at - at.mean(), drawn - drawn.mean()
+            found = complex((middle * about.conj()).sum() / (np.abs(about) ** 2).sum())
+            if not found or abs(cmath.phase(found / factor)) > SKEW:
+                break
+            factor, origin = found, complex(drawn.mean() - found * at.mean())
+        fit = _Fit(shape, origin, factor, nodes, there[0], float(worth[0]), weights[0])
+        again = sum(AGAIN * weight for pair, weight in zip(fit.pairs, fit.weights[fit.there], strict=True) if pair in self.used)
+        return replace(fit, worth=fit.worth - again)
+
+    def _nodes(self, places: Complex) -> Indices:
+        """Return the nodes of marks: near enough, or -1."""
+        nodes = self.lines.near(places)
+        apart = np.abs(self.lines.nodes[nodes] - places)
+        return np.where((nodes >= 0) & (apart <= NEAR), nodes, -1)
+
+    def _vectors(self, fit: _Fit) -> dict[str, Found | str]:
+        """Return the vectors of a plan by name: where they are drawn, or why there is none."""
+        shape, found = fit.shape, dict[str, Found | str]()
+        line_of = {frozenset((int(shape.tails[at]), int(shape.tips[at]))): there for at, there in zip(shape.lines, fit.there, strict=True)}
+        for name, tail, tip in zip(shape.names, shape.tails.tolist(), shape.tips.tolist(), strict=True):
+            one, other = int(fit.nodes[tail]), int(fit.nodes[tip])
+            size = abs(shape.places[tip] - shape.places[tail]) * abs(fit.factor)
+            if name in found and isinstance(found[name], Found):
+                continue
+            if size < SHORT:
+                found[name] = "too short to be read"
+            elif one < 0 or other < 0:
+                found[name] = "no point where it should begin or end"
+            else:
+                sure = fit.quality * (1.0 if line_of[frozenset((tail, tip))] else 0.5)
+                ends = complex(self.lines.nodes[one]), complex(self.lines.nodes[other])
+                found[name] = Found(*ends, shape.plan, sure)
+        return found

@@ -1,0 +1,231 @@
+"""Lines of a drawing put in order: what is split, doubled and overdrawn as straight runs, and nodes where lines end.
+
+Everything is in millimetres of paper. A node is where segments end or runs cross; two nodes are joined where a run goes
+through both, whatever pieces it was drawn in. All that is looked for later is a question whether two places are joined.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from ..laws import cross, dot
+
+SAME = 0.25  # mm within which ends are one node
+BESIDE = 0.35  # mm by which pieces of one line may lie beside one another, and a node beside a line
+LEAST = 1.0  # mm; nodes nearer than this are no ends of a vector that can be told
+FLAT = 0.05  # sine of two lines that cross too flatly to make a node
+MANY = 48  # nodes on one line, of which all pairs are looked at; of one with more those nearest to each other
+CELL = 0.5  # mm, side of the squares in which nodes are looked up
+REACH = 3  # squares around a node from which it is found
+SQUARES = 16_000_000  # the most squares
+
+Complex = NDArray[np.complex128]
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lines:
+    """The lines of a drawing.
+
+    nodes   places, complex of shape (N,); the first `ends` of them are ends of segments, the others crossings
+    first, second   indices of the nodes of each pair that a line joins, in both orders, of shape (P,)
+    angles  directions from first to second, radians from 0 to 2 pi, ascending, of shape (P,)
+    sizes   their distances, of shape (P,)
+    codes   first * N + second, ascending: to be searched
+    squares, corner   which node is nearest to each square, -1 for none, of shape (rows, columns); the lowest corner
+    """
+
+    nodes: Complex
+    ends: int
+    first: Indices
+    second: Indices
+    angles: Floats
+    sizes: Floats
+    codes: Indices
+    squares: NDArray[np.int32]
+    corner: complex
+
+    def near(self, places: Complex) -> Indices:
+        """Return for each place the index of a node about a millimetre and a half away at the most, the nearest; or -1."""
+        at = (places - self.corner) / CELL
+        across, up = np.floor(at.real).astype(np.intp), np.floor(at.imag).astype(np.intp)
+        rows, columns = self.squares.shape
+        inside = (across >= 0) & (up >= 0) & (across < columns) & (up < rows)
+        found = self.squares[np.where(inside, up, 0), np.where(inside, across, 0)]
+        return np.where(inside, found, -1).astype(np.intp)
+
+    def joined(self, first: Indices, second: Indices) -> NDArray[np.bool_]:
+        """Return which pairs of nodes a line joins; -1 stands for no node."""
+        if not len(self.codes):
+            return np.zeros(np.broadcast(first, second).shape, bool)
+        wanted = first * len(self.nodes) + second
+        place = np.minimum(np.searchsorted(self.codes, wanted), len(self.codes) - 1)
+        return np.asarray((self.codes[place] == wanted) & (first >= 0) & (second >= 0))
+
+    def along(self, angle: float, within: float) -> Indices:
+        """Return the pairs whose direction is an angle, within so many radians."""
+        low, high = (angle - within) % (2.0 * math.pi), (angle + within) % (2.0 * math.pi)
+        begin, end = np.searchsorted(self.angles, (low, high))
+        if low <= high:
+            return np.arange(begin, end)
+        return np.concatenate((np.arange(begin, len(self.angles)), np.arange(end)))
+
+
+def lines_of(tails: Complex, tips: Complex) -> Lines:
+    """Put segments in order: pieces, copies and stray ones, complex of shape (N,), mm."""
+    whole = np.isfinite(tails) & np.isfinite(tips)
+    tails, tips = tails[whole], tips[whole]
+    nodes = _clustered(np.concatenate((tails, tips)))
+    long = np.abs(tips - tails) > SAME
+    starts, stops = _runs(tails[long], tips[long])
+    crossings = _crossings(starts, stops, nodes)
+    every = np.concatenate((nodes, crossings))
+    first, second = _pairs(starts, stops, every)
+    ways = every[second] - every[first]
+    angles = np.angle(ways) % (2.0 * math.pi)
+    order = np.argsort(angles, kind="stable")
+    first, second = first[order], second[order]
+    codes = np.unique(first * len(every) + second)
+    squares, corner = _squares(every)
+    return Lines(every, len(nodes), first, second, angles[order], np.abs(ways)[order], codes, squares, corner)
+
+
+def _components(count: int, one: Indices, other: Indices) -> Indices:
+    """Return the number of the group of each of so many things, of which pairs belong together."""
+    labels = np.arange(count)
+    while True:
+        before = labels.copy()
+        np.minimum.at(labels, one, labels[other])
+        np.minimum.at(labels, other, labels[one])
+        labels = labels[labels]
+        if np.array_equal(labels, before):
+            return np.unique(labels, return_inverse=True)[1].reshape(-1)
+
+
+def _points(places: Complex) -> NDArray[np.object_]:
+    return np.asarray(shapely.points(places.real, places.imag))
+
+
+def _segments(tails: Complex, tips: Complex) -> NDArray[np.object_]:
+    ends = np.stack((np.stack((tails.real, tails.imag), -1), np.stack((tips.real, tips.imag), -1)), 1)
+    return np.asarray(shapely.linestrings(ends))
+
+
+def _clustered(ends: Complex) -> Complex:
+    """Return the middles of ends that stand together."""
+    if not len(ends):
+        return ends
+    # many ends stand at the very same place
+    places, counts = np.unique(np.round(ends, 3), return_counts=True)
+    points = _points(places)
+    one, other = shapely.STRtree(points).query(points, predicate="dwithin", distance=SAME)
+    labels = _components(len(places), one, other)
+    return np.asarray(_mean(labels, places, counts.astype(float)))
+
+
+def _mean(labels: Indices, places: Complex, weights: Floats) -> Complex:
+    total = np.bincount(labels, weights)
+    sums = np.bincount(labels, weights * places.real) + 1j * np.bincount(labels, weights * places.imag)
+    return np.asarray(sums / total)
+
+
+def _runs(tails: Complex, tips: Complex) -> tuple[Complex, Complex]:
+    """Return both ends of straight lines, each put together of its pieces and copies."""
+    if not len(tails):
+        return tails, tips
+    drawn = _segments(tails, tips)
+    one, other = shapely.STRtree(drawn).query(drawn, predicate="dwithin", distance=BESIDE)
+    sizes = np.abs(tips - tails)
+    longer = (sizes[one] > sizes[other]) | ((sizes[one] == sizes[other]) & (one < other))
+    one, other = one[longer], other[longer]
+    way = (tips - tails)[one] / sizes[one]
+    aside = [np.abs(cross(way, end[other] - tails[one])) for end in (tails, tips)]
+    together = (aside[0] < BESIDE) & (aside[1] < BESIDE)
+    labels = _components(len(tails), one[together], other[together])
+    order = np.lexsort((-sizes, labels))
+    longest = order[np.searchsorted(labels[order], np.arange(labels.max() + 1))]
+    begin, way = tails[longest][labels], ((tips - tails) / sizes)[longest][labels]
+    # chords of an arc hang together, too, and are no straight line
+    off = np.maximum(np.abs(cross(way, tails - begin)), np.abs(cross(way, tips - begin)))
+    bent = np.zeros(len(longest))
+    np.maximum.at(bent, labels, off)
+    alone = (bent > 3.0 * BESIDE)[labels]
+    least, most = np.full(len(longest), np.inf), np.full(len(longest), -np.inf)
+    for end in (tails, tips):
+        np.minimum.at(least, labels, dot(way, end - begin))
+        np.maximum.at(most, labels, dot(way, end - begin))
+    straight = bent <= 3.0 * BESIDE
+    middles = _mean(labels, (tails + tips) / 2.0, sizes)
+    base, unit = tails[longest], ((tips - tails) / sizes)[longest]
+    base = base + 1j * unit * cross(unit, middles - base)
+    starts, stops = base + least * unit, base + most * unit
+    return np.concatenate((starts[straight], tails[alone])), np.concatenate((stops[straight], tips[alone]))
+
+
+def _crossings(starts: Complex, stops: Complex, nodes: Complex) -> Complex:
+    """Return where lines cross away from all ends."""
+    if not len(starts):
+        return starts
+    drawn = _segments(starts, stops)
+    one, other = shapely.STRtree(drawn).query(drawn, predicate="intersects")
+    once = one < other
+    one, other = one[once], other[once]
+    u, w = stops[one] - starts[one], stops[other] - starts[other]
+    sine = cross(u, w) / (np.abs(u) * np.abs(w))
+    steep = np.abs(sine) > FLAT
+    one, other, u, w = one[steep], other[steep], u[steep], w[steep]
+    places = starts[one] + u * (cross(starts[other] - starts[one], w) / cross(u, w))
+    places = _clustered(places)
+    if not len(places):
+        return places
+    near, _ = shapely.STRtree(_points(nodes)).query(_points(places), predicate="dwithin", distance=BESIDE)
+    return np.delete(places, np.unique(near))
+
+
+def _pairs(starts: Complex, stops: Complex, nodes: Complex) -> tuple[Indices, Indices]:
+    """Return the indices of nodes that lines join, each pair in both orders."""
+    if not len(starts):
+        return np.zeros(0, np.intp), np.zeros(0, np.intp)
+    line, node = shapely.STRtree(_points(nodes)).query(_segments(starts, stops), predicate="dwithin", distance=BESIDE)
+    ways = (stops - starts) / np.abs(stops - starts)
+    order = np.lexsort((dot(ways[line], nodes[node] - starts[line]), line))
+    line, node = line[order], node[order]
+    found: list[tuple[Indices, Indices]] = []
+    for step in range(1, min(len(node), MANY)):
+        here = line[:-step] == line[step:]
+        if not here.any():
+            break
+        found.append((node[:-step][here], node[step:][here]))
+    one, other = (np.concatenate([pair[side] for pair in found] or [np.zeros(0, np.intp)]) for side in (0, 1))
+    codes = np.unique(np.concatenate((one * len(nodes) + other, other * len(nodes) + one)))
+    one, other = codes // len(nodes), codes % len(nodes)
+    apart = np.abs(nodes[one] - nodes[other]) > LEAST
+    return one[apart], other[apart]
+
+
+def _squares(nodes: Complex) -> tuple[NDArray[np.int32], complex]:
+    """Return which node is nearest to each square, and the lowest corner of all."""
+    if not len(nodes):
+        return np.full((1, 1), -1, np.int32), 0j
+    corner = complex(nodes.real.min(), nodes.imag.min()) - (REACH + 1) * CELL * (1 + 1j)
+    at = (nodes - corner) / CELL
+    columns, rows = (int(axis.max()) + REACH + 2 for axis in (at.real, at.imag))
+    if rows * columns > SQUARES:  # a drawing beyond all paper: what is out there is no plan
+        columns = rows = math.isqrt(SQUARES)
+    squares = np.full((rows, columns), -1, np.int32)
+    offsets = np.arange(-REACH, REACH + 1)
+    dx, dy = (grid.ravel() for grid in np.meshgrid(offsets, offsets))
+    x, y = np.floor(at.real)[:, None] + dx, np.floor(at.imag)[:, None] + dy
+    apart = np.abs(x + 0.5 - at.real[:, None] + 1j * (y + 0.5 - at.imag[:, None]))
+    number = np.broadcast_to(np.arange(len(nodes))[:, None], x.shape)
+    inside = (apart <= REACH) & (x >= 0) & (y >= 0) & (x < columns) & (y < rows)
+    x, y, number, apart = x[inside], y[inside], number[inside], apart[inside]
+    order = np.argsort(-apart, kind="stable")  # the nearest is written last
+    squares[y[order].astype(np.intp), x[order].astype(np.intp)] = number[order]
+    return squares, corner
