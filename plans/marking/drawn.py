@@ -34,8 +34,10 @@ DEGREES = 0.4  # by which lines may miss their direction besides
 NEAR = 0.8  # mm from where a point should be to where it is, once the plan lies where it fits best
 FARTHER = 1.5  # mm, of points whose neighbour is found
 LAID = 3  # vectors by which a plan is laid
-MANY = 4000  # places to which a plan is laid by one vector
-KEPT = 12  # of which so many are looked at closely
+MANY = 200  # places of a plan, the best ones, of which those that differ are sought
+KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less than the best by more than so much
+RIGHT = -1  # the number of the right construction among those with mistakes
+EVIDENT = 0.3  # vectors that a mistake must explain beyond those that the right plans do
 ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
 AGAIN = 0.5  # what a line is worth that is a vector of another plan already
 USUAL = 0.3  # what it is worth that a plan is drawn to its usual scale
@@ -129,7 +131,7 @@ class _Shape:
     """How a plan may be drawn: places of its marks from the pole, SI; vectors by name, and the marks of their ends.
 
     Vectors between the same two marks are one line; `lines` are the first ones of these. `broken` are the numbers of
-    the signatures in the book that draw it so, none for the right one.
+    the signatures in the book that draw it so.
     """
 
     plan: str
@@ -140,6 +142,11 @@ class _Shape:
     tips: Indices
     lines: Indices
     broken: tuple[int, ...] = ()
+    right: bool = True
+
+    def explained(self, number: int) -> bool:
+        """Whether it is drawn so with a mistake, by its number; or without any."""
+        return self.right if number == RIGHT else number in self.broken
 
     @property
     def spans(self) -> Complex:
@@ -156,9 +163,7 @@ Edges = tuple[tuple[str, str, str], ...]
 
 
 def _edges(program: Program, plan: str) -> Edges:
-    """Return the vectors of a plan, name, tail and tip; of the mechanism its links."""
-    if plan == POSITION:
-        return tuple((s.name, *s.operands[:2]) for s in program.on(plan) if s.verb in ("direction", "tangent"))
+    """Return the vectors of a plan: name, tail and tip."""
     found = []
     for step in program.on(plan):
         if step.verb == "read":
@@ -168,12 +173,19 @@ def _edges(program: Program, plan: str) -> Edges:
     return tuple(found)
 
 
+def _changed(right: Edges, program: Program, plan: str) -> Edges:
+    """Return the vectors of a plan that is drawn with a mistake; one that is only misread is drawn all the same."""
+    own = _edges(program, plan)
+    names, made = {name for name, *_ in own}, set(program.names)
+    return (*own, *(edge for edge in right if edge[0] not in names and made.issuperset(edge[1:])))
+
+
 def _quantity(name: str) -> str:
     """Return the quantity that a vector shows, which a mistake may have put aside before it is misread."""
     return role(name.removeprefix("_right_")).shown
 
 
-def _shape(plan: str, edges: Edges, values: Mapping[str, Any], broken: tuple[int, ...] = ()) -> _Shape | None:
+def _shape(plan: str, edges: Edges, values: Mapping[str, Any], *broken: int) -> _Shape | None:
     """Return how a plan is drawn with some values; None where these are none."""
     marks = tuple(dict.fromkeys(mark for _, *ends in edges for mark in ends))
     places = np.array([values.get(mark, math.nan) for mark in marks], complex)
@@ -183,7 +195,7 @@ def _shape(plan: str, edges: Edges, values: Mapping[str, Any], broken: tuple[int
     tails, tips = (np.array([number[edge[side]] for edge in edges], np.intp) for side in (1, 2))
     lines = {frozenset(pair): at for at, pair in reversed([*enumerate(zip(tails.tolist(), tips.tolist(), strict=True))])}
     of_lines = np.array(sorted(lines.values()), np.intp)
-    return _Shape(plan, marks, places, tuple(edge[0] for edge in edges), tails, tips, of_lines, broken)
+    return _Shape(plan, marks, places, tuple(edge[0] for edge in edges), tails, tips, of_lines, broken, not broken)
 
 
 def _shapes(key: Key, book: Book | None, plan: str, by_size: bool) -> tuple[_Shape, ...]:
@@ -201,8 +213,8 @@ def _shapes(key: Key, book: Book | None, plan: str, by_size: bool) -> tuple[_Sha
         if one.broken.mistake in BY_SCALE:
             continue
         changed = any(step.plan == plan for steps in one.broken.change.steps.values() for step in steps)
-        edges = _edges(one.broken.program, plan) if changed else right_edges
-        shape = _shape(plan, edges, one.values, (number,))
+        edges = _changed(right_edges, one.broken.program, plan) if changed else right_edges
+        shape = _shape(plan, edges, one.values, number)
         if shape is not None and shape.longest:
             look = _look(shape, by_size)
             before = found.get(look)
@@ -212,8 +224,8 @@ def _shapes(key: Key, book: Book | None, plan: str, by_size: bool) -> tuple[_Sha
 
 def _look(shape: _Shape, by_size: bool) -> tuple[Any, ...]:
     size = shape.longest if not by_size else 1.0
-    ends = np.round(np.concatenate((shape.places[shape.tails], shape.places[shape.tips])) / shape.longest, 3) + 0.0
-    return (shape.names, f"{size:.3e}", *ends.tolist())
+    ends = np.round(np.stack((shape.places[shape.tails], shape.places[shape.tips])) / shape.longest, 3) + 0.0
+    return (f"{size:.3e}", *sorted(zip(shape.names, *ends.tolist(), strict=True), key=repr))
 
 
 # Where it lies.
@@ -269,7 +281,7 @@ class _Search:
         program, found = self.key.paper.program, list[_Shape]()
         for plan in program.plans:
             shape = _shape(plan, _edges(program, plan), self.key.values)
-            if role(plan).kind != LEVER and shape is not None and shape.longest:
+            if plan != POSITION and role(plan).kind != LEVER and shape is not None and shape.longest:
                 found.append(shape)
         return {shape.plan: shape for shape in sorted(found, key=lambda shape: -len(shape.lines))}
 
@@ -278,11 +290,11 @@ class _Search:
         turn = self._turn()
         fits = self._fits(turn)
         plans, vectors = dict[str, FoundPlan](), dict[str, Found]()
-        asked = {n: q for n, q in self.key.questions.items() if q.vector and q.plan in self.plans and q.plan != POSITION}
+        asked = {n: q for n, q in self.key.questions.items() if q.vector and q.plan in self.plans}
         missing = {name: f"no plan of {question.plan}" for name, question in asked.items()}
         for plan, fit in fits.items():
             mistake = ""
-            if fit.shape.broken and self.book is not None:
+            if not fit.shape.right and self.book is not None:
                 mistake = self.book.signatures[fit.shape.broken[0]].broken.mistake
             pole = complex(fit.origin)
             plans[plan] = FoundPlan(fit.mu, cmath.phase(fit.factor), pole, fit.quality, mistake)
@@ -304,36 +316,39 @@ class _Search:
         return 0.0 if fit is None else fit.worth
 
     def _fits(self, turn: float) -> dict[str, _Fit]:
-        """Return where each plan lies that is drawn, the right one or one with a mistake that explains it best."""
+        """Return where each plan lies that is drawn: the right one, or one with a mistake that explains more of it."""
         fits: dict[str, _Fit] = {}
         doubtful: dict[str, list[_Fit]] = {}
         for plan, right in self.plans.items():
             fit = self._best(right, turn)
             if fit is not None and 1.0 - fit.quality <= ALL:
                 self._take(fits, fit)
-            else:
-                shapes = _shapes(self.key, self.book, plan, plan not in self.mus)
-                doubtful[plan] = [one for shape in shapes if (one := self._best(shape, turn)) is not None]
-        by_mistake: dict[int, float] = {}
+            elif ways := self._ways(plan, turn):
+                doubtful[plan] = ways
+        common = self._common(doubtful)
         for ways in doubtful.values():
-            for fit in ways:
-                for number in fit.shape.broken:
-                    by_mistake[number] = by_mistake.get(number, 0.0) + fit.worth
-        for plan, ways in doubtful.items():
-            if not ways:
-                continue
+            usual = next((fit for fit in ways if fit.shape.explained(common)), ways[0])
             best = max(ways, key=lambda fit: fit.worth)
-            common = max(
-                (by_mistake.get(number, 0.0), -number, fit) for fit in ways for number in (*fit.shape.broken, -1)
-            ) if False else None
-            del common
-            close = [fit for fit in ways if fit.worth > best.worth - OTHER]
-            chosen = max(
-                close, key=lambda fit: (max((by_mistake[n] for n in fit.shape.broken), default=0.0), fit.worth)
-            )
+            chosen = best if best.worth > usual.worth + OTHER else usual
             if chosen.quality >= ENOUGH:
                 self._take(fits, chosen)
         return fits
+
+    def _ways(self, plan: str, turn: float) -> list[_Fit]:
+        """Return where each shape of a plan fits best, the right one first."""
+        shapes = _shapes(self.key, self.book, plan, plan not in self.mus)
+        return [fit for shape in shapes if (fit := self._best(shape, turn)) is not None]
+
+    @staticmethod
+    def _common(doubtful: Mapping[str, Iterable[_Fit]]) -> int:
+        """Return the number of the mistake by which most of all plans is explained, that of the right plans if none."""
+        numbers = {number for ways in doubtful.values() for fit in ways for number in fit.shape.broken}
+        worth = {
+            number: sum(max((f.worth for f in ways if f.shape.explained(number)), default=0.0) for ways in doubtful.values())
+            for number in (RIGHT, *sorted(numbers))
+        }
+        worth[RIGHT] += EVIDENT
+        return max(worth, key=lambda number: worth[number])
 
     def _take(self, fits: dict[str, _Fit], fit: _Fit) -> None:
         fits[fit.shape.plan] = fit
@@ -345,18 +360,20 @@ class _Search:
 
     def _best(self, shape: _Shape, turn: float) -> _Fit | None:
         """Return where a shape fits best."""
-        lines, best = self.lines, None
         origins, factors = self._laid(shape, turn)
         if not len(origins):
             return None
-        worth = np.concatenate(
-            [self._worths(shape, origins[at : at + MANY], factors[at : at + MANY]) for at in range(0, len(origins), MANY)]
-        )
-        for at in np.argsort(-worth, kind="stable")[:KEPT]:
-            fit = self._settled(shape, complex(origins[at]), complex(factors[at]))
-            if best is None or fit.worth > best.worth:
-                best = fit
-        del lines
+        nodes = self.lines.near(origins[:, None] + factors[:, None] * shape.places)
+        worth = self._counted(shape, nodes, np.abs(factors))[0]
+        best, seen = None, set[bytes]()
+        for at in np.argsort(-worth, kind="stable")[:MANY]:
+            if worth[at] < worth.max() - CLOSE or len(seen) == KEPT:
+                break
+            if (look := nodes[at].tobytes()) not in seen:
+                seen.add(look)
+                fit = self._settled(shape, complex(origins[at]), complex(factors[at]))
+                if best is None or fit.worth > best.worth:
+                    best = fit
         return best
 
     def _laid(self, shape: _Shape, turn: float) -> tuple[Complex, Complex]:
@@ -388,12 +405,6 @@ class _Search:
         nothing = np.zeros(0, complex)
         return tuple(np.concatenate([nothing, *(way[side] for way in kept)]) for side in (1, 2))  # type: ignore[return-value]
 
-    def _worths(self, shape: _Shape, origins: Complex, factors: Complex) -> Floats:
-        """Return what the lines count of a shape laid in many ways."""
-        places = origins[:, None] + factors[:, None] * shape.places
-        nodes = self.lines.near(places)
-        return self._counted(shape, nodes, np.abs(factors))[0]
-
     def _counted(self, shape: _Shape, nodes: Indices, per_unit: Floats) -> tuple[Floats, Any, Floats]:
         """Return for marks at nodes, of shape (ways, marks): what is worth how much, which lines are there, weights."""
         one, other = nodes[:, shape.tails[shape.lines]], nodes[:, shape.tips[shape.lines]]
@@ -420,7 +431,13 @@ class _Search:
             if not found or abs(cmath.phase(found / factor)) > SKEW:
                 break
             factor, origin = found, complex(drawn.mean() - found * at.mean())
-        fit = _Fit(shape, origin, factor, nodes, there[0], float(worth[0]), weights[0])
+        there, lacking = there[0], ~there[0] & (weights[0] > 0.0)
+        for at in np.flatnonzero(lacking):
+            one, other = int(nodes[shape.tails[shape.lines[at]]]), int(nodes[shape.tips[shape.lines[at]]])
+            if one >= 0 and other >= 0 and one != other:
+                there[at] = self.lines.covers(self.lines.nodes[one], self.lines.nodes[other])
+        gained = (1.0 + ABSENT) * float(weights[0][there & lacking].sum())
+        fit = _Fit(shape, origin, factor, nodes, there, float(worth[0]) + gained, weights[0])
         again = sum(AGAIN * weight for pair, weight in zip(fit.pairs, fit.weights[fit.there], strict=True) if pair in self.used)
         return replace(fit, worth=fit.worth - again)
 

@@ -16,7 +16,9 @@ from numpy.typing import NDArray
 from ..laws import cross, dot
 
 SAME = 0.25  # mm within which ends are one node
-BESIDE = 0.35  # mm by which pieces of one line may lie beside one another, and a node beside a line
+ASIDE = 0.25  # mm by which pieces of one line may lie beside one another
+BESIDE = 0.4  # mm by which a node may lie beside a line
+BENT = 0.75  # mm from which what hangs together is no straight line
 LEAST = 1.0  # mm; nodes nearer than this are no ends of a vector that can be told
 FLAT = 0.05  # sine of two lines that cross too flatly to make a node
 MANY = 48  # nodes on one line, of which all pairs are looked at; of one with more those nearest to each other
@@ -39,6 +41,7 @@ class Lines:
     sizes   their distances, of shape (P,)
     codes   first * N + second, ascending: to be searched
     squares, corner   which node is nearest to each square, -1 for none, of shape (rows, columns); the lowest corner
+    tails, tips     the segments as they were drawn
     """
 
     nodes: Complex
@@ -50,6 +53,8 @@ class Lines:
     codes: Indices
     squares: NDArray[np.int32]
     corner: complex
+    tails: Complex
+    tips: Complex
 
     def near(self, places: Complex) -> Indices:
         """Return for each place the index of a node about a millimetre and a half away at the most, the nearest; or -1."""
@@ -68,6 +73,20 @@ class Lines:
         place = np.minimum(np.searchsorted(self.codes, wanted), len(self.codes) - 1)
         return np.asarray((self.codes[place] == wanted) & (first >= 0) & (second >= 0))
 
+    def covers(self, start: complex, stop: complex) -> bool:
+        """Whether segments cover the whole way between two places, whatever else runs beside it."""
+        size = abs(stop - start)
+        way = (stop - start) / size
+        aside = np.maximum(np.abs(cross(way, self.tails - start)), np.abs(cross(way, self.tips - start)))
+        here = aside < BESIDE
+        along = np.sort([dot(way, self.tails[here] - start), dot(way, self.tips[here] - start)], axis=0)
+        reached = BESIDE
+        for low, high in along[:, np.argsort(along[0])].T.tolist():
+            if low > reached:
+                break
+            reached = max(reached, high + BESIDE)
+        return reached >= size - BESIDE
+
     def along(self, angle: float, within: float) -> Indices:
         """Return the pairs whose direction is an angle, within so many radians."""
         low, high = (angle - within) % (2.0 * math.pi), (angle + within) % (2.0 * math.pi)
@@ -81,19 +100,19 @@ def lines_of(tails: Complex, tips: Complex) -> Lines:
     """Put segments in order: pieces, copies and stray ones, complex of shape (N,), mm."""
     whole = np.isfinite(tails) & np.isfinite(tips)
     tails, tips = tails[whole], tips[whole]
-    nodes = _clustered(np.concatenate((tails, tips)))
+    nodes, number = _clustered(np.concatenate((tails, tips)))
     long = np.abs(tips - tails) > SAME
     starts, stops = _runs(tails[long], tips[long])
     crossings = _crossings(starts, stops, nodes)
     every = np.concatenate((nodes, crossings))
-    first, second = _pairs(starts, stops, every)
+    first, second = _pairs(starts, stops, every, number.reshape(2, -1))
     ways = every[second] - every[first]
     angles = np.angle(ways) % (2.0 * math.pi)
     order = np.argsort(angles, kind="stable")
     first, second = first[order], second[order]
     codes = np.unique(first * len(every) + second)
     squares, corner = _squares(every)
-    return Lines(every, len(nodes), first, second, angles[order], np.abs(ways)[order], codes, squares, corner)
+    return Lines(every, len(nodes), first, second, angles[order], np.abs(ways)[order], codes, squares, corner, tails, tips)
 
 
 def _components(count: int, one: Indices, other: Indices) -> Indices:
@@ -117,16 +136,16 @@ def _segments(tails: Complex, tips: Complex) -> NDArray[np.object_]:
     return np.asarray(shapely.linestrings(ends))
 
 
-def _clustered(ends: Complex) -> Complex:
-    """Return the middles of ends that stand together."""
+def _clustered(ends: Complex) -> tuple[Complex, Indices]:
+    """Return the middles of ends that stand together, and of which of them each end is."""
     if not len(ends):
-        return ends
+        return ends, np.zeros(0, np.intp)
     # many ends stand at the very same place
-    places, counts = np.unique(np.round(ends, 3), return_counts=True)
+    places, own, counts = np.unique(np.round(ends, 3), return_inverse=True, return_counts=True)
     points = _points(places)
     one, other = shapely.STRtree(points).query(points, predicate="dwithin", distance=SAME)
     labels = _components(len(places), one, other)
-    return np.asarray(_mean(labels, places, counts.astype(float)))
+    return _mean(labels, places, counts.astype(float)), labels[own.reshape(-1)]
 
 
 def _mean(labels: Indices, places: Complex, weights: Floats) -> Complex:
@@ -140,13 +159,13 @@ def _runs(tails: Complex, tips: Complex) -> tuple[Complex, Complex]:
     if not len(tails):
         return tails, tips
     drawn = _segments(tails, tips)
-    one, other = shapely.STRtree(drawn).query(drawn, predicate="dwithin", distance=BESIDE)
+    one, other = shapely.STRtree(drawn).query(drawn, predicate="dwithin", distance=ASIDE)
     sizes = np.abs(tips - tails)
     longer = (sizes[one] > sizes[other]) | ((sizes[one] == sizes[other]) & (one < other))
     one, other = one[longer], other[longer]
     way = (tips - tails)[one] / sizes[one]
     aside = [np.abs(cross(way, end[other] - tails[one])) for end in (tails, tips)]
-    together = (aside[0] < BESIDE) & (aside[1] < BESIDE)
+    together = (aside[0] < ASIDE) & (aside[1] < ASIDE)
     labels = _components(len(tails), one[together], other[together])
     order = np.lexsort((-sizes, labels))
     longest = order[np.searchsorted(labels[order], np.arange(labels.max() + 1))]
@@ -155,12 +174,12 @@ def _runs(tails: Complex, tips: Complex) -> tuple[Complex, Complex]:
     off = np.maximum(np.abs(cross(way, tails - begin)), np.abs(cross(way, tips - begin)))
     bent = np.zeros(len(longest))
     np.maximum.at(bent, labels, off)
-    alone = (bent > 3.0 * BESIDE)[labels]
+    alone = (bent > BENT)[labels]
     least, most = np.full(len(longest), np.inf), np.full(len(longest), -np.inf)
     for end in (tails, tips):
         np.minimum.at(least, labels, dot(way, end - begin))
         np.maximum.at(most, labels, dot(way, end - begin))
-    straight = bent <= 3.0 * BESIDE
+    straight = bent <= BENT
     middles = _mean(labels, (tails + tips) / 2.0, sizes)
     base, unit = tails[longest], ((tips - tails) / sizes)[longest]
     base = base + 1j * unit * cross(unit, middles - base)
@@ -181,15 +200,15 @@ def _crossings(starts: Complex, stops: Complex, nodes: Complex) -> Complex:
     steep = np.abs(sine) > FLAT
     one, other, u, w = one[steep], other[steep], u[steep], w[steep]
     places = starts[one] + u * (cross(starts[other] - starts[one], w) / cross(u, w))
-    places = _clustered(places)
+    places, _ = _clustered(places)
     if not len(places):
         return places
     near, _ = shapely.STRtree(_points(nodes)).query(_points(places), predicate="dwithin", distance=BESIDE)
     return np.delete(places, np.unique(near))
 
 
-def _pairs(starts: Complex, stops: Complex, nodes: Complex) -> tuple[Indices, Indices]:
-    """Return the indices of nodes that lines join, each pair in both orders."""
+def _pairs(starts: Complex, stops: Complex, nodes: Complex, drawn: Indices) -> tuple[Indices, Indices]:
+    """Return the indices of nodes that lines join, those of `drawn` segments among them; each pair in both orders."""
     if not len(starts):
         return np.zeros(0, np.intp), np.zeros(0, np.intp)
     line, node = shapely.STRtree(_points(nodes)).query(_segments(starts, stops), predicate="dwithin", distance=BESIDE)
@@ -202,7 +221,7 @@ def _pairs(starts: Complex, stops: Complex, nodes: Complex) -> tuple[Indices, In
         if not here.any():
             break
         found.append((node[:-step][here], node[step:][here]))
-    one, other = (np.concatenate([pair[side] for pair in found] or [np.zeros(0, np.intp)]) for side in (0, 1))
+    one, other = (np.concatenate([drawn[side], *(pair[side] for pair in found)]) for side in (0, 1))
     codes = np.unique(np.concatenate((one * len(nodes) + other, other * len(nodes) + one)))
     one, other = codes // len(nodes), codes % len(nodes)
     apart = np.abs(nodes[one] - nodes[other]) > LEAST
