@@ -32,7 +32,7 @@ GENERATOR = 0.3  # part of the longest vector of a plan that a vector must have 
 ASTRAY = 0.5  # mm that ends of lines may be astray, which turns short ones
 DEGREES = 0.4  # by which lines may miss their direction besides
 NEAR = 0.8  # mm from where a point should be to where it is, once the plan lies where it fits best
-FARTHER = 1.5  # mm, of points whose neighbour is found
+TRUE = 0.4  # mm from a node up to which a point is sought where it should be
 LAID = 3  # vectors by which a plan is laid
 MANY = 200  # places of a plan, the best ones, of which those that differ are sought
 KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less than the best by more than so much
@@ -40,7 +40,7 @@ RIGHT = -1  # the number of the right construction among those with mistakes
 EVIDENT = 0.3  # vectors that a mistake must explain beyond those that the right plans do
 ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
 AGAIN = 0.5  # what a line is worth that is a vector of another plan already
-USUAL = 0.3  # what it is worth that a plan is drawn to its usual scale
+USUAL = 0.5  # what it is worth that a plan is drawn to its usual scale
 SAME_MU = 0.01  # part by which scale factors that count as one may differ
 ALL = 0.02  # part of a plan that may lack where it counts as the right one
 OTHER = 1.0  # vectors more than the mistake that explains all plans must a mistake of one plan explain
@@ -413,7 +413,7 @@ class _Search:
         weights = np.where(sizes < SHORT, 0.0, np.clip(sizes / FULL, 0.2, 1.0))
         worth = np.where(there, weights, -ABSENT * weights).sum(axis=1)
         if expected := self._expected(shape.plan):
-            worth = worth + USUAL * (np.abs(per_unit * expected - 1.0) < SAME_MU)
+            worth = worth + USUAL * np.maximum(0.0, 1.0 - (np.abs(per_unit * expected - 1.0) / SAME_MU) ** 2)
         return worth, there, weights
 
     def _settled(self, shape: _Shape, origin: complex, factor: complex) -> _Fit:
@@ -451,6 +451,7 @@ class _Search:
         """Return the vectors of a plan by name: where they are drawn, or why there is none."""
         shape, found = fit.shape, dict[str, Found | str]()
         line_of = {frozenset((int(shape.tails[at]), int(shape.tips[at]))): there for at, there in zip(shape.lines, fit.there, strict=True)}
+        points = self._points(fit)
         for name, tail, tip in zip(shape.names, shape.tails.tolist(), shape.tips.tolist(), strict=True):
             one, other = int(fit.nodes[tail]), int(fit.nodes[tip])
             size = abs(shape.places[tip] - shape.places[tail]) * abs(fit.factor)
@@ -462,6 +463,18 @@ class _Search:
                 found[name] = "no point where it should begin or end"
             else:
                 sure = fit.quality * (1.0 if line_of[frozenset((tail, tip))] else 0.5)
-                ends = complex(self.lines.nodes[one]), complex(self.lines.nodes[other])
-                found[name] = Found(*ends, shape.plan, sure)
+                found[name] = Found(points[tail], points[tip], shape.plan, sure)
+        return found
+
+    def _points(self, fit: _Fit) -> dict[int, complex]:
+        """Return where the marks of a plan are drawn: where the lines that go out from them end."""
+        shape, found = fit.shape, dict[int, complex]()
+        for mark in np.flatnonzero(fit.nodes >= 0).tolist():
+            node = complex(self.lines.nodes[fit.nodes[mark]])
+            place = fit.origin + fit.factor * complex(shape.places[mark])
+            here = fit.there & ((shape.tails[shape.lines] == mark) | (shape.tips[shape.lines] == mark))
+            spans = shape.spans[here] * fit.factor
+            spans = spans[np.abs(spans) >= SHORT]
+            end = self.lines.end(place if abs(place - node) < TRUE else node, spans / np.abs(spans)) if len(spans) else None
+            found[mark] = node if end is None else end
         return found

@@ -19,6 +19,7 @@ SAME = 0.25  # mm within which ends are one node
 ASIDE = 0.25  # mm by which pieces of one line may lie beside one another
 BESIDE = 0.4  # mm by which a node may lie beside a line
 BENT = 0.75  # mm from which what hangs together is no straight line
+ASTRAY, TILT = 0.3, 0.01  # mm and part of its length by which a line may miss its way
 LEAST = 1.0  # mm; nodes nearer than this are no ends of a vector that can be told
 FLAT = 0.05  # sine of two lines that cross too flatly to make a node
 MANY = 48  # nodes on one line, of which all pairs are looked at; of one with more those nearest to each other
@@ -87,6 +88,28 @@ class Lines:
             reached = max(reached, high + BESIDE)
         return reached >= size - BESIDE
 
+    def end(self, place: complex, ways: Complex) -> complex | None:
+        """Return where ends of lines along some ways (unit directions) come together near a place; None where none do."""
+        ends, others = np.concatenate((self.tails, self.tips)), np.concatenate((self.tips, self.tails))
+        here = np.abs(ends - place) < 2.0 * BESIDE
+        ends, spans = ends[here], others[here] - ends[here]
+        sizes = np.abs(spans)
+        aside = np.abs(cross(ways[:, None], spans[None, :]))
+        ends = ends[(aside < np.minimum(ASTRAY + TILT * sizes, 0.5 * sizes)).any(axis=0)]
+        for within in (ASIDE, BESIDE, 2.0 * BESIDE):
+            near = np.abs(ends - place) < within
+            if near.any():
+                middle = complex(ends[near].mean())
+                return complex(ends[np.abs(ends - middle) <= max(ASIDE, np.abs(ends - middle).min())].mean())
+        return None
+
+    def goes_on(self, first: int, second: int) -> bool:
+        """Whether a line that joins two nodes goes on to another node beyond the second one."""
+        count = len(self.nodes)
+        begin, end = np.searchsorted(self.codes, (second * count, (second + 1) * count))
+        way, ways = self.nodes[second] - self.nodes[first], self.nodes[self.codes[begin:end] % count] - self.nodes[second]
+        return bool((np.abs(np.angle(ways / way)) < TILT + ASTRAY / np.abs(ways)).any())
+
     def along(self, angle: float, within: float) -> Indices:
         """Return the pairs whose direction is an angle, within so many radians."""
         low, high = (angle - within) % (2.0 * math.pi), (angle + within) % (2.0 * math.pi)
@@ -102,10 +125,10 @@ def lines_of(tails: Complex, tips: Complex) -> Lines:
     tails, tips = tails[whole], tips[whole]
     nodes, number = _clustered(np.concatenate((tails, tips)))
     long = np.abs(tips - tails) > SAME
-    starts, stops = _runs(tails[long], tips[long])
+    starts, stops, beside = _runs(tails[long], tips[long])
     crossings = _crossings(starts, stops, nodes)
     every = np.concatenate((nodes, crossings))
-    first, second = _pairs(starts, stops, every, number.reshape(2, -1))
+    first, second = _pairs((starts, stops, beside), every, number.reshape(2, -1))
     ways = every[second] - every[first]
     angles = np.angle(ways) % (2.0 * math.pi)
     order = np.argsort(angles, kind="stable")
@@ -154,10 +177,10 @@ def _mean(labels: Indices, places: Complex, weights: Floats) -> Complex:
     return np.asarray(sums / total)
 
 
-def _runs(tails: Complex, tips: Complex) -> tuple[Complex, Complex]:
-    """Return both ends of straight lines, each put together of its pieces and copies."""
+def _runs(tails: Complex, tips: Complex) -> tuple[Complex, Complex, Floats]:
+    """Return both ends of straight lines, each put together of its pieces and copies; how far these lie beside it."""
     if not len(tails):
-        return tails, tips
+        return tails, tips, np.zeros(0)
     drawn = _segments(tails, tips)
     one, other = shapely.STRtree(drawn).query(drawn, predicate="dwithin", distance=ASIDE)
     sizes = np.abs(tips - tails)
@@ -184,7 +207,8 @@ def _runs(tails: Complex, tips: Complex) -> tuple[Complex, Complex]:
     base, unit = tails[longest], ((tips - tails) / sizes)[longest]
     base = base + 1j * unit * cross(unit, middles - base)
     starts, stops = base + least * unit, base + most * unit
-    return np.concatenate((starts[straight], tails[alone])), np.concatenate((stops[straight], tips[alone]))
+    beside = np.concatenate((bent[straight], np.zeros(int(alone.sum()))))
+    return np.concatenate((starts[straight], tails[alone])), np.concatenate((stops[straight], tips[alone])), beside
 
 
 def _crossings(starts: Complex, stops: Complex, nodes: Complex) -> Complex:
@@ -207,11 +231,15 @@ def _crossings(starts: Complex, stops: Complex, nodes: Complex) -> Complex:
     return np.delete(places, np.unique(near))
 
 
-def _pairs(starts: Complex, stops: Complex, nodes: Complex, drawn: Indices) -> tuple[Indices, Indices]:
+def _pairs(
+    runs: tuple[Complex, Complex, Floats], nodes: Complex, drawn: Indices
+) -> tuple[Indices, Indices]:
     """Return the indices of nodes that lines join, those of `drawn` segments among them; each pair in both orders."""
+    starts, stops, beside = runs
     if not len(starts):
         return np.zeros(0, np.intp), np.zeros(0, np.intp)
-    line, node = shapely.STRtree(_points(nodes)).query(_segments(starts, stops), predicate="dwithin", distance=BESIDE)
+    tree, drawn_runs = shapely.STRtree(_points(nodes)), _segments(starts, stops)
+    line, node = tree.query(drawn_runs, predicate="dwithin", distance=BESIDE + beside)
     ways = (stops - starts) / np.abs(stops - starts)
     order = np.lexsort((dot(ways[line], nodes[node] - starts[line]), line))
     line, node = line[order], node[order]
