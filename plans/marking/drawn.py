@@ -41,6 +41,7 @@ EVIDENT = 0.3  # vectors that a mistake must explain beyond those that the right
 ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
 AGAIN = 0.5  # what a line is worth that is a vector of another plan already
 USUAL = 0.5  # what it is worth that a plan is drawn to its usual scale
+FREE = 0.3  # what it is worth that no line goes on beyond its ends, as those of tables and frames do
 SAME_MU = 0.01  # part by which scale factors that count as one may differ
 ALL = 0.02  # part of a plan that may lack where it counts as the right one
 OTHER = 1.0  # vectors more than the mistake that explains all plans must a mistake of one plan explain
@@ -364,7 +365,7 @@ class _Search:
         if not len(origins):
             return None
         nodes = self.lines.near(origins[:, None] + factors[:, None] * shape.places)
-        worth = self._counted(shape, nodes, np.abs(factors))[0]
+        worth = self._counted(shape, nodes, np.abs(factors), loosely=True)[0]
         best, seen = None, set[bytes]()
         for at in np.argsort(-worth, kind="stable")[:MANY]:
             if worth[at] < worth.max() - CLOSE or len(seen) == KEPT:
@@ -405,10 +406,12 @@ class _Search:
         nothing = np.zeros(0, complex)
         return tuple(np.concatenate([nothing, *(way[side] for way in kept)]) for side in (1, 2))  # type: ignore[return-value]
 
-    def _counted(self, shape: _Shape, nodes: Indices, per_unit: Floats) -> tuple[Floats, Any, Floats]:
-        """Return for marks at nodes, of shape (ways, marks): what is worth how much, which lines are there, weights."""
+    def _counted(
+        self, shape: _Shape, nodes: Indices, per_unit: Floats, loosely: bool = False
+    ) -> tuple[Floats, Any, Floats]:
+        """Return for marks at nodes, of shape (ways, marks): what it is worth, which lines are there, their weights."""
         one, other = nodes[:, shape.tails[shape.lines]], nodes[:, shape.tips[shape.lines]]
-        there = self.lines.joined(one, other)
+        there = self.lines.joined(one, other, loosely)
         sizes = np.abs(shape.spans)[None, :] * per_unit[:, None]
         weights = np.where(sizes < SHORT, 0.0, np.clip(sizes / FULL, 0.2, 1.0))
         worth = np.where(there, weights, -ABSENT * weights).sum(axis=1)
@@ -439,7 +442,9 @@ class _Search:
         gained = (1.0 + ABSENT) * float(weights[0][there & lacking].sum())
         fit = _Fit(shape, origin, factor, nodes, there, float(worth[0]) + gained, weights[0])
         again = sum(AGAIN * weight for pair, weight in zip(fit.pairs, fit.weights[fit.there], strict=True) if pair in self.used)
-        return replace(fit, worth=fit.worth - again)
+        ends = [end for pair in fit.pairs for end in (pair, pair[::-1]) if pair[0] != pair[1]]
+        free = sum(not self.lines.goes_on(*end) for end in ends) / len(ends) if ends else 0.0
+        return replace(fit, worth=fit.worth - again + FREE * free)
 
     def _nodes(self, places: Complex) -> Indices:
         """Return the nodes of marks: near enough, or -1."""

@@ -20,6 +20,7 @@ ASIDE = 0.25  # mm by which pieces of one line may lie beside one another
 BESIDE = 0.4  # mm by which a node may lie beside a line
 BENT = 0.75  # mm from which what hangs together is no straight line
 ASTRAY, TILT = 0.3, 0.01  # mm and part of its length by which a line may miss its way
+CLOSE = 0.7  # mm within which one node may be taken for another
 LEAST = 1.0  # mm; nodes nearer than this are no ends of a vector that can be told
 FLAT = 0.05  # sine of two lines that cross too flatly to make a node
 MANY = 48  # nodes on one line, of which all pairs are looked at; of one with more those nearest to each other
@@ -41,6 +42,8 @@ class Lines:
     angles  directions from first to second, radians from 0 to 2 pi, ascending, of shape (P,)
     sizes   their distances, of shape (P,)
     codes   first * N + second, ascending: to be searched
+    hubs    number of the hub of each node, of shape (N,): nodes that may be taken for one another are one hub
+    hub_codes   the same as codes, of hubs
     squares, corner   which node is nearest to each square, -1 for none, of shape (rows, columns); the lowest corner
     tails, tips     the segments as they were drawn
     """
@@ -52,6 +55,8 @@ class Lines:
     angles: Floats
     sizes: Floats
     codes: Indices
+    hubs: Indices
+    hub_codes: Indices
     squares: NDArray[np.int32]
     corner: complex
     tails: Complex
@@ -66,13 +71,15 @@ class Lines:
         found = self.squares[np.where(inside, up, 0), np.where(inside, across, 0)]
         return np.where(inside, found, -1).astype(np.intp)
 
-    def joined(self, first: Indices, second: Indices) -> NDArray[np.bool_]:
-        """Return which pairs of nodes a line joins; -1 stands for no node."""
-        if not len(self.codes):
+    def joined(self, first: Indices, second: Indices, loosely: bool = False) -> NDArray[np.bool_]:
+        """Return which pairs of nodes a line joins; -1 stands for no node. Loosely: nodes beside them count as well."""
+        codes = self.hub_codes if loosely else self.codes
+        if not len(codes):
             return np.zeros(np.broadcast(first, second).shape, bool)
-        wanted = first * len(self.nodes) + second
-        place = np.minimum(np.searchsorted(self.codes, wanted), len(self.codes) - 1)
-        return np.asarray((self.codes[place] == wanted) & (first >= 0) & (second >= 0))
+        one, other = (self.hubs[first], self.hubs[second]) if loosely else (first, second)
+        wanted = one * len(self.nodes) + other
+        place = np.minimum(np.searchsorted(codes, wanted), len(codes) - 1)
+        return np.asarray((codes[place] == wanted) & (first >= 0) & (second >= 0))
 
     def covers(self, start: complex, stop: complex) -> bool:
         """Whether segments cover the whole way between two places, whatever else runs beside it."""
@@ -133,9 +140,20 @@ def lines_of(tails: Complex, tips: Complex) -> Lines:
     angles = np.angle(ways) % (2.0 * math.pi)
     order = np.argsort(angles, kind="stable")
     first, second = first[order], second[order]
-    codes = np.unique(first * len(every) + second)
-    squares, corner = _squares(every)
-    return Lines(every, len(nodes), first, second, angles[order], np.abs(ways)[order], codes, squares, corner, tails, tips)
+    codes, hubs = np.unique(first * len(every) + second), _hubs(every)
+    hub_codes = np.unique(hubs[first] * len(every) + hubs[second])
+    sizes, (squares, corner) = np.abs(ways)[order], _squares(every)
+    return Lines(
+        every, len(nodes), first, second, angles[order], sizes, codes, hubs, hub_codes, squares, corner, tails, tips
+    )
+
+
+def _hubs(nodes: Complex) -> Indices:
+    """Return the numbers of groups of nodes that are close together."""
+    if not len(nodes):
+        return np.zeros(0, np.intp)
+    points = _points(nodes)
+    return _components(len(nodes), *shapely.STRtree(points).query(points, predicate="dwithin", distance=CLOSE))
 
 
 def _components(count: int, one: Indices, other: Indices) -> Indices:
