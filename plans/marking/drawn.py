@@ -26,7 +26,8 @@ from .key import Key
 from .lines import Complex, Floats, Indices, Lines, lines_of
 
 SHORT = 1.5  # mm below which a vector shows nothing
-FULL = 12.0  # mm from which a vector counts whole
+FULL = 0.15  # part of the longest vector of its plan from which a vector counts whole
+FLAT = 0.03  # part of the longest vector that points of a plan miss where it is but one line
 LEAST, LARGEST = 12.0, 900.0  # mm, the longest vector of a plan
 GENERATOR = 0.3  # part of the longest vector of a plan that a vector must have to lay the plan by
 ASTRAY = 0.5  # mm that ends of lines may be astray, which turns short ones
@@ -127,7 +128,7 @@ def recognise(drawn: Drawn, key: Key, book: Book | None = None, mus: Mapping[str
 # What may be drawn.
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class _Shape:
     """How a plan may be drawn: places of its marks from the pole, SI; vectors by name, and the marks of their ends.
 
@@ -149,12 +150,28 @@ class _Shape:
         """Whether it is drawn so with a mistake, by its number; or without any."""
         return self.right if number == RIGHT else number in self.broken
 
-    @property
+    @cached_property
     def spans(self) -> Complex:
         """The vectors of the lines, SI."""
         return np.asarray(self.places[self.tips[self.lines]] - self.places[self.tails[self.lines]])
 
-    @property
+    @cached_property
+    def weights(self) -> Floats:
+        """What each line counts at the most: short ones less, and those that are nearly one line together as one."""
+        ends = np.sort_complex(np.stack((self.places[self.tails], self.places[self.tips]), -1)[self.lines])
+        like = (np.abs(ends[:, None] - ends[None, :]) < FLAT * self.longest).all(axis=-1).sum(axis=1)
+        return np.asarray(np.clip(np.abs(self.spans) / (FULL * self.longest), 0.2, 1.0) / like)
+
+    @cached_property
+    def flat(self) -> bool:
+        """Whether all its lines are but one on paper."""
+        ends = np.concatenate((self.places[self.tails], self.places[self.tips]))
+        way = self.spans[np.abs(self.spans).argmax()] / self.longest
+        off = (ends - ends[0]) / way / self.longest
+        ends_of = np.minimum(np.abs(off.real - off.real.min()), np.abs(off.real - off.real.max()))
+        return float(max(np.abs(off.imag).max(), ends_of.max())) < FLAT
+
+    @cached_property
     def longest(self) -> float:
         """The size of the longest vector, SI."""
         return float(np.abs(self.spans).max(initial=0.0))
@@ -381,7 +398,7 @@ class _Search:
         """Return all ways to lay a shape so that one of its long vectors lies on a line; few by those that say most."""
         spans, longest, lines = shape.spans, shape.longest, self.lines
         unit, given = cmath.rect(1.0, turn), self.mus.get(shape.plan)
-        if given is None and len(shape.lines) < 2:
+        if given is None and shape.flat:
             given = self._expected(shape.plan) or None  # one line has a direction, and any length
         ways: list[tuple[int, Complex, Complex]] = []
         for at, span in zip(shape.lines, spans.tolist(), strict=True):
@@ -413,7 +430,7 @@ class _Search:
         one, other = nodes[:, shape.tails[shape.lines]], nodes[:, shape.tips[shape.lines]]
         there = self.lines.joined(one, other, loosely)
         sizes = np.abs(shape.spans)[None, :] * per_unit[:, None]
-        weights = np.where(sizes < SHORT, 0.0, np.clip(sizes / FULL, 0.2, 1.0))
+        weights = np.where(sizes < SHORT, 0.0, shape.weights)
         worth = np.where(there, weights, -ABSENT * weights).sum(axis=1)
         if expected := self._expected(shape.plan):
             worth = worth + USUAL * np.maximum(0.0, 1.0 - (np.abs(per_unit * expected - 1.0) / SAME_MU) ** 2)
