@@ -285,7 +285,7 @@ class _Fit:
 
 @dataclass(eq=False)
 class _Search:
-    """The search for the plans of a key among lines; `used` are pairs of nodes that are vectors of plans already."""
+    """The search for the plans of a key among lines; `used` are the lines that are vectors of plans already."""
 
     lines: Lines
     key: Key
@@ -370,7 +370,12 @@ class _Search:
 
     def _take(self, fits: dict[str, _Fit], fit: _Fit) -> None:
         fits[fit.shape.plan] = fit
-        self.used.update(fit.pairs)
+        self.used.update(map(self._hubs, fit.pairs))
+
+    def _hubs(self, pair: tuple[int, int]) -> tuple[int, int]:
+        """Return what stands for a line and all those that are nearly the same."""
+        one, other = sorted(int(self.lines.hubs[node]) for node in pair)
+        return one, other
 
     def _expected(self, plan: str) -> float:
         """Return the scale factor that a plan should have, SI per mm; zero where nobody knows."""
@@ -458,7 +463,7 @@ class _Search:
                 there[at] = self.lines.covers(self.lines.nodes[one], self.lines.nodes[other])
         gained = (1.0 + ABSENT) * float(weights[0][there & lacking].sum())
         fit = _Fit(shape, origin, factor, nodes, there, float(worth[0]) + gained, weights[0])
-        again = sum(AGAIN * weight for pair, weight in zip(fit.pairs, fit.weights[fit.there], strict=True) if pair in self.used)
+        again = sum(AGAIN * weight for pair, weight in zip(fit.pairs, fit.weights[fit.there], strict=True) if self._hubs(pair) in self.used)
         ends = [end for pair in fit.pairs for end in (pair, pair[::-1]) if pair[0] != pair[1]]
         free = sum(not self.lines.goes_on(*end) for end in ends) / len(ends) if ends else 0.0
         return replace(fit, worth=fit.worth - again + FREE * free)

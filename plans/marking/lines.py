@@ -20,6 +20,7 @@ ASIDE = 0.25  # mm by which pieces of one line may lie beside one another
 BESIDE = 0.4  # mm by which a node may lie beside a line
 BENT = 0.75  # mm from which what hangs together is no straight line
 ASTRAY, TILT = 0.3, 0.01  # mm and part of its length by which a line may miss its way
+SEED = 4.0  # mm from which a segment has a direction
 CLOSE = 0.7  # mm within which one node may be taken for another
 LEAST = 1.0  # mm; nodes nearer than this are no ends of a vector that can be told
 FLAT = 0.05  # sine of two lines that cross too flatly to make a node
@@ -135,7 +136,9 @@ def lines_of(tails: Complex, tips: Complex) -> Lines:
     starts, stops, beside = _runs(tails[long], tips[long])
     crossings = _crossings(starts, stops, nodes)
     every = np.concatenate((nodes, crossings))
-    first, second = _pairs((starts, stops, beside), every, number.reshape(2, -1))
+    more = _lengthened(tails[long], tips[long])
+    runs = np.concatenate((starts, more[0])), np.concatenate((stops, more[1])), np.append(beside, np.zeros(len(more[0])))
+    first, second = _pairs(runs, every, number.reshape(2, -1))
     ways = every[second] - every[first]
     angles = np.angle(ways) % (2.0 * math.pi)
     order = np.argsort(angles, kind="stable")
@@ -227,6 +230,26 @@ def _runs(tails: Complex, tips: Complex) -> tuple[Complex, Complex, Floats]:
     starts, stops = base + least * unit, base + most * unit
     beside = np.concatenate((bent[straight], np.zeros(int(alone.sum()))))
     return np.concatenate((starts[straight], tails[alone])), np.concatenate((stops[straight], tips[alone])), beside
+
+
+def _lengthened(tails: Complex, tips: Complex) -> tuple[Complex, Complex]:
+    """Return segments with the pieces that go on in line with each: of lines close together each keeps its own."""
+    long = np.abs(tips - tails) > SEED
+    if not long.any():
+        return tails[long], tips[long]
+    tree = shapely.STRtree(_segments(tails, tips))
+    tails_of, tips_of = tails[long], tips[long]
+    one, other = tree.query(_segments(tails_of, tips_of), predicate="dwithin", distance=ASIDE)
+    way = (tips_of - tails_of) / np.abs(tips_of - tails_of)
+    along = [dot(way[one], end[other] - tails_of[one]) for end in (tails, tips)]
+    aside = [np.abs(cross(way[one], end[other] - tails_of[one])) for end in (tails, tips)]
+    together = (aside[0] < BESIDE) & (aside[1] < BESIDE)
+    least, most = np.zeros(len(way)), np.abs(tips_of - tails_of)
+    for place in along:
+        np.minimum.at(least, one[together], place[together])
+        np.maximum.at(most, one[together], place[together])
+    grown = (least < -ASIDE) | (most > np.abs(tips_of - tails_of) + ASIDE)
+    return (tails_of + least * way)[grown], (tails_of + most * way)[grown]
 
 
 def _crossings(starts: Complex, stops: Complex, nodes: Complex) -> Complex:
