@@ -42,7 +42,8 @@ EVIDENT = 0.3  # vectors that a mistake must explain beyond those that the right
 ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
 AGAIN = 0.5  # what a line is worth that is a vector of another plan already
 USUAL = 0.5  # what it is worth that a plan is drawn to its usual scale
-FREE = 0.3  # what it is worth that no line goes on beyond its ends, as those of tables and frames do
+FREE = 0.3  # what it is worth that no line goes on beyond its ends, as those of tables and frames do, or none is askew
+ASKEW = math.radians(0.5)  # against the sheet, from where a plan is
 SAME_MU = 0.01  # part by which scale factors that count as one may differ
 ALL = 0.02  # part of a plan that may lack where it counts as the right one
 OTHER = 1.0  # vectors more than the mistake that explains all plans must a mistake of one plan explain
@@ -443,6 +444,7 @@ class _Search:
 
     def _settled(self, shape: _Shape, origin: complex, factor: complex) -> _Fit:
         """Return a fit, moved to where it fits best: the squares of what its points miss are least."""
+        square = factor / abs(factor)
         for _ in range(3):
             places = origin + factor * shape.places
             nodes = self._nodes(places)
@@ -466,7 +468,8 @@ class _Search:
         again = sum(AGAIN * weight for pair, weight in zip(fit.pairs, fit.weights[fit.there], strict=True) if self._hubs(pair) in self.used)
         ends = [end for pair in fit.pairs for end in (pair, pair[::-1]) if pair[0] != pair[1]]
         free = sum(not self.lines.goes_on(*end) for end in ends) / len(ends) if ends else 0.0
-        return replace(fit, worth=fit.worth - again + FREE * free)
+        skew = min(1.0, (cmath.phase(fit.factor / square) / ASKEW) ** 2)
+        return replace(fit, worth=fit.worth - again + FREE * (free - skew))
 
     def _nodes(self, places: Complex) -> Indices:
         """Return the nodes of marks: near enough, or -1."""
