@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -37,16 +37,18 @@ TRUE = 0.4  # mm from a node up to which a point is sought where it should be
 LAID = 3  # vectors by which a plan is laid
 MANY = 200  # places of a plan, the best ones, of which those that differ are sought
 KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less than the best by more than so much
+SHAPES = 12  # wrong plans of which so many are looked at closely
+TELLING = 4  # lines of a plan that tells how the sheet is turned
 RIGHT = -1  # the number of the right construction among those with mistakes
 EVIDENT = 0.3  # vectors that a mistake must explain beyond those that the right plans do
 ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
 AGAIN = 0.5  # what a line is worth that is a vector of another plan already
-USUAL = 0.5  # what it is worth that a plan is drawn to its usual scale
+USUAL = 1.0  # what it is worth that a plan is drawn to its usual scale
 FREE = 0.3  # what it is worth that no line goes on beyond its ends, as those of tables and frames do, or none is askew
 ASKEW = math.radians(0.5)  # against the sheet, from where a plan is
 SAME_MU = 0.01  # part by which scale factors that count as one may differ
 ALL = 0.02  # part of a plan that may lack where it counts as the right one
-OTHER = 1.0  # vectors more than the mistake that explains all plans must a mistake of one plan explain
+OTHER = 2.0  # vectors more than the mistake that explains all plans must a mistake of one plan explain
 ENOUGH = 0.5  # part of a plan that must be there
 SKEW = math.radians(2.0)  # by which a plan may be turned against the sheet
 TURNS = tuple(math.pi / 2.0 * quarter for quarter in range(4))
@@ -284,6 +286,15 @@ class _Fit:
         return [(int(min(pair)), int(max(pair))) for pair in ends]
 
 
+class _Laid(NamedTuple):
+    """Ways to lay a shape: origins, factors, nodes of its marks, and what each may be worth."""
+
+    origins: Complex
+    factors: Complex
+    nodes: Indices
+    worth: Floats
+
+
 @dataclass(eq=False)
 class _Search:
     """The search for the plans of a key among lines; `used` are the lines that are vectors of plans already."""
@@ -293,6 +304,8 @@ class _Search:
     book: Book | None
     mus: dict[str, float]
     used: set[tuple[int, int]] = field(default_factory=set)
+    common: int = RIGHT
+    shapes: dict[str, tuple[_Shape, ...]] = field(default_factory=dict)
 
     @cached_property
     def plans(self) -> dict[str, _Shape]:
@@ -306,15 +319,15 @@ class _Search:
 
     def found(self) -> Recognised:
         """Lay all plans, and name what they find."""
-        turn = self._turn()
-        fits = self._fits(turn)
+        fits = self._fits()
         plans, vectors = dict[str, FoundPlan](), dict[str, Found]()
         asked = {n: q for n, q in self.key.questions.items() if q.vector and q.plan in self.plans}
         missing = {name: f"no plan of {question.plan}" for name, question in asked.items()}
         for plan, fit in fits.items():
             mistake = ""
             if not fit.shape.right and self.book is not None:
-                mistake = self.book.signatures[fit.shape.broken[0]].broken.mistake
+                number = self.common if self.common in fit.shape.broken else fit.shape.broken[0]
+                mistake = self.book.signatures[number].broken.mistake
             pole = complex(fit.origin)
             plans[plan] = FoundPlan(fit.mu, cmath.phase(fit.factor), pole, fit.quality, mistake)
             for name, one in self._vectors(fit).items():
@@ -326,37 +339,63 @@ class _Search:
                         missing[name] = one
         return Recognised(plans, vectors, missing)
 
-    def _turn(self) -> float:
-        """Return by how much the sheet is turned, a multiple of a right angle: so that most of all plans is there."""
-        return max(TURNS, key=lambda turn: sum(self._worth(self._best(s, turn)) for s in self.plans.values()))
+    def _fits(self) -> dict[str, _Fit]:
+        """Return where each plan lies that is drawn: the right one, or one with a mistake that explains more of it.
 
-    @staticmethod
-    def _worth(fit: _Fit | None) -> float:
-        return 0.0 if fit is None else fit.worth
+        By how much the sheet is turned, a multiple of a right angle, the right plans tell as far as they are there.
+        """
+        right = {turn: [fit for shape in self.plans.values() if (fit := self._best(shape, turn))] for turn in TURNS}
+        turn = max(TURNS, key=lambda turn: sum(fit.worth for fit in right[turn]))
+        if any(1.0 - fit.quality <= ALL and len(fit.shape.lines) >= TELLING and not fit.shape.flat for fit in right[turn]):
+            return self._at(turn)[0]
+        return max((self._at(turn) for turn in TURNS), key=lambda found: found[1])[0]
 
-    def _fits(self, turn: float) -> dict[str, _Fit]:
-        """Return where each plan lies that is drawn: the right one, or one with a mistake that explains more of it."""
+    def _at(self, turn: float) -> tuple[dict[str, _Fit], float]:
+        """Return where each plan lies on a sheet that is turned so, and what all of them are worth."""
+        self.used.clear()
         fits: dict[str, _Fit] = {}
         doubtful: dict[str, list[_Fit]] = {}
         for plan, right in self.plans.items():
-            fit = self._best(right, turn)
+            fit = None if right.flat else self._best(right, turn)
             if fit is not None and 1.0 - fit.quality <= ALL:
                 self._take(fits, fit)
-            elif ways := self._ways(plan, turn):
+            elif not right.flat and (ways := self._ways(plan, turn)):
                 doubtful[plan] = ways
-        common = self._common(doubtful)
+        self.common = self._common(doubtful)
         for ways in doubtful.values():
-            usual = next((fit for fit in ways if fit.shape.explained(common)), ways[0])
+            usual = next((fit for fit in ways if fit.shape.explained(self.common)), ways[0])
             best = max(ways, key=lambda fit: fit.worth)
             chosen = best if best.worth > usual.worth + OTHER else usual
             if chosen.quality >= ENOUGH:
                 self._take(fits, chosen)
-        return fits
+        for plan in [plan for plan, right in self.plans.items() if right.flat]:  # one line follows from the others
+            shapes = [shape for shape in self._shapes(plan) if shape.explained(self.common)]
+            found = [fit for shape in shapes if (fit := self._best(shape, turn)) is not None and fit.quality >= ENOUGH]
+            if found:
+                self._take(fits, found[0])
+        worth = sum(fit.worth for fit in fits.values() if not fit.shape.flat)
+        return fits, worth
+
+    def _shapes(self, plan: str) -> tuple[_Shape, ...]:
+        """Return all ways in which a plan may be drawn."""
+        if plan not in self.shapes:
+            self.shapes[plan] = _shapes(self.key, self.book, plan, plan not in self.mus)
+        return self.shapes[plan]
 
     def _ways(self, plan: str, turn: float) -> list[_Fit]:
-        """Return where each shape of a plan fits best, the right one first."""
-        shapes = _shapes(self.key, self.book, plan, plan not in self.mus)
-        return [fit for shape in shapes if (fit := self._best(shape, turn)) is not None]
+        """Return where the shapes of a plan fit best, the right one first, as far as they explain about as much."""
+        right, *others = self._shapes(plan)
+        laid = [(self._lay(shape, turn), shape) for shape in others]
+        laid.sort(key=lambda one: -one[0].worth.max(initial=-math.inf))
+        fits = [fit for fit in [self._best(right, turn)] if fit is not None]
+        most = max((fit.worth for fit in fits), default=0.0)
+        for way, shape in laid:
+            if way.worth.max(initial=-math.inf) + FREE < most - OTHER or len(fits) > SHAPES:
+                break
+            if (fit := self._closest(shape, way)) is not None:
+                fits.append(fit)
+                most = max(most, fit.worth)
+        return fits
 
     @staticmethod
     def _common(doubtful: Mapping[str, Iterable[_Fit]]) -> int:
@@ -384,18 +423,23 @@ class _Search:
 
     def _best(self, shape: _Shape, turn: float) -> _Fit | None:
         """Return where a shape fits best."""
+        return self._closest(shape, self._lay(shape, turn))
+
+    def _lay(self, shape: _Shape, turn: float) -> _Laid:
+        """Lay a shape in all ways, and tell what each may be worth."""
         origins, factors = self._laid(shape, turn)
-        if not len(origins):
-            return None
         nodes = self.lines.near(origins[:, None] + factors[:, None] * shape.places)
-        worth = self._counted(shape, nodes, np.abs(factors), loosely=True)[0]
-        best, seen = None, set[bytes]()
+        return _Laid(origins, factors, nodes, self._counted(shape, nodes, np.abs(factors), loosely=True)[0])
+
+    def _closest(self, shape: _Shape, laid: _Laid) -> _Fit | None:
+        """Return the best of the ways in which a shape is laid, looked at closely."""
+        best, seen, worth = None, set[bytes](), laid.worth
         for at in np.argsort(-worth, kind="stable")[:MANY]:
             if worth[at] < worth.max() - CLOSE or len(seen) == KEPT:
                 break
-            if (look := nodes[at].tobytes()) not in seen:
+            if (look := laid.nodes[at].tobytes()) not in seen:
                 seen.add(look)
-                fit = self._settled(shape, complex(origins[at]), complex(factors[at]))
+                fit = self._settled(shape, complex(laid.origins[at]), complex(laid.factors[at]))
                 if best is None or fit.worth > best.worth:
                     best = fit
         return best
