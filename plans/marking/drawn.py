@@ -25,6 +25,8 @@ from .answers import Answer
 from .key import Key
 from .lines import Complex, Floats, Indices, Lines, lines_of
 
+MEASURED, DIRECTED = 3.0, 8.0  # mm from which a vector can be measured, and shows a direction
+ALONE = 0.5  # how sure of a line is who has nothing beside it
 SHORT = 1.5  # mm below which a vector shows nothing
 FULL = 0.15  # part of the longest vector of its plan from which a vector counts whole
 FLAT = 0.03  # part of the longest vector that points of a plan miss where it is but one line
@@ -37,6 +39,7 @@ TRUE = 0.4  # mm from a node up to which a point is sought where it should be
 LAID = 3  # vectors by which a plan is laid
 MANY = 200  # places of a plan, the best ones, of which those that differ are sought
 KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less than the best by more than so much
+LIKELY = 6  # mistakes of which all plans are laid
 SHAPES = 12  # wrong plans of which so many are looked at closely
 TELLING = 4  # lines of a plan that tells how the sheet is turned
 RIGHT = -1  # the number of the right construction among those with mistakes
@@ -49,7 +52,7 @@ ASKEW = math.radians(0.5)  # against the sheet, from where a plan is
 SAME_MU = 0.01  # part by which scale factors that count as one may differ
 ALL = 0.02  # part of a plan that may lack where it counts as the right one
 OTHER = 2.0  # vectors more than the mistake that explains all plans must a mistake of one plan explain
-ENOUGH = 0.5  # part of a plan that must be there
+ENOUGH = 0.7  # part of a plan that must be there
 SKEW = math.radians(2.0)  # by which a plan may be turned against the sheet
 TURNS = tuple(math.pi / 2.0 * quarter for quarter in range(4))
 
@@ -86,7 +89,8 @@ class Found:
 class FoundPlan:
     """Where a plan lies: SI per mm, by how much it is turned (radians), where its pole is.
 
-    `quality` is the part of its vectors that are drawn, 0 to 1; `mistake` the number of the rule that it breaks, if any.
+    `quality` is the part of its vectors that are drawn, 0 to 1; `mistake` the number of the rule that it breaks, if any;
+    a plan `alone` is a single line.
     """
 
     mu: float
@@ -94,6 +98,7 @@ class FoundPlan:
     pole: complex
     quality: float
     mistake: str = ""
+    alone: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,11 +116,17 @@ class Recognised:
         return sum(known) / len(known) if known else 0.0
 
     def answers(self) -> Iterator[Answer]:
-        """Go through what the drawing says of each vector: its segment, scale factor and direction."""
+        """Go through what the drawing says of each vector: its segment, scale factor and direction.
+
+        Nothing of those too short to be measured; no direction of those too short to show one, and of lines that stand
+        alone, which show no sense without arrowheads.
+        """
         for name, found in self.vectors.items():
             plan, way = self.plans[found.plan], found.tip - found.tail
-            turned = cmath.phase(way * cmath.rect(1.0, -plan.turn))
-            yield Answer(name, mm=abs(way), mu=plan.mu, value=abs(way) * plan.mu, direction=turned)
+            if abs(way) >= MEASURED:
+                turned = cmath.phase(way * cmath.rect(1.0, -plan.turn))
+                shown = turned if abs(way) >= DIRECTED and not plan.alone else None
+                yield Answer(name, mm=abs(way), mu=plan.mu, value=abs(way) * plan.mu, direction=shown)
 
 
 def recognise(drawn: Drawn, key: Key, book: Book | None = None, mus: Mapping[str, float] | None = None) -> Recognised:
@@ -329,7 +340,7 @@ class _Search:
                 number = self.common if self.common in fit.shape.broken else fit.shape.broken[0]
                 mistake = self.book.signatures[number].broken.mistake
             pole = complex(fit.origin)
-            plans[plan] = FoundPlan(fit.mu, cmath.phase(fit.factor), pole, fit.quality, mistake)
+            plans[plan] = FoundPlan(fit.mu, cmath.phase(fit.factor), pole, fit.quality, mistake, fit.shape.flat)
             for name, one in self._vectors(fit).items():
                 if name in asked and asked[name].plan == plan:
                     if isinstance(one, Found):
@@ -355,13 +366,15 @@ class _Search:
         self.used.clear()
         fits: dict[str, _Fit] = {}
         doubtful: dict[str, list[_Fit]] = {}
+        sure: dict[str, _Fit] = {}
         for plan, right in self.plans.items():
             fit = None if right.flat else self._best(right, turn)
             if fit is not None and 1.0 - fit.quality <= ALL:
                 self._take(fits, fit)
+                sure[plan] = fit
             elif not right.flat and (ways := self._ways(plan, turn)):
                 doubtful[plan] = ways
-        self.common = self._common(doubtful)
+        self.common = self._common(doubtful, sure, turn) if doubtful else RIGHT
         for ways in doubtful.values():
             usual = next((fit for fit in ways if fit.shape.explained(self.common)), ways[0])
             best = max(ways, key=lambda fit: fit.worth)
@@ -397,16 +410,28 @@ class _Search:
                 most = max(most, fit.worth)
         return fits
 
-    @staticmethod
-    def _common(doubtful: Mapping[str, Iterable[_Fit]]) -> int:
-        """Return the number of the mistake by which most of all plans is explained, that of the right plans if none."""
-        numbers = {number for ways in doubtful.values() for fit in ways for number in fit.shape.broken}
-        worth = {
-            number: sum(max((f.worth for f in ways if f.shape.explained(number)), default=0.0) for ways in doubtful.values())
-            for number in (RIGHT, *sorted(numbers))
-        }
-        worth[RIGHT] += EVIDENT
-        return max(worth, key=lambda number: worth[number])
+    def _common(self, doubtful: dict[str, list[_Fit]], sure: Mapping[str, _Fit], turn: float) -> int:
+        """Return the number of the mistake by which most of all plans is explained, that of the right plans if none.
+
+        Of the most likely ones all plans are laid that are not among the fits yet. What a mistake changes of a plan
+        that is drawn right speaks against it.
+        """
+        drawn_right = {plan: frozenset(self._shapes(plan)[0].broken) for plan in sure}
+
+        def worth(number: int) -> float:
+            fits = ([fit.worth for fit in ways if fit.shape.explained(number)] for ways in doubtful.values())
+            refuted = sum(number != RIGHT and number not in numbers for numbers in drawn_right.values())
+            return sum(max(found, default=0.0) for found in fits) - OTHER * refuted
+
+        numbers = sorted({number for ways in doubtful.values() for fit in ways for number in fit.shape.broken})
+        likely = sorted(numbers, key=lambda number: -worth(number))[:LIKELY]
+        for plan, ways in doubtful.items():
+            laid = [fit.shape for fit in ways]
+            for shape in self._shapes(plan):
+                if shape not in laid and any(map(shape.explained, likely)):
+                    ways.extend(fit for fit in [self._best(shape, turn)] if fit is not None)
+        best = max(likely, key=worth, default=RIGHT)
+        return best if best != RIGHT and worth(best) > worth(RIGHT) + EVIDENT else RIGHT
 
     def _take(self, fits: dict[str, _Fit], fit: _Fit) -> None:
         fits[fit.shape.plan] = fit
@@ -536,7 +561,7 @@ class _Search:
             elif one < 0 or other < 0:
                 found[name] = "no point where it should begin or end"
             else:
-                sure = fit.quality * (1.0 if line_of[frozenset((tail, tip))] else 0.5)
+                sure = fit.quality * (ALONE if shape.flat else 1.0) * (1.0 if line_of[frozenset((tail, tip))] else 0.5)
                 found[name] = Found(points[tail], points[tip], shape.plan, sure)
         return found
 
