@@ -1,23 +1,23 @@
 """A student's own drawing of the plans read back: which line is which vector, wherever the poles were put.
 
-Of a drawing nothing is known but its lines: no names, no scale factors, no order. What may be drawn is known: the plan of
-the right construction, and that of every construction with one rule broken. Each is laid on the drawing wherever one of
-its long vectors finds a line of its direction; the plan of which most vectors are joined by lines is the one drawn. Its
-points are then those of the student: what is measured is what was drawn.
+Of a drawing nothing is known but its lines: no names, no scale factors, no order. What may be drawn is known: the plan
+of the right construction, and that of every construction with one rule broken. Each is laid on the drawing wherever one
+of its long vectors finds a line of its direction; the plan of which most vectors are joined by lines is the one drawn.
+Its points are then those of the student: what is measured is what was drawn.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..board import POSITION, Program, Step
+from ..board import POSITION, Program
 from ..mistakes.book import Book
 from ..mistakes.rules import BY_SCALE
 from ..names import LEVER, role
@@ -30,13 +30,13 @@ ALONE = 0.5  # how sure of a line is who has nothing beside it
 SHORT = 1.5  # mm below which a vector shows nothing
 FULL = 0.15  # part of the longest vector of its plan from which a vector counts whole
 FLAT = 0.03  # part of the longest vector that points of a plan miss where it is but one line
-LEAST, LARGEST = 12.0, 900.0  # mm, the longest vector of a plan
+LEAST, LARGEST = 20.0, 700.0  # mm, the longest vector of a plan
 GENERATOR = 0.3  # part of the longest vector of a plan that a vector must have to lay the plan by
 ASTRAY = 0.5  # mm that ends of lines may be astray, which turns short ones
 DEGREES = 0.4  # by which lines may miss their direction besides
 NEAR = 0.8  # mm from where a point should be to where it is, once the plan lies where it fits best
 TRUE = 0.4  # mm from a node up to which a point is sought where it should be
-LAID = 3  # vectors by which a plan is laid
+LAID = 2  # vectors by which a plan is laid
 MANY = 200  # places of a plan, the best ones, of which those that differ are sought
 KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less than the best by more than so much
 LIKELY = 6  # mistakes of which all plans are laid
@@ -89,8 +89,8 @@ class Found:
 class FoundPlan:
     """Where a plan lies: SI per mm, by how much it is turned (radians), where its pole is.
 
-    `quality` is the part of its vectors that are drawn, 0 to 1; `mistake` the number of the rule that it breaks, if any;
-    a plan `alone` is a single line.
+    `quality` is the part of its vectors that are drawn, 0 to 1; `mistake` the number of the rule that it breaks, if
+    any; a plan `alone` is a single line.
     """
 
     mu: float
@@ -225,7 +225,9 @@ def _shape(plan: str, edges: Edges, values: Mapping[str, Any], *broken: int) -> 
     if not len(marks) or not np.isfinite(places).all():
         return None
     tails, tips = (np.array([number[edge[side]] for edge in edges], np.intp) for side in (1, 2))
-    lines = {frozenset(pair): at for at, pair in reversed([*enumerate(zip(tails.tolist(), tips.tolist(), strict=True))])}
+    lines = {
+        frozenset(pair): at for at, pair in reversed([*enumerate(zip(tails.tolist(), tips.tolist(), strict=True))])
+    }
     of_lines = np.array(sorted(lines.values()), np.intp)
     return _Shape(plan, marks, places, tuple(edge[0] for edge in edges), tails, tips, of_lines, broken, not broken)
 
@@ -233,7 +235,7 @@ def _shape(plan: str, edges: Edges, values: Mapping[str, Any], *broken: int) -> 
 def _shapes(key: Key, book: Book | None, plan: str, by_size: bool) -> tuple[_Shape, ...]:
     """Return all ways in which a plan may be drawn, the right one first; those that look alike are one.
 
-    Where its scale factor is known, not `by_size`, larger ones are other ones.
+    Those of any size look alike `by_size`, where nobody knows the scale factor; but lines alone differ by nothing else.
     """
     program = key.paper.program
     right_edges = _edges(program, plan)
@@ -255,7 +257,7 @@ def _shapes(key: Key, book: Book | None, plan: str, by_size: bool) -> tuple[_Sha
 
 
 def _look(shape: _Shape, by_size: bool) -> tuple[Any, ...]:
-    size = shape.longest if not by_size else 1.0
+    size = 1.0 if by_size and not shape.flat else shape.longest
     ends = np.round(np.stack((shape.places[shape.tails], shape.places[shape.tips])) / shape.longest, 3) + 0.0
     return (f"{size:.3e}", *sorted(zip(shape.names, *ends.tolist(), strict=True), key=repr))
 
@@ -357,12 +359,15 @@ class _Search:
         """
         right = {turn: [fit for shape in self.plans.values() if (fit := self._best(shape, turn))] for turn in TURNS}
         turn = max(TURNS, key=lambda turn: sum(fit.worth for fit in right[turn]))
-        if any(1.0 - fit.quality <= ALL and len(fit.shape.lines) >= TELLING and not fit.shape.flat for fit in right[turn]):
+        if any(
+            1.0 - fit.quality <= ALL and len(fit.shape.lines) >= TELLING and not fit.shape.flat for fit in right[turn]
+        ):
             return self._at(turn)[0]
-        return max((self._at(turn) for turn in TURNS), key=lambda found: found[1])[0]
+        fits, _, self.common = max(map(self._at, TURNS), key=lambda found: found[1])
+        return fits
 
-    def _at(self, turn: float) -> tuple[dict[str, _Fit], float]:
-        """Return where each plan lies on a sheet that is turned so, and what all of them are worth."""
+    def _at(self, turn: float) -> tuple[dict[str, _Fit], float, int]:
+        """Return where each plan lies on a sheet turned so, what all are worth, and which mistake is in them."""
         self.used.clear()
         fits: dict[str, _Fit] = {}
         doubtful: dict[str, list[_Fit]] = {}
@@ -387,7 +392,7 @@ class _Search:
             if found:
                 self._take(fits, found[0])
         worth = sum(fit.worth for fit in fits.values() if not fit.shape.flat)
-        return fits, worth
+        return fits, worth, self.common
 
     def _shapes(self, plan: str) -> tuple[_Shape, ...]:
         """Return all ways in which a plan may be drawn."""
@@ -534,7 +539,11 @@ class _Search:
                 there[at] = self.lines.covers(self.lines.nodes[one], self.lines.nodes[other])
         gained = (1.0 + ABSENT) * float(weights[0][there & lacking].sum())
         fit = _Fit(shape, origin, factor, nodes, there, float(worth[0]) + gained, weights[0])
-        again = sum(AGAIN * weight for pair, weight in zip(fit.pairs, fit.weights[fit.there], strict=True) if self._hubs(pair) in self.used)
+        again = sum(
+            AGAIN * weight
+            for pair, weight in zip(fit.pairs, fit.weights[fit.there], strict=True)
+            if self._hubs(pair) in self.used
+        )
         ends = [end for pair in fit.pairs for end in (pair, pair[::-1]) if pair[0] != pair[1]]
         free = sum(not self.lines.goes_on(*end) for end in ends) / len(ends) if ends else 0.0
         skew = min(1.0, (cmath.phase(fit.factor / square) / ASKEW) ** 2)
@@ -549,7 +558,10 @@ class _Search:
     def _vectors(self, fit: _Fit) -> dict[str, Found | str]:
         """Return the vectors of a plan by name: where they are drawn, or why there is none."""
         shape, found = fit.shape, dict[str, Found | str]()
-        line_of = {frozenset((int(shape.tails[at]), int(shape.tips[at]))): there for at, there in zip(shape.lines, fit.there, strict=True)}
+        line_of = {
+            frozenset((int(shape.tails[at]), int(shape.tips[at]))): there
+            for at, there in zip(shape.lines, fit.there, strict=True)
+        }
         points = self._points(fit)
         for name, tail, tip in zip(shape.names, shape.tails.tolist(), shape.tips.tolist(), strict=True):
             one, other = int(fit.nodes[tail]), int(fit.nodes[tip])
@@ -574,6 +586,10 @@ class _Search:
             here = fit.there & ((shape.tails[shape.lines] == mark) | (shape.tips[shape.lines] == mark))
             spans = shape.spans[here] * fit.factor
             spans = spans[np.abs(spans) >= SHORT]
-            end = self.lines.end(place if abs(place - node) < TRUE else node, spans / np.abs(spans)) if len(spans) else None
+            end = (
+                self.lines.end(place if abs(place - node) < TRUE else node, spans / np.abs(spans))
+                if len(spans)
+                else None
+            )
             found[mark] = node if end is None else end
         return found

@@ -64,7 +64,7 @@ class Lines:
     tips: Complex
 
     def near(self, places: Complex) -> Indices:
-        """Return for each place the index of a node about a millimetre and a half away at the most, the nearest; or -1."""
+        """Return for each place the index of the nearest node within about 1.5 mm, or -1."""
         at = (places - self.corner) / CELL
         across, up = np.floor(at.real).astype(np.intp), np.floor(at.imag).astype(np.intp)
         rows, columns = self.squares.shape
@@ -97,7 +97,7 @@ class Lines:
         return reached >= size - BESIDE
 
     def end(self, place: complex, ways: Complex) -> complex | None:
-        """Return where ends of lines along some ways (unit directions) come together near a place; None where none do."""
+        """Return where ends of lines along some ways (unit directions) meet near a place; None where none do."""
         ends, others = np.concatenate((self.tails, self.tips)), np.concatenate((self.tips, self.tails))
         here = np.abs(ends - place) < 2.0 * BESIDE
         ends, spans = ends[here], others[here] - ends[here]
@@ -115,7 +115,10 @@ class Lines:
         """Whether a line that joins two nodes goes on to another node beyond the second one."""
         count = len(self.nodes)
         begin, end = np.searchsorted(self.codes, (second * count, (second + 1) * count))
-        way, ways = self.nodes[second] - self.nodes[first], self.nodes[self.codes[begin:end] % count] - self.nodes[second]
+        way, ways = (
+            self.nodes[second] - self.nodes[first],
+            self.nodes[self.codes[begin:end] % count] - self.nodes[second],
+        )
         return bool((np.abs(np.angle(ways / way)) < TILT + ASTRAY / np.abs(ways)).any())
 
     def along(self, angle: float, within: float) -> Indices:
@@ -137,7 +140,11 @@ def lines_of(tails: Complex, tips: Complex) -> Lines:
     crossings = _crossings(starts, stops, nodes)
     every = np.concatenate((nodes, crossings))
     more = _lengthened(tails[long], tips[long])
-    runs = np.concatenate((starts, more[0])), np.concatenate((stops, more[1])), np.append(beside, np.zeros(len(more[0])))
+    runs = (
+        np.concatenate((starts, more[0])),
+        np.concatenate((stops, more[1])),
+        np.append(beside, np.zeros(len(more[0]))),
+    )
     first, second = _pairs(runs, every, number.reshape(2, -1))
     ways = every[second] - every[first]
     angles = np.angle(ways) % (2.0 * math.pi)
@@ -272,9 +279,7 @@ def _crossings(starts: Complex, stops: Complex, nodes: Complex) -> Complex:
     return np.delete(places, np.unique(near))
 
 
-def _pairs(
-    runs: tuple[Complex, Complex, Floats], nodes: Complex, drawn: Indices
-) -> tuple[Indices, Indices]:
+def _pairs(runs: tuple[Complex, Complex, Floats], nodes: Complex, drawn: Indices) -> tuple[Indices, Indices]:
     """Return the indices of nodes that lines join, those of `drawn` segments among them; each pair in both orders."""
     starts, stops, beside = runs
     if not len(starts):
