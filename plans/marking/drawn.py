@@ -17,19 +17,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..board import POSITION, Program
+from ..board import POSITION
 from ..mistakes.book import Book
-from ..mistakes.rules import BY_SCALE
 from ..names import LEVER, role
 from .answers import Answer
 from .key import Key
 from .lines import Complex, Floats, Indices, Lines, lines_of
+from .ways import RIGHT, Shape, edges_of, shape_of, shapes_of
 
 MEASURED, DIRECTED = 3.0, 8.0  # mm from which a vector can be measured, and shows a direction
 ALONE = 0.5  # how sure of a line is who has nothing beside it
 SHORT = 1.5  # mm below which a vector shows nothing
-FULL = 0.15  # part of the longest vector of its plan from which a vector counts whole
-FLAT = 0.03  # part of the longest vector that points of a plan miss where it is but one line
 LEAST, LARGEST = 20.0, 700.0  # mm, the longest vector of a plan
 GENERATOR = 0.3  # part of the longest vector of a plan that a vector must have to lay the plan by
 ASTRAY = 0.5  # mm that ends of lines may be astray, which turns short ones
@@ -42,7 +40,6 @@ KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less t
 LIKELY = 6  # mistakes of which all plans are laid
 SHAPES = 12  # wrong plans of which so many are looked at closely
 TELLING = 4  # lines of a plan that tells how the sheet is turned
-RIGHT = -1  # the number of the right construction among those with mistakes
 EVIDENT = 0.3  # vectors that a mistake must explain beyond those that the right plans do
 ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
 AGAIN = 0.5  # what a line is worth that is a vector of another plan already
@@ -139,129 +136,6 @@ def recognise(drawn: Drawn, key: Key, book: Book | None = None, mus: Mapping[str
     return search.found()
 
 
-# What may be drawn.
-
-
-@dataclass(frozen=True, eq=False)
-class _Shape:
-    """How a plan may be drawn: places of its marks from the pole, SI; vectors by name, and the marks of their ends.
-
-    Vectors between the same two marks are one line; `lines` are the first ones of these. `broken` are the numbers of
-    the signatures in the book that draw it so.
-    """
-
-    plan: str
-    marks: tuple[str, ...]
-    places: Complex
-    names: tuple[str, ...]
-    tails: Indices
-    tips: Indices
-    lines: Indices
-    broken: tuple[int, ...] = ()
-    right: bool = True
-
-    def explained(self, number: int) -> bool:
-        """Whether it is drawn so with a mistake, by its number; or without any."""
-        return self.right if number == RIGHT else number in self.broken
-
-    @cached_property
-    def spans(self) -> Complex:
-        """The vectors of the lines, SI."""
-        return np.asarray(self.places[self.tips[self.lines]] - self.places[self.tails[self.lines]])
-
-    @cached_property
-    def weights(self) -> Floats:
-        """What each line counts at the most: short ones less, and those that are nearly one line together as one."""
-        ends = np.sort_complex(np.stack((self.places[self.tails], self.places[self.tips]), -1)[self.lines])
-        like = (np.abs(ends[:, None] - ends[None, :]) < FLAT * self.longest).all(axis=-1).sum(axis=1)
-        return np.asarray(np.clip(np.abs(self.spans) / (FULL * self.longest), 0.2, 1.0) / like)
-
-    @cached_property
-    def flat(self) -> bool:
-        """Whether all its lines are but one on paper."""
-        ends = np.concatenate((self.places[self.tails], self.places[self.tips]))
-        way = self.spans[np.abs(self.spans).argmax()] / self.longest
-        off = (ends - ends[0]) / way / self.longest
-        ends_of = np.minimum(np.abs(off.real - off.real.min()), np.abs(off.real - off.real.max()))
-        return float(max(np.abs(off.imag).max(), ends_of.max())) < FLAT
-
-    @cached_property
-    def longest(self) -> float:
-        """The size of the longest vector, SI."""
-        return float(np.abs(self.spans).max(initial=0.0))
-
-
-Edges = tuple[tuple[str, str, str], ...]
-
-
-def _edges(program: Program, plan: str) -> Edges:
-    """Return the vectors of a plan: name, tail and tip."""
-    found = []
-    for step in program.on(plan):
-        if step.verb == "read":
-            found.append((_quantity(step.name), *step.operands))
-        elif step.verb == "chain":
-            found.append((_quantity(step.operands[1]), step.operands[0], step.name))
-    return tuple(found)
-
-
-def _changed(right: Edges, program: Program, plan: str) -> Edges:
-    """Return the vectors of a plan that is drawn with a mistake; one that is only misread is drawn all the same."""
-    own = _edges(program, plan)
-    names, made = {name for name, *_ in own}, set(program.names)
-    return (*own, *(edge for edge in right if edge[0] not in names and made.issuperset(edge[1:])))
-
-
-def _quantity(name: str) -> str:
-    """Return the quantity that a vector shows, which a mistake may have put aside before it is misread."""
-    return role(name.removeprefix("_right_")).shown
-
-
-def _shape(plan: str, edges: Edges, values: Mapping[str, Any], *broken: int) -> _Shape | None:
-    """Return how a plan is drawn with some values; None where these are none."""
-    marks = tuple(dict.fromkeys(mark for _, *ends in edges for mark in ends))
-    places = np.array([values.get(mark, math.nan) for mark in marks], complex)
-    number = {mark: place for place, mark in enumerate(marks)}
-    if not len(marks) or not np.isfinite(places).all():
-        return None
-    tails, tips = (np.array([number[edge[side]] for edge in edges], np.intp) for side in (1, 2))
-    lines = {
-        frozenset(pair): at for at, pair in reversed([*enumerate(zip(tails.tolist(), tips.tolist(), strict=True))])
-    }
-    of_lines = np.array(sorted(lines.values()), np.intp)
-    return _Shape(plan, marks, places, tuple(edge[0] for edge in edges), tails, tips, of_lines, broken, not broken)
-
-
-def _shapes(key: Key, book: Book | None, plan: str, by_size: bool) -> tuple[_Shape, ...]:
-    """Return all ways in which a plan may be drawn, the right one first; those that look alike are one.
-
-    Those of any size look alike `by_size`, where nobody knows the scale factor; but lines alone differ by nothing else.
-    """
-    program = key.paper.program
-    right_edges = _edges(program, plan)
-    right = _shape(plan, right_edges, key.values)
-    if right is None or not right.longest:
-        return ()
-    found = {_look(right, by_size): right}
-    for number, one in enumerate(book.signatures if book else ()):
-        if one.broken.mistake in BY_SCALE:
-            continue
-        changed = any(step.plan == plan for steps in one.broken.change.steps.values() for step in steps)
-        edges = _changed(right_edges, one.broken.program, plan) if changed else right_edges
-        shape = _shape(plan, edges, one.values, number)
-        if shape is not None and shape.longest:
-            look = _look(shape, by_size)
-            before = found.get(look)
-            found[look] = shape if before is None else replace(before, broken=(*before.broken, number))
-    return tuple(found.values())
-
-
-def _look(shape: _Shape, by_size: bool) -> tuple[Any, ...]:
-    size = 1.0 if by_size and not shape.flat else shape.longest
-    ends = np.round(np.stack((shape.places[shape.tails], shape.places[shape.tips])) / shape.longest, 3) + 0.0
-    return (f"{size:.3e}", *sorted(zip(shape.names, *ends.tolist(), strict=True), key=repr))
-
-
 # Where it lies.
 
 
@@ -272,7 +146,7 @@ class _Fit:
     `worth` is what its lines count, those that are not there against it.
     """
 
-    shape: _Shape
+    shape: Shape
     origin: complex
     factor: complex
     nodes: Indices
@@ -318,14 +192,14 @@ class _Search:
     mus: dict[str, float]
     used: set[tuple[int, int]] = field(default_factory=set)
     common: int = RIGHT
-    shapes: dict[str, tuple[_Shape, ...]] = field(default_factory=dict)
+    shapes: dict[str, tuple[Shape, ...]] = field(default_factory=dict)
 
     @cached_property
-    def plans(self) -> dict[str, _Shape]:
+    def plans(self) -> dict[str, Shape]:
         """The right plans with the most vectors first."""
-        program, found = self.key.paper.program, list[_Shape]()
+        program, found = self.key.paper.program, list[Shape]()
         for plan in program.plans:
-            shape = _shape(plan, _edges(program, plan), self.key.values)
+            shape = shape_of(plan, edges_of(program, plan), self.key.values)
             if plan != POSITION and role(plan).kind != LEVER and shape is not None and shape.longest:
                 found.append(shape)
         return {shape.plan: shape for shape in sorted(found, key=lambda shape: -len(shape.lines))}
@@ -394,10 +268,10 @@ class _Search:
         worth = sum(fit.worth for fit in fits.values() if not fit.shape.flat)
         return fits, worth, self.common
 
-    def _shapes(self, plan: str) -> tuple[_Shape, ...]:
+    def _shapes(self, plan: str) -> tuple[Shape, ...]:
         """Return all ways in which a plan may be drawn."""
         if plan not in self.shapes:
-            self.shapes[plan] = _shapes(self.key, self.book, plan, plan not in self.mus)
+            self.shapes[plan] = shapes_of(self.key, self.book, plan, plan not in self.mus)
         return self.shapes[plan]
 
     def _ways(self, plan: str, turn: float) -> list[_Fit]:
@@ -451,17 +325,17 @@ class _Search:
         """Return the scale factor that a plan should have, SI per mm; zero where nobody knows."""
         return float(self.mus.get(plan, self.key.paper.mus.get(plan, 0.0)))
 
-    def _best(self, shape: _Shape, turn: float) -> _Fit | None:
+    def _best(self, shape: Shape, turn: float) -> _Fit | None:
         """Return where a shape fits best."""
         return self._closest(shape, self._lay(shape, turn))
 
-    def _lay(self, shape: _Shape, turn: float) -> _Laid:
+    def _lay(self, shape: Shape, turn: float) -> _Laid:
         """Lay a shape in all ways, and tell what each may be worth."""
         origins, factors = self._laid(shape, turn)
         nodes = self.lines.near(origins[:, None] + factors[:, None] * shape.places)
         return _Laid(origins, factors, nodes, self._counted(shape, nodes, np.abs(factors), loosely=True)[0])
 
-    def _closest(self, shape: _Shape, laid: _Laid) -> _Fit | None:
+    def _closest(self, shape: Shape, laid: _Laid) -> _Fit | None:
         """Return the best of the ways in which a shape is laid, looked at closely."""
         best, seen, worth = None, set[bytes](), laid.worth
         for at in np.argsort(-worth, kind="stable")[:MANY]:
@@ -474,7 +348,7 @@ class _Search:
                     best = fit
         return best
 
-    def _laid(self, shape: _Shape, turn: float) -> tuple[Complex, Complex]:
+    def _laid(self, shape: Shape, turn: float) -> tuple[Complex, Complex]:
         """Return all ways to lay a shape so that one of its long vectors lies on a line; few by those that say most."""
         spans, longest, lines = shape.spans, shape.longest, self.lines
         unit, given = cmath.rect(1.0, turn), self.mus.get(shape.plan)
@@ -504,7 +378,7 @@ class _Search:
         return tuple(np.concatenate([nothing, *(way[side] for way in kept)]) for side in (1, 2))  # type: ignore[return-value]
 
     def _counted(
-        self, shape: _Shape, nodes: Indices, per_unit: Floats, loosely: bool = False
+        self, shape: Shape, nodes: Indices, per_unit: Floats, loosely: bool = False
     ) -> tuple[Floats, Any, Floats]:
         """Return for marks at nodes, of shape (ways, marks): what it is worth, which lines are there, their weights."""
         one, other = nodes[:, shape.tails[shape.lines]], nodes[:, shape.tips[shape.lines]]
@@ -516,7 +390,7 @@ class _Search:
             worth = worth + USUAL * np.maximum(0.0, 1.0 - (np.abs(per_unit * expected - 1.0) / SAME_MU) ** 2)
         return worth, there, weights
 
-    def _settled(self, shape: _Shape, origin: complex, factor: complex) -> _Fit:
+    def _settled(self, shape: Shape, origin: complex, factor: complex) -> _Fit:
         """Return a fit, moved to where it fits best: the squares of what its points miss are least."""
         square = factor / abs(factor)
         for _ in range(3):
@@ -544,8 +418,8 @@ class _Search:
             for pair, weight in zip(fit.pairs, fit.weights[fit.there], strict=True)
             if self._hubs(pair) in self.used
         )
-        ends = [end for pair in fit.pairs for end in (pair, pair[::-1]) if pair[0] != pair[1]]
-        free = sum(not self.lines.goes_on(*end) for end in ends) / len(ends) if ends else 0.0
+        both = [end for pair in fit.pairs for end in (pair, pair[::-1]) if pair[0] != pair[1]]
+        free = sum(not self.lines.goes_on(*end) for end in both) / len(both) if both else 0.0
         skew = min(1.0, (cmath.phase(fit.factor / square) / ASKEW) ** 2)
         return replace(fit, worth=fit.worth - again + FREE * (free - skew))
 
