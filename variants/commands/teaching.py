@@ -221,13 +221,17 @@ def _mark(
 ) -> None:
     """Mark one student, or a class: to files, and to the console."""
     from ...drawing.writers import save_all
+    from ..drawings.files import SUFFIXES as DRAWINGS
     from ..marking.checks import write_tables
     from ..marking.class_page import PAGE
-    from ..marking.report import REPORTS, report_bytes, report_text, to_json
+    from ..marking.report import REPORTS, report_files, report_text, to_json
     from ..marking.result import class_lines
 
-    reports = [file for file in files if file.suffix.lower() in REPORTS]
+    reports = [file for file in files if file.suffix.lower() in (*REPORTS, *DRAWINGS)]
+    drawings = [file for file in reports if file.suffix.lower() in DRAWINGS]
     alone = len(found) == 1 and folder is None and moodle is None and len(reports) == len(files)
+    if drawings and not (alone and found[0].drawn is not None):
+        raise InputError("drawing-alone", file=quote(drawings[0], SHOWN))
     if not alone and (how["as_json"] or any(file.suffix.lower() != PAGE for file in reports)):
         raise InputError("check-class")
     if alone:
@@ -236,7 +240,7 @@ def _mark(
             console.print_json(to_json(told))
         elif not files:
             click.echo(report_text(told), nl=False)
-        save_all(files, REPORTS, lambda file: [(file, report_bytes(told, file.suffix))])
+        save_all(files, (*REPORTS, *DRAWINGS), lambda file: report_files(told, file))
     else:
         found = asked.ordered(found)
         with console.progress() as advance:

@@ -18,6 +18,7 @@ from ..case import Request, Settings
 from ..roster import Entry, Roster, variant_of_book
 from ..sheets import same_id, variant_of_id
 from .cells import Asked
+from .drawn import Seen, measured, seen
 from .keyed import Keyed, Rubric, keyed
 from .reading import Answers, Reply, apart
 
@@ -122,7 +123,7 @@ class Marked:
 
     `lines` are those that count, `parts` what part of the full mark each is; `notes` say what was odd: cells that could
     not be read, another variant, another id; `misfits` are scale factors written wrongly, each by the line at which it
-    counts; `fits` is another variant that the answers fit, if any.
+    counts; `fits` is another variant that the answers fit, if any; `seen` is what was recognised on a drawing.
     """
 
     answers: Answers
@@ -136,6 +137,7 @@ class Marked:
     notes: tuple[KulmanError, ...]
     misfits: Mapping[str, Misfit] = field(default_factory=dict)
     fits: str = ""
+    seen: Seen | None = None
 
     @property
     def slips(self) -> bool:
@@ -221,21 +223,30 @@ class Desk:
         settings = entry.settings if entry else {}
         key = self.keyed(variant, settings)
         notes += _other_sheet(terms, answers.about.get("sheet", ""), key)
+        others = [other for other in terms.request.task.variants if other != variant][: KEPT - 1]
+        on_drawing = None
+        if answers.drawn is not None:
+            on_drawing = seen(answers.drawn, key, others, lambda other: self.keyed(other, settings, own=False))
+            answers, told = measured(answers, key, on_drawing)
+            notes += told
         found = tuple(_misfits(answers, key))
         given, undefined = _given(answers, key, {misfit.symbol: misfit.fits for misfit in found})
         given = [rubric.compared(answer, key.key.questions[answer.name]) for answer in given]
         marking, candidates = mark(key.key, given), tuple[Candidate, ...]()
         if marking.first_wrong is not None:
             candidates, marking = explain(key.book, marking)
-        names = rubric.asked or answers.columns or {q.name for part in key.parts for q in part.asked}
+        names: Collection[str] = rubric.asked or answers.columns
+        names = names or {q.name for part in key.parts for q in part.asked}
+        if on_drawing is not None:  # which shows no more than vectors
+            names = tuple(name for name in answers.columns if name in names)
         own = not (rubric.asked or answers.columns)  # whoever is asked for the whole form may answer more
 
         def counted() -> tuple[Line, ...]:
             return tuple(line for line in marking.lines if line.name in names or (own and line.answer is not None))
 
         marking, borne = _counted_once(marking, found, {line.name for line in counted()})
-        others = [other for other in terms.request.task.variants if other != variant][: KEPT - 1]
-        fits = _fits_other(marking, given, others, lambda other: self.keyed(other, settings, own=False).key)
+        fits = on_drawing.fits if on_drawing else ""
+        fits = fits or _fits_other(marking, given, others, lambda other: self.keyed(other, settings, own=False).key)
         marking = bounded(marking, self.keyed(fits, settings, own=False).key if fits else None)
         lines = counted()
         parts = rubric.parts(lines, key.by_plan, key.needed)
@@ -244,7 +255,9 @@ class Desk:
         untold = len(vectors) > 1 and all(answer.direction is None for answer in vectors)
         notes += [InputError("marked-directions")] if untold and rubric.directions != "ignored" else []
         mark_of, all_notes = rubric.mark(lines, parts), (*answers.problems, *notes)
-        return Marked(answers, entry, key, marking, candidates, lines, mark_of, parts, all_notes, borne, fits)
+        return Marked(
+            answers, entry, key, marking, candidates, lines, mark_of, parts, all_notes, borne, fits, on_drawing
+        )
 
 
 def _other_sheet(terms: Terms, written: str, key: Keyed) -> list[KulmanError]:

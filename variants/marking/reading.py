@@ -13,14 +13,18 @@ from typing import Any, NamedTuple, SupportsFloat, TypeVar
 
 from ...drawing.words import GREEK
 from ...plans.marking.answers import FREE, Answer
+from ...plans.marking.drawn import Drawn
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import unit
+from ..drawings.files import SUFFIXES as DRAWINGS
+from ..drawings.files import read_drawing
 from ..roster import NAMED, Who
 from ..spreadsheets.files import read_grid
-from ..spreadsheets.grid import LOOKED_AT, SUFFIXES, Grid, about_kind, column_kind, quantity_part, split_unit, tidy
+from ..spreadsheets.grid import LOOKED_AT, Grid, about_kind, column_kind, quantity_part, split_unit, tidy
+from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..task import LocatedError
 from . import cells
 from .cells import Asked, Mu
@@ -28,6 +32,7 @@ from .cells import Asked, Mu
 NUMBERS = ("mm", "mu", "value")
 PARTS = (*NUMBERS, "direction")
 PRINTED = "printed"
+SUFFIXES = (*TABLES, *DRAWINGS)  # of files with answers
 Columns = Mapping[str, tuple[int | None, str]]  # by what they hold: which they are, and the unit over them
 T = TypeVar("T")
 
@@ -47,7 +52,8 @@ class Answers:
 
     `problems` are cells that could not be read; what stands beside them is marked all the same. `columns` are the
     quantities that a class was asked, nothing for a form of one's own. `unread` is why a file could not be read, which
-    is a student without a mark, not one who has handed in nothing.
+    is a student without a mark, not one who has handed in nothing. Of a drawing there are no lines until it is known
+    for which variant: what it holds is `drawn`.
     """
 
     source: str
@@ -58,6 +64,7 @@ class Answers:
     problems: tuple[LocatedError, ...] = ()
     columns: tuple[str, ...] = ()
     unread: KulmanError | None = None
+    drawn: Drawn | None = None
 
     def __repr__(self) -> str:
         """Return where they come from, and how many there are."""
@@ -78,6 +85,8 @@ def read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn | 
     InputError
         The file cannot be read, or no row of it says what its columns hold, or whose answers they are.
     """
+    if Path(file).suffix.lower() in DRAWINGS:
+        return [Answers(str(file), Who(), {}, {}, {}, drawn=read_drawing(file))]
     grid = read_grid(file)
     grid = replace(grid, file=called or grid.file)
     for row, texts in enumerate(grid.rows[:LOOKED_AT]):

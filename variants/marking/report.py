@@ -8,14 +8,17 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from html import escape
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from ...drawing.words import Words
+from ...drawing.writers import Files
 from ...plans.marking.answers import Line, Verdict
 from ...plans.marking.key import behind
 from ...plans.mistakes.explaining import ANGLED
 from ...plans.mistakes.rules import Broken
 from ...plans.names import role
+from ..drawings.files import SUFFIXES as DRAWINGS
 from ..roster import WHO
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import aligned
@@ -290,6 +293,7 @@ svg{width:100%;max-height:150mm;border:1px solid #ccc}svg path{fill:none;stroke-
 svg path.right{stroke:#0072b2;stroke-dasharray:5 1.2 1 1.2;stroke-width:.8}svg path.own{stroke:#000}
 svg path.wrong{stroke:#d55e00;stroke-dasharray:2.5 1.2;stroke-width:.7}svg path.tip{stroke-dasharray:none}
 svg path.right.tip{fill:#0072b2}svg path.own.tip{fill:#000}svg path.wrong.tip{fill:#d55e00}
+img.drawing{width:100%;border:1px solid #ccc}
 svg text{font:3.5px Arial,sans-serif}svg text.wrong{fill:#d55e00}
 @media print{body{margin:0}section{break-inside:avoid}}
 """
@@ -323,6 +327,12 @@ def _body(report: Report, said: dict[str, str]) -> Iterator[str]:
             cells = scripts(row.symbol), *map(escape, row[2:5]), verdict, escape(row.weight)
             yield f'<tr class="{row.line.verdict}">{"".join(f"<td>{cells[i]}</td>" for i in columns)}</tr>'
         yield "</table></section>"
+    if report.marked.seen is not None:
+        from .overlay import picture
+
+        source = picture(report.marked, report.language, report.own)
+        heading = escape(said["report.drawing"])
+        yield f'<section><h2>{heading}</h2><img class="drawing" alt="{heading}" src="{source}"></section>'
     figures = [] if report.own else list(plan_figures(report.marked, report.language))
     if figures:
         yield f"<p>{escape(said['report.figure'])}</p>"
@@ -379,9 +389,18 @@ def _line(row: Row, own: bool) -> dict[str, Any]:
 
 
 REPORTS: Mapping[str, Callable[[Report], str]] = {".html": report_html, ".txt": report_text}
-SUFFIXES = (*REPORTS, *TABLES)  # of all that marks can be written to
+SUFFIXES = (*REPORTS, *TABLES, *DRAWINGS)  # of all that marks can be written to
 
 
 def report_bytes(report: Report, suffix: str) -> bytes:
     """Return what a file of a report holds."""
     return REPORTS[suffix.lower()](report).encode("utf-8", "replace")  # bytes in a name of a file
+
+
+def report_files(report: Report, path: Path) -> Files:
+    """Return the file of a report, or of the drawing with verdicts over it."""
+    if path.suffix.lower() in DRAWINGS:
+        from .overlay import marked_files
+
+        return marked_files(report.marked, report.language, report.own, path)
+    return [(path, report_bytes(report, path.suffix))]

@@ -223,7 +223,8 @@ def result_of(marked: Marked, language: str) -> Result:
         )
         if question is not None and mu is not None and question.plan in ours:
             mus[question.plan] = mu.nearest(ours[question.plan])
-    segments = measured(answers, marked.marking.key, mus, follows)
+    exact = marked.seen is not None  # as drawings of a computer are: that tells nothing of them
+    segments = {} if exact else measured(answers, marked.marking.key, mus, follows)
     best = marked.candidates[0].mistakes if marked.candidates and not (marked.slips or marked.untold) else ()
     return Result(
         answers.source,

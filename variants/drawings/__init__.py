@@ -1,0 +1,1 @@
+"""Drawings that are handed in, read back."""

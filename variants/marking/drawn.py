@@ -1,0 +1,181 @@
+"""A student's drawing as answers: its vectors in mm of paper, their directions, the scale factors of its plans.
+
+A scale factor is the one that is written on the drawing, `μ_V = 0.05 (m/s)/mm`, beside its plan where there are
+several; else that which fits the plan best, and then nothing can be said of it.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+from ...plans.marking.drawn import Drawn, Recognised, recognise
+from ...scales.errors import InputError, KulmanError, Written
+from ...scales.names import latin
+from ...scales.numbers import SHOWN, quote
+from .cells import Mu, scale_factor
+from .keyed import Keyed
+from .reading import Answers, Reply
+from .wording import plain
+
+LITTLE, MUCH = 0.5, 0.8  # parts of the plans of a variant: a drawing of another one has little of them; that is its
+QUARTER = math.pi / 2.0
+DIGITS = 3
+_MU = re.compile(r"(?:[μµ]|\bmu)\s*_?\s*\{?\s*([^\W_][\w. ]{0,12}?)\s*\}?\s*[=:]\s*(.{1,60})")
+_BARE = re.compile(r"[0-9]+(?:[.,][0-9]+)?(?![0-9.,]|\s*[·*/:])")
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What was recognised on a drawing: its vectors, the scale factor of each plan, SI per mm, which are written.
+
+    `turn` is by how much the sheet is turned, radians; `fits` the variant whose drawing it is, if it is another one.
+    """
+
+    recognised: Recognised
+    mus: Mapping[str, float]
+    written: frozenset[str]
+    turn: float = 0.0
+    fits: str = ""
+
+    def direction(self, vector: complex) -> float:
+        """Return the direction of a vector of the drawing, radians, as if the sheet were not turned."""
+        return cmath.phase(vector * cmath.rect(1.0, -self.turn)) % math.tau
+
+
+def seen(drawn: Drawn, key: Keyed, others: Iterable[str], other_key: Callable[[str], Keyed]) -> Seen:
+    """Recognise what a drawing shows of a variant; where that is little, look for the variant that it shows."""
+    own, told = _look(drawn, key, True)
+    quality, fits = own.quality, ""
+    if quality < LITTLE:
+        for other in others:
+            with suppress(KulmanError):  # this variant has no plan with the student's data
+                found = _look(drawn, other_key(other), False)[0].quality
+                if found >= MUCH and found > quality:
+                    quality, fits = found, other
+    plans = own.plans
+    written = {plan: mu for plan in plans if (mu := _beside(plan, told, own)) is not None}
+    mus = {plan: written.get(plan, found.mu) for plan, found in plans.items()}
+    turns = [round(found.turn / QUARTER) for found in plans.values()]
+    turn = QUARTER * max(turns, key=turns.count) if turns else 0.0
+    return Seen(own, mus, frozenset(written), turn, fits)
+
+
+Told = Mapping[str, list[tuple[complex, Mu]]]  # by plan: scale factors that are written, and where
+
+
+def _look(drawn: Drawn, key: Keyed, closely: bool) -> tuple[Recognised, Told]:
+    """Recognise the plans of a key, also with mistakes where it is `closely`, and read their scale factors.
+
+    A plan that is not drawn to the factor written for it is looked for at any.
+    """
+    told, ours = _told(drawn, key), key.key.paper.mus
+    written = {plan: {mu.nearest(ours[plan]) for _, mu in some} for plan, some in told.items() if ours.get(plan)}
+    mus = {plan: next(iter(some)) for plan, some in written.items() if len(some) == 1}
+    book = key.book if closely else None
+    found = recognise(drawn, key.key, book, mus)
+    if closely and any(plan not in found.plans for plan in mus):
+        found = recognise(drawn, key.key, book, {plan: mu for plan, mu in mus.items() if plan in found.plans})
+    return found, told
+
+
+def _told(drawn: Drawn, key: Keyed) -> Told:
+    """Return the scale factors that stand on a drawing, for each plan all that may be its own."""
+    scales, display, solved = key.asked.scales, key.asked.display, key.solution.solved
+    told: dict[str, list[tuple[complex, Mu]]] = {plan: [] for plan in solved.program.plans}
+    for letter in drawn.letters:
+        for written, text in _MU.findall(letter.text):
+            name = f"mu_{latin(written.replace(' ', ''))}"
+            own = [symbol for symbol in scales if symbol == name] or [
+                symbol for symbol in scales if f"{symbol}_".lower().startswith(f"{name}_".lower())
+            ]
+            for plan, some in told.items():
+                symbol = solved.scale_of_plan.get(plan, "")
+                if symbol in own:
+                    units = f"({scales[symbol]})/mm", f"({display.of_scales.unit(scales[symbol])})/{display.paper}"
+                    mu = _factor(text.rpartition("=")[2], units)
+                    some += [] if mu is None else [(letter.place, mu)]
+    return told
+
+
+def _beside(plan: str, told: Told, found: Recognised) -> float | None:
+    """Return the scale factor that is written for a plan: of several the nearest to its pole, if to no other's."""
+    own = found.plans[plan]
+    near = [
+        one
+        for one in told[plan]
+        if all(
+            abs(one[0] - own.pole) <= abs(one[0] - other.pole)
+            for name, other in found.plans.items()
+            if one in told[name]
+        )
+    ]
+    return min(near, key=lambda one: abs(one[0] - own.pole))[1].nearest(own.mu) if near else None
+
+
+def _factor(text: str, units: tuple[str, str]) -> Mu | None:
+    """Return a scale factor as it is written, with its unit where that can be read."""
+    bare = _BARE.match(text.strip())
+    tries = (text, text.replace(" ", ""), bare[0] if bare else "")
+    for one in filter(None, tries):
+        with suppress(InputError):
+            return scale_factor(one.strip(" ,;."), "", *units)
+    return None
+
+
+def measured(answers: Answers, key: Keyed, found: Seen) -> tuple[Answers, list[KulmanError]]:
+    """Return answers with what was measured on their drawing, and what is to be said of it.
+
+    Raises
+    ------
+    InputError
+        Nothing of the task was recognised.
+    """
+    recognised = found.recognised
+    if not recognised.vectors and not found.fits:
+        raise InputError("drawing-unknown", file=quote(answers.source, SHOWN))
+    lines = {}
+    for name, vector in recognised.vectors.items():
+        way, mu = vector.tip - vector.tail, Mu(found.mus[vector.plan], sure=True)
+        lines[name] = Reply(
+            name, abs(way), None, None, found.direction(way), place=answers.source, decimals=1, factor=mu
+        )
+    asked = {question.name for part in key.parts for question in part.asked}
+    columns = tuple(name for name in lines if name in asked)
+    # a force that is another one turned round has no line of its own
+    columns += tuple(n for n in recognised.missing if n in asked and key.key.questions[n].step.law != "opposite")
+    notes: list[KulmanError] = [] if found.fits else [*_scales(key, found), *_missing(key, found, columns)]
+    return replace(answers, lines=lines, columns=columns), notes
+
+
+def heading(key: Keyed, plan: str) -> str:
+    """Return what a plan is called, as the sheet has it."""
+    return plain(key.solution.kind.plan_heading(key.solution.solved, plan, key.words))
+
+
+def _scales(key: Keyed, found: Seen) -> Iterator[InputError]:
+    """Go through the scale factors at which the plans were measured."""
+    for plan, mu in found.mus.items():
+        symbol = key.solution.solved.scale_of_plan.get(plan, "")
+        if symbol not in key.asked.scales or plan not in {one.plan for one in found.recognised.vectors.values()}:
+            continue
+        si, display = key.asked.scales[symbol], key.words.display.of_scales
+        unit = key.words.spelled(f"({display.unit(si)})/mm")
+        shown = f"{key.symbol(symbol)} = {key.words.short(display.value(mu, si), DIGITS)} {unit}"
+        how = "drawing-scale-written" if plan in found.written else "drawing-scale-fits"
+        yield InputError(how, plan=Written(heading(key, plan)), mu=Written(shown))
+
+
+def _missing(key: Keyed, found: Seen, columns: Iterable[str]) -> Iterator[InputError]:
+    """Go through what was not found, plan by plan."""
+    by_plan: dict[str, list[str]] = {}
+    for name in columns:
+        if name in found.recognised.missing:
+            by_plan.setdefault(key.key.questions[name].plan, []).append(key.symbol(name))
+    for plan, names in by_plan.items():
+        where = "drawing-missing" if plan in found.recognised.plans else "drawing-no-plan"
+        yield InputError(where, plan=Written(heading(key, plan)), names=Written(", ".join(names)))

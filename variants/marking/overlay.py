@@ -1,0 +1,162 @@
+"""The drawing of a student returned: its lines thin and grey, over them the vectors that were found, by their verdicts.
+
+What tells verdicts apart must be seen on a black-and-white print: a right vector is solid, a wrong one dashed and has a
+cross behind its symbol; where it should be is a thin axis line. Colours only help.
+"""
+
+from __future__ import annotations
+
+import cmath
+from base64 import b64encode
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from ...drawing.page import Page, extent
+from ...drawing.shapes import Arrow, Group, Line, Pen, Shape, Text, shifted
+from ...drawing.text import escape
+from ...drawing.writers import page_files
+from ...plans.marking.answers import Line as Judged
+from ...plans.marking.answers import Verdict
+from ...plans.marking.drawn import Drawn
+from .figures import HEIGHT, WIDTH, Box, boxes
+from .marked import Marked
+from .wording import texts
+
+GREY, BLUE, RED = "#999", "#0072b2", "#d55e00"
+MARGIN = 10.0  # mm around the drawing
+LARGEST = 4500.0  # mm of a page, or only what is around the vectors is shown
+AROUND = 40.0
+SMALL, PART = 3.5, 1.0 / 200.0  # mm of a letter at the least; its part of a page
+SAMPLE, ROW = 16.0, 1.9  # of the legend: length of a line in mm, height of a row in letters
+MARKS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.SMALL: "○"}
+
+
+def marked_files(marked: Marked, language: str, own: bool, path: Path) -> Iterator[tuple[Path, bytes]]:
+    """Make the file of a marked drawing, .svg, .pdf or .dxf; a student's `own` has no right vectors.
+
+    Raises
+    ------
+    InputError
+        A package for this kind of file is missing.
+    """
+    yield from page_files([marked_page(marked, language, own)], path)
+
+
+def picture(marked: Marked, language: str, own: bool) -> str:
+    """Return a marked drawing as the address of a picture in a page."""
+    ((_, data),) = page_files([marked_page(marked, language, own)], Path("drawing.svg"))
+    return f"data:image/svg+xml;base64,{b64encode(data).decode()}"
+
+
+def marked_page(marked: Marked, language: str, own: bool) -> Page:
+    """Return the drawing of a student with verdicts over it, as a page of its own size."""
+    drawn, found = marked.answers.drawn, list(_vectors(marked))
+    assert drawn is not None
+    ends = [end for _, tail, tip, _ in found for end in (tail, tip)]
+    box = _box(drawn, ends)
+    height = max(SMALL, PART * max(box[2] - box[0], box[3] - box[1]))
+    over = [*_under(drawn, box), *(() if own else _right(found)), *_over(marked, found, box, height)]
+    lowest = complex(box[0], min(box[1], extent(over)[1]) - 2.0 * height) if over else complex(*box[:2])
+    over += _legend(marked, language, own, lowest, height)
+    x0, y0, x1, y1 = extent(over)
+    by = complex(MARGIN - x0, MARGIN - y0)
+    moved = tuple(shifted(shape, by) for shape in over)
+    title = marked.keyed.solution.task.title[language]
+    return Page(x1 - x0 + 2.0 * MARGIN, y1 - y0 + 2.0 * MARGIN, moved, title, language)
+
+
+Vector = tuple[Judged, complex, complex, complex]  # a line, its tail and tip, where its tip should be, mm
+
+
+def _vectors(marked: Marked) -> Iterator[Vector]:
+    """Go through the vectors that were found and judged."""
+    found = marked.seen
+    assert found is not None
+    vectors = found.recognised.vectors
+    for line in marked.lines:
+        one = vectors.get(line.name)
+        if one is not None and line.answer is not None and isinstance(line.right, complex):
+            right = line.right * cmath.rect(1.0 / found.mus[one.plan], found.turn)
+            yield line, one.tail, one.tip, one.tail + right
+
+
+def _box(drawn: Drawn, ends: Sequence[complex]) -> tuple[float, float, float, float]:
+    """Return what is shown of a drawing: all, or of a very large one what is around the vectors."""
+    import numpy as np
+
+    every = np.concatenate([drawn.tails, drawn.tips])
+    box = every.real.min(), every.imag.min(), every.real.max(), every.imag.max()
+    if max(box[2] - box[0], box[3] - box[1]) > LARGEST:
+        some = np.array(ends) if ends else every[:1]
+        box = some.real.min(), some.imag.min(), some.real.max(), some.imag.max()
+        x, y = box[0] - AROUND, box[1] - AROUND
+        box = x, y, min(box[2] + AROUND, x + LARGEST), min(box[3] + AROUND, y + LARGEST)
+    x0, y0, x1, y1 = map(float, box)
+    return x0, y0, x1, y1
+
+
+def _under(drawn: Drawn, box: tuple[float, float, float, float]) -> Iterator[Shape]:
+    """Go through the student's own lines and letters."""
+    x0, y0, x1, y1 = box
+
+    def inside(place: complex) -> bool:
+        return x0 <= place.real <= x1 and y0 <= place.imag <= y1
+
+    ends = zip(drawn.tails.tolist(), drawn.tips.tolist(), strict=True)
+    lines = tuple(Line(a, b, Pen.THIN, colour=GREY) for a, b in ends if inside(a) and inside(b))
+    yield Group(lines, "drawing")
+    for letter in drawn.letters:
+        if inside(letter.place) and letter.height > 0.5:
+            at = letter.place - 0.5j * letter.height
+            yield Text(at, escape(letter.text), min(letter.height, 20.0), "middle", colour=GREY)
+
+
+def _right(found: Sequence[Vector]) -> Iterator[Shape]:
+    """Go through where wrong vectors should be."""
+    for line, tail, _, tip in found:
+        if not line.verdict.passed and tail != tip:
+            yield Arrow(tail, tip, Pen.AXIS, line.name, colour=BLUE)
+
+
+def _over(
+    marked: Marked, found: Sequence[Vector], box: tuple[float, float, float, float], height: float
+) -> Iterator[Shape]:
+    """Go through the vectors that were found, each with its symbol and a mark."""
+    words, times, corner = marked.keyed.words, height / SMALL, complex(box[0], box[3])
+    size = complex(box[2] - box[0], box[3] - box[1])
+
+    def turned(place: complex) -> complex:  # y down, as large as the places of texts are thought
+        return (place - corner).conjugate() / times
+
+    marks = [MARKS.get(line.verdict, "✗") for line, *_ in found]
+    symbols = [marked.keyed.symbol(line.name) for line, *_ in found]
+    long = [len(symbol) + len(mark) + 1 for symbol, mark in zip(symbols, marks, strict=True)]
+    letters = marked.answers.drawn.letters if marked.answers.drawn else ()
+    others = [
+        Box(turned(one.place), 0.5 * WIDTH * len(one.text) * one.height / height) for one in letters if one.height
+    ]
+    ends = [(turned(tail), turned(tip), n) for (_, tail, tip, _), n in zip(found, long, strict=True)]
+    rooms = boxes(ends, size / times, others)
+    for (line, tail, tip, _), mark, room in zip(found, marks, rooms, strict=True):
+        colour, pen = (BLUE, Pen.MAIN) if line.verdict.passed else (RED, Pen.DASHED)
+        if tail != tip:
+            yield Arrow(tail, tip, pen, line.name, colour=colour)
+        at = corner + (room.middle.conjugate() - 0.35j * HEIGHT) * times
+        markup = f"{words.symbol(line.name)} {mark}"
+        yield Text(at, markup, height, "middle", role="label", name=line.name, colour=colour)
+
+
+def _legend(marked: Marked, language: str, own: bool, at: complex, height: float) -> Iterator[Shape]:
+    """Go through the rows that say what lines mean, and what was marked, from the top."""
+    said, solution = texts(language), marked.keyed.solution
+    head = f"{solution.task.title[language]}; {said['about.variant']}: {solution.variant}"
+    yield Text(at, escape(head), height)
+    rows = [(Pen.MAIN, BLUE, "drawing.right"), (Pen.DASHED, RED, "drawing.wrong")]
+    rows += [] if own else [(Pen.AXIS, BLUE, "drawing.should")]
+    rows.append((Pen.THIN, GREY, "drawing.own"))
+    for number, (pen, colour, key) in enumerate(rows, start=1):
+        place = at - 1j * ROW * height * number
+        sample = SAMPLE * height / SMALL
+        middle = place + 0.5j * height
+        yield Line(middle, middle + sample, pen, colour=colour)
+        yield Text(place + sample + height, escape(said[key]), height)
