@@ -8,6 +8,7 @@ from __future__ import annotations
 import gc
 import json
 import os
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -22,7 +23,7 @@ from ...scales.version import __version__
 from ..case import Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
-from ..roster import Digits, Entry, collated, read_roster, shared_by_mistake
+from ..roster import Digits, Entry, Who, collated, read_roster, shared_by_mistake
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, table_bytes
 from ..task import Task
@@ -89,7 +90,17 @@ class Check(Terms):
         InputError
             Nothing can be read.
         """
-        return read_all(names, self.request.task.id, self.asked, warn)
+        return [self._named(one) for one in read_all(names, self.request.task.id, self.asked, warn)]
+
+    def _named(self, answers: Answers) -> Answers:
+        """Return answers with whose drawing it is: the name of the file is that of a student, or of a record book."""
+        if self.roster is None or answers.drawn is None:
+            return answers
+        stem = Path(answers.source).stem
+        names = [" ".join(re.split(r"[\s_-]+", name)).strip() for name in (stem, re.sub(r"^[0-9]{3}-", "", stem))]
+        known = (self.roster.find(Who(**{key: name})) for name in names for key in ("student", "book", "number"))
+        entry = next(filter(None, known), None)
+        return replace(answers, who=Who(student=names[0]) if entry is None else entry.who)
 
     def absent(self, answers: Iterable[Answers]) -> list[Entry]:
         """Return the students of the roster who have handed in nothing."""

@@ -87,6 +87,8 @@ def read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn | 
     """
     if Path(file).suffix.lower() in DRAWINGS:
         return [Answers(str(file), Who(), {}, {}, {}, drawn=read_drawing(file))]
+    if Path(file).suffix.lower() not in SUFFIXES:
+        raise InputError("answers-kind", file=quote(file, SHOWN), known=", ".join(SUFFIXES))
     grid = read_grid(file)
     grid = replace(grid, file=called or grid.file)
     for row, texts in enumerate(grid.rows[:LOOKED_AT]):

@@ -198,8 +198,10 @@ class _Answers:
         own = "own" in filled or not door.sees("answers")
         preset = filled.get("preset", "normal") if filled.get("preset") in HANDS else "normal"
         at = pages.settled(self.place(request), await self.shown(request))
+        drawing = form.file("drawing")
+        make, answers = (making.answered, cells) if drawing is None else (making.answered_by_drawing, drawing)
         try:
-            report = await self.desk.crew.do(making.answered, of, cells, preset, own, like=(of.task, of.variant))
+            report = await self.desk.crew.do(make, of, answers, preset, own, like=(of.task, of.variant))
         except KulmanError as error:
             return await self.form_page(request, filled, error.text(door.language))
         name, back = secrets.token_hex(12), door.link(f"{at.path}/check", at.query)

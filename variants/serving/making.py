@@ -24,11 +24,13 @@ from ...scales.numbers import SHOWN, quote
 from ..batches.batch import batch, write_roster
 from ..case import Kind, Request, kind_of
 from ..crew import Advance
+from ..drawings.files import SUFFIXES as DRAWINGS
 from ..making.questions import bare_page
 from ..making.starter import start
 from ..marking.checks import Check, check, write_tables
 from ..marking.class_page import PAGE
 from ..marking.keyed import COLUMNS
+from ..marking.reading import SUFFIXES as ANSWERS
 from ..marking.report import report_html
 from ..marking.result import class_lines
 from ..notes import Note, note
@@ -116,7 +118,11 @@ class Upload:
         """Write it under a name of ours and return that; one of another kind than those known is refused."""
         suffix = Path(self.name).suffix.lower()
         if suffix not in known:
-            raise InputError("answers-suffix", file=quote(self.name, SHOWN), known=", ".join(known))
+            raise InputError(
+                "answers-suffix" if known == TABLES else "answers-kind",
+                file=quote(self.name, SHOWN),
+                known=", ".join(known),
+            )
         Path(stem + suffix).write_bytes(self.data)
         return stem + suffix
 
@@ -317,6 +323,12 @@ def answered(advance: Advance, asked: Asked, cells: Mapping[tuple[int, int], str
     return report_html(ready.mark(ready.read("answers.csv")[0]))
 
 
+def answered_by_drawing(advance: Advance, asked: Asked, drawing: Upload, preset: str, own: bool) -> str:
+    """Return the report on a drawing that has been handed in, as a page with the drawing in it."""
+    ready = _check(asked, preset=preset, own=own)
+    return report_html(ready.mark(ready.read(drawing.put("drawing", DRAWINGS))[0]))
+
+
 @dataclass(frozen=True, slots=True)
 class Done:
     """What has come of a class: an archive among what is kept, a page about it, lines that tell of it."""
@@ -376,7 +388,7 @@ def marked_class(
     weights = None if rubric is None else rubric.put("rubric", (".toml",))
     ready = check(asked.load(), asked.variant or None, lang=language, roster=listed, rubric=weights, **how)
     Path("forms").mkdir()
-    names = [one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", TABLES) for n, one in enumerate(forms, 1)]
+    names = [one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", ANSWERS) for n, one in enumerate(forms, 1)]
     told += [warning.text(language) for warning in ready.warnings]
     found = ready.ordered(ready.read(*names, warn=lambda error: told.append(error.text(language))))
     results = ready.mark_all(found, out, advance, jobs)

@@ -20,7 +20,7 @@ from .safety import ALLOWED, STUDENT
 TONGUES = {"uk": "Українська", "ru": "Русский", "en": "English"}
 ANSWERED = ("mm", "mu", "value", "direction")  # columns of a form that are filled in
 NORMS = ("gost", "iso")
-TABLES, TOML = ".csv,.xlsx", ".toml"  # what files end in that are sent
+TABLES, DRAWINGS, TOML = ".csv,.xlsx", ".dxf,.svg,.pdf", ".toml"  # what files end in that are sent
 # of files: what must be seen for them, else forms
 SEEN = {"sheet": "sheets", "moving": "sheets", "key": "answers", "note": "answers", "results": "answers"}
 VOID = {"img", "input", "link", "meta"}
@@ -320,19 +320,27 @@ def form(door: Door, place: Place, shown_as: str, rows: Rows, filled: Mapping[st
     labels = (tag("th", heads[column], scope="col") for column in ("symbol", *ANSWERED, "unit"))
     parts = [tag("p", hint) for hint in hints]
     table = tag("table", tag("thead", tag("tr", *labels)), tag("tbody", *body), class_="answers")
-    asked = tag(
-        "form",
-        tag("div", table, class_="scroll"),
-        _hand(door, filled.get("preset", "normal")),
-        tag("p", _tick("own", "1", said["form.own"], "own" in filled), class_="tick") if door.sees("answers") else None,
-        tag("button", said["form.judge"], type="submit", class_="main"),
-        method="post",
-        action=door.link(f"{place.path}/check", place.query),
-    )  # fmt: skip
+
+    def asked(answers: Html, hand: str, **how: str) -> Html:
+        """Return a form that asks for answers, and how they are to be judged."""
+        own = _tick("own", "1", said["form.own"], "own" in filled)
+        return tag(
+            "form",
+            answers,
+            _hand(door, filled.get("preset", "normal"), hand),
+            tag("p", own, class_="tick") if door.sees("answers") else None,
+            tag("button", said["form.judge"], type="submit", class_="main"),
+            method="post",
+            action=door.link(f"{place.path}/check", place.query),
+            **how,
+        )
+
+    drawing = _file(door, "drawing", "form.drawing", DRAWINGS, required=True, hint="form.drawing_hint")
+    both = asked(tag("div", table, class_="scroll"), "preset"), asked(drawing, "hand", enctype="multipart/form-data")
     title = said["form.title"]
     back = tag("p", tag("a", f"← {shown_as}", href=door.link(place.path, place.query)))
     warned = note(problem, kind="problem") if problem else None
-    return page(door, title, back, warned, *parts, asked, at=f"{place.path}/check", query=place.query)
+    return page(door, title, back, warned, *parts, *both, at=f"{place.path}/check", query=place.query)
 
 
 def scripted(text: str) -> Html:
@@ -407,10 +415,10 @@ def _tick(name: str, value: str, label: str, checked: bool = False) -> Html:
     return tag("label", tag("input", type="checkbox", name=name, value=value, checked=checked), " ", label)
 
 
-def _hand(door: Door, now: str = "normal") -> Html:
+def _hand(door: Door, now: str = "normal", place: str = "preset") -> Html:
     """Return the choice of how exactly is drawn."""
     hands = [(name, door.said[f"hand.{name}"]) for name in HANDS]
-    return field(door.said["form.preset"], chosen("preset", hands, now), "preset")
+    return field(door.said["form.preset"], chosen("preset", hands, now, id=place), place)
 
 
 def _of_class(door: Door, at: str, problem: str, button: str, *fields: Html) -> str:
@@ -459,7 +467,7 @@ def marks(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> st
         "marks.mark",
         field(said["class.task"], chosen("tasks", [(id_, f"{title} ({id_})") for id_, title in tasks], ""), "tasks"),
         _file(door, "own_task", "class.own"),
-        _file(door, "forms", "marks.forms", TABLES, several=True, required=True, hint="marks.several"),
+        _file(door, "forms", "marks.forms", f"{TABLES},{DRAWINGS}", several=True, required=True, hint="marks.several"),
         _file(door, "roster", "marks.roster", TABLES),
         _file(door, "rubric", "marks.rubric"),
         _hand(door),
