@@ -11,13 +11,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from .marks import CAPITAL, DEEPEST, INCH, LONGEST, WIDE, Affine, FaultError, Marks, beside
+from .marks import CAPITAL, DEEPEST, INCH, LONGEST, MOST, WIDE, Affine, FaultError, Marks, beside
 
 _BINARY = (b"AutoCAD Binary DXF", b"AC10")  # the latter a DWG
 UNITS = {1: INCH, 2: 12 * INCH, 5: 10.0, 6: 1000.0}  # mm, of $INSUNITS; of others one
 Groups = Sequence[tuple[int, str]]
 Entities = list[tuple[str, Groups]]
 MIRRORED = Affine(0j, -1 + 0j)  # what lies on the back of the plane is turned over
+_RECORD = re.compile(rb"\n[ \t]*0[ \t]*\r?\n[A-Z]")
 _INSUNITS = re.compile(r"\$INSUNITS\s*\n\s*70\s*\n\s*([0-9]{1,3})\b")
 _CODEPAGE = re.compile(rb"\$DWGCODEPAGE\s*\n\s*3\s*\n\s*ANSI_(125[0-8])\b")
 _ESCAPE = re.compile(r"\\U\+([0-9A-Fa-f]{4})")
@@ -30,12 +31,18 @@ def read_dxf(data: bytes) -> Marks:
     """Read a DXF: model space and beside it paper space, without layers that are off or frozen."""
     if data.startswith(_BINARY):
         raise FaultError("drawing-binary")
+    if sum(1 for _ in _RECORD.finditer(data)) > 3 * MOST:  # before they cost anything
+        raise FaultError("drawing-many")
     page = _CODEPAGE.search(data[:100_000])
     text = decoded(data, f"cp{page[1].decode()}" if page else "cp1251").replace("\r\n", "\n")
     unit = _INSUNITS.search(text[:1_000_000])
     hidden, blocks, spaces = set[str](), dict[str, tuple[complex, Entities]](), (Entities(), Entities())
     section, inside, ended = "", Entities(), False
+    left = 2 * MOST  # entities that are kept, also in blocks that nobody inserts
     for kind, groups in _records(text):
+        left -= section in ("BLOCKS", "ENTITIES")
+        if left < 0:
+            raise FaultError("drawing-many")
         if kind == "SECTION":
             section = _said(groups, 2)
         elif kind == "EOF":

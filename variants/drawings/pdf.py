@@ -15,7 +15,7 @@ from typing import Any
 from ...scales.errors import InputError
 from .marks import CAPITAL, DEEPEST, LONGEST, POINT, Affine, FaultError, Marks, beside
 
-SECONDS, MEMORY = 1.2, 800_000_000  # of reading one
+SECONDS, MEMORY = 0.8, 800_000_000  # of reading one
 PATIENCE = 60.0  # s, until the process has begun
 _LINE, _MOVE = 0, 2  # kinds of steps of a path
 _TEXT, _PATH, _IMAGE, _FORM = 1, 2, 3, 5  # kinds of objects of a page
