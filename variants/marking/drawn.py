@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
@@ -22,7 +22,9 @@ from .keyed import Keyed
 from .reading import Answers, Reply
 from .wording import plain
 
-LITTLE, MUCH = 0.5, 0.8  # parts of the plans of a variant: a drawing of another one has little of them; that is its
+LIKE = 0.02  # part by which a scale factor that is written may differ from the one that fits
+SURE = 0.75  # part of one plan at the least that must be there, or the drawing is of something else
+LITTLE, MUCH = 0.5, 0.8  # parts of the vectors of a variant: a drawing of another one has little of them, much of its
 QUARTER = math.pi / 2.0
 DIGITS = 3
 _MU = re.compile(r"(?:[μµ]|\bmu)\s*_?\s*\{?\s*([^\W_][\w. ]{0,12}?)\s*\}?\s*[=:]\s*(.{1,60})")
@@ -50,19 +52,28 @@ class Seen:
 def seen(drawn: Drawn, key: Keyed, others: Iterable[str], other_key: Callable[[str], Keyed]) -> Seen:
     """Recognise what a drawing shows of a variant; where that is little, look for the variant that it shows."""
     own, told = _look(drawn, key, True)
-    quality, fits = own.quality, ""
-    if quality < LITTLE:
+    written = {plan: mu for plan in own.plans if (mu := _beside(plan, told, own)) is not None}
+    # where neither the plan nor its scale factor is as it should be, they are some other lines
+    plans = own.plans
+    strange = {n for n, mu in written.items() if plans[n].mistake and abs(plans[n].mu - mu) > LIKE * mu}
+    own, most, fits = _without(own, strange), LITTLE, ""
+    if _right(own) < LITTLE:
         for other in others:
             with suppress(KulmanError):  # this variant has no plan with the student's data
-                found = _look(drawn, other_key(other), False)[0].quality
-                if found >= MUCH and found > quality:
-                    quality, fits = found, other
-    plans = own.plans
-    written = {plan: mu for plan in plans if (mu := _beside(plan, told, own)) is not None}
+                part = _right(_look(drawn, other_key(other), False)[0])
+                if part >= max(MUCH, most):
+                    most, fits = part, other
+    plans, written = own.plans, {plan: mu for plan, mu in written.items() if plan in own.plans}
     mus = {plan: written.get(plan, found.mu) for plan, found in plans.items()}
     turns = [round(found.turn / QUARTER) for found in plans.values()]
     turn = QUARTER * max(turns, key=turns.count) if turns else 0.0
     return Seen(own, mus, frozenset(written), turn, fits)
+
+
+def _right(found: Recognised) -> float:
+    """Return what part of the vectors of a variant stands on a drawing as it should."""
+    right = [name for name, one in found.vectors.items() if not found.plans[one.plan].mistake]
+    return len(right) / max(len(found.vectors) + len(found.missing), 1)
 
 
 Told = Mapping[str, list[tuple[complex, Mu]]]  # by plan: scale factors that are written, and where
@@ -81,6 +92,13 @@ def _look(drawn: Drawn, key: Keyed, closely: bool) -> tuple[Recognised, Told]:
     if closely and any(plan not in found.plans for plan in mus):
         found = recognise(drawn, key.key, book, {plan: mu for plan, mu in mus.items() if plan in found.plans})
     return found, told
+
+
+def _without(found: Recognised, plans: Collection[str]) -> Recognised:
+    """Return what was recognised without some plans."""
+    gone = {name: "" for name, one in found.vectors.items() if one.plan in plans}
+    kept = {name: one for name, one in found.vectors.items() if name not in gone}
+    return Recognised({p: one for p, one in found.plans.items() if p not in plans}, kept, {**found.missing, **gone})
 
 
 def _told(drawn: Drawn, key: Keyed) -> Told:
@@ -136,7 +154,8 @@ def measured(answers: Answers, key: Keyed, found: Seen) -> tuple[Answers, list[K
         Nothing of the task was recognised.
     """
     recognised = found.recognised
-    if not recognised.vectors and not found.fits:
+    sure = max((plan.quality for plan in recognised.plans.values()), default=0.0) >= SURE
+    if not (recognised.vectors and sure) and not found.fits:
         raise InputError("drawing-unknown", file=quote(answers.source, SHOWN))
     lines = {}
     for name, vector in recognised.vectors.items():

@@ -1,0 +1,278 @@
+"""Drawings marked: as the same vectors in a form would be, what was not found told, the drawing returned."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from kulman import check, cli
+from kulman.drawing.linkages.reading import read
+from kulman.plans.board import POSITION
+from kulman.plans.marking.answers import Verdict
+from kulman.plans.names import LEVER, role
+from kulman.scales.errors import InputError
+from kulman.tests.support.commands import Run
+from kulman.variants.drawings.files import read_drawing
+from kulman.variants.marking.checks import Check
+from kulman.variants.marking.keyed import Keyed
+from kulman.variants.marking.marked import Desk, Marked
+
+TASKS = ("nau-slider-crank", "madi-four-bar", "scheme-09-shaper")
+APART = 400.0  # mm between plans
+Lines = list[tuple[complex, complex]]
+Texts = list[tuple[complex, str]]
+
+
+@pytest.fixture
+def command(capsys: pytest.CaptureFixture[str]) -> Run:
+    def running(*arguments: str) -> tuple[int, str, str]:
+        with pytest.raises(SystemExit) as stopped:
+            cli.main(arguments)
+        return int(stopped.value.code or 0), *capsys.readouterr()
+
+    return running
+
+
+def asked(task: str, **how: Any) -> tuple[Check, Keyed]:
+    ready = check(task, how.pop("variant", None), lang="en", **how)
+    variant = ready.request.variant or next(iter(ready.request.task.variants))
+    return check(task, variant, lang="en", **how), Desk(ready).keyed(variant, {})
+
+
+def plans_of(key: Keyed, program: Any, values: Mapping[str, Any]) -> tuple[Lines, Texts]:
+    """The plans of a program as a student draws them, at other places than the sheet has, each with its scale."""
+    lines, texts, reading = Lines(), Texts(), read(program)
+    drawn = [plan for plan in program.plans if role(plan).kind != LEVER and plan in key.key.paper.mus]
+    for number, plan in enumerate(drawn):
+        mu, pole = key.key.paper.mus[plan], complex(APART * (number % 3), APART * (number // 3))
+        for edge in reading.on(plan):
+            ends = [pole + complex(values[end]) / mu for end in (edge.tail, edge.tip)]
+            lines.append((ends[0], ends[1]))
+        symbol = key.solution.solved.scale_of_plan[plan]
+        si, display = key.asked.scales.get(symbol, ""), key.asked.display
+        if si and plan != POSITION:
+            kind = symbol.split("_")[1]
+            shown = f"{display.of_scales.value(mu, si):.9g}".replace(".", ",")
+            texts.append((pole + 5j, f"μ_{kind} = {shown} ({display.of_scales.unit(si)})/mm"))
+    return lines, texts
+
+
+def as_dxf(lines: Lines, texts: Texts) -> bytes:
+    place = lambda code, z: f"{code}\n{z.real!r}\n{code + 10}\n{z.imag!r}\n"  # noqa: E731
+    body = "".join(f"0\nLINE\n8\n0\n{place(10, a)}{place(11, b)}" for a, b in lines)
+    body += "".join(f"0\nTEXT\n8\n0\n{place(10, at)}40\n3.5\n1\n{text}\n" for at, text in texts)
+    return f"0\nSECTION\n2\nENTITIES\n{body}0\nENDSEC\n0\nEOF\n".encode()
+
+
+def as_svg(lines: Lines, texts: Texts) -> bytes:
+    body = "".join(f'<path d="M{a.real} {-a.imag}L{b.real} {-b.imag}"/>' for a, b in lines)
+    body += "".join(f'<text x="{at.real}" y="{-at.imag}" font-size="5">{text}</text>' for at, text in texts)
+    box = 'width="2000mm" height="2000mm" viewBox="-500 -1500 2000 2000"'
+    return f'<svg xmlns="http://www.w3.org/2000/svg" {box}><g stroke="#000">{body}</g></svg>'.encode()
+
+
+def as_pdf(lines: Lines, texts: Texts) -> bytes:
+    import matplotlib
+    from reportlab.pdfbase.pdfmetrics import registerFont
+    from reportlab.pdfbase.ttfonts import TTFont
+    from reportlab.pdfgen.canvas import Canvas
+
+    registerFont(TTFont("Plain", Path(matplotlib.get_data_path()) / "fonts/ttf/DejaVuSans.ttf"))
+    point, by = 72.0 / 25.4, 500 + 500j
+    canvas = Canvas("unused", (2000 * point, 2000 * point))
+    canvas.setFont("Plain", 5 * point)
+    for a, b in lines:
+        canvas.line(*(side * point for z in (a + by, b + by) for side in (z.real, z.imag)))
+    for at, text in texts:
+        canvas.drawString((at + by).real * point, (at + by).imag * point, text)
+    return canvas.getpdfdata()
+
+
+WRITERS: dict[str, Callable[[Lines, Texts], bytes]] = {".dxf": as_dxf, ".svg": as_svg, ".pdf": as_pdf}
+
+
+def handed_in(folder: Path, key: Keyed, program: Any, values: Mapping[str, Any], suffix: str = ".dxf") -> Path:
+    file = folder / f"plans{suffix}"
+    file.write_bytes(WRITERS[suffix](*plans_of(key, program, values)))
+    return file
+
+
+def marked(ready: Check, file: Path) -> Marked:
+    return ready.mark(ready.read(str(file))[0]).marked
+
+
+def verdicts(of: Marked) -> dict[str, Verdict]:
+    return {line.name: line.verdict for line in of.lines if line.verdict is not Verdict.MISSING}
+
+
+@pytest.mark.parametrize("suffix", WRITERS)
+@pytest.mark.parametrize("task", TASKS)
+def test_a_right_drawing_is_right(tmp_path: Path, task: str, suffix: str) -> None:
+    ready, key = asked(task, preset="cad")
+
+    found = marked(ready, handed_in(tmp_path, key, key.key.paper.program, key.key.values, suffix))
+
+    assert len(verdicts(found)) >= 0.9 * len(found.lines) > 3
+    assert set(verdicts(found).values()) == {Verdict.RIGHT}
+    assert found.seen is not None
+    assert {plan: found.seen.mus[plan] / key.key.paper.mus[plan] for plan in found.seen.written} == {
+        plan: pytest.approx(1.0) for plan in found.seen.written
+    }
+
+
+@pytest.mark.parametrize(("task", "mistake"), [
+    ("nau-slider-crank", "M25"), ("nau-slider-crank", "M39"), ("madi-four-bar", "M38"), ("madi-four-bar", "M23"),
+    ("scheme-09-shaper", "M49"),
+])  # fmt: skip
+def test_a_drawing_with_a_mistake_is_marked_as_its_vectors_in_a_form_are(
+    tmp_path: Path, task: str, mistake: str
+) -> None:
+    ready, key = asked(task)
+    one = next(one for one in key.book.signatures if one.broken.mistake == mistake)
+    file = handed_in(tmp_path, key, one.broken.program, one.values)
+
+    found = marked(ready, file)
+
+    typed = {line.name: line.answer for line in found.lines if line.answer is not None}
+    rows = "".join(
+        f"{name};{abs(one.values[name]) / key.key.paper.mus[key.key.questions[name].plan]:.6f};"
+        f"{math.degrees(math.atan2(complex(one.values[name]).imag, complex(one.values[name]).real)):.4f}\n"
+        for name in typed
+    )
+    form = tmp_path / "form.csv"
+    form.write_text(f"quantity;mm;direction\n{rows}", encoding="utf-8")
+    assert found.marking.first_wrong is not None
+    assert found.marking.first_wrong == marked(ready, form).marking.first_wrong
+    assert mistake in found.candidates[0].ids
+
+
+def test_a_scale_factor_that_does_not_fit_the_plan_is_a_scale_error(tmp_path: Path) -> None:
+    ready, key = asked("nau-slider-crank")
+    lines, texts = plans_of(key, key.key.paper.program, key.key.values)
+    wrong = [(at, text.replace("μ_V = 0", "μ_V = 1")) for at, text in texts]
+    assert wrong != texts
+    file = tmp_path / "x.dxf"
+    file.write_bytes(as_dxf(lines, wrong))
+
+    found = marked(ready, file)
+
+    assert found.marking.first_wrong == "V_A"
+    assert verdicts(found)["V_A"] is Verdict.SCALE
+    assert verdicts(found)["a_B"] is Verdict.RIGHT
+
+
+def test_a_plan_that_is_missing_is_told_and_not_wrong(tmp_path: Path) -> None:
+    ready, key = asked("nau-slider-crank")
+    lines, texts = plans_of(key, key.key.paper.program, key.key.values)
+    velocity = [plan for plan in key.key.paper.program.plans if plan in key.key.paper.mus].index("velocity")
+    pole = complex(APART * (velocity % 3), APART * (velocity // 3))
+    file = tmp_path / "x.dxf"
+    file.write_bytes(as_dxf([line for line in lines if abs(line[0] - pole) > 0.4 * APART], texts))
+
+    found = marked(ready, file)
+
+    assert {line.name for line in found.lines if line.verdict.faulty} == set()
+    assert {line.verdict for line in found.lines if line.plan == "velocity"} == {Verdict.MISSING}
+    assert any("Velocity plan" in note.text("en") and "V_B" in note.text("en") for note in found.notes)
+
+
+def test_a_drawing_of_another_variant_is_recognised(tmp_path: Path) -> None:
+    ready, _ = asked("nau-slider-crank", variant="3")
+    _, other = asked("nau-slider-crank", variant="7")
+
+    found = marked(ready, handed_in(tmp_path, other, other.key.paper.program, other.key.values))
+
+    assert found.fits == "7"
+
+
+def test_a_drawing_of_something_else_is_refused(tmp_path: Path) -> None:
+    ready, _ = asked("nau-slider-crank")
+    file = tmp_path / "x.svg"
+    file.write_bytes(as_svg([(0j, 100 + 0j), (100 + 0j, 100 + 50j), (100 + 50j, 0j)], []))
+
+    with pytest.raises(InputError) as error:
+        marked(ready, file)
+
+    assert error.value.key == "drawing-unknown"
+
+
+def test_a_drawing_is_returned_with_verdicts(tmp_path: Path, command: Run) -> None:
+    _, key = asked("nau-slider-crank")
+    one = next(one for one in key.book.signatures if one.broken.mistake == "M39")
+    file = handed_in(tmp_path, key, one.broken.program, one.values)
+    outputs = [tmp_path / f"marked{kind}" for kind in (".svg", ".pdf", ".dxf", ".html")]
+
+    status, _, stderr = command(
+        "check", "nau-slider-crank", str(file), "--lang", "en", *(f"-o{out}" for out in outputs)
+    )
+
+    assert status == 0, stderr
+    before, after = read_drawing(file), read_drawing(outputs[2])
+    assert len(after.tails) > len(before.tails)
+    texts = {letter.text.replace(" ", "") for letter in after.letters}
+    assert any(text.startswith("dashed") for text in texts)
+    svg = outputs[0].read_text("utf-8")
+    assert "✗" in svg
+    assert "stroke-dasharray" in svg
+    assert "data:image/svg+xml" in outputs[3].read_text("utf-8")
+
+
+def test_a_student_is_not_shown_where_a_wrong_vector_should_be(tmp_path: Path, command: Run) -> None:
+    _, key = asked("nau-slider-crank")
+    one = next(one for one in key.book.signatures if one.broken.mistake == "M39")
+    file = handed_in(tmp_path, key, one.broken.program, one.values)
+    drawings = {}
+    for own in ((), ("--verdict-only",)):
+        out = tmp_path / f"marked{len(own)}.dxf"
+        command("check", "nau-slider-crank", str(file), *own, "-o", str(out))
+        drawings[own] = read_drawing(out)
+
+    assert len(drawings[()].tails) > len(drawings["--verdict-only",].tails)
+
+
+def test_a_marked_drawing_is_refused_for_a_form(tmp_path: Path, command: Run) -> None:
+    status, _, stderr = command(
+        "check", "nau-slider-crank", "printed", "-o", str(tmp_path / "marked.svg"), "--lang", "en"
+    )
+
+    assert status == 2
+    assert "only for one drawing" in stderr
+    assert not (tmp_path / "marked.svg").exists()
+
+
+def test_drawings_of_a_class_are_named_after_students(tmp_path: Path) -> None:
+    _, key = asked("nau-slider-crank", variant="3")
+    folder = tmp_path / "works"
+    folder.mkdir()
+    drawing = handed_in(tmp_path, key, key.key.paper.program, key.key.values)
+    (folder / "Koval_Olha.dxf").write_bytes(drawing.read_bytes())
+    (folder / "broken.svg").write_text("<svg")
+    roster = tmp_path / "class.csv"
+    roster.write_text("student;variant\nKoval Olha;3\nBondar Ivan;4\n", encoding="utf-8")
+    told: list[str] = []
+    ready = check("nau-slider-crank", roster=roster, lang="en")
+
+    answers = ready.read(str(folder), warn=lambda error: told.append(error.text("en")))
+    results = ready.mark_all(answers, tmp_path / "out", jobs=1)
+
+    by_name = {result.who.student: result for result in results}
+    assert by_name["Koval Olha"].mark == pytest.approx(100.0, abs=5.0)
+    assert not by_name["Koval Olha"].exact
+    assert by_name["broken"].mark is None if "broken" in by_name else True
+    assert len(told) == 1
+
+
+def test_a_marked_drawing_is_plain_data_too(tmp_path: Path, command: Run) -> None:
+    _, key = asked("nau-slider-crank")
+    file = handed_in(tmp_path, key, key.key.paper.program, key.key.values)
+
+    _, stdout, _ = command("check", "nau-slider-crank", str(file), "--json", "--lang", "en")
+
+    said = json.loads(stdout)
+    assert said["counts"]["wrong"] == 0
+    assert {line["verdict"] for line in said["lines"]} <= {"right", "missing"}
