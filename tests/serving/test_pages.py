@@ -134,6 +134,19 @@ def test_answers_are_marked_as_the_command_marks_them(client: TestClient, tmp_pa
     assert 'role="alert"' in nothing.text
 
 
+def test_a_drawing_is_handed_in_where_a_form_is(client: TestClient, tmp_path: Path) -> None:
+    (file,) = kulman.sheet(TASK, "3", lang="en").save(tmp_path / "plans.pdf")
+    data = file.read_bytes()
+    page = client.get(f"/task/{TASK}/check?v=3").text
+
+    answer = client.post(f"/task/{TASK}/check?v=3", files={"drawing": ("my plans.pdf", data)})
+    refused = client.post(f"/task/{TASK}/check?v=3", files={"drawing": ("plans.dwg", b"AC1032")})
+
+    assert 'name="drawing"' in page
+    assert "data:image/svg+xml" in client.get(answer.headers["location"]).text
+    assert ".dxf" in refused.text
+
+
 def test_a_task_of_ones_own_is_checked_at_its_lines_and_drawn(client: TestClient) -> None:
     good = bundled_text(TASK).replace(f'id = "{TASK}"', 'id = "my-own"')
     line = next(n for n, text in enumerate(good.splitlines(), 1) if text.startswith("l_AB"))
