@@ -10,13 +10,15 @@ import ctypes
 import re
 from collections.abc import Iterator
 from functools import cache
+from threading import Thread
+from time import process_time
 from typing import Any
 
 from ...scales.errors import InputError
 from .marks import CAPITAL, DEEPEST, LONGEST, POINT, Affine, FaultError, Marks, beside
 
-SECONDS, MEMORY = 0.8, 800_000_000  # of reading one
-PATIENCE = 60.0  # s, until the process has begun
+SECONDS, MEMORY = 0.8, 800_000_000  # of the processor, bytes: of reading one
+PATIENCE, BEAT = 60.0, 0.02  # s, for a process to begin or to end; between looks at its time
 _LINE, _MOVE = 0, 2  # kinds of steps of a path
 _TEXT, _PATH, _IMAGE, _FORM = 1, 2, 3, 5  # kinds of objects of a page
 
@@ -30,12 +32,14 @@ def read_pdf(data: bytes) -> Marks:
     try:
         seat = _seat()
         seat.do(_begun, (), PATIENCE, lambda done, whole: None)
-        found = seat.do(_pages, (data,), SECONDS, lambda done, whole: None)
+        found = seat.do(_bounded, (data,), PATIENCE, lambda done, whole: None)
     except InputError as error:
         raise error if error.key == "extra-missing" else FaultError("drawing-late") from None
     except CrashError:
         raise ValueError from None
     if isinstance(found, str):
+        if found == "drawing-late":  # it is still at it
+            seat.stop()
         raise FaultError(found)
     return Marks(*found)
 
@@ -64,7 +68,20 @@ def _begun(advance: Any) -> None:
         raise InputError("extra-missing", packages="pypdfium2", suffix=".pdf") from None
 
 
-def _pages(advance: Any, data: bytes) -> tuple[Any, ...] | str:
+def _bounded(advance: Any, data: bytes) -> tuple[Any, ...] | str:
+    """Return what `_pages` does, or the key that it takes too long: of the processor's time, however busy that is."""
+    found: list[tuple[Any, ...] | str] = []
+    worker = Thread(target=lambda: found.append(_pages(data)), daemon=True)
+    until = process_time() + SECONDS
+    worker.start()
+    while worker.is_alive() and process_time() < until:
+        worker.join(BEAT)
+    if worker.is_alive():
+        return "drawing-late"
+    return found[0] if found else "drawing-broken"
+
+
+def _pages(data: bytes) -> tuple[Any, ...] | str:
     """Return the lines, filled triangles and letters of a PDF in mm, or the key of what is wrong with it."""
     import pypdfium2
 
@@ -74,7 +91,7 @@ def _pages(advance: Any, data: bytes) -> tuple[Any, ...] | str:
         for page in document:
             found.marks.count()
             found.page(page)
-    except pypdfium2.PdfiumError:
+    except (pypdfium2.PdfiumError, ValueError, LookupError, ArithmeticError, OSError, MemoryError):
         return "drawing-broken"
     except FaultError as fault:
         return str(fault)
