@@ -13,7 +13,7 @@ import numpy as np
 from ...plans.marking.drawn import Drawn, Letter
 
 LARGEST = 16_000_000  # bytes, also unpacked
-MOST = 50_000  # lines, letters and insertions of a drawing
+MOST, STEPS = 30_000, 3  # lines of a drawing; what is counted for each: an entity and its ends
 DEEPEST = 24  # blocks, forms and copies in one another
 LONGEST = 200  # characters of a text
 FARTHEST = 1e6  # mm from the origin
@@ -72,12 +72,12 @@ class Marks:
     lines: list[tuple[complex, complex]] = field(default_factory=list)
     heads: list[tuple[complex, complex, complex]] = field(default_factory=list)  # filled triangles
     pieces: list[Piece] = field(default_factory=list)
-    left: int = MOST
+    left: int = STEPS * MOST
 
     def count(self, pieces: int = 1) -> None:
         """Count what takes time."""
         self.left -= pieces
-        if self.left < 0:
+        if self.left < 0 or len(self.lines) > MOST:
             raise FaultError("drawing-many")
 
     def path(self, points: Sequence[complex], closed: bool = False) -> None:

@@ -17,7 +17,7 @@ from typing import Any
 from ...scales.errors import InputError
 from .marks import CAPITAL, DEEPEST, LONGEST, POINT, Affine, FaultError, Marks, beside
 
-SECONDS, MEMORY = 0.8, 800_000_000  # of the processor, bytes: of reading one
+SECONDS, MEMORY = 0.6, 800_000_000  # of the processor, bytes: of reading one
 PATIENCE, BEAT = 60.0, 0.02  # s, for a process to begin or to end; between looks at its time
 _LINE, _MOVE = 0, 2  # kinds of steps of a path
 _TEXT, _PATH, _IMAGE, _FORM = 1, 2, 3, 5  # kinds of objects of a page
