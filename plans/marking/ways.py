@@ -95,7 +95,7 @@ def changed_edges(right: Edges, program: Program, plan: str) -> Edges:
 
 def quantity_shown(name: str) -> str:
     """Return the quantity that a vector shows, which a mistake may have put aside before it is misread."""
-    return role(name.removeprefix("_right_")).shown
+    return role(name).shown.shown
 
 
 def shape_of(plan: str, edges: Edges, values: Mapping[str, Any], *broken: int) -> Shape | None:

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..board import POSITION, Program, Step
 from ..hands.shaky import Paper
-from ..names import Name, role
+from ..names import MAGNITUDE, Name, role
 
 
 @dataclass(frozen=True)
@@ -168,9 +168,9 @@ def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> 
 # Rewrites that many rules share: steps that make something else of what one step makes.
 
 
-def aside(name: str) -> str:
-    """Return a name for what was right before it was spoilt."""
-    return f"_right_{name}"
+def aside(name: str) -> Name:
+    """Return a name for what was right before it was spoilt; it shows the quantity that it was."""
+    return Name(f"_right_{name}", MAGNITUDE, name)
 
 
 def operand(step: Step, place: int, name: str) -> Step:

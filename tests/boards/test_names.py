@@ -34,8 +34,8 @@ NAMES = {"name", "names", "plan", "mark", "symbol", "quantity", "direction", "op
 # What users write, files and tables of text are taken apart by modules that do nothing else.
 READERS = (
     "drawing/formats.py", "drawing/titleblock.py", "drawing/writers.py", "variants/case.py", "variants/checks/",
-    "variants/commands/", "variants/making/", "variants/marking/", "variants/reader.py", "variants/roster.py",
-    "variants/shelf.py", "variants/spreadsheets/", "variants/task.py",
+    "variants/commands/", "variants/drawings/", "variants/making/", "variants/marking/", "variants/reader.py",
+    "variants/roster.py", "variants/shelf.py", "variants/spreadsheets/", "variants/task.py",
 )  # fmt: skip
 
 
