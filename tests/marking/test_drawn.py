@@ -111,7 +111,9 @@ def test_vectors_are_found_in_most_tasks() -> None:
     whole = {}
     for task in bundled("mechanism"):
         sheet = bare(task)
-        off = missed(sheet, distorted(sheet.segments, np.random.default_rng(1)))
-        whole[task] = max(off.values()) <= NEAR
+        for seed in (1, 2):  # errors of 0.1 mm let one drawing of a task pass and another miss by a hair
+            off = missed(sheet, distorted(sheet.segments, np.random.default_rng(seed)))
+            whole[task, seed] = max(off.values()) <= NEAR
 
-    assert sum(whole.values()) >= 20, [task for task, found in whole.items() if not found]
+    assert len(whole) == 46
+    assert sum(whole.values()) >= 40, [drawing for drawing, found in whole.items() if not found]
