@@ -12,7 +12,7 @@ from functools import cached_property
 
 from ..board import POSITION, Program, Step
 from ..names import role
-from .answers import Answer, Line
+from .answers import Answer, Line, known
 from .key import Key
 from .student import LAID, shifted
 from .verdicts import Marker, judge
@@ -35,7 +35,7 @@ class Judged:
 
     def by_value(self) -> Judged:
         """Return the answers by their values alone where these are written, without their millimetres."""
-        said = [one if one.value is None else replace(one, mm=None) for one in self.answers]
+        said = [replace(one, mm=None) if known(one.value) else one for one in self.answers]
         marker = Marker(self._key, said)
         marker.settle_scales(redraw=False)
         if self._alone or marker.guessed or any(self._marker.mus[name] != mu for name, mu in marker.mus.items()):
