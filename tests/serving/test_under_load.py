@@ -118,6 +118,18 @@ def test_a_signal_to_all_processes_at_once_leaves_nothing_for_longer_than_until_
     assert [*tmp_path.glob("kulman-serve-*")] == []
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="no SIGTERM")
+def test_who_waits_when_a_server_ends_is_told_so() -> None:
+    with served(stderr=subprocess.PIPE) as (address, process), ThreadPoolExecutor(8) as many:
+        asked = [many.submit(get, address, f"task/scheme-20-press-automaton?v={n}") for n in range(1, 9)]
+        time.sleep(1.0)
+        process.terminate()
+        _, told = process.communicate(timeout=30)
+        answers = [one.result() for one in asked]
+    assert "Traceback" not in told
+    assert {answer for answer in answers if answer[0] != 200} == {(503, b"503 the server ends\n")}
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="no SIGKILL")
 def test_a_killed_server_leaves_nothing_behind() -> None:
     before = {*Path(tempfile.gettempdir()).glob("kulman-serve-*")}

@@ -171,9 +171,12 @@ class Gate:
             return
         headers = Headers(scope=scope)
         body = _Body(receive, headers, self.largest, self.patience)
+        begun = False
 
         async def sent(message: Message) -> None:
+            nonlocal begun
             if message["type"] == "http.response.start":
+                begun = True
                 own = {name.lower() for name, _ in message["headers"]}
                 # what is still on its way is not waited for
                 usual = {**HEADERS, **({} if body.whole else {"Connection": "close"})}
@@ -184,7 +187,11 @@ class Gate:
         refusal = self._refused(scope, headers) or await self._unknown(scope, headers)
         if refusal is None and await self._too_large(headers, body):
             refusal = PlainTextResponse("413 too large\n", 413)
-        await (refusal or self.app)(scope, body, sent)
+        try:
+            await (refusal or self.app)(scope, body, sent)
+        except asyncio.CancelledError:  # the server ends before the answer is made
+            if not begun:
+                await PlainTextResponse("503 the server ends\n", 503, {"Retry-After": "10"})(scope, body, sent)
 
     def _refused(self, scope: Scope, headers: Headers) -> Response | None:
         """Return what a request is refused with that is not for this server, or not from its pages.
