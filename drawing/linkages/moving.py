@@ -286,8 +286,11 @@ def _mechanism(scene: Scene) -> Iterator[Data]:
     for link in scene.mechanism.links:
         if link.centre and link.centre not in pins and link.centre in scene.made:
             yield {"k": "centre", "at": link.centre, "step": link.centre}
+    drawn = {*pins, *(link.centre for link in scene.mechanism.links), *(pair.point for pair in sliding)}
     for point in scene.points:
         if point in scene.made:
+            if point not in drawn:
+                yield {"k": "pin", "r": 0.8, "at": point, "step": point}
             yield {"k": "letter", "at": point, "text": html(scene.words.mark(point)), "step": point}
 
 

@@ -219,6 +219,13 @@ def test_figures_of_a_page_are_those_of_the_sheet_and_their_steps_those_of_the_n
         assert {stage for stage, *_ in view["drawn"]} == set(range(len(view["steps"]) + 1))
 
 
+@pytest.mark.parametrize("task", ["scheme-14-jaw-crusher", "scheme-15-lever-shears", "scheme-08-planer"])
+def test_every_point_with_a_letter_is_drawn(task: str) -> None:
+    shapes = data_of(page_of(task))["views"][0]["shapes"]
+    lettered = {shape["at"] for shape in shapes if shape["k"] == "letter"}
+    assert lettered == {shape["at"] for shape in shapes if shape["k"] in ("pin", "pivot", "centre", "block", "guide")}
+
+
 def test_a_page_is_written_beside_the_sheet(tmp_path: Any, capsys: Any) -> None:
     files = [str(tmp_path / name) for name in ("moving.html", "sheet.svg")]
     with pytest.raises(SystemExit) as done:
