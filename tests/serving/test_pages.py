@@ -116,6 +116,21 @@ def test_pages_are_in_the_language_of_the_address_and_keep_it(language: str, cli
     assert kulman.load_task("madi-cam").title[language] in unescape(page)
 
 
+def test_a_form_asks_of_each_row_what_it_can_hold(client: TestClient) -> None:
+    page = client.get(f"/task/{TASK}/check?v=3").text
+    columns = dict[str, str]()
+    for column, symbol in re.findall(r'name="a\.\d+\.(\d)"[^>]*aria-label="([^:"]+):', page):
+        columns[symbol] = columns.get(symbol, "") + column
+    # columns of the form: 3 segment, 4 scale factor, 5 value, 7 direction or sense
+    assert {symbol: columns[symbol] for symbol in ("μ_V", "V_A", "ω_2", "a^n_BA", "M_bal")} == {
+        "μ_V": "4",
+        "V_A": "357",
+        "ω_2": "57",
+        "a^n_BA": "357",
+        "M_bal": "57",
+    }
+
+
 def test_answers_are_marked_as_the_command_marks_them(client: TestClient, tmp_path: Path) -> None:
     page = client.get(f"/task/{TASK}/check?v=3").text
     names = dict(re.findall(r'name="(a\.\d+\.5)"[^>]*aria-label="([^:"]+):', page))

@@ -28,7 +28,7 @@ from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, table_bytes
 from ..task import Task
 from .class_page import PAGE, ClassPage
-from .keyed import asked_of, class_header, form_rows, fullest, read_rubric, solved
+from .keyed import asked_of, class_header, columns_of, form_rows, fullest, read_rubric, solved
 from .marked import Desk, Terms, variant_of
 from .reading import Answers, answers_of, read_all
 from .report import REPORTS, Report, report_bytes
@@ -51,6 +51,14 @@ class Check(Terms):
         of = " ".join(filter(None, (self.request.task.id, self.request.variant)))
         return f"<Check {of}: {len(self.asked.quantities)} quantities>"
 
+    def form(self) -> tuple[list[tuple[str, ...]], dict[str, tuple[str, ...]]]:
+        """Return the rows of the empty form of one student, and which columns each answer has (scale factors: mu)."""
+        key = Desk(self).keyed(fullest(self.request), {})
+        about = {"task": self.request.task.id, "variant": self.request.variant or ""}
+        scales = dict.fromkeys((name for part in key.parts for name in part.scales), ("mu",))
+        answers = {question.name: columns_of(question) for part in key.parts for question in part.asked}
+        return [*form_rows(key, about, self.rubric.asked)], scales | answers
+
     def write_form(self, file: PathLike) -> Path:
         """Write the empty form, .csv or .xlsx: of one student, or with a roster of the whole class.
 
@@ -59,16 +67,16 @@ class Check(Terms):
         InputError
             A kind of file that is no form, or a place where none can be written.
         """
-        task, variant, language = self.request.task, self.request.variant, self.request.language
-        key = Desk(self).keyed(fullest(self.request), {})
+        task, language = self.request.task, self.request.language
         if self.roster is not None:
+            key = Desk(self).keyed(fullest(self.request), {})
             rows = [class_header(key, self.rubric.directions != "ignored", self.rubric.asked)]
             for entry in self.roster.entries:  # the sheet id is for them to copy
                 who = entry.who
                 rows.append((who.student, who.group, who.book, who.number, entry.variant_of(task, self.digits), ""))
             bold, frozen = [0], 1
         else:
-            rows = list(form_rows(key, {"task": task.id, "variant": variant or ""}, self.rubric.asked))
+            rows, _ = self.form()
             columns = texts(language)["column.name"]
             head = next(number for number, row in enumerate(rows) if row[0] == columns)
             bold = [n for n, row in enumerate(rows) if n >= head and (len(row) == 1 or row[0] == columns)]

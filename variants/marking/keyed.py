@@ -9,6 +9,7 @@ from collections.abc import Collection, Container, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
+from itertools import compress
 from operator import itemgetter
 from pathlib import Path
 from typing import Any
@@ -254,6 +255,12 @@ def drawn(question: Question) -> bool:
     return question.vector or question.step.verb in ("read", "arm", "measure", "distance")
 
 
+def columns_of(question: Question) -> tuple[str, ...]:
+    """Return what an answer to a question has: a segment that is measured, a value, a direction or sense."""
+    arm, turns = is_arm_of_lever(question.name), question.vector or has_sense(question.name)
+    return tuple(compress(("mm", "value", "direction"), (drawn(question), not arm, turns)))
+
+
 def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()) -> Iterator[tuple[str, ...]]:
     """Go through the rows of an empty form; `about` is what is known of the sheet already, `only` what is asked."""
     asked, words = keyed.asked, keyed.words
@@ -297,12 +304,12 @@ def class_header(keyed: Keyed, directions: bool, only: Collection[str] = ()) -> 
         for question in asked:
             name, unit = _shown(question.name), words.spelled(keyed.asked.unit(question.name))
             length = keyed.asked.quantities[question.name].unit == "m"  # of which mm alone would be the value
-            columns += [f"{name}.mm" if length else f"{name}, {words.spelled(paper)}"] if drawn(question) else []
-            if is_arm_of_lever(question.name):
-                continue
-            columns.append(f"{name}, {unit}" if unit else name)
-            if directions and (question.vector or has_sense(question.name)):
-                columns.append(f"{name}, {said['class.direction']}")
+            heads = {
+                "mm": f"{name}.mm" if length else f"{name}, {words.spelled(paper)}",
+                "value": f"{name}, {unit}" if unit else name,
+                "direction": f"{name}, {said['class.direction']}",
+            }
+            columns += [heads[part] for part in columns_of(question) if directions or part != "direction"]
     return tuple(columns)
 
 

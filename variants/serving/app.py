@@ -182,10 +182,10 @@ class _Answers:
 
     async def form_page(self, request: Request, filled: Mapping[str, str] | None = None, problem: str = "") -> Response:
         door, of, at = self.desk.door(request), self.asked(request), self.place(request)
-        rows = await self.desk.ask((of, "form"), making.form, of, like=(of.task, of.variant))
+        rows, wanted = await self.desk.ask((of, "form"), making.form, of, like=(of.task, of.variant))
         about = await self.shown(request)
         at = pages.settled(at, about)
-        return HTMLResponse(pages.form(door, at, about.title, rows, filled or {}, problem))
+        return HTMLResponse(pages.form(door, at, about.title, rows, wanted, filled or {}, problem))
 
     async def judge(self, request: Request) -> Response:
         door, of, form = self.desk.door(request), self.asked(request), await _Form.of(request)

@@ -305,9 +305,10 @@ def _lined(errors: Sequence[InputError], language: str) -> Iterator[tuple[int, s
         yield line, (error.cause if line and isinstance(error, LocatedError) else error).text(language)
 
 
-def form(advance: Advance, asked: Asked) -> Rows:
-    """Return the rows of the empty form."""
-    return read_grid(_check(asked).write_form("form.csv")).rows
+def form(advance: Advance, asked: Asked) -> tuple[Rows, Mapping[str, Sequence[str]]]:
+    """Return the rows of the empty form, and which columns each answer has."""
+    ready = _check(asked)
+    return read_grid(ready.write_form("form.csv")).rows, ready.form()[1]
 
 
 def answered(advance: Advance, asked: Asked, cells: Mapping[tuple[int, int], str], preset: str, own: bool) -> str:

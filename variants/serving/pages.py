@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape
 from urllib.parse import quote, urlencode
@@ -292,8 +292,19 @@ def _downloads(door: Door, place: Place, shown: Shown) -> Html:
     ))  # fmt: skip
 
 
-def form(door: Door, place: Place, shown_as: str, rows: Rows, filled: Mapping[str, str], problem: str = "") -> str:
-    """Return the page of the form of measured answers; `filled` are answers by the names of their fields."""
+def form(
+    door: Door,
+    place: Place,
+    shown_as: str,
+    rows: Rows,
+    wanted: Mapping[str, Collection[str]],
+    filled: Mapping[str, str],
+    problem: str = "",
+) -> str:
+    """Return the page of the form of measured answers; `filled` are answers by the names of their fields.
+
+    Of each row the columns that are `wanted` can be filled in, and a scale factor that is the student's own.
+    """
     said, parts = door.said, list[Html]()
     head = next(number for number, row in enumerate(rows) if len([text for text in row if text]) == len(COLUMNS))
     heads = dict(zip(COLUMNS, rows[head], strict=False))
@@ -312,11 +323,15 @@ def form(door: Door, place: Place, shown_as: str, rows: Rows, filled: Mapping[st
                     filled.get(f"a.{number}.{COLUMNS.index(column)}", ""),
                     aria_label=f"{cells['symbol']}: {heads[column]}",
                     data_head=heads[column],
-                ),
+                )
+                if column in wanted[cells["name"]]
+                else "",
             )
             for column in ANSWERED
         )
-        body.append(tag("tr", tag("th", scripted(cells["symbol"]), scope="row"), *inputs, tag("td", cells["unit"])))
+        vector = tag("small", " ", scripted(cells["vector"])) if cells["vector"] else ""
+        symbol = tag("th", scripted(cells["symbol"]), vector, scope="row")
+        body.append(tag("tr", symbol, *inputs, tag("td", cells["unit"])))
     labels = (tag("th", heads[column], scope="col") for column in ("symbol", *ANSWERED, "unit"))
     parts = [tag("p", hint) for hint in hints]
     table = tag("table", tag("thead", tag("tr", *labels)), tag("tbody", *body), class_="answers")
