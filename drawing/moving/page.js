@@ -195,7 +195,10 @@ function settle(view, segments) {
     const attempt = k => {
       const at = tries[k], box = [at[0] - wide / 2, at[1] - high / 2, at[0] + wide / 2, at[1] + high / 2];
       let cost = k * 0.02;
-      for (const other of taken) if (box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3]) cost += COVERS;
+      for (const other of taken) if (box[1] < other[3] && other[1] < box[3]) { // two in a row must not read as one word
+        const gap = Math.max(box[0] - other[2], other[0] - box[2]);
+        cost += gap < 0 ? COVERS : gap < 0.5 * view.letter ? 1 : 0;
+      }
       for (const [a, b] of segments) if (crosses(a, b, box)) cost += 1.5;
       if (!best || cost < best.cost) best = { cost, at, box, k };
     };
