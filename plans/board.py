@@ -282,20 +282,20 @@ class Program:
 
     def at(self, bits: int) -> tuple[Prepared, ...]:
         """Return the steps that are set in a number of `hanging`, in order; kept, for the same ones come again."""
-        return self._once(bits, lambda: tuple(one for place, one in enumerate(self.prepared) if bits >> place & 1))
+        return self.once(bits, lambda: tuple(one for place, one in enumerate(self.prepared) if bits >> place & 1))
 
     def which(self, verbs: tuple[str, ...], law: str = "", plan: str = "") -> tuple[Step, ...]:
         """Return the steps of some verbs, of one law if it is named, on the plans of a kind; kept, too."""
         steps = (s for s in self.steps if s.verb in verbs and law in ("", s.law))
-        return self._once((verbs, law, plan), lambda: tuple(s for s in steps if plan in ("", s.plan.kind, s.plan)))
+        return self.once((verbs, law, plan), lambda: tuple(s for s in steps if plan in ("", s.plan.kind, s.plan)))
 
     def counting(self, counts: Callable[[Step, str], bool]) -> tuple[tuple[str, tuple[str, ...]], ...]:
         """Return what each step makes, with those of its operands that count; kept."""
-        return self._once(
+        return self.once(
             counts, lambda: tuple((s.name, tuple(x for x in s.operands if counts(s, x))) for s in self.steps)
         )
 
-    def _once(self, key: Hashable, make: Callable[[], Made]) -> Made:
+    def once(self, key: Hashable, make: Callable[[], Made]) -> Made:
         """Return what `make` makes, or what is kept under its key."""
         if key not in self._kept:
             self._kept[key] = make()

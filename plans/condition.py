@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -232,8 +232,10 @@ def _turning(direction: Any) -> Any:
     return cross(value, slopes) / dot(value, value)
 
 
-def derivatives(program: Program, givens: Mapping[str, Any], varied: Collection[str]) -> dict[str, Any]:
-    """Return x dQ/dx of every name that the program makes, for each given x of `varied`, in this order.
+def derivatives(
+    program: Program, givens: Mapping[str, Any], varied: Collection[str], names: Iterable[str] = ()
+) -> dict[str, Any]:
+    """Return x dQ/dx of `names`, without them of every name that the program makes, for each given x of `varied`.
 
     The derivatives, in units of the quantity, have the shape (givens,), and are complex for vectors.
     """
@@ -242,7 +244,7 @@ def derivatives(program: Program, givens: Mapping[str, Any], varied: Collection[
     board = _DualBoard({**givens, **own})
     with np.errstate(invalid="ignore", divide="ignore"):
         program.run(board)
-    return {name: np.broadcast_to(_slopes_of(board.values[name]), len(varied)) for name in program.names}
+    return {name: np.broadcast_to(_slopes_of(board.values[name]), len(varied)) for name in names or program.names}
 
 
 def by_solving_again(
@@ -286,16 +288,21 @@ def conditions_again(
 
 
 def conditions(
-    program: Program, givens: Mapping[str, Any], varied: Collection[str], values: Mapping[str, Any], sines: Any
+    program: Program,
+    givens: Mapping[str, Any],
+    varied: Collection[str],
+    values: Mapping[str, Any],
+    sines: Any,
+    names: Collection[str] = (),
 ) -> dict[str, Condition]:
-    """Return the condition of every quantity of `program`, whose exact run gave `values` and `sines`.
+    """Return the condition of every quantity of `program`, or of `names`, whose exact run gave `values` and `sines`.
 
     The givens `varied` may err: not senses and branches.
     """
-    slopes, sizes = derivatives(program, givens, varied), sizes_beside(program, values)
-    worst = worst_behind(program, sines)
-    found = {}
-    for name in (step.name for step in results(program)):
+    wanted = tuple(names) or tuple(step.name for step in results(program))
+    slopes = derivatives(program.needed_for(wanted) if names else program, givens, varied, wanted)
+    sizes, worst, found = sizes_beside(program, values), worst_behind(program, sines), {}
+    for name in wanted:
         total = float(np.abs(slopes[name]).sum())
         found[name] = Condition(ratio(total, sizes[name]) if values[name] == values[name] else None, worst[name])
     return found

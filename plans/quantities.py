@@ -232,7 +232,8 @@ def measured(
 
 def results(program: Program) -> tuple[Step, ...]:
     """Return the steps that make quantities that a user sees, points among them."""
-    return tuple(step for step in program if is_shown(step.name) and step.verb in (*RESULTS, *POINTS))
+    verbs = (*RESULTS, *POINTS)
+    return program.once("results", lambda: tuple(step for step in program if step.verb in verbs and is_shown(step.name)))
 
 
 def references(program: Program, values: Mapping[str, Any]) -> dict[str, float]:
@@ -252,10 +253,11 @@ def references(program: Program, values: Mapping[str, Any]) -> dict[str, float]:
     return {name: 100.0 if key == "%" else largest.get(key, 0.0) for name, key in found.items()}
 
 
-def plans_of(program: Program) -> dict[str, str]:
+def plans_of(program: Program) -> Mapping[str, str]:
     """Return for each quantity the plan that shows it, points and measured lengths among them."""
     here = (*POINTS, "distance", "measure")
-    return {**shown_on(program), **{step.name: POSITION for step in results(program) if step.verb in here}}
+    points = (step.name for step in results(program) if step.verb in here)
+    return program.once("plans", lambda: shown_on(program) | dict.fromkeys(points, POSITION))
 
 
 def extent(program: Program, values: Mapping[str, Any]) -> float:

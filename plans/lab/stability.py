@@ -25,7 +25,7 @@ from ..linkages.cycle import Cycle
 from ..linkages.mechanism import ZERO
 from ..linkages.solved import signs
 from ..names import role
-from ..quantities import BALANCES, plans_of, worst_behind
+from ..quantities import BALANCES, plans_of
 
 Array = NDArray[Any]
 DIGITS = 16.0  # of double precision
@@ -103,11 +103,10 @@ def _conditions(
         if board.trouble is not None or lost[i]:
             sines[i] = 0.0 if board.status == "singular" or lost[i] else np.nan
             continue
-        behind = worst_behind(cycle.program, board.sines)
-        sines[i] = min((behind[name] for name in names), default=1.0)
-        worst[i] = next((mark for mark, sine in board.sines.items() if mark in needed and abs(sine) == sines[i]), "")
         varied = [name for name, value in values.items() if name not in fixed and value]
-        known = conditions(cycle.program, values, varied, board.values, board.sines)
+        known = conditions(cycle.program, values, varied, board.values, board.sines, names)
+        sines[i] = min((known[name].sine for name in names), default=1.0)
+        worst[i] = next((mark for mark, sine in board.sines.items() if mark in needed and abs(sine) == sines[i]), "")
         for name in names:
             value = known[name].value
             found[name][i] = value if value is not None and value < NOTHING_LEFT else np.nan
