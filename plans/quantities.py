@@ -233,7 +233,9 @@ def measured(
 def results(program: Program) -> tuple[Step, ...]:
     """Return the steps that make quantities that a user sees, points among them."""
     verbs = (*RESULTS, *POINTS)
-    return program.once("results", lambda: tuple(step for step in program if step.verb in verbs and is_shown(step.name)))
+    return program.once(
+        "results", lambda: tuple(step for step in program if step.verb in verbs and is_shown(step.name))
+    )
 
 
 def references(program: Program, values: Mapping[str, Any]) -> dict[str, float]:

@@ -141,7 +141,7 @@ def _folded(text: str) -> str:
 class _Columns:
     """A grid with what its columns hold: `about` of a student, and givens with their units.
 
-    With `whole` each row must say which variant a student has.
+    With `whole` each row must say which variant a student has; `groups` are those of the titles over rows.
     """
 
     grid: Grid
@@ -149,10 +149,12 @@ class _Columns:
     givens: Mapping[int, tuple[str, str]]
     schemes: Schemes
     whole: bool
+    groups: Mapping[int, str]
 
     def said(self, row: int) -> dict[str, str]:
-        """Return what a row says of the student."""
-        return {kind: self.grid.shared(row, column) for kind, column in self.about.items()}
+        """Return what a row says of the student, the group where it is only said above it, too."""
+        said = {kind: self.grid.shared(row, column) for kind, column in self.about.items()}
+        return said if said.get("group") else said | {"group": self.groups[row]}
 
 
 def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Roster:
@@ -168,7 +170,7 @@ def read_roster(file: str | Path, of: Task | Schemes, each: bool = False) -> Ros
     if header is None:
         raise InputError("roster-header", file=quote(grid.file, SHOWN))
     columns = _columns(grid, header, of)
-    rows = [row for row in range(header + 1, len(grid.rows)) if any(grid.rows[row]) and not grid.totals(row)]
+    rows = list(columns.groups)
     if isinstance(of, Task):
         tasks = {row: columns.said(row).get("task", "") for row in rows}
         rows = [row for row, task in tasks.items() if task in ("", of.id) or task.isdigit()]  # a number is any
@@ -204,7 +206,7 @@ def _columns(grid: Grid, header: int, of: Task | Schemes) -> _Columns:
         elif part is not None and "_" in text:
             error = unknown("given-unknown", part[0], known, task=", ".join(schemes.ids))
             raise LocatedError(grid.place(header, column), error)
-    return _Columns(grid, about, givens, schemes, isinstance(of, Schemes))
+    return _Columns(grid, about, givens, schemes, isinstance(of, Schemes), dict(grid.students(header)))
 
 
 def _entry(columns: _Columns, row: int) -> Entry:

@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, SupportsFloat, TypeAlias
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..scales.errors import InputError, KulmanError
 from ..scales.givens import Bound, Described
-from ..scales.names import unknown
+from ..scales.names import latin, unknown
 from ..scales.numbers import quote
 from ..scales.scale import AS_INSIDE, Display
 from ..scales.units import Unit, bounded, parse
 from .shelf import bundled_text
+from .spreadsheets.grid import variant_said
 
 if TYPE_CHECKING:
     from ..plans.cams.cam import Cam
@@ -26,8 +27,8 @@ if TYPE_CHECKING:
     from ..plans.hoist.hoist import Hoist
 
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
-_PLAIN = re.compile("0|[1-9][0-9]{0,8}")  # a number as people write it
-_NUMBERED = re.compile(r"[^\W\d]*(\d{1,9})")  # the id of a variant
+_NUMBERED = re.compile(r"([^\W\d]*)(\d{1,9})")  # the id of a variant
+_OF_VARIANT = ("", "v", "в")  # letters before its number that only say what it is
 ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written, with a unit or without
 
 AnyTask: TypeAlias = "str | os.PathLike[str] | Task"  # an id or a file, or one that is read already
@@ -159,14 +160,27 @@ class Task:
         return decoded(Path(self.file).read_bytes()) if self.file else bundled_text(self.id)
 
     def variant(self, variant_id: str | None = None) -> Variant:
-        """Return a variant, the first one without an id; a number alone means that which has it: 4 is `V04`."""
+        """Return a variant, the first one without an id; what has its number means it: `4`, `04`, `№ 4`, `V04` alike."""
         if variant_id is None:
             return next(iter(self.variants.values()))
         said = str(variant_id).strip()
-        found = said if said in self.variants else self.numbered.get(int(said) if _PLAIN.fullmatch(said) else -1)
-        if found is None:
+        found = [said] if said in self.variants else self._meant(variant_said(said))
+        if len(found) != 1:
             raise unknown("variant-unknown", variant_id, self.variants, task=self.id)
-        return self.variants[found]
+        return self.variants[found[0]]
+
+    def _meant(self, said: str) -> list[str]:
+        """Return the ids of the variants with the number of another id, and its letters where they say more."""
+        if (one := _NUMBERED.fullmatch(said)) is None:
+            return []
+        letters = latin(one[1]).lower(), one[1].lower()
+        found = []
+        for name in self.variants:
+            if (own := _NUMBERED.fullmatch(name)) and int(own[2]) == int(one[2]):
+                has = latin(own[1]).lower(), own[1].lower()
+                if not one[1] or has[0] == letters[0] or {has[1], letters[1]} <= {*_OF_VARIANT}:
+                    found.append(name)
+        return found
 
     @property
     def numbered(self) -> dict[int, str]:
@@ -174,7 +188,7 @@ class Task:
         names = dict[int, str]()
         for name in self.variants:
             if own := _NUMBERED.fullmatch(name):
-                names.setdefault(int(own[1]), name)
+                names.setdefault(int(own[2]), name)
         return names
 
     def resolve(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -18,7 +19,7 @@ from kulman.variants.batches.batch import Making, Outcome, Student
 from kulman.variants.case import Request
 from kulman.variants.roster import Digits, Entry, Schemes, Who, read_roster, variant_of_book
 from kulman.variants.sheets import card_of_case, drawing_for_print
-from kulman.variants.task import Task
+from kulman.variants.task import Task, Variant
 
 TASK = "nau-slider-crank"
 SCHEMES = ("scheme-01-compressor", "scheme-02-forging-press", "scheme-03-crank-rocker")
@@ -86,6 +87,54 @@ def test_a_student_gets_a_note_and_a_handout(tmp_path: Path) -> None:
     assert set(files(out / "solutions")) == {"001-Iryna-3-note.pdf", "key.csv"}
     made = {**files(out), **files(out / "solutions")}
     assert all(data.startswith(b"%PDF") for name, data in made.items() if name.endswith(".pdf"))
+
+
+@pytest.mark.parametrize(
+    ("title", "again"),
+    [
+        ("Группа АТ-301", "Группа АТ-302"),
+        ("Группа: АТ-301;", ";Группа:;АТ-302"),
+        ("Учебная группа № АТ-301", "гр. АТ-302"),
+        ("Академічна група АТ-301", "Підгрупа АТ-302"),
+        ("Список студентів групи АТ-301", "Група;АТ-302"),
+        ("Group AT-301:", "Subgroup AT-302"),
+    ],
+)
+def test_a_row_that_names_a_group_is_the_title_of_those_below_it_and_no_student(
+    tmp_path: Path, title: str, again: str
+) -> None:
+    head = "№;ПІБ;Варіант;Група"
+    lines = [title, head, "1;Коваль Іван;3;", ";;;", again, head, "1;Групань Олена;4;", "2;Лис Ян;5;АТ-309"]
+    (file := tmp_path / "class.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+    found = [(entry.who.student, entry.who.group[-3:]) for entry in read_roster(file, load_task(TASK)).entries]
+
+    assert found == [("Коваль Іван", "301"), ("Групань Олена", "302"), ("Лис Ян", "309")]
+
+
+def test_a_student_whose_name_begins_like_a_group_stays_one(tmp_path: Path) -> None:
+    (file := tmp_path / "class.csv").write_text("ПІБ;Варіант\nГрупа Олена;3\nГруппа;4\n", encoding="utf-8")
+
+    assert [entry.who.student for entry in read_roster(file, load_task(TASK)).entries] == ["Група Олена", "Группа"]
+
+
+@pytest.mark.parametrize("said", ["1", "01", "V01", "В01", "v1", "№1", "№ 01", "Варіант 1", "вар. 01", " 1 "])
+@pytest.mark.parametrize("ids", [("1", "2"), ("V01", "V02"), ("v1", "v2"), ("01", "02")])
+def test_a_variant_is_meant_by_its_number_however_it_is_written(said: str, ids: tuple[str, ...]) -> None:
+    task = load_task(TASK)
+    task = replace(task, variants={id: Variant(id, {}) for id in ids})
+
+    assert task.variant(said).id == ids[0]
+
+
+@pytest.mark.parametrize(
+    ("said", "ids"), [("1", ("A1", "B1")), ("C1", ("A1", "B1")), ("K1", ("1",)), ("3", ("1",)), ("1.0.2", ("1",))]
+)
+def test_a_variant_that_could_be_several_or_none_is_refused(said: str, ids: tuple[str, ...]) -> None:
+    task = replace(load_task(TASK), variants={id: Variant(id, {}) for id in ids})
+
+    with pytest.raises(InputError):
+        task.variant(said)
 
 
 def test_a_class_is_printed_in_one_go_in_the_order_of_its_roster(tmp_path: Path) -> None:

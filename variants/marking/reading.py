@@ -382,10 +382,11 @@ def _class(
     if warn is not None:
         for error in strangers:
             warn(error)
-    for row in range(header + 1, len(grid.rows)):
-        if cells.NONE.issuperset(grid.rows[row]) or grid.totals(row):
+    for row, group in grid.students(header):
+        if cells.NONE.issuperset(grid.rows[row]):
             continue
-        said = {kind: grid.text(row, column) for kind, column in about.items() if grid.text(row, column)}
+        said = {"group": group} if group else {}
+        said |= {kind: grid.text(row, column) for kind, column in about.items() if grid.text(row, column)}
         sheet = _Sheet(grid, asked)
         for name, parts in by_name.items():
             first, written = next(iter(parts.values()))

@@ -6,7 +6,7 @@ import re
 import unicodedata
 from bisect import bisect_right
 from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any, TypeAlias
@@ -38,6 +38,8 @@ _NUMBERED = re.compile(rf"\s*(?:{'|'.join(map(re.escape, _BEFORE))})\.?\s*№?\s
 # what stands in a row below a list that sums it up: `Всього: 28`, `Разом студентів – 28`, `Total`
 _TOTAL = re.compile(rf"(?:{'|'.join(UNDERSTOOD['totals'])})\b")
 _SIGNED = re.compile(rf"(?:{'|'.join(UNDERSTOOD['signed'])})\b")
+_TITLE = re.compile(rf"(?:{'|'.join(UNDERSTOOD['titles'])})\b(?P<ends>\s*[.:№]*)\s*(?P<name>.*)", re.IGNORECASE)
+_LETTERS_AND_DIGITS = re.compile(r"[^\W\d].*\d|\d.*[^\W\d]")
 _BESIDE = frozenset(UNDERSTOOD["beside"])
 _NUMBER_WORDS = frozenset(UNDERSTOOD["number_words"])
 _NUMBERED_KINDS = ("variant", "book", "group")  # of which "№" before or behind the word says no other thing
@@ -81,6 +83,30 @@ class Grid:
         if _TOTAL.match(tidy(first)):
             return not any(map(str.isalpha, "".join(others)))
         return _SIGNED.match(tidy(first)) is not None and not any(map(str.isdigit, "".join(others)))
+
+    def title(self, row: int) -> str:
+        """Return the group whose title a row is, `Група АТ-301`, in one cell or two; else nothing.
+
+        In two cells its name has letters and digits, or a colon before it: a student may be called Група, too.
+        """
+        cells = [*filter(None, self.rows[row])]
+        found = _TITLE.fullmatch(" ".join(cells)) if len(cells) in (1, 2) else None
+        if found is None or (len(cells) == 2 and found["name"] != cells[1]):
+            return ""
+        sure = len(cells) == 1 or ":" in found["ends"] or _LETTERS_AND_DIGITS.search(found["name"])
+        return found["name"].rstrip(" :.") if sure else ""
+
+    def students(self, header: int) -> Iterator[tuple[int, str]]:
+        """Go through the rows of students below a header, each with the group in whose list it stands, if one is named.
+
+        Left out are titles of groups, sums, signatures, and the header again, as it stands over each group.
+        """
+        group = next(filter(None, map(self.title, reversed(range(header)))), "")
+        for row in range(header + 1, len(self.rows)):
+            if title := self.title(row):
+                group = title
+            elif any(self.rows[row]) and self.rows[row] != self.rows[header] and not self.totals(row):
+                yield row, group
 
     def shared(self, row: int, column: int) -> str:
         """Return what a cell shows, within a merged one what that shows."""
