@@ -160,7 +160,7 @@ class Task:
         return decoded(Path(self.file).read_bytes()) if self.file else bundled_text(self.id)
 
     def variant(self, variant_id: str | None = None) -> Variant:
-        """Return a variant, the first one without an id; what has its number means it: `4`, `04`, `№ 4`, `V04` alike."""
+        """Return a variant, the first one without an id; its number will do: `4`, `04`, `№ 4`, `V04` are alike."""
         if variant_id is None:
             return next(iter(self.variants.values()))
         said = str(variant_id).strip()
