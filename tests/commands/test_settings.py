@@ -9,11 +9,12 @@ from pathlib import Path
 import pytest
 
 from kulman import cli
+from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.commands import Run
+from kulman.variants.commands.guides import guide
 from kulman.variants.commands.settings import PARAMETERS, PLACE, settings_file
 
 TASK = "nau-slider-crank"
-DOCS = Path(__file__).resolve().parents[2] / "docs" / "settings.md"
 
 
 @pytest.fixture
@@ -101,8 +102,9 @@ def test_the_environment_names_another_file_or_none(file: Path, monkeypatch: pyt
     assert settings_file() is None
 
 
-def test_every_key_is_documented_and_is_an_option() -> None:
-    text = DOCS.read_text(encoding="utf-8")
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_every_key_is_documented_and_is_an_option(language: str) -> None:
+    text = guide("settings", language)
     params = {param.name for command in cli.commands.commands.values() for param in command.params}
 
     assert set(re.findall(r"^(\w+) = ", text, re.MULTILINE)) == PARAMETERS.keys()
