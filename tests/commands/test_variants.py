@@ -27,6 +27,9 @@ from kulman.scales.units import format_unit
 from kulman.tests.support.cases import solve_case
 from kulman.tests.support.commands import Run
 from kulman.tests.support.task_files import task_of, with_changes
+from kulman.variants.case import Case
+from kulman.variants.kinds import linkage
+from kulman.variants.kinds.linkage import _short_vectors
 from kulman.variants.making.new_variants import (
     _most_pages,
     _ranges_of,
@@ -121,6 +124,24 @@ def test_a_plan_that_is_a_line_makes_a_poor_exercise(phi: str, quantity: str) ->
     case = solve_case(TASK, "3", {"phi": phi}, None, None)
 
     assert [error.data for error in case.kind.unfit(case) if error.key == "variant-short"] == [{"quantity": quantity}]
+
+
+def test_what_is_short_in_all_variants_is_looked_for_in_no_more_of_them_than_needed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    looked: list[str] = []
+
+    def counted(case: Case) -> set[str]:
+        looked.append(case.variant)
+        return _short_vectors(case)
+
+    monkeypatch.setattr(linkage, "_short_vectors", counted)
+    fit, poor = (solve_case(TASK, "3", {"phi": phi}, None, None) for phi in ("60°", "180°"))
+
+    assert list(fit.kind.unfit(fit)) == []
+    assert looked == ["3"]
+    assert [error.key for error in poor.kind.unfit(poor)] == ["variant-short"]
+    assert looked == ["3", "3", "0"]  # where the first variant has none, none is short in all
 
 
 @pytest.mark.parametrize(

@@ -108,11 +108,13 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Go through what makes a variant a poor exercise: its crank does not turn round, a plan is a line."""
         yield from super().unfit(case)
         yield from _hindered(case.task.mechanism, case.values)
-        if short := _short_vectors(case):
-            # those that are so in every variant of a task, as on guides that do not turn, do not count
-            always = (_short_vectors(Request(case.task, one).case()) for one in case.task.variants)
-            for name in sorted(short - short.intersection(*always)):
-                yield InputError("variant-short", quantity=name)
+        short = always = _short_vectors(case)
+        for one in case.task.variants:  # what is so in all of them, as on guides that do not turn, does not count
+            if not always:
+                break
+            always = always & _short_vectors(Request(case.task, one).case())
+        for name in sorted(short - always):
+            yield InputError("variant-short", quantity=name)
 
     def remarks(self, task: Task, variant: str, solved: SolvedLinkage) -> Iterator[InputError]:
         """Go through what a teacher should know: where a crank does not turn, where links lie in line."""
