@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 import kulman
+from kulman.variants.commands.guides import guide
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 NOTEBOOKS = sorted((DOCS / "notebooks").glob("*.ipynb"))
@@ -47,7 +48,7 @@ def test_a_notebook_runs_and_shows_what_its_cells_end_with(path: Path, folder: P
 
 
 def test_the_page_names_all_that_is_exported() -> None:
-    page = (DOCS / "python.md").read_text(encoding="utf-8")
+    page = guide("python", "en")
 
     assert [name for name in kulman.__all__ if not re.search(rf"`(kulman\.)?{name}\b", page)] == []
     assert all(getattr(kulman, name) is not None for name in kulman.__all__)

@@ -12,7 +12,16 @@ from ...scales.names import unknown
 from ...scales.packaged import home
 
 FOLDER = home((__package__ or "").rpartition(".")[0]) / "guides"
-TOPICS = ("start", "install", "own-mechanism", "task-file", "marking", "classes", "settings")  # in the order of reading
+TOPICS = (
+    "start",
+    "install",
+    "own-mechanism",
+    "task-file",
+    "marking",
+    "classes",
+    "settings",
+    "python",
+)  # in the order of reading
 _LINK = re.compile(r"!?\[([^\]]+)\]\(([^)\s]+)\)")
 _COMMENT = re.compile(r"^<!--.*?-->\n", re.MULTILINE | re.DOTALL)
 
