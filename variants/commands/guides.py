@@ -12,6 +12,7 @@ from ...scales.names import unknown
 from ...scales.packaged import home
 
 FOLDER = home((__package__ or "").rpartition(".")[0]) / "guides"
+# in the order of reading
 TOPICS = (
     "start",
     "install",
