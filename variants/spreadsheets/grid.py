@@ -90,7 +90,8 @@ class Grid:
         In two cells its name has letters and digits, or a colon before it: a student may be called Група, too.
         """
         cells = [*filter(None, self.rows[row])]
-        found = _TITLE.fullmatch(" ".join(cells)) if len(cells) in (1, 2) else None
+        text = " ".join(cells)
+        found = _TITLE.fullmatch(text) if len(cells) in (1, 2) and len(text) <= LONGEST_HEAD else None
         if found is None or (len(cells) == 2 and found["name"] != cells[1]):
             return ""
         sure = len(cells) == 1 or ":" in found["ends"] or _LETTERS_AND_DIGITS.search(found["name"])
