@@ -358,7 +358,7 @@ READERS: dict[str, Callable[[str], object]] = {
     "quantity": headers.quantity_part,
     "symbol": headers.symbol,
     "variant": headers.variant_said,
-    "title of a group": lambda text: headers.Grid("x", (("Група" + text,),)).title(0),
+    "title of a group": lambda text: headers.Grid("x", ((f"Група{text}x\ny",),)).title(0),
     "recognised": lambda text: headers.recognised([[text]]),
     "number": split_number,
     "unit": unit,

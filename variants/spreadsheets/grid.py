@@ -90,9 +90,9 @@ class Grid:
         In two cells its name has letters and digits, or a colon before it: a student may be called Група, too.
         """
         cells = [*filter(None, self.rows[row])]
-        text = " ".join(cells)
-        found = _TITLE.fullmatch(text) if len(cells) in (1, 2) and len(text) <= LONGEST_HEAD else None
-        if found is None or (len(cells) == 2 and found["name"] != cells[1]):
+        text = " ".join(" ".join(cells).split()) if len(cells) in (1, 2) else ""
+        found = _TITLE.fullmatch(text) if len(text) <= LONGEST_HEAD else None
+        if found is None or (len(cells) == 2 and found["name"].split() != cells[1].split()):
             return ""
         sure = len(cells) == 1 or ":" in found["ends"] or _LETTERS_AND_DIGITS.search(found["name"])
         return found["name"].rstrip(" :.") if sure else ""
