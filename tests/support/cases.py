@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -19,6 +20,21 @@ from kulman.variants.solution import Solution
 from kulman.variants.task import Task
 
 SAME = 0.01  # mm
+
+
+def some(cases: Iterable[Any], *now: int) -> list[Any]:
+    """Return the cases of one law as parameters: those at these places run by default, the others in the soak.
+
+    A tuple is the arguments of a case.
+    """
+    params = []
+    for at, case in enumerate(cases):
+        made = (
+            case if hasattr(case, "marks") else pytest.param(*case) if isinstance(case, tuple) else pytest.param(case)
+        )
+        late = [] if at in now else [pytest.mark.soak]
+        params.append(pytest.param(*made.values, marks=[*made.marks, *late], id=made.id))
+    return params
 
 
 def solve_case(
