@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from kulman.tests.support.sources import trees
+from kulman.tests.support.sources import imports, trees
 
 LAYERS = ("scales", "plans", "drawing", "variants", "cli")
 COMMAND = "import contextlib, kulman.cli\nwith contextlib.suppress(SystemExit): kulman.cli.main(['{}'])"
@@ -52,7 +52,7 @@ def modules() -> dict[str, set[str]]:
     found: dict[str, set[str]] = {}
     for module, path in named.items():
         targets = found[module] = set()
-        for node in ast.walk(trees()[path]):
+        for node in imports()[path].body:
             if isinstance(node, ast.ImportFrom) and node.level:
                 base = (*path.parts[: len(path.parts) - node.level], *filter(None, (node.module or "").split(".")))
                 names = (".".join((*base, alias.name)) for alias in node.names)
@@ -73,7 +73,7 @@ def test_a_circle_of_imports_is_noticed() -> None:
 
 
 def test_only_the_command_line_speaks_to_click() -> None:
-    found = {path.as_posix() for path, tree in trees().items() if ("", "click") in imported(tree, path)}
+    found = {path.as_posix() for path, tree in imports().items() if ("", "click") in imported(tree, path)}
     users = {module for module, targets in modules().items() if any("variants.commands" in one for one in targets)}
 
     assert {path for path in found if not path.startswith("variants/commands/")} == {"cli.py"}
@@ -99,7 +99,7 @@ def wrong_imports(tree: ast.Module, path: Path) -> list[str]:
 
 
 def test_no_module_imports_from_a_higher_layer() -> None:
-    wrong = {path.as_posix(): wrong_imports(tree, path) for path, tree in trees().items()}
+    wrong = {path.as_posix(): wrong_imports(tree, path) for path, tree in imports().items()}
 
     assert {path: found for path, found in wrong.items() if found} == {}
 

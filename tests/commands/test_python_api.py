@@ -210,7 +210,7 @@ FOUND = {
     "solve": lambda: solve(TASK, "3", only="velocity", lang="en", condition=True),
     "sweep": lambda: sweep(TASK, "3", only="velocity", lang="en"),
     "sweep of a hoist": lambda: sweep("karpenko-hoist", positions=9, lang="en"),
-    "chart": lambda: chart(TASK, "3", chart="depth", positions=36, lang="en"),
+    "chart": lambda: chart(TASK, "3", chart="depth", positions=9, lang="en"),
     "variants": lambda: all_variants(TASK, quantities=["V_B", "a_B"], lang="en"),
 }
 

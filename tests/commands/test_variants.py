@@ -24,7 +24,7 @@ from kulman.plans.hands.spread import drawn
 from kulman.plans.names import role
 from kulman.scales.errors import InputError
 from kulman.scales.units import format_unit
-from kulman.tests.support.cases import solve_case
+from kulman.tests.support.cases import solve_case, some
 from kulman.tests.support.commands import Run
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.case import Case
@@ -90,13 +90,16 @@ def test_a_table_is_said_in_the_language_that_is_asked_for(tmp_path: Path) -> No
 
 @pytest.mark.parametrize(
     ("task", "count", "ranges"),
-    [
-        (TASK, 2, {"l_OA": "20..60/5 mm", "phi": "0..345/15"}),
-        ("madi-four-bar", 1, {}),
-        pytest.param("scheme-06-opposed-compressor", 1, {}, marks=pytest.mark.soak),
-        pytest.param(TASK, 20, {"l_OA": "20..90/5 mm", "phi": "0..355/5"}, marks=pytest.mark.soak),
-        pytest.param("madi-four-bar", 6, {"l_AB": "80..300/5 mm", "phi": "0..350/10"}, marks=pytest.mark.soak),
-    ],
+    some(
+        [
+            (TASK, 2, {"l_OA": "20..60/5 mm", "phi": "0..345/15"}),
+            ("madi-four-bar", 1, {}),
+            pytest.param("scheme-06-opposed-compressor", 1, {}, marks=pytest.mark.soak),
+            pytest.param(TASK, 20, {"l_OA": "20..90/5 mm", "phi": "0..355/5"}, marks=pytest.mark.soak),
+            pytest.param("madi-four-bar", 6, {"l_AB": "80..300/5 mm", "phi": "0..350/10"}, marks=pytest.mark.soak),
+        ],
+        0,
+    ),
 )
 def test_made_variants_are_good_exercises(task: str, count: int, ranges: dict[str, str]) -> None:
     new = all_variants(task, make=count, ranges=ranges, seed=7).new
@@ -213,7 +216,7 @@ def test_other_variants_leave_everything_else_as_it_is(name: str) -> None:
     assert (found.givens, found.subject, found.scales) == (task.givens, task.subject, task.scales)
 
 
-@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.parametrize("turned", some([False, True], 1))
 def test_a_spreadsheet_becomes_variants(turned: bool, tmp_path: Path, run: Run) -> None:
     file, out = tmp_path / "variants.csv", tmp_path / "class.toml"
     cells = [line.split(";") for line in ROWS.splitlines()]
@@ -308,17 +311,25 @@ def set_by(data: Mapping[str, str], task: Task, words: Words) -> dict[str, str]:
 
 @pytest.mark.parametrize(
     ("key", "variant", "language", "names"),
-    [
-        pytest.param(TASK, "3,example", "uk", None, id="slider-crank"),
-        pytest.param(
-            "madi-four-bar", None, "ru", "V_C,omega_3,a_C,R_03", id="moment on a rocker", marks=pytest.mark.soak
-        ),
-        pytest.param("scheme-09-shaper", "0,4", "en", "a_A3A2_k,epsilon_3,M_bal,R_34", id="guide that turns, weights"),
-        pytest.param("scheme-18-hydraulic-drive", "0", "uk", "V_D,F_bal", id="sliding driver", marks=pytest.mark.soak),
-        pytest.param("madi-cam", None, "ru", None, id="cam"),
-        pytest.param("madi-gear", None, "en", None, id="gears"),
-        pytest.param("karpenko-hoist", "V01,V10", "uk", None, id="hoist", marks=pytest.mark.soak),
-    ],
+    some(
+        [
+            pytest.param(TASK, "3,example", "uk", None, id="slider-crank"),
+            pytest.param(
+                "madi-four-bar", None, "ru", "V_C,omega_3,a_C,R_03", id="moment on a rocker", marks=pytest.mark.soak
+            ),
+            pytest.param(
+                "scheme-09-shaper", "0,4", "en", "a_A3A2_k,epsilon_3,M_bal,R_34", id="guide that turns, weights"
+            ),
+            pytest.param(
+                "scheme-18-hydraulic-drive", "0", "uk", "V_D,F_bal", id="sliding driver", marks=pytest.mark.soak
+            ),
+            pytest.param("madi-cam", None, "ru", None, id="cam"),
+            pytest.param("madi-gear", None, "en", None, id="gears"),
+            pytest.param("karpenko-hoist", "V01,V10", "uk", None, id="hoist", marks=pytest.mark.soak),
+        ],
+        0,
+        4,
+    ),
 )
 def test_a_question_for_moodle_is_answered_from_itself_alone(
     key: str, variant: str | None, language: str, names: str | None, tmp_path: Path

@@ -24,6 +24,15 @@ def trees() -> dict[Path, ast.Module]:
         gc.enable()
 
 
+@cache
+def imports() -> dict[Path, ast.Module]:
+    """Return the statements by which the files import something, wherever in a file they stand."""
+    found = dict[Path, ast.Module]()
+    for path, tree in trees().items():
+        found[path] = ast.Module([n for n in ast.walk(tree) if isinstance(n, ast.Import | ast.ImportFrom)], [])
+    return found
+
+
 def files() -> list[Path]:
     """Return the files of the package."""
     inside = [path for path in ROOT.iterdir() if path.name not in OUTSIDE]
