@@ -25,6 +25,7 @@ from kulman.plans.marking.verdicts import mark
 from kulman.plans.mistakes.book import book, broken
 from kulman.plans.mistakes.explaining import Explanation, explain
 from kulman.tests.support.cams import MADI, ROCKER, Settings, asked, asked_key, cam_book, keyed_cam, random_cams
+from kulman.tests.support.cases import some
 from kulman.tests.support.marking_cases import HAND, moves, students
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import Solution
@@ -131,11 +132,14 @@ def test_faultless_drawings_are_right(law: str, count: int) -> None:
 
 @pytest.mark.parametrize(
     ("settings", "task", "names"),
-    [
-        ((("rotation", "cw"), ("law", "cosine")), MADI, {"r_0", "e"}),
-        pytest.param((), MADI, {"r_0", "e"}, marks=pytest.mark.soak),
-        ((), ROCKER, {"psi_0", "l_OC", "r_0"}),
-    ],
+    some(
+        [
+            ((("rotation", "cw"), ("law", "cosine")), MADI, {"r_0", "e"}),
+            pytest.param((), MADI, {"r_0", "e"}, marks=pytest.mark.soak),
+            ((), ROCKER, {"psi_0", "l_OC", "r_0"}),
+        ],
+        2,
+    ),
 )
 def test_no_line_of_a_faultless_drawing_fails_often(settings: Settings, task: str, names: set[str]) -> None:
     lines = honest(settings, 40, task)
@@ -301,14 +305,18 @@ def test_sizes_and_scales_that_are_given_otherwise() -> None:
 
 @pytest.mark.parametrize(
     ("id", "how", "said"),
-    [
-        ("M91", "both", {"gamma_rise": "15 deg", "gamma_fall": "30 deg"}),
-        ("M91", "rise", {"gamma_rise": "15 deg"}),
-        ("M92", "", {"gamma_rise": "60 deg", "gamma_fall": "75 deg"}),
-        ("M93", "half", {"gamma_rise": "82.5 deg", "gamma_fall": "75 deg"}),
-        ("M93", "twice", {"gamma_rise": "60 deg", "gamma_fall": "30 deg"}),
-        ("M94", "sizes", {"rotation": "cw"}),
-    ],
+    some(
+        [
+            ("M91", "both", {"gamma_rise": "15 deg", "gamma_fall": "30 deg"}),
+            ("M91", "rise", {"gamma_rise": "15 deg"}),
+            ("M92", "", {"gamma_rise": "60 deg", "gamma_fall": "75 deg"}),
+            ("M93", "half", {"gamma_rise": "82.5 deg", "gamma_fall": "75 deg"}),
+            ("M93", "twice", {"gamma_rise": "60 deg", "gamma_fall": "30 deg"}),
+            ("M94", "sizes", {"rotation": "cw"}),
+        ],
+        2,
+        5,
+    ),
 )
 def test_wrong_tangents_give_the_cam_that_other_limits_have(id: str, how: str, said: dict[str, str]) -> None:
     there, found = keyed_cam((*said.items(), ("R_roller", "1 mm"))).key, after(id, how)

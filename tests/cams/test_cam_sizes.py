@@ -395,6 +395,7 @@ def test_a_given_r_0_under_a_plate_is_held_against_the_least_that_a_scan_finds(n
             assert reach == pytest.approx(1j * (2.0 * least + float(motion.at(phi)[0])), abs=1e-14)
 
 
+@pytest.mark.soak
 def test_a_plate_cam_with_a_given_r_0_is_drawn_told_and_marked() -> None:
     given, drawn = {"r_0_flat": "50 mm"}, CamCase((("r_0_flat", "50 mm"),), "A2", "en", only="sizes,profile")
     of = keyed_cam((*given.items(),))

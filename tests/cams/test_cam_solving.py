@@ -238,6 +238,7 @@ def drawn() -> Sheet:
     return sheet(TASK, format="A3")
 
 
+@pytest.mark.soak
 def test_a_small_sheet_is_one_of_smaller_drawn_lengths(small: Solution, solution: Solution) -> None:
     for name, quantity in solve(TASK, set=SMALL).quantities.items():
         assert small[name].value == pytest.approx(quantity.value, rel=1e-12, abs=1e-15), name
@@ -269,6 +270,7 @@ def test_a_small_sheet_prints_what_is_solved_for_it_and_says_that_it_is_smaller(
         assert warnings[0].text("en").startswith(told)
 
 
+@pytest.mark.soak
 def test_scale_factors_are_those_of_the_usual_sheet_or_chosen(solution: Solution) -> None:
     usual = sheet(TASK)
 

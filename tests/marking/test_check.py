@@ -20,6 +20,7 @@ from kulman.plans.hands.shaky import PRESETS
 from kulman.scales.errors import InputError
 from kulman.tests.support.answer_files import ASKED, messages, write
 from kulman.tests.support.answer_files import HEAD as COLUMNS
+from kulman.tests.support.cases import some
 from kulman.tests.support.marking_cases import key, right_answers
 from kulman.tests.support.mechanisms import SEED
 from kulman.variants import sheets
@@ -199,7 +200,7 @@ def test_what_cannot_be_checked_is_answered_in_one_line(
 @pytest.mark.parametrize(  # of three, no and two times of equation (12)
     "variant", ["V04", *(pytest.param(variant, marks=pytest.mark.soak) for variant in ("V01", "V07"))]
 )
-@pytest.mark.parametrize("own", [True, False])
+@pytest.mark.parametrize("own", some([True, False], 0))
 def test_the_form_of_any_variant_filled_rightly_has_the_full_mark(tmp_path: Path, variant: str, own: bool) -> None:
     """What one variant is asked and another is not was refused as unknown, or missing without having been asked."""
     solution, asked = solve("karpenko-hoist", variant), check("karpenko-hoist", lang="en")
@@ -383,12 +384,15 @@ def test_a_wrong_rubric_is_refused_with_its_key(tmp_path: Path, text: str, what:
 
 @pytest.mark.parametrize(
     ("task", "rows", "verdict"),
-    [
-        ("madi-cam", "mu_s_d2s;;0,0005987 м/мм;;;\nr_0_flat;38,6;;38,6 мм;;\n", "right"),
-        ("madi-cam", "mu_s_d2s;;0,0005987 м/мм;;;\nr_0_flat;48,6;;38,6 мм;;\n", "arithmetic"),
-        ("karpenko-hoist", "mu_F_circle;;200 Н/мм;;;\nP_st;50;;50053 Н;;\n", "right"),
-        ("karpenko-hoist", "P_st;50;;50053 Н;;\nb_0;15;;3 м;;\n", "right"),
-    ],
+    some(
+        [
+            ("madi-cam", "mu_s_d2s;;0,0005987 м/мм;;;\nr_0_flat;38,6;;38,6 мм;;\n", "right"),
+            ("madi-cam", "mu_s_d2s;;0,0005987 м/мм;;;\nr_0_flat;48,6;;38,6 мм;;\n", "arithmetic"),
+            ("karpenko-hoist", "mu_F_circle;;200 Н/мм;;;\nP_st;50;;50053 Н;;\n", "right"),
+            ("karpenko-hoist", "P_st;50;;50053 Н;;\nb_0;15;;3 м;;\n", "right"),
+        ],
+        0,
+    ),
 )
 def test_a_segment_may_be_that_of_the_drawing_on_which_the_sheet_shows_it(
     tmp_path: Path, task: str, rows: str, verdict: str

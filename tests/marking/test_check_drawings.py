@@ -16,6 +16,7 @@ from kulman.plans.board import POSITION
 from kulman.plans.marking.answers import Verdict
 from kulman.plans.names import LEVER, role
 from kulman.scales.errors import InputError
+from kulman.tests.support.cases import some
 from kulman.tests.support.commands import Run
 from kulman.variants.drawings.files import read_drawing
 from kulman.variants.marking.checks import Check
@@ -111,7 +112,7 @@ def verdicts(of: Marked) -> dict[str, Verdict]:
 
 
 @pytest.mark.parametrize("suffix", WRITERS)
-@pytest.mark.parametrize("task", TASKS)
+@pytest.mark.parametrize("task", some(TASKS, 0))
 def test_a_right_drawing_is_right(tmp_path: Path, task: str, suffix: str) -> None:
     ready, key = asked(task, preset="cad")
 
@@ -125,10 +126,10 @@ def test_a_right_drawing_is_right(tmp_path: Path, task: str, suffix: str) -> Non
     }
 
 
-@pytest.mark.parametrize(("task", "mistake"), [
+@pytest.mark.parametrize(("task", "mistake"), some([
     ("nau-slider-crank", "M30"), ("nau-slider-crank", "M39"), ("madi-four-bar", "M38"), ("madi-four-bar", "M23"),
     ("scheme-09-shaper", "M49"),
-])  # fmt: skip
+], 0))  # fmt: skip
 def test_a_drawing_with_a_mistake_is_marked_as_its_vectors_in_a_form_are(
     tmp_path: Path, task: str, mistake: str
 ) -> None:
@@ -181,6 +182,7 @@ def test_a_plan_that_is_missing_is_told_and_not_wrong(tmp_path: Path) -> None:
     assert any("Velocity plan" in note.text("en") and "V_B" in note.text("en") for note in found.notes)
 
 
+@pytest.mark.soak
 def test_a_drawing_of_another_variant_is_recognised(tmp_path: Path) -> None:
     ready, _ = asked("nau-slider-crank", variant="3")
     _, other = asked("nau-slider-crank", variant="7")
@@ -222,6 +224,7 @@ def test_a_drawing_is_returned_with_verdicts(tmp_path: Path, command: Run) -> No
     assert "data:image/svg+xml" in outputs[3].read_text("utf-8")
 
 
+@pytest.mark.soak
 def test_a_student_is_not_shown_where_a_wrong_vector_should_be(tmp_path: Path, command: Run) -> None:
     _, key = asked("nau-slider-crank")
     one = next(one for one in key.book.signatures if one.broken.mistake == "M39")

@@ -34,6 +34,7 @@ from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.shapes import Group, Line, Shape, Text, Vector
 from kulman.drawing.words import Words
 from kulman.scales.errors import LANGUAGES
+from kulman.tests.support.cases import some
 from kulman.tests.support.shapes import leaves, line_of
 from kulman.variants.case import Case, Request
 from kulman.variants.kinds.linkage import placed
@@ -108,6 +109,7 @@ def test_a_handout_grows_step_by_step_into_the_key(task: str) -> None:
         before = now
 
 
+@pytest.mark.soak
 @pytest.mark.usefixtures("drawn_once")
 @pytest.mark.parametrize("task", [pytest.param("madi-cam", marks=pytest.mark.soak), "madi-gear"])
 def test_lines_break_off_only_at_letters_that_a_begun_handout_shows(task: str) -> None:
@@ -186,7 +188,7 @@ def test_a_paper_speaks_of_what_it_asks_for() -> None:
     assert not any("μ_{l}" in line for view in velocities.views for line in view.heading)
 
 
-@pytest.mark.parametrize("task", [TASK, "scheme-09-shaper", "scheme-14-jaw-crusher"])
+@pytest.mark.parametrize("task", some([TASK, "scheme-09-shaper", "scheme-14-jaw-crusher"], 0, 1))
 def test_blank_form_and_solution_have_the_same_scale_factors(task: str) -> None:
     blank = handout(task, only="velocity")
 
@@ -215,6 +217,7 @@ def test_a_load_diagram_is_given() -> None:
     assert not [text for text in texts if text.startswith("F_{3} =")]
 
 
+@pytest.mark.soak
 def test_lines_of_a_task_break_within_no_index() -> None:
     blank = handout("bertyaev-six-bar", only="compound")
 
@@ -240,7 +243,7 @@ def test_every_given_of_a_bundled_linkage_has_a_name(lang: str) -> None:
 
 @pytest.mark.usefixtures("drawn_once")
 @pytest.mark.parametrize(
-    "task", [pytest.param(task, marks=[pytest.mark.soak] * (task == "madi-cam")) for task in EVERY_KIND]
+    "task", [pytest.param(task, marks=[pytest.mark.soak] * (task not in EVERY_KIND[:2])) for task in EVERY_KIND]
 )
 def test_a_table_of_a_blank_asks_and_a_text_has_only_its_heading(task: str) -> None:
     case = Request(load_task(task)).case()
@@ -313,11 +316,10 @@ CAM_FIGURES = (DIAGRAMS_FIGURE, *SIZE_FIGURES.values(), *PROFILE_FIGURES.values(
 CAM_STAGES = {figure.name: figure.stages for figure in CAM_FIGURES}
 
 
-FEW_STEPS = (TASK, "madi-cam")
-OTHERS = [name for name in bundled() if name not in (*FEW_STEPS, "madi-gear", "karpenko-hoist")]
+OTHERS = [name for name in bundled() if name not in (TASK, "madi-gear", "karpenko-hoist")]
 
 
-@pytest.mark.parametrize("task", [*FEW_STEPS, *(pytest.param(name, marks=pytest.mark.soak) for name in OTHERS)])
+@pytest.mark.parametrize("task", [TASK, *(pytest.param(name, marks=pytest.mark.soak) for name in OTHERS)])
 def test_nothing_is_drawn_from_what_an_earlier_plan_has_yet_to_find(task: str) -> None:
     case = Request(load_task(task), "0" if task == TASK else None).case()
     drawn, program = once(case), {step.name: step for step in case.solved.program}
@@ -508,7 +510,7 @@ def ruler(page: Print, along: complex) -> tuple[Stroke, list[float]]:
     return base, [place for place in places if -1.0 < place < 101.0]
 
 
-@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("lang", some(LANGUAGES, 2))
 def test_rulers_say_their_length_and_pivots_come_with_their_letters(lang: str) -> None:
     blank = handout(TASK, lang=lang)
 

@@ -267,7 +267,7 @@ LAID_OUT = ((TASK, "3"), (CAM, None), (GEAR, None), (HOIST, None), ("scheme-09-s
     [
         (TASK, "3", "dstu3008"),
         pytest.param("scheme-09-shaper", "4", "dstu3008", marks=pytest.mark.soak),
-        *(pytest.param(*of, "plain", marks=[pytest.mark.soak] * (of[0] != CAM)) for of in LAID_OUT),
+        *(pytest.param(*of, "plain", marks=pytest.mark.soak) for of in LAID_OUT),
     ],
 )
 def test_the_text_refers_to_all_and_no_page_but_the_last_is_half_empty(
@@ -294,6 +294,7 @@ def _figures(marks: list[tuple[int, int, float]], blocks: tuple[Block, ...]) -> 
     return [(page, y) for block, page, y in marks if isinstance(figure := blocks[block], Figure) and not figure.folded]
 
 
+@pytest.mark.soak
 def test_a_profile_frames_all_pages_with_their_title_blocks() -> None:
     written = note(TASK, "3", student="І. Петренко", profile="dstu3008")
     title, first, *others = pdf = pypdfium2.PdfDocument(pdf_bytes(written.document))
@@ -489,6 +490,7 @@ def test_words_in_which_something_is_equal_have_no_number_of_an_equation(lang: s
     assert not any(re.match(r"[^\W\d_’]{3,}[ ’]", line) for line in told)
 
 
+@pytest.mark.soak
 def test_no_rule_of_a_page_strikes_a_letter() -> None:
     equations = tuple(b for b in note("scheme-09-shaper", "3").document.blocks if isinstance(b, Equations))
     rows = Table((("i", "φ"), *((f"p_{{{k}}}", "0.00") for k in range(60))), "Angles")
