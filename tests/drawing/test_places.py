@@ -17,6 +17,7 @@ from kulman.drawing.shapes import Arc, Circle, Group, Line, Pen, Text
 from kulman.drawing.spots import FINE, MAIN, Obstacles, Surroundings, first_clear
 from kulman.drawing.text import lay_out
 from kulman.drawing.view import ELSEWHERE, Canvas
+from kulman.tests.support.cases import some
 from kulman.tests.support.shapes import places, within
 
 GAP = 0.6  # mm, of labels
@@ -314,7 +315,7 @@ def knot(seed: int, vectors: int) -> tuple[list[Request], Obstacles]:
     return requests, Obstacles(drawn, boxes=heads)
 
 
-@pytest.mark.parametrize("vectors", [6, 14, *(pytest.param(n, marks=pytest.mark.soak) for n in (8, 10, 12))])
+@pytest.mark.parametrize("vectors", some([6, 14, *(pytest.param(n, marks=pytest.mark.soak) for n in (8, 10, 12))], 0))
 def test_every_letter_of_a_knot_finds_a_place(vectors: int) -> None:
     """Such letters stood on vectors and on each other: the letters that had chosen before them barred every way out."""
     for seed in range(4):
@@ -513,7 +514,7 @@ def crowded_canvas(seed: int) -> Canvas:
     return canvas
 
 
-@pytest.mark.parametrize("crowd", [0, pytest.param(8, marks=pytest.mark.soak), 20])
+@pytest.mark.parametrize("crowd", some([0, pytest.param(8, marks=pytest.mark.soak), 20], 0))
 def test_all_letters_of_a_view_are_as_small_as_texts_where_they_have_no_room_else(crowd: int) -> None:
     small = 0
     for seed in range(6):

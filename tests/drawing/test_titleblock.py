@@ -121,7 +121,7 @@ def test_fields_are_blank_where_nothing_is_said_and_hold_braces_as_they_are() ->
         pytest.param(
             *("scheme-14-jaw-crusher", "3", "uk", None, ["ТММ.14.03.001", "ТММ.14.03.002"]), marks=pytest.mark.soak
         ),
-        ("madi-gear", "17", "en", None, ["TMM.25.17.001", "TMM.25.17.002"]),
+        pytest.param("madi-gear", "17", "en", None, ["TMM.25.17.001", "TMM.25.17.002"], marks=pytest.mark.soak),
         ("karpenko-hoist", "V07", "ru", None, ["ТММ.26.V07.001"]),
         ("nau-slider-crank", "example", "uk", None, ["ТММ.23.11.001"]),
     ],

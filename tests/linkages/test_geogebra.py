@@ -25,7 +25,7 @@ from kulman.variants.kinds.linkage import placed
 from kulman.variants.reader import load_task
 from kulman.variants.shelf import bundled
 
-FEW = ("madi-four-bar", "scheme-09-shaper")
+FEW = ("madi-four-bar",)
 TASKS = bundled("mechanism")
 EXACT = 1e-9  # part of the largest value of its kind on its plan
 NEAR_LIMIT = 0.02  # part of the range of a sliding driver at its ends, where the least rounding moves links far

@@ -178,11 +178,11 @@ def test_a_task_of_ones_own_is_checked_at_its_lines_and_drawn(client: TestClient
     assert client.get("/task/own-of-somebody").status_code == 404
 
 
-def test_a_class_is_drawn_as_the_command_draws_it(client: TestClient, tmp_path: Path) -> None:
-    form = {"tasks": TASK, "kinds": ["svg", "handout"], "merge": "1", "teacher": "Г. Вовк"}
+@pytest.mark.parametrize("kinds", [("card",), pytest.param(("svg", "handout"), marks=pytest.mark.soak)])
+def test_a_class_is_drawn_as_the_command_draws_it(client: TestClient, tmp_path: Path, kinds: tuple[str, ...]) -> None:
+    form = {"tasks": TASK, "kinds": [*kinds], "merge": "1", "teacher": "Г. Вовк"}
     page = finished(client, client.post("/class?lang=uk", data=form, files={"roster": ("x/../y.csv", ROSTER)}))
     (tmp_path / "roster.csv").write_bytes(ROSTER)
-    kinds = ("svg", "handout")
     kulman.batch(TASK, tmp_path / "roster.csv", tmp_path / "out", kinds=kinds, merge=True, teacher="Г. Вовк")
 
     archive = client.get(f"{page}/{page.rpartition('/')[2]}.zip")
