@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -158,9 +158,15 @@ def test_a_load_that_swings_for_long_is_drawn_at_the_end_only() -> None:
     assert solved.quantities["t_1_drawn"].value == pytest.approx(found["t_1"], abs=0.2 * roots.section)
 
 
+@cache
+def first() -> Sheet:
+    """The sheet of the first variant, whose diagrams have room."""
+    return read(sheet("karpenko-hoist", "V01").svg())
+
+
 @pytest.mark.parametrize("plan", [LIFT_OFF, EXTREMES, FORCES])
 def test_numbers_of_an_axis_have_as_many_decimals_as_one_another(plan: str) -> None:
-    texts = read(sheet("karpenko-hoist", "V01").svg())[plan].of("number")
+    texts = first()[plan].of("number")
     feet = min(text.box[1] for text in texts)
 
     for below in (True, False):
@@ -170,7 +176,7 @@ def test_numbers_of_an_axis_have_as_many_decimals_as_one_another(plan: str) -> N
 
 
 def test_the_crossing_of_a_hoist_is_drawn_larger_where_the_diagram_has_room() -> None:
-    view = read(sheet("karpenko-hoist", "V01").svg())["lift_off"]
+    view = first()["lift_off"]
     (window,) = (s for s in view.strokes if ("frame", "magnified") in s.path)
     (parabola,) = (s.points for s in view.strokes if ("curve", "parabola") in s.path)
 
@@ -248,8 +254,8 @@ RIGID = HoistCase(changes=(("I_0", math.inf), ("I_2", math.inf)))
 
 
 CASES = (
-    *(HoistCase(), HoistCase("V02", lang="en"), HoistCase("V03", lang="ru")),
-    *(pytest.param(HoistCase(variant), marks=pytest.mark.soak) for variant in VARIANTS),
+    *(HoistCase(), HoistCase("V03", lang="ru"), pytest.param(HoistCase("V02", lang="en"), marks=pytest.mark.soak)),
+    *(pytest.param(HoistCase(variant), marks=pytest.mark.soak) for variant in VARIANTS if variant != HoistCase.variant),
 )
 SMALL = [pytest.param(HoistCase(format=format), marks=pytest.mark.soak) for format in ("A3", "A2")]
 every_case = pytest.mark.parametrize("case", CASES, ids=str)
