@@ -23,7 +23,7 @@ from kulman.scales.errors import InputError
 from kulman.variants.sheets import Sheet
 from kulman.variants.shelf import bundled
 
-FEW = ("nau-slider-crank", "madi-cam")
+FEW = ("nau-slider-crank",)
 EVERY = [pytest.param(task, marks=() if task in FEW else pytest.mark.soak) for task in bundled()]
 MICRON = 0.001  # mm
 

@@ -187,6 +187,7 @@ def test_the_crossing_of_a_hoist_is_drawn_larger_where_the_diagram_has_room() ->
     assert all(p.imag > top for p in parabola if p.real > left)
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize("paper", ["A4", pytest.param("A1", marks=pytest.mark.soak)])
 @pytest.mark.parametrize(
     "variant", ["V08", *(pytest.param(variant, marks=pytest.mark.soak) for variant in ("V01", "V05"))]
@@ -572,6 +573,7 @@ def test_circle_of_a_rope_that_goes_slack_ends_where_it_would_push() -> None:
     assert any(text.startswith("would be −") for text in checks)
 
 
+@pytest.mark.soak
 def test_pages_of_a_small_format_have_smaller_diagrams_and_say_so() -> None:
     case = HoistCase("V02", format="A4", lang="en")
     view, of_F = case.sheet["forces"], mu(case.sheet["forces"], "F")

@@ -348,6 +348,7 @@ def test_the_title_is_one_page_under_a_title_of_two_lines(profile: str) -> None:
     assert lines * high + apart < 297.0 - looks.profile.top - looks.profile.bottom
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize("profile", some(["plain", "dstu3008"], 0))
 def test_no_column_of_a_table_parts_a_word_or_a_number(profile: str) -> None:
     document = note("nau-slider-crank", "3", lang="uk", profile=profile).document

@@ -290,6 +290,7 @@ def unread(case: Linkage) -> list[tuple[str, ...]]:
     return faults + lost * (len(lost) > 2)
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize(
     "of",
     [("scheme-15-lever-shears", "3"), pytest.param(("scheme-17-sewing-machine", "9", "A3"), marks=pytest.mark.soak)],
