@@ -18,6 +18,7 @@ import pytest
 from kulman import cli, load_task, solve
 from kulman.plans.linkages.mechanism import FRAME, Mechanism
 from kulman.plans.linkages.solved import solve_linkage
+from kulman.tests.support.cases import some
 from kulman.tests.support.chains import chain
 from kulman.tests.support.linkage_cases import Oracle
 from kulman.tests.support.task_files import task_of
@@ -149,7 +150,7 @@ def renumbered(mechanism: Mechanism, by: int = 10) -> Mechanism:
     )
 
 
-@pytest.mark.parametrize("task", bundled("mechanism"))
+@pytest.mark.parametrize("task", some(bundled("mechanism"), *range(0, 99, 3)))
 def test_other_numbers_of_links_change_no_value(task: str) -> None:
     loaded = load_task(task)
     for mechanism in (loaded.mechanism, renumbered(loaded.mechanism)):
