@@ -431,7 +431,7 @@ PLANS = [
     for kind in MODULES
     for task in bundled(kind)
     for plan in (None, *kind_of(kind).plans[: None if task in TYPICAL else 2])
-    for quick in [(task in TYPICAL and plan not in SELDOM) or (task, plan) == ("karpenko-hoist", "scheme")]
+    for quick in [task in TYPICAL and plan not in SELDOM]
 ]
 COMMANDS = (
     ("solve",),

@@ -24,9 +24,7 @@ from kulman.variants.shelf import bundled_text
 TEXTS = {path.stem: path.read_text(encoding="utf-8") for path in refresh.DOCUMENTS}
 COMMANDS = refresh.BLOCK.findall(TEXTS["commands"])
 # blocks whose commands start Python, as a user does: the first of some; in the long run all do
-STARTED = [
-    next(block for block in COMMANDS if block.startswith(f"$ kulman {name}")) for name in ("solve", "sheet", "new")
-]
+STARTED = [next(block for block in COMMANDS if block.startswith(f"$ kulman {name}")) for name in ("solve", "new")]
 SLOWEST = ("$ kulman handout", "$ kulman sheet madi-cam", "$ kulman note")
 BLOCKS = {"cams": (8, 3), "gears": (4, 2), "hoist": (1, 4)}  # of commands, quick and slow ones
 FIRST, OTHERS = TEXTS["own-mechanism.en"].split("# Other parts\n")

@@ -590,6 +590,7 @@ def test_two_symbols_of_one_name_are_not_taken_for_a_given(tmp_path: Path) -> No
     assert set(read.row) == {"phi"}
 
 
+@pytest.mark.soak
 def test_the_key_of_all_variants_is_a_page_to_print(tmp_path: Path) -> None:
     page = all_variants("nau-slider-crank", lang="en").save(tmp_path / "key.html")[0].read_text(encoding="utf-8")
 
