@@ -54,12 +54,11 @@ def test_commands_print_what_their_page_shows(
 
 
 # documents that are in three languages take turns, in the long run all are read
-IN_TURN = [name for name in TEXTS if "." in name or name in ("README", "cycle")]
+IN_TURN = [name for name in TEXTS if name != "commands"]
+NOW = map(IN_TURN.index, ("README", "classes.uk", "marking.uk", "start.uk"))
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=[pytest.mark.soak] * (k % 6 > 0)) for k, name in enumerate(IN_TURN)]
-)
+@pytest.mark.parametrize("name", some(IN_TURN, *NOW))
 def test_commands_one_after_the_other_print_what_a_document_shows(
     name: str, folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -85,11 +84,10 @@ def test_a_document_of_a_subject_shows_what_is_printed_and_drawn(
     assert all((refresh.PICTURES / f"{picture}.png").exists() for picture in pictures)
 
 
-# what is said in the other languages the commands print one after the other, above
+# those of the other documents print it in this process, above
 @pytest.mark.soak
-@pytest.mark.parametrize("name", [path.stem for path in refresh.DOCUMENTS if refresh.language(path) == "en"])
-def test_every_command_started_by_itself_prints_what_its_document_shows(name: str, folder: Path) -> None:
-    assert refresh.refreshed(TEXTS[name], str(folder), "en") == TEXTS[name]
+def test_every_command_started_by_itself_prints_what_its_page_shows(folder: Path) -> None:
+    assert refresh.refreshed(TEXTS["commands"], str(folder), "en") == TEXTS["commands"]
 
 
 @pytest.mark.parametrize("name", ["README", "cycle", "python.en"])

@@ -29,9 +29,8 @@ def some(cases: Iterable[Any], *now: int) -> list[Any]:
     """
     params = []
     for at, case in enumerate(cases):
-        made = (
-            case if hasattr(case, "marks") else pytest.param(*case) if isinstance(case, tuple) else pytest.param(case)
-        )
+        values = case if isinstance(case, tuple) else (case,)
+        made = case if hasattr(case, "marks") else pytest.param(*values)
         late = [] if at in now else [pytest.mark.soak]
         params.append(pytest.param(*made.values, marks=[*made.marks, *late], id=made.id))
     return params
