@@ -312,12 +312,15 @@ def like_dimensions(case: Linkage) -> list[object]:
     return faults
 
 
-@pytest.mark.parametrize("seed", some(range(90), 2))
-def test_random_forces_arcs_and_arms_stand_where_they_are_read(seed: int) -> None:
+@pytest.mark.parametrize(("seed", "turn"), some([(seed, turn) for seed in range(30) for turn in range(3)], 5))
+def test_random_forces_arcs_and_arms_stand_where_they_are_read(seed: int, turn: int) -> None:
     """Forces at their nodes or led there from them, arcs about fixed pivots, arms beside forces, heads apart."""
     random = np.random.default_rng(seed)
-    task = str(random.choice([name for name in bundled("mechanism") if name != "bertyaev-six-bar"]))
-    case = motion_and_forces(task, str(random.choice([*load_task(task).variants])), str(random.choice(["A1", "A3"])))
+    for _ in range(turn + 1):
+        task = str(random.choice([name for name in bundled("mechanism") if name != "bertyaev-six-bar"]))
+        case = motion_and_forces(
+            task, str(random.choice([*load_task(task).variants])), str(random.choice(["A1", "A3"]))
+        )
 
     assert (misplaced(case), misturned(case), like_dimensions(case)) == ([], [], [])
     assert [fault for fault in unread(case) if "lies on" in fault and case.format == "A1"] == []
