@@ -6,7 +6,7 @@ at 45 degrees to the negative branch; along a rocker the analogues of its veloci
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from ...plans.cams import course
@@ -37,7 +37,9 @@ TANGENT = 12.0  # mm by which the tangent runs past the place where it touches
 TICK = 2.0  # mm to both sides of the circle
 AROUND = 24.0  # mm of the permitted places shown about the chosen one
 LIMIT = 3.0  # length of a limit at the end of an analogue, in heights of letters: only those that bound are drawn out
+CROWDED = 0.8  # heights of numbers between points that cannot both have one beside them
 Ends = Iterable[tuple[int, str, complex]]  # number of a section line, name of a point on it, its place
+Shared = dict[complex, list[tuple[int, str]]]  # by place the lines, and names of points on them, that have one number
 
 
 def _sizes_view(scene: CamScene) -> View:
@@ -56,7 +58,7 @@ def _sizes_view(scene: CamScene) -> View:
     _permitted_offsets(canvas, scene)
     canvas.part("points")
     ends = [(i, phase, scene.mm(f"{SIZES}.{i}_{phase}")) for i, phase in solved.layout.division.on_lines]
-    for at, group in _marked(canvas, scene, ends).items():
+    for at, group in _told_apart(canvas, _marked(canvas, scene, ends)):
         out = sum((course.outwards(solved, i, phase) for i, phase in group), 0j)
         _number(canvas, group, at, out or 1j * at.imag)
     canvas.part("centre")
@@ -118,12 +120,12 @@ def _is_lettered(scene: CamScene, limit: str) -> bool:
     return PHASE_OF[limit] == limit or limit in scene.rolling.sizes.on
 
 
-def _marked(canvas: Canvas, scene: CamScene, ends: Ends, once: bool = False) -> dict[complex, list[tuple[int, str]]]:
+def _marked(canvas: Canvas, scene: CamScene, ends: Ends, once: bool = False) -> Shared:
     """Mark the points of section lines; return places with the lines, and names of points, that share one number.
 
     A line that is to stand `once` in a place has one mark there.
     """
-    shared: dict[complex, list[tuple[int, str]]] = {}
+    shared: Shared = {}
     for i, name, at in ends:
         key = next((other for other in shared if abs(other - at) < 2.5 * scene.style.node), at)
         group = shared.setdefault(key, [])
@@ -131,6 +133,15 @@ def _marked(canvas: Canvas, scene: CamScene, ends: Ends, once: bool = False) -> 
             group.append((i, name))
             canvas.add(scene.node(at, f"{i}_{name}"))
     return shared
+
+
+def _told_apart(canvas: Canvas, shared: Shared) -> Iterator[tuple[complex, list[tuple[int, str]]]]:
+    """Go through the places that get their numbers: along a curve none so near the one before that letters crowd."""
+    before: complex | None = None
+    for at, group in shared.items():
+        if before is None or abs(at - before) >= CROWDED * small(canvas.style.text):
+            before = at
+            yield at, group
 
 
 def _number(canvas: Canvas, group: list[tuple[int, str]], at: complex, prefer: complex) -> None:
@@ -197,7 +208,7 @@ def _plate_sizes_view(scene: CamScene) -> View:
         (i, end, f"{PLATE_SIZES}.{i}_{end}") for i, _ in solved.layout.division.on_lines for end in ("before", "after")
     ]
     ends = [(i, end, scene.mm(mark)) for i, end, mark in marks if mark in values]
-    for at, group in _marked(canvas, scene, ends, once=True).items():  # at a jump both ends
+    for at, group in _told_apart(canvas, _marked(canvas, scene, ends, once=True)):  # at a jump both ends
         _number(canvas, group, at, 1j)
     canvas.part("centre")
     _mark_centre(canvas, scene, centre, 1 - 1j)

@@ -260,6 +260,12 @@ def test_letters_of_angles_and_senses_cross_no_link(task: str, variant: str) -> 
     assert [finding for finding in found(sheet_of(task, variant)) if finding.kind == "leaders"] == []
 
 
+# curves with many points on little paper
+@pytest.mark.parametrize("task", ["madi-cam"])
+def test_numbers_of_points_that_crowd_have_no_leaders_through_curves(task: str) -> None:
+    assert [finding for finding in found(sheet_of(task, format="A4")) if finding.kind == "leaders"] == []
+
+
 def test_the_judge_runs_as_a_program(tmp_path: Path) -> None:
     page = tmp_path / "page.svg"
     page.write_text(CLEAN.replace(">ТММ.01<", "> <"), encoding="utf-8")
