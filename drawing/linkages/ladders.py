@@ -160,7 +160,8 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
         for group in solved.structure.groups:
             links = [link for link in solved.mechanism.links if link.number in group.links]
             places = [solved.point(point) for link in links for point in link.points]
-            size = _around([*places, *(place for link in links for place in slots.get(link.number, ()))])
+            places += [place for link in links for place in slots.get(link.number, ())]
+            size = _around([*places, *_special_points(solved, group.links)])
             yield Extent("mu_l", size, GROUPS.get(group.kind, GROUP))
             for n in links_apart(solved, group):  # a yoke is as long as its slot, which its block goes through twice
                 own = [*(solved.point(p) for p in solved.mechanism.link(n).points), *slots.get(n, ())]
@@ -201,9 +202,16 @@ def _texts(solved: SolvedLinkage, plans: Sequence[str]) -> float:
 def _mechanism(solved: SolvedLinkage) -> Size:
     places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
     places += [place for ends in _slots(solved).values() for place in ends]
+    places += _special_points(solved, [link.number for link in solved.mechanism.links])
     if isinstance(driver := solved.mechanism.driver, Driver):
         places += [solved.point(driver.pivot) + ARROW * _crank(solved) * way for way in (1, 1j, -1, -1j)]
     return _around(places)
+
+
+def _special_points(solved: SolvedLinkage, links: Collection[int]) -> list[complex]:
+    """Return the special points of groups that are drawn with these links: they may lie far from all joints."""
+    meets = (step.name for step in solved.program.on(POSITION) if step.verb == "meet")
+    return [solved.point(name) for name in meets if not role(name).hidden and {*role(name).links} & {*links}]
 
 
 def _slots(solved: SolvedLinkage) -> dict[int, list[complex]]:

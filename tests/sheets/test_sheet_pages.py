@@ -187,6 +187,12 @@ def test_plans_are_drawn_larger_where_pages_have_room() -> None:
     assert all(80.0 < millimetres < 300.0 for millimetres in longest.values())
 
 
+def test_scale_factors_leave_room_for_a_special_point_far_from_all_joints() -> None:
+    task, variant = "scheme-20-press-automaton", "2"
+
+    assert same_scales(kulman.solve(task, variant), kulman.sheet(task, variant))
+
+
 @pytest.mark.parametrize(
     "task",
     [

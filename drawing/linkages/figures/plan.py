@@ -264,6 +264,8 @@ def _roomy(plan: Plan, window: Window, figure: str, numeral: str) -> tuple[View,
     """Return an inset and what it shows: as little around the vectors as leaves its letters inside of its frame."""
     tries: list[tuple[float, View, Window]] = []
     for by in FARTHER:
+        if tries and by * EMPTIER >= min(tries, key=lambda one: one[0])[0]:
+            break  # even with all letters inside it would be no better
         wider = window.grown(by)
         view, (x0, y0, x1, y1) = _inset(plan, wider, figure, numeral), (side * window.times for side in wider.box)
         letters = (extent((shape,)) for shape in view.shapes if isinstance(shape, Text) and shape.role == "label")
