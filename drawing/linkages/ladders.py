@@ -31,8 +31,9 @@ SEGMENTS = {
 # those of other plans may be so many times as long, and are so many times as long at least
 WEIGHTS = {"l": 2.0, "V": 1.25, "a": 1.25, "F": 1.0, "h": 1.5}
 LARGER = {"l": 2.8, "V": 1.4, "a": 1.4, "F": 0.9, "h": 2.6}
-KEPT = {"l": 250.0}  # mm of A1 below which a plan becomes shorter only after the others
-HUNG = 14.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
+# mm of A1 below which a plan becomes shorter only after the others
+KEPT = {"l": 200.0, "V": 80.0, "a": 80.0, "F": 70.0}
+HUNG = 13.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
 ALIKE = 3.0  # times as long as the longest force of another plan, at most, where both are drawn to one scale factor
 CRANK = 45.0  # mm, the least length of a crank drawn apart
 ARROW = 0.7  # of the crank, where the arrow of its rotation stands

@@ -187,6 +187,16 @@ def test_plans_are_drawn_larger_where_pages_have_room() -> None:
     assert all(80.0 < millimetres < 300.0 for millimetres in longest.values())
 
 
+@pytest.mark.parametrize(("task", "variant"), [("scheme-14-jaw-crusher", "2"), ("scheme-15-lever-shears", "3")])
+def test_no_plan_is_small_beside_mechanism_and_lever(task: str, variant: str) -> None:
+    longest = Counter[str]()
+    for q in kulman.solve(task, variant).quantities.values():
+        if q.kind == "vector" and q.scale:
+            longest[q.scale] = max(longest[q.scale], round(q.mm or 0.0))
+
+    assert min(longest.values()) >= 100.0, longest
+
+
 def test_scale_factors_leave_room_for_a_special_point_far_from_all_joints() -> None:
     task, variant = "scheme-20-press-automaton", "2"
 
