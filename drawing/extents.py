@@ -74,7 +74,8 @@ class Ladder:
 
     `longest` is its longest segment in its unit; `weight` is how many times as long as others it may be, `share` how
     many times as long it is at least when there is no room. Before it is shorter than `kept`, mm on A1, others become
-    smaller, and what a task has `chosen` does so last. With a `root` it stands on the rung of another one.
+    smaller, those first that keep most of it, and what a task has `chosen` does so last. With a `root` it stands on
+    the rung of another one.
     """
 
     values: tuple[float, ...]
@@ -199,12 +200,13 @@ def _shrunk(extents: Extents, rungs: Rungs, sheet: Format, most: float, least: f
     for figure in extents.figures:
         by_symbol.setdefault(extents.root(figure.symbol), []).append(figure)
 
-    def worth(symbol: str) -> tuple[bool, bool, float]:
+    def worth(symbol: str) -> tuple[bool, float, float]:
         ladder = ladders[symbol]
         coarser = ladder.values[min(rungs[symbol] + 1, len(ladder.values) - 1)]
-        short = ladder.longest < ladder.kept * sheet.width / FORMATS["A1"].width * coarser
+        kept = ladder.kept * sheet.width / FORMATS["A1"].width * coarser
+        left = min(1.0, ladder.longest / kept) if kept else 1.0  # of the length that it should keep
         long = ladder.longest / extents.mu(symbol, rungs) / ladder.weight
-        return not ladder.chosen, not short, areas[symbol] * long / ladder.weight
+        return not ladder.chosen, left, areas[symbol] * long / ladder.weight
 
     def area(symbol: str, finer: int = 0) -> float:
         return _area(extents, by_symbol[symbol], rungs | {symbol: rungs[symbol] - finer} if finer else rungs, sheet)
