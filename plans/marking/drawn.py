@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ...scales.names import latin
 from ..board import POSITION
 from ..mistakes.book import Book
 from ..names import LEVER, role
@@ -28,7 +29,8 @@ from .ways import RIGHT, Shape, edges_of, shape_of, shapes_of
 MEASURED, DIRECTED = 3.0, 8.0  # mm from which a vector can be measured, and shows a direction
 ALONE = 0.5  # how sure of a line is who has nothing beside it
 SHORT = 1.5  # mm below which a vector shows nothing
-LEAST, LARGEST = 20.0, 700.0  # mm, the longest vector of a plan
+LEAST, LARGEST = 20.0, 1500.0  # mm, the longest vector of a plan
+SMALLEST = 6.0  # of one that is of its usual size
 GENERATOR = 0.3  # part of the longest vector of a plan that a vector must have to lay the plan by
 ASTRAY = 0.5  # mm that ends of lines may be astray, which turns short ones
 DEGREES = 0.4  # by which lines may miss their direction besides
@@ -39,12 +41,20 @@ MANY = 200  # places of a plan, the best ones, of which those that differ are so
 KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less than the best by more than so much
 LIKELY = 6  # mistakes of which all plans are laid
 SHAPES = 12  # wrong plans of which so many are looked at closely
-TELLING = 4  # lines of a plan that tells how the sheet is turned
+UNTOLD = 3.0  # vectors of right plans that are too few to tell how the sheet is turned
+TELLING = 3.0  # lines of a plan that tells how the sheet is turned
+RESIZED = 8.0  # of plans that tell that a drawing is larger than the sheet
+MANY_LINES = 5.0  # of a plan that is not found by chance, of whatever size
 EVIDENT = 0.3  # vectors that a mistake must explain beyond those that the right plans do
 ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
 AGAIN = 0.5  # what a line is worth that is a vector of another plan already
-USUAL = 1.0  # what it is worth that a plan is drawn to its usual scale
+USUAL = 2.0  # what it is worth that a plan is drawn to its usual scale
 FREE = 0.3  # what it is worth that no line goes on beyond its ends, as those of tables and frames do, or none is askew
+SENSE = 0.5  # what an arrowhead is worth that points as it should, of what its line is; against it where it does not
+POINTED = math.radians(10.0)  # by which the line of an arrowhead may be turned
+NAMED = 0.5  # what a letter is worth that stands at its point; against it where it stands at another
+LETTERS = 3  # of the name of a point
+BY, AWAY = 2.0, 3.0  # heights of a letter within which it stands at a point, and from which it does not
 ASKEW = math.radians(0.5)  # against the sheet, from where a plan is
 SAME_MU = 0.01  # part by which scale factors that count as one may differ
 ALL = 0.02  # part of a plan that may lack where it counts as the right one
@@ -65,11 +75,15 @@ class Letter:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Drawn:
-    """What a drawing holds, in millimetres of paper, y up: segments as they were found, complex of shape (N,)."""
+    """What a drawing holds, in millimetres of paper, y up: segments as they were found, complex of shape (N,).
+
+    `arrows` are the indices of those that have an arrowhead at their tip.
+    """
 
     tails: Complex
     tips: Complex
     letters: tuple[Letter, ...] = ()
+    arrows: Indices = field(default_factory=lambda: np.zeros(0, np.intp))
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,11 +114,11 @@ class FoundPlan:
 
 @dataclass(frozen=True, slots=True)
 class Recognised:
-    """What was found in a drawing: plans, vectors by the names of their quantities, and why others were not."""
+    """What was found in a drawing: plans, vectors by the names of their quantities, and names of those not found."""
 
     plans: Mapping[str, FoundPlan]
     vectors: Mapping[str, Found]
-    missing: Mapping[str, str]
+    missing: tuple[str, ...]
 
     @property
     def quality(self) -> float:
@@ -132,7 +146,7 @@ def recognise(drawn: Drawn, key: Key, book: Book | None = None, mus: Mapping[str
     The `book` has the constructions with a rule broken; without it wrong plans are found as far as they are right.
     `mus` are scale factors of plans that are given, SI per mm.
     """
-    search = _Search(lines_of(drawn.tails, drawn.tips), key, book, dict(mus or {}))
+    search = _Search(drawn, lines_of(drawn.tails, drawn.tips), key, book, dict(mus or {}))
     return search.found()
 
 
@@ -143,7 +157,9 @@ def recognise(drawn: Drawn, key: Key, book: Book | None = None, mus: Mapping[str
 class _Fit:
     """A shape laid on a drawing: mm = `origin` + `factor` * place; the node of each mark or -1, lines that are there.
 
-    `worth` is what its lines count, those that are not there against it.
+    `worth` is what its lines count, those that are not there against it; `senses` are 1 for lines with their
+    arrowheads, -1 for those with arrowheads the other way round; `letters` are those at their points, less those at
+    others.
     """
 
     shape: Shape
@@ -153,12 +169,29 @@ class _Fit:
     there: np.ndarray[Any, np.dtype[np.bool_]]
     worth: float
     weights: Floats
+    senses: Floats
+    letters: int
 
     @property
     def quality(self) -> float:
         """The part of the plan that is there."""
         whole = float(self.weights.sum())
-        return float(self.weights[self.there].sum()) / whole if whole else 0.0
+        return self.lines / whole if whole else 0.0
+
+    @property
+    def lines(self) -> float:
+        """How many of its lines are there, short ones and those that are nearly one line counted as less."""
+        return float(self.weights[self.there].sum())
+
+    @property
+    def told(self) -> float:
+        """What its arrowheads and letters are worth."""
+        return SENSE * float(self.senses @ self.weights) + NAMED * self.letters
+
+    @property
+    def against(self) -> bool:
+        """Whether its arrowheads point the other way round, or its letters stand at other points."""
+        return float(self.senses @ self.weights) < 0.0 or self.letters < 0
 
     @property
     def mu(self) -> float:
@@ -186,13 +219,16 @@ class _Laid(NamedTuple):
 class _Search:
     """The search for the plans of a key among lines; `used` are the lines that are vectors of plans already."""
 
+    drawn: Drawn
     lines: Lines
     key: Key
     book: Book | None
     mus: dict[str, float]
     used: set[tuple[int, int]] = field(default_factory=set)
     common: int = RIGHT
+    times: float = 1.0  # how many times the usual scale factors those of this drawing seem to be
     shapes: dict[str, tuple[Shape, ...]] = field(default_factory=dict)
+    ways: dict[float, tuple[Indices, Floats]] = field(default_factory=dict)
 
     @cached_property
     def plans(self) -> dict[str, Shape]:
@@ -209,22 +245,15 @@ class _Search:
         fits = self._fits()
         plans, vectors = dict[str, FoundPlan](), dict[str, Found]()
         asked = {n: q for n, q in self.key.questions.items() if q.vector and q.plan in self.plans}
-        missing = {name: f"no plan of {question.plan}" for name, question in asked.items()}
         for plan, fit in fits.items():
             mistake = ""
             if not fit.shape.right and self.book is not None:
                 number = self.common if self.common in fit.shape.broken else fit.shape.broken[0]
                 mistake = self.book.signatures[number].broken.mistake
-            pole = complex(fit.origin)
-            plans[plan] = FoundPlan(fit.mu, cmath.phase(fit.factor), pole, fit.quality, mistake, fit.shape.flat)
-            for name, one in self._vectors(fit).items():
-                if name in asked and asked[name].plan == plan:
-                    if isinstance(one, Found):
-                        vectors[name] = one
-                        missing.pop(name, None)
-                    else:
-                        missing[name] = one
-        return Recognised(plans, vectors, missing)
+            pole, alone = complex(fit.origin), fit.shape.flat and not fit.senses.any()
+            plans[plan] = FoundPlan(fit.mu, cmath.phase(fit.factor), pole, fit.quality, mistake, alone)
+            vectors |= {n: one for n, one in self._vectors(fit).items() if n in asked and asked[n].plan == plan}
+        return Recognised(plans, vectors, tuple(name for name in asked if name not in vectors))
 
     def _fits(self) -> dict[str, _Fit]:
         """Return where each plan lies that is drawn: the right one, or one with a mistake that explains more of it.
@@ -233,12 +262,36 @@ class _Search:
         """
         right = {turn: [fit for shape in self.plans.values() if (fit := self._best(shape, turn))] for turn in TURNS}
         turn = max(TURNS, key=lambda turn: sum(fit.worth for fit in right[turn]))
-        if any(
-            1.0 - fit.quality <= ALL and len(fit.shape.lines) >= TELLING and not fit.shape.flat for fit in right[turn]
-        ):
-            return self._at(turn)[0]
-        fits, _, self.common = max(map(self._at, TURNS), key=lambda found: found[1])
+        self._resized(right[turn])
+        told = {turn: [fit for fit in right[turn] if self._told(fit)] for turn in TURNS}
+        likely = max(sum(fit.worth for fit in fits) for fits in told.values()) - UNTOLD
+        turns = [turn for turn in TURNS if sum(fit.worth for fit in told[turn]) >= likely]
+        if len(turns) == 1 and max(fit.lines for fit in told[turns[0]]) >= TELLING:
+            return self._at(turns[0])[0]
+        fits, _, self.common = max(map(self._at, turns if len(turns) > 1 else TURNS), key=lambda found: found[1])
         return fits
+
+    def _resized(self, right: list[_Fit]) -> None:
+        """See whether several plans are drawn so many times as large as on the sheet: then all may be."""
+        ratios = {fit.shape.plan: fit.mu / usual for fit in right if (usual := self._expected(fit.shape.plan))}
+        whole = [fit for fit in right if fit.shape.plan in ratios and fit.quality >= ENOUGH and not fit.shape.flat]
+        alike = {
+            ratio: [fit for fit in whole if abs(ratios[fit.shape.plan] / ratio - 1.0) < SAME_MU]
+            for ratio in (1.0, *(ratios[fit.shape.plan] for fit in whole))
+        }
+        lines = {ratio: sum(fit.lines for fit in some) for ratio, some in alike.items() if len(some) > 1}
+        ratio = max(lines, key=lambda ratio: lines[ratio], default=1.0)
+        if abs(ratio - 1.0) > SAME_MU and lines[ratio] >= RESIZED:
+            self.times = ratio
+
+    def _told(self, fit: _Fit) -> bool:
+        """Whether a plan is drawn as it fits, and not found so by chance: of its usual size, or of many lines."""
+        return not fit.shape.flat and not fit.against and 1.0 - fit.quality <= ALL and self._by_size(fit)
+
+    def _by_size(self, fit: _Fit) -> bool:
+        """Whether a plan is of its usual size, or of so many lines that it may have any."""
+        usual = self._expected(fit.shape.plan)
+        return fit.lines >= MANY_LINES or (bool(usual) and abs(fit.mu / usual - 1.0) < SAME_MU)
 
     def _at(self, turn: float) -> tuple[dict[str, _Fit], float, int]:
         """Return where each plan lies on a sheet turned so, what all are worth, and which mistake is in them."""
@@ -247,31 +300,33 @@ class _Search:
         doubtful: dict[str, list[_Fit]] = {}
         sure: dict[str, _Fit] = {}
         for plan, right in self.plans.items():
-            fit = None if right.flat else self._best(right, turn)
-            if fit is not None and 1.0 - fit.quality <= ALL:
+            fit = self._best(right, turn)
+            if fit is not None and self._told(fit):
                 self._take(fits, fit)
                 sure[plan] = fit
-            elif not right.flat and (ways := self._ways(plan, turn)):
-                doubtful[plan] = ways
+            elif (not right.flat or (fit and fit.senses.min() < 0.0)) and (ways := self._ways(plan, turn)):
+                doubtful[plan] = ways  # also a single line whose arrowhead points the other way
         self.common = self._common(doubtful, sure, turn) if doubtful else RIGHT
         for ways in doubtful.values():
             usual = next((fit for fit in ways if fit.shape.explained(self.common)), ways[0])
-            best = max(ways, key=lambda fit: fit.worth)
+            best = max(filter(self._by_size, ways), key=lambda fit: fit.worth, default=usual)
             chosen = best if best.worth > usual.worth + OTHER else usual
-            if chosen.quality >= ENOUGH:
+            by_chance = self.arrows and not (self._by_size(chosen) or chosen.senses.any())
+            if chosen.quality >= ENOUGH and not by_chance:
                 self._take(fits, chosen)
-        for plan in [plan for plan, right in self.plans.items() if right.flat]:  # one line follows from the others
+        for plan in [plan for plan in self.plans if plan not in doubtful and plan not in sure]:
+            # one line follows from the others
             shapes = [shape for shape in self._shapes(plan) if shape.explained(self.common)]
             found = [fit for shape in shapes if (fit := self._best(shape, turn)) is not None and fit.quality >= ENOUGH]
             if found:
-                self._take(fits, found[0])
+                self._take(fits, max(found, key=lambda fit: fit.worth))
         worth = sum(fit.worth for fit in fits.values() if not fit.shape.flat)
         return fits, worth, self.common
 
     def _shapes(self, plan: str) -> tuple[Shape, ...]:
         """Return all ways in which a plan may be drawn."""
         if plan not in self.shapes:
-            self.shapes[plan] = shapes_of(self.key, self.book, plan, plan not in self.mus)
+            self.shapes[plan] = shapes_of(self.key, self.book, plan)
         return self.shapes[plan]
 
     def _ways(self, plan: str, turn: float) -> list[_Fit]:
@@ -280,13 +335,13 @@ class _Search:
         laid = [(self._lay(shape, turn), shape) for shape in others]
         laid.sort(key=lambda one: -one[0].worth.max(initial=-math.inf))
         fits = [fit for fit in [self._best(right, turn)] if fit is not None]
-        most = max((fit.worth for fit in fits), default=0.0)
+        most = max((fit.worth - fit.told for fit in fits), default=0.0)
         for way, shape in laid:
             if way.worth.max(initial=-math.inf) + FREE < most - OTHER or len(fits) > SHAPES:
                 break
             if (fit := self._closest(shape, way)) is not None:
                 fits.append(fit)
-                most = max(most, fit.worth)
+                most = max(most, fit.worth - fit.told)
         return fits
 
     def _common(self, doubtful: dict[str, list[_Fit]], sure: Mapping[str, _Fit], turn: float) -> int:
@@ -323,7 +378,8 @@ class _Search:
 
     def _expected(self, plan: str) -> float:
         """Return the scale factor that a plan should have, SI per mm; zero where nobody knows."""
-        return float(self.mus.get(plan, self.key.paper.mus.get(plan, 0.0)))
+        given = self.mus.get(plan)
+        return float(self.key.paper.mus.get(plan, 0.0) * self.times if given is None else given)
 
     def _best(self, shape: Shape, turn: float) -> _Fit | None:
         """Return where a shape fits best."""
@@ -358,12 +414,10 @@ class _Search:
         for at, span in zip(shape.lines, spans.tolist(), strict=True):
             if abs(span) < GENERATOR * longest:
                 continue
-            pairs = lines.along(cmath.phase(span) + turn, math.radians(4.0))
-            ways_of = lines.nodes[lines.second[pairs]] - lines.nodes[lines.first[pairs]]
-            sizes = lines.sizes[pairs]
-            off = np.abs(np.angle(ways_of / (span * unit)))
+            pairs, sizes = self._along(cmath.phase(span) + turn)
             drawn = sizes * (longest / abs(span))
-            good = (off < math.radians(DEGREES) + ASTRAY / sizes) & (drawn > LEAST) & (drawn < LARGEST)
+            usual = np.abs(sizes * self._expected(shape.plan) / abs(span) - 1.0) < SAME_MU + ASTRAY / sizes
+            good = ((drawn > LEAST) | (usual & (drawn > SMALLEST))) & (drawn < LARGEST)
             if given is not None:
                 good &= np.abs(sizes - abs(span) / given) < ASTRAY + SAME_MU * sizes
             pairs, sizes = pairs[good], sizes[good]
@@ -376,6 +430,20 @@ class _Search:
         kept = ways[:LAID]
         nothing = np.zeros(0, complex)
         return tuple(np.concatenate([nothing, *(way[side] for way in kept)]) for side in (1, 2))  # type: ignore[return-value]
+
+    def _along(self, angle: float) -> tuple[Indices, Floats]:
+        """Return the pairs of nodes joined along a direction, as nearly as lines are drawn; and how far apart each is.
+
+        Vectors of most shapes have directions of the right plan: they are looked for once.
+        """
+        own = round(angle % math.tau, 6)
+        if own not in self.ways:
+            lines = self.lines
+            pairs = lines.along(angle, math.radians(4.0))
+            off = np.abs((lines.angles[pairs] - angle + math.pi) % math.tau - math.pi)
+            pairs = pairs[off < math.radians(DEGREES) + ASTRAY / lines.sizes[pairs]]
+            self.ways[own] = pairs, lines.sizes[pairs]
+        return self.ways[own]
 
     def _counted(
         self, shape: Shape, nodes: Indices, per_unit: Floats, loosely: bool = False
@@ -412,7 +480,9 @@ class _Search:
             if one >= 0 and other >= 0 and one != other:
                 there[at] = self.lines.covers(self.lines.nodes[one], self.lines.nodes[other])
         gained = (1.0 + ABSENT) * float(weights[0][there & lacking].sum())
-        fit = _Fit(shape, origin, factor, nodes, there, float(worth[0]) + gained, weights[0])
+        senses = self._senses(shape, nodes) * there
+        letters = self._lettered(shape, nodes)
+        fit = _Fit(shape, origin, factor, nodes, there, float(worth[0]) + gained, weights[0], senses, letters)
         again = sum(
             AGAIN * weight
             for pair, weight in zip(fit.pairs, fit.weights[fit.there], strict=True)
@@ -421,7 +491,59 @@ class _Search:
         both = [end for pair in fit.pairs for end in (pair, pair[::-1]) if pair[0] != pair[1]]
         free = sum(not self.lines.goes_on(*end) for end in both) / len(both) if both else 0.0
         skew = min(1.0, (cmath.phase(fit.factor / square) / ASKEW) ** 2)
-        return replace(fit, worth=fit.worth - again + FREE * (free - skew))
+        return replace(fit, worth=fit.worth - again + fit.told + FREE * (free - skew))
+
+    def _senses(self, shape: Shape, nodes: Indices) -> Floats:
+        """Return for each line of a shape laid on nodes whether arrowheads on it point as they should: 1, -1 or 0."""
+        found = np.zeros(len(shape.lines))
+        if not self.arrows:
+            return found
+        ends = zip(nodes[shape.tails[shape.lines]].tolist(), nodes[shape.tips[shape.lines]].tolist(), strict=True)
+        for at, (one, other) in enumerate(ends):
+            if one >= 0 and other >= 0 and one != other and not shape.both[at]:
+                way = complex(self.lines.nodes[other] - self.lines.nodes[one])
+                found[at] = self._points_along(other, way) - self._points_along(one, -way)
+        return found
+
+    def _points_along(self, node: int, way: complex) -> bool:
+        """Whether an arrowhead at a node points along a way."""
+        ways = self.arrows.get(int(self.lines.hubs[node]), ())
+        return any((one * way.conjugate()).real >= math.cos(POINTED) * abs(way) for one in ways)
+
+    def _lettered(self, shape: Shape, nodes: Indices) -> int:
+        """Return how many letters stand at the points of a shape that they name, less those that stand at others."""
+        known = [(at, text) for at, text in enumerate(shape.letters) if nodes[at] >= 0 and text in self.letters]
+        if not known:
+            return 0
+        found, places = 0, self.lines.nodes[nodes[nodes >= 0]]
+        for at, text in known:
+            for place, height in self.letters[text]:
+                apart = abs(place - self.lines.nodes[nodes[at]])
+                if apart < BY * height:
+                    found += 1
+                elif apart > AWAY * height and np.abs(places - place).min() < BY * height:
+                    found -= 1
+        return found
+
+    @cached_property
+    def letters(self) -> dict[str, list[tuple[complex, float]]]:
+        """Where letters stand that name a point of a plan, and how high they are: by their text, without primes."""
+        found = dict[str, list[tuple[complex, float]]]()
+        for letter in self.drawn.letters:
+            text = "".join(filter(str.isalnum, latin(letter.text)))
+            if len(text) <= LETTERS and text == text.lower():
+                found.setdefault(text, []).append((letter.place, letter.height))
+        return found
+
+    @cached_property
+    def arrows(self) -> dict[int, list[complex]]:
+        """The unit directions of arrowheads by the hubs of the nodes at which they are."""
+        found = dict[int, list[complex]]()
+        tails, tips = (side[self.drawn.arrows] for side in (self.drawn.tails, self.drawn.tips))
+        for node, way in zip(self.lines.near(tips).tolist(), (tips - tails).tolist(), strict=True):
+            if node >= 0 and way:
+                found.setdefault(int(self.lines.hubs[node]), []).append(way / abs(way))
+        return found
 
     def _nodes(self, places: Complex) -> Indices:
         """Return the nodes of marks: near enough, or -1."""
@@ -429,26 +551,25 @@ class _Search:
         apart = np.abs(self.lines.nodes[nodes] - places)
         return np.where((nodes >= 0) & (apart <= NEAR), nodes, -1)
 
-    def _vectors(self, fit: _Fit) -> dict[str, Found | str]:
-        """Return the vectors of a plan by name: where they are drawn, or why there is none."""
-        shape, found = fit.shape, dict[str, Found | str]()
+    def _vectors(self, fit: _Fit) -> dict[str, Found]:
+        """Return the vectors of a plan by name, where they are drawn."""
+        shape, found = fit.shape, dict[str, Found]()
         line_of = {
             frozenset((int(shape.tails[at]), int(shape.tips[at]))): there
             for at, there in zip(shape.lines, fit.there, strict=True)
         }
         points = self._points(fit)
+        against = (
+            shape.flat and fit.senses @ fit.weights < 0.0
+        )  # of a plan that is one line the arrowheads say where it goes
         for name, tail, tip in zip(shape.names, shape.tails.tolist(), shape.tips.tolist(), strict=True):
             one, other = int(fit.nodes[tail]), int(fit.nodes[tip])
             size = abs(shape.places[tip] - shape.places[tail]) * abs(fit.factor)
-            if name in found and isinstance(found[name], Found):
+            if name in found or size < SHORT or one < 0 or other < 0:
                 continue
-            if size < SHORT:
-                found[name] = "too short to be read"
-            elif one < 0 or other < 0:
-                found[name] = "no point where it should begin or end"
-            else:
-                sure = fit.quality * (ALONE if shape.flat else 1.0) * (1.0 if line_of[frozenset((tail, tip))] else 0.5)
-                found[name] = Found(points[tail], points[tip], shape.plan, sure)
+            sure = fit.quality * (ALONE if shape.flat else 1.0) * (1.0 if line_of[frozenset((tail, tip))] else 0.5)
+            ends = points[tail], points[tip]
+            found[name] = Found(*(ends[::-1] if against else ends), shape.plan, sure)
         return found
 
     def _points(self, fit: _Fit) -> dict[int, complex]:

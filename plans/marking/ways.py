@@ -9,16 +9,18 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..board import Program
 from ..mistakes.book import Book
 from ..mistakes.rules import BY_SCALE
-from ..names import role
+from ..names import POINT, role
 from .key import Key
 from .lines import Complex, Floats, Indices
 
 FLAT = 0.03  # part of the longest vector that points of a plan miss where it is but one line
 FULL = 0.15  # part of the longest vector of its plan from which a vector counts whole
+SIZE = 0.005  # part by which sizes of shapes may differ that count as one
 RIGHT = -1  # the number of the right construction among those with mistakes
 
 
@@ -48,6 +50,19 @@ class Shape:
     def spans(self) -> Complex:
         """The vectors of the lines, SI."""
         return np.asarray(self.places[self.tips[self.lines]] - self.places[self.tails[self.lines]])
+
+    @cached_property
+    def letters(self) -> tuple[str, ...]:
+        """What stands at its marks on plans of velocities and accelerations: a at that of A; nothing on others."""
+        points = role(self.plan).kind in ("velocity", "acceleration")
+        return tuple(role(m).of.lower() if points and role(m).kind == POINT else "" for m in self.marks)
+
+    @cached_property
+    def both(self) -> NDArray[np.bool_]:
+        """Which lines are vectors both ways, a force and its opposite."""
+        ways = set(zip(self.tails.tolist(), self.tips.tolist(), strict=True))
+        ends = zip(self.tips[self.lines].tolist(), self.tails[self.lines].tolist(), strict=True)
+        return np.array([way in ways for way in ends], bool)
 
     @cached_property
     def weights(self) -> Floats:
@@ -113,17 +128,14 @@ def shape_of(plan: str, edges: Edges, values: Mapping[str, Any], *broken: int) -
     return Shape(plan, marks, places, tuple(edge[0] for edge in edges), tails, tips, of_lines, broken, not broken)
 
 
-def shapes_of(key: Key, book: Book | None, plan: str, by_size: bool) -> tuple[Shape, ...]:
-    """Return all ways in which a plan may be drawn, the right one first; those that look alike are one.
-
-    Those of any size look alike `by_size`, where nobody knows the scale factor; but lines alone differ by nothing else.
-    """
+def shapes_of(key: Key, book: Book | None, plan: str) -> tuple[Shape, ...]:
+    """Return all ways in which a plan may be drawn, the right one first; those that look alike are one."""
     program = key.paper.program
     right_edges = edges_of(program, plan)
     right = shape_of(plan, right_edges, key.values)
     if right is None or not right.longest:
         return ()
-    found = {look_of(right, by_size): right}
+    found = {look_of(right): right}
     for number, one in enumerate(book.signatures if book else ()):
         if one.broken.mistake in BY_SCALE:
             continue
@@ -131,14 +143,13 @@ def shapes_of(key: Key, book: Book | None, plan: str, by_size: bool) -> tuple[Sh
         edges = changed_edges(right_edges, one.broken.program, plan) if changed else right_edges
         shape = shape_of(plan, edges, one.values, number)
         if shape is not None and shape.longest:
-            look = look_of(shape, by_size)
+            look = look_of(shape)
             before = found.get(look)
             found[look] = shape if before is None else replace(before, broken=(*before.broken, number))
     return tuple(found.values())
 
 
-def look_of(shape: Shape, by_size: bool) -> tuple[Any, ...]:
-    """Return what shapes have in common that look alike on paper."""
-    size = 1.0 if by_size and not shape.flat else shape.longest
+def look_of(shape: Shape) -> tuple[Any, ...]:
+    """Return what shapes have in common that look alike on paper, and are of about the same size."""
     ends = np.round(np.stack((shape.places[shape.tails], shape.places[shape.tips])) / shape.longest, 3) + 0.0
-    return (f"{size:.3e}", *sorted(zip(shape.names, *ends.tolist(), strict=True), key=repr))
+    return (round(math.log(shape.longest) / SIZE), *sorted(zip(shape.names, *ends.tolist(), strict=True), key=repr))

@@ -145,6 +145,10 @@ def test_processes_and_one_process_give_the_same_and_a_result_survives_its_file(
     assert [Result.from_json(asdict(result)) for result in alone] == alone
 
 
+def other_numbers(answers: Answers) -> dict[str, Reply]:
+    return {name: replace(line, mm=None if line.mm is None else 2 * line.mm) for name, line in answers.lines.items()}
+
+
 def test_a_stopped_run_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     answers, folder = handed_in(tmp_path, 12), tmp_path / "reports"
     folder.mkdir()
@@ -156,7 +160,7 @@ def test_a_stopped_run_goes_on_where_it_was(tmp_path: Path, monkeypatch: pytest.
     assert len(stopping.names) == 10
     stopping.names.clear()
     stopping.at = None
-    changed = [answers[0], replace(answers[1], lines={}), *answers[2:]]
+    changed = [answers[0], replace(answers[1], lines=other_numbers(answers[1])), *answers[2:]]
 
     results = marked(changed, folder)
 

@@ -6,11 +6,12 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
+if TYPE_CHECKING:  # the process that reads a PDF collects, and does no more
+    import numpy as np
 
-from ...plans.marking.drawn import Drawn, Letter
+    from ...plans.marking.drawn import Drawn, Letter
 
 LARGEST = 16_000_000  # bytes, also unpacked
 MOST, STEPS = 30_000, 3  # lines of a drawing; what is counted for each: an entity and its ends
@@ -94,6 +95,10 @@ class Marks:
 
     def drawn(self) -> Drawn:
         """Return the drawing: arrows from tail to tip, as long as they look, runs of letters joined to texts."""
+        import numpy as np
+
+        from ...plans.marking.drawn import Drawn
+
         ends = np.array(self.lines, dtype=complex).reshape(-1, 2)
         corners = np.array(self.heads, dtype=complex).reshape(-1, 3)
         places = np.array([(piece.start, piece.end) for piece in self.pieces], dtype=complex).ravel()
@@ -103,15 +108,17 @@ class Marks:
         ends = ends[np.abs(ends[:, 1] - ends[:, 0]) >= SHORTEST]
         if not len(ends):
             raise FaultError("drawing-empty")
-        ends = _pointed(ends, corners)
-        return Drawn(ends[:, 0], ends[:, 1], tuple(_letters(self.pieces)))
+        ends, arrows = _pointed(ends, corners)
+        return Drawn(ends[:, 0], ends[:, 1], tuple(_letters(self.pieces)), arrows)
 
 
-def _pointed(ends: np.ndarray, heads: np.ndarray) -> np.ndarray:
-    """Return lines from tail to tip, shape (N, 2); one that ends inside an arrowhead goes on to its point.
+def _pointed(ends: np.ndarray, heads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return lines from tail to tip, shape (N, 2), and the indices of those that have an arrowhead at one end, the tip.
 
-    A head is a triangle with two sides alike, its point between them, and lies along its line.
+    One that ends inside an arrowhead goes on to its point. A head is a triangle with two sides alike, its point between
+    them, and lies along its line.
     """
+    import numpy as np
     import shapely
 
     sides = np.abs(np.roll(heads, -1, axis=1) - np.roll(heads, -2, axis=1))  # each opposite to its corner
@@ -122,7 +129,7 @@ def _pointed(ends: np.ndarray, heads: np.ndarray) -> np.ndarray:
     slim = (long[:, 2] - long[:, 1] <= 0.05 * long[:, 2]) & (long[:, 0] < long[:, 1]) if len(heads) else np.array([])
     tips, back = tips[slim.astype(bool)], back[slim.astype(bool)]
     if not len(tips):
-        return ends
+        return ends, np.zeros(0, np.intp)
     spans = shapely.linestrings(np.stack([np.stack([tips.real, back.real], 1), np.stack([tips.imag, back.imag], 1)], 2))
     points = shapely.points(np.stack([ends.real.ravel(), ends.imag.ravel()], axis=1))
     at, head = shapely.STRtree(spans).query(points, predicate="dwithin", distance=0.05)
@@ -133,11 +140,14 @@ def _pointed(ends: np.ndarray, heads: np.ndarray) -> np.ndarray:
     found = ends.copy()
     found[line[fits], 1] = tips[head[fits]]
     found[line[fits], 0] = ends[line[fits], 1 - end[fits]]
-    return found
+    pointed, heads_of = np.unique(line[fits], return_counts=True)  # a dimension has two
+    return found, pointed[heads_of == 1]
 
 
 def _letters(pieces: Sequence[Piece]) -> Iterator[Letter]:
     """Go through the texts of a drawing: runs that follow one another on a line, with scripts, are one."""
+    from ...plans.marking.drawn import Letter
+
     run: list[Piece] = []
     for piece in (*pieces, None):
         if run and (piece is None or not _goes_on(run, piece)):

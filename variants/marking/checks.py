@@ -281,7 +281,7 @@ class Job:
         own = (request.language, request.format, terms.rubric, terms.digits, terms.own, tuple(REPORTS))
         whole, roster = digest_of(repr((parts, own))), terms.roster
         told = ((one, roster.find(one.who) if roster else None) for one in answers)
-        return [digest_of(f"{whole} {number} {one!r} {entry!r}") for number, (one, entry) in enumerate(told)]
+        return [digest_of(f"{whole} {number} {one.digest} {entry!r}") for number, (one, entry) in enumerate(told)]
 
 
 def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int | None = None) -> list[Result]:

@@ -18,9 +18,9 @@ from ..case import Request, Settings
 from ..roster import Entry, Roster, variant_of_book
 from ..sheets import same_id, variant_of_id
 from .cells import Asked
-from .drawn import Seen, measured, seen
 from .keyed import Keyed, Rubric, keyed
 from .reading import Answers, Reply, apart
+from .seen import Seen, measured, seen
 
 NEAR = 0.05  # part by which values over segments may differ from one another
 TELLING = 3  # lines that must tell that a scale factor is not theirs

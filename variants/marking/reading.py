@@ -19,6 +19,7 @@ from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin, unknown
 from ...scales.numbers import SHOWN, quote
 from ...scales.units import unit
+from ..crew import digest_of
 from ..drawings.files import SUFFIXES as DRAWINGS
 from ..drawings.files import read_drawing
 from ..roster import NAMED, Who
@@ -69,6 +70,13 @@ class Answers:
     def __repr__(self) -> str:
         """Return where they come from, and how many there are."""
         return f"<Answers {self.source}: {len(self.lines)}>"
+
+    @property
+    def digest(self) -> str:
+        """What tells these answers from any other: all that stands in them, every line of a drawing too."""
+        said = (self.source, self.who, dict(self.about), dict(self.lines), dict(self.scales), self.columns)
+        drawn = () if self.drawn is None else (self.drawn.tails.tolist(), self.drawn.tips.tolist(), self.drawn.letters)
+        return digest_of(repr((said, [*map(str, self.problems)], str(self.unread), drawn)))
 
 
 Warn = Callable[[KulmanError], None]

@@ -7,7 +7,6 @@ removes what they left.
 
 from __future__ import annotations
 
-import asyncio
 import multiprocessing
 import os
 import shutil
@@ -238,6 +237,8 @@ class Crew:
         """Have `seats` processes with folders in `home`; no job takes more than so many seconds."""
         self.seats = [Seat(home / f"{name}-{number}") for number in range(seats)]
         self.seconds, self._most = seconds, seats + waiting
+        import asyncio  # here: a process that does jobs, and one that has but a single PDF read, do without
+
         self._idle, self._asked = [*self.seats], 0
         self._free = asyncio.Semaphore(seats)
         self._threads = ThreadPoolExecutor(seats)
@@ -252,6 +253,8 @@ class Crew:
         KulmanError, CrashError
             As of `Seat.do`.
         """
+        import asyncio
+
         if self._asked >= self._most:
             raise BusyError
         self._asked += 1
@@ -259,6 +262,8 @@ class Crew:
         return await asyncio.shield(asyncio.create_task(self._do(make, args, like, advance)))
 
     async def _do(self, make: Make, args: tuple[Any, ...], like: Hashable, advance: Advance | None) -> Any:
+        import asyncio
+
         try:
             async with self._free:
                 seat = next((one for one in self._idle if like is not None and one.last == like), self._idle[0])

@@ -96,9 +96,9 @@ def _look(drawn: Drawn, key: Keyed, closely: bool) -> tuple[Recognised, Told]:
 
 def _without(found: Recognised, plans: Collection[str]) -> Recognised:
     """Return what was recognised without some plans."""
-    gone = {name: "" for name, one in found.vectors.items() if one.plan in plans}
+    gone = tuple(name for name, one in found.vectors.items() if one.plan in plans)
     kept = {name: one for name, one in found.vectors.items() if name not in gone}
-    return Recognised({p: one for p, one in found.plans.items() if p not in plans}, kept, {**found.missing, **gone})
+    return Recognised({p: one for p, one in found.plans.items() if p not in plans}, kept, (*found.missing, *gone))
 
 
 def _told(drawn: Drawn, key: Keyed) -> Told:
