@@ -321,6 +321,8 @@ class _Search:
             if found:
                 self._take(fits, max(found, key=lambda fit: fit.worth))
         worth = sum(fit.worth for fit in fits.values() if not fit.shape.flat)
+        if all(fit.shape.flat for fit in fits.values()) and not all(right.flat for right in self.plans.values()):
+            fits = {}  # single lines are on any drawing
         return fits, worth, self.common
 
     def _shapes(self, plan: str) -> tuple[Shape, ...]:

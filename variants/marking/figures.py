@@ -41,15 +41,13 @@ class Box(NamedTuple):
         return abs(apart.real) < self.half + other.half and abs(apart.imag) < HEIGHT
 
 
-def boxes(
-    vectors: Sequence[tuple[complex, complex, int]], figure: complex, others: Sequence[Box] = ()
-) -> Iterator[Box]:
+def boxes(vectors: Sequence[tuple[complex, complex, int]], figure: complex) -> Iterator[Box]:
     """Go through the rooms of the texts of vectors, in their order.
 
     A vector has tail, tip and number of letters, mm, y down; texts turn away from the middle of the figure, of which
     width and height are given, keep within it, and clear of other texts where they can.
     """
-    taken = [*others]
+    taken: list[Box] = []
     for tail, tip, letters in vectors:
         spots = list(_spots(tail, tip, 0.5 * WIDTH * letters, figure * 0.5))
         spots = [box for box in spots if box.lies_in(figure)] or spots

@@ -9,16 +9,19 @@ from __future__ import annotations
 import cmath
 from base64 import b64encode
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from pathlib import Path
 
+from ...drawing.labels import place
 from ...drawing.page import Page, extent
 from ...drawing.shapes import Arrow, Group, Line, Pen, Shape, Text, shifted
-from ...drawing.text import escape
+from ...drawing.spots import Obstacles, Request
+from ...drawing.text import Box as LetterBox
+from ...drawing.text import escape, lay_out
 from ...drawing.writers import page_files
 from ...plans.marking.answers import Line as Judged
 from ...plans.marking.answers import Verdict
-from ...plans.marking.drawn import Drawn
-from .figures import HEIGHT, WIDTH, Box, boxes
+from ...plans.marking.drawn import Drawn, Letter
 from .marked import Marked
 from .wording import texts
 
@@ -27,6 +30,7 @@ MARGIN = 10.0  # mm around the drawing
 LARGEST = 4500.0  # mm of a page, or only what is around the vectors is shown
 AROUND = 40.0
 SMALL, PART = 3.5, 1.0 / 200.0  # mm of a letter at the least; its part of a page
+WIDE = 0.7  # of a letter's width, of its height
 SAMPLE, ROW = 16.0, 1.9  # of the legend: length of a line in mm, height of a row in letters
 MARKS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.SMALL: "○"}
 
@@ -55,7 +59,7 @@ def marked_page(marked: Marked, language: str, own: bool) -> Page:
     ends = [end for _, tail, tip, _ in found for end in (tail, tip)]
     box = _box(drawn, ends)
     height = max(SMALL, PART * max(box[2] - box[0], box[3] - box[1]))
-    over = [*_under(drawn, box), *(() if own else _right(found)), *_over(marked, found, box, height)]
+    over = [*_under(drawn, box), *(() if own else _right(found)), *_over(marked, found, height)]
     lowest = complex(box[0], min(box[1], extent(over)[1]) - 2.0 * height) if over else complex(*box[:2])
     over += _legend(marked, language, own, lowest, height)
     x0, y0, x1, y1 = extent(over)
@@ -118,32 +122,38 @@ def _right(found: Sequence[Vector]) -> Iterator[Shape]:
             yield Arrow(tail, tip, Pen.AXIS, line.name, colour=BLUE)
 
 
-def _over(
-    marked: Marked, found: Sequence[Vector], box: tuple[float, float, float, float], height: float
-) -> Iterator[Shape]:
+def _over(marked: Marked, found: Sequence[Vector], height: float) -> Iterator[Shape]:
     """Go through the vectors that were found, each with its symbol and a mark."""
-    words, times, corner = marked.keyed.words, height / SMALL, complex(box[0], box[3])
-    size = complex(box[2] - box[0], box[3] - box[1])
+    words, times = marked.keyed.words, height / SMALL  # places are thought for letters of the usual height
 
-    def turned(place: complex) -> complex:  # y down, as large as the places of texts are thought
-        return (place - corner).conjugate() / times
+    def reduced(letter: Letter) -> LetterBox:
+        half = complex(WIDE * len(letter.text) * letter.height, letter.height) / 2.0
+        low, high = (letter.place - half) / times, (letter.place + half) / times
+        return low.real, low.imag, high.real, high.imag
 
-    marks = [MARKS.get(line.verdict, "✗") for line, *_ in found]
-    symbols = [marked.keyed.symbol(line.name) for line, *_ in found]
-    long = [len(symbol) + len(mark) + 1 for symbol, mark in zip(symbols, marks, strict=True)]
-    letters = marked.answers.drawn.letters if marked.answers.drawn else ()
-    others = [
-        Box(turned(one.place), 0.5 * WIDTH * len(one.text) * one.height / height) for one in letters if one.height
+    texts_of = [f"{words.symbol(line.name)} {MARKS.get(line.verdict, '✗')}" for line, *_ in found]
+    layouts = [lay_out(text, SMALL) for text in texts_of]
+    ends = [(tail / times, tip / times) for _, tail, tip, _ in found]
+    requests = [
+        Request(str(number), *layout.size, segment, along=False)
+        for number, (layout, segment) in enumerate(zip(layouts, ends, strict=True))
     ]
-    ends = [(turned(tail), turned(tip), n) for (_, tail, tip, _), n in zip(found, long, strict=True)]
-    rooms = boxes(ends, size / times, others)
-    for (line, tail, tip, _), mark, room in zip(found, marks, rooms, strict=True):
+    letters = marked.answers.drawn.letters if marked.answers.drawn else ()
+    near = [reduced(one) for one in letters if one.height and any(_by(one.place, *ends) for _, *ends, _ in found)]
+    placed = place(requests, Obstacles(segments=ends, boxes=near))
+    for number, ((line, tail, tip, _), layout, text) in enumerate(zip(found, layouts, texts_of, strict=True)):
         colour, pen = (BLUE, Pen.MAIN) if line.verdict.passed else (RED, Pen.DASHED)
         if tail != tip:
             yield Arrow(tail, tip, pen, line.name, colour=colour)
-        at = corner + (room.middle.conjugate() - 0.35j * HEIGHT) * times
-        markup = f"{words.symbol(line.name)} {mark}"
-        yield Text(at, markup, height, "middle", role="label", name=line.name, colour=colour)
+        at = (placed.corners[str(number)] - complex(layout.left, layout.bottom)) * times
+        yield Text(at, text, height, role="label", name=line.name, colour=colour)
+        way = [point * times for point in placed.leaders.get(str(number), ())]
+        yield from (Line(a, b, Pen.THIN, colour=colour) for a, b in pairwise(way))
+
+
+def _by(at: complex, tail: complex, tip: complex) -> bool:
+    """Whether a letter stands so near to a vector that a word at this may cover it."""
+    return min(abs(at - tail), abs(at - tip)) <= AROUND + abs(tip - tail)
 
 
 def _legend(marked: Marked, language: str, own: bool, at: complex, height: float) -> Iterator[Shape]:
