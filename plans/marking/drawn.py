@@ -35,7 +35,6 @@ GENERATOR = 0.3  # part of the longest vector of a plan that a vector must have 
 ASTRAY = 0.5  # mm that ends of lines may be astray, which turns short ones
 DEGREES = 0.4  # by which lines may miss their direction besides
 NEAR = 0.8  # mm from where a point should be to where it is, once the plan lies where it fits best
-TRUE = 0.4  # mm from a node up to which a point is sought where it should be
 LAID = 2  # vectors by which a plan is laid
 MANY = 200  # places of a plan, the best ones, of which those that differ are sought
 KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less than the best by more than so much
@@ -581,12 +580,9 @@ class _Search:
             node = complex(self.lines.nodes[fit.nodes[mark]])
             place = fit.origin + fit.factor * complex(shape.places[mark])
             here = fit.there & ((shape.tails[shape.lines] == mark) | (shape.tips[shape.lines] == mark))
-            spans = shape.spans[here] * fit.factor
+            outward = np.where(shape.tails[shape.lines[here]] == mark, 1.0, -1.0)
+            spans = outward * shape.spans[here] * fit.factor
             spans = spans[np.abs(spans) >= SHORT]
-            end = (
-                self.lines.end(place if abs(place - node) < TRUE else node, spans / np.abs(spans))
-                if len(spans)
-                else None
-            )
+            end = self.lines.end(place, spans / np.abs(spans)) if len(spans) else None
             found[mark] = node if end is None else end
         return found

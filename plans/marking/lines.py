@@ -97,13 +97,13 @@ class Lines:
         return reached >= size - BESIDE
 
     def end(self, place: complex, ways: Complex) -> complex | None:
-        """Return where ends of lines along some ways (unit directions) meet near a place; None where none do."""
+        """Return where ends of lines that go out along some ways (unit directions) meet near a place; None if none do."""
         ends, others = np.concatenate((self.tails, self.tips)), np.concatenate((self.tips, self.tails))
         here = np.abs(ends - place) < 2.0 * BESIDE
         ends, spans = ends[here], others[here] - ends[here]
         sizes = np.abs(spans)
-        aside = np.abs(cross(ways[:, None], spans[None, :]))
-        ends = ends[(aside < np.minimum(ASTRAY + TILT * sizes, 0.5 * sizes)).any(axis=0)]
+        aside, along = np.abs(cross(ways[:, None], spans[None, :])), dot(ways[:, None], spans[None, :])
+        ends = ends[((aside < np.minimum(ASTRAY + TILT * sizes, 0.5 * sizes)) & (along > 0.0)).any(axis=0)]
         for within in (ASIDE, BESIDE, 2.0 * BESIDE):
             near = np.abs(ends - place) < within
             if near.any():
