@@ -4,24 +4,30 @@ from __future__ import annotations
 
 import cmath
 import math
+import random
+from itertools import islice
 
 import numpy as np
 import pytest
 
 from kulman.plans.marking.answers import Answer
-from kulman.plans.marking.drawn import Drawn, recognise
+from kulman.plans.marking.drawn import DIRECTED, MEASURED, Drawn, recognise
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.verdicts import mark
-from kulman.plans.mistakes.book import Book
+from kulman.plans.mistakes.book import Book, Signature
 from kulman.plans.mistakes.explaining import explain
 from kulman.tests.support.cases import some
-from kulman.tests.support.drawn_lines import Bare, Distorted, bare, distorted, with_mistake
+from kulman.tests.support.drawn_lines import Bare, Distorted, bare, distorted, lettered, with_mistake
 from kulman.tests.support.students import accepted
 from kulman.variants.shelf import bundled
 
 FEW = ("nau-slider-crank", "madi-four-bar", "scheme-03-crank-rocker", "scheme-19-scotch-yoke")
 NEAR, READABLE = 0.2, 2.0  # mm
 PLANS = ("velocity", "acceleration", "forces_23", "forces_2", "forces_1")
+KINDS = (
+    "M11", "M23", "M24", "M25", "M26", "M27", "M30", "M31", "M33", "M38",
+    "M39", "M42", "M48", "M49", "M50", "M54", "M57", "M58", "M59", "M71",
+)  # fmt: skip
 ALIKE = 0.15  # mm by which two vectors may differ that errors of 0.1 mm do not tell apart
 
 
@@ -108,13 +114,64 @@ def test_normal_part_drawn_the_wrong_way_is_read_as_drawn() -> None:
 
 
 @pytest.mark.soak
-def test_vectors_are_found_in_most_tasks() -> None:
+@pytest.mark.parametrize(
+    "seed", [1, 2, 3]
+)  # errors of 0.1 mm let one drawing of a task pass and another miss by a hair
+def test_vectors_are_found_in_most_tasks(seed: int) -> None:
     whole = {}
     for task in bundled("mechanism"):
         sheet = bare(task)
-        for seed in (1, 2):  # errors of 0.1 mm let one drawing of a task pass and another miss by a hair
-            off = missed(sheet, distorted(sheet.segments, np.random.default_rng(seed)))
-            whole[task, seed] = max(off.values()) <= NEAR
+        off = missed(sheet, distorted(sheet.segments, np.random.default_rng(seed)))
+        whole[task] = max(off.values()) <= NEAR
 
-    assert len(whole) == 46
-    assert sum(whole.values()) >= 40, [drawing for drawing, found in whole.items() if not found]
+    assert len(whole) == 23
+    assert sum(whole.values()) >= 21, [drawing for drawing, found in whole.items() if not found]
+
+
+def planted(sheet: Bare, wrong: Signature, seed: int = 4) -> tuple[frozenset[str], frozenset[str]]:
+    """Return the mistakes named first of a drawing with a mistake, and of its exact readings typed into a form."""
+    segments, vectors = with_mistake(sheet, wrong, np.random.default_rng(seed))
+    texts = lettered(sheet, wrong, vectors, np.random.default_rng(seed))
+    drawing = distorted(segments, np.random.default_rng(seed), letters=texts)
+    typed = []
+    for name, (plan, (tail, tip)) in vectors.items():
+        question, way = sheet.key.questions.get(name), tip - tail
+        if question is not None and question.vector and question.plan == plan and abs(way) >= MEASURED:
+            mu, shown = sheet.key.paper.mus[plan], cmath.phase(way) if abs(way) >= DIRECTED else None
+            typed.append(Answer(name, mm=abs(way), mu=mu, value=abs(way) * mu, direction=shown))
+    found = recognise(drawing.drawn, sheet.key, sheet.book)
+    return names(sheet.book, sheet.key, list(found.answers())), names(sheet.book, sheet.key, typed)
+
+
+@pytest.mark.parametrize(("task", "mistake"), [
+    pytest.param("scheme-06-opposed-compressor", "M23", id="turned round, told by letters alone"),
+    pytest.param("scheme-09-shaper", "M24", id="no plan is right that tells how the sheet is turned"),
+    pytest.param("scheme-18-hydraulic-drive", "M38", id="force plan of a few millimetres"),
+    pytest.param("scheme-11-slotter", "M48", id="force plans that differ by their size alone"),
+    pytest.param("scheme-14-jaw-crusher", "M30", id="one vector of a plan"),
+])  # fmt: skip
+def test_a_mistake_is_named_first_of_a_drawing(task: str, mistake: str) -> None:
+    sheet = bare(task)
+    wrong = next(one for one in sheet.book.signatures if one.broken.mistake == mistake)
+
+    of_drawing, of_form = planted(sheet, wrong)
+
+    assert mistake in of_form
+    assert mistake in of_drawing
+
+
+@pytest.mark.soak
+def test_most_planted_mistakes_are_named_first() -> None:
+    """One mistake of each kind in up to eight tasks; counted are those that exact readings in a form name."""
+    named = dict[tuple[str, str], bool]()
+    for kind in KINDS:
+        tasks = sorted(bundled("mechanism"))
+        random.Random(kind).shuffle(tasks)
+        having = ((task, [s for s in bare(task).book.signatures if s.broken.mistake == kind]) for task in tasks)
+        for task, some in islice(((task, some) for task, some in having if some), 8):
+            of_drawing, of_form = planted(bare(task), random.Random(f"{task} 7").choice(some))
+            if not accepted(kind).isdisjoint(of_form):
+                named[kind, task] = not accepted(kind).isdisjoint(of_drawing)
+
+    assert len(named) > 100
+    assert sum(named.values()) >= 0.85 * len(named), [drawing for drawing, found in named.items() if not found]
