@@ -12,7 +12,7 @@ import cmath
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -145,8 +145,12 @@ def recognise(drawn: Drawn, key: Key, book: Book | None = None, mus: Mapping[str
     The `book` has the constructions with a rule broken; without it wrong plans are found as far as they are right.
     `mus` are scale factors of plans that are given, SI per mm.
     """
-    search = _Search(drawn, lines_of(drawn.tails, drawn.tips), key, book, dict(mus or {}))
-    return search.found()
+    return _Search(drawn, _lines_of(drawn), key, book, dict(mus or {})).found()
+
+
+@lru_cache(maxsize=1)  # a drawing is looked through for one variant after the other
+def _lines_of(drawn: Drawn) -> Lines:
+    return lines_of(drawn.tails, drawn.tips)
 
 
 # Where it lies.

@@ -97,7 +97,7 @@ class Lines:
         return reached >= size - BESIDE
 
     def end(self, place: complex, ways: Complex) -> complex | None:
-        """Return where ends of lines that go out along some ways (unit directions) meet near a place; None if none do."""
+        """Return where ends of lines going out some ways (unit directions) meet near a place; None where none do."""
         ends, others = np.concatenate((self.tails, self.tips)), np.concatenate((self.tips, self.tails))
         here = np.abs(ends - place) < 2.0 * BESIDE
         ends, spans = ends[here], others[here] - ends[here]

@@ -14,6 +14,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from ...plans.marking.drawn import Drawn, Recognised, recognise
+from ...plans.names import LEVER, role
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin
 from ...scales.numbers import SHOWN, quote
@@ -57,7 +58,7 @@ def seen(drawn: Drawn, key: Keyed, others: Iterable[str], other_key: Callable[[s
     plans = own.plans
     strange = {n for n, mu in written.items() if plans[n].mistake and abs(plans[n].mu - mu) > LIKE * mu}
     own, most, fits = _without(own, strange), LITTLE, ""
-    if _right(own) < LITTLE:
+    if _right(own) < LITTLE and not _explained(own):
         for other in others:
             with suppress(KulmanError):  # this variant has no plan with the student's data
                 part = _right(_look(drawn, other_key(other), False)[0])
@@ -74,6 +75,14 @@ def _right(found: Recognised) -> float:
     """Return what part of the vectors of a variant stands on a drawing as it should."""
     right = [name for name, one in found.vectors.items() if not found.plans[one.plan].mistake]
     return len(right) / max(len(found.vectors) + len(found.missing), 1)
+
+
+def _explained(found: Recognised) -> bool:
+    """Return whether nearly all is there, some plans right, all others drawn with the same mistake."""
+    plans = [plan for plan in found.plans.values() if not plan.alone]
+    mistakes = {plan.mistake for plan in plans}
+    there = len(found.vectors) / max(len(found.vectors) + len(found.missing), 1)
+    return there >= MUCH and "" in mistakes and len(mistakes) <= 2 and all(plan.quality >= MUCH for plan in plans)
 
 
 Told = Mapping[str, list[tuple[complex, Mu]]]  # by plan: scale factors that are written, and where
@@ -104,7 +113,11 @@ def _without(found: Recognised, plans: Collection[str]) -> Recognised:
 def _told(drawn: Drawn, key: Keyed) -> Told:
     """Return the scale factors that stand on a drawing, for each plan all that may be its own."""
     scales, display, solved = key.asked.scales, key.asked.display, key.solution.solved
-    told: dict[str, list[tuple[complex, Mu]]] = {plan: [] for plan in solved.program.plans}
+    told: dict[str, list[tuple[complex, Mu]]] = {
+        plan: []
+        for plan in solved.program.plans
+        if role(plan).kind != LEVER  # no vectors of its own
+    }
     for letter in drawn.letters:
         for written, text in _MU.findall(letter.text):
             name = f"mu_{latin(written.replace(' ', ''))}"
