@@ -8,7 +8,7 @@ WORKERS ?= auto
 # what the tests start is compiled once, whatever the shell says: they start some hundred processes
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: sheet web test soak browser corpus lint types bench speed clean
+.PHONY: sheet web test soak browser corpus lint types bench speed photos clean
 
 sheet: $(USABLE)
 	mkdir -p out
@@ -50,6 +50,11 @@ bench: $(READY)
 # Kulman's own speed against its goals
 speed: $(READY)
 	$(PY) benchmarks/run.py
+
+# how well photographs of sheets drawn by hand are read: so many students, on all linkages or those of TASKS
+STUDENTS ?= 60
+photos: $(READY)
+	$(PY) -m kulman.tests.photos.measure $(STUDENTS) $(TASKS)
 
 # what a user needs; what the tests need takes several times as long
 $(USABLE): pyproject.toml

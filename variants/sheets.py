@@ -16,7 +16,9 @@ from typing import get_args
 from ..drawing.compose import Drawn, compose, on_one_page
 from ..drawing.formats import Norm, format_named, printable
 from ..drawing.handouts import begun_pages, gridded, keyed, marked, over_page
+from ..drawing.markers import scannable
 from ..drawing.page import STATEMENT, Page
+from ..drawing.shapes import Group
 from ..drawing.text import lettered
 from ..drawing.titleblock import Stamp
 from ..drawing.view import View
@@ -27,6 +29,7 @@ from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
 from ..scales.scale import Fixed, Scale
 from .case import Case, Request, Settings, Wanted, positions_of
+from .crew import digest_of
 from .reader import load_task
 from .tables import picture
 from .task import AnyTask, Task
@@ -44,9 +47,11 @@ APART = (  # what is not asked for together
     ("--grid", "--over"),
     ("--steps", "--key"),
     ("--steps", "--over"),
+    *(("--scan", other) for other in ("--steps", "--key", "--hidden-key", "--over", "--grid")),
 )
 NOTE_TEXTS = "kulman.drawing.notes"
 MOST_DRAWN = 36  # positions whose plans one sheet shows
+CODED, DIGEST = "KULMAN", 8  # what a QR code begins with, how many digits tell what is printed
 ALL = 1000  # steps: no plan has more
 BESIDE = PAGE, CONSTRUCTION = ".html", ".ggb"  # a page on which plans move, a construction for GeoGebra
 SUFFIXES = (*WRITERS, *BESIDE)
@@ -338,6 +343,7 @@ def handout(
     hidden_key: bool = False,
     over: str | None = None,
     grid: bool = False,
+    scan: bool = False,
     set: Settings | None = None,
     only: Wanted = None,
     scales: Settings | None = None,
@@ -365,6 +371,8 @@ def handout(
         The view that is drawn alone on its page, to be printed on a transparency and laid over a student's plan.
     grid : bool
         Lay a light grid of 5 mm under the drawing.
+    scan : bool
+        Add markers and a QR code, by which `check` reads a photograph of the sheet when it has been drawn by hand.
     **block : str
         `student`, `group` and so on for the title block, as for `sheet`.
 
@@ -372,18 +380,21 @@ def handout(
     ------
     InputError, PositionError
         As for `sheet`; a number of steps below zero; no such view; steps or a hidden key beside the key; steps, a grid
-        or a hidden key with one view alone.
+        or a hidden key with one view alone; markers beside any of these, without their package or without room.
     """
     of_kind("steps", steps, (int,), "int")
     if steps < 0:
         raise InputError("handout-steps", text=quote(steps))
     asked = {"--key": key, "--over": over is not None, "--hidden-key": hidden_key, "--grid": grid, "--steps": steps > 0}
+    asked["--scan"] = scan
     for first, second in APART:
         if asked[first] and asked[second]:
             raise InputError("handout-apart", first=first, second=second)
     how = set, only, scales, notation, lang, format, norm, titled(block), lettering
     case = Request(load_task(task), variant, *how).case()
     drawing = drawing_for_print(case)
+    if scan:
+        return scannable_of_case(case, drawing)
     if over is None and not key:
         drawn = begun_of_case(case, drawing, steps)
     else:
@@ -442,3 +453,21 @@ def begun_of_case(case: Case, drawing: Drawn, steps: int = 0) -> Sheet:
     stepless = steps > 0 and begun == done(0) == done(ALL)  # the first ones may set a plan up, as on the blank
     idle = (InputError("handout-stepless", task=quote(case.task.id), steps=steps),) if stepless else ()
     return replace(drawn, pages=tuple(map(marked, begun)), warnings=(*drawn.warnings, *idle))
+
+
+def scannable_of_case(case: Case, drawing: Drawn) -> Sheet:
+    """Return the blank handout of a case whose `drawing` is for print, with markers and codes to be photographed."""
+    begun, pages = begun_of_case(case, drawing), list[Page]()
+    for number, (page, figures) in enumerate(zip(begun.pages, drawing.placed, strict=True), start=1):
+        code = scan_code(case, number, page)
+        pages.append(scannable(page, figures, number, code, drawing.sheets[number - 1], drawing.norm))
+    return replace(begun, pages=tuple(pages))
+
+
+def scan_code(case: Case, number: int, page: Page) -> str:
+    """Return what the QR code of a page says: task, variant, sheet id, page, and a hash of what is printed there."""
+    printed = [shape for shape in page.shapes if isinstance(shape, Group) and shape.role == "view"]
+    digest = digest_of(repr(printed))[:DIGEST]
+    identity = sheet_id(case.task, case.variant, case.settings)
+    how = case.language, format_named(case.format or PAPER).name
+    return ":".join((CODED, case.task.id, case.variant, identity, str(number), *how, digest)).upper()

@@ -168,8 +168,8 @@ def test_most_planted_mistakes_are_named_first() -> None:
         tasks = sorted(bundled("mechanism"))
         random.Random(kind).shuffle(tasks)
         having = ((task, [s for s in bare(task).book.signatures if s.broken.mistake == kind]) for task in tasks)
-        for task, some in islice(((task, some) for task, some in having if some), 8):
-            of_drawing, of_form = planted(bare(task), random.Random(f"{task} 7").choice(some))
+        for task, broken in islice(((task, broken) for task, broken in having if broken), 8):
+            of_drawing, of_form = planted(bare(task), random.Random(f"{task} 7").choice(broken))
             if not accepted(kind).isdisjoint(of_form):
                 named[kind, task] = not accepted(kind).isdisjoint(of_drawing)
 

@@ -191,6 +191,7 @@ class Making:
     asked: Mapping[str, Request]
     kinds: tuple[str, ...]
     spoken: str = field(default_factory=system_language, compare=False)  # the language of messages
+    scan: bool = False  # whether handouts have markers, to be photographed
     _works: Kept[_Work] = field(default_factory=partial(Kept, KEPT), init=False, repr=False, compare=False)
 
     @property
@@ -213,7 +214,7 @@ class Making:
             name: [getattr(asked, item.name) for item in fields(asked) if item.name != "task"]
             for name, asked in self.asked.items()
         }
-        how = __version__, self.kinds, len(self.asked) == 1
+        how = __version__, self.kinds, len(self.asked) == 1, *((self.scan,) if self.scan else ())
         return {name: digest_of(repr((how, self.asked[name].task.text, *items))) for name, items in said.items()}
 
     def make(self, student: Student) -> Outcome:
@@ -258,7 +259,8 @@ class Making:
             yield f"{stem}-note{NOTES[kind]}", data
             return
         if kind in FOR_STUDENTS:
-            drawn = (sheets.begun_of_case if kind == HANDOUT else sheets.card_of_case)(case, work.blank)
+            blank = sheets.scannable_of_case if self.scan else sheets.begun_of_case
+            drawn = (blank if kind == HANDOUT else sheets.card_of_case)(case, work.blank)
             stem, kind = f"{stem}-{kind}", "pdf"
         yield from ((path.name, data) for path, data in page_files(drawn.pages, Path(f"{stem}.{kind}")))
 
@@ -342,6 +344,7 @@ def batch(
     notation: str | None = None,
     lang: str = "uk",
     merge: bool = False,
+    scan: bool = False,
     jobs: int | None = None,
     dask: str | None = None,
     advance: Advance | None = None,
@@ -373,6 +376,8 @@ def batch(
     merge : bool
         Write the sheets (`pdf`), handouts and cards of the class as one document each, too, in the order of the roster,
         to be printed on both sides: behind an odd number of pages of a student an empty one follows.
+    scan : bool
+        Add markers and a QR code to the handouts, as `handout` does.
     jobs : int, optional
         Processes; as many as there are cores when left out. With 1 all is done in this one, and dies with it.
     dask : str, optional
@@ -391,10 +396,14 @@ def batch(
     all_known("batch-kind", kinds, FORMS)
     if merge and not MERGED.keys() & {*kinds}:
         raise InputError("batch-merge", known=", ".join(MERGED))
+    if scan and HANDOUT not in kinds:
+        raise InputError("batch-scan")
     wanted, block = only if only is None or isinstance(only, str) else tuple(only), dict(titled(block))
     how = by_name("set", set), wanted, by_name("scales", scales), notation, lang, format, norm, block, lettering
     once = _once(tasks)
-    making = Making({one.id: _asked_of(Request(one, None, *how)) for one in once}, tuple(dict.fromkeys(kinds)))
+    making = Making(
+        {one.id: _asked_of(Request(one, None, *how)) for one in once}, tuple(dict.fromkeys(kinds)), scan=scan
+    )
     usual = VARIANT if len(tasks) == 1 else f"{VARIANT},{SCHEME}"
     schemes = Schemes(tasks, Digits.of(usual if digits is None else digits))
     listed = read_roster(os.fspath(roster), schemes, each=True)

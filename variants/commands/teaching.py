@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     "kulman handout nau-slider-crank -v 3 --key -o key.pdf",
     "kulman handout nau-slider-crank -v 3 --grid --hidden-key -o teacher.svg",
     "kulman handout nau-slider-crank -v 3 --over velocity -o transparency.pdf",
+    "kulman handout nau-slider-crank -v 3 --scan -o to-be-photographed.pdf",
 )
 @console.of_task
 @console.output("..drawing.writers", required=True)
@@ -40,6 +41,7 @@ if TYPE_CHECKING:
 )
 @click.option("--over", metavar="PLAN", shell_complete=completing.completing(completing.plans))
 @click.option("--grid", is_flag=True)
+@click.option("--scan", is_flag=True)
 @console.sized(default="A4", show_default=True)
 @console.of_norm
 @console.tiled
@@ -121,6 +123,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     show_default=True,
 )
 @click.option("--merge", is_flag=True)
+@click.option("--scan", is_flag=True)
 @click.option(
     "--digits",
     metavar="N|WORD,...",
@@ -224,13 +227,15 @@ def _mark(
     from ..drawings.files import SUFFIXES as DRAWINGS
     from ..marking.checks import write_tables
     from ..marking.class_page import PAGE
-    from ..marking.report import REPORTS, report_files, report_text, to_json
+    from ..marking.report import PHOTOS, REPORTS, report_files, report_text, to_json
     from ..marking.result import class_lines
 
-    reports = [file for file in files if file.suffix.lower() in (*REPORTS, *DRAWINGS)]
-    drawings = [file for file in reports if file.suffix.lower() in DRAWINGS]
+    reports = [file for file in files if file.suffix.lower() in (*REPORTS, *DRAWINGS, *PHOTOS)]
+    drawings = [file for file in reports if file.suffix.lower() not in REPORTS]
     alone = len(found) == 1 and folder is None and moodle is None and len(reports) == len(files)
-    if drawings and not (alone and found[0].drawn is not None):
+    known = PHOTOS if alone and found[0].photos else DRAWINGS if alone and found[0].drawn is not None else ()
+    drawings = [file for file in drawings if file.suffix.lower() not in known]
+    if drawings:
         raise InputError("drawing-alone", file=quote(drawings[0], SHOWN))
     if not alone and (how["as_json"] or any(file.suffix.lower() != PAGE for file in reports)):
         raise InputError("check-class")
@@ -240,7 +245,7 @@ def _mark(
             console.print_json(to_json(told))
         elif not files:
             click.echo(report_text(told), nl=False)
-        save_all(files, (*REPORTS, *DRAWINGS), lambda file: report_files(told, file))
+        save_all(files, (*REPORTS, *DRAWINGS, *PHOTOS), lambda file: report_files(told, file))
     else:
         found = asked.ordered(found)
         with console.progress() as advance:

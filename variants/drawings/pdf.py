@@ -1,63 +1,26 @@
-"""PDF read back: what stands on its pages, as the library tells it that also shows PDF, in a process of its own.
-
-Forms may hold forms, and streams unpack into more than memory holds: time and memory of that process are bounded.
-"""
+"""PDF read back: what stands on its pages, as the library tells it that also shows PDF, in a process of its own."""
 
 from __future__ import annotations
 
-import atexit
 import ctypes
 import re
 from collections.abc import Iterator
-from functools import cache
-from threading import Thread
-from time import process_time
 from typing import Any
 
 from ...scales.errors import InputError
+from .apart import apart
 from .marks import CAPITAL, DEEPEST, LONGEST, POINT, Affine, FaultError, Marks, beside
 
-SECONDS, MEMORY = 0.6, 800_000_000  # of the processor, bytes: of reading one
-PATIENCE, BEAT = 60.0, 0.02  # s, for a process to begin or to end; between looks at its time
+SECONDS = 0.6  # of the processor: of reading one
 _LINE, _MOVE = 0, 2  # kinds of steps of a path
 _TEXT, _PATH, _IMAGE, _FORM = 1, 2, 3, 5  # kinds of objects of a page
 
 
 def read_pdf(data: bytes) -> Marks:
     """Read a PDF in another process; one that holds only a picture is refused as such."""
-    from ..serving.jobs import CrashError
-
     if not re.search(rb"%PDF-[0-9]", data[:2000]):
         raise ValueError
-    try:
-        seat = _seat()
-        seat.do(_begun, (), PATIENCE, lambda done, whole: None)
-        found = seat.do(_bounded, (data,), PATIENCE, lambda done, whole: None)
-    except InputError as error:
-        raise error if error.key == "extra-missing" else FaultError("drawing-late") from None
-    except CrashError:
-        raise ValueError from None
-    if isinstance(found, str):
-        if found == "drawing-late":  # it is still at it
-            seat.stop()
-        raise FaultError(found)
-    return Marks(*found)
-
-
-@cache
-def _seat() -> Any:
-    """Return the process that reads one PDF after the other, begun when there is one."""
-    from ..serving.jobs import Home, Seat
-
-    home = Home()
-    seat = Seat(home.path / "pdf", MEMORY)
-
-    def end() -> None:
-        seat.stop()
-        home.remove()
-
-    atexit.register(end)
-    return seat
+    return Marks(*apart(_begun, _pages, data, SECONDS))
 
 
 def _begun(advance: Any) -> None:
@@ -66,19 +29,6 @@ def _begun(advance: Any) -> None:
         import pypdfium2  # noqa: F401
     except ImportError:
         raise InputError("extra-missing", packages="pypdfium2", suffix=".pdf") from None
-
-
-def _bounded(advance: Any, data: bytes) -> tuple[Any, ...] | str:
-    """Return what `_pages` does, or the key that it takes too long: of the processor's time, however busy that is."""
-    found: list[tuple[Any, ...] | str] = []
-    worker = Thread(target=lambda: found.append(_pages(data)), daemon=True)
-    until = process_time() + SECONDS
-    worker.start()
-    while worker.is_alive() and process_time() < until:
-        worker.join(BEAT)
-    if worker.is_alive():
-        return "drawing-late"
-    return found[0] if found else "drawing-broken"
 
 
 def _pages(data: bytes) -> tuple[Any, ...] | str:

@@ -102,7 +102,7 @@ class Check(Terms):
 
     def _named(self, answers: Answers) -> Answers:
         """Return answers with whose drawing it is: the name of the file is that of a student, or of a record book."""
-        if self.roster is None or answers.drawn is None:
+        if self.roster is None or (answers.drawn is None and not answers.photos):
             return answers
         stem = Path(answers.source).stem
         names = [" ".join(re.split(r"[\s_-]+", name)).strip() for name in (stem, re.sub(r"^[0-9]{3}-", "", stem))]
@@ -333,7 +333,7 @@ def _seldom_collected() -> Iterator[None]:
 
 def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     """Mark a student and write the reports; answers that cannot be marked are a result, too."""
-    if not (answers.lines or answers.problems or answers.unread or answers.drawn):
+    if not (answers.lines or answers.problems or answers.unread or answers.drawn or answers.photos):
         entry = job.terms.roster.find(answers.who) if job.terms.roster else None
         return nothing(answers, entry, _variant(job.terms, answers), job.terms.request.language)
     try:

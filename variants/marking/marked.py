@@ -6,8 +6,10 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from statistics import median
+from typing import TYPE_CHECKING, Any
 
 from ...plans.marking.answers import Answer, Line, Verdict
+from ...plans.marking.drawn import Recognised
 from ...plans.marking.key import Key
 from ...plans.marking.verdicts import CLEAR, Marking, bounded, count_right, first_wrong, mark
 from ...plans.mistakes.explaining import Candidate, explain
@@ -22,6 +24,9 @@ from .keyed import Keyed, Rubric, keyed
 from .reading import Answers, Reply, apart
 from .seen import Seen, measured, seen
 
+if TYPE_CHECKING:
+    from ..photos.reading import Sheets
+
 NEAR = 0.05  # part by which values over segments may differ from one another
 TELLING = 3  # lines that must tell that a scale factor is not theirs
 SHORT = 2.0  # mm; shorter segments are read too coarsely to tell
@@ -29,7 +34,8 @@ FEWEST = 4  # answers that must be right under the key of another variant
 MANY, MOST = 0.5, 0.8  # parts of the answers: not right under one's own key; that agree, or are right under the other
 INSET = 5.0  # mm; longer segments are read on their plan
 TOLD_APART = 2  # mistakes that are told together
-KEPT = 32  # answer keys
+READ = 1.0  # mm that reading a photograph may miss of a segment
+KEPT, BLANKS = 32, 4  # answer keys; handouts that were photographed
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,7 +129,8 @@ class Marked:
 
     `lines` are those that count, `parts` what part of the full mark each is; `notes` say what was odd: cells that could
     not be read, another variant, another id; `misfits` are scale factors written wrongly, each by the line at which it
-    counts; `fits` is another variant that the answers fit, if any; `seen` is what was recognised on a drawing.
+    counts; `fits` is another variant that the answers fit, if any; `seen` is what was recognised on a drawing,
+    `sheets` the photographs that it was read from.
     """
 
     answers: Answers
@@ -138,6 +145,7 @@ class Marked:
     misfits: Mapping[str, Misfit] = field(default_factory=dict)
     fits: str = ""
     seen: Seen | None = None
+    sheets: Sheets | None = None
 
     @property
     def slips(self) -> bool:
@@ -196,6 +204,7 @@ class Desk:
     def __init__(self, terms: Terms) -> None:
         self.terms = terms
         self._keys = Kept[Keyed](KEPT)
+        self._blanks = Kept[Any](BLANKS)
 
     def keyed(self, variant: str, settings: Settings, own: bool = True) -> Keyed:
         """Return the key of a variant; the last few are kept.
@@ -224,8 +233,19 @@ class Desk:
         key = self.keyed(variant, settings)
         notes += _other_sheet(terms, answers.about.get("sheet", ""), key)
         others = [other for other in terms.request.task.variants if other != variant][: KEPT - 1]
-        on_drawing = None
-        if answers.drawn is not None:
+        on_drawing, sheets = None, None
+        if answers.photos:
+            from ..photos.reading import directed, photographed
+
+            sheets, on_drawing = photographed(answers.photos, terms.request, key, self._blanks)
+            notes += sheets.notes
+            on_drawing = _without_doubt(replace(answers, drawn=sheets.drawn), key, on_drawing, rubric)
+            answers, told = measured(replace(answers, drawn=sheets.drawn), key, on_drawing)
+            # what was not read is looked at by eye, and costs nothing
+            read = directed(answers.lines, key, rubric.tolerance.degrees)
+            answers = replace(answers, columns=tuple(n for n in answers.columns if n in read), lines=read)
+            notes += told
+        elif answers.drawn is not None:
             on_drawing = seen(answers.drawn, key, others, lambda other: self.keyed(other, settings, own=False))
             answers, told = measured(answers, key, on_drawing)
             notes += told
@@ -256,8 +276,23 @@ class Desk:
         notes += [InputError("marked-directions")] if untold and rubric.directions != "ignored" else []
         mark_of, all_notes = rubric.mark(lines, parts), (*answers.problems, *notes)
         return Marked(
-            answers, entry, key, marking, candidates, lines, mark_of, parts, all_notes, borne, fits, on_drawing
+            answers, entry, key, marking, candidates, lines, mark_of, parts, all_notes, borne, fits, on_drawing, sheets
         )
+
+
+def _without_doubt(answers: Answers, key: Keyed, found: Seen, rubric: Rubric) -> Seen:
+    """Return what was read of photographs without vectors that are wrong by no more than reading may miss."""
+    given, _ = _given(measured(answers, key, found)[0], key, {})
+    marking = mark(key.key, [rubric.compared(answer, key.key.questions[answer.name]) for answer in given])
+    read = found.recognised
+    doubtful = {
+        line.name
+        for line in marking.lines
+        if line.verdict is Verdict.WRONG and line.about == "size" and line.answer is not None and line.answer.mm
+        if abs(line.answer.mm - abs(line.right) / found.mus[read.vectors[line.name].plan]) <= READ
+    }
+    sure = {name: one for name, one in read.vectors.items() if name not in doubtful}
+    return replace(found, recognised=Recognised(read.plans, sure, (*read.missing, *sorted(doubtful))))
 
 
 def _other_sheet(terms: Terms, written: str, key: Keyed) -> list[KulmanError]:

@@ -54,17 +54,17 @@ def picture(marked: Marked, language: str, own: bool) -> str:
 
 def marked_page(marked: Marked, language: str, own: bool) -> Page:
     """Return the drawing of a student with verdicts over it, as a page of its own size."""
-    drawn, found = marked.answers.drawn, list(_vectors(marked))
+    drawn, found = marked.answers.drawn, list(vectors(marked))
     assert drawn is not None
     ends = [end for _, tail, tip, _ in found for end in (tail, tip)]
     box = _box(drawn, ends)
     height = max(SMALL, PART * max(box[2] - box[0], box[3] - box[1]))
-    over = [*_under(drawn, box), *(() if own else _right(found)), *_over(marked, found, height)]
-    lowest = complex(box[0], min(box[1], extent(over)[1]) - 2.0 * height) if over else complex(*box[:2])
-    over += _legend(marked, language, own, lowest, height)
-    x0, y0, x1, y1 = extent(over)
+    shapes = [*_under(drawn, box), *(() if own else right(found)), *over(marked, found, height)]
+    lowest = complex(box[0], min(box[1], extent(shapes)[1]) - 2.0 * height) if shapes else complex(*box[:2])
+    shapes += legend(marked, language, own, lowest, height)
+    x0, y0, x1, y1 = extent(shapes)
     by = complex(MARGIN - x0, MARGIN - y0)
-    moved = tuple(shifted(shape, by) for shape in over)
+    moved = tuple(shifted(shape, by) for shape in shapes)
     title = marked.keyed.solution.task.title[language]
     return Page(x1 - x0 + 2.0 * MARGIN, y1 - y0 + 2.0 * MARGIN, moved, title, language)
 
@@ -72,16 +72,16 @@ def marked_page(marked: Marked, language: str, own: bool) -> Page:
 Vector = tuple[Judged, complex, complex, complex]  # a line, its tail and tip, where its tip should be, mm
 
 
-def _vectors(marked: Marked) -> Iterator[Vector]:
+def vectors(marked: Marked) -> Iterator[Vector]:
     """Go through the vectors that were found and judged."""
     found = marked.seen
     assert found is not None
-    vectors = found.recognised.vectors
+    drawn = found.recognised.vectors
     for line in marked.lines:
-        one = vectors.get(line.name)
+        one = drawn.get(line.name)
         if one is not None and line.answer is not None and isinstance(line.right, complex):
-            right = line.right * cmath.rect(1.0 / found.mus[one.plan], found.turn)
-            yield line, one.tail, one.tip, one.tail + right
+            should = line.right * cmath.rect(1.0 / found.mus[one.plan], found.turn)
+            yield line, one.tail, one.tip, one.tail + should
 
 
 def _box(drawn: Drawn, ends: Sequence[complex]) -> tuple[float, float, float, float]:
@@ -115,14 +115,14 @@ def _under(drawn: Drawn, box: tuple[float, float, float, float]) -> Iterator[Sha
             yield Text(at, escape(letter.text), min(letter.height, 20.0), "middle", colour=GREY)
 
 
-def _right(found: Sequence[Vector]) -> Iterator[Shape]:
+def right(found: Sequence[Vector]) -> Iterator[Shape]:
     """Go through where wrong vectors should be."""
     for line, tail, _, tip in found:
         if not line.verdict.passed and tail != tip:
             yield Arrow(tail, tip, Pen.AXIS, line.name, colour=BLUE)
 
 
-def _over(marked: Marked, found: Sequence[Vector], height: float) -> Iterator[Shape]:
+def over(marked: Marked, found: Sequence[Vector], height: float) -> Iterator[Shape]:
     """Go through the vectors that were found, each with its symbol and a mark."""
     words, times = marked.keyed.words, height / SMALL  # places are thought for letters of the usual height
 
@@ -156,7 +156,7 @@ def _by(at: complex, tail: complex, tip: complex) -> bool:
     return min(abs(at - tail), abs(at - tip)) <= AROUND + abs(tip - tail)
 
 
-def _legend(marked: Marked, language: str, own: bool, at: complex, height: float) -> Iterator[Shape]:
+def legend(marked: Marked, language: str, own: bool, at: complex, height: float) -> Iterator[Shape]:
     """Go through the rows that say what lines mean, and what was marked, from the top."""
     said, solution = texts(language), marked.keyed.solution
     head = f"{solution.task.title[language]}; {said['about.variant']}: {solution.variant}"

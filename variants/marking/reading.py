@@ -22,6 +22,7 @@ from ...scales.units import unit
 from ..crew import digest_of
 from ..drawings.files import SUFFIXES as DRAWINGS
 from ..drawings.files import read_drawing
+from ..photos.pictures import PICTURES, Photo, read_photos, together
 from ..roster import NAMED, Who
 from ..spreadsheets.files import read_grid
 from ..spreadsheets.grid import LOOKED_AT, Grid, about_kind, column_kind, quantity_part, split_unit, tidy
@@ -33,7 +34,7 @@ from .cells import Asked, Mu
 NUMBERS = ("mm", "mu", "value")
 PARTS = (*NUMBERS, "direction")
 PRINTED = "printed"
-SUFFIXES = (*TABLES, *DRAWINGS)  # of files with answers
+SUFFIXES = (*TABLES, *DRAWINGS, *PICTURES)  # of files with answers
 Columns = Mapping[str, tuple[int | None, str]]  # by what they hold: which they are, and the unit over them
 T = TypeVar("T")
 
@@ -54,7 +55,7 @@ class Answers:
     `problems` are cells that could not be read; what stands beside them is marked all the same. `columns` are the
     quantities that a class was asked, nothing for a form of one's own. `unread` is why a file could not be read, which
     is a student without a mark, not one who has handed in nothing. Of a drawing there are no lines until it is known
-    for which variant: what it holds is `drawn`.
+    for which variant: what it holds is `drawn`; nor of `photos` of sheets that were drawn by hand.
     """
 
     source: str
@@ -66,6 +67,7 @@ class Answers:
     columns: tuple[str, ...] = ()
     unread: KulmanError | None = None
     drawn: Drawn | None = None
+    photos: tuple[Photo, ...] = ()
 
     def __repr__(self) -> str:
         """Return where they come from, and how many there are."""
@@ -93,8 +95,15 @@ def read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn | 
     InputError
         The file cannot be read, or no row of it says what its columns hold, or whose answers they are.
     """
+    if Path(file).suffix.lower() in PICTURES:
+        return _photographed(file)
     if Path(file).suffix.lower() in DRAWINGS:
-        return [Answers(str(file), Who(), {}, {}, {}, drawn=read_drawing(file))]
+        try:
+            return [Answers(str(file), Who(), {}, {}, {}, drawn=read_drawing(file))]
+        except InputError as error:
+            if error.key != "drawing-picture":
+                raise
+        return _photographed(file)
     if Path(file).suffix.lower() not in SUFFIXES:
         raise InputError("answers-kind", file=quote(file, SHOWN), known=", ".join(SUFFIXES))
     grid = read_grid(file)
@@ -112,6 +121,16 @@ def read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn | 
                 raise LocatedError(grid.place(row), InputError("answers-nameless"))
             return students
     raise InputError("answers-header", file=quote(grid.file, SHOWN))
+
+
+def _photographed(file: str | Path) -> list[Answers]:
+    """Return the answers on pictures of sheets, of one student or several; their QR codes tell task and variant."""
+    found = list[Answers]()
+    for photos in together(read_photos(file)):
+        code = next((photo.code for photo in photos if photo.code), ())
+        about = {"task": code[1].lower(), "variant": code[2].lower(), "sheet": code[3]} if code else {}
+        found.append(Answers(str(file), Who(), about, {}, {}, photos=tuple(photos)))
+    return found
 
 
 def _with_greek(texts: Sequence[str], asked: Asked) -> list[str]:
@@ -483,7 +502,28 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Warn | None) -
             answers = [Answers(file, Who(), {}, {}, {}, unread=error)]
         # what a source does not print is not missing
         found += [replace(one, source=PRINTED, columns=tuple(one.lines)) if of_source else one for one in answers]
-    return found
+    return list(_of_students(found))
+
+
+def _of_students(found: Iterable[Answers]) -> Iterator[Answers]:
+    """Go through answers, pages of one student that are on pictures with names alike but for a number together."""
+    before: Answers | None = None
+    for one in found:
+        if before is not None and before.photos and one.photos and _stem(before) == _stem(one):
+            groups = together([*before.photos, *one.photos])
+            if len(groups) == 1:
+                before = replace(before, photos=tuple(groups[0]), about={**one.about, **before.about})
+                continue
+        if before is not None:
+            yield before
+        before = one
+    if before is not None:
+        yield before
+
+
+def _stem(of: Answers) -> str:
+    """Return the name of a file without the number of a page."""
+    return Path(of.source).stem.rstrip("0123456789()_- .")
 
 
 def _found_files(names: Iterable[str], task: str) -> list[str]:

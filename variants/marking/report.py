@@ -327,7 +327,13 @@ def _body(report: Report, said: dict[str, str]) -> Iterator[str]:
             cells = scripts(row.symbol), *map(escape, row[2:5]), verdict, escape(row.weight)
             yield f'<tr class="{row.line.verdict}">{"".join(f"<td>{cells[i]}</td>" for i in columns)}</tr>'
         yield "</table></section>"
-    if report.marked.seen is not None:
+    if report.marked.sheets is not None:
+        from ..photos.returned import pictures
+
+        heading = escape(said["report.drawing"])
+        for source in pictures(report.marked, report.language, report.own):
+            yield f'<section><h2>{heading}</h2><img class="drawing" alt="{heading}" src="{source}"></section>'
+    elif report.marked.seen is not None:
         from .overlay import picture
 
         source = picture(report.marked, report.language, report.own)
@@ -389,7 +395,8 @@ def _line(row: Row, own: bool) -> dict[str, Any]:
 
 
 REPORTS: Mapping[str, Callable[[Report], str]] = {".html": report_html, ".txt": report_text}
-SUFFIXES = (*REPORTS, *TABLES, *DRAWINGS)  # of all that marks can be written to
+PHOTOS = (".png", ".pdf")  # of photographs that are returned with verdicts
+SUFFIXES = (*REPORTS, *TABLES, *DRAWINGS, ".png")  # of all that marks can be written to
 
 
 def report_bytes(report: Report, suffix: str) -> bytes:
@@ -399,6 +406,10 @@ def report_bytes(report: Report, suffix: str) -> bytes:
 
 def report_files(report: Report, path: Path) -> Files:
     """Return the file of a report, or of the drawing with verdicts over it."""
+    if report.marked.sheets is not None and path.suffix.lower() in PHOTOS:
+        from ..photos.returned import photo_files
+
+        return photo_files(report.marked, report.language, report.own, path)
     if path.suffix.lower() in DRAWINGS:
         from .overlay import marked_files
 

@@ -1,0 +1,197 @@
+"""Photographs of sheets drawn by hand: markers, bounds, what was drawn is what is read, nothing doubtful is wrong."""
+
+from __future__ import annotations
+
+import io
+import struct
+import sys
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
+
+import cv2
+import numpy as np
+import pytest
+import zxingcpp
+from PIL import Image
+
+from kulman import check, handout
+from kulman.drawing.markers import EACH, SIDE, fields, stands
+from kulman.plans.marking.answers import Verdict
+from kulman.plans.marking.ways import RIGHT
+from kulman.scales.errors import InputError
+from kulman.tests.photos.measure import Figures, chosen_ways, compared, linkages, measured, mistakes_of
+from kulman.tests.photos.synthesiser import PHONE, PX, Truth, drawn, photographed, printed, sheet_for
+from kulman.variants.marking.report import Report, report_files
+from kulman.variants.photos.matching import lines_of, matched
+from kulman.variants.photos.pictures import Photo, read_photos, together
+from kulman.variants.photos.reading import on_page, print_scale
+from kulman.variants.photos.straight import straightened
+
+TASK, PLANS = "nau-slider-crank", "velocity"
+
+
+@pytest.fixture(scope="module")
+def honest(tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, dict[str, Truth]]:
+    """The velocity plan of an honest student, photographed with a phone and marked, and what was drawn."""
+    sheet, random = sheet_for(TASK, only=PLANS), np.random.default_rng(5)
+    page = sheet.poles["velocity"][0]
+    ink, truth = drawn(sheet, page, random, chosen_ways(sheet, RIGHT))
+    file = tmp_path_factory.mktemp("photos") / "student.jpg"
+    file.write_bytes(photographed(ink, random, PHONE))
+    ready = check(TASK, "0", only=PLANS, lang="en")
+    return ready.mark(ready.read(str(file))[0]), truth
+
+
+def test_markers_are_those_of_the_dictionary() -> None:
+    dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_250)
+
+    for number in range(250):
+        assert np.array_equal(cv2.aruco.generateImageMarker(dictionary, number, 6) < 128, fields(number))
+
+
+def test_a_page_tells_its_number_and_its_task_but_no_answer() -> None:
+    sheet = sheet_for(TASK, only=PLANS)
+    number = sheet.poles["velocity"][0]
+    places = stands(sheet.pages[number])
+    grey = printed(sheet, number)
+    (code,) = zxingcpp.read_barcodes(grey)
+    said = code.text.split(":")
+
+    assert {place.number // EACH for place in places} == {number}
+    assert said[:3] == ["KULMAN", TASK.upper(), "0"]
+    assert said[4:7] == [str(number + 1), "UK", "A4"]
+    for place in places:  # drawn as large as it is said to be
+        x, y = (np.array([place.at.real, grey.shape[0] / PX - place.at.imag - SIDE]) * PX).round().astype(int)
+        middles = [round((at + 0.5) * SIDE / 6 * PX) for at in range(6)]
+        black = grey[np.ix_([y + m for m in middles], [x + m for m in middles])] < 128
+        assert np.array_equal(black, fields(place.number))
+
+
+def test_what_was_drawn_is_read(honest: tuple[Report, dict[str, Truth]]) -> None:
+    marked, truth = honest[0].marked, honest[1]
+
+    assert marked.seen is not None
+    read = marked.seen.recognised.vectors
+    assert {*truth} <= {*read}
+    for name, one in truth.items():
+        ends = [on_page(marked.sheets, end)[1] for end in (read[name].tail, read[name].tip)]
+        assert max(abs(ends[0] - one.tail), abs(ends[1] - one.tip)) < 1.0, name
+    assert {line.verdict for line in marked.lines} == {Verdict.RIGHT}
+    assert marked.mark == 100.0
+
+
+def test_a_mistake_is_named_and_a_line_that_is_not_sure_is_not_wrong(tmp_path: Path) -> None:
+    sheet, random = sheet_for(TASK, only=PLANS), np.random.default_rng(3)
+    numbers = {sheet.keyed.book.signatures[n].broken.mistake: n for n in mistakes_of(sheet)}
+    ink, truth = drawn(sheet, sheet.poles["velocity"][0], random, chosen_ways(sheet, numbers["M26"]))
+    file = tmp_path / "student.jpg"
+    file.write_bytes(photographed(ink, random, PHONE))
+    ready = check(TASK, "0", only=PLANS, lang="en")
+
+    marked = ready.mark(ready.read(str(file))[0]).marked
+    figures = Figures()
+    compared(figures, sheet, truth, marked, numbers["M26"])
+
+    assert figures.read >= 3
+    assert figures.wrong == 0
+    assert figures.named == 1
+
+
+def test_marked_sheets_are_returned(honest: tuple[Report, dict[str, Truth]]) -> None:
+    (_, png), (_, pdf) = (next(iter(report_files(honest[0], Path(f"marked{kind}")))) for kind in (".png", ".pdf"))
+
+    with Image.open(io.BytesIO(png)) as picture:
+        assert picture.width == 2100
+    assert pdf.startswith(b"%PDF")
+
+
+def as_png(width: int, height: int, colour: int = 255) -> bytes:
+    stream = io.BytesIO()
+    Image.new("L", (width, height), colour).save(stream, "PNG")
+    return stream.getvalue()
+
+
+def huge() -> bytes:
+    """The head of a picture of 400 million pixels."""
+    head = b"IHDR" + struct.pack(">IIBBBBB", 20_000, 20_000, 8, 0, 0, 0, 0)
+    chunk = struct.pack(">I", 13) + head + struct.pack(">I", zlib.crc32(head))
+    return b"\x89PNG\r\n\x1a\n" + chunk + struct.pack(">I", 0) + b"IDAT" + struct.pack(">I", zlib.crc32(b"IDAT"))
+
+
+HOSTILE: dict[str, tuple[str, Callable[[], bytes], str]] = {
+    "empty": (".jpg", lambda: b"", "photo-broken"),
+    "broken": (".png", lambda: as_png(600, 600)[:200], "photo-broken"),
+    "other": (".png", lambda: b"GIF89a" + bytes(500), "photo-broken"),
+    "huge": (".png", huge, "photo-pixels"),
+    "small": (".png", lambda: as_png(50, 50), "photo-small"),
+    "unrelated": (".png", lambda: as_png(800, 600, 90), "photo-no-markers"),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_pictures_of_something_else_are_refused(tmp_path: Path, name: str) -> None:
+    suffix, made, key = HOSTILE[name]
+    file = tmp_path / f"{name}{suffix}"
+    file.write_bytes(made())
+
+    with pytest.raises(InputError) as refused:
+        read_photos(file)
+
+    assert refused.value.key == key
+    assert "\n" not in refused.value.text("uk")
+
+
+def test_a_missing_package_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "zxingcpp", None)
+
+    with pytest.raises(InputError, match="pip install opencv-python-headless") as refused:
+        handout(TASK, only="velocity", scan=True)
+
+    assert refused.value.key == "scan-missing"
+
+
+def test_pages_go_to_their_students() -> None:
+    def page(number: int, sheet: str) -> Photo:
+        code = ("KULMAN", "T", "1", sheet, str(number), "UK", "A4", "0") if sheet else ()
+        return Photo("stack.pdf", number, {}, 0j, code, b"")
+
+    stack = [page(3, "A"), page(2, "A"), page(2, "B"), page(3, ""), page(2, "A"), page(3, "A")]
+
+    assert [[one.number for one in of] for of in together(stack)] == [[3, 2], [2, 3], [2, 3]]
+
+
+def test_corners_that_lie_badly_are_told() -> None:
+    places = stands(sheet_for(TASK, only=PLANS).pages[1])
+    seen = {place.number: tuple(1000 + 10 * z.conjugate() for z in place.corners) for place in places}
+    moved = {**seen, places[0].number: tuple(z + 60 for z in seen[places[0].number])}
+
+    assert straightened(seen, places, 1000 - 1000j).error < 0.01
+    assert straightened(moved, places, 1000 - 1000j).error > 0.3
+
+
+@pytest.mark.soak
+def test_photographs_of_all_linkages() -> None:
+    whole = Figures()
+    for _, _, figures in measured(linkages(), 30):
+        whole.add(figures)
+
+    assert whole.pages >= 60
+    assert whole.found_pages >= 0.98 * whole.pages
+    assert whole.read >= 0.7 * whole.vectors
+    assert whole.wrong <= 0.02 * whole.read
+    assert np.percentile(whole.misses, 95) <= 0.8
+
+
+def test_a_sheet_printed_smaller_is_noticed() -> None:
+    sheet = sheet_for(TASK, only=PLANS)
+    number, pole = sheet.poles["velocity"]
+    (way,) = sheet.ways("velocity", False)
+    for times in (1.0, 1.03):  # the student's ruler is as it was
+        ends = [pole + times * way.places[at] / sheet.mus["velocity"] for at in (way.tails, way.tips)]
+        poles = {"velocity": (number, pole)}
+        found = matched({number: lines_of(*ends)}, poles, sheet.mus, sheet.keyed)
+        printed_so = SimpleNamespace(blank=SimpleNamespace(mus=sheet.mus))
+
+        assert print_scale(printed_so, found) == pytest.approx(times, abs=0.003)

@@ -1,0 +1,1 @@
+"""Photographs of sheets drawn by hand, read back."""

@@ -1,0 +1,213 @@
+"""Which pencil line is which vector, on a handout whose poles and scale factors are known.
+
+The right plan, and that of each mistake, say where lines should be; a line that is nearly there, along nearly the whole
+way, is the vector. Points of a plan are where its lines cross, weighed against where they end and where arrows are: so
+each has an error of its own. A plan is the one of which most lines are there, the right one where others are as good.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...plans.laws import cross, dot
+from ...plans.marking.drawn import Found, FoundPlan, Recognised
+from ...plans.marking.ways import Shape as Way
+from ...plans.marking.ways import shapes_of
+from ..marking.keyed import Keyed
+from .strokes import END, LINE
+
+LONG = 4.0  # mm of a vector whose line is sought
+OFF, SKEW, TURN = (3.0, 1.5), 1.0, 0.03  # mm a line may be off at first, and then; mm at its ends and sine besides
+COVER, FREE = 0.6, 1.5  # part of a vector that its line covers at the least; mm at its ends that it need not
+GOOD = 0.7  # mm off that count little
+NEAR = 2.0  # mm from where a point should be within which an end or an arrow tells of it
+POLE = 0.15  # mm, error of a line that begins at a printed pole
+WHOLE, ENOUGH, BETTER = 0.97, 0.75, 0.04  # part of a plan: all of it; that must be there; more than in the right one
+SURE = 0.5  # mm, error of an end from which a vector is not sure
+ALIKE = 0.7  # mm within which ends and arrows are those of one point
+STEEP = 0.2  # sine of lines between which a point is told by their crossing
+LOST = 99.0  # mm, error of a point of which nothing is known
+
+Complex = NDArray[np.complex128]
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Lines:
+    """Lines on a page, mm, complex of shape (N,), and the ends and arrows of all, shape (M,)."""
+
+    tails: Complex
+    tips: Complex
+    spots: Complex
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Fit:
+    """A way to draw a plan, laid on a page: points, their errors, mm; how large it is, how much of it is there."""
+
+    way: Way
+    points: Complex
+    errors: Floats
+    times: float
+    quality: float
+    there: frozenset[frozenset[int]]
+
+
+def lines_of(tails: Complex, tips: Complex) -> Lines:
+    """Return lines of a page; short ones are wings of arrows, which begin at a spot."""
+    long = np.abs(tips - tails) >= LONG
+    return Lines(tails[long], tips[long], np.concatenate((tails, tips[long])))
+
+
+def matched(
+    pages: Mapping[int, Lines], poles: Mapping[str, tuple[int, complex]], mus: Mapping[str, float], keyed: Keyed
+) -> Recognised:
+    """Find the vectors of all plans whose pages are there; places are those of the pages, see `poles`."""
+    plans, vectors, missing = dict[str, FoundPlan](), dict[str, Found](), list[str]()
+    for plan, (number, pole) in poles.items():
+        lines = pages.get(number)
+        fit = None if lines is None else _best(lines, pole, mus[plan], plan, keyed)
+        asked = [name for name, question in keyed.key.questions.items() if question.vector and question.plan == plan]
+        if fit is None:
+            missing += asked
+            continue
+        mistake = "" if fit.way.right else keyed.book.signatures[fit.way.broken[0]].broken.mistake
+        at = complex(fit.points[int(np.abs(fit.way.places).argmin())])
+        plans[plan] = FoundPlan(mus[plan] / fit.times, 0.0, at, fit.quality, mistake)
+        for name, tail, tip in zip(fit.way.names, fit.way.tails.tolist(), fit.way.tips.tolist(), strict=True):
+            error = float(np.hypot(fit.errors[tail], fit.errors[tip]))
+            if name in asked and error <= SURE and frozenset((tail, tip)) in fit.there:
+                vectors[name] = Found(complex(fit.points[tail]), complex(fit.points[tip]), plan, 1.0 - error)
+        missing += [name for name in asked if name not in vectors]
+    return Recognised(plans, vectors, tuple(missing))
+
+
+def _best(lines: Lines, pole: complex, mu: float, plan: str, keyed: Keyed) -> Fit | None:
+    """Return how a plan is drawn: the right one, or one with a mistake of which clearly more is there."""
+    if not len(lines.tails):
+        return None
+    (right, *_) = shapes_of(keyed.key, None, plan)
+    best = _laid(lines, pole, mu, right)
+    if best.quality < WHOLE:
+        for way in shapes_of(keyed.key, keyed.book, plan)[1:]:
+            fit = _laid(lines, pole, mu, way)
+            if fit.quality > best.quality + (BETTER if best.way.right else 0.0):
+                best = fit
+    return best if best.quality >= ENOUGH else None
+
+
+def _laid(lines: Lines, pole: complex, mu: float, way: Way) -> Fit:
+    """Lay a way to draw a plan on a page, closer the second time."""
+    times, shift = 1.0, 0j
+    places = way.places / mu
+    for within in OFF:
+        wanted = pole + shift + times * places
+        own, good = _lines(lines, way, wanted, within)
+        points, errors = _points(lines, way, wanted, own, pole)
+        known = (errors < SURE) & (np.abs(places) > LONG)
+        if known.sum() >= 2:
+            ratio = dot(places[known], points[known] - pole).sum() / (np.abs(places[known]) ** 2).sum()
+            times = float(np.clip(ratio, 0.9, 1.1))
+    sought = np.abs(way.spans) / mu >= LONG
+    weights = np.where(sought, way.weights, 0.0)
+    whole = float(weights.sum())
+    there = frozenset(
+        frozenset((int(way.tails[at]), int(way.tips[at])))
+        for at, line, long in zip(way.lines, own, sought, strict=True)
+        if line >= 0 or not long
+    )
+    return Fit(way, points, errors, times, float((weights * good).sum()) / whole if whole else 0.0, there)
+
+
+def _lines(lines: Lines, way: Way, wanted: Complex, within: float) -> tuple[NDArray[np.intp], Floats]:
+    """Return for each vector of a plan the number of its line or -1, and how well that fits, 0 to 1."""
+    sizes = np.abs(lines.tips - lines.tails)
+    units = (lines.tips - lines.tails) / sizes
+    starts, stops = wanted[way.tails[way.lines]], wanted[way.tips[way.lines]]
+    long = np.abs(stops - starts)
+    ways = (stops - starts) / np.maximum(long, 1e-9)
+    middles = (starts + stops) / 2.0
+    sine = np.abs(cross(ways[:, None], units[None, :]))
+    off = np.abs(cross(units[None, :], middles[:, None] - lines.tails[None, :]))
+    along = [dot(units[None, :], ends[:, None] - lines.tails[None, :]) for ends in (starts, stops)]
+    low, high = np.minimum(*along) + FREE, np.maximum(*along) - FREE
+    shown = np.clip(np.minimum(high, sizes[None, :]) - np.maximum(low, 0.0), 0.0, None)
+    cover = shown / np.maximum(high - low, 0.1)
+    may = (off <= within) & (sine <= TURN + SKEW / np.maximum(long, 1e-9)[:, None]) & (cover >= COVER)
+    cost = (off / GOOD) ** 2 + (sine * long[:, None] / 2.0 / GOOD) ** 2 + (3.0 * (1.0 - np.minimum(cover, 1.0))) ** 2
+    cost = np.where(may & (long >= LONG)[:, None], cost, np.inf)
+    own = cost.argmin(axis=1)
+    least = cost[np.arange(len(own)), own]
+    found = np.isfinite(least)
+    good = np.where(found, 1.0 / (1.0 + np.where(found, least, 0.0) / 16.0), 0.0)
+    return np.where(found, own, -1), good
+
+
+def _points(lines: Lines, way: Way, wanted: Complex, own: NDArray[np.intp], pole: complex) -> tuple[Complex, Floats]:
+    """Return the points of a plan and their errors: crossings of lines, with ends and arrows where those are flat."""
+    points, errors = wanted.copy(), np.full(len(wanted), LOST)
+    tails, tips = way.tails[way.lines], way.tips[way.lines]
+    for mark in range(len(wanted)):
+        at_ends = {int(line) for line in own[(tails == mark) | (tips == mark)] if line >= 0}
+        if not at_ends:
+            continue
+        numbers = sorted(at_ends | {int(line) for line in own[_between(way, mark)] if line >= 0})
+        units = (lines.tips - lines.tails)[numbers] / np.abs(lines.tips - lines.tails)[numbers]
+        point = wanted[mark]
+        at_pole = abs(way.places[mark]) <= 1e-9 * way.longest
+        for _ in range(3):
+            rows, right = _crossing(units, lines.tails[numbers])
+            if at_pole:
+                rows, right = _more(rows, right, pole, POLE)
+            spot = _spot(lines, point, units)
+            if spot is not None:
+                rows, right = _more(rows, right, *spot)
+            inverse = np.linalg.pinv(rows.T @ rows + 1e-9 * np.eye(2))
+            x, y = inverse @ (rows.T @ right)
+            point = complex(x, y)
+            errors[mark] = math.sqrt(max(float(np.trace(inverse)), 0.0))
+        points[mark] = point
+        if abs(point - wanted[mark]) > OFF[0] or errors[mark] > LOST:
+            errors[mark] = LOST
+    return points, errors
+
+
+def _between(way: Way, mark: int) -> NDArray[np.bool_]:
+    """Return on which vectors of a plan a point lies, as a centre of mass does on that of its link."""
+    start, span = way.places[way.tails[way.lines]], way.spans
+    place = way.places[mark] - start
+    along = dot(span, place) / np.maximum(np.abs(span) ** 2, 1e-300)
+    aside = np.abs(cross(span, place)) / np.maximum(np.abs(span), 1e-300)
+    return np.asarray((aside <= 1e-6 * way.longest) & (along > 0.02) & (along < 0.98))
+
+
+def _crossing(units: Complex, through: Complex) -> tuple[Floats, Floats]:
+    """Return equations of a point on lines, each divided by its error."""
+    normals = 1j * units
+    return np.stack((normals.real, normals.imag), 1) / LINE, np.asarray(dot(normals, through)) / LINE
+
+
+def _more(rows: Floats, right: Floats, place: complex, error: float) -> tuple[Floats, Floats]:
+    """Return equations with those of a place."""
+    own = np.array([place.real, place.imag]) / error
+    return np.concatenate((rows, np.eye(2) / error)), np.concatenate((right, own))
+
+
+def _spot(lines: Lines, point: complex, units: Complex) -> tuple[complex, float] | None:
+    """Return the end or arrow on its lines that is nearest to a point, and its error: others make it doubtful."""
+    near = np.abs(lines.spots - point)
+    aside = np.abs(cross(units[:, None], lines.spots[None, :] - point)).max(axis=0)
+    may = (near < NEAR) & (aside < 0.6)
+    if not may.any():
+        return None
+    steep = len(units) > 1 and float(np.abs(cross(units[:, None], units[None, :])).max()) > STEEP
+    if steep and float(near[may].min()) > 1.0:
+        return None
+    spot = complex(lines.spots[may][near[may].argmin()])
+    apart = float(np.abs(lines.spots[may] - spot).max())
+    return spot, 2.0 * END if apart <= ALIKE else max(apart, 2.0 * END)

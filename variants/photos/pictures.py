@@ -1,0 +1,224 @@
+"""Photographs and scans that are handed in: pages of handouts found on them by their markers, behind bounds.
+
+JPEG, PNG and PDF of pictures are unpacked in a process of their own (`drawings/apart.py`). What comes back is grey, cut
+to one page of a handout each: which page that is, where its markers are, what its QR code says.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ...drawing.markers import EACH, FEWEST
+from ...scales.errors import InputError
+from ...scales.numbers import SHOWN, quote
+from ..drawings.apart import apart
+from ..drawings.marks import FaultError
+from ..sheets import CODED
+
+PICTURES = (".jpg", ".jpeg", ".png")
+LARGEST = 120_000_000  # bytes of a file
+PIXELS = 80_000_000  # of a picture: an A1 sheet at 300 dots an inch has 70 million
+SECONDS = 60.0  # of the processor, for a file
+SHEETS = 200  # pages of a PDF
+DOTS = 300.0  # per inch at which pages of a PDF are looked at
+LEAST = 200  # pixels of a side of a picture
+AROUND = 0.6  # of what markers span, kept round them: they may stand away from the edge
+INCH = 72.0
+LARGE = 1_500  # pixels of a side from which a picture needs not to be enlarged to find codes on it
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Photo:
+    """A page of a handout on a picture, grey, as PNG.
+
+    `number` is that of the page, from 1; `markers` are the corners of each by its number, pixels of this picture, y
+    down, `centre` where the axis of the lens goes through; `code` is what the QR code says, by parts.
+    """
+
+    source: str
+    number: int
+    markers: Mapping[int, tuple[complex, ...]]
+    centre: complex
+    code: tuple[str, ...]
+    picture: bytes
+
+    def __repr__(self) -> str:
+        """Return where it comes from, and which page it is."""
+        return f"<Photo {self.source}: {self.number} {hash(self.picture)}>"
+
+    @property
+    def sheet(self) -> str:
+        """The id of the sheet, if its QR code was read."""
+        return self.code[3] if self.code else ""
+
+
+def read_photos(file: str | Path) -> list[Photo]:
+    """Return the pages of handouts on a picture or in a PDF of pictures, in the order in which they are found.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, is too large, is not what its suffix says, or shows no page of a handout.
+    """
+    path = Path(file)
+    shown, suffix = quote(path, SHOWN), path.suffix.lower()
+    try:
+        if path.exists() and not path.is_file():
+            raise InputError("drawing-not-file", file=shown)
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST + 1)
+    except FileNotFoundError:
+        raise InputError("file-missing", file=shown) from None
+    except (OSError, ValueError):
+        raise InputError("file-unreadable", file=shown) from None
+    try:
+        if len(data) > LARGEST:
+            raise FaultError("photo-large")
+        found = apart(_begun, _of_pdf if suffix == ".pdf" else _of_picture, data, SECONDS)
+    except FaultError as fault:
+        key = str(fault)
+    except ValueError:
+        key = "photo-broken"
+    else:
+        return [Photo(str(file), *one) for one in found]
+    key = {"drawing-late": "photo-late", "drawing-broken": "photo-broken"}.get(key, key)
+    raise InputError(key, file=shown, n=PIXELS // 1_000_000, known=suffix[1:].upper())
+
+
+def together(photos: Iterable[Photo]) -> list[list[Photo]]:
+    """Return pages by students: of the same sheet id, no page twice; one without an id is the last student's."""
+    found = list[list[Photo]]()
+    for photo in photos:
+        for group in reversed(found):
+            known = next((one.sheet for one in group if one.sheet), "")
+            like = not (known and photo.sheet) or known == photo.sheet
+            if like and photo.number not in {one.number for one in group}:
+                group.append(photo)
+                break
+        else:
+            found.append([photo])
+    return found
+
+
+def _begun(advance: Any) -> None:
+    """Load the libraries."""
+    try:
+        import cv2
+        import pypdfium2
+        import zxingcpp
+        from PIL import Image  # noqa: F401
+    except ImportError:
+        raise InputError("scan-missing") from None
+    del pypdfium2, zxingcpp
+    cv2.setNumThreads(1)
+
+
+Found = tuple[int, dict[int, tuple[complex, ...]], complex, tuple[str, ...], bytes]
+
+
+def _of_picture(data: bytes) -> list[Found] | str:
+    """Return the pages on a picture, or the key of what is wrong with it."""
+    import numpy as np
+    from PIL import Image, ImageOps
+
+    Image.MAX_IMAGE_PIXELS = None  # its size is looked at here
+    try:
+        with Image.open(io.BytesIO(data), formats=("JPEG", "PNG")) as picture:
+            if picture.width * picture.height > PIXELS:
+                return "photo-pixels"
+            if min(picture.size) < LEAST:
+                return "photo-small"
+            grey = np.asarray(ImageOps.exif_transpose(picture.convert("L")))
+    except MemoryError:
+        return "photo-late"
+    except Exception:  # whatever a decoder does not like
+        return "photo-broken"
+    return _checked(list(_sheets(grey)))
+
+
+def _of_pdf(data: bytes) -> list[Found] | str:
+    """Return the pages of handouts in a PDF, or the key of what is wrong with it."""
+    import numpy as np
+    import pypdfium2
+
+    found: list[Found] = []
+    try:
+        document = pypdfium2.PdfDocument(data)
+        if len(document) > SHEETS:
+            return "photo-pages"
+        for page in document:
+            width, height = page.get_size()
+            if min(width, height) <= 0.0:
+                return "photo-broken"
+            scale = min(DOTS / INCH, math.sqrt(PIXELS / 4.0 / (width * height)))
+            drawn = page.render(scale=scale, grayscale=True).to_numpy()
+            found += _sheets(np.ascontiguousarray(drawn.reshape(drawn.shape[:2])))
+    except (pypdfium2.PdfiumError, ValueError, LookupError, ArithmeticError, OSError, MemoryError):
+        return "photo-broken"
+    except FaultError as fault:
+        return str(fault)
+    return _checked(found)
+
+
+def _checked(found: list[Found]) -> list[Found] | str:
+    """Return what was found, or the key that there is nothing, or too little of any page."""
+    enough = [one for one in found if len(one[1]) >= FEWEST]
+    return enough or ("photo-few" if found else "photo-no-markers")
+
+
+def _sheets(grey: Any) -> Iterator[Found]:
+    """Go through the pages of handouts on a grey picture: the markers of each page, and its code."""
+    import cv2
+    import numpy as np
+
+    means = cv2.aruco.DetectorParameters()
+    means.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
+    finder = cv2.aruco.ArucoDetector(cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_250), means)
+    corners, numbers, _ = finder.detectMarkers(grey)
+    by_page: dict[int, dict[int, tuple[complex, ...]]] = {}
+    for own, number in zip(corners, [] if numbers is None else numbers.ravel().tolist(), strict=True):
+        same = by_page.setdefault(number // EACH + 1, {})
+        if number in same:
+            raise FaultError("photo-twice")
+        same[number] = tuple(complex(x, y) for x, y in own.reshape(4, 2).tolist())
+    by_page = {page: own for page, own in by_page.items() if len(own) >= 2}
+    codes = list(_codes(grey)) if by_page else []
+    rows, columns = grey.shape
+    for page, own in by_page.items():
+        every = np.array([z for four in own.values() for z in four])
+        low = complex(every.real.min(), every.imag.min())
+        high = complex(every.real.max(), every.imag.max())
+        more = AROUND * max((high - low).real, (high - low).imag)
+        x0, y0 = (max(0, int(edge - more)) for edge in (low.real, low.imag))
+        x1, y1 = min(columns, int(high.real + more) + 1), min(rows, int(high.imag + more) + 1)
+        beside = [(abs(at - (low + high) / 2), text) for at, text in codes if text[4] == str(page)]
+        _, png = cv2.imencode(".png", grey[y0:y1, x0:x1], [cv2.IMWRITE_PNG_COMPRESSION, 1])
+        corner = complex(x0, y0)
+        moved = {number: tuple(z - corner for z in four) for number, four in own.items()}
+        code = min(beside)[1] if beside else ()
+        yield page, moved, complex(columns, rows) / 2 - corner, code, png.tobytes()
+
+
+def _codes(grey: Any) -> Iterator[tuple[complex, tuple[str, ...]]]:
+    """Go through the QR codes of handouts: where they are, what they say, by parts."""
+    import cv2
+    import zxingcpp
+
+    seen = set[str]()
+    for times in (1.0, 2.0) if max(grey.shape) < 2 * LARGE else (1.0, 0.5):
+        how = cv2.INTER_CUBIC if times > 1.0 else cv2.INTER_AREA
+        sized = grey if times == 1.0 else cv2.resize(grey, None, fx=times, fy=times, interpolation=how)
+        for code in zxingcpp.read_barcodes(sized, formats=zxingcpp.barcode_formats_from_str("QRCode")):
+            parts = tuple(code.text.split(":"))
+            if parts[0] == CODED and len(parts) == 8 and code.text not in seen:
+                seen.add(code.text)
+                at = code.position
+                places = (at.top_left, at.top_right, at.bottom_left, at.bottom_right)
+                yield sum(complex(one.x, one.y) for one in places) / 4.0 / times, parts
+        if seen:
+            return

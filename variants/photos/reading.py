@@ -1,0 +1,372 @@
+"""Photographs of a student's sheets read: laid flat, print taken away, pencil lines as a drawing; what is sure of it.
+
+The sheet is known: where its markers and poles are, what is printed, at which scale factors plans are drawn. What was
+found wrong counts only where the pencil says so: the line that was read is there, and none where it should be.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...drawing.formats import FORMATS, Format, drawing_area, format_named, reserved_boxes
+from ...drawing.markers import Place, stands
+from ...drawing.page import Page
+from ...drawing.shapes import Group, Shape, Vector
+from ...drawing.writers import page_files
+from ...plans.board import POSITION
+from ...plans.marking.drawn import Drawn, Found, Recognised
+from ...plans.marking.ways import Shape as Way
+from ...plans.marking.ways import edges_of, shape_of
+from ...plans.names import LEVER, role
+from ...scales.errors import LANGUAGES, InputError, KulmanError, Written
+from ...scales.kept import Kept
+from ...scales.numbers import SHOWN, quote
+from ..case import Case, Request
+from ..marking.keyed import Keyed
+from ..marking.reading import Reply
+from ..marking.seen import Seen
+from ..sheets import PAPER, drawing_for_print, scan_code, scannable_of_case
+from .matching import lines_of, matched
+from .pictures import Photo
+from .straight import PER_MM, flat, straightened
+from .strokes import Ink, strokes
+
+ASTRAY = 0.3  # mm that markers may lie beside where they are printed, root of the mean square
+APART = 1000.0  # mm between pages of a drawing
+INKED = 200  # of 255: what is darker is print
+SLACK = 6.0  # mm that plans may go beyond the frame, and the boxes in it
+POLE = 4.0  # mm from the printed pole within which a plan begins
+COVERED = 0.85  # part of a vector along which the pencil must be seen
+SHORT = 5.0  # mm of a vector that is read at the least
+OFF, ASTRAY_PART = 1.0, 0.02  # mm and part of a vector by which it may be beside where it should be
+HAND = 0.4  # mm that the ends of a vector may lie beside its line, which turns short ones
+QUALITY = 0.8  # part of a plan with a mistake that must be there
+LONG, FEWEST, LIKE = 15.0, 4, 0.01  # mm of vectors that tell how large the sheet is printed; how many; how alike
+PRINTED, MOST = 0.012, 0.1  # parts by which a print that is told is smaller or larger
+HIDES = 255  # in `Flat.dark`: print hides what is there
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Flat:
+    """A page laid flat: its picture, `PER_MM` pixels a mm, how dark the pencil is there, 0 to 254, how many lines."""
+
+    number: int
+    picture: NDArray[np.uint8]
+    dark: NDArray[np.uint8]
+    lines: int
+    error: float
+
+    def covered(self, tail: complex, tip: complex) -> float:
+        """Return along which part of a way the pencil is seen, as far as print does not hide it."""
+        count = max(int(abs(tip - tail) * 4), 4)
+        at = tail + (tip - tail) * np.linspace(0.02, 0.98, count)
+        side = 1j * (tip - tail) / abs(tip - tail)
+        rows, columns = self.dark.shape
+        best = np.zeros(count)
+        hidden = np.zeros(count, bool)
+        for off in np.arange(-0.4, 0.41, 0.1):
+            z = (at + off * side) * PER_MM
+            x = np.clip(z.real.astype(int), 0, columns - 1)
+            y = np.clip((rows - z.imag).astype(int), 0, rows - 1)
+            here = self.dark[y, x]
+            hidden |= here == HIDES
+            best = np.maximum(best, np.where(here == HIDES, 0, here))
+        seen = (best > 12) | hidden
+        return float(seen.mean()) if not hidden.all() else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Blank:
+    """A handout as it was printed: its pages; on which of them plans have their poles, and where; SI per mm of each."""
+
+    case: Case
+    pages: tuple[Page, ...]
+    formats: tuple[Format, ...]
+    poles: Mapping[str, tuple[int, complex]]
+    mus: Mapping[str, float]
+
+    @cached_property
+    def codes(self) -> tuple[str, ...]:
+        """What the QR codes of its pages say."""
+        bare = (replace(page, shapes=tuple(s for s in page.shapes if not _added(s))) for page in self.pages)
+        return tuple(scan_code(self.case, number, page) for number, page in enumerate(bare, 1))
+
+    @property
+    def pages_with_plans(self) -> set[int]:
+        """The numbers of pages on which plans are drawn."""
+        return {number for number, _ in self.poles.values()}
+
+    def stands(self, number: int) -> list[Place]:
+        """Return where the markers of a page stand."""
+        return stands(self.pages[number - 1])
+
+    def printed(self, number: int) -> NDArray[np.bool_]:
+        """Return where a page is printed, or no plan is drawn, `PER_MM` pixels per mm."""
+        import pypdfium2
+
+        page, sheet = self.pages[number - 1], self.formats[number - 1]
+        ((_, data),) = page_files([page], Path("page.pdf"))
+        drawn = pypdfium2.PdfDocument(data)[0].render(scale=PER_MM * 25.4 / 72.0, grayscale=True).to_numpy()
+        rows, columns = round(page.height * PER_MM), round(page.width * PER_MM)
+        ink = np.zeros((rows, columns), bool)
+        grey = drawn.reshape(drawn.shape[:2])[:rows, :columns]
+        ink[: grey.shape[0], : grey.shape[1]] = grey < INKED
+        x0, y0, x1, y1 = drawing_area(sheet, self.case.norm)
+        outside = np.ones_like(ink)
+        outside[rows - int(y1 * PER_MM) : rows - int(y0 * PER_MM), int(x0 * PER_MM) : int(x1 * PER_MM)] = False
+        for box in reserved_boxes(sheet, self.case.norm, number == 1):
+            a0, b0, a1, b1 = (int(edge * PER_MM) for edge in box)
+            outside[rows - b1 : rows - b0, a0:a1] = True
+        return np.asarray(ink | outside)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Sheets:
+    """What photographs of a student show: the pages, the drawing on them, and what is to be said of it."""
+
+    blank: Blank
+    pages: tuple[Flat, ...]
+    drawn: Drawn
+    notes: tuple[KulmanError, ...]
+    printed: float = 1.0  # how many times as large as they are printed lengths on the sheet are
+
+
+def _added(shape: Shape) -> bool:
+    return isinstance(shape, Group) and shape.role in ("marker", "qr")
+
+
+def blank_of(request: Request, keyed: Keyed, language: str, paper: str) -> Blank:
+    """Make the handout anew that a student was given, in a language and on a format of paper."""
+    solution = keyed.solution
+    settings = solution.case.settings
+    case = replace(request, variant=solution.variant, settings=settings, format=paper, language=language).case()
+    drawing = drawing_for_print(case)
+    pages = scannable_of_case(case, drawing).pages
+    mus = {plan: scale.mu for plan, scale in drawing.scales.items()}
+    poles = dict(_poles(plans_of(keyed), drawing.placed, mus))
+    return Blank(case, pages, drawing.sheets, poles, mus)
+
+
+def plans_of(keyed: Keyed) -> dict[str, Way]:
+    """Return the plans that are read, as they should be."""
+    program, found = keyed.key.paper.program, dict[str, Way]()
+    for plan in program.plans:
+        way = shape_of(plan, edges_of(program, plan), keyed.key.values)
+        if plan != POSITION and role(plan).kind != LEVER and way is not None and way.longest:
+            found[plan] = way
+    return found
+
+
+def _poles(
+    plans: Mapping[str, Way], placed: Sequence[Sequence[Group]], mus: Mapping[str, float]
+) -> Iterator[tuple[str, tuple[int, complex]]]:
+    """Go through the plans and where their poles are: on which page, from 1, and at which place, mm."""
+    for plan, way in plans.items():
+        found = (
+            (number, vector.tail - complex(way.places[way.tails[at]]) / mus[plan])
+            for number, views in enumerate(placed, start=1)
+            for view in views
+            if view.name == plan
+            for vector in _vectors(view.shapes)
+            if plan in mus and vector.quantity in way.names and abs(vector.mu - mus[plan]) <= 1e-6 * mus[plan]
+            for at in [way.names.index(vector.quantity)]
+            if _alike(vector, complex(way.places[way.tips[at]] - way.places[way.tails[at]]) / mus[plan])
+        )
+        first = next(found, None)
+        if first is not None:
+            yield plan, first
+
+
+def _alike(vector: Vector, span: complex) -> bool:
+    return abs(span) > 3.0 and abs(vector.tip - vector.tail - span) < 0.05
+
+
+def _vectors(shapes: Sequence[Shape]) -> Iterator[Vector]:
+    for shape in shapes:
+        if isinstance(shape, Vector):
+            yield shape
+        elif isinstance(shape, Group):
+            yield from _vectors(shape.shapes)
+
+
+def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: Kept[Blank]) -> tuple[Sheets, Seen]:
+    """Read the sheets of a student, and recognise what they show, as far as it is sure.
+
+    Handouts that were made anew are `kept`.
+    """
+    name = keyed.solution.variant, *sorted(keyed.solution.case.settings.items())
+
+    def blank(language: str, paper: str) -> Blank:
+        return kept.get((*name, language, paper), lambda: blank_of(request, keyed, language, paper))
+
+    sheets = read_sheets(photos, _fitting(photos, request, blank))
+    found = _recognised(sheets, keyed)
+    times = print_scale(sheets, found)
+    if times != 1.0:
+        sheets = shrunk(sheets, times)
+        found = _recognised(sheets, keyed)
+    found = sure(sheets, keyed, found)
+    mus = {plan: sheets.blank.mus[plan] for plan in found.plans}
+    return sheets, Seen(found, mus, frozenset(mus))
+
+
+def _recognised(sheets: Sheets, keyed: Keyed) -> Recognised:
+    """Return which lines of the sheets are which vectors, at places of the drawing."""
+    tails, tips = sheets.drawn.tails, sheets.drawn.tips
+    pages = {page.number: lines_of(tails[own], tips[own]) for page in sheets.pages for own in [_on(tails, page.number)]}
+    poles = {plan: (page, APART * page + place / sheets.printed) for plan, (page, place) in sheets.blank.poles.items()}
+    return matched(pages, poles, sheets.blank.mus, keyed)
+
+
+def _on(places: NDArray[np.complex128], page: int) -> NDArray[np.bool_]:
+    return np.asarray(np.floor(places.real / APART) == page)
+
+
+def _fitting(photos: Sequence[Photo], request: Request, blank: Callable[[str, str], Blank]) -> Blank:
+    """Return the handout that was photographed: its QR code tells how it was printed, else where its markers are."""
+    told = next((photo.code for photo in photos if photo.code), ())
+    if told and told[5].lower() in LANGUAGES and told[6] in FORMATS:
+        return blank(told[5].lower(), told[6])
+    paper = format_named(request.format or PAPER).name
+    own = blank(request.language, paper)
+    if all(_fits(photo, own) for photo in photos):
+        return own
+    ways = [own, *(blank(language, paper) for language in LANGUAGES if language != request.language)]
+    return max(ways, key=lambda way: sum(_fits(photo, way) for photo in photos))
+
+
+def _fits(photo: Photo, blank: Blank) -> bool:
+    """Whether the markers on a photograph stand where they do on a handout."""
+    if photo.number > len(blank.pages):
+        return False
+    return straightened(photo.markers, blank.stands(photo.number), photo.centre).error <= ASTRAY
+
+
+def read_sheets(photos: Sequence[Photo], blank: Blank) -> Sheets:
+    """Read the pencil lines on the photographs of a student's sheets.
+
+    Pages whose markers do not lie as they were printed, or that were printed from other data, are not read: a note says
+    so.
+    """
+    import cv2
+
+    pages, notes = list[Flat](), list[KulmanError]()
+    ends: list[tuple[complex, complex]] = []
+    for photo in photos:
+        place = {"file": quote(photo.source, SHOWN), "page": photo.number}
+        if photo.number > len(blank.pages) or (photo.code and ":".join(photo.code) != blank.codes[photo.number - 1]):
+            notes.append(InputError("photo-other", **place))
+            continue
+        way = straightened(photo.markers, blank.stands(photo.number), photo.centre)
+        if way.error > ASTRAY:
+            notes.append(InputError("photo-crooked", **place))
+            continue
+        page = blank.pages[photo.number - 1]
+        grey = cv2.imdecode(np.frombuffer(photo.picture, np.uint8), cv2.IMREAD_GRAYSCALE)
+        picture = flat(grey, way, page.width, page.height)
+        poles = [at for number, at in blank.poles.values() if number == photo.number]
+        found, dark = list[Any](), np.zeros((1, 1), np.uint8)
+        if poles:
+            ink = Ink(picture, blank.printed(photo.number))
+            found = strokes(ink, poles)
+            soft = np.clip(ink.soft * 254.0, 0.0, 254.0).astype(np.uint8)
+            dark = np.where(ink.printed > 0, HIDES, soft).astype(np.uint8)
+        by = APART * photo.number
+        ends += [(line.tail + by, line.tip + by) for line in found]
+        pages.append(Flat(photo.number, picture, dark, len(found), way.error))
+    lines = np.array(ends, complex).reshape(-1, 2)
+    return Sheets(blank, tuple(pages), Drawn(lines[:, 0], lines[:, 1]), tuple(notes))
+
+
+def print_scale(sheets: Sheets, found: Recognised) -> float:
+    """Return how many times as large as they should be lengths on the sheets are, 1 where nothing tells.
+
+    A sheet that was printed smaller has its markers smaller, too; the student's ruler is as it was.
+    """
+    mus = sheets.blank.mus
+    right = {name: plan for name, plan in found.plans.items() if name in mus and not (plan.mistake or plan.alone)}
+    long = [one for one in found.vectors.values() if one.plan in right and abs(one.tip - one.tail) >= LONG]
+    ratios = [mus[one.plan] / right[one.plan].mu for one in long]
+    if len(ratios) < FEWEST:
+        return 1.0
+    middle = float(np.median(ratios))
+    alike = max(abs(one - middle) for one in ratios) <= LIKE * middle
+    return middle if alike and PRINTED < abs(middle - 1.0) < MOST else 1.0
+
+
+def shrunk(sheets: Sheets, by: float) -> Sheets:
+    """Return sheets whose lengths are as the student's ruler shows them, with a note that says so."""
+    drawn = sheets.drawn
+    note = InputError("photo-printed", percent=Written(f"{100.0 / by:.1f}"))
+    smaller = Drawn(_by(drawn.tails, by), _by(drawn.tips, by))
+    return replace(sheets, drawn=smaller, notes=(*sheets.notes, note), printed=by)
+
+
+def _by(places: NDArray[np.complex128], by: float) -> NDArray[np.complex128]:
+    pages = np.floor(places.real / APART) * APART
+    return np.asarray(pages + (places - pages) / by)
+
+
+def on_page(sheets: Sheets, place: complex) -> tuple[int, complex]:
+    """Return on which page a place of the drawing is, and where there."""
+    number = math.floor(place.real / APART)
+    return number, (place - number * APART) * sheets.printed
+
+
+def directed(lines: Mapping[str, Reply], keyed: Keyed, degrees: float) -> dict[str, Reply]:
+    """Return answers without directions that differ from the right ones by no more than short vectors may be turned."""
+    found = dict[str, Reply]()
+    for name, line in lines.items():
+        right = keyed.key[name]
+        if line.direction is not None and line.mm and isinstance(right, complex) and right:
+            off = abs(cmath.phase(cmath.rect(1.0, line.direction) / right))
+            if math.radians(degrees) < off <= math.radians(degrees) + math.atan(HAND / line.mm):
+                line = replace(line, direction=None)
+        found[name] = line
+    return found
+
+
+def sure(sheets: Sheets, keyed: Keyed, found: Recognised) -> Recognised:
+    """Return what was recognised without what is not sure, which is then missing.
+
+    A plan must begin at its printed pole; a vector must be drawn in pencil; one that is wrong must not be there as it
+    should be, too, nor belong to a plan of which much is missing.
+    """
+    by_number = {page.number: page for page in sheets.pages}
+    plans, vectors = dict(found.plans), dict(found.vectors)
+    for plan, one in found.plans.items():
+        number, at = on_page(sheets, one.pole)
+        own = sheets.blank.poles.get(plan)
+        astray = own is None or own[0] != number or abs(own[1] - at) > POLE
+        if astray or (one.mistake and one.quality < QUALITY):
+            plans.pop(plan)
+    for name, vector in found.vectors.items():
+        doubt = vector.plan not in plans or _doubtful(sheets, keyed, found, name, vector, by_number)
+        if doubt:
+            vectors.pop(name)
+    gone = tuple(name for name in found.vectors if name not in vectors)
+    return Recognised(plans, vectors, (*found.missing, *gone))
+
+
+def _doubtful(
+    sheets: Sheets, keyed: Keyed, found: Recognised, name: str, vector: Found, pages: Mapping[int, Flat]
+) -> bool:
+    """Whether a vector may have been misread."""
+    number, tail = on_page(sheets, vector.tail)
+    _, tip = on_page(sheets, vector.tip)
+    page, way = pages.get(number), tip - tail
+    if page is None or abs(way) < SHORT or page.covered(tail, tip) < COVERED:
+        return True
+    right = complex(keyed.key[name]) / sheets.blank.mus[vector.plan] * sheets.printed
+    if abs(way - right) <= OFF + ASTRAY_PART * abs(right):
+        return False
+    return abs(right) >= SHORT and page.covered(tail, tail + right) >= COVERED
