@@ -205,8 +205,8 @@ def _segment(scene: Scene, name: str, plan: str) -> Line:
     """Return what was measured: the segment and the scale factor."""
     words, item = scene.words, scene.quantities[name]
     segment, number, value = printed_segment(scene, item, plan)
-    head = f"{words.symbol(name)} = {segment}{'/' if words.per_unit else '·'}{number} ="
-    return head, f"{value} {words.unit(words.display.unit(item.unit))}"
+    product = f" {segment}{'/' if words.per_unit else '·'}{number} =" if segment else ""  # of what can be read
+    return f"{words.symbol(name)} ={product}", f"{value} {words.unit(words.display.unit(item.unit))}"
 
 
 def _length(scene: Scene, start: str, end: str) -> Factor:

@@ -117,11 +117,14 @@ class Teller(Scene):
         return self.say("coordinates", x=x, y=y, unit=words.unit(words.display.paper))
 
     def read_off(self, item: Quantity) -> dict[str, str]:
-        """Return what a segment of a plan is read as: its mm, their product with the scale factor, the value."""
+        """Return what a segment of a plan is read as: its mm, their product with the scale factor, the value.
+
+        Of one that is too short to be read there are no mm.
+        """
         words = self.words
         mm, number, value = printed_segment(self, item)
         parts = {
-            "mm": f"{mm} {words.unit(words.display.paper)}",
+            "mm": f"{mm} {words.unit(words.display.paper)}" if mm else "",
             "sum": f"{mm}{'/' if words.per_unit else '·'}{number}",
         }
         return {**parts, "value": f"{value} {words.unit(words.display.unit(item.unit))}"}
@@ -262,7 +265,8 @@ def _read(teller: Teller, step: Step) -> str:
     start, end, symbol = teller.mark(tail), teller.mark(tip), teller.words.symbol(name)
     if size_of(teller, name) == 0.0:
         return teller.say("point", start=start, end=end, symbol=symbol)
-    told = teller.say("read", segment=f"{start}{end}", symbol=symbol, **teller.read_off(item))
+    read = teller.read_off(item)
+    told = teller.say("read" if read["mm"] else "read_short", segment=f"{start}{end}", symbol=symbol, **read)
     return told + "".join(_turns(teller, step, user) for user in teller.reading.users(step.name))
 
 

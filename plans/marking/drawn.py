@@ -136,7 +136,7 @@ class Recognised:
             if abs(way) >= MEASURED:
                 turned = cmath.phase(way * cmath.rect(1.0, -plan.turn))
                 shown = turned if abs(way) >= DIRECTED and not plan.alone else None
-                yield Answer(name, mm=abs(way), mu=plan.mu, value=abs(way) * plan.mu, direction=shown)
+                yield Answer(name, mm=abs(way), mu=plan.mu, direction=shown)
 
 
 def recognise(drawn: Drawn, key: Key, book: Book | None = None, mus: Mapping[str, float] | None = None) -> Recognised:

@@ -319,7 +319,7 @@ def test_an_argument_that_a_note_lacks_is_compared_with_those_it_has() -> None:
         ("all_variants", {"ranges": {"l_OA": "20..30/5 mm"}}, "ranges and seed go with make"),
         ("solve", {"scales": {"mu_v": 1}}, "no scale factor 'mu_v'; did you mean 'mu_V'"),
         ("solve", {"set": {"l_oa": 1}}, "no given 'l_oa'; did you mean 'l_OA'"),
-        ("solve", {"variant": "03"}, "no variant '03'; did you mean '3'"),
+        ("solve", {"variant": "exampel"}, "no variant 'exampel'; did you mean 'example'"),
         ("solve", {"task": "shaper"}, "the tasks are: scheme-09-shaper, scheme-10-shaper-two-blocks, "),
         ("sheet", {"positions": 37}, "a cycle has from 3 to 36 positions, not 37"),
     ],

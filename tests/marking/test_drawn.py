@@ -138,7 +138,7 @@ def planted(sheet: Bare, wrong: Signature, seed: int = 4) -> tuple[frozenset[str
         question, way = sheet.key.questions.get(name), tip - tail
         if question is not None and question.vector and question.plan == plan and abs(way) >= MEASURED:
             mu, shown = sheet.key.paper.mus[plan], cmath.phase(way) if abs(way) >= DIRECTED else None
-            typed.append(Answer(name, mm=abs(way), mu=mu, value=abs(way) * mu, direction=shown))
+            typed.append(Answer(name, mm=abs(way), mu=mu, direction=shown))
     found = recognise(drawing.drawn, sheet.key, sheet.book)
     return names(sheet.book, sheet.key, list(found.answers())), names(sheet.book, sheet.key, typed)
 

@@ -307,7 +307,7 @@ def test_units_of_display_stand_in_equations() -> None:
     scene = scene_of(nau_slider_crank(), nau_values(), "uk")
     shown = replace(scene, words=scene.words.showing(Display("cm", "cm")))
 
-    assert told(shown, "VA =") == "VA = ω1·lOA = 80,11·5 = 400,6 см/с"
+    assert told(shown, "VA =") == "VA = ω1·lOA = 80,11·5 = 401 см/с"
     assert told(shown, "as2 =").endswith(" см")
     assert told(shown, "Mi2 =").endswith("Н·м")
     assert list(text_faults(shown)) == []
