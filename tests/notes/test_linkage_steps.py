@@ -7,10 +7,12 @@ import re
 from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
+from pathlib import Path
 from typing import Any
 
 import pytest
 
+import kulman
 from kulman.drawing.linkages.steps import drawn_views, told_of
 from kulman.drawing.linkages.telling import Teller
 from kulman.drawing.notes.blocks import Story
@@ -103,6 +105,13 @@ def test_no_intermediate_name_is_printed(task: str) -> None:
         story = told(task, lang)
         for text in chain(chain.from_iterable(story.steps.values()), story.conclusions):
             assert not re.search(r"_\{_|origin|_\{\}|\(\)|  ", text), text
+
+
+def test_a_segment_that_is_too_short_to_be_measured_is_no_factor(tmp_path: Path) -> None:
+    written = kulman.note("bertyaev-six-bar", lang="en", scales={"mu_V": 0.05}).save(tmp_path / "note.md")[0]
+    text = written.read_text("utf-8")
+    assert not re.search(r"= *[·/]", text)
+    assert "too short to be measured" in text
 
 
 def test_coriolis_is_laid_off_across_the_sliding_and_compound_motion_told_where_it_is_drawn() -> None:
