@@ -104,6 +104,9 @@ def test_marked_sheets_are_returned(honest: tuple[Report, dict[str, Truth]]) -> 
 
     with Image.open(io.BytesIO(png)) as picture:
         assert picture.width == 2100
+        below = np.asarray(picture.convert("L"))[2970:]
+        assert below[:, :-40].min() < 100  # what lines mean, with a margin
+        assert below[:, -40:].min() > 200
     assert pdf.startswith(b"%PDF")
 
 

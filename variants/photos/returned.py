@@ -59,7 +59,10 @@ def _page(marked: Marked, page: Flat, found: list[Vector], language: str, own: b
     rows, columns = page.picture.shape
     width, height = columns / PER_MM, rows / PER_MM
     shapes: list[Shape] = [*(() if own else right(found)), *over(marked, found, SMALL)]
-    shapes += legend(marked, language, own, complex(LEFT, -2.0 * SMALL), SMALL)
+    at = complex(LEFT, -2.0 * SMALL)
+    said = list(legend(marked, language, own, at, SMALL))
+    fits = (width - FOOT - LEFT) / (extent(said)[2] - LEFT)
+    shapes += said if fits >= 1.0 else legend(marked, language, own, at, SMALL * fits)
     foot = FOOT - min(extent(shapes)[1], 0.0)
     moved = tuple(shifted(shape, 1j * foot) for shape in shapes)
     whole = Page(width, height + foot, moved, marked.keyed.solution.task.title[language], language)
