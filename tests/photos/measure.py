@@ -173,9 +173,7 @@ def measured(tasks: list[str], count: int, seed: int = 1) -> Iterator[tuple[str,
 
 def linkages() -> list[str]:
     """Return the bundled tasks about linkages."""
-    from kulman.variants.reader import load_task
-
-    return [name for name in bundled() if load_task(name).kind == "linkage"]
+    return [*bundled("mechanism")]
 
 
 def main(count: str = "30", *tasks: str) -> None:
