@@ -175,12 +175,12 @@ def test_corners_that_lie_badly_are_told() -> None:
 
 
 @pytest.mark.soak
-def test_photographs_of_all_linkages() -> None:
+def test_photographs_of_two_linkages_at_all_qualities() -> None:
     whole = Figures()
-    for _, _, figures in measured(linkages(), 30):
+    for _, _, figures in measured(linkages(), 6):
         whole.add(figures)
 
-    assert whole.pages >= 60
+    assert whole.pages >= 12
     assert whole.found_pages >= 0.98 * whole.pages
     assert whole.read >= 0.7 * whole.vectors
     assert whole.wrong <= 0.02 * whole.read
