@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import json
+import math
 import os
 import re
 from collections.abc import Callable, Mapping
@@ -51,6 +52,7 @@ APART = (  # what is not asked for together
 )
 NOTE_TEXTS = "kulman.drawing.notes"
 MOST_DRAWN = 36  # positions whose plans one sheet shows
+_NUMBER = re.compile(r"[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 CODED, DIGEST = "KULMAN", 8  # what a QR code begins with, how many digits tell what is printed
 ALL = 1000  # steps: no plan has more
 BESIDE = PAGE, CONSTRUCTION = ".html", ".ggb"  # a page on which plans move, a construction for GeoGebra
@@ -465,9 +467,13 @@ def scannable_of_case(case: Case, drawing: Drawn) -> Sheet:
 
 
 def scan_code(case: Case, number: int, page: Page) -> str:
-    """Return what the QR code of a page says: task, variant, sheet id, page, and a hash of what is printed there."""
+    """Return what the QR code of a page says: task, variant, sheet id, page, and a hash of what is printed there.
+
+    Machines that differ in the last digits of their numbers print the same; those are 1/e mm apart that count as
+    others, which no size of a drawing is rounded to.
+    """
     printed = [shape for shape in page.shapes if isinstance(shape, Group) and shape.role == "view"]
-    digest = digest_of(repr(printed))[:DIGEST]
+    digest = digest_of(_NUMBER.sub(lambda one: f"{round(float(one[0]) * math.e)} ", repr(printed)))[:DIGEST]
     identity = sheet_id(case.task, case.variant, case.settings)
     how = case.language, format_named(case.format or PAPER).name
     return ":".join((CODED, case.task.id, case.variant, identity, str(number), *how, digest)).upper()

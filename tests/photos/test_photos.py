@@ -7,6 +7,7 @@ import struct
 import sys
 import zlib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -16,18 +17,24 @@ import pytest
 import zxingcpp
 from PIL import Image
 
-from kulman import check, handout
+from kulman import check, handout, load_task
 from kulman.drawing.markers import EACH, SIDE, fields, stands
+from kulman.drawing.shapes import shifted
 from kulman.plans.marking.answers import Verdict
+from kulman.plans.marking.drawn import Drawn
 from kulman.plans.marking.ways import RIGHT
 from kulman.scales.errors import InputError
 from kulman.tests.photos.measure import Figures, chosen_ways, compared, linkages, measured, mistakes_of
 from kulman.tests.photos.synthesiser import PHONE, PX, Truth, drawn, photographed, printed, sheet_for
+from kulman.variants.case import Request
+from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import Report, report_files
 from kulman.variants.photos.matching import lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import on_page, print_scale
 from kulman.variants.photos.straight import straightened
+from kulman.variants.roster import Who
+from kulman.variants.sheets import scan_code
 
 TASK, PLANS = "nau-slider-crank", "velocity"
 
@@ -80,6 +87,30 @@ def test_what_was_drawn_is_read(honest: tuple[Report, dict[str, Truth]]) -> None
         assert max(abs(ends[0] - one.tail), abs(ends[1] - one.tip)) < 1.0, name
     assert {line.verdict for line in marked.lines} == {Verdict.RIGHT}
     assert marked.mark == 100.0
+
+
+def test_the_code_of_a_page_is_the_same_where_numbers_differ_in_their_last_digits() -> None:
+    sheet, case = sheet_for(TASK, only=PLANS), Request(load_task(TASK), "0").case()
+
+    def code(by: complex) -> str:
+        page = sheet.pages[0]
+        return scan_code(case, 1, replace(page, shapes=tuple(shifted(shape, by) for shape in page.shapes)))
+
+    assert code(1e-11 - 1e-11j) == code(-1e-11 + 1e-11j) == code(0j)
+    assert code(1.0 + 0j) != code(0j)
+
+
+def test_other_pictures_and_other_arrowheads_are_other_answers() -> None:
+    photo = Photo("x.jpg", 1, {}, 0j, (), b"one")
+    lines = Drawn(np.array([0j]), np.array([10 + 0j]))
+    answers = Answers("x", Who(), {}, {}, {}, drawn=lines, photos=(photo,))
+
+    others = [
+        replace(answers, photos=(replace(photo, picture=b"other"),)),
+        replace(answers, drawn=replace(lines, arrows=np.array([0]))),
+    ]
+    assert len({one.digest for one in (answers, *others)}) == 3
+    assert replace(answers).digest == answers.digest
 
 
 def test_a_mistake_is_named_and_a_line_that_is_not_sure_is_not_wrong(tmp_path: Path) -> None:
