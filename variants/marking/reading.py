@@ -75,10 +75,12 @@ class Answers:
 
     @property
     def digest(self) -> str:
-        """What tells these answers from any other: all that stands in them, every line of a drawing too."""
+        """What tells these answers from any other: all that stands in them, every line and picture too."""
         said = (self.source, self.who, dict(self.about), dict(self.lines), dict(self.scales), self.columns)
-        drawn = () if self.drawn is None else (self.drawn.tails.tolist(), self.drawn.tips.tolist(), self.drawn.letters)
-        return digest_of(repr((said, [*map(str, self.problems)], str(self.unread), drawn)))
+        lines = () if self.drawn is None else (self.drawn.tails, self.drawn.tips, self.drawn.arrows)
+        drawn = [one.tolist() for one in lines], self.drawn and self.drawn.letters
+        pictures = [digest_of(photo.picture) for photo in self.photos]
+        return digest_of(repr((said, [*map(str, self.problems)], str(self.unread), drawn, pictures)))
 
 
 Warn = Callable[[KulmanError], None]
