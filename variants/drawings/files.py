@@ -15,9 +15,8 @@ from xml.etree import ElementTree
 
 from ...plans.marking.drawn import Drawn
 from ...scales.errors import InputError
-from ...scales.numbers import SHOWN, quote
 from .dxf import read_dxf
-from .marks import LARGEST, MOST, FaultError, Marks
+from .marks import LARGEST, MOST, FaultError, Marks, handed_in
 from .pdf import read_pdf
 from .svg import read_svg
 
@@ -35,17 +34,7 @@ def read_drawing(file: str | Path) -> Drawn:
     InputError
         The file cannot be read, is not what its suffix says, has no lines, or more than is allowed.
     """
-    path = Path(file)
-    shown, suffix = quote(path, SHOWN), path.suffix.lower()
-    try:
-        if path.exists() and not path.is_file():
-            raise InputError("drawing-not-file", file=shown)
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST + 1)
-    except FileNotFoundError:
-        raise InputError("file-missing", file=shown) from None
-    except (OSError, ValueError):
-        raise InputError("file-unreadable", file=shown) from None
+    data, shown, suffix = handed_in(file, LARGEST)
     try:
         if len(data) > LARGEST:
             raise FaultError("drawing-large")

@@ -15,9 +15,8 @@ from typing import Any
 
 from ...drawing.markers import EACH, FEWEST
 from ...scales.errors import InputError
-from ...scales.numbers import SHOWN, quote
 from ..drawings.apart import apart
-from ..drawings.marks import FaultError
+from ..drawings.marks import FaultError, handed_in
 from ..sheets import CODED
 
 PICTURES = (".jpg", ".jpeg", ".png")
@@ -49,7 +48,7 @@ class Photo:
 
     def __repr__(self) -> str:
         """Return where it comes from, and which page it is."""
-        return f"<Photo {self.source}: {self.number} {hash(self.picture)}>"
+        return f"<Photo {self.source}: {self.number}>"
 
     @property
     def sheet(self) -> str:
@@ -65,17 +64,7 @@ def read_photos(file: str | Path) -> list[Photo]:
     InputError
         The file cannot be read, is too large, is not what its suffix says, or shows no page of a handout.
     """
-    path = Path(file)
-    shown, suffix = quote(path, SHOWN), path.suffix.lower()
-    try:
-        if path.exists() and not path.is_file():
-            raise InputError("drawing-not-file", file=shown)
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST + 1)
-    except FileNotFoundError:
-        raise InputError("file-missing", file=shown) from None
-    except (OSError, ValueError):
-        raise InputError("file-unreadable", file=shown) from None
+    data, shown, suffix = handed_in(file, LARGEST)
     try:
         if len(data) > LARGEST:
             raise FaultError("photo-large")

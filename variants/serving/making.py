@@ -307,8 +307,8 @@ def _lined(errors: Sequence[InputError], language: str) -> Iterator[tuple[int, s
 
 def form(advance: Advance, asked: Asked) -> tuple[Rows, Mapping[str, Sequence[str]]]:
     """Return the rows of the empty form, and which columns each answer has."""
-    ready = _check(asked)
-    return read_grid(ready.write_form("form.csv")).rows, ready.form()[1]
+    rows, wanted = _check(asked).form()
+    return tuple(rows), wanted
 
 
 def answered(advance: Advance, asked: Asked, cells: Mapping[tuple[int, int], str], preset: str, own: bool) -> str:
