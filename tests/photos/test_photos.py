@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import cv2
 import numpy as np
@@ -27,8 +28,11 @@ from kulman.scales.errors import InputError
 from kulman.tests.photos.measure import Figures, chosen_ways, compared, linkages, measured, mistakes_of
 from kulman.tests.photos.synthesiser import PHONE, PX, Truth, drawn, photographed, printed, sheet_for
 from kulman.variants.case import Request
+from kulman.variants.drawings import pdf
+from kulman.variants.drawings.files import read_drawing
 from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import Report, report_files
+from kulman.variants.photos import pictures
 from kulman.variants.photos.matching import lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import on_page, print_scale
@@ -184,6 +188,23 @@ def test_a_missing_package_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         handout(TASK, only="velocity", scan=True)
 
     assert refused.value.key == "scan-missing"
+
+
+@pytest.mark.parametrize(
+    ("room", "read", "suffix", "key"),
+    [(pictures, read_photos, ".png", "scan-missing"), (pdf, read_drawing, ".pdf", "extra-missing")],
+)
+def test_a_file_is_not_called_broken_where_a_package_is_missing(
+    room: Any, read: Any, suffix: str, key: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def apart(*how: object) -> object:
+        raise InputError(key)
+
+    monkeypatch.setattr(room, "apart", apart)
+    (file := tmp_path / f"x{suffix}").write_bytes(b"something")
+    with pytest.raises(InputError) as refused:
+        read(file)
+    assert refused.value.key == key
 
 
 def test_pages_go_to_their_students() -> None:

@@ -39,6 +39,8 @@ def read_drawing(file: str | Path) -> Drawn:
         if len(data) > LARGEST:
             raise FaultError("drawing-large")
         return READERS[suffix](data).drawn()
+    except InputError:  # of a package that is missing
+        raise
     except FaultError as fault:
         key, known = str(fault), ", ".join(READERS)
     except (ValueError, LookupError, ArithmeticError, TypeError, RecursionError, zlib.error, ElementTree.ParseError):

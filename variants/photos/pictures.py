@@ -69,6 +69,8 @@ def read_photos(file: str | Path) -> list[Photo]:
         if len(data) > LARGEST:
             raise FaultError("photo-large")
         found = apart(_begun, _of_pdf if suffix == ".pdf" else _of_picture, data, SECONDS)
+    except InputError:  # of a package that is missing
+        raise
     except FaultError as fault:
         key = str(fault)
     except ValueError:
