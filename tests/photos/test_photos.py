@@ -198,7 +198,7 @@ def test_a_file_is_not_called_broken_where_a_package_is_missing(
     room: Any, read: Any, suffix: str, key: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def apart(*how: object) -> object:
-        raise InputError(key)
+        raise InputError(key, packages="pypdfium2", suffix=suffix)
 
     monkeypatch.setattr(room, "apart", apart)
     (file := tmp_path / f"x{suffix}").write_bytes(b"something")
