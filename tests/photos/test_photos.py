@@ -201,7 +201,7 @@ def test_a_file_is_not_called_broken_where_a_package_is_missing(
         raise InputError(key, packages="pypdfium2", suffix=suffix)
 
     monkeypatch.setattr(room, "apart", apart)
-    (file := tmp_path / f"x{suffix}").write_bytes(b"something")
+    (file := tmp_path / f"x{suffix}").write_bytes(b"%PDF-1.7 or so")
     with pytest.raises(InputError) as refused:
         read(file)
     assert refused.value.key == key
