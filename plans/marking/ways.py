@@ -67,9 +67,13 @@ class Shape:
     @cached_property
     def weights(self) -> Floats:
         """What each line counts at the most: short ones less, and those that are nearly one line together as one."""
+        return np.asarray(np.clip(np.abs(self.spans) / (FULL * self.longest), 0.2, 1.0) / self.like)
+
+    @cached_property
+    def like(self) -> Indices:
+        """How many lines are nearly the same as each, with it."""
         ends = np.sort_complex(np.stack((self.places[self.tails], self.places[self.tips]), -1)[self.lines])
-        like = (np.abs(ends[:, None] - ends[None, :]) < FLAT * self.longest).all(axis=-1).sum(axis=1)
-        return np.asarray(np.clip(np.abs(self.spans) / (FULL * self.longest), 0.2, 1.0) / like)
+        return np.asarray((np.abs(ends[:, None] - ends[None, :]) < FLAT * self.longest).all(axis=-1).sum(axis=1))
 
     @cached_property
     def flat(self) -> bool:

@@ -23,7 +23,7 @@ from kulman.drawing.markers import EACH, SIDE, fields, stands
 from kulman.drawing.shapes import shifted
 from kulman.plans.marking.answers import Verdict
 from kulman.plans.marking.drawn import Drawn
-from kulman.plans.marking.ways import RIGHT
+from kulman.plans.marking.ways import RIGHT, Shape
 from kulman.scales.errors import InputError
 from kulman.tests.photos.measure import Figures, chosen_ways, compared, linkages, measured, mistakes_of
 from kulman.tests.photos.synthesiser import PHONE, PX, Truth, drawn, photographed, printed, sheet_for
@@ -36,7 +36,8 @@ from kulman.variants.photos import pictures
 from kulman.variants.photos.matching import lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import on_page, print_scale
-from kulman.variants.photos.straight import straightened
+from kulman.variants.photos.straight import PER_MM, straightened
+from kulman.variants.photos.traced import Pencil, traced
 from kulman.variants.roster import Who
 from kulman.variants.sheets import scan_code
 
@@ -237,6 +238,57 @@ def test_photographs_of_two_linkages_at_all_qualities() -> None:
     assert whole.read >= 0.7 * whole.vectors
     assert whole.wrong <= 0.02 * whole.read
     assert np.percentile(whole.misses, 95) <= 0.8
+
+
+def pencil_of(ends: list[tuple[complex, complex]], arrows: list[tuple[complex, complex]]) -> Pencil:
+    """A page of 120 x 60 mm with lines, and arrowheads at the tips of others."""
+    dark = np.zeros((60 * PER_MM, 120 * PER_MM), np.uint8)
+    wings = [(b, b + 3.2 * np.exp(1j * turn) * (a - b) / abs(b - a)) for a, b in arrows for turn in (0.27, -0.27)]
+    for line in (*ends, *wings):
+        at = [round(part * PER_MM * 16 - 8) for z in line for part in (z.real, 60 - z.imag)]
+        cv2.line(dark, (at[0], at[1]), (at[2], at[3]), 150, 4, cv2.LINE_AA, 4)
+    return Pencil(cv2.GaussianBlur(dark, (0, 0), 1.5))
+
+
+def plan_of(places: list[complex], *edges: tuple[int, int]) -> Shape:
+    tails, tips = np.array(edges).T
+    names = tuple(f"v{number}" for number in range(len(edges)))
+    return Shape("plan", names, np.array(places, complex), names, tails, tips, np.arange(len(edges)))
+
+
+def test_a_point_between_lines_in_one_direction_is_where_its_arrowhead_is() -> None:
+    pole, drawn_at, end = 20 + 20j, 52.4 + 20j, 90.3 + 20j
+    pencil = pencil_of([(pole, end)], [(pole, drawn_at), (drawn_at, end)])
+    way = plan_of([0j, 31.5 + 0j, 70 + 0j], (0, 1), (1, 2))  # where they should be
+
+    points, errors, found = traced(pencil, way, pole + way.places, pole)
+
+    assert {*found} == {0, 1}
+    assert abs(points - [pole, drawn_at, end]).max() < 0.3
+    assert errors.max() < 0.5
+
+
+def test_a_point_that_nothing_tells_is_not_taken_from_where_it_should_be() -> None:
+    pole, end = 20 + 20j, 90 + 20j
+    pencil = pencil_of([(pole, end)], [(pole, end)])
+    way = plan_of([0j, 31.5 + 0j, 70 + 0j, 31.5 + 30j], (0, 1), (1, 2), (1, 3))
+
+    _, errors, found = traced(pencil, way, pole + way.places, pole)
+
+    assert {*found} == {0, 1}  # a line that is not drawn is not found
+    assert errors[1] > 5.0
+    assert errors[3] > 5.0
+
+
+def test_lines_are_read_as_they_are_drawn_not_as_they_should_be() -> None:
+    pole, a, b = 20 + 15j, 60.7 + 15.5j, 70.2 + 40.9j
+    pencil = pencil_of([(pole, a), (a, b), (pole, b)], [(pole, a)])
+    way = plan_of([0j, 40 + 0j, 50 + 25j], (0, 1), (1, 2), (0, 2))
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole)
+
+    assert abs(points - [pole, a, b]).max() < 0.15
+    assert errors.max() < 0.3
 
 
 def test_a_sheet_printed_smaller_is_noticed() -> None:

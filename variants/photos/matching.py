@@ -20,6 +20,7 @@ from ...plans.marking.ways import Shape as Way
 from ...plans.marking.ways import shapes_of
 from ..marking.keyed import Keyed
 from .strokes import END, LINE
+from .traced import Pencil, between, traced
 
 LONG = 4.0  # mm of a vector whose line is sought
 OFF, SKEW, TURN = (3.0, 1.5), 1.0, 0.03  # mm a line may be off at first, and then; mm at its ends and sine besides
@@ -27,7 +28,9 @@ COVER, FREE = 0.6, 1.5  # part of a vector that its line covers at the least; mm
 GOOD = 0.7  # mm off that count little
 NEAR = 2.0  # mm from where a point should be within which an end or an arrow tells of it
 POLE = 0.15  # mm, error of a line that begins at a printed pole
-WHOLE, ENOUGH, BETTER = 0.97, 0.75, 0.04  # part of a plan: all of it; that must be there; more than in the right one
+WHOLE, ENOUGH = 0.97, 0.75  # part of a plan: all of it; that must be there
+BETTER, ABSENT = 5.0, 0.5  # mm more of a plan with a mistake than of the right one; part that counts against it
+LIKELY = 4  # plans with a mistake that are looked at closely
 SURE = 0.5  # mm, error of an end from which a vector is not sure
 ALIKE = 0.7  # mm within which ends and arrows are those of one point
 STEEP = 0.2  # sine of lines between which a point is told by their crossing
@@ -44,24 +47,29 @@ class Lines:
     tails: Complex
     tips: Complex
     spots: Complex
+    pencil: Pencil | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Fit:
-    """A way to draw a plan, laid on a page: points, their errors, mm; how large it is, how much of it is there."""
+    """A way to draw a plan, laid on a page: points, their errors, mm; how large it is, how much of it is there.
+
+    `worth` are the mm of lines that are there, less half of those that are not.
+    """
 
     way: Way
     points: Complex
     errors: Floats
     times: float
     quality: float
+    worth: float
     there: frozenset[frozenset[int]]
 
 
-def lines_of(tails: Complex, tips: Complex) -> Lines:
+def lines_of(tails: Complex, tips: Complex, pencil: Pencil | None = None) -> Lines:
     """Return lines of a page; short ones are wings of arrows, which begin at a spot."""
     long = np.abs(tips - tails) >= LONG
-    return Lines(tails[long], tips[long], np.concatenate((tails, tips[long])))
+    return Lines(tails[long], tips[long], np.concatenate((tails, tips[long])), pencil)
 
 
 def matched(
@@ -92,12 +100,15 @@ def _best(lines: Lines, pole: complex, mu: float, plan: str, keyed: Keyed) -> Fi
     if not len(lines.tails):
         return None
     (right, *_) = shapes_of(keyed.key, None, plan)
-    best = _laid(lines, pole, mu, right)
+    laid = _laid(lines, pole, mu, right)
+    best = _traced(lines, laid, pole, mu)
     if best.quality < WHOLE:
-        for way in shapes_of(keyed.key, keyed.book, plan)[1:]:
-            fit = _laid(lines, pole, mu, way)
-            if fit.quality > best.quality + (BETTER if best.way.right else 0.0):
-                best = fit
+        ways = (_laid(lines, pole, mu, way) for way in shapes_of(keyed.key, keyed.book, plan)[1:])
+        likely = [fit for fit in ways if fit.worth > laid.worth - BETTER and fit.quality >= ENOUGH]
+        for fit in sorted(likely, key=lambda fit: -fit.worth)[:LIKELY]:
+            own = _traced(lines, fit, pole, mu)
+            if own.worth > best.worth + (BETTER if best.way.right else 0.0):
+                best = own
     return best if best.quality >= ENOUGH else None
 
 
@@ -113,15 +124,37 @@ def _laid(lines: Lines, pole: complex, mu: float, way: Way) -> Fit:
         if known.sum() >= 2:
             ratio = dot(places[known], points[known] - pole).sum() / (np.abs(places[known]) ** 2).sum()
             times = float(np.clip(ratio, 0.9, 1.1))
+    return _fitted(way, mu, points, errors, times, good)
+
+
+def _traced(lines: Lines, fit: Fit, pole: complex, mu: float) -> Fit:
+    """Return a fit whose points are measured along where its lines should be, if there is a picture."""
+    if lines.pencil is None:
+        return fit
+    way = fit.way
+    wanted = pole + fit.times * way.places / mu
+    near = (fit.errors < SURE) & (np.abs(fit.points - wanted) < OFF[0])
+    points, errors, found = traced(lines.pencil, way, np.where(near, fit.points, wanted), pole)
+    good = np.array([found[number].part if number in found else 0.0 for number in range(len(way.lines))])
+    return _fitted(way, mu, points, errors, fit.times, good)
+
+
+def _fitted(way: Way, mu: float, points: Complex, errors: Floats, times: float, good: Floats) -> Fit:
+    """Return a fit of which lines are there as `good` says, from 0 to 1."""
     sought = np.abs(way.spans) / mu >= LONG
     weights = np.where(sought, way.weights, 0.0)
+    sizes = np.where(sought, np.abs(way.spans) / mu / way.like, 0.0)
     whole = float(weights.sum())
-    there = frozenset(
-        frozenset((int(way.tails[at]), int(way.tips[at])))
-        for at, line, long in zip(way.lines, own, sought, strict=True)
-        if line >= 0 or not long
+    ends = zip(way.tails[way.lines].tolist(), way.tips[way.lines].tolist(), good > 0, sought, strict=True)
+    return Fit(
+        way,
+        points,
+        errors,
+        times,
+        float((weights * good).sum()) / whole if whole else 0.0,
+        float((sizes * (good - ABSENT * (1.0 - good))).sum()),
+        frozenset(frozenset((tail, tip)) for tail, tip, found, long in ends if found or not long),
     )
-    return Fit(way, points, errors, times, float((weights * good).sum()) / whole if whole else 0.0, there)
 
 
 def _lines(lines: Lines, way: Way, wanted: Complex, within: float) -> tuple[NDArray[np.intp], Floats]:
@@ -156,7 +189,7 @@ def _points(lines: Lines, way: Way, wanted: Complex, own: NDArray[np.intp], pole
         at_ends = {int(line) for line in own[(tails == mark) | (tips == mark)] if line >= 0}
         if not at_ends:
             continue
-        numbers = sorted(at_ends | {int(line) for line in own[_between(way, mark)] if line >= 0})
+        numbers = sorted(at_ends | {int(line) for line in own[between(way, mark)] if line >= 0})
         units = (lines.tips - lines.tails)[numbers] / np.abs(lines.tips - lines.tails)[numbers]
         point = wanted[mark]
         at_pole = abs(way.places[mark]) <= 1e-9 * way.longest
@@ -175,15 +208,6 @@ def _points(lines: Lines, way: Way, wanted: Complex, own: NDArray[np.intp], pole
         if abs(point - wanted[mark]) > OFF[0] or errors[mark] > LOST:
             errors[mark] = LOST
     return points, errors
-
-
-def _between(way: Way, mark: int) -> NDArray[np.bool_]:
-    """Return on which vectors of a plan a point lies, as a centre of mass does on that of its link."""
-    start, span = way.places[way.tails[way.lines]], way.spans
-    place = way.places[mark] - start
-    along = dot(span, place) / np.maximum(np.abs(span) ** 2, 1e-300)
-    aside = np.abs(cross(span, place)) / np.maximum(np.abs(span), 1e-300)
-    return np.asarray((aside <= 1e-6 * way.longest) & (along > 0.02) & (along < 0.98))
 
 
 def _crossing(units: Complex, through: Complex) -> tuple[Floats, Floats]:

@@ -39,6 +39,7 @@ from .matching import lines_of, matched
 from .pictures import Photo
 from .straight import PER_MM, flat, straightened
 from .strokes import Ink, strokes
+from .traced import HIDES, Pencil
 
 ASTRAY = 0.3  # mm that markers may lie beside where they are printed, root of the mean square
 APART = 1000.0  # mm between pages of a drawing
@@ -52,7 +53,6 @@ HAND = 0.4  # mm that the ends of a vector may lie beside its line, which turns 
 QUALITY = 0.8  # part of a plan with a mistake that must be there
 LONG, FEWEST, LIKE = 15.0, 4, 0.01  # mm of vectors that tell how large the sheet is printed; how many; how alike
 PRINTED, MOST = 0.012, 0.1  # parts by which a print that is told is smaller or larger
-HIDES = 255  # in `Flat.dark`: print hides what is there
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -222,7 +222,11 @@ def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: 
 def _recognised(sheets: Sheets, keyed: Keyed) -> Recognised:
     """Return which lines of the sheets are which vectors, at places of the drawing."""
     tails, tips = sheets.drawn.tails, sheets.drawn.tips
-    pages = {page.number: lines_of(tails[own], tips[own]) for page in sheets.pages for own in [_on(tails, page.number)]}
+    pages = {
+        page.number: lines_of(tails[own], tips[own], Pencil(page.dark, APART * page.number, sheets.printed))
+        for page in sheets.pages
+        for own in [_on(tails, page.number)]
+    }
     poles = {plan: (page, APART * page + place / sheets.printed) for plan, (page, place) in sheets.blank.poles.items()}
     return matched(pages, poles, sheets.blank.mus, keyed)
 

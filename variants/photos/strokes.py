@@ -193,6 +193,12 @@ def _fitted(along: Floats, middles: Floats, weight: Floats) -> tuple[float, floa
     return base, slope, float(np.median(np.abs(off)) * 1.48)
 
 
+def middles_of(along: Floats, across: Floats, profiles: Floats, dark: float) -> tuple[float, float]:
+    """Return offset and slope of the line through the middles of profiles across it, of shape (along, across)."""
+    middles = (profiles * across).sum(axis=1) / np.maximum(profiles.sum(axis=1), 1e-9)
+    return _fitted(along, middles, np.minimum(profiles.max(axis=1), dark))[:2]
+
+
 def _covered(ink: Ink, start: complex, stop: complex, dark: float) -> list[tuple[complex, complex, float]]:
     """Return where a line is dark: from end to end of each run, and how dark it is; print may hide it."""
     size = abs(stop - start)

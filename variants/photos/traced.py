@@ -1,0 +1,271 @@
+"""Points of a plan measured along where its lines should be: the pencil says where each is, not what is expected.
+
+A line is looked for in the strip around its place: the way from side to side along which the pencil is darkest, put
+on the middle of what is dark. Where it ends its darkness falls, or an arrowhead has its point. A point of the plan is
+where its lines cross, weighed against ends and arrowheads: these alone tell where lines go on in one direction.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...plans.laws import cross, dot
+from ...plans.marking.ways import Shape as Way
+from .straight import PER_MM
+from .strokes import LINE, middles_of
+
+HIDES = 255  # in what is dark: print hides what is there
+PASSES = ((1.5, 0.25), (0.6, 0.1))  # mm aside in which a line is sought, and steps there, first and then
+SHORTEST = 2.5  # mm of a vector whose line is sought
+ALONG, ACROSS = 0.25, 0.1  # mm between places along a line, and across it
+MOST = 160  # places along a line that is sought
+FAINT = 0.05  # darkness of a line at the least
+THERE = 0.75  # part of a line that must be dark
+STRAY = 0.02  # what a line loses that is as far aside as it may be
+FALL, ROUND = 0.5, 0.15  # part of its darkness at which a line ends; mm that ends are rounded
+REACH, CLEAR = 3.0, 1.2  # mm beside where a line should end, that it may; that must be clear beyond
+WINGS = tuple(math.radians(degrees) for degrees in (10.0, 13.0, 16.0, 20.0, 25.0))  # of arrowheads, half
+WING, APART = 3.2, 0.55  # mm of a wing at the most; mm from its line where it is told from that
+LEAN = math.sin(math.radians(5.0))  # of a wing against its line at the least
+POINTED = 0.55  # part of how dark their line is that wings must be
+POLE, ENDING, POINTING = 0.15, 0.35, 0.3  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
+NEAR = 1.0  # mm that a point may be from where it should be, as far as nothing tells
+LIKELY = 2.5  # errors between a crossing and an end that is that of the point
+ALIKE = 0.8  # mm within which ends and arrowheads are those of one point
+FLAT = 0.6  # mm, error of a crossing that ends must tell
+LOST = 99.0  # mm, error of a point of which nothing is known
+
+Complex = NDArray[np.complex128]
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Pencil:
+    """How dark the pencil is on a page, 0 to 254, or `HIDES`.
+
+    Places of the drawing are `by` to the right of those of the page, which are so many `times` as large.
+    """
+
+    dark: NDArray[np.uint8]
+    by: float = 0.0
+    times: float = 1.0
+
+    def at(self, places: Complex) -> tuple[Floats, NDArray[np.bool_]]:
+        """Return how dark the pencil is at places, 0 to 1, and where print hides it."""
+        rows, columns = self.dark.shape
+        z = (places - self.by) * self.times * PER_MM
+        x = np.clip(np.floor(z.real).astype(np.intp), 0, columns - 1)
+        y = np.clip(np.floor(rows - z.imag).astype(np.intp), 0, rows - 1)
+        found = self.dark[y, x]
+        hidden = found == HIDES
+        return np.where(hidden, 0.0, found / 254.0), hidden
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Traced:
+    """A line as it is drawn: through which place, in which direction; how dark it is, what part of it is there."""
+
+    through: complex
+    unit: complex
+    dark: float
+    part: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Spot:
+    """Where a line ends, or an `arrow` points to, along its line."""
+
+    place: complex
+    unit: complex
+    arrow: bool = False
+
+    @property
+    def error(self) -> float:
+        """Its error, mm."""
+        return POINTING if self.arrow else ENDING
+
+
+def traced(pencil: Pencil, way: Way, points: Complex, pole: complex) -> tuple[Complex, Floats, dict[int, Traced]]:
+    """Return the points of a plan as they are drawn, near to `points`, their errors, and its lines that are there."""
+    tails, tips = way.tails[way.lines], way.tips[way.lines]
+    found: dict[int, Traced] = {}
+    errors = np.full(len(points), LOST)
+    for aside, step in PASSES:
+        found = {}
+        for number, (tail, tip) in enumerate(zip(tails.tolist(), tips.tolist(), strict=True)):
+            line = _line(pencil, complex(points[tail]), complex(points[tip]), aside, step)
+            if line is not None:
+                found[number] = line
+        spots = _spots(pencil, way, points, found)
+        moved, errors = points.copy(), np.full(len(points), LOST)
+        for mark in range(len(points)):
+            own = [line for n, line in found.items() if mark in (tails[n], tips[n])]
+            if own:
+                own += [found[n] for n in np.flatnonzero(between(way, mark)).tolist() if n in found]
+                at_pole = pole if abs(way.places[mark]) <= 1e-9 * way.longest else None
+                moved[mark], errors[mark] = _point(complex(points[mark]), own, spots.get(mark, []), at_pole)
+        points = np.where(errors < LOST, moved, points)
+    return points, errors, found
+
+
+def between(way: Way, mark: int) -> NDArray[np.bool_]:
+    """Return on which vectors of a plan a point lies, as a centre of mass does on that of its link."""
+    start, span = way.places[way.tails[way.lines]], way.spans
+    place = way.places[mark] - start
+    along = dot(span, place) / np.maximum(np.abs(span) ** 2, 1e-300)
+    aside = np.abs(cross(span, place)) / np.maximum(np.abs(span), 1e-300)
+    return np.asarray((aside <= 1e-6 * way.longest) & (along > 0.02) & (along < 0.98))
+
+
+def _line(pencil: Pencil, tail: complex, tip: complex, aside: float, step: float) -> Traced | None:
+    """Return the line that is drawn near to a way, or None."""
+    size = abs(tip - tail)
+    if size < SHORTEST:
+        return None
+    unit, trim = (tip - tail) / size, min(0.5, size / 8)
+    count = int(np.clip(size / ALONG, 8, MOST))
+    along = np.linspace(trim, size - trim, count)
+    across = np.arange(-aside, aside + ACROSS / 2, ACROSS)
+    strip, hidden = pencil.at(tail + along[:, None] * unit + 1j * unit * across[None, :])
+    seen = ~hidden.all(axis=1)
+    if seen.sum() < max(4, 0.25 * count):
+        return None
+    level = max(float(np.median(strip[seen].max(axis=1))), FAINT)
+    strip = np.where(hidden, np.nan, np.minimum(strip / level, 1.0))
+    offs = np.arange(-aside, aside + step / 2, step)
+    first, last = (one.ravel() for one in np.meshgrid(offs, offs, indexing="ij"))
+    part = along / size
+    columns = np.rint((first[:, None] * (1 - part) + last[:, None] * part + aside) / ACROSS).astype(np.intp)
+    rows = np.arange(count)[None, :]
+    with np.errstate(invalid="ignore"):
+        score = np.nan_to_num(np.nanmean(strip[rows[:, seen], columns[:, seen]], axis=1))
+    score -= STRAY * (first**2 + last**2) / aside**2
+    best = int(score.argmax())
+    start, stop = (end + 1j * unit * float(off[best]) for end, off in ((tail, first), (tip, last)))
+    return _centred(pencil, start, stop, along, level)
+
+
+def _centred(pencil: Pencil, start: complex, stop: complex, along: Floats, level: float) -> Traced | None:
+    """Return a line put on the middle of what is dark, if enough of it is."""
+    across = np.arange(-0.4, 0.41, ACROSS / 2)
+    size, part, dark = abs(stop - start), 0.0, 0.0
+    for _ in range(2):
+        unit = (stop - start) / size
+        strip, hidden = pencil.at(start + along[:, None] * unit + 1j * unit * across[None, :])
+        top = strip[:, np.abs(across) < 0.25].max(axis=1)
+        open_ = ~hidden.any(axis=1)
+        good = open_ & (top > max(FAINT, FALL * level))
+        part = float(good.sum() / max(int(open_.sum()), 1))
+        if good.sum() < 4 or part < THERE:
+            return None
+        dark = float(np.median(top[good]))
+        base, slope = middles_of(along[good], across, strip[good], dark)
+        start, stop = (start + at * unit + 1j * unit * (base + slope * at) for at in (0.0, size))
+    return Traced(start, (stop - start) / abs(stop - start), dark, part)
+
+
+def _spots(pencil: Pencil, way: Way, points: Complex, found: dict[int, Traced]) -> dict[int, list[Spot]]:
+    """Return where lines end and arrowheads point to, by the points of the plan that they may be."""
+    arrows = set(zip(way.tails.tolist(), way.tips.tolist(), strict=True))
+    spots: dict[int, list[Spot]] = {}
+    for number, line in found.items():
+        ends = int(way.tails[way.lines[number]]), int(way.tips[way.lines[number]])
+        for tail, tip in (ends, ends[::-1]):
+            near = spots.setdefault(tip, [])
+            near += _ended(pencil, line, complex(points[tail]), complex(points[tip]))
+            if (tail, tip) in arrows:
+                near += _pointed(pencil, line, complex(points[tail]), complex(points[tip]))
+    return spots
+
+
+def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[Spot]:
+    """Go through where a line ends near to its tip: there its darkness falls."""
+    unit = line.unit if dot(line.unit, tip - tail) > 0 else -line.unit
+    foot = line.through + dot(line.unit, tip - line.through) * line.unit
+    inside = min(REACH, 0.6 * abs(tip - tail))
+    along = np.arange(-inside, REACH + CLEAR, 1.0 / PER_MM)
+    across = np.arange(-0.2, 0.21, 0.1)
+    strip, hidden = pencil.at(foot + along[:, None] * unit + 1j * unit * across[None, :])
+    hid, dark = hidden.any(axis=1), strip.mean(axis=1)
+    before = ~hid & (along < 0.0)
+    if not before.any():
+        return
+    on = (dark > max(FAINT / 2, FALL * float(np.median(dark[before])))) & ~hid
+    clear = round(CLEAR * PER_MM)
+    for at in np.flatnonzero(on).tolist():
+        beyond = slice(at + 1, at + 1 + clear)
+        if at + clear < len(along) and not on[beyond].any():
+            if not hid[beyond].any():
+                yield Spot(complex(foot + (along[at] - ROUND) * unit), unit)
+            return
+
+
+def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[Spot]:
+    """Go through where an arrowhead on a line points to: its two wings are found, then where they meet the line."""
+    unit = line.unit if dot(line.unit, tip - tail) > 0 else -line.unit
+    foot = line.through + dot(line.unit, tip - line.through) * line.unit
+    size = abs(tip - tail)
+    at = np.arange(-min(REACH, size / 3), REACH, 1.0 / PER_MM)
+    best, place, angle = 0.0, 0.0, 0.0
+    for wing in WINGS:
+        behind = _behind(wing, size)
+        if len(behind) < 5:
+            continue
+        legs = [foot + at[:, None] * unit - unit * np.exp(1j * side) * behind[None, :] for side in (wing, -wing)]
+        score = np.minimum(*(pencil.at(leg)[0] for leg in legs)).mean(axis=1) / line.dark
+        own = int(score.argmax())
+        if score[own] > best:
+            best, place, angle = float(score[own]), float(at[own]), wing
+    if best > POINTED:
+        ends = [_wing(pencil, foot + place * unit, -unit * np.exp(1j * side), unit, size) for side in (angle, -angle)]
+        if abs(ends[0] - ends[1]) < ALIKE:
+            yield Spot(complex(foot + (place + sum(ends) / 2) * unit), unit, arrow=True)
+
+
+def _behind(wing: float, size: float) -> Floats:
+    """Return how far from the point of an arrowhead a wing is looked at: apart from its line, and from its end."""
+    return np.arange(APART / math.sin(wing), min(WING, 0.9 * size / 3), 1.0 / PER_MM)
+
+
+def _wing(pencil: Pencil, apex: complex, leg: complex, unit: complex, size: float) -> float:
+    """Return how far before an apex the middle of a wing, along a leg from there, meets its line."""
+    sine = float(cross(unit, leg))
+    along, across = _behind(abs(math.asin(sine)), size), np.arange(-0.2, 0.21, 0.05)
+    strip, _ = pencil.at(apex + along[:, None] * leg + 1j * leg * across[None, :])
+    base, slope = middles_of(along, across, strip, 1.0)
+    through, way = apex + 1j * leg * base, leg * (1 + 1j * slope)
+    lean = float(cross(unit, way))
+    return float(cross(through - apex, way)) / lean if abs(lean) > LEAN else LOST
+
+
+def _point(point: complex, lines: list[Traced], spots: list[Spot], pole: complex | None) -> tuple[complex, float]:
+    """Return where a point of a plan is, and its error: where lines cross, and with ends where that is flat."""
+    rows = [(1j * line.unit, line.through, LINE) for line in lines]
+    if pole is not None:
+        rows += [(1 + 0j, pole, POLE), (1j, pole, POLE)]
+    crossing, error = _solved(rows, point)
+    far = {spot: abs(dot(spot.unit, spot.place - crossing)) / math.hypot(error, spot.error) for spot in spots}
+    near = [spot for spot in spots if far[spot] < LIKELY]
+    if error > FLAT:  # an arrowhead tells, or several ends that are one
+        arrows = [spot for spot in near if spot.arrow]
+        least = arrows or near
+        apart = max((abs(dot(one.unit, one.place - other.place)) for one in least for other in least), default=LOST)
+        if apart > ALIKE or (len(near) < 2 and not arrows):
+            return crossing, error
+        near = [one for one in near if abs(dot(one.unit, one.place - least[0].place)) <= ALIKE]
+    return _solved([*rows, *((spot.unit, spot.place, spot.error) for spot in near)], point)
+
+
+def _solved(rows: list[tuple[complex, complex, float]], point: complex) -> tuple[complex, float]:
+    """Return the place that lies best in directions from places, each with its error, and its own error."""
+    normals = np.array([[way.real, way.imag] for way, *_ in rows]) / np.array([[error] for *_, error in rows])
+    right = np.array([float(dot(way, place - point)) / error for way, place, error in rows])
+    own = normals.T @ normals
+    x, y = np.linalg.solve(own + np.eye(2) / NEAR**2, normals.T @ right)
+    error = math.sqrt(float(np.trace(np.linalg.inv(own + np.eye(2) / LOST**2))))
+    return point + complex(x, y), error
