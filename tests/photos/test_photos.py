@@ -19,6 +19,7 @@ import zxingcpp
 from PIL import Image
 
 from kulman import check, handout, load_task
+from kulman.drawing.formats import drawing_area
 from kulman.drawing.markers import EACH, SIDE, fields, stands
 from kulman.drawing.shapes import shifted
 from kulman.plans.marking.answers import Verdict
@@ -36,10 +37,10 @@ from kulman.variants.photos import pictures
 from kulman.variants.photos.matching import lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import on_page, print_scale
-from kulman.variants.photos.straight import PER_MM, straightened
+from kulman.variants.photos.straight import PER_MM, framed, straightened
 from kulman.variants.photos.traced import Pencil, traced
 from kulman.variants.roster import Who
-from kulman.variants.sheets import scan_code
+from kulman.variants.sheets import drawing_for_print, scan_code
 
 TASK, PLANS = "nau-slider-crank", "velocity"
 
@@ -225,6 +226,24 @@ def test_corners_that_lie_badly_are_told() -> None:
 
     assert straightened(seen, places, 1000 - 1000j).error < 0.01
     assert straightened(moved, places, 1000 - 1000j).error > 0.3
+
+
+def test_the_frame_holds_a_page_flat_where_no_markers_are() -> None:
+    sheet, random = sheet_for(TASK, only=PLANS), np.random.default_rng(1)
+    grey, page = printed(sheet, 1), sheet.pages[1]
+    upper = [place for place in stands(page) if place.at.imag > 100]
+    shake = lambda: complex(*random.normal(0, 1.0, 2))  # noqa: E731
+    seen = {one.number: tuple(PX * (z.conjugate() + 1j * page.height) + shake() for z in one.corners) for one in upper}
+    foot = np.array([30 + 10j, 100 + 10j, 180 + 10j])
+    centre = PX * complex(page.width, page.height) / 2
+    area = drawing_area(drawing_for_print(sheet.case).sheets[1], "gost")
+
+    markers = straightened(seen, upper, centre)
+    both = straightened(seen, upper, centre, framed(grey, markers, area))
+
+    off = [np.abs(way.at(foot) / PX - foot.conj() - 1j * page.height).max() for way in (markers, both)]
+    assert off[1] < 0.2
+    assert off[0] > 2 * off[1]
 
 
 @pytest.mark.soak

@@ -37,7 +37,7 @@ from ..marking.seen import Seen
 from ..sheets import PAPER, drawing_for_print, scan_code, scannable_of_case
 from .matching import lines_of, matched
 from .pictures import Photo
-from .straight import PER_MM, flat, straightened
+from .straight import PER_MM, flat, framed, straightened
 from .strokes import Ink, strokes
 from .traced import HIDES, Pencil
 
@@ -276,6 +276,8 @@ def read_sheets(photos: Sequence[Photo], blank: Blank) -> Sheets:
             continue
         page = blank.pages[photo.number - 1]
         grey = cv2.imdecode(np.frombuffer(photo.picture, np.uint8), cv2.IMREAD_GRAYSCALE)
+        edges = framed(grey, way, drawing_area(blank.formats[photo.number - 1], blank.case.norm))
+        way = straightened(photo.markers, blank.stands(photo.number), photo.centre, edges)
         picture = flat(grey, way, page.width, page.height)
         poles = [at for number, at in blank.poles.values() if number == photo.number]
         found, dark = list[Any](), np.zeros((1, 1), np.uint8)

@@ -15,12 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...drawing.markers import SIDE, Place
+from ...drawing.text import Box
 
 PER_MM = 10  # pixels of a straightened page
 BENDS = 6  # coefficients of the bend, after the eight of the homography, before the radial one
 STIFF = 0.003  # parts of the page's half diagonal that a bend shifts corners by, about
 STEPS, STEP = 25, 1e-6
 HUBER = 2.0  # of the middle error: from where a corner counts less
+PITCH, ASIDE, WIDE = 6.0, 2.5, 6  # mm along the frame between looks at it, and beside it; tenths of its half width
+CONTRAST = 0.2  # darkness of the frame at the least
 GRID = 8  # pixels between places of which the map is reckoned; between them it is straight
 Complex = NDArray[np.complex128]
 
@@ -54,8 +57,45 @@ def _seen(values: NDArray[np.float64], z: Complex) -> Complex:
 REACH = 2000.0  # pixels at which the radial term is what it says
 
 
-def straightened(markers: Mapping[int, tuple[complex, ...]], places: Sequence[Place], centre: complex) -> Straight:
-    """Fit the map of a page to the corners of its markers on a picture, of which `centre` is the middle of the lens."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Edges:
+    """Places of straight printed lines: mm of the sheet, where they are seen, pixels, and across which direction."""
+
+    places: Complex
+    seen: Complex
+    across: Complex
+
+
+def framed(picture: Any, way: Straight, box: Box) -> Edges:
+    """Look where the printed frame is seen, near to where a map says: it reaches where no markers stand."""
+    import cv2
+
+    x0, y0, x1, y1 = box
+    xs, ys = np.arange(x0 + PITCH, x1 - PITCH / 2, PITCH), np.arange(y0 + PITCH, y1 - PITCH / 2, PITCH)
+    places = np.concatenate((xs + 1j * y0, xs + 1j * y1, x0 + 1j * ys, x1 + 1j * ys))
+    normals = np.repeat([1j, 1j, 1.0, 1.0], [len(xs), len(xs), len(ys), len(ys)])
+    off = np.arange(-ASIDE, ASIDE + 0.05, 0.1)
+    at = way.at(places[:, None] + normals[:, None] * off[None, :])
+    light = cv2.remap(picture, at.real.astype(np.float32), at.imag.astype(np.float32), cv2.INTER_LINEAR).astype(float)
+    paper = np.percentile(light, 75, axis=1, keepdims=True)
+    dark = np.clip(1.0 - light / np.maximum(paper, 1.0), 0.0, 1.0)
+    top = dark.argmax(axis=1)[:, None]
+    own = np.where(
+        np.abs(np.arange(len(off)) - top) <= WIDE, np.maximum(dark - 0.3 * dark.max(axis=1)[:, None], 0.0), 0.0
+    )
+    good = (dark.max(axis=1) > CONTRAST) & (np.abs(top[:, 0] - len(off) // 2) < len(off) // 2 - WIDE)
+    middles = (own * off).sum(axis=1) / np.maximum(own.sum(axis=1), 1e-9)
+    z, n = places[good], normals[good]
+    return Edges(z, way.at(z + middles[good] * n), way.at(z + n) - way.at(z))
+
+
+def straightened(
+    markers: Mapping[int, tuple[complex, ...]], places: Sequence[Place], centre: complex, edges: Edges | None = None
+) -> Straight:
+    """Fit the map of a page to the corners of its markers on a picture, of which `centre` is the middle of the lens.
+
+    Lines that are printed, too, hold it across them.
+    """
     both = [place for place in places if place.number in markers]
     if len(both) < 3:
         return Straight(np.zeros(8 + BENDS + 1), 0j, 1.0, centre, np.inf)
@@ -68,22 +108,39 @@ def straightened(markers: Mapping[int, tuple[complex, ...]], places: Sequence[Pl
     per = float(np.median(sides)) / SIDE  # pixels a mm
     stiff = np.concatenate((np.zeros(8), np.full(BENDS, 0.3 / STIFF), [0.3 / 0.05]))  # px
     scales = np.maximum(np.abs(values), np.array([1.0] * 6 + [1e-3] * 2 + [1e-3] * (BENDS + 1)))
+    lines = np.zeros(0, complex) if edges is None else (edges.places - middle) / size
     for _ in range(STEPS):
         miss = _seen(values, z) - on_picture
-        slope = np.stack(
-            [(_seen(values + STEP * scales * unit, z) - _seen(values, z)) / STEP for unit in np.eye(len(values))], 1
-        )
-        off = np.abs(miss)
-        bound = HUBER * max(float(np.median(off)), 0.02)
-        weight = np.sqrt(np.minimum(1.0, bound / np.maximum(off, 1e-12)))
-        rows = np.concatenate(((slope * weight[:, None]).real, (slope * weight[:, None]).imag, np.diag(stiff * scales)))
-        right = np.concatenate(((miss * weight).real, (miss * weight).imag, stiff * values))
+        slope, weight = _slope(values, z, scales), _weight(np.abs(miss))
+        own = [
+            ((slope * weight[:, None]).real, (miss * weight).real),
+            ((slope * weight[:, None]).imag, (miss * weight).imag),
+        ]
+        if edges is not None and len(lines):
+            turn = np.conj(edges.across / np.abs(edges.across))
+            aside = (turn * (_seen(values, lines) + centre - edges.seen)).real
+            weight = _weight(np.abs(aside))
+            own += [((turn[:, None] * _slope(values, lines, scales)).real * weight[:, None], aside * weight)]
+        rows = np.concatenate((*(one for one, _ in own), np.diag(stiff * scales)))
+        right = np.concatenate((*(one for _, one in own), stiff * values))
         change = np.linalg.lstsq(rows, right, rcond=None)[0] * scales
         values = values - change
         if np.abs(change / scales).max() < 1e-9:
             break
     error = float(np.sqrt(np.mean(np.abs(_seen(values, z) - on_picture) ** 2))) / per
     return Straight(values, middle, size, centre, error if np.isfinite(error) else np.inf)
+
+
+def _slope(values: NDArray[np.float64], z: Complex, scales: NDArray[np.float64]) -> Complex:
+    """Return how places move as each number of a map grows by its scale."""
+    seen = _seen(values, z)
+    return np.stack([(_seen(values + STEP * scales * unit, z) - seen) / STEP for unit in np.eye(len(values))], 1)
+
+
+def _weight(off: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the weights of what is so far off: far ones count less."""
+    bound = HUBER * max(float(np.median(off)), 0.02)
+    return np.asarray(np.sqrt(np.minimum(1.0, bound / np.maximum(off, 1e-12))))
 
 
 def _homography(z: Complex, w: Complex) -> NDArray[np.float64]:
