@@ -362,10 +362,17 @@ class Chunked:
         entry = self.trace.entries[place]
         if entry.operation != "given":
             yield from self._made(place, entry)
-        for index, (output, negative) in enumerate(self.outputs):
-            if output == place:  # zeros lose their sign
-                operands = f"0.0, {self._value(place)}" if negative else f"{self._value(place)}, 0.0"
-                yield f"{'subtract' if negative else 'add'}({operands}, outputs[{index}])"
+        for index, negative in self._kept.get(place, ()):  # zeros lose their sign
+            operands = f"0.0, {self._value(place)}" if negative else f"{self._value(place)}, 0.0"
+            yield f"{'subtract' if negative else 'add'}({operands}, outputs[{index}])"
+
+    @cached_property
+    def _kept(self) -> Mapping[int, Sequence[tuple[int, bool]]]:
+        """Of each entry that is kept: in which outputs, and whether with the other sign."""
+        found: dict[int, list[tuple[int, bool]]] = {}
+        for index, (place, negative) in enumerate(self.outputs):
+            found.setdefault(place, []).append((index, negative))
+        return found
 
     def _made(self, place: int, entry: Entry) -> Iterator[str]:
         into, operands = self._value(place), [self._value(o) for o in entry.operands]
