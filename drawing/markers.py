@@ -9,12 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..scales.errors import InputError
+from ..scales.packaged import packaged
 from .formats import Format, Norm, drawing_area, pens_for
 from .page import Page, extent
 from .shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector, sides_of
@@ -34,11 +36,14 @@ FIELDS = (
     "555e6270621561c26b2063456b5c6b5b780c7acf787f798071e5717479b671d37b33646a66a86ea76e9165226dcb678d6d31"
 )
 EACH = 8  # markers of a page: their numbers are 8 · (page - 1) + 0 to 7
-PAGES = 31
+PAGES = 30
+FREE = 31  # what a sheet counts as that has markers stuck on it
 SIDE, ROUND = 12.0, 2.5  # mm of a marker; white round it
+STUCK = 20.0  # mm of a marker to be stuck on a sheet
 CODES = (26.0, 24.0, 22.0, 20.0, 18.0, 16.0, 14.0)  # mm of a QR code, the largest that finds room
 QUIET = 3.0  # mm of white round it
 EDGE = 5.0  # mm from the edge of the paper that printers do not reach
+PAPER = 210.0, 297.0  # mm of the page of those that are stuck on
 FEWEST, SAFE = 5, 6  # markers of a page: fewer do not straighten it, and so many there should be
 STEP = 2.0  # mm between places that are tried
 UNIT = 0.25  # mm, side of the squares of which it is known whether they are empty
@@ -114,6 +119,28 @@ def scannable(page: Page, whole: Sequence[Group], number: int, text: str, sheet:
         at, side = found
         shapes.append(Group(tuple(_areas(code_fields(text), at, side, pen)), "qr", text))
     return replace(page, shapes=(*page.shapes, *shapes))
+
+
+def stickers(language: str) -> Page:
+    """Return an A4 page of markers to be cut out and stuck on sheets of one's own: a set of eight in each column."""
+    texts, shapes = packaged(__package__, "texts", language), list[Shape]()
+    pen = pens_for(*PAPER).width(Pen.THIN)
+    pitch, columns = STUCK + 2.0 * ROUND, int((PAPER[0] - 2.0 * EDGE) / (STUCK + 2.0 * ROUND))
+    low = complex((PAPER[0] - columns * pitch) / 2.0, EDGE)
+    for count, along, across, other in ((columns, 1.0, 1j, EACH), (EACH, 1j, 1.0, columns)):
+        for line in range(count + 1):
+            start = low + line * pitch * along
+            shapes.append(Line(start, start + other * pitch * across, Pen.THIN, role="grid"))
+    for own, column in product(range(EACH), range(columns)):
+        number = EACH * (FREE - 1) + own
+        at = low + complex(column * pitch + ROUND, (EACH - 1 - own) * pitch + ROUND)
+        shapes.append(Group(tuple(_areas(fields(number), at, STUCK, pen)), "marker", str(number)))
+    top = low.imag + EACH * pitch
+    for line, said in enumerate(("stickers.title", "stickers.use", "stickers.where", "stickers.print")):
+        at = complex(low.real, PAPER[1] - EDGE - 10.0 - 7.0 * line)
+        assert at.imag > top
+        shapes.append(Text(at, texts[said], 5.0 if line == 0 else 3.5))
+    return Page(*PAPER, tuple(shapes), texts["stickers.title"], language)
 
 
 def _areas(black: NDArray[np.bool_], at: complex, side: float, pen: float) -> Iterator[Polyline]:

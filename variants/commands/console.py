@@ -329,6 +329,7 @@ _about_task: tuple[Any, ...] = (
     of_language,
 )
 of_task = _stacked(click.argument("task", shell_complete=_named), *_about_task)
+of_any_task = _stacked(click.argument("task", metavar="TASK", required=False, shell_complete=_named), *_about_task)
 of_tasks = _stacked(
     click.argument("tasks", metavar="TASK...", nargs=-1, required=True, shell_complete=_named), *_about_task
 )

@@ -24,8 +24,9 @@ if TYPE_CHECKING:
     "kulman handout nau-slider-crank -v 3 --grid --hidden-key -o teacher.svg",
     "kulman handout nau-slider-crank -v 3 --over velocity -o transparency.pdf",
     "kulman handout nau-slider-crank -v 3 --scan -o to-be-photographed.pdf",
+    "kulman handout --markers -o to-stick-on.pdf",
 )
-@console.of_task
+@console.of_any_task
 @console.output("..drawing.writers", required=True)
 @click.option(
     "--steps",
@@ -42,13 +43,29 @@ if TYPE_CHECKING:
 @click.option("--over", metavar="PLAN", shell_complete=completing.completing(completing.plans))
 @click.option("--grid", is_flag=True)
 @click.option("--scan", is_flag=True)
+@click.option("--markers", is_flag=True)
 @console.sized(default="A4", show_default=True)
 @console.of_norm
 @console.tiled
 @console.titled("student", *console.BLOCK)
-def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: str | None, **options: Any) -> None:
+@click.pass_context
+def handout(
+    context: click.Context,
+    /,
+    task: str | None,
+    settings: dict[str, str],
+    files: tuple[Path, ...],
+    tile: str | None,
+    **options: Any,
+) -> None:
     """Draw a handout of TASK: givens, scales and poles, no answers; with rulers that prove the print."""
     from ..sheets import handout as handout_task
+
+    if options.pop("markers"):
+        _markers(files, tile, options)
+        return
+    if task is None:
+        raise click.MissingParameter(ctx=context, param=context.command.params[0])
 
     flat = [file for file in files if file.suffix.lower() == ".png"]
     if flat and options["hidden_key"]:  # a picture has no layers
@@ -57,6 +74,18 @@ def handout(task: str, settings: dict[str, str], files: tuple[Path, ...], tile: 
     drawn = handout_task(task, set=settings, **block, **{**options, "lang": console.of_documents(options["lang"])})
     console.say_written(drawn.save(*files, tile=tile), False)
     console.warn(drawn.warnings)
+
+
+def _markers(files: tuple[Path, ...], tile: str | None, options: dict[str, Any]) -> None:
+    """Write the page of markers that are stuck on sheets."""
+    from ...drawing.markers import stickers
+    from ...drawing.writers import WRITERS, page_files, save_all
+
+    for name in ("steps", "key", "hidden_key", "over", "grid", "scan"):
+        if options[name]:
+            raise InputError("handout-apart", first="--markers", second=f"--{name.replace('_', '-')}")
+    page = stickers(console.of_documents(options["lang"]))
+    console.say_written(save_all(files, WRITERS, lambda path: page_files([page], path, tile)), False)
 
 
 @console.command(

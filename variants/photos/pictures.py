@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ...drawing.markers import EACH, FEWEST
+from ...drawing.markers import EACH, FEWEST, FREE
 from ...scales.errors import InputError
 from ..drawings.apart import apart
 from ..drawings.marks import FaultError, handed_in
@@ -81,6 +81,14 @@ def read_photos(file: str | Path) -> list[Photo]:
     raise InputError(key, file=shown, n=PIXELS // 1_000_000, known=suffix[1:].upper())
 
 
+def grey_of(photo: Photo) -> Any:
+    """Return a photograph as a grey array."""
+    import cv2
+    import numpy as np
+
+    return cv2.imdecode(np.frombuffer(photo.picture, np.uint8), cv2.IMREAD_GRAYSCALE)
+
+
 def together(photos: Iterable[Photo]) -> list[list[Photo]]:
     """Return pages by students: of the same sheet id, no page twice; one without an id is the last student's."""
     found = list[list[Photo]]()
@@ -88,7 +96,7 @@ def together(photos: Iterable[Photo]) -> list[list[Photo]]:
         for group in reversed(found):
             known = next((one.sheet for one in group if one.sheet), "")
             like = not (known and photo.sheet) or known == photo.sheet
-            if like and photo.number not in {one.number for one in group}:
+            if like and (photo.number == FREE or photo.number not in {one.number for one in group}):
                 group.append(photo)
                 break
         else:

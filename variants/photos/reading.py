@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...drawing.formats import FORMATS, Format, drawing_area, format_named, reserved_boxes
-from ...drawing.markers import Place, stands
+from ...drawing.markers import FREE, Place, stands
 from ...drawing.page import Page
 from ...drawing.shapes import Group, Shape, Vector
 from ...drawing.writers import page_files
@@ -35,8 +35,9 @@ from ..marking.keyed import Keyed
 from ..marking.reading import Reply
 from ..marking.seen import Seen
 from ..sheets import PAPER, drawing_for_print, scan_code, scannable_of_case
+from .free import laid_flat, plans_on, quarters_of, turned, ways_of
 from .matching import lines_of, matched
-from .pictures import Photo
+from .pictures import Photo, grey_of
 from .straight import PER_MM, flat, framed, straightened
 from .strokes import Ink, strokes
 from .traced import HIDES, Pencil
@@ -208,15 +209,46 @@ def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: 
     def blank(language: str, paper: str) -> Blank:
         return kept.get((*name, language, paper), lambda: blank_of(request, keyed, language, paper))
 
-    sheets = read_sheets(photos, _fitting(photos, request, blank))
+    own = all(photo.number == FREE for photo in photos)
+    sheets = _own_sheets(photos, keyed) if own else read_sheets(photos, _fitting(photos, request, blank))
     found = _recognised(sheets, keyed)
-    times = print_scale(sheets, found)
+    times = 1.0 if own else print_scale(sheets, found)
     if times != 1.0:
         sheets = shrunk(sheets, times)
         found = _recognised(sheets, keyed)
     found = sure(sheets, keyed, found)
     mus = {plan: sheets.blank.mus[plan] for plan in found.plans}
-    return sheets, Seen(found, mus, frozenset(mus))
+    return sheets, Seen(found, mus, frozenset() if own else frozenset(mus))
+
+
+def _own_sheets(photos: Sequence[Photo], keyed: Keyed) -> Sheets:
+    """Read the pencil lines on photographs of a student's own sheets, which have markers stuck on them."""
+    ways = ways_of(keyed)
+    sheets = [laid_flat(photo, ways) for photo in photos]
+    plans = plans_on(sheets, keyed, APART)
+    quarters = quarters_of([*plans.values()])
+    if quarters:
+        sheets = [turned(sheet, quarters) for sheet in sheets]
+        plans = plans_on(sheets, keyed, APART)
+    on = {plan: math.floor(one.pole.real / APART) for plan, one in plans.items()}
+    poles = {plan: (on[plan], one.pole - APART * on[plan]) for plan, one in plans.items()}
+    blank = Blank(keyed.solution.case, (), (), poles, {plan: one.mu for plan, one in plans.items()})
+    pages, ends = list[Flat](), list[tuple[complex, complex]]()
+    for number, sheet in enumerate(sheets, start=1):
+        pages.append(Flat(number, sheet.picture, _dark(sheet.ink), len(sheet.lines), sheet.error))
+        ends += [(line.tail + APART * number, line.tip + APART * number) for line in sheet.lines]
+    lines = np.array(ends, complex).reshape(-1, 2)
+    notes = (
+        InputError("photo-own", file=quote(photo.source, SHOWN), n=len(photo.markers), mm=Written(f"{page.error:.2f}"))
+        for photo, page in zip(photos, pages, strict=True)
+    )
+    return Sheets(blank, tuple(pages), Drawn(lines[:, 0], lines[:, 1]), tuple(notes))
+
+
+def _dark(ink: Ink) -> NDArray[np.uint8]:
+    """Return how dark the pencil is, 0 to 254, and where print hides it."""
+    soft = np.clip(ink.soft * 254.0, 0.0, 254.0).astype(np.uint8)
+    return np.where(ink.printed > 0, HIDES, soft).astype(np.uint8)
 
 
 def _recognised(sheets: Sheets, keyed: Keyed) -> Recognised:
@@ -261,8 +293,6 @@ def read_sheets(photos: Sequence[Photo], blank: Blank) -> Sheets:
     Pages whose markers do not lie as they were printed, or that were printed from other data, are not read: a note says
     so.
     """
-    import cv2
-
     pages, notes = list[Flat](), list[KulmanError]()
     ends: list[tuple[complex, complex]] = []
     for photo in photos:
@@ -275,7 +305,7 @@ def read_sheets(photos: Sequence[Photo], blank: Blank) -> Sheets:
             notes.append(InputError("photo-crooked", **place))
             continue
         page = blank.pages[photo.number - 1]
-        grey = cv2.imdecode(np.frombuffer(photo.picture, np.uint8), cv2.IMREAD_GRAYSCALE)
+        grey = grey_of(photo)
         edges = framed(grey, way, drawing_area(blank.formats[photo.number - 1], blank.case.norm))
         way = straightened(photo.markers, blank.stands(photo.number), photo.centre, edges)
         picture = flat(grey, way, page.width, page.height)
@@ -284,8 +314,7 @@ def read_sheets(photos: Sequence[Photo], blank: Blank) -> Sheets:
         if poles:
             ink = Ink(picture, blank.printed(photo.number))
             found = strokes(ink, poles)
-            soft = np.clip(ink.soft * 254.0, 0.0, 254.0).astype(np.uint8)
-            dark = np.where(ink.printed > 0, HIDES, soft).astype(np.uint8)
+            dark = _dark(ink)
         by = APART * photo.number
         ends += [(line.tail + by, line.tip + by) for line in found]
         pages.append(Flat(photo.number, picture, dark, len(found), way.error))

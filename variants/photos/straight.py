@@ -7,7 +7,7 @@ synthetic sheets in `tests/photos/`; without the bend the error is three times a
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,6 +21,7 @@ PER_MM = 10  # pixels of a straightened page
 BENDS = 6  # coefficients of the bend, after the eight of the homography, before the radial one
 STIFF = 0.003  # parts of the page's half diagonal that a bend shifts corners by, about
 STEPS, STEP = 25, 1e-6
+FIXED = 1e6  # px a unit, of what stays as it was
 HUBER = 2.0  # of the middle error: from where a corner counts less
 PITCH, ASIDE, WIDE = 6.0, 2.5, 6  # mm along the frame between looks at it, and beside it; tenths of its half width
 CONTRAST = 0.2  # darkness of the frame at the least
@@ -30,11 +31,14 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Straight:
-    """A map from the sheet to a picture; `error` is how far corners miss it, mm, root of the mean square."""
+    """A map from the sheet to a picture; `error` is how far corners miss it, mm, root of the mean square.
+
+    A `size` that is complex turns the sheet.
+    """
 
     values: NDArray[np.float64]
     middle: complex
-    size: float
+    size: complex
     centre: complex
     error: float
 
@@ -106,41 +110,71 @@ def straightened(
     values = np.concatenate((_homography(z, on_picture), np.zeros(BENDS + 1)))
     sides = np.abs(np.diff(on_picture.reshape(-1, 4), axis=1))
     per = float(np.median(sides)) / SIDE  # pixels a mm
-    stiff = np.concatenate((np.zeros(8), np.full(BENDS, 0.3 / STIFF), [0.3 / 0.05]))  # px
-    scales = np.maximum(np.abs(values), np.array([1.0] * 6 + [1e-3] * 2 + [1e-3] * (BENDS + 1)))
-    lines = np.zeros(0, complex) if edges is None else (edges.places - middle) / size
-    for _ in range(STEPS):
-        miss = _seen(values, z) - on_picture
-        slope, weight = _slope(values, z, scales), _weight(np.abs(miss))
-        own = [
-            ((slope * weight[:, None]).real, (miss * weight).real),
-            ((slope * weight[:, None]).imag, (miss * weight).imag),
-        ]
-        if edges is not None and len(lines):
-            turn = np.conj(edges.across / np.abs(edges.across))
-            aside = (turn * (_seen(values, lines) + centre - edges.seen)).real
-            weight = _weight(np.abs(aside))
-            own += [((turn[:, None] * _slope(values, lines, scales)).real * weight[:, None], aside * weight)]
-        rows = np.concatenate((*(one for one, _ in own), np.diag(stiff * scales)))
-        right = np.concatenate((*(one for _, one in own), stiff * values))
-        change = np.linalg.lstsq(rows, right, rcond=None)[0] * scales
-        values = values - change
-        if np.abs(change / scales).max() < 1e-9:
-            break
+    held = np.concatenate((np.zeros(8), np.full(BENDS, 0.3 / STIFF), [0.3 / 0.05]))  # px
+    missed: list[Missed] = [lambda own: _seen(own, z) - on_picture]
+    if edges is not None and len(edges.places):
+        lines, turn = (edges.places - middle) / size, np.conj(edges.across / np.abs(edges.across))
+        missed.append(lambda own: (turn * (_seen(own, lines) + centre - edges.seen)).real)
+    values = _fitted(values, missed, held)
     error = float(np.sqrt(np.mean(np.abs(_seen(values, z) - on_picture) ** 2))) / per
     return Straight(values, middle, size, centre, error if np.isfinite(error) else np.inf)
 
 
-def _slope(values: NDArray[np.float64], z: Complex, scales: NDArray[np.float64]) -> Complex:
-    """Return how places move as each number of a map grows by its scale."""
-    seen = _seen(values, z)
-    return np.stack([(_seen(values + STEP * scales * unit, z) - seen) / STEP for unit in np.eye(len(values))], 1)
+def by_squares(markers: Mapping[int, tuple[complex, ...]], side: float, centre: complex) -> tuple[Straight, Complex]:
+    """Fit the map of a sheet to markers that are stuck on it anywhere, squares of a side, mm, by their shapes alone.
+
+    Return it, and the corners of each on the sheet, mm, of shape (N, 4): as the picture shows it, the origin amid it.
+    """
+    corners = np.array([*markers.values()]) - centre
+    per = float(np.mean(np.abs(np.diff(corners, axis=1)))) / side
+    laid = np.asarray(np.conj(corners) / per, np.complex128)
+    middles = laid.mean(axis=1)
+    square = side / 2.0 * np.array([-1.0 + 1.0j, 1.0 + 1.0j, 1.0 - 1.0j, -1.0 - 1.0j])
+    turns = np.angle((np.conj(square) * (laid - middles[:, None])).sum(axis=1))
+    size = float(np.abs(laid - laid.mean()).max())
+    count = len(corners)
+
+    def stuck(own: NDArray[np.float64]) -> Complex:
+        x, y, turn = own[8:-1].reshape(3, count)
+        return np.asarray(size * (x + 1j * y)[:, None] + square * np.exp(1j * turn)[:, None])
+
+    def seen(own: NDArray[np.float64]) -> Complex:
+        values = np.concatenate((own[:8], np.zeros(BENDS), own[-1:]))
+        return _seen(values, stuck(own).ravel() / size) - corners.ravel()
+
+    begun = _homography(laid.ravel() / size, corners.ravel())
+    places = np.concatenate((middles.real / size, middles.imag / size, turns))
+    first = np.tile(np.arange(count) == 0, 3)  # the sheet lies as this marker does: all might be moved together
+    held = np.concatenate((np.zeros(8), np.where(first, FIXED, 0.0), [0.3 / 0.05]))
+    own = _fitted(np.concatenate((begun, places, [0.0])), [seen], held)
+    error = float(np.sqrt(np.mean(np.abs(seen(own)) ** 2))) / per
+    values = np.concatenate((own[:8], np.zeros(BENDS), own[-1:]))
+    return Straight(values, 0j, size, centre, error if np.isfinite(error) else np.inf), stuck(own)
 
 
-def _weight(off: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the weights of what is so far off: far ones count less."""
-    bound = HUBER * max(float(np.median(off)), 0.02)
-    return np.asarray(np.sqrt(np.minimum(1.0, bound / np.maximum(off, 1e-12))))
+Missed = Callable[[NDArray[np.float64]], NDArray[Any]]  # how far places are missed, px, as vectors or across lines
+
+
+def _fitted(values: NDArray[np.float64], missed: Sequence[Missed], held: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return values with which places are missed least, the worst counting less; `held` keeps some as they are."""
+    scales, start = np.maximum(np.abs(values), 1e-3), values
+    scales[:6] = np.maximum(scales[:6], 1.0)
+    for _ in range(STEPS):
+        rows, right = [np.diag(held * scales)], [held * (values - start)]
+        for one in missed:
+            miss = one(values)
+            slope = np.stack([(one(values + STEP * scales * unit) - miss) / STEP for unit in np.eye(len(values))], 1)
+            off = np.abs(miss)
+            bound = HUBER * max(float(np.median(off)), 0.02)
+            weight = np.sqrt(np.minimum(1.0, bound / np.maximum(off, 1e-12)))
+            for part in (np.real, np.imag) if np.iscomplexobj(miss) else (np.real,):
+                rows.append(part(slope) * weight[:, None])
+                right.append(part(miss) * weight)
+        change = np.linalg.lstsq(np.concatenate(rows), np.concatenate(right), rcond=None)[0] * scales
+        values = values - change
+        if np.abs(change / scales).max() < 1e-9:
+            break
+    return values
 
 
 def _homography(z: Complex, w: Complex) -> NDArray[np.float64]:
@@ -156,8 +190,11 @@ def _homography(z: Complex, w: Complex) -> NDArray[np.float64]:
     return np.asarray(found * np.array([size] * 6 + [1.0] * 2))
 
 
-def flat(picture: Any, way: Straight, width: float, height: float) -> NDArray[np.uint8]:
-    """Return a grey picture of a page of `width` x `height` mm as if it had been scanned, `PER_MM` pixels per mm."""
+def flat(picture: Any, way: Straight, width: float, height: float, beyond: int | None = None) -> NDArray[np.uint8]:
+    """Return a grey picture of a page of `width` x `height` mm as if it had been scanned, `PER_MM` pixels per mm.
+
+    What lies `beyond` the picture is as dark as its edge, if nothing else is said.
+    """
     import cv2
 
     columns, rows = round(width * PER_MM), round(height * PER_MM)
@@ -165,4 +202,6 @@ def flat(picture: Any, way: Straight, width: float, height: float) -> NDArray[np
     at = way.at(((gx + 0.5) + 1j * (rows - gy - 0.5)) / PER_MM)
     x, y = np.meshgrid(np.arange(columns, dtype=np.float32) / GRID, np.arange(rows, dtype=np.float32) / GRID)
     across, down = (cv2.remap(side.astype(np.float32), x, y, cv2.INTER_LINEAR) for side in (at.real, at.imag))
-    return np.asarray(cv2.remap(picture, across, down, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE), np.uint8)
+    edge = cv2.BORDER_REPLICATE if beyond is None else cv2.BORDER_CONSTANT
+    seen = cv2.remap(picture, across, down, cv2.INTER_CUBIC, borderMode=edge, borderValue=beyond or 0)
+    return np.asarray(seen, np.uint8)

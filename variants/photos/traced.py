@@ -195,7 +195,7 @@ def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterato
     before = ~hid & (along < 0.0)
     if not before.any():
         return
-    on = (dark > max(FAINT / 2, FALL * float(np.median(dark[before])))) & ~hid
+    on: NDArray[np.bool_] = np.asarray((dark > max(FAINT / 2, FALL * float(np.median(dark[before])))) & ~hid)
     clear = round(CLEAR * PER_MM)
     for at in np.flatnonzero(on).tolist():
         beyond = slice(at + 1, at + 1 + clear)
