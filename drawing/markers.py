@@ -135,11 +135,9 @@ def stickers(language: str) -> Page:
         number = EACH * (FREE - 1) + own
         at = low + complex(column * pitch + ROUND, (EACH - 1 - own) * pitch + ROUND)
         shapes.append(Group(tuple(_areas(fields(number), at, STUCK, pen)), "marker", str(number)))
-    top = low.imag + EACH * pitch
-    for line, said in enumerate(("stickers.title", "stickers.use", "stickers.where", "stickers.print")):
+    for line, said in enumerate(("title", "cut", "stick", "see", "print")):
         at = complex(low.real, PAPER[1] - EDGE - 10.0 - 7.0 * line)
-        assert at.imag > top
-        shapes.append(Text(at, texts[said], 5.0 if line == 0 else 3.5))
+        shapes.append(Text(at, texts[f"stickers.{said}"], 5.0 if line == 0 else 3.5))
     return Page(*PAPER, tuple(shapes), texts["stickers.title"], language)
 
 
