@@ -35,9 +35,12 @@ GENERATOR = 0.3  # part of the longest vector of a plan that a vector must have 
 ASTRAY = 0.5  # mm that ends of lines may be astray, which turns short ones
 DEGREES = 0.4  # by which lines may miss their direction besides
 NEAR = 0.8  # mm from where a point should be to where it is, once the plan lies where it fits best
-LAID = 2  # vectors by which a plan is laid
+LAID, FEW = 2, 4  # vectors by which a plan is laid; of so many those that few lines may be
 MANY = 200  # places of a plan, the best ones, of which those that differ are sought
 KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less than the best by more than so much
+PROMISING, AT_ONCE = 1500, 250  # ways to lay a plan that are looked at, the most promising ones first; at once
+SURELY = 7.0  # mm from which a vector surely has a direction
+DOUBT = 4.0  # by how much less than others a wrong plan may seem to be worth before it is looked at closely
 LIKELY = 6  # mistakes of which all plans are laid
 SHAPES = 12  # wrong plans of which so many are looked at closely
 UNTOLD = 3.0  # vectors of right plans that are too few to tell how the sheet is turned
@@ -148,6 +151,11 @@ def recognise(drawn: Drawn, key: Key, book: Book | None = None, mus: Mapping[str
     return _Search(drawn, _lines_of(drawn), key, book, dict(mus or {})).found()
 
 
+def part_there(drawn: Drawn, key: Key) -> float:
+    """Return what part of all lines of the right plans of a key may be in a drawing, 0 to 1, at a first look."""
+    return _Search(drawn, _lines_of(drawn), key, None, {}).part_there()
+
+
 @lru_cache(maxsize=1)  # a drawing is looked through for one variant after the other
 def _lines_of(drawn: Drawn) -> Lines:
     return lines_of(drawn.tails, drawn.tips)
@@ -232,6 +240,8 @@ class _Search:
     times: float = 1.0  # how many times the usual scale factors those of this drawing seem to be
     shapes: dict[str, tuple[Shape, ...]] = field(default_factory=dict)
     ways: dict[float, tuple[Indices, Floats]] = field(default_factory=dict)
+    most: dict[str, float] = field(default_factory=dict)  # what each plan is worth at the most, however turned
+    laid: dict[tuple[Shape, float, float], tuple[float, _Laid]] = field(default_factory=dict)
 
     @cached_property
     def plans(self) -> dict[str, Shape]:
@@ -258,6 +268,22 @@ class _Search:
             vectors |= {n: one for n, one in self._vectors(fit).items() if n in asked and asked[n].plan == plan}
         return Recognised(plans, vectors, tuple(name for name in asked if name not in vectors))
 
+    def part_there(self) -> float:
+        """Return what part of all lines of the right plans may be there, at a first look."""
+        shapes = [shape for shape in self.plans.values() if not shape.flat]
+        whole = sum(float(shape.weights.sum()) for shape in shapes)
+        most = [0.0]
+        for turn in TURNS:
+            there = 0.0
+            for shape in shapes:
+                laid = self._lay(shape, turn)
+                at = laid.nodes[laid.worth.argmax()][None, :] if len(laid.worth) else np.zeros((0, 0), np.intp)
+                if len(at):
+                    joined = self.lines.joined(at[:, shape.tails[shape.lines]], at[:, shape.tips[shape.lines]], True)
+                    there += float(joined[0] @ shape.weights)
+            most.append(there)
+        return max(most) / whole if whole else 0.0
+
     def _fits(self) -> dict[str, _Fit]:
         """Return where each plan lies that is drawn: the right one, or one with a mistake that explains more of it.
 
@@ -271,8 +297,18 @@ class _Search:
         turns = [turn for turn in TURNS if sum(fit.worth for fit in told[turn]) >= likely]
         if len(turns) == 1 and max(fit.lines for fit in told[turns[0]]) >= TELLING:
             return self._at(turns[0])[0]
-        fits, _, self.common = max(map(self._at, turns if len(turns) > 1 else TURNS), key=lambda found: found[1])
+        turns = turns if 1 < len(turns) < len(TURNS) else self._turns(right)
+        fits, _, self.common = max(map(self._at, turns), key=lambda found: found[1])
         return fits
+
+    def _turns(self, right: Mapping[float, list[_Fit]]) -> list[float]:
+        """Return how a sheet may be turned on which no plan is right: a plan that is all there may tell, if wrong."""
+        turns = sorted(TURNS, key=lambda turn: -sum(fit.worth for fit in right[turn]))
+        for plan in [plan for plan, shape in self.plans.items() if not shape.flat][:1]:
+            lines = {turn: max((f.lines for f in self._ways(plan, turn) if self._told(f)), default=0.0) for turn in turns}
+            if max(lines.values()) >= MANY_LINES:
+                return [turn for turn in turns if lines[turn] >= max(lines.values()) - UNTOLD]
+        return turns
 
     def _resized(self, right: list[_Fit]) -> None:
         """See whether several plans are drawn so many times as large as on the sheet: then all may be."""
@@ -337,16 +373,20 @@ class _Search:
     def _ways(self, plan: str, turn: float) -> list[_Fit]:
         """Return where the shapes of a plan fit best, the right one first, as far as they explain about as much."""
         right, *others = self._shapes(plan)
-        laid = [(self._lay(shape, turn), shape) for shape in others]
-        laid.sort(key=lambda one: -one[0].worth.max(initial=-math.inf))
         fits = [fit for fit in [self._best(right, turn)] if fit is not None]
         most = max((fit.worth - fit.told for fit in fits), default=0.0)
+        laid, least = list[tuple[_Laid, Shape]](), max(most, self.most.get(plan, most) - DOUBT) - OTHER - FREE
+        for shape in others:
+            laid.append((self._lay(shape, turn, least), shape))
+            least = max(least, laid[-1][0].worth.max(initial=-math.inf) - DOUBT)
+        laid.sort(key=lambda one: -one[0].worth.max(initial=-math.inf))
         for way, shape in laid:
             if way.worth.max(initial=-math.inf) + FREE < most - OTHER or len(fits) > SHAPES:
                 break
             if (fit := self._closest(shape, way)) is not None:
                 fits.append(fit)
                 most = max(most, fit.worth - fit.told)
+        self.most[plan] = max(most, self.most.get(plan, most))
         return fits
 
     def _common(self, doubtful: dict[str, list[_Fit]], sure: Mapping[str, _Fit], turn: float) -> int:
@@ -390,11 +430,28 @@ class _Search:
         """Return where a shape fits best."""
         return self._closest(shape, self._lay(shape, turn))
 
-    def _lay(self, shape: Shape, turn: float) -> _Laid:
-        """Lay a shape in all ways, and tell what each may be worth."""
-        origins, factors = self._laid(shape, turn)
-        nodes = self.lines.near(origins[:, None] + factors[:, None] * shape.places)
-        return _Laid(origins, factors, nodes, self._counted(shape, nodes, np.abs(factors), loosely=True)[0])
+    def _lay(self, shape: Shape, turn: float, least: float = -math.inf) -> _Laid:
+        """Lay a shape in all ways that may be worth `least`, and tell what each may be worth.
+
+        What lines go out where its long vector ends says how much a way may be worth at the most: the most promising
+        ones are looked at, until no other is worth nearly as much.
+        """
+        kept = self.laid.get((shape, turn, self.times))
+        if kept is not None and kept[0] <= least:
+            return kept[1]
+        origins, factors, most = self._laid(shape, turn)
+        order = np.flatnonzero(most >= least)
+        order = order[np.argsort(-most[order], kind="stable")][:PROMISING]
+        nodes, worth, done = np.zeros((len(order), len(shape.marks)), np.intp), np.zeros(len(order)), 0
+        while done < len(order) and (not done or most[order[done]] >= worth[:done].max() - CLOSE):
+            some = slice(done, done + AT_ONCE)
+            places = origins[order[some], None] + factors[order[some], None] * shape.places
+            nodes[some] = self.lines.near(places)
+            worth[some] = self._counted(shape, nodes[some], np.abs(factors[order[some]]), loosely=True)[0]
+            done = min(done + AT_ONCE, len(order))
+        laid = _Laid(origins[order[:done]], factors[order[:done]], nodes[:done], worth[:done])
+        self.laid[shape, turn, self.times] = least, laid
+        return laid
 
     def _closest(self, shape: Shape, laid: _Laid) -> _Fit | None:
         """Return the best of the ways in which a shape is laid, looked at closely."""
@@ -402,39 +459,69 @@ class _Search:
         for at in np.argsort(-worth, kind="stable")[:MANY]:
             if worth[at] < worth.max() - CLOSE or len(seen) == KEPT:
                 break
-            if (look := laid.nodes[at].tobytes()) not in seen:
+            nodes = laid.nodes[at]
+            if (look := np.where(nodes < 0, nodes, self.lines.hubs[nodes]).tobytes()) not in seen:
                 seen.add(look)
                 fit = self._settled(shape, complex(laid.origins[at]), complex(laid.factors[at]))
                 if best is None or fit.worth > best.worth:
                     best = fit
         return best
 
-    def _laid(self, shape: Shape, turn: float) -> tuple[Complex, Complex]:
-        """Return all ways to lay a shape so that one of its long vectors lies on a line; few by those that say most."""
-        spans, longest, lines = shape.spans, shape.longest, self.lines
+    def _laid(self, shape: Shape, turn: float) -> tuple[Complex, Complex, Floats]:
+        """Return all ways to lay a shape so that one of its long vectors lies on a line; few by those that say most.
+
+        And what each may be worth at the most.
+        """
+        longest, lines = shape.longest, self.lines
         unit, given = cmath.rect(1.0, turn), self.mus.get(shape.plan)
+        expected = self._expected(shape.plan)
         if given is None and shape.flat:
-            given = self._expected(shape.plan) or None  # one line has a direction, and any length
-        ways: list[tuple[int, Complex, Complex]] = []
-        for at, span in zip(shape.lines, spans.tolist(), strict=True):
-            if abs(span) < GENERATOR * longest:
-                continue
-            pairs, sizes = self._along(cmath.phase(span) + turn)
-            drawn = sizes * (longest / abs(span))
-            usual = np.abs(sizes * self._expected(shape.plan) / abs(span) - 1.0) < SAME_MU + ASTRAY / sizes
+            given = expected or None  # one line has a direction, and any length
+        ways: list[tuple[int, int, Indices, Floats]] = []
+        long = [(at, span) for at, span in enumerate(shape.spans.tolist()) if abs(span) >= GENERATOR * longest]
+        along = [(*self._along(cmath.phase(span) + turn), at, abs(span)) for at, span in long]
+        for pairs, sizes, at, size in sorted(along, key=lambda one: len(one[0]))[:FEW]:
+            drawn = sizes * (longest / size)
+            usual = np.abs(sizes * expected / size - 1.0) < SAME_MU + ASTRAY / sizes
             good = ((drawn > LEAST) | (usual & (drawn > SMALLEST))) & (drawn < LARGEST)
             if given is not None:
-                good &= np.abs(sizes - abs(span) / given) < ASTRAY + SAME_MU * sizes
-            pairs, sizes = pairs[good], sizes[good]
-            factors = unit * sizes / abs(span)
-            middles = (lines.nodes[lines.first[pairs]] + lines.nodes[lines.second[pairs]]) / 2.0
-            middle = (shape.places[shape.tails[at]] + shape.places[shape.tips[at]]) / 2.0
-            if len(pairs):
-                ways.append((len(pairs), middles - factors * middle, factors))
+                good &= np.abs(sizes - size / given) < ASTRAY + SAME_MU * sizes
+            if good.any():
+                ways.append((int(good.sum()), at, pairs[good], sizes[good]))
         ways.sort(key=lambda way: way[0])
-        kept = ways[:LAID]
-        nothing = np.zeros(0, complex)
-        return tuple(np.concatenate([nothing, *(way[side] for way in kept)]) for side in (1, 2))  # type: ignore[return-value]
+        found = [(np.zeros(0, complex), np.zeros(0, complex), np.zeros(0))]
+        for _, at, pairs, sizes in ways[:LAID]:
+            factors = unit * sizes / abs(shape.spans[at])
+            ends = lines.first[pairs], lines.second[pairs]
+            middle = (shape.places[shape.tails[shape.lines[at]]] + shape.places[shape.tips[shape.lines[at]]]) / 2.0
+            origins = (lines.nodes[ends[0]] + lines.nodes[ends[1]]) / 2.0 - factors * middle
+            found.append((origins, factors, self._at_most(shape, at, ends, np.abs(factors), turn)))
+        return tuple(np.concatenate([way[side] for way in found]) for side in range(3))  # type: ignore[return-value]
+
+    def _at_most(self, shape: Shape, at: int, ends: tuple[Indices, Indices], per_unit: Floats, turn: float) -> Floats:
+        """Return what ways to lay a shape, its line `at` between some nodes, may be worth by what goes out there."""
+        tails, tips, spans = shape.tails[shape.lines], shape.tips[shape.lines], shape.spans
+        worth = self._as_usual(shape.plan, per_unit)
+        for line, (span, weight) in enumerate(zip(spans.tolist(), shape.weights.tolist(), strict=True)):
+            sizes = abs(span) * per_unit
+            worth += np.where(sizes < SHORT, 0.0, weight)
+            shared = [
+                (node, way)
+                for mark, node in ((tails[at], ends[0]), (tips[at], ends[1]))
+                for other, way in ((tails[line], span), (tips[line], -span))
+                if mark == other and line != at
+            ]
+            for node, way in shared:
+                lacks = ~self.lines.goes_out(node, cmath.phase(way) + turn) & (sizes > SURELY)
+                worth -= (1.0 + ABSENT) * weight * lacks
+        return worth
+
+    def _as_usual(self, plan: str, per_unit: Floats) -> Floats:
+        """Return what it is worth that plans are drawn to their usual scale, by mm per unit."""
+        expected = self._expected(plan)
+        if not expected:
+            return np.zeros(len(per_unit))
+        return USUAL * np.maximum(0.0, 1.0 - (np.abs(per_unit * expected - 1.0) / SAME_MU) ** 2)
 
     def _along(self, angle: float) -> tuple[Indices, Floats]:
         """Return the pairs of nodes joined along a direction, as nearly as lines are drawn; and how far apart each is.
@@ -459,9 +546,7 @@ class _Search:
         sizes = np.abs(shape.spans)[None, :] * per_unit[:, None]
         weights = np.where(sizes < SHORT, 0.0, shape.weights)
         worth = np.where(there, weights, -ABSENT * weights).sum(axis=1)
-        if expected := self._expected(shape.plan):
-            worth = worth + USUAL * np.maximum(0.0, 1.0 - (np.abs(per_unit * expected - 1.0) / SAME_MU) ** 2)
-        return worth, there, weights
+        return worth + self._as_usual(shape.plan, per_unit), there, weights
 
     def _settled(self, shape: Shape, origin: complex, factor: complex) -> _Fit:
         """Return a fit, moved to where it fits best: the squares of what its points miss are least."""

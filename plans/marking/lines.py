@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -26,6 +27,7 @@ LEAST = 1.0  # mm; nodes nearer than this are no ends of a vector that can be to
 FLAT = 0.05  # sine of two lines that cross too flatly to make a node
 MANY = 48  # nodes on one line, of which all pairs are looked at; of one with more those nearest to each other
 CELL = 0.5  # mm, side of the squares in which nodes are looked up
+WAYS = 64  # directions of lines that are told apart where they go out
 REACH = 3  # squares around a node from which it is found
 SQUARES = 16_000_000  # the most squares
 
@@ -34,7 +36,7 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Lines:
     """The lines of a drawing.
 
@@ -77,10 +79,29 @@ class Lines:
         codes = self.hub_codes if loosely else self.codes
         if not len(codes):
             return np.zeros(np.broadcast(first, second).shape, bool)
+        both = (first >= 0) & (second >= 0)
+        first, second = np.broadcast_to(first, both.shape)[both], np.broadcast_to(second, both.shape)[both]
         one, other = (self.hubs[first], self.hubs[second]) if loosely else (first, second)
         wanted = one * len(self.nodes) + other
-        place = np.minimum(np.searchsorted(codes, wanted), len(codes) - 1)
-        return np.asarray((codes[place] == wanted) & (first >= 0) & (second >= 0))
+        both[both] = codes[np.minimum(np.searchsorted(codes, wanted), len(codes) - 1)] == wanted
+        return both
+
+    @cached_property
+    def outward(self) -> NDArray[np.bool_]:
+        """Whether a line goes out from each hub about each of `WAYS` directions, of shape (directions, hubs)."""
+        found = np.zeros((WAYS, int(self.hubs.max(initial=-1)) + 1), bool)
+        long = self.sizes > SEED
+        hubs, angles = self.hubs[self.first[long]], self.angles[long]
+        off = TILT + 2.0 * CLOSE / self.sizes[long]
+        low, high = (np.floor((angles + side) * (WAYS / math.tau)).astype(np.intp) for side in (-off, off))
+        for step in range(int((high - low).max(initial=-1)) + 1):
+            here = low + step <= high
+            found[(low + step)[here] % WAYS, hubs[here]] = True
+        return found
+
+    def goes_out(self, nodes: Indices, angle: float) -> NDArray[np.bool_]:
+        """Return from which nodes a line of some length goes out about a direction, radians."""
+        return np.asarray(self.outward[math.floor(angle * (WAYS / math.tau)) % WAYS][self.hubs[nodes]])
 
     def covers(self, start: complex, stop: complex) -> bool:
         """Whether segments cover the whole way between two places, whatever else runs beside it."""
@@ -145,17 +166,23 @@ def lines_of(tails: Complex, tips: Complex) -> Lines:
         np.concatenate((stops, more[1])),
         np.append(beside, np.zeros(len(more[0]))),
     )
-    first, second = _pairs(runs, every, number.reshape(2, -1))
+    first, second = _pairs(runs, every, len(nodes), number.reshape(2, -1))
     ways = every[second] - every[first]
     angles = np.angle(ways) % (2.0 * math.pi)
     order = np.argsort(angles, kind="stable")
     first, second = first[order], second[order]
-    codes, hubs = np.unique(first * len(every) + second), _hubs(every)
-    hub_codes = np.unique(hubs[first] * len(every) + hubs[second])
+    hubs = _hubs(every)
+    codes, hub_codes = _distinct(first * len(every) + second), _distinct(hubs[first] * len(every) + hubs[second])
     sizes, (squares, corner) = np.abs(ways)[order], _squares(every)
     return Lines(
         every, len(nodes), first, second, angles[order], sizes, codes, hubs, hub_codes, squares, corner, tails, tips
     )
+
+
+def _distinct(codes: Indices) -> Indices:
+    """Return what whole numbers there are, ascending; of many that differ this is faster than NumPy's own."""
+    codes = np.sort(codes)
+    return codes[np.append(True, codes[1:] != codes[:-1])[: len(codes)]]
 
 
 def _hubs(nodes: Complex) -> Indices:
@@ -279,8 +306,13 @@ def _crossings(starts: Complex, stops: Complex, nodes: Complex) -> Complex:
     return np.delete(places, np.unique(near))
 
 
-def _pairs(runs: tuple[Complex, Complex, Floats], nodes: Complex, drawn: Indices) -> tuple[Indices, Indices]:
-    """Return the indices of nodes that lines join, those of `drawn` segments among them; each pair in both orders."""
+def _pairs(
+    runs: tuple[Complex, Complex, Floats], nodes: Complex, ends: int, drawn: Indices
+) -> tuple[Indices, Indices]:
+    """Return the indices of nodes that lines join, those of `drawn` segments among them; each pair in both orders.
+
+    A segment ends at one of them at the least: of a vector something is drawn that begins or ends where it does.
+    """
     starts, stops, beside = runs
     if not len(starts):
         return np.zeros(0, np.intp), np.zeros(0, np.intp)
@@ -294,9 +326,10 @@ def _pairs(runs: tuple[Complex, Complex, Floats], nodes: Complex, drawn: Indices
         here = line[:-step] == line[step:]
         if not here.any():
             break
+        here &= (node[:-step] < ends) | (node[step:] < ends)
         found.append((node[:-step][here], node[step:][here]))
     one, other = (np.concatenate([drawn[side], *(pair[side] for pair in found)]) for side in (0, 1))
-    codes = np.unique(np.concatenate((one * len(nodes) + other, other * len(nodes) + one)))
+    codes = _distinct(np.concatenate((one * len(nodes) + other, other * len(nodes) + one)))
     one, other = codes // len(nodes), codes % len(nodes)
     apart = np.abs(nodes[one] - nodes[other]) > LEAST
     return one[apart], other[apart]

@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from ...plans.marking.drawn import Drawn, Recognised, recognise
+from ...plans.marking.drawn import Drawn, Recognised, part_there, recognise
 from ...plans.names import LEVER, role
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin
@@ -25,7 +25,8 @@ from .wording import plain
 
 LIKE = 0.02  # part by which a scale factor that is written may differ from the one that fits
 SURE = 0.75  # part of one plan at the least that must be there, or the drawing is of something else
-LITTLE, MUCH = 0.5, 0.8  # parts of the vectors of a variant: a drawing of another one has little of them, much of its
+MUCH = 0.8  # part of the vectors of a variant that a drawing of it has
+LIKELY = 3  # other variants that are looked at closely
 QUARTER = math.pi / 2.0
 DIGITS = 3
 _MU = re.compile(r"(?:[μµ]|\bmu)\s*_?\s*\{?\s*([^\W_][\w. ]{0,12}?)\s*\}?\s*[=:]\s*(.{1,60})")
@@ -51,19 +52,17 @@ class Seen:
 
 
 def seen(drawn: Drawn, key: Keyed, others: Iterable[str], other_key: Callable[[str], Keyed]) -> Seen:
-    """Recognise what a drawing shows of a variant; where that is little, look for the variant that it shows."""
-    own, told = _look(drawn, key, True)
+    """Recognise what a drawing shows of a variant; where it shows another one, the plans of that.
+
+    What another variant is known by is then measured as it is drawn.
+    """
+    fits = _another(drawn, key, others, other_key)
+    own, told = _look(drawn, other_key(fits) if fits else key, not fits)
     written = {plan: mu for plan in own.plans if (mu := _beside(plan, told, own)) is not None}
     # where neither the plan nor its scale factor is as it should be, they are some other lines
     plans = own.plans
     strange = {n for n, mu in written.items() if plans[n].mistake and abs(plans[n].mu - mu) > LIKE * mu}
-    own, most, fits = _without(own, strange), LITTLE, ""
-    if _right(own) < LITTLE and not _explained(own):
-        for other in others:
-            with suppress(KulmanError):  # this variant has no plan with the student's data
-                part = _right(_look(drawn, other_key(other), False)[0])
-                if part >= max(MUCH, most):
-                    most, fits = part, other
+    own = _without(own, strange)
     plans, written = own.plans, {plan: mu for plan, mu in written.items() if plan in own.plans}
     mus = {plan: written.get(plan, found.mu) for plan, found in plans.items()}
     turns = [round(found.turn / QUARTER) for found in plans.values()]
@@ -77,12 +76,20 @@ def _right(found: Recognised) -> float:
     return len(right) / max(len(found.vectors) + len(found.missing), 1)
 
 
-def _explained(found: Recognised) -> bool:
-    """Return whether nearly all is there, some plans right, all others drawn with the same mistake."""
-    plans = [plan for plan in found.plans.values() if not plan.alone]
-    mistakes = {plan.mistake for plan in plans}
-    there = len(found.vectors) / max(len(found.vectors) + len(found.missing), 1)
-    return there >= MUCH and "" in mistakes and len(mistakes) <= 2 and all(plan.quality >= MUCH for plan in plans)
+def _another(drawn: Drawn, key: Keyed, others: Iterable[str], other_key: Callable[[str], Keyed]) -> str:
+    """Return the variant that a drawing shows, if it is another one: of this one little is there, of that much."""
+    most, fits, looks = part_there(drawn, key.key), "", list[tuple[float, str]]()
+    if most >= MUCH:
+        return fits
+    for other in others:
+        with suppress(KulmanError):  # this variant has no plan with the student's data
+            looks.append((part_there(drawn, other_key(other).key), other))
+    looks = sorted((look for look in looks if look[0] >= MUCH), reverse=True)[:LIKELY]
+    for _, other in looks:
+        part = _right(_look(drawn, other_key(other), False)[0])
+        if part >= max(MUCH, most):
+            most, fits = part, other
+    return fits
 
 
 Told = Mapping[str, list[tuple[complex, Mu]]]  # by plan: scale factors that are written, and where
