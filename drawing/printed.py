@@ -30,7 +30,8 @@ DEGREES = 180.0 / math.pi  # in a radian
 DIGITS = 4  # significant digits of a printed value
 ONE_WITH = 6  # digits of one input that is printed with more than the others
 MOST = 10  # more digits than that would be rounding noise
-FEWEST = 2  # significant digits of what small segments show
+ENOUGH = 3  # significant digits, which any segment that can be read should show
+FEWEST = 2  # of what small segments show
 HUNDREDTHS, LONG = 2, 100.0  # decimals of a segment, mm: a ruler reads no more; from where on it has one less
 # digits of a result, and most digits of what goes into it, where segments of the sheet do and where none does
 MEASURED, FREE = ((DIGITS, 6), (3, 6), (FEWEST, 6)), ((DIGITS, DIGITS + MOST),)
@@ -323,17 +324,26 @@ def read_off(
 ) -> tuple[str, str]:
     """Return a segment that shows a value at the scale factor `mu`, and the value, so that segment * mu is the value.
 
-    The value has as many digits as the segment shows; where even its units are more than that, it is their product. Of
-    what is shorter than `readable` and too short for the `fewest` digits there is no segment.
+    The value has as many digits as the segment shows; where even its units are more than that, it is their product.
+    Where a ruler's decimals leave it fewer than three, the segment has one more. Of what is shorter than `readable`
+    and too short for the `fewest` digits there is no segment.
     """
     segment = abs(value) / mu
     if segment < POINT:
         return segment_text(words, 0.0), words.number(0.0, 0)
-    read = rounded(segment, ruler_decimals(words, segment)) * mu
-    shown, decimals = _agreed(abs(value), read)
-    if segment < readable and (shown == read or decimals < decimals_for(value, fewest)):
+    usual = ruler_decimals(words, segment)
+    ways = [(usual, *_at_length(value, mu, usual))]
+    if not words.ruler and segment >= READABLE and ways[0][-1] < decimals_for(value, ENOUGH):
+        ways.append((usual + 1, *_at_length(value, mu, usual + 1)))
+    places, shown, decimals = max(ways, key=lambda way: way[-1])
+    if segment < readable and (shown == rounded(segment, places) * mu or decimals < decimals_for(value, fewest)):
         return "", value_text(words, abs(value))
-    return segment_text(words, segment), words.number(shown, decimals)
+    return words.number(segment, places), words.number(shown, decimals)
+
+
+def _at_length(value: float, mu: float, places: int) -> tuple[float, int]:
+    """Return a value, and its decimals, as its segment with so many decimals of a mm gives it."""
+    return _agreed(abs(value), rounded(abs(value) / mu, places) * mu)
 
 
 def laid_off(words: Words, value: float, mu: float, known: str) -> str:

@@ -73,6 +73,14 @@ def ruled(mm: str, paper: str, long: float = 100.0) -> bool:
     return len(re.split("[.,]", mm)[-1]) == (1 if value(mm) * (10 if centimetres else 1) >= long else 2) + centimetres
 
 
+def finer(mm: str, mu: str, printed: str, paper: str) -> bool:
+    """Whether a segment has one decimal more than a ruler shows because that leaves its value less than three digits."""
+    shorter, last = mm[:-1].rstrip(".,"), mm[-1]
+    unit = 10.0 ** -len(re.split("[.,]", f"{shorter}.")[1])
+    near = {value(shorter) + unit * up for up in ((0,) if last < "5" else (1,) if last > "5" else (0, 1))}
+    return ruled(shorter, paper) and any(f"{one * value(mu):.3g}" != f"{value(printed):.3g}" for one in near)
+
+
 def shows(printed: float, millimetres: float, near: float = 0.005001) -> bool:
     """Whether a printed length is one on paper: within `near`, from 100 mm on within half a tenth."""
     return abs(printed - millimetres) < (near if millimetres < 100.0 else max(near, 0.050001))
@@ -138,8 +146,10 @@ def table_faults(sheet: Sheet, lang: str, values: dict[str, float]) -> Iterator[
             if mm != "–":
                 if not recomputes(value(mm) * value(mu), printed):
                     yield f"{symbol}: {mm}·{mu} is not {printed}"
-                finer = symbol in carried and ruled(mm, head.split()[-1], math.inf)  # laid off: a number, not a reading
-                if not finer and not ruled(mm, head.split()[-1]):
+                paper = head.split()[-1]  # what is laid off from plan to plan is a number, not a reading
+                if not (
+                    ruled(mm, paper) or (symbol in carried and ruled(mm, paper, math.inf)) or finer(*row[1:4], paper)
+                ):
                     yield f"{symbol}: no ruler reads {mm} mm"
             near = max(read_to(row), *(reading[other] for other in carried.get(symbol, {symbol}) & {*reading}), 0.0)
             if symbol in values and abs(abs(value(printed)) - abs(values[symbol])) > near + 1e-9:
