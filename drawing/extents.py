@@ -139,17 +139,17 @@ def ways(
     single, several = segments[sheet.letters]
     count, fits = 0, False
     while count < MOST:
-        (least, most), before = several if count else single, None
+        (least, most), tried = several if count else single, list[Rungs]()
         count += 1
-        for share in SHARES:
+        for share, part in ((share, part) for share in SHARES for part in SHARES if part >= share):
             rungs = _begun(extents, sheet, most)
-            room = share * _covered(extents, count) * count * _page(sheet)
+            room = part * _covered(extents, count) * count * _page(sheet)
             fits |= _shrunk(extents, rungs, sheet, room, share * least)
             if not fits:
                 break
-            if rungs != before:
+            if rungs not in tried:
                 yield sheet, dict(rungs), count
-            before = rungs
+                tried.append(dict(rungs))
     if not fits:  # no number of pages is enough: what has no room is told when it is drawn
         yield sheet, _begun(extents, sheet, several[1]), MOST
 

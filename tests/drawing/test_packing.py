@@ -217,6 +217,20 @@ def test_what_is_kept_long_becomes_smaller_after_the_others_and_nothing_could_be
     assert sum(taken[240.0]) < sum(taken[0.0])
 
 
+def test_what_one_plan_gives_up_below_its_least_others_have():
+    figures = [Extent("mu_l", (150.0, 150.0), (50.0, 70.0))] * 3 + [Extent("mu_V", (150.0, 100.0), (40.0, 50.0))] * 2
+    mechanism = Ladder((1.0, 1.6, 2.0), 170.0, weight=2.0, share=2.8)
+    plan = Ladder((1.0, 1.25, 2.0, 2.5, 4.0), 200.0, weight=1.25, share=1.4)
+    own = Extents(figures, 200_000.0, {"mu_l": mechanism, "mu_V": plan})
+    segments = {"A1": ((45.0, 220.0), (40.0, 240.0))}
+
+    tried = [rungs for _, rungs, count in ways(own, segments, [FORMATS["A1"]]) if count == 1]
+
+    before, smaller = next((a, b) for a, b in itertools.pairwise(tried) if b["mu_l"] > a["mu_l"])
+    assert smaller["mu_V"] < before["mu_V"]
+    assert all(tried.count(rungs) == 1 for rungs in tried)
+
+
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_views_stand_on_as_many_pages_as_are_wanted_or_on_more(count):
     views = COURSEWORK["wide group"]
