@@ -74,7 +74,7 @@ def ruled(mm: str, paper: str, long: float = 100.0) -> bool:
 
 
 def finer(mm: str, mu: str, printed: str, paper: str) -> bool:
-    """Whether a segment has one decimal more than a ruler shows because that leaves its value less than three digits."""
+    """Whether a segment has one decimal more than a ruler shows, since that leaves its value less than three digits."""
     shorter, last = mm[:-1].rstrip(".,"), mm[-1]
     unit = 10.0 ** -len(re.split("[.,]", f"{shorter}.")[1])
     near = {value(shorter) + unit * up for up in ((0,) if last < "5" else (1,) if last > "5" else (0, 1))}
