@@ -85,7 +85,10 @@ class _Walk(Walk):
 
     def __init__(self, page: Page, drawing: Any) -> None:
         super().__init__(page)
-        self.new, self.groups = drawing, [drawing]
+        self.groups = [drawing]
+        # svgwrite makes a builder anew for each element that is asked for by its name
+        self.line, self.polygon, self.polyline = drawing.line, drawing.polygon, drawing.polyline
+        self.circle, self.path, self.text, self.group = drawing.circle, drawing.path, drawing.text, drawing.g
         self.characters: defaultdict[str, set[str]] = defaultdict(set)
 
     def places(self, *points: complex) -> list[tuple[str, str]]:
@@ -97,14 +100,14 @@ class _Walk(Walk):
         """Add an element with the attributes by which it is read back."""
         match shape:
             case Line(a=a, b=b):
-                element, area = self.new.line(*self.places(a, b)), None
+                element, area = self.line(*self.places(a, b)), None
             case Polyline(points=points, closed=closed):
-                make = self.new.polygon if closed else self.new.polyline
+                make = self.polygon if closed else self.polyline
                 element, area = make(self.places(*points)), filled(shape) or "none"
             case Circle(centre=centre, radius=radius):
-                element, area = self.new.circle(*self.places(centre), _number(radius)), filled(shape) or "none"
+                element, area = self.circle(*self.places(centre), _number(radius)), filled(shape) or "none"
             case Arc():
-                element, area = self.new.path(self.arc(shape)), "none"
+                element, area = self.path(self.arc(shape)), "none"
         looks = {"stroke": shape.colour or BLACK, "stroke-width": _number(self.pens.width(shape.pen)), "fill": area}
         identity = {"class": shape.role or shape.pen.value, "data-name": shape.name}
         self.add(element, identity | looks | {"stroke-dasharray": " ".join(map(_number, dashes))})
@@ -124,7 +127,7 @@ class _Walk(Walk):
 
     def head(self, corners: tuple[complex, complex, complex], colour: str) -> None:
         """Add a triangle."""
-        self.add(self.new.polygon(self.places(*corners)), {"class": "head", "fill": colour})
+        self.add(self.polygon(self.places(*corners)), {"class": "head", "fill": colour})
 
     def letters(self, text: Text, runs: Sequence[tuple[Run, complex]], alone: bool) -> None:
         """Add a `text` element for each run; one that is alone carries what a group would."""
@@ -136,7 +139,7 @@ class _Walk(Walk):
             if run.face == SCREEN:
                 face["font-family"] = FAMILIES[SCREEN]
             looks = {"font-size": _number(run.size), "fill": text.colour, "transform": self.turn(text, at), **face}
-            self.add(self.new.text(run.string), {**identity, **looks, "x": x, "y": y})
+            self.add(self.text(run.string), {**identity, **looks, "x": x, "y": y})
 
     def identity(self, text: Text) -> dict[str, str | None]:
         """Return what a text is, and the node or the line that it letters."""
@@ -173,12 +176,12 @@ class _Walk(Walk):
                 identity = {"class": role, "data-name": name}
             case _:
                 assert_never(part)
-        group = self.add(self.new.g(), identity)
+        group = self.add(self.group(), identity)
         self.groups.append(group)
         if isinstance(part, Vector | Arrow | Group) and part.title:
             group.set_desc(title=part.title)
         if isinstance(part, Vector | Arrow):
-            self.add(self.new.line(*self.places(part.tail, part.tip)), {"class": "span", "stroke": "none"})
+            self.add(self.line(*self.places(part.tail, part.tip)), {"class": "span", "stroke": "none"})
 
     def end(self, part: Part) -> None:
         """Go on with the group before."""

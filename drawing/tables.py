@@ -35,13 +35,12 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
     the words above and below them from its left edge, all else in its middle.
     """
     h, columns = style.text, range(len(rows[0]))
-    alone = [
-        {j: cell for j, row in enumerate(rows) for k, end, cell in cells(row) if k == i == end - 1} for i in columns
-    ]
+    every = [[*cells(row)] for row in rows]
+    alone = [{j: cell for j, own in enumerate(every) for k, end, cell in own if k == i == end - 1} for i in columns]
     placed = [_in_column(column, h) for column in alone]
     beside = 2.0 * max(0.5 * h, CELL)
     widths = [wide + beside for wide, _ in placed]
-    for i, end, cell in (found for row in rows for found in cells(row) if found[1] > found[0] + 1 and found[2]):
+    for i, end, cell in (found for own in every for found in own if found[1] > found[0] + 1 and found[2]):
         short = lay_out(cell, h).width + beside - sum(widths[i:end])  # of what stands in several columns
         widths[i:end] = [wide + max(short, 0.0) / (end - i) for wide in widths[i:end]]
     edges = [0.0, *accumulate(widths)]
@@ -55,9 +54,9 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
     for i, x in enumerate(edges):
         pen = Pen.MAIN if i in (0, len(edges) - 1) else Pen.THIN
         shapes += (Line(complex(x, levels[j]), complex(x, levels[k]), pen) for j, k in _ruled(rows, i))
-    for j, row in enumerate(rows):
+    for j, own in enumerate(every):
         baseline = 0.5 * (levels[j] + levels[j + 1] - h)
-        for i, end, cell in cells(row):
+        for i, end, cell in own:
             start = placed[i][1].get(j) if end == i + 1 else None
             x = 0.5 * (edges[i] + edges[end]) if start is None else edges[i] + start
             if cell:

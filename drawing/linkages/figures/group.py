@@ -212,16 +212,18 @@ class Sketch:
         """
         letter, length = self.scene.style.label, self.scene.style.force
         long = [(at, at + ray * length) for ray in self._barred.get(_place(at), ())]
-        around, forces = map(_as_lines, ([*self.strokes, *self._edges(at), *self._lying, *long], self._lying))
+        things = [*self.strokes, *self._edges(at), *self._lying, *long], self._lying, self._led
+        around, forces, led = map(_as_lines, things)
         ends = [end for stroke in self.strokes for end in stroke]
         middle = sum(ends) / len(ends) if ends else at
         best: tuple[float, Stroke] = (-math.inf, (at, at))
-        for beside, lead in ((0.0, 0.0), *((k * BESIDE, led) for k, led in product((1.0, -1.0, 2.0, -2.0), LED))):
+        for beside, lead in ((0.0, 0.0), *((k * BESIDE, out) for k, out in product((1.0, -1.0, 2.0, -2.0), LED))):
             cost = ASIDE * (beside != 0.0) + INWARD * (abs(beside) > BESIDE)
             cost += INWARD * (beside * cross(e, middle - at) > 0.0)
-            for ray in (e, -e):
-                stroke = self._lies(at, ray, lead * letter, 1j * e * beside * letter)
-                worth = self._room(stroke, around, forces, beside != 0.0) - PUSHED * (ray != e) - cost
+            ways = [self._lies(at, ray, lead * letter, 1j * e * beside * letter) for ray in (e, -e)]
+            rooms = self._rooms(ways, around, forces, led, beside != 0.0)
+            for stroke, room, pushed in zip(ways, rooms, (0.0, PUSHED), strict=True):
+                worth = room - pushed - cost
                 if worth > best[0]:
                     best = worth, stroke
             if best[0] >= CLEAR - PUSHED:
@@ -238,20 +240,24 @@ class Sketch:
         near = at + ray * min(max(self._gap(at, ray), lead), most) + aside
         return near, near + ray * length * (SHORTER if aside else 1.0)
 
-    def _room(self, stroke: Stroke, around: Shapes, forces: Shapes, aside: bool) -> float:
-        """Return the heights of a letter free around the outer part of an arrow; less if it lies on another.
+    def _rooms(
+        self, ways: Sequence[Stroke], around: Shapes, forces: Shapes, led: Shapes, aside: bool
+    ) -> list[float]:
+        """Return the heights of a letter free around the outer part of arrows; less if one lies on another.
 
-        One that stands aside begins on no other force.
+        One that stands aside begins on no other force, nor where a line has `led` to an arrow beside its own one.
         """
-        (near, far), letter = stroke, self.scene.style.label
+        letter = self.scene.style.label
+        near, far = np.array(ways).T
         start = near + 0.35 * (far - near)
-        room = float(shapely.distance(around, lines([start], [far])).min(initial=WIDE * letter)) / letter
-        from_ends = shapely.distance(forces[:, None], lines([start, far], [start, far]))
-        lies = from_ends.max(axis=1).min(initial=letter) < 0.3 * letter
-        whole = lines([near], [far])  # where a line leads to an arrow beside its own one, no other arrow begins or runs
-        lies |= shapely.distance(_as_lines(self._led), whole).min(initial=letter) < 0.3 * letter
-        lies |= aside and shapely.distance(forces, whole).min(initial=letter) < 0.45 * letter
-        return room - float(lies)
+        outer, begin, end, whole = lines([start, start, far, near], [far, start, far, far])
+        rooms = shapely.distance(around[:, None], outer).min(axis=0, initial=WIDE * letter) / letter
+        from_ends = np.maximum(shapely.distance(forces[:, None], begin), shapely.distance(forces[:, None], end))
+        lies = from_ends.min(axis=0, initial=letter) < 0.3 * letter
+        lies |= shapely.distance(led[:, None], whole).min(axis=0, initial=letter) < 0.3 * letter
+        if aside:
+            lies |= shapely.distance(forces[:, None], whole).min(axis=0, initial=letter) < 0.45 * letter
+        return [room - float(on) for room, on in zip(rooms.tolist(), lies.tolist(), strict=True)]
 
     def _edges(self, at: complex) -> list[Stroke]:
         """Return the sides of the blocks that do not hold a point."""
