@@ -86,8 +86,8 @@ class Slicing:
     sizes: Sequence[Size]
     room: Size
     bonds: Sequence[int] = ()
-    _heights: list[NDArray[np.int16]] = field(init=False)  # by how many views, the first of them, and the width
-    _widths: list[NDArray[np.int16]] = field(init=False)  # the same by the height
+    # by how many views: the least heights by the first view and the width, the least widths by it and the height
+    _tables: list[NDArray[np.int16]] = field(init=False)
 
     def __post_init__(self) -> None:
         """Fill the tables, from runs of one view on."""
@@ -99,18 +99,16 @@ class Slicing:
             sides = zip(size, self.room, strict=True)
             wide, high = (math.ceil(STEPS * (side + LEAST) / (most + LEAST) - SLACK) for side, most in sides)
             one[0, i, wide:], one[1, i, high:] = min(high, NEVER), min(wide, NEVER)
-        none = one[0, :0]
-        self._heights, self._widths = [none, one[0]], [none, one[1]]
+        self._tables = [one[:, :0], one]
         for long in range(2, n + 1):
-            under, beside = (_in_two(table, n - long + 1) for table in (self._heights, self._widths))
+            least = _in_two(self._tables, n - long + 1)
             # a row as high as its width allows, and the other way about: what is least never rises
-            self._heights.append(np.minimum(under, _turned(beside)))
-            self._widths.append(np.minimum(beside, _turned(under)))
+            self._tables.append(np.minimum(least, _turned(least)[::-1]))
 
     @property
     def fits(self) -> bool:
         """Whether the room holds all views."""
-        return bool(self.sizes) and bool(self._heights[-1][0, STEPS] <= STEPS)
+        return bool(self.sizes) and bool(self._tables[-1][0, 0, STEPS] <= STEPS)
 
     def cut(self) -> Cut | int:
         """Return one way to cut the room, where it holds all views."""
@@ -123,8 +121,8 @@ class Slicing:
         best: tuple[float, float, bool, int, int, int] = (math.inf, 0.0, False, 0, 0, 0)
         for k in range(i + 1, j):
             bond = self.bonds[k] if self.bonds else 0
-            for beside, table, most, room in ((True, self._widths, high, wide), (False, self._heights, wide, high)):
-                first, second = int(table[k - i][i, most]), int(table[j - k][k, most])
+            for beside, most, room in ((True, high, wide), (False, wide, high)):
+                first, second = (int(self._tables[b - a][int(beside), a, most]) for a, b in ((i, k), (k, j)))
                 if first + second <= room:
                     best = min(best, (bond, (first + second) / room, not beside, k, first, second))
         _, _, under, k, first, second = best
@@ -137,14 +135,14 @@ class Slicing:
         return Cut(tuple(part for own in flat for part in own), not under)
 
 
-def _in_two(table: Sequence[NDArray[np.int16]], count: int) -> NDArray[np.int16]:
+def _in_two(tables: Sequence[NDArray[np.int16]], count: int) -> NDArray[np.int16]:
     """Return the least of all ways to cut each of the next longer runs, so many, in two."""
     import numpy as np
 
-    long = len(table)
-    least: NDArray[np.int16] = table[1][:count] + table[-1][1 : 1 + count]
+    long = len(tables)
+    least: NDArray[np.int16] = tables[1][:, :count] + tables[-1][:, 1 : 1 + count]
     for k in range(2, long):
-        np.minimum(least, table[k][:count] + table[long - k][k : k + count], out=least)
+        np.minimum(least, tables[k][:, :count] + tables[long - k][:, k : k + count], out=least)
     return least
 
 
@@ -155,7 +153,8 @@ def _turned(least: NDArray[np.int16]) -> NDArray[np.int16]:
     """
     import numpy as np
 
-    rows = (STEPS + 2) * np.arange(len(least))[:, None]
-    counts = np.bincount((np.minimum(least, STEPS + 1) + rows).ravel(), minlength=(STEPS + 2) * len(least))
-    more = STEPS + 1 - counts.reshape(-1, STEPS + 2).cumsum(axis=1)[:, : STEPS + 1]
-    return np.where(more > STEPS, NEVER, more).astype(np.int16)
+    count = least[..., 0].size
+    rows = (STEPS + 2) * np.arange(count)[:, None]
+    steps = np.bincount((np.minimum(least, STEPS + 1).reshape(count, -1) + rows).ravel(), minlength=(STEPS + 2) * count)
+    more = STEPS + 1 - steps.astype(np.int16).reshape(count, -1).cumsum(axis=1, dtype=np.int16)[:, : STEPS + 1]
+    return np.where(more > STEPS, np.int16(NEVER), more).reshape(least.shape)

@@ -240,9 +240,7 @@ class Sketch:
         near = at + ray * min(max(self._gap(at, ray), lead), most) + aside
         return near, near + ray * length * (SHORTER if aside else 1.0)
 
-    def _rooms(
-        self, ways: Sequence[Stroke], around: Shapes, forces: Shapes, led: Shapes, aside: bool
-    ) -> list[float]:
+    def _rooms(self, ways: Sequence[Stroke], around: Shapes, forces: Shapes, led: Shapes, aside: bool) -> list[float]:
         """Return the heights of a letter free around the outer part of arrows; less if one lies on another.
 
         One that stands aside begins on no other force, nor where a line has `led` to an arrow beside its own one.
