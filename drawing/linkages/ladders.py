@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from ...plans.board import POSITION
 from ...plans.linkages.compound import ACCELERATION, VELOCITY
-from ...plans.linkages.mechanism import FRAME, Driver, Prismatic
+from ...plans.linkages.mechanism import FRAME, Driver, Prismatic, Revolute
 from ...plans.linkages.solved import SolvedLinkage
 from ...plans.linkages.structure import TRIAD, Group
 from ...plans.names import FORCES, LEVER, is_shown, role, scale_factor
@@ -216,12 +216,19 @@ def _special_points(solved: SolvedLinkage, links: Collection[int]) -> list[compl
 
 
 def _slots(solved: SolvedLinkage) -> dict[int, list[complex]]:
-    """Return by the moving links on which sliders run where their ways may end: as long as a crank drives them."""
+    """Return by the moving links on which sliders run where their ways may end: as long as a crank drives them.
+
+    That of a link that only slides is as far on both sides of the crank's pivot.
+    """
     ends: dict[int, list[complex]] = {}
-    for pair in solved.mechanism.pairs:
-        if isinstance(pair, Prismatic) and pair.links[1] != FRAME:
-            way = _crank(solved) * solved.point(solved.guide_name(pair))
-            ends.setdefault(pair.links[1], []).extend(solved.point(pair.point) + side * way for side in (-1.0, 1.0))
+    driver, pairs = solved.mechanism.driver, solved.mechanism.pairs
+    for pair in pairs:
+        if isinstance(pair, Prismatic) and (number := pair.links[1]) != FRAME:
+            at, along = solved.point(pair.point), solved.point(solved.guide_name(pair))
+            turns = any(isinstance(other, Revolute) and number in other.links for other in pairs)
+            if isinstance(driver, Driver) and not turns:
+                at += along * ((solved.point(driver.pivot) - at) * along.conjugate()).real
+            ends.setdefault(number, []).extend(at + side * _crank(solved) * along for side in (-1.0, 1.0))
     return ends
 
 
