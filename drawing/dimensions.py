@@ -31,11 +31,12 @@ def angle(
     prefer: complex = 0j,
     clear: float = 1.0,
     spare: str = "",
+    last: str = "",
 ) -> None:
     """Dimension the angle from one ray to another with its text at the middle of the arc.
 
     `turn` says whether it runs counter-clockwise, 1, or clockwise, -1; without it the shorter way. The text stands
-    beyond the arc, or `inside` of it, or to the side that it should `prefer`.
+    beyond the arc, or `inside` of it, or to the side that it should `prefer`; `spare` and `last` are as of a label.
     """
     start, sweep = phase(rays[0]), swept(*rays, turn)
     canvas.add(angle_dimension(vertex, radius, start, sweep, name, canvas.style))
@@ -43,7 +44,7 @@ def angle(
         out = rect(1.0, start + 0.5 * sweep)
         at = vertex + radius * out
         toward = prefer or (-out if inside else out)
-        canvas.label(text, at, prefer=toward, clear=clear, height=canvas.style.text, spare=spare)
+        canvas.label(text, at, prefer=toward, clear=clear, height=canvas.style.text, spare=spare, last=last)
 
 
 def turning(

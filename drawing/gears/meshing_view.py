@@ -180,7 +180,8 @@ def _along(canvas: Canvas, scene: GearScene, wheel: Wheel, ends: Ends, name: str
     kind = role(name).kind
     text = scene.angle(name) if kind in ("tau", "phi") else scene.stated("p" if kind == "p" else name)
     spare = text if abs(a) < CLOSE * scene.style.label else ""  # near the centre there may be no room
-    angle(canvas, wheel.centre, (a, b), abs(a), name, text, inside=True, spare=spare)
+    last = text if scene.close else ""  # nor among teeth on a small format
+    angle(canvas, wheel.centre, (a, b), abs(a), name, text, inside=True, spare=spare, last=last)
 
 
 def _on(wheel: Wheel, ends: Ends, radius: float) -> Ends:

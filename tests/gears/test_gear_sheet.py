@@ -13,7 +13,7 @@ from kulman.drawing.gears.scene import mu_ladder, near_ladder, rolled_ladder
 from kulman.plans.gears.gear import GearPair
 from kulman.plans.gears.solve import solve_gear
 from kulman.plans.gears.teeth import meshing_of
-from kulman.tests.sheets.judge import overlaps, thin_faults, view_faults
+from kulman.tests.sheets.judge import crossing, overlaps, thin_faults, view_faults
 from kulman.tests.support.cases import some
 from kulman.tests.support.gear_points import (
     POINTS,
@@ -101,6 +101,11 @@ def test_speeds_stand_away_from_the_dimension_of_the_distance_of_centres(case: G
 def test_letters_touch_nothing_and_views_stand_apart(case: GearCase) -> None:
     assert overlaps(case.sheet) == []
     assert [fault for page in case.sheet.pages for fault in view_faults(page)] == []
+
+
+@pytest.mark.parametrize("case", [WHOLE, GearCase(format="A4")], ids=str)
+def test_leaders_cross_no_main_line_also_where_there_is_little_room(case: GearCase) -> None:
+    assert [fault for view in case.sheet.views for fault in crossing(view) if fault is not None] == []
 
 
 @pytest.mark.soak
