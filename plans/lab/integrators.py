@@ -14,6 +14,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -26,6 +27,7 @@ from ..hoist.roots import time_to_wind
 Array = NDArray[np.float64]
 State = tuple[Any, Any]  # u, m, displacement from the static place, and v, m/s
 Trace = Sequence[Array]  # times, s, places and velocities; of many steps a row a step, a column a hoist
+Row = tuple[Any, Any, Any]  # the same of one step
 EXPLICIT, SYMPLECTIC, VERLET, TRAPEZOID, RK4 = "euler", "symplectic", "verlet", "trapezoid", "rk4"
 LEAST = 1e-4  # w h at which a method that grows has no stability limit at all
 STABLE = 1e-12  # growth in a step that is rounding
@@ -148,7 +150,7 @@ NAMES = ("m", "C_01", "C_12", "V_t", "a", "g")
 GROWN = 1.1  # growth of an oscillation over a run from which on it is refused
 ROUNDS = 60  # of closing in on an event within a step
 CLOSE = 1e-15  # parts of a step that are no step
-BLOCK = 16  # steps between looks at whether loads have left their supports
+BLOCK = 16  # steps between looks at whether loads have left their supports, later such a part of all steps
 MARGIN = 1.5  # times as long as the exact lift-off can take
 
 
@@ -171,6 +173,11 @@ class Run:
 _Found = tuple[tuple[Any, Any], tuple[Array, ...], tuple[Array, Array, Array]]
 
 
+def _smaller(first: Any, second: Any) -> Any:
+    """Return the smaller one, of Python's numbers as they are."""
+    return min(first, second) if isinstance(first, float) else np.minimum(first, second)
+
+
 class _Hoists:
     """The load's motion in both phases, of many hoists: `m C_01 C_12 V_t a g` as arrays of one shape (N,)."""
 
@@ -182,6 +189,13 @@ class _Hoists:
     def chosen(self, which: Any) -> _Hoists:
         """Return some of the hoists."""
         return _Hoists({name: getattr(self, name)[which] for name in NAMES})
+
+    def of_floats(self) -> _Hoists:
+        """Return the only hoist with Python's numbers, which are many times as fast as arrays of one."""
+        alone = copy(self)
+        for name, value in vars(self).items():
+            setattr(alone, name, value.item())
+        return alone
 
     def travel(self, t: Any) -> Any:
         """Return what has been wound up, m."""
@@ -203,7 +217,7 @@ class _Hoists:
         pull, push = self.C_12 / self.m, self.C_01 / self.m
 
         def acceleration(t: Any, u: Any) -> Any:
-            return pull * (self.travel(t) - u) - np.minimum(push * u, self.g)
+            return pull * (self.travel(t) - u) - _smaller(push * u, self.g)
 
         return Motion(pull, lambda t: pull * self.travel(t) - self.g, acceleration)
 
@@ -239,10 +253,13 @@ def integrate(values: Mapping[str, Any], method: str, step: Any, located: bool =
         return _judged(hoists, method, z, (_located if located else _missed)(hoists, STEPPERS[method], h))
 
 
+Phase = Callable[[_Hoists], Motion]
+
+
 def _located(hoists: _Hoists, take: Stepper, h: Array) -> _Found:
     first, off = _until_lift_off(hoists, take, h)
     last = np.ceil(2.0 * math.pi / (hoists.k_1 * h)).astype(np.int64) + 1
-    second = _columns(itertools.islice(_rows(take, hoists.lifted(), off, h), int(last.max()) + 1))
+    second = _columns(itertools.islice(_rows(take, hoists, _Hoists.lifted, off, h), int(last.max()) + 1))
     t_1, F_12_t1 = off[0], hoists.force(*off)
     F_12_max = np.maximum(F_12_t1, _peak(hoists, take, _Hoists.on_support, first, t_1))
     end = t_1 + 2.0 * math.pi / hoists.k_1
@@ -255,7 +272,7 @@ def _located(hoists: _Hoists, take: Stepper, h: Array) -> _Found:
 
 def _missed(hoists: _Hoists, take: Stepper, h: Array) -> _Found:
     until = hoists.latest() + 2.0 * math.pi / hoists.k_1
-    rows = _rows(take, hoists.one_sided(), _rest(h), h)
+    rows = _rows(take, hoists, _Hoists.one_sided, _rest(h), h)
     trace = _columns(itertools.islice(rows, int(np.ceil(until / h).max()) + 2))
     t, force = trace[0], hoists.force(*trace)
     off = (hoists.lift(*trace) >= 0.0).argmax(axis=0)
@@ -286,37 +303,40 @@ def _rest(h: Array) -> Trace:
     return [np.zeros_like(h)] * 3
 
 
-def _rows(take: Stepper, motion: Motion, begin: Trace, h: Array) -> Iterator[Trace]:
-    """Go through times and states, from the beginning on without an end."""
-    t, *state = begin
+def _rows(take: Stepper, hoists: _Hoists, phase: Phase, begin: Trace, h: Array) -> Iterator[Row]:
+    """Go through times and states, from the beginning on without an end: of one hoist as Python's numbers."""
+    alone = h.size == 1
+    motion = phase(hoists.of_floats() if alone else hoists)
+    t, u, v, step = ([one.item() for one in (*begin, h)] if alone else (*begin, h))
     for i in itertools.count():
-        yield t + i * h, *state
-        state = [*take(motion, t + i * h, (state[0], state[1]), h)]
+        now = t + i * step
+        yield now, u, v
+        u, v = take(motion, now, (u, v), step)
 
 
-def _columns(rows: Iterable[Trace]) -> Trace:
-    return [np.stack(column) for column in zip(*rows, strict=True)]
+def _columns(rows: Iterable[Row]) -> Trace:
+    """Return times, places and velocities, a row a step."""
+    return [np.array(column).reshape(len(column), -1) for column in zip(*rows, strict=True)]
 
 
 def _until_lift_off(hoists: _Hoists, take: Stepper, h: Array) -> tuple[Trace, Trace]:
     """Step until every load has left its support; return the steps, and time and state where it does."""
-    motion = hoists.on_support()
-    source = _rows(take, motion, _rest(h), h)
+    source = _rows(take, hoists, _Hoists.on_support, _rest(h), h)
     rows, most = [next(source)], int(np.ceil(MARGIN * hoists.latest() / h).max()) + 1
     borne, going = np.zeros(h.shape, int), np.ones(h.shape, bool)
     while going.any() and len(rows) <= most:
-        block = list(itertools.islice(source, min(BLOCK, most + 1 - len(rows))))
+        block = list(itertools.islice(source, min(max(BLOCK, len(rows) // BLOCK), most + 1 - len(rows))))
         bears = np.logical_and.accumulate(hoists.lift(*_columns(block)) < 0.0) & going
         borne, going = borne + bears.sum(axis=0), bears[-1]
         rows += block
     trace, own = _columns(rows[: borne.max() + 2]), np.arange(len(h))
     last = np.minimum(np.arange(len(trace[0]))[:, None], borne)  # where the load has left, its last on the support
-    left = _within(hoists.lift, take, motion, [column[borne, own] for column in trace], h)
+    left = _within(hoists.lift, take, hoists.on_support(), [column[borne, own] for column in trace], h)
     off = [np.where(going, np.nan, value) for value in left]
     return [np.concatenate((column[last, own], [end])) for column, end in zip(trace, off, strict=True)], off
 
 
-def _peak(hoists: _Hoists, take: Stepper, phase: Callable[[_Hoists], Motion], trace: Trace, end: Array) -> Array:
+def _peak(hoists: _Hoists, take: Stepper, phase: Phase, trace: Trace, end: Array) -> Array:
     """Return the highest maximum of the rope's force up to `end`, found within steps; minus infinity for none."""
     rate, times = hoists.rate(*trace), trace[0]
     row, own = np.nonzero((rate[:-1] > 0.0) & (rate[1:] <= 0.0) & (times[1:] <= end))
