@@ -13,7 +13,7 @@ between lines. A hand errs the more the more chords it draws, so that for each t
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -21,8 +21,9 @@ from typing import Any
 import numpy as np
 
 from ...scales.errors import InputError
+from ..boards.arrays import ArrayBoard
 from ..boards.exact import run
-from ..hands.shaky import Hand, Paper, draw
+from ..hands.shaky import Alike, Hand, Hands, Paper, draw
 from ..hands.spread import kept
 from .cam import DIAGRAMS_PART, SIZES_PART
 from .construction import ACCELERATION, MM_PER_M, TRAVEL, VELOCITY, construct
@@ -81,13 +82,17 @@ def equal_division(motion: Motion, count: int) -> Division:
 def drawn_on(solved: SolvedCam, division: Division, names: tuple[str, ...] = ()) -> Paper:
     """Return the construction of some values on a division of one's own, as it is drawn; of the nodes without names."""
     motion, given, sized = solved.motion, solved.layout.given, solved.roller is not None
-    fastest = int(np.abs(division.angles - motion.ds_max.phi).argmin())
-    layout = replace(solved.layout, division=division, plate=None, fastest=fastest)
+    layout = replace(solved.layout, division=division, plate=None, fastest=fastest_line(solved, division))
     program = construct(layout, (SIZES_PART,) if sized else (DIAGRAMS_PART,))
     givens = {**solved.givens, **diagram_givens(motion, division, given)}
     mus = {plan: EQUAL.get(mu, mu) for plan, mu in solved.scale_of_plan.items()}
     worth = solved.worth({plan: solved.values.get(mu, MU_L) for plan, mu in mus.items()})
     return Paper(program.needed_for(names or nodes(solved, division)), givens, worth, solved.edges)
+
+
+def fastest_line(solved: SolvedCam, division: Division) -> int:
+    """Return the section line that is nearest to the greatest velocity."""
+    return int(np.abs(division.angles - solved.motion.ds_max.phi).argmin())
 
 
 def nodes(solved: SolvedCam, division: Division) -> tuple[str, ...]:
@@ -151,7 +156,7 @@ def _column(x: Array, beside: Array) -> Array:
 
 NODES, BETWEEN = "nodes", "between"  # where the jumps of the acceleration lie
 CLOSED = "s_closed"  # the travel on the worst section line, after velocity and travel have been closed
-SECTIONS = (6, 12, 24, 48, 96, 192, 384)  # of a phase
+SECTIONS = (6, 12, 24, 48, 96, 192)  # of a phase
 DRAWN = (6, 9, 12, 18, 24, 36, 48, 72)
 FINE = 24  # sections from which on errors show their order
 ROUNDING = 1e-11  # error that is none
@@ -216,10 +221,13 @@ def convergence(
     if all(np.abs(error).max() < ROUNDING for error in errors.values()):
         raise InputError("chart-exact-chords")
     papers = _drawings(solved, map(solved.motion.division, drawn), exact)
-    by_hand: dict[tuple[str, str], Array] = {}
-    for name, hand in hands.items():
-        kept_by_hand = [_by_hand(solved, drawing, hand, chosen, exact) for drawing in papers]
-        by_hand |= {(name, chosen[k]): np.array(errors) for k, errors in enumerate(zip(*kept_by_hand, strict=True))}
+    at_once = Hands.of(hands.values()) if hands else None
+    kept_by_hand = [_by_hand(solved, drawing, at_once, chosen, exact) for drawing in papers if at_once]
+    by_hand = {
+        (hand, name): np.array([errors[name][i] for errors in kept_by_hand])
+        for i, hand in enumerate(hands)
+        for name in chosen
+    }
     counts = {where: tuple(division.top for division, *_ in every) for where, every in found.items()}
     return Convergence(exact, chosen, counts, errors, tuple(division.top for division, *_ in papers), by_hand)
 
@@ -251,17 +259,20 @@ def _error(solved: SolvedCam, drawing: Drawing, name: str, exact: Mapping[str, f
 
 
 def _by_hand(
-    solved: SolvedCam, drawing: Drawing, hand: Hand, names: Iterable[str], exact: Mapping[str, float]
-) -> Iterator[float]:
-    """Go through what most drawings of a hand keep."""
+    solved: SolvedCam, drawing: Drawing, hands: Hands, names: Iterable[str], exact: Mapping[str, float]
+) -> dict[str, Array]:
+    """Return what most drawings of each hand keep, shape (hands,); their errors are alike."""
     division, paper, _ = drawing
-    values = draw(paper, hand, np.random.default_rng(SEED), DRAWINGS).values
-    for name in names:
+    shape = len(hands.point), DRAWINGS
+    values = draw(paper, hands, Alike(np.random.default_rng(SEED)), shape).values
+
+    def missed(name: str) -> Array:
         if name in exact:
-            yield float(kept(np.broadcast_to(values[name], DRAWINGS), exact[name])) / exact[name]
-        else:
-            found = _travel_errors(solved, division, values, DRAWINGS)
-            yield float(kept(found.get(BOTH, found[STROKE]), 0.0))
+            return kept(np.broadcast_to(values[name], shape), exact[name]) / exact[name]
+        found = _travel_errors(solved, division, values, *shape)
+        return kept(found.get(BOTH, found[STROKE]), 0.0)
+
+    return {name: missed(name) for name in names}
 
 
 BESIDE_AT = (12, 24, 48)  # at which a line beside a jump is looked at
@@ -300,13 +311,28 @@ def robustness(solved: SolvedCam, hands: Mapping[str, Hand], sections: Iterable[
     beside = BESIDE if inner_jumps(solved.motion) else ()
     for count in sections if beside else ():
         division = solved.motion.division(count)
-        papers = [drawn_on(solved, late(solved, division, part), tuple(exact)) for part in beside]
-        found = [run(paper.program, paper.givens).values for paper in papers]
+        found = _drawn_late(solved, division, beside, tuple(exact))
         for name, value in exact.items():
-            missed[division.top, name] = np.array([float(values[name]) for values in found]) / value - 1.0
+            missed[division.top, name] = found[name] / value - 1.0
     division = solved.motion.division(CLOSED_AT)
-    closings = {name: _closing(solved, division, hand) for name, hand in hands.items()}
+    closings = dict(zip(hands, _closings(solved, division, hands.values()), strict=True))
     return Robustness(beside, missed, division.top, closings)
+
+
+def _drawn_late(solved: SolvedCam, division: Division, parts: Sequence[float], names: Sequence[str]) -> dict[str, Array]:
+    """Return values of diagrams whose lines at jumps are late by each of the parts, all of them at once."""
+    divisions = [late(solved, division, part) for part in parts]
+    fastest = [fastest_line(solved, each) for each in divisions]
+    found = {name: np.empty(len(parts)) for name in names}
+    for line in sorted(set(fastest)):  # the line of the greatest velocity belongs to the construction
+        which = [i for i, own in enumerate(fastest) if own == line]
+        paper = drawn_on(solved, divisions[which[0]], tuple(names))
+        each = [diagram_givens(solved.motion, divisions[i], solved.layout.given) for i in which]
+        board = ArrayBoard(paper.givens | {name: np.array([one[name] for one in each]) for name in each[0]}, len(which))
+        paper.program.run(board)
+        for name in names:
+            found[name][which] = board.values[name]
+    return found
 
 
 def late(solved: SolvedCam, division: Division, part: float) -> Division:
@@ -319,16 +345,21 @@ def late(solved: SolvedCam, division: Division, part: float) -> Division:
     return replace(division, angles=moved)
 
 
-def _closing(solved: SolvedCam, division: Division, hand: Hand) -> Closing:
-    """Let a hand draw, and look at how it closes."""
-    values = draw(drawn_on(solved, division), hand, np.random.default_rng(SEED), DRAWINGS).values
+def _closings(solved: SolvedCam, division: Division, hands: Collection[Hand]) -> list[Closing]:
+    """Let hands draw, and look at how each closes."""
+    if not hands:
+        return []
+    shape = len(hands), DRAWINGS
+    alike = Alike(np.random.default_rng(SEED))
+    values = draw(drawn_on(solved, division), Hands.of(hands), alike, shape).values
 
-    def ends(plan: str, *lines: int) -> list[float]:
-        found = ordinates(values, plan, division, DRAWINGS)
-        return [float(kept(found[line], 0.0)) * MM_PER_M for line in lines]
+    def end(plan: str, line: int) -> list[float]:
+        return [float(one) * MM_PER_M for one in kept(ordinates(values, plan, division, *shape)[line], 0.0)]
 
     given = solved.layout.given == ACCELERATION
-    top, last = ends(VELOCITY, division.top, division.last) if given else (None, None)
-    errors = _travel_errors(solved, division, values, DRAWINGS)
-    kept_errors = {way: float(kept(error, 0.0)) for way, error in errors.items()}
-    return Closing(top, last, ends(TRAVEL, division.last)[0], kept_errors)
+    top, last = (end(VELOCITY, line) if given else [None] * len(hands) for line in (division.top, division.last))
+    errors = {way: kept(error, 0.0) for way, error in _travel_errors(solved, division, values, *shape).items()}
+    return [
+        Closing(top[i], last[i], stroke, {way: float(error[i]) for way, error in errors.items()})
+        for i, stroke in enumerate(end(TRAVEL, division.last))
+    ]

@@ -23,7 +23,7 @@ from ...scales.errors import InputError
 from ...scales.scale import steps
 from ..boards.exact import run
 from ..condition import Condition, derivatives, ratio
-from ..hands.shaky import Hand, Paper, Tolerance, draw, drawing_of
+from ..hands.shaky import Alike, Hand, Hands, Paper, Tolerance, draw, drawing_of
 from ..hands.spread import added_up, kept
 from ..laws import LAWS
 from ..marking.key import rounded
@@ -420,15 +420,16 @@ def scale_errors(solved: SolvedGear, hands: Mapping[str, Hand], quantities: Sequ
     if MESHING not in solved.scale_of_plan:
         raise InputError("chart-no-meshing")
     wanted = tuple(quantities) or USUAL
+    at_once = Hands.of(hands.values())
     errors = {(hand, name): np.empty(len(RATIOS)) for hand in hands for name in wanted}
     for i, k in enumerate(RATIOS):
         paper = drawing_of(solved, dict.fromkeys(solved.scale_of_plan, MILLI / k))
         paper = replace(paper, program=paper.program.needed_for(wanted))
-        for hand, own in hands.items():
-            board = draw(paper, own, np.random.default_rng(SEED), DRAWINGS)
-            for name in wanted:
-                exact = solved.values[name]
-                drawn = np.broadcast_to(board.values[name], board.codes.shape)
-                errors[hand, name][i] = float(kept(drawn, exact)) / abs(exact)
+        board = draw(paper, at_once, Alike(np.random.default_rng(SEED)), (len(hands), DRAWINGS))
+        for name in wanted:
+            exact = solved.values[name]
+            missed = kept(np.broadcast_to(board.values[name], board.codes.shape), exact)
+            for hand, off in zip(hands, missed, strict=True):
+                errors[hand, name][i] = float(off) / abs(exact)
     exact_values = {name: float(solved.values[name]) for name in wanted}
     return ScaleErrors(exact_values, RATIOS, solved.sizes["h"], errors)

@@ -9,12 +9,13 @@ a link alone (which only give numbers) have no error. What is read is what the s
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import astuple, dataclass
 from functools import partial
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...scales.errors import InputError
 from ...scales.names import unknown
@@ -25,6 +26,7 @@ from ..names import role
 from ..solved import Solved
 
 ZERO = "zero"
+Array = NDArray[Any]
 Shape = int | tuple[int, ...]
 Operate = Callable[..., Any]
 
@@ -51,6 +53,32 @@ class Hand:
     def times(self, factor: float) -> Hand:
         """Return a hand with errors larger by `factor`."""
         return Hand(self.point * factor, self.direction * factor, self.reading * factor)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Hands:
+    """Several hands that draw at once, `(hands, drawings)`: standard deviations as columns, shape (hands, 1)."""
+
+    point: Array
+    direction: Array
+    reading: Array
+
+    @classmethod
+    def of(cls, hands: Iterable[Hand]) -> Hands:
+        """Put hands together."""
+        return cls(*(np.array(column)[:, None] for column in zip(*map(astuple, hands), strict=True)))
+
+
+@dataclass(frozen=True, slots=True)
+class Alike:
+    """Errors that are the same all along the first axis, of hands or of positions, so that these can be compared."""
+
+    random: np.random.Generator
+
+    def standard_normal(self, size: Shape, /) -> Array:
+        """Return an array of errors in standard deviations."""
+        assert isinstance(size, tuple)
+        return np.broadcast_to(self.random.standard_normal((1, *size[1:])), size)
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +155,7 @@ class ShakyBoard(ArrayBoard):
     """
 
     def __init__(
-        self, paper: Paper, hand: Hand, random: Any, shape: Shape, only: Collection[str] | None = None
+        self, paper: Paper, hand: Hand | Hands, random: Any, shape: Shape, only: Collection[str] | None = None
     ) -> None:
         super().__init__(paper.givens, 0)
         self.codes = np.zeros(shape, np.int8)
@@ -168,7 +196,7 @@ class ShakyBoard(ArrayBoard):
         return self._error(self._hand.reading * self._mu(mark))
 
     def _direction_error(self) -> Any:
-        return self._error(math.radians(self._hand.direction))
+        return self._error(self._hand.direction * (math.pi / 180.0))
 
     def _mu(self, mark: str) -> Any:
         return self._mus[role(mark or self._name).plan]
@@ -359,7 +387,7 @@ SHAKY: Mapping[str, Operate] = {
 
 
 def draw(
-    paper: Paper, hand: Hand, random: Any, drawings: Shape = 1000, only: Collection[str] | None = None
+    paper: Paper, hand: Hand | Hands, random: Any, drawings: Shape = 1000, only: Collection[str] | None = None
 ) -> ShakyBoard:
     """Draw a construction so many times with a shaky hand: the same seed of `random` draws the same.
 

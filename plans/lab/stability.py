@@ -18,7 +18,7 @@ from ...scales.errors import InputError
 from ..board import Program
 from ..boards.exact import SMALL, STATUSES, run
 from ..condition import conditions
-from ..hands.shaky import Hand, Paper, Shape, draw
+from ..hands.shaky import Alike, Hand, Paper, draw
 from ..hands.spread import kept
 from ..laws import TURN, dot
 from ..linkages.cycle import Cycle
@@ -113,18 +113,6 @@ def _conditions(
     return sines, tuple(worst), found
 
 
-@dataclass(frozen=True, slots=True)
-class _Alike:
-    """Errors that are the same in all positions, so that curves over the cycle are smooth."""
-
-    random: np.random.Generator
-
-    def standard_normal(self, size: Shape, /) -> Array:
-        """Return an array of errors in standard deviations."""
-        assert isinstance(size, tuple)
-        return np.broadcast_to(self.random.standard_normal((1, *size[1:])), size)
-
-
 def _misses(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: Hand, seed: int) -> dict[str, Array]:
     """Return what most drawings keep, SI."""
     program = cycle.program.needed_for(names)
@@ -135,7 +123,7 @@ def _misses(cycle: Cycle, names: Sequence[str], mus: Mapping[str, float], hand: 
         part = slice(start, min(start + AT_ONCE, count))
         shape = (part.stop - start, DRAWINGS)
         here = {name: value[part, None] if np.ndim(value) else value for name, value in givens.items()}
-        board = draw(Paper(program, here, mus), hand, _Alike(np.random.default_rng(seed)), shape)
+        board = draw(Paper(program, here, mus), hand, Alike(np.random.default_rng(seed)), shape)
         for name in names:
             exact = np.broadcast_to(cycle.values[name], count)[part, None]
             found[name][part] = kept(np.broadcast_to(board.values[name], shape), exact)

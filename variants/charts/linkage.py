@@ -34,8 +34,8 @@ from ..tables import Cell, aligned
 from . import charts
 from .charts import AccuracyChart, Scene
 
-POSITIONS = {"accuracy": 36, "stability": 360, "depth": 360}
-LINES = 24  # of the table of stability
+POSITIONS = {"accuracy": 36, "stability": 180, "depth": 180}
+LINES = 18  # of the table of stability, mostly
 LOOKED = 12  # positions at which scale factors are looked for
 
 
