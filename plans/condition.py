@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 from ..scales.errors import InputError
 from .board import Program
 from .boards.exact import PlainBoard
+from .boards.template import ASTRAY, FEWEST, Laid, lay
 from .laws import cross, dot
 from .quantities import plans_of, references, results, unit_of, worst_behind
 from .solved import Solved
@@ -220,6 +221,15 @@ class _DualBoard(PlainBoard):
             return super()._turn(angle)
         direction = super()._turn(angle.value)
         return _Dual(direction, angle.slopes * (direction * 1j))
+
+    def _lay_template(self, names: tuple[str, ...], where: tuple[Any, ...]) -> Laid:
+        """Begin where the template lies in the end: there a single correction has all derivatives."""
+        if names not in self._templates:
+            laid = lay([*map(_value_of, where)], names, PlainBoard._sqrt, PlainBoard._complex, self.corrections)
+            place, turn = laid.finished(laid.determinant)
+            begin = place.real, place.imag, turn.real, turn.imag
+            self._templates[names] = lay((*begin, *where[ASTRAY:]), names, self._sqrt, self._complex, FEWEST)
+        return self._templates[names]
 
     def _angle(self, first: Any, second: Any) -> Any:
         angle = super()._angle(_value_of(first), _value_of(second))

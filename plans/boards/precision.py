@@ -23,7 +23,7 @@ from .template import CLOSED, CORRECTIONS, FOLDED
 from .trace import Real, TracingBoard, Vector
 
 DIGITS = 50
-OF_FIFTY = 12  # of a template: five reach 16 digits from where it lies about, seven more any number
+OF_FIFTY = 9  # of a template: five reach 16 digits from where it lies about, two more fifty, two are to spare
 
 
 class FiftyDigits(PlainBoard):

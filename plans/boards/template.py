@@ -16,6 +16,7 @@ from typing import Any
 from ..laws import cross, dot
 
 CORRECTIONS = 5
+FEWEST = 3  # that tell how well a template lies
 ASTRAY = 4  # which operand of the verbs tells how far the template went astray; those of the legs follow
 CLOSED = 1e-12  # part of all lengths together that legs may miss their joints by
 # The position itself is known to eps / determinant only: a determinant below the root of eps may as well be zero.
@@ -95,7 +96,7 @@ def lay(
     root, point : callables
         The square root of the board's numbers, and a point by its coordinates.
     corrections : int
-        How many, the last one included: each doubles the digits.
+        How many, the last one included, `FEWEST` at least: each doubles the digits.
     """
     place, turn = point(where[0], where[1]), point(where[2], where[3])
     joint = where[ASTRAY + 1]

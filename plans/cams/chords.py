@@ -319,7 +319,9 @@ def robustness(solved: SolvedCam, hands: Mapping[str, Hand], sections: Iterable[
     return Robustness(beside, missed, division.top, closings)
 
 
-def _drawn_late(solved: SolvedCam, division: Division, parts: Sequence[float], names: Sequence[str]) -> dict[str, Array]:
+def _drawn_late(
+    solved: SolvedCam, division: Division, parts: Sequence[float], names: Sequence[str]
+) -> dict[str, Array]:
     """Return values of diagrams whose lines at jumps are late by each of the parts, all of them at once."""
     divisions = [late(solved, division, part) for part in parts]
     fastest = [fastest_line(solved, each) for each in divisions]

@@ -307,7 +307,7 @@ def _rows(take: Stepper, hoists: _Hoists, phase: Phase, begin: Trace, h: Array) 
     """Go through times and states, from the beginning on without an end: of one hoist as Python's numbers."""
     alone = h.size == 1
     motion = phase(hoists.of_floats() if alone else hoists)
-    t, u, v, step = ([one.item() for one in (*begin, h)] if alone else (*begin, h))
+    t, u, v, step = [one.item() for one in (*begin, h)] if alone else (*begin, h)
     for i in itertools.count():
         now = t + i * step
         yield now, u, v

@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 from mpmath import mp, mpf
 
-from kulman import load_task
+from kulman import load_task, solve
 from kulman.plans.board import Program
 from kulman.plans.boards.exact import ExactBoard, run
 from kulman.plans.linkages.chain import construct
@@ -187,3 +187,12 @@ def test_sides_mirror_each_other_with_phi_taken_from_the_slider(variant: str, ro
     for name, quantity in left.quantities.items():
         if quantity.kind == "vector" and "couple" not in name:
             assert right.values[name] == pytest.approx(-left.values[name].conjugate(), rel=1e-12, abs=1e-9), name
+
+
+def test_where_a_template_lies_about_is_no_given_whose_errors_come_through() -> None:
+    found = solve("scheme-20-press-automaton", only="forces,lever", condition=True).conditions
+
+    balance, lever, off = (found[name].value for name in ("M_bal", "M_bal_lever", "delta_M_bal"))
+
+    assert balance is not None and off is not None and off < 1e-12  # of two ways to one number
+    assert lever == pytest.approx(balance, rel=1e-9)

@@ -355,7 +355,7 @@ def chart(
         Of a linkage `accuracy`, `stability`, `depth`, of a cam `sections`, `accuracy`, `stability`, of gears
         `scale`, of a hoist `accuracy`, `stability`, `roots`, `depth`, `choice`; all when left out.
     positions : int, optional
-        Positions of the cycle of a linkage that are looked at: 36 for `accuracy`, else 180 when left out.
+        Positions of the cycle of a linkage that are looked at: 24 for `accuracy`, else 120 when left out.
     quantities : str or iterable of str, optional
         Names of quantities, `"V_B,a_B,M_bal"`; when left out all that can be compared, for `stability` of a linkage the
         motion of the output and what balances the driver.

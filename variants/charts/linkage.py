@@ -34,9 +34,9 @@ from ..tables import Cell, aligned
 from . import charts
 from .charts import AccuracyChart, Scene
 
-POSITIONS = {"accuracy": 36, "stability": 180, "depth": 180}
-LINES = 18  # of the table of stability, mostly
-LOOKED = 12  # positions at which scale factors are looked for
+POSITIONS = {"accuracy": 24, "stability": 120, "depth": 120}
+LINES = 24  # of the table of stability
+LOOKED = 8  # positions at which scale factors are looked for
 
 
 def _cycle_of(name: str, scene: Scene) -> Cycle:
