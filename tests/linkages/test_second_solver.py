@@ -194,5 +194,7 @@ def test_where_a_template_lies_about_is_no_given_whose_errors_come_through() -> 
 
     balance, lever, off = (found[name].value for name in ("M_bal", "M_bal_lever", "delta_M_bal"))
 
-    assert balance is not None and off is not None and off < 1e-12  # of two ways to one number
+    assert balance is not None
+    assert off is not None
+    assert off < 1e-12  # of two ways to one number
     assert lever == pytest.approx(balance, rel=1e-9)
