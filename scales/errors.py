@@ -55,6 +55,33 @@ class Spoken(str):
         return str(self)
 
 
+class RowOf(Spoken):
+    """Where a row of a table stands: `class.csv: row 12`."""
+
+    __slots__ = ("file", "row")
+    file: str
+    row: int
+
+    def __new__(cls, file: str, row: int) -> RowOf:
+        """Return the place of a row, counted from 1, of a file as it is shown."""
+        place = super().__new__(cls, messages("en")["row-of"].format(file=file, row=row))
+        place.file, place.row = file, row
+        return place
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what makes it again in another process."""
+        return RowOf, (self.file, self.row)
+
+    def said(self, language: str) -> str:
+        """Return the words for it in `language`."""
+        return messages(language)["row-of"].format(file=self.file, row=self.row)
+
+
+def spoken(place: str, language: str) -> str:
+    """Return a place in the words of a language."""
+    return place.said(language) if isinstance(place, Spoken) else place
+
+
 def messages(language: str) -> dict[str, str]:
     """Return the templates of all messages in `language`, by key."""
     return packaged(__package__, "messages", language)

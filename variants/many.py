@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
@@ -20,19 +21,22 @@ from ..plans.linkages.chain import constructed
 from ..plans.linkages.solved import board_givens
 from ..plans.quantities import results, unit_of
 from ..plans.solved import Columned
-from ..scales.errors import InputError
+from ..scales.errors import InputError, Written
 from ..scales.names import all_known, names_of, unknown
 from ..scales.numbers import quote
 from ..scales.series import Series
-from ..scales.units import converted, parse, unit
+from ..scales.units import UnitName, converted, parse, unit
 from .case import Case, Request, Settings, Wanted
 from .kinds.linkage import Linkages
 from .reader import load_task
 from .tables import Arrays, html_table
-from .task import AnyTask, Given, LocatedError
+from .task import AnyTask, Given, LocatedError, Task
 
 Array = NDArray[Any]
 Many = str | float | ArrayLike | tuple[ArrayLike, str]  # "190 mm"; numbers in SI; numbers, and their unit
+
+
+USUAL = 2.0  # times more, or less, than the variants have, that is usual
 
 
 class Status(StrEnum):
@@ -159,6 +163,11 @@ def solve_many(
     InputError
         As for `solve`; also arrays that do not broadcast, values that are no numbers, a task that is no linkage.
 
+    Warns
+    -----
+    UserWarning
+        A number would be usual in the unit of the task, and is not in SI: 55 metres where variants have 55 mm.
+
     >>> from kulman import solve_many
     >>> states = solve_many("nau-slider-crank", "example", phi=([0, 45, 90], "deg"), names="V_B")
     >>> states["V_B"].round(3).tolist()
@@ -181,6 +190,8 @@ def solve_many(
         except InputError as error:
             raise LocatedError(name, error) from error
         first[name] = of.from_si(float(read[name].flat[0]))
+    for said in (said for name, array in read.items() for said in _of_another_unit(asked, name, array, givens[name])):
+        warnings.warn(str(said), stacklevel=2)
     case = Request(asked, variant, first, only, language="en" if lang is None else lang).case()
     if not isinstance(case.kind, Linkages):
         raise InputError("many-linkages", task=asked.id)
@@ -216,6 +227,22 @@ def _in_si(given: Given, value: Any) -> Array:
             place = ", ".join(map(str, np.unravel_index(worst, array.shape)))
             raise (LocatedError(f"[{place}]", error) if place else error) from refused
     return array
+
+
+def _of_another_unit(task: Task, name: str, array: Array, value: Any) -> Iterator[LocatedError]:
+    """Go through the number, if any, that is no usual one in SI, but would be in the unit of the task: l_OA = 55."""
+    given = task.givens[name]
+    found = (variant.values.get(name) for variant in task.variants.values())
+    sizes = [abs(size) for size in found if size and not isinstance(size, str)]
+    if given.unit is None or given.unit == given.unit.si or isinstance(value, (str, tuple, Series)) or not sizes:
+        return
+    least, most = min(sizes) / USUAL, max(sizes) * USUAL
+    worst = float(np.max(np.abs(array)))
+    if not least <= worst <= most and least <= converted(worst, given.unit, given.unit.si) <= most:
+        own, si = UnitName(given.unit.name), UnitName(given.unit.si.name)
+        example = f'{name}="{worst:g} {given.unit.name}"', f'{name}=(..., "{given.unit.name}")'
+        ways = tuple(map(Written, example))
+        yield LocatedError(name, InputError("many-unit", text=f"{worst:g}", unit=own, si=si, known=ways))
 
 
 def _solved(case: Case, read: Mapping[str, Array], shape: tuple[int, ...], wanted: tuple[str, ...]) -> ManyStates:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, SupportsFloat, TypeAlias
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
-from ..scales.errors import InputError, KulmanError
+from ..scales.errors import InputError, KulmanError, spoken
 from ..scales.givens import Bound, Described
 from ..scales.names import latin, unknown
 from ..scales.numbers import quote
@@ -47,7 +47,7 @@ class LocatedError(InputError):
 
     def text(self, language: str = "en") -> str:
         """Return the place and the message as one line in `language`."""
-        return f"{self.place}: {self.cause.text(language)}"
+        return f"{spoken(self.place, language)}: {self.cause.text(language)}"
 
 
 @dataclass(frozen=True, slots=True)

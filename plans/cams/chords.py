@@ -330,7 +330,8 @@ def _drawn_late(
         which = [i for i, own in enumerate(fastest) if own == line]
         paper = drawn_on(solved, divisions[which[0]], tuple(names))
         each = [diagram_givens(solved.motion, divisions[i], solved.layout.given) for i in which]
-        board = ArrayBoard(paper.givens | {name: np.array([one[name] for one in each]) for name in each[0]}, len(which))
+        stacked = {name: np.array([one[name] for one in each]) for name in each[0]}
+        board = ArrayBoard({**paper.givens, **stacked}, len(which))
         paper.program.run(board)
         for name in names:
             found[name][which] = board.values[name]

@@ -130,7 +130,7 @@ def test_what_cams_have_not_is_refused_in_one_line_and_nothing_is_written(
         assert (stopped.value.code, out, err.count("\n")) == (2, "", 1)
     with pytest.raises(InputError) as problem:
         swept().save(tmp_path / "a.csv", tmp_path / "a.svg")
-    assert problem.value.key == "cam-sweep-drawing"
+    assert problem.value.key == "sweep-drawing"
     assert [*tmp_path.iterdir()] == []
 
 

@@ -304,7 +304,7 @@ def test_a_row_that_crashes_is_named_and_the_others_are_done(
     done = batch(TASK, roster(tmp_path, 5), tmp_path / "out", kinds=["svg"], jobs=jobs, lang="en")
 
     assert len(done.problems) == 1
-    assert done.problems[0].startswith(f"{tmp_path / 'class.csv'}: 4: ")
+    assert done.problems[0].startswith(f"{tmp_path / 'class.csv'}: row 4: ")
     assert said in done.problems[0]
     assert sorted(name for name in files(tmp_path / "out") if name.endswith(".svg")) == [
         f"00{n}.svg" for n in (1, 2, 4, 5)

@@ -279,7 +279,7 @@ def test_what_a_pair_has_not_is_refused_before_anything_is_written(tmp_path: Pat
         assert refused.value.key == "kind-without"
     with pytest.raises(InputError) as refused:
         sweep(TASK).save(tmp_path / "a.csv", tmp_path / "b.svg")
-    assert refused.value.key == "gear-sweep-drawing"
+    assert refused.value.key == "sweep-drawing"
     assert not list(tmp_path.iterdir())
 
 

@@ -225,7 +225,7 @@ def test_a_sweep_of_a_hoist_has_no_drawing_no_points_and_no_ends(
 ) -> None:
     with pytest.raises(InputError) as refused:
         sweep(TASK, "V01").save(tmp_path / "forces.svg")
-    assert refused.value.key == "hoist-sweep-drawing"
+    assert refused.value.key == "sweep-drawing"
     assert not (tmp_path / "forces.svg").exists()
     for option in (["--points", "A"], ["--from", "1"], ["--to", "2"], ["--chords", "A"]):
         with pytest.raises(SystemExit) as stopped:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import sys
+import warnings
 from types import SimpleNamespace
 from typing import Any
 
@@ -137,6 +138,28 @@ def test_a_bad_value_of_an_array_is_named_with_its_index_and_unit(value: Any, sa
 def test_numbers_in_set_say_their_unit_where_others_are_in_si() -> None:
     with pytest.raises(KulmanError, match='phi: 75 is a number without its unit; write "75 deg"'):
         solve_many(TASK, set={"phi": 75})
+
+
+@pytest.mark.parametrize(
+    ("givens", "meant"),
+    [
+        pytest.param({"l_OA": 55}, "55 mm", id="a length"),
+        pytest.param({"l_OA": np.array([0.055, 55.0])}, "55 mm", id="one of several"),
+        pytest.param({"phi": np.arange(0, 360, 10)}, "350 deg", id="an angle"),
+        pytest.param({"n_1": 1400}, "1400 rpm", id="a speed"),
+        pytest.param({"l_OA": 0.055, "phi": np.linspace(0.0, 6.28, 9), "n_1": 146}, "", id="SI"),
+        pytest.param(
+            {"l_OA": "55 mm", "phi": ([0, 350], "deg"), "n_1": Series([146.0], "n_1", "rad/s")}, "", id="with units"
+        ),
+    ],
+)
+def test_a_number_that_is_usual_in_the_unit_of_the_task_alone_is_warned_of(givens: dict[str, Any], meant: str) -> None:
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        solve_many(TASK, "3", names="V_B", **givens)
+
+    assert len(said) == bool(meant)
+    assert all(f'"{meant}"' in str(one.message) for one in said)
 
 
 def test_many_states_show_their_ranges_in_a_notebook() -> None:

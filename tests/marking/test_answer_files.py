@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import pickle
 import re
 import subprocess
 import sys
@@ -23,8 +24,9 @@ from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, r
 from kulman.tests.support.hostile_workbooks import HOSTILE, SMALL, good, hostile, zipped
 from kulman.variants.marking.reading import read_answers
 from kulman.variants.spreadsheets.files import read_grid
-from kulman.variants.spreadsheets.grid import letters
+from kulman.variants.spreadsheets.grid import Grid, letters
 from kulman.variants.tables import csv_table, harmless, xlsx_bytes
+from kulman.variants.task import LocatedError
 
 QUICK = ("blanks of 22 MB", "member twice", "password", "packed by LZMA", "size that is too small")
 PACKAGE = "kulman.variants.marking"
@@ -425,3 +427,12 @@ def test_greek_letters_that_a_code_page_has_not_are_known_by_what_is_left(tmp_pa
 
     assert {*student.scales, *student.lines} == {"mu_V", "V_B", "omega_1", "omega_2", "epsilon_2"}
     assert (student.lines["omega_2"].sense, student.lines["epsilon_2"].value) == (1, -3940.0)
+
+
+@pytest.mark.parametrize(("language", "row"), [("en", "row 3"), ("uk", "рядок 3"), ("ru", "строка 3")])
+def test_the_place_of_a_row_says_that_it_is_one_in_another_process_too(language: str, row: str) -> None:
+    place = Grid("class.csv", ()).place(2)
+
+    error = pickle.loads(pickle.dumps(LocatedError(place, InputError("variant-twice"))))
+
+    assert error.text(language).startswith(f"class.csv: {row}: ")

@@ -24,7 +24,7 @@ from ...drawing.words import Words
 from ...drawing.writers import WRITERS, folder_for, page_files, save_all, slug, sweep_parts, write_whole
 from ...plans.quantities import measured
 from ...scales.choices import SHEETS
-from ...scales.errors import InputError, KulmanError, Written, system_language
+from ...scales.errors import InputError, KulmanError, Written, spoken, system_language
 from ...scales.kept import Kept
 from ...scales.names import all_known, by_name
 from ...scales.numbers import SHOWN, quote
@@ -223,7 +223,7 @@ class Making:
         try:
             return self._made(student)
         except KulmanError as error:
-            place = "" if error is entry.problem else f"{entry.place}: "
+            place = "" if error is entry.problem else f"{spoken(entry.place, self.spoken)}: "
             return Outcome(entry.variant, problem=f"{place}{error.text(self.spoken)}")
         except (KeyboardInterrupt, SystemExit):
             raise
@@ -231,7 +231,7 @@ class Making:
             source = traceback.extract_tb(error.__traceback__)[-1]
             name = quote(f"{type(error).__name__}: {error}".rstrip(": "), SHOWN)
             crash = InputError("student-crash", error=name, source=f"{Path(source.filename).name}:{source.lineno}")
-            return Outcome(entry.variant, problem=f"{entry.place}: {crash.text(self.spoken)}")
+            return Outcome(entry.variant, problem=f"{spoken(entry.place, self.spoken)}: {crash.text(self.spoken)}")
 
     def _made(self, student: Student) -> Outcome:
         who, work = student.entry.who, self._work(student)
@@ -313,7 +313,7 @@ def _kept(made: Outcome | None, student: Student, folder: Path, language: str) -
     """Write what has been made for a student, but for what is there already; nothing means that a process died."""
     if made is None:
         reason = InputError("process-died").text(language)
-        return Outcome(student.entry.variant, problem=f"{student.entry.place}: {reason}")
+        return Outcome(student.entry.variant, problem=f"{spoken(student.entry.place, language)}: {reason}")
     for name, data in made.files.items():
         put(folder / name, data)
     return replace(made, files={name: digest_of(data) for name, data in made.files.items()})

@@ -95,7 +95,8 @@ class ClassPage:
         keys = "about.student", "about.group", "about.variant", "class.mark", "class.first", "report.candidates"
         heads = "".join(f"<th>{escape(said[key])}</th>" for key in (*keys, "report.flags"))
         rows = list[str]()
-        for name, line, flags in zip(names_of(self.lines), self.lines, flags_of(self.lines, language), strict=True):
+        names = names_of(self.lines, language)
+        for name, line, flags in zip(names, self.lines, flags_of(self.lines, language), strict=True):
             about = escape(name), escape(line.who.group), escape(line.variant)
             if isinstance(line, Entry):
                 cells, kind = (*about, "–", escape(said["class.absent"]), "", ""), "absent"
@@ -121,7 +122,7 @@ class ClassPage:
 
     def _mistake(self, name: str, students: list[Result], at: int) -> str:
         """Return what was done, by how many and whom, and the plan of one of them over the right one."""
-        by = dict(zip(map(id, self.lines), names_of(self.lines), strict=True))
+        by = dict(zip(map(id, self.lines), names_of(self.lines, self.request.language), strict=True))
         names = ", ".join(escape(by[id(student)]) for student in students)
         text = f"<b>{scripts(mistake_texts(self.request.language)[name])}</b>"
         count = escape(self.said["class.of_students"].format(n=len(students)))
@@ -141,7 +142,7 @@ class ClassPage:
 
     def _pairs(self) -> str:
         """Return the pairs of students who have the same millimetres."""
-        said, names = self.said, names_of(self.lines)
+        said, names = self.said, names_of(self.lines, self.request.language)
         rows = [
             f"<tr><td>{escape(names[pair.first])}</td><td>{escape(names[pair.second])}</td>"
             f"<td>{len(pair.names)} / {pair.of}</td><td>{pair.near} / {pair.of}</td></tr>"

@@ -15,7 +15,7 @@ from ...plans.marking.verdicts import CLEAR, Marking, bounded, count_right, firs
 from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
 from ...scales.kept import Kept
-from ...scales.numbers import SHOWN, quote
+from ...scales.numbers import quote
 from ..case import Request, Settings
 from ..roster import Entry, Roster, variant_of_book
 from ..sheets import same_id, variant_of_id
@@ -176,7 +176,9 @@ def variant_of(terms: Terms, answers: Answers, entry: Entry | None) -> tuple[str
     """
     task, about, notes = terms.request.task, answers.about, list[KulmanError]()
     if terms.roster is not None and entry is None:
-        notes.append(InputError("marked-stranger", text=quote(answers.who.student or answers.source)))
+        notes.append(
+            InputError("marked-stranger", text=quote(answers.who.student) if answers.who.student else answers.source)
+        )
     other, said = about.get("task", ""), about.get("variant", "")
     if other and other != task.id:
         notes.append(InputError("marked-task", text=quote(other), task=quote(task.id)))
@@ -321,7 +323,7 @@ def _given(answers: Answers, key: Keyed, fits: Mapping[str, float]) -> tuple[lis
             mm = None if elsewhere or line.mm is None else line.mm / times
             given.append(replace(line, mm=mm, mu=mu if own is None or mu is None else mu * times))
         else:
-            notes.append(InputError("marked-undefined", place=quote(line.place, SHOWN), text=line.name))
+            notes.append(InputError("marked-undefined", place=line.place, text=line.name))
     return given, notes
 
 

@@ -295,7 +295,7 @@ class _Sheet:
         mm, decimals = drawn or (None, 0)
         reply = Reply(name, mm, None, value, angle, sense, plus, last, place, decimals, mu)
         if not reply.empty and name in self.lines:
-            again = InputError("answer-again", place=Written(self.lines[name].place))
+            again = InputError("answer-again", place=self.lines[name].place)
             self.refuse(_Cell(row, own, name), again)
         elif not reply.empty:
             self.lines[name] = reply

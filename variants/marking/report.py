@@ -18,6 +18,7 @@ from ...plans.marking.key import behind
 from ...plans.mistakes.explaining import ANGLED
 from ...plans.mistakes.rules import Broken
 from ...plans.names import role
+from ...scales.errors import spoken
 from ..drawings.files import SUFFIXES as DRAWINGS
 from ..roster import WHO
 from ..spreadsheets.grid import SUFFIXES as TABLES
@@ -99,7 +100,7 @@ class Report:
         told = {key: getattr(who, key) or getattr(answers.who, key) for key in WHO}
         told = {"task": solution.task.id, "variant": solution.variant, **told, "sheet": self.marked.keyed.sheet}
         yield from ((self.said[f"about.{key}"], value) for key, value in told.items() if value or key not in WHO)
-        yield self.said["report.source"], answers.source
+        yield self.said["report.source"], spoken(answers.source, self.language)
 
     def summary(self) -> Iterator[str]:
         """Go through mark, tolerance, verdicts by number, and the first wrong step."""

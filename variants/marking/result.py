@@ -14,7 +14,7 @@ from typing import Any, TypeAlias
 
 from ...plans.marking.answers import Verdict
 from ...plans.marking.key import Key
-from ...scales.errors import KulmanError
+from ...scales.errors import KulmanError, spoken
 from ..roster import WHO, Entry, Who
 from ..tables import Cell
 from .marked import Marked
@@ -266,13 +266,14 @@ def marked_of(lines: Lines) -> list[Result]:
     return [line for line in lines if isinstance(line, Result)]
 
 
-def names_of(lines: Lines) -> list[str]:
+def names_of(lines: Lines, language: str) -> list[str]:
     """Return what the students of a class are called: namesakes with the record book, or the variant, or the file."""
-    called = [line.who.student or (line.source if isinstance(line, Result) else line.place) for line in lines]
+    places = [spoken(line.source if isinstance(line, Result) else line.place, language) for line in lines]
+    called = [line.who.student or place for line, place in zip(lines, places, strict=True)]
     often, found = Counter(called), list[str]()
-    for name, line in zip(called, lines, strict=True):
+    for name, line, place in zip(called, lines, places, strict=True):
         twins = [one for one, other in zip(lines, called, strict=True) if other == name]
-        ways = (line.who.book, line.variant, line.source if isinstance(line, Result) else line.place)
+        ways = (line.who.book, line.variant, place)
         apart = zip(ways, ([one.who.book for one in twins], [one.variant for one in twins], [""]), strict=True)
         told = next(way for way, all_of in apart if way and (all_of == [""] or all_of.count(way) == 1))
         found.append(f"{name} ({told})" if often[name] > 1 else name)
@@ -281,7 +282,7 @@ def names_of(lines: Lines) -> list[str]:
 
 def flags_of(lines: Lines, language: str) -> list[list[str]]:
     """Return for each student what a teacher should check: too exact segments, and those shared with another one."""
-    said, names = texts(language), names_of(lines)
+    said, names = texts(language), names_of(lines, language)
     found = [line.flags(language) if isinstance(line, Result) else [] for line in lines]
     for pair in shared([line.segments if isinstance(line, Result) else {} for line in lines]):
         for one, other in ((pair.first, pair.second), (pair.second, pair.first)):
@@ -309,11 +310,27 @@ def class_rows(lines: Lines, language: str) -> Iterator[tuple[Cell, ...]]:
     for line, flags in zip(lines, flags_of(lines, language), strict=True):
         who = tuple(getattr(line.who, key) for key in WHO)
         if isinstance(line, Entry):
-            yield (*who, line.variant, None, *(None,) * (len(Verdict) + 4), said["class.absent"], line.place)
+            yield (
+                *who,
+                line.variant,
+                None,
+                *(None,) * (len(Verdict) + 4),
+                said["class.absent"],
+                spoken(line.place, language),
+            )
             continue
         counts = tuple(line.counts.get(str(verdict)) for verdict in Verdict)
         told = (line.first, "; ".join(line.explained(language)), "; ".join(flags), "; ".join(line.notes))
-        yield (*who, line.variant, line.sheet, line.mark, *counts, *told, line.source, ", ".join(line.reports))
+        yield (
+            *who,
+            line.variant,
+            line.sheet,
+            line.mark,
+            *counts,
+            *told,
+            spoken(line.source, language),
+            ", ".join(line.reports),
+        )
     counted = commonest(lines)
     if counted:
         yield ()
@@ -337,7 +354,7 @@ def moodle_rows(results: Sequence[Result], language: str) -> Iterator[tuple[Cell
 def class_lines(lines: Lines, language: str) -> Iterator[str]:
     """Go through what is printed of a class: a line per student, then the whole."""
     said, sign = texts(language), "." if language == "en" else ","
-    names, results = names_of(lines), marked_of(lines)
+    names, results = names_of(lines, language), marked_of(lines)
     width = max(map(len, names), default=0)
     for name, line, flags in zip(names, lines, flags_of(lines, language), strict=True):
         if isinstance(line, Entry):
@@ -348,7 +365,7 @@ def class_lines(lines: Lines, language: str) -> Iterator[str]:
         told = [line.first and said["class.feedback_first"].format(symbol=line.first)]
         told += [f"{said['verdict.missing']} {missing}"] if missing else []
         if line.mark is not None and notes:  # else they say why there is no mark
-            notes = (said["class.notes"].format(n=len(notes), file=line.source),)
+            notes = (said["class.notes"].format(n=len(notes), file=spoken(line.source, language)),)
         told += ["; ".join(line.explained(language)), *flags, *notes]
         yield f"{name:{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
     marks = [result.mark for result in results if result.mark is not None]

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import cache
 from typing import Any, TypeAlias
 
-from ...scales.errors import InputError, Written
+from ...scales.errors import InputError, RowOf, Written
 from ...scales.names import latin, seen
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import packaged
@@ -120,8 +120,9 @@ class Grid:
         return self.text(top, first) if column <= last else ""
 
     def place(self, row: int, column: int | None = None) -> str:
-        """Return the address of a cell as a spreadsheet shows it, or of a row: `answers.csv: D12`."""
-        return f"{_shown(self.file)}: {'' if column is None else letters(column)}{row + 1}"
+        """Return the address of a cell as a spreadsheet shows it, `answers.csv: D12`, or of a row."""
+        file = _shown(self.file)
+        return RowOf(file, row + 1) if column is None else Written(f"{file}: {letters(column)}{row + 1}")
 
 
 @cache
@@ -182,7 +183,7 @@ def too_many_texts(file: str) -> InputError:
 
 def too_long(file: str, row: int, column: int) -> InputError:
     """Return the error for a cell with a text that belongs in no table."""
-    return InputError("answers-long", place=Written(Grid(file, ()).place(row, column)), n=LONGEST)
+    return InputError("answers-long", place=Grid(file, ()).place(row, column), n=LONGEST)
 
 
 def tidy(text: str) -> str:

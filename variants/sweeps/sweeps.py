@@ -92,8 +92,7 @@ class CourseSweep(Swept):
 
             return [(path, outlined(outlines))]
         if path.suffix.lower() not in FILES:
-            key = f"{self.task.kind}-sweep-drawing"
-            raise InputError(key, task=quote(self.task.id), file=quote(path.name))
+            raise InputError("sweep-drawing", task=quote(self.task.id), file=quote(path.name))
         return Result._files(self, path, drawn)
 
     def __repr__(self) -> str:
