@@ -9,6 +9,7 @@ import gc
 import json
 import os
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -24,20 +25,22 @@ from ..case import Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
 from ..roster import Digits, Entry, Who, collated, read_roster, shared_by_mistake
+from ..sheets import sheet_id
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, table_bytes
 from ..task import Task
 from .class_page import PAGE, ClassPage
 from .keyed import asked_of, class_header, columns_of, form_rows, fullest, read_rubric, solved
 from .marked import Desk, Terms, variant_of
-from .reading import Answers, answers_of, read_all
-from .report import REPORTS, Report, report_bytes
+from .reading import Answers, answers_of, read_all, stem_of
+from .report import REPORTS, Report, report_files
 from .result import Result, class_rows, failed, moodle_rows, nothing, result_of
 from .wording import texts
 
 PathLike = str | os.PathLike[str]
 JOURNAL = ".kulman-check.jsonl"
 REPORTS_NOTED = ".kulman-reports.json"  # which reports of a folder are the program's own
+RETURNED = ".pdf"  # of sheets that were photographed, with verdicts over them
 COLLECTED = 200_000  # objects made anew after which garbage is looked for: 40 MB
 Item = tuple[int, Answers]
 
@@ -98,16 +101,28 @@ class Check(Terms):
         InputError
             Nothing can be read.
         """
-        return [self._named(one) for one in read_all(names, self.request.task.id, self.asked, warn)]
+        found = read_all(names, self.request.task.id, self.asked, warn)
+        often, sheets = Counter(one.source for one in found if one.photos), dict[str, list[Entry]]()
+        if self.roster is not None and max(often.values(), default=1) > 1:
+            for entry in self.roster.entries:
+                with suppress(KulmanError):  # whose data are none of the task: told where the student is marked
+                    variant = entry.variant_of(self.request.task, self.digits)
+                    sheets.setdefault(sheet_id(self.request.task, variant, entry.settings), []).append(entry)
+        return [self._named(one, sheets if often[one.source] > 1 else {}) for one in found]
 
-    def _named(self, answers: Answers) -> Answers:
-        """Return answers with whose drawing it is: the name of the file is that of a student, or of a record book."""
+    def _named(self, answers: Answers, sheets: Mapping[str, Sequence[Entry]]) -> Answers:
+        """Return answers with whose drawing it is: the name of the file is that of a student, or of a record book.
+
+        In a stack the id of the sheet tells, where one student alone has it.
+        """
         if self.roster is None or (answers.drawn is None and not answers.photos):
             return answers
+        same = sheets.get(answers.about.get("sheet", "").upper(), ())
         stem = Path(answers.source).stem
-        names = [" ".join(re.split(r"[\s_-]+", name)).strip() for name in (stem, re.sub(r"^[0-9]{3}-", "", stem))]
+        ways = stem, re.sub(r"^[0-9]{3}-", "", stem), stem_of(answers.source)
+        names = [" ".join(re.split(r"[\s_-]+", name)).strip() for name in ways]
         known = (self.roster.find(Who(**{key: name})) for name in names for key in ("student", "book", "number"))
-        entry = next(filter(None, known), None)
+        entry = same[0] if len(same) == 1 else next(filter(None, known), None)
         return replace(answers, who=Who(student=names[0]) if entry is None else entry.who)
 
     def absent(self, answers: Iterable[Answers]) -> list[Entry]:
@@ -156,7 +171,7 @@ class Check(Terms):
         """
         if not isinstance(answers, Answers):
             answers = answers_of(by_name("answers", answers), self.asked)
-        return _marked(Desk(self), answers)[0]
+        return reported(Desk(self), answers)[0]
 
     def mark_all(
         self,
@@ -170,7 +185,7 @@ class Check(Terms):
         Parameters
         ----------
         folder : str or PathLike, optional
-            Where reports on every student go, .html and .txt.
+            Where reports on every student go, .html and .txt; sheets that were photographed as .pdf, too.
         advance : callable, optional
             Told how many students more are done, and of how many.
         jobs : int, optional
@@ -185,7 +200,7 @@ class Check(Terms):
         return mark_class(Job(self, place), answers, advance or (lambda done, whole: None), jobs)
 
 
-def _marked(desk: Desk, answers: Answers) -> tuple[Report, Result]:
+def reported(desk: Desk, answers: Answers) -> tuple[Report, Result]:
     """Mark one student, and return what is said of it and what is kept."""
     terms, marked = desk.terms, desk.mark(answers)
     language = terms.request.language
@@ -337,15 +352,17 @@ def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
         entry = job.terms.roster.find(answers.who) if job.terms.roster else None
         return nothing(answers, entry, _variant(job.terms, answers), job.terms.request.language)
     try:
-        report, result = _marked(desk, answers)
+        report, result = reported(desk, answers)
     except KulmanError as error:
         return failed(answers, error, job.terms.request.language)
     if job.folder is None:
         return result
     stem = f"{number + 1:03d}-{slug(result.who.student or Path(answers.source).stem)}"
-    for kind in REPORTS:
-        write_whole(Path(job.folder) / f"{stem}{kind}", report_bytes(report, kind))
-    return replace(result, reports=tuple(f"{stem}{kind}" for kind in REPORTS))
+    kinds = (*REPORTS, RETURNED) if answers.photos else tuple(REPORTS)
+    for kind in kinds:
+        for path, data in report_files(report, Path(job.folder) / f"{stem}{kind}"):
+            write_whole(path, data)
+    return replace(result, reports=tuple(f"{stem}{kind}" for kind in kinds))
 
 
 def _tidy(folder: Path, names: set[str]) -> None:
@@ -356,7 +373,7 @@ def _tidy(folder: Path, names: set[str]) -> None:
     noted, before = folder / REPORTS_NOTED, dict[str, str]()
     with suppress(OSError, ValueError, TypeError):
         before = dict(json.loads(noted.read_text(encoding="utf-8")))
-    remove_stale(folder, before.items(), names, REPORTS)
+    remove_stale(folder, before.items(), names, (*REPORTS, RETURNED))
     with suppress(OSError):  # a folder that takes no note keeps its reports
         now = {name: digest_of((folder / name).read_bytes()) for name in sorted(names)}
         write_whole(noted, (json.dumps(now, indent=0) + "\n").encode("ascii"))

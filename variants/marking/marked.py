@@ -206,7 +206,7 @@ class Desk:
     def __init__(self, terms: Terms) -> None:
         self.terms = terms
         self._keys = Kept[Keyed](KEPT)
-        self._blanks = Kept[Any](BLANKS)
+        self._blanks, self._sheets = Kept[Any](BLANKS), Kept[Any](1)
 
     def keyed(self, variant: str, settings: Settings, own: bool = True) -> Keyed:
         """Return the key of a variant; the last few are kept.
@@ -217,6 +217,34 @@ class Desk:
         request = self.terms.request if own else replace(self.terms.request, format=None)
         name = (variant, request.format, *sorted(settings.items()))
         return self._keys.get(name, lambda: keyed(request, variant, settings, self.terms.rubric))
+
+    def photographed(self, answers: Answers, key: Keyed) -> tuple[Sheets, Seen]:
+        """Read the photographs of a student; the last ones are kept: what is asked of them, and marks, are of one.
+
+        Raises
+        ------
+        InputError
+            They cannot be read.
+        """
+        from ..photos.reading import photographed
+
+        found: tuple[Sheets, Seen] = self._sheets.get(
+            (answers.photos, key), lambda: photographed(answers.photos, self.terms.request, key, self._blanks)
+        )
+        return found
+
+    def of(self, answers: Answers) -> tuple[Entry | None, Keyed, list[KulmanError]]:
+        """Return a student's place in the roster and answer key, and what contradicts what the answers say of it.
+
+        Raises
+        ------
+        InputError, PositionError
+            The student's variant or data have no answer key.
+        """
+        entry = self.terms.roster.find(answers.who) if self.terms.roster else None
+        variant, notes = variant_of(self.terms, answers, entry)
+        key = self.keyed(variant, entry.settings if entry else {})
+        return entry, key, notes + _other_sheet(self.terms, answers.about.get("sheet", ""), key)
 
     def mark(self, answers: Answers) -> Marked:
         """Mark the answers of one student.
@@ -229,23 +257,21 @@ class Desk:
         if answers.unread is not None:
             raise answers.unread
         terms, rubric = self.terms, self.terms.rubric
-        entry = terms.roster.find(answers.who) if terms.roster else None
-        variant, notes = variant_of(terms, answers, entry)
-        settings = entry.settings if entry else {}
-        key = self.keyed(variant, settings)
-        notes += _other_sheet(terms, answers.about.get("sheet", ""), key)
+        entry, key, notes = self.of(answers)
+        variant, settings = key.solution.variant, entry.settings if entry else {}
         others = [other for other in terms.request.task.variants if other != variant][: KEPT - 1]
         on_drawing, sheets = None, None
         if answers.photos:
-            from ..photos.reading import directed, photographed
+            from ..photos.reading import directed
 
-            sheets, on_drawing = photographed(answers.photos, terms.request, key, self._blanks)
+            sheets, on_drawing = self.photographed(answers, key)
             notes += sheets.notes
-            on_drawing = _without_doubt(replace(answers, drawn=sheets.drawn), key, on_drawing, rubric)
+            on_drawing = surely(answers, key, sheets, on_drawing, rubric)
             answers, told = measured(replace(answers, drawn=sheets.drawn), key, on_drawing)
             # what was not read is looked at by eye, and costs nothing
             read = directed(answers.lines, key, rubric.tolerance.degrees)
-            answers = replace(answers, columns=tuple(n for n in answers.columns if n in read), lines=read)
+            kept = tuple(name for name in answers.columns if name in read or name in answers.told)
+            answers = replace(answers, columns=kept, lines=read)
             notes += told
         elif answers.drawn is not None:
             on_drawing = seen(answers.drawn, key, others, lambda other: self.keyed(other, settings, own=False))
@@ -282,8 +308,19 @@ class Desk:
         )
 
 
+def surely(answers: Answers, key: Keyed, sheets: Sheets, found: Seen, rubric: Rubric) -> Seen:
+    """Return what is sure of photographs: what was read, without vectors that are wrong by no more than reading misses.
+
+    What somebody has told is as it was told.
+    """
+    from ..photos.reading import settled
+
+    if found.recognised.vectors:
+        found = _without_doubt(replace(answers, drawn=sheets.drawn), key, found, rubric)
+    return settled(sheets, key, found, answers.told) if answers.told else found
+
+
 def _without_doubt(answers: Answers, key: Keyed, found: Seen, rubric: Rubric) -> Seen:
-    """Return what was read of photographs without vectors that are wrong by no more than reading may miss."""
     given, _ = _given(measured(answers, key, found)[0], key, {})
     marking = mark(key.key, [rubric.compared(answer, key.key.questions[answer.name]) for answer in given])
     read = found.recognised

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import glob
 import math
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -36,6 +37,7 @@ PARTS = (*NUMBERS, "direction")
 PRINTED = "printed"
 SUFFIXES = (*TABLES, *DRAWINGS, *PICTURES)  # of files with answers
 Columns = Mapping[str, tuple[int | None, str]]  # by what they hold: which they are, and the unit over them
+Ends = tuple[complex, complex]  # of a vector: tail and tip
 T = TypeVar("T")
 
 
@@ -55,7 +57,8 @@ class Answers:
     `problems` are cells that could not be read; what stands beside them is marked all the same. `columns` are the
     quantities that a class was asked, nothing for a form of one's own. `unread` is why a file could not be read, which
     is a student without a mark, not one who has handed in nothing. Of a drawing there are no lines until it is known
-    for which variant: what it holds is `drawn`; nor of `photos` of sheets that were drawn by hand.
+    for which variant: what it holds is `drawn`; nor of `photos` of sheets that were drawn by hand, of whose vectors
+    somebody may have `told` where they end, mm of their page, or that they are not there.
     """
 
     source: str
@@ -68,6 +71,7 @@ class Answers:
     unread: KulmanError | None = None
     drawn: Drawn | None = None
     photos: tuple[Photo, ...] = ()
+    told: Mapping[str, Ends | None] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         """Return where they come from, and how many there are."""
@@ -76,7 +80,7 @@ class Answers:
     @property
     def digest(self) -> str:
         """What tells these answers from any other: all that stands in them, every line and picture too."""
-        said = (self.source, self.who, dict(self.about), dict(self.lines), dict(self.scales), self.columns)
+        said = (self.source, self.who, *map(dict, (self.about, self.lines, self.scales, self.told)), self.columns)
         lines = () if self.drawn is None else (self.drawn.tails, self.drawn.tips, self.drawn.arrows)
         drawn = [one.tolist() for one in lines], self.drawn and self.drawn.letters
         pictures = [digest_of(photo.picture) for photo in self.photos]
@@ -511,7 +515,7 @@ def _of_students(found: Iterable[Answers]) -> Iterator[Answers]:
     """Go through answers, pages of one student that are on pictures with names alike but for a number together."""
     before: Answers | None = None
     for one in found:
-        if before is not None and before.photos and one.photos and _stem(before) == _stem(one):
+        if before is not None and before.photos and one.photos and stem_of(before.source) == stem_of(one.source):
             groups = together([*before.photos, *one.photos])
             if len(groups) == 1:
                 before = replace(before, photos=tuple(groups[0]), about={**one.about, **before.about})
@@ -523,9 +527,13 @@ def _of_students(found: Iterable[Answers]) -> Iterator[Answers]:
         yield before
 
 
-def _stem(of: Answers) -> str:
-    """Return the name of a file without the number of a page."""
-    return Path(of.source).stem.rstrip("0123456789()_- .")
+def stem_of(source: str) -> str:
+    """Return the name of a file without a number of three digits before it, and the number of a page behind it.
+
+    >>> stem_of("works/007-Koval_Olha-2.jpg")
+    'Koval_Olha'
+    """
+    return re.sub(r"^[0-9]{3}-", "", Path(source).stem).rstrip("0123456789()_- .")
 
 
 def _found_files(names: Iterable[str], task: str) -> list[str]:

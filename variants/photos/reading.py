@@ -9,7 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -23,7 +23,7 @@ from ...drawing.page import Page
 from ...drawing.shapes import Group, Shape, Vector
 from ...drawing.writers import page_files
 from ...plans.board import POSITION
-from ...plans.marking.drawn import Drawn, Found, Recognised
+from ...plans.marking.drawn import Drawn, Found, FoundPlan, Recognised
 from ...plans.marking.ways import Shape as Way
 from ...plans.marking.ways import edges_of, shape_of
 from ...plans.names import LEVER, role
@@ -32,7 +32,7 @@ from ...scales.kept import Kept
 from ...scales.numbers import SHOWN, quote
 from ..case import Case, Request
 from ..marking.keyed import Keyed
-from ..marking.reading import Reply
+from ..marking.reading import Ends, Reply
 from ..marking.seen import Seen
 from ..sheets import PAPER, drawing_for_print, scan_code, scannable_of_case
 from .free import laid_flat, plans_on, quarters_of, turned, ways_of
@@ -139,6 +139,7 @@ class Sheets:
     drawn: Drawn
     notes: tuple[KulmanError, ...]
     printed: float = 1.0  # how many times as large as they are printed lengths on the sheet are
+    believed: Mapping[str, Found] = field(default_factory=dict)  # vectors by name, also those that are not sure
 
 
 def _added(shape: Shape) -> bool:
@@ -216,7 +217,7 @@ def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: 
     if times != 1.0:
         sheets = shrunk(sheets, times)
         found = _recognised(sheets, keyed)
-    found = sure(sheets, keyed, found)
+    sheets, found = replace(sheets, believed=found.vectors), sure(sheets, keyed, found)
     mus = {plan: sheets.blank.mus[plan] for plan in found.plans}
     return sheets, Seen(found, mus, frozenset() if own else frozenset(mus))
 
@@ -368,6 +369,25 @@ def directed(lines: Mapping[str, Reply], keyed: Keyed, degrees: float) -> dict[s
                 line = replace(line, direction=None)
         found[name] = line
     return found
+
+
+def settled(sheets: Sheets, keyed: Keyed, found: Seen, told: Mapping[str, Ends | None]) -> Seen:
+    """Return what was recognised with the vectors that somebody has shown: where they end, mm of their page.
+
+    One that has no ends is not drawn.
+    """
+    plans, vectors, blank = dict(found.recognised.plans), dict(found.recognised.vectors), sheets.blank
+    for name, ends in told.items():
+        question, own = keyed.key.questions.get(name), vectors.pop(name, None)
+        plan = own.plan if own is not None else question.plan if question is not None else ""
+        if ends is not None and plan in blank.poles:
+            number, pole = blank.poles[plan]
+            tail, tip, at = (APART * number + place / sheets.printed for place in (*ends, pole))
+            plans[plan] = replace(plans.get(plan) or FoundPlan(blank.mus[plan], 0.0, at, 1.0), quality=1.0)
+            vectors[name] = Found(tail, tip, plan, 1.0)
+    missing = (name for name in (*found.recognised.missing, *told) if name not in vectors)
+    mus = {plan: blank.mus[plan] for plan in plans}
+    return Seen(Recognised(plans, vectors, tuple(dict.fromkeys(missing))), mus, frozenset(mus))
 
 
 def sure(sheets: Sheets, keyed: Keyed, found: Recognised) -> Recognised:

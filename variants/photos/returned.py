@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from base64 import b64encode
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +31,17 @@ def photo_files(marked: Marked, language: str, own: bool, path: Path) -> Iterato
     for number, page in enumerate(pages, start=1):
         name = path if len(pages) == 1 else path.with_name(f"{path.stem}-{number}{path.suffix}")
         yield name, _written(page, "PNG", dpi=(PER_MM * 25.4,) * 2)
+
+
+def stacked(files: Sequence[Path]) -> bytes:
+    """Return one PDF of all pages of several."""
+    import pypdfium2
+
+    whole, stream = pypdfium2.PdfDocument.new(), io.BytesIO()
+    for file in files:
+        whole.import_pages(pypdfium2.PdfDocument(file))
+    whole.save(stream)
+    return stream.getvalue()
 
 
 def pictures(marked: Marked, language: str, own: bool) -> Iterator[str]:

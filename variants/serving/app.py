@@ -35,9 +35,11 @@ from ..kinds import MODULES
 from ..sheets import BLOCK
 from ..shelf import bundled, summary
 from . import making, pages
+from .answering import Questions, marked_alone
+from .asking import Sitting
 from .desk import Desk, Served
 from .jobs import KEPT, BusyError, CrashError
-from .making import Asked, Job, Upload
+from .making import Asked, Handed, Job, Upload
 from .pages import Door, Place
 from .safety import STUDENT, Gate, Patient, doors_for, read_passwords
 
@@ -79,11 +81,12 @@ class _Answers:
 
     def __init__(self, desk: Desk) -> None:
         """Answer for a server."""
-        self.desk = desk
+        self.desk, self.questions = desk, Questions(desk)
 
     def routes(self) -> list[Route]:
         """Return which address is answered by what."""
         return [
+            *self.questions.routes(),
             Route("/", self.home_page),
             Route("/static/{name}", self.static),
             Route("/picture/{task}.svg", self.picture),
@@ -198,14 +201,15 @@ class _Answers:
         own = "own" in filled or not door.sees("answers")
         preset = filled.get("preset", "normal") if filled.get("preset") in HANDS else "normal"
         at = pages.settled(self.place(request), await self.shown(request))
-        drawing = form.file("drawing")
-        make, answers = (making.answered, cells) if drawing is None else (making.answered_by_drawing, drawing)
+        files, back = form.files.get("drawing", ()), door.link(f"{at.path}/check", at.query)
         try:
-            report = await self.desk.crew.do(make, of, answers, preset, own, like=(of.task, of.variant))
+            if files:
+                handed = Handed(of, tuple(files), {"preset": preset, "own": own}, alone=True)
+                return await marked_alone(self.desk, door, Sitting(secrets.token_hex(12), handed, back))
+            report = await self.desk.crew.do(making.answered, of, cells, preset, own, like=(of.task, of.variant))
         except KulmanError as error:
             return await self.form_page(request, filled, error.text(door.language))
-        name, back = secrets.token_hex(12), door.link(f"{at.path}/check", at.query)
-        report = pages.framed(report, back, f"← {door.said['form.again']}")
+        name, report = secrets.token_hex(12), pages.framed(report, (back, f"← {door.said['form.again']}"))
         self.desk.made.keep(name, Served("report.html", report.encode("utf-8", "replace")))
         return RedirectResponse(door.link(f"/result/{name}"), 303)
 
@@ -213,7 +217,7 @@ class _Answers:
         found = self.desk.made.get(request.path_params["name"])
         if not isinstance(found, Served):
             raise HTTPException(404)
-        return _file(found)
+        return _file(found, as_name="" if found.name.endswith(".html") else found.name)
 
     async def own_page(self, request: Request) -> Response:
         door, kind = self.desk.door(request), request.query_params.get("kind", "")
@@ -256,8 +260,9 @@ class _Answers:
             return HTMLResponse(pages.class_(door, self.listed(door), door.said["class.missing"]), 400)
         said = form.said(**dict.fromkeys(BLOCK))
         how: dict[str, Any] = {"kinds": kinds, "merge": "merge" in form.texts, **said}
-        how |= form.said(digits=None, format=SIZES)
-        job = self.desk.begin(door.said["class.title"], making.drawn_class, tasks, roster, how=how)
+        how |= {"scan": "scan" in form.texts and "handout" in kinds, **form.said(digits=None, format=SIZES)}
+        title = door.said["class.title"]
+        job = self.desk.begin(title, making.drawn_class, door.language, tasks, roster, how)
         return RedirectResponse(door.link(f"/job/{job.name}"), 303)
 
     async def marks_page(self, request: Request) -> Response:
@@ -271,11 +276,8 @@ class _Answers:
         if not tasks or not forms:
             return HTMLResponse(pages.marks(door, self.listed(door), door.said["marks.missing"]), 400)
         how = {"own": "own" in form.texts, **form.said(digits=None, preset=HANDS)}
-        rubric = form.file("rubric")
-        job = self.desk.begin(
-            door.said["marks.title"], making.marked_class, tasks[0], tuple(forms), roster, rubric, how=how
-        )
-        return RedirectResponse(door.link(f"/job/{job.name}"), 303)
+        handed = Handed(tasks[0], tuple(forms), how, roster, form.file("rubric"))
+        return self.questions.begun(door, Sitting("", handed, door.link("/marks")), told=False)
 
     def found_job(self, request: Request) -> Job:
         _teacher(self.desk.door(request))
@@ -285,7 +287,12 @@ class _Answers:
         return job
 
     async def job_page(self, request: Request) -> Response:
-        return HTMLResponse(pages.job(self.desk.door(request), self.found_job(request)))
+        door, job = self.desk.door(request), self.found_job(request)
+        sitting = self.desk.sittings.get(job.name)
+        if sitting is not None and job.outcome is not None and job.outcome.asking is not None:
+            sitting.asking = job.outcome.asking
+            return RedirectResponse(door.link(f"/asked/{job.name}"), 303)
+        return HTMLResponse(pages.job(door, job))
 
     async def job_state(self, request: Request) -> Response:
         job, door = self.found_job(request), self.desk.door(request)
@@ -294,7 +301,7 @@ class _Answers:
 
     async def job_archive(self, request: Request) -> Response:
         job = self.found_job(request)
-        if job.outcome is None:
+        if job.outcome is None or not job.outcome.archive:
             raise HTTPException(404)
         # the name is the job's, which is the server's own
         return FileResponse(
@@ -306,7 +313,7 @@ class _Answers:
         if job.outcome is None or not job.outcome.page:
             raise HTTPException(404)
         door = self.desk.door(request)
-        page = pages.framed(job.outcome.page.decode("utf-8"), door.link(f"/job/{job.name}"), f"← {job.title}")
+        page = pages.framed(job.outcome.page.decode("utf-8"), (door.link(f"/job/{job.name}"), f"← {job.title}"))
         return _file(Served("class.html", page.encode("utf-8")))
 
 

@@ -6,7 +6,6 @@ import asyncio
 import os
 import secrets
 import sys
-from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
 from typing import Any
@@ -15,6 +14,7 @@ from starlette.requests import Request
 
 from ...scales.errors import LANGUAGES, KulmanError
 from ...scales.packaged import packaged
+from .asking import Sitting, size_of
 from .jobs import KEPT, BusyError, CrashError, Crew, Home, Store
 from .making import KINDS, Job
 from .pages import Door
@@ -24,14 +24,15 @@ SECONDS, CLASS_SECONDS = 60.0, 3600.0  # that a job may take, and one for a clas
 WAITING, CLASSES_WAITING = 100, 4  # jobs that may wait
 ANSWERS, OWN_TASKS, DONE = 500, 100, 8  # results, task files, classes that are kept
 LARGEST = 200_000_000  # bytes of results kept
-EXTRAS = {".png": "pypdfium2", ".dxf": "ezdxf", ".docx": "docx", "note.pdf": "typst"}  # what kinds of files need
+# what kinds of files need, or files of a stem
+EXTRAS = {".png": "pypdfium2", ".dxf": "ezdxf", ".docx": "docx", "note.pdf": "typst", "scan": "zxingcpp"}
 
 
 def writable() -> dict[str, tuple[str, ...]]:
     """Return the kinds of files that can be written here, by stem: some need packages that may be missing."""
     there = {key: find_spec(package) is not None for key, package in EXTRAS.items()}
     return {
-        stem: tuple(kind for kind in kinds if there.get(kind, True) and there.get(f"{stem}{kind}", True))
+        stem: tuple(kind for kind in kinds if all(there.get(one, True) for one in (kind, stem, f"{stem}{kind}")))
         for stem, kinds in KINDS.items()
     }
 
@@ -57,6 +58,7 @@ class Desk:
         self.classes = Crew(1, CLASSES_WAITING, CLASS_SECONDS, self.home.path, "class")
         self.made = Store[Any](ANSWERS, LARGEST, _size, lambda gone: None)
         self.own = Store[bytes](OWN_TASKS, LARGEST // 10, len, lambda gone: None)
+        self.sittings = Store[Sitting](ANSWERS, LARGEST, size_of, lambda gone: None)
         self.jobs = Store[Job](DONE, 10**12, lambda job: 0, self._forget)
         self._making: dict[Any, asyncio.Task[Any]] = {}
         self._running = set[asyncio.Task[None]]()
@@ -92,17 +94,16 @@ class Desk:
             task.add_done_callback(lambda done: self._making.pop(key, None))
         return self.made.keep(key, await asyncio.shield(self._making[key]))
 
-    def begin(self, title: str, make: Any, *args: Any, how: Mapping[str, Any]) -> Job:
-        """Begin the work for a class."""
+    def begin(self, title: str, make: Any, language: str, *args: Any) -> Job:
+        """Begin the work for a class; what is to be told of it is in a language."""
         job = Job(secrets.token_hex(12), title)
         self.jobs.keep(job.name, job)
-        task = asyncio.create_task(self._class(job, make, (*args, how, f"{job.name}.zip", self.cores)))
+        task = asyncio.create_task(self._class(job, make, (*args, f"{job.name}.zip", self.cores), language))
         self._running.add(task)
         task.add_done_callback(self._running.discard)
         return job
 
-    async def _class(self, job: Job, make: Any, args: tuple[Any, ...]) -> None:
-        language = args[0][0].language if isinstance(args[0], tuple) else args[0].language
+    async def _class(self, job: Job, make: Any, args: tuple[Any, ...], language: str) -> None:
         words = packaged(__package__, "texts", language)
         try:
             job.outcome = await self.classes.do(make, *args, advance=job.advance)

@@ -23,18 +23,25 @@ from ...scales.kept import Kept
 from ...scales.numbers import SHOWN, quote
 from ..batches.batch import batch, write_roster
 from ..case import Kind, Request, kind_of
-from ..crew import Advance
+from ..crew import Advance, shared_out
 from ..drawings.files import SUFFIXES as DRAWINGS
+from ..kinds import MODULES
 from ..making.questions import bare_page
 from ..making.starter import start
-from ..marking.checks import Check, check, write_tables
+from ..marking.checks import RETURNED, Check, check, reported, write_tables
 from ..marking.class_page import PAGE
 from ..marking.keyed import COLUMNS
+from ..marking.marked import Desk, Terms
 from ..marking.reading import SUFFIXES as ANSWERS
-from ..marking.report import report_html
+from ..marking.reading import Answers
+from ..marking.report import PHOTOS, report_files, report_html
 from ..marking.result import class_lines
 from ..notes import Note, note
+from ..photos.asking import Asking, EndAsk, PageAsk, Told, ends_asked, gathered
+from ..photos.pictures import PICTURES
+from ..photos.returned import stacked
 from ..reader import check_file, load_task
+from ..roster import read_roster
 from ..sheets import BESIDE, BLOCK, Sheet, draw_case, handout, sheet
 from ..shelf import bundled
 from ..solution import Solution, solve
@@ -102,6 +109,7 @@ class Shown:
     own: tuple[tuple[str, str], ...]  # settings that are not the variant's
     fields: tuple[GivenField, ...]
     moves: bool
+    read: bool  # whether its plans are read from photographs
     pages: tuple[bytes, ...] = ()
     problem: KulmanError | None = None
     warnings: tuple[KulmanError, ...] = ()
@@ -157,9 +165,9 @@ def _sheet(asked: Asked) -> Sheet:
     return _SHEETS.get(asked, lambda: sheet(task, **request(asked, task, *HOW, *BLOCK)))
 
 
-def _handout(asked: Asked, key: bool = False) -> Sheet:
+def _handout(asked: Asked, **how: Any) -> Sheet:
     task = asked.load()
-    return handout(task, **request(asked, task, *HOW, *BLOCK), key=key)
+    return handout(task, **request(asked, task, *HOW, *BLOCK), **how)
 
 
 def _note(asked: Asked) -> Note:
@@ -199,6 +207,7 @@ SAVED: Mapping[str, Callable[[Asked], Any]] = {
     "sheet": _sheet,
     "moving": _sheet,
     "handout": _handout,
+    "scan": partial(_handout, scan=True),
     "key": partial(_handout, key=True),
     "note": _note,
     "results": _solution,
@@ -209,6 +218,7 @@ KINDS: Mapping[str, tuple[str, ...]] = {
     "sheet": DRAWN,
     "moving": BESIDE,
     "handout": DRAWN,
+    "scan": (".pdf", ".png", ".svg"),
     "key": DRAWN,
     "note": (".pdf", ".docx", ".md"),
     "results": (".xlsx", ".csv", ".json"),
@@ -252,7 +262,8 @@ def shown(advance: Advance, asked: Asked, answers: bool) -> Shown:
         for name, given in task.givens.items()
     )
     moves = type(kind_of(task.kind)).moving is not Kind.moving
-    about = Shown(task.id, task.title[language], task.note_in(language), (*task.variants,), variant, own, fields, moves)
+    read, told = MODULES[task.kind] == "linkage", (task.title[language], task.note_in(language))
+    about = Shown(task.id, *told, (*task.variants,), variant, own, fields, moves, read)
     try:
         drawn = _sheet(asked) if answers else _handout(asked)
     except KulmanError as error:
@@ -324,19 +335,73 @@ def answered(advance: Advance, asked: Asked, cells: Mapping[tuple[int, int], str
     return report_html(ready.mark(ready.read("answers.csv")[0]))
 
 
-def answered_by_drawing(advance: Advance, asked: Asked, drawing: Upload, preset: str, own: bool) -> str:
-    """Return the report on a drawing that has been handed in, as a page with the drawing in it."""
-    ready = _check(asked, preset=preset, own=own)
-    return report_html(ready.mark(ready.read(drawing.put("drawing", DRAWINGS))[0]))
+@dataclass(frozen=True, slots=True)
+class Handed:
+    """What has been handed in, as it came: by a student who is `alone`, or a class; `how` it is to be marked."""
+
+    asked: Asked
+    files: tuple[Upload, ...]
+    how: Mapping[str, Any]
+    roster: Upload | None = None
+    rubric: Upload | None = None
+    alone: bool = False
+
+    def read(self, told: Told) -> Read:
+        """Read it, in the folder of the process, with what has been answered to questions."""
+        asked, notes = self.asked, list[KulmanError]()
+        listed = None if self.roster is None else self.roster.put("roster", TABLES)
+        weights = None if self.rubric is None else self.rubric.put("rubric", (".toml",))
+        task = asked.load()
+        usual = request(asked, task, *LETTERS) if self.alone else {"variant": asked.variant or None}
+        ready = check(task, **{**usual, "lang": asked.language}, roster=listed, rubric=weights, **self.how)
+        Path("forms").mkdir()
+        known = (*DRAWINGS, *PICTURES) if self.alone else ANSWERS
+        names = [one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", known) for n, one in enumerate(self.files, 1)]
+        found, asks = gathered(ready.read(*names, warn=notes.append), ready.roster, told, self.alone)
+        return Read(ready, ready.ordered(found), asks, notes)
+
+
+@dataclass(frozen=True, slots=True)
+class Read:
+    """What has been handed in, read: whose it is as far as that is known, and what is asked of pages."""
+
+    ready: Check
+    found: Sequence[Answers]
+    asks: Sequence[PageAsk]
+    notes: Sequence[KulmanError]
+
+
+def answered_by_files(advance: Advance, handed: Handed, told: Told) -> tuple[str, Asking, tuple[bytes, ...]]:
+    """Return the report on drawings or photographs of a student, as a page with them in it; what is asked of them.
+
+    Photographs come back with verdicts over them, as PDF and PNG, several PNG in one archive.
+    """
+    read = handed.read(told)
+    if not read.found or read.found[0].unread:
+        raise (read.notes or [InputError("photo-no-markers", file=quote(handed.files[0].name, SHOWN))])[0]
+    answers, desk = read.found[0], Desk(read.ready)
+    ends, pictures = ends_asked(desk, answers) if answers.photos else ([], {})
+    report, returned = reported(desk, answers)[0], list[bytes]()
+    if answers.photos:
+        for kind in PHOTOS:
+            files = [*report_files(report, Path(f"marked{kind}"))]
+            for path, data in files:
+                path.write_bytes(data)
+            paths = [path for path, _ in files]
+            one = len(paths) == 1
+            returned.append(paths[0].read_bytes() if one else _zipped(paths, Path(f"marked{ZIP}")).read_bytes())
+    asking = Asking(tuple(read.asks), tuple(ends), pictures, tuple(read.notes))
+    return report_html(report), asking, tuple(returned)
 
 
 @dataclass(frozen=True, slots=True)
 class Done:
-    """What has come of a class: an archive among what is kept, a page about it, lines that tell of it."""
+    """What has come of a class: an archive among what is kept, a page about it, lines that tell of it; or questions."""
 
     archive: str
     lines: tuple[str, ...]
     page: bytes = b""
+    asking: Asking | None = None
 
 
 @dataclass(slots=True)
@@ -373,32 +438,63 @@ def drawn_class(
     return Done(archive, told)
 
 
-def marked_class(
-    advance: Advance,
-    asked: Asked,
-    forms: Sequence[Upload],
-    roster: Upload | None,
-    rubric: Upload | None,
-    how: Mapping[str, Any],
-    archive: str,
-    jobs: int,
-) -> Done:
-    """Mark what a class has handed in as `check` does: reports, the page about the class, tables of marks."""
-    language, out, told = asked.language, Path("marks"), list[str]()
-    listed = None if roster is None else roster.put("roster", TABLES)
-    weights = None if rubric is None else rubric.put("rubric", (".toml",))
-    ready = check(asked.load(), asked.variant or None, lang=language, roster=listed, rubric=weights, **how)
-    Path("forms").mkdir()
-    names = [one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", ANSWERS) for n, one in enumerate(forms, 1)]
-    told += [warning.text(language) for warning in ready.warnings]
-    found = ready.ordered(ready.read(*names, warn=lambda error: told.append(error.text(language))))
+@dataclass(frozen=True, slots=True)
+class _Asker:
+    """Who looks through the photographs of a class for what is not sure."""
+
+    terms: Terms
+
+    def begin(self) -> Callable[[Answers], tuple[list[EndAsk], dict[str, bytes]]]:
+        """Set up, and return what looks through those of a student."""
+        desk = Desk(self.terms)
+
+        def looked(answers: Answers) -> tuple[list[EndAsk], dict[str, bytes]]:
+            with suppress(KulmanError):  # told where the student is marked
+                return ends_asked(desk, answers)
+            return [], {}
+
+        return looked
+
+
+def _asked_of_class(read: Read, advance: Advance, jobs: int) -> Asking:
+    photographed = [one for one in read.found if one.photos]
+    ends, pictures = dict[int, list[EndAsk]](), dict[str, bytes]()
+    for done in shared_out(_Asker(read.ready).begin, photographed, jobs, lambda one: one.about.get("variant", "")):
+        for place, made in done:
+            if made is not None:
+                ends[place], pictures = made[0], pictures | made[1]
+    return Asking(tuple(read.asks), tuple(ask for place in sorted(ends) for ask in ends[place]), pictures)
+
+
+def marked_class(advance: Advance, handed: Handed, told: Told | None, archive: str, jobs: int) -> Done:
+    """Mark what a class has handed in as `check` does: reports, the page about the class, tables of marks.
+
+    Where nobody has been asked yet, nothing `told`, and something is not sure, that is what comes of it.
+    """
+    language, out = handed.asked.language, Path("marks")
+    read = handed.read(told or Told())
+    ready, found = read.ready, read.found
+    asking = Asking(tuple(read.asks)) if told is not None else _asked_of_class(read, advance, jobs)
+    if asking.pages or asking.ends:
+        return Done("", (), asking=asking)
+    lines = [warning.text(language) for warning in (*ready.warnings, *read.notes)]
     results = ready.mark_all(found, out, advance, jobs)
-    page, moodle = out / f"class{PAGE}", out / "moodle.csv"
+    page, moodle, name = out / f"class{PAGE}", out / "moodle.csv", f"sheets{RETURNED}"
     write_tables(ready, results, found, [page, out / "gradebook.xlsx"], moodle)
-    told += class_lines(ready.listed(found, results), language)
+    lines += class_lines(ready.listed(found, results), language)
+    returned = [out / report for one in results for report in one.reports if report.endswith(RETURNED)]
+    if returned:
+        (out / name).write_bytes(stacked(returned))
     files = sorted(out.glob("[!.]*"))
     _zipped(files, Path("..") / KEEP / archive, out)
-    return Done(archive, tuple(told), page.read_bytes())
+    return Done(archive, tuple(lines), page.read_bytes())
+
+
+def students(advance: Advance, handed: Handed) -> list[str]:
+    """Return the names of the students of a roster, in its order."""
+    assert handed.roster is not None
+    entries = read_roster(handed.roster.put("roster", TABLES), handed.asked.load()).entries
+    return [entry.who.student or entry.who.book or entry.who.number for entry in entries]
 
 
 def warmed(advance: Advance) -> None:

@@ -20,7 +20,8 @@ from .safety import ALLOWED, STUDENT
 TONGUES = {"uk": "Українська", "ru": "Русский", "en": "English"}
 ANSWERED = ("mm", "mu", "value", "direction")  # columns of a form that are filled in
 NORMS = ("gost", "iso")
-TABLES, DRAWINGS, TOML = ".csv,.xlsx", ".dxf,.svg,.pdf", ".toml"  # what files end in that are sent
+# what files end in that are sent
+TABLES, DRAWINGS, PHOTOS, TOML = ".csv,.xlsx", ".dxf,.svg,.pdf", ".jpg,.jpeg,.png", ".toml"
 # of files: what must be seen for them, else forms
 SEEN = {"sheet": "sheets", "moving": "sheets", "key": "answers", "note": "answers", "results": "answers"}
 VOID = {"img", "input", "link", "meta"}
@@ -81,8 +82,15 @@ class Door:
         return error.text(self.language)
 
 
-def page(door: Door, title: str, *inside: object, at: str = "/", query: Sequence[tuple[str, str]] = ()) -> str:
-    """Return a whole page; `at` and `query` are its own address."""
+def page(
+    door: Door,
+    title: str,
+    *inside: object,
+    at: str = "/",
+    query: Sequence[tuple[str, str]] = (),
+    heading: Html | None = None,
+) -> str:
+    """Return a whole page; `at` and `query` are its own address, `heading` its title where that has indices."""
     said = door.said
     places = [("/", "nav.tasks"), ("/own", "nav.own")]
     places += [("/class", "nav.class"), ("/marks", "nav.marks")] if door.role != STUDENT else []
@@ -113,7 +121,7 @@ def page(door: Door, title: str, *inside: object, at: str = "/", query: Sequence
             tag("nav", *nav, aria_label=said["nav"]),
             tag("nav", *tongues, aria_label=said["languages"], class_="tongues"),
         ),
-        tag("main", tag("h1", title), *inside, id="main"),
+        tag("main", tag("h1", heading or title), *inside, id="main"),
     )
     return f"<!doctype html>\n{tag('html', tag('head', *head), tag('body', *body), lang=door.language)}\n"
 
@@ -268,6 +276,7 @@ def _downloads(door: Door, place: Place, shown: Shown) -> Html:
     rows = list[Html]()
     for stem, kinds in door.kinds.items():
         hidden = (stem == "moving" and not shown.moves) or (stem == "roster" and door.role == STUDENT)
+        hidden |= stem == "scan" and not shown.read
         if hidden or not door.sees(SEEN.get(stem, "forms")):
             continue
         files = (
@@ -350,7 +359,8 @@ def form(
             **how,
         )
 
-    drawing = _file(door, "drawing", "form.drawing", DRAWINGS, required=True, hint="form.drawing_hint")
+    known = f"{DRAWINGS},{PHOTOS}"
+    drawing = _file(door, "drawing", "form.drawing", known, several=True, required=True, hint="form.drawing_hint")
     both = asked(tag("div", table, class_="scroll"), "preset"), asked(drawing, "hand", enctype="multipart/form-data")
     title = said["form.title"]
     back = tag("p", tag("a", f"← {shown_as}", href=door.link(place.path, place.query)))
@@ -436,7 +446,7 @@ def _hand(door: Door, now: str = "normal", place: str = "preset") -> Html:
     return field(door.said["form.preset"], chosen("preset", hands, now, id=place), place)
 
 
-def _of_class(door: Door, at: str, problem: str, button: str, *fields: Html) -> str:
+def _of_class(door: Door, at: str, problem: str, button: str, *fields: Html | None) -> str:
     """Return the page on which the sheets of a class or its marks are asked for: a form that is sent with files."""
     said = door.said
     digits = field(said["class.digits"], typed("digits"), "digits", said["class.digits_hint"])
@@ -467,6 +477,7 @@ def class_(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> s
         _file(door, "roster", "class.roster", TABLES, required=True, hint="class.columns"),
         tag("fieldset", tag("legend", said["class.kinds"]), *ticks, class_="ticks"),
         tag("p", _tick("merge", "1", said["class.merge"]), class_="tick"),
+        tag("p", _tick("scan", "1", said["class.scan"]), class_="tick") if "scan" in door.kinds else None,
         field(said["task.format"], chosen("format", sizes, ""), "format"),
         *(field(said[f"block.{name}"], typed(name), name) for name in BLOCK if name not in ("student", "group")),
     )
@@ -474,7 +485,7 @@ def class_(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> s
 
 def marks(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> str:
     """Return the page on which what a class has handed in is uploaded."""
-    said = door.said
+    said, known = door.said, f"{TABLES},{DRAWINGS},{PHOTOS}"
     return _of_class(
         door,
         "marks",
@@ -482,7 +493,7 @@ def marks(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> st
         "marks.mark",
         field(said["class.task"], chosen("tasks", [(id_, f"{title} ({id_})") for id_, title in tasks], ""), "tasks"),
         _file(door, "own_task", "class.own"),
-        _file(door, "forms", "marks.forms", f"{TABLES},{DRAWINGS}", several=True, required=True, hint="marks.several"),
+        _file(door, "forms", "marks.forms", known, several=True, required=True, hint="marks.several"),
         _file(door, "roster", "marks.roster", TABLES),
         _file(door, "rubric", "marks.rubric"),
         _hand(door),
@@ -516,7 +527,8 @@ def refusal(door: Door, title: str, text: str) -> str:
     )
 
 
-def framed(document: str, href: str, text: str) -> str:
-    """Return a page that is not the server's own, a report, as the main part of one with a link before it."""
-    back = tag("nav", tag("a", text, href=href), aria_label=text)
+def framed(document: str, *links: tuple[str, str]) -> str:
+    """Return a page that is not the server's own, a report, as the main part of one with links before it."""
+    words = (joined((tag("a", text, href=href), " · " * (n < len(links)))) for n, (href, text) in enumerate(links, 1))
+    back = tag("nav", *words, aria_label=links[0][1])
     return document.replace("<body>", f"<body>{back}<main>", 1).replace("</body>", "</main></body>", 1)

@@ -14,8 +14,15 @@ if (far) look();
 for (const form of document.forms) form.addEventListener("submit", event => {
   if (form.dataset.sent) return event.preventDefault();
   form.dataset.sent = "1";
-  form.querySelector("button.main").setAttribute("aria-busy", "true");
+  form.querySelector("button.main")?.setAttribute("aria-busy", "true");
 });
 addEventListener("pageshow", () => { for (const form of document.forms) delete form.dataset.sent; });
 // on a phone the heads of columns stand in their fields
 for (const input of document.querySelectorAll("[data-head]")) input.placeholder = matchMedia("(max-width: 40rem)").matches ? input.dataset.head : "";
+// an end of a vector may be anywhere on the picture of its plan; its points are links
+const plan = document.getElementById("plan");
+if (plan) plan.addEventListener("click", event => {
+  if (event.target.closest("a")) return;
+  const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(plan.getScreenCTM().inverse());
+  location.href = plan.dataset.free.replace("X%2CY", `${at.x.toFixed(2)},${at.y.toFixed(2)}`);
+});
