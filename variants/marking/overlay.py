@@ -14,7 +14,7 @@ from pathlib import Path
 
 from ...drawing.labels import place
 from ...drawing.page import Page, extent
-from ...drawing.shapes import Arrow, Group, Line, Pen, Shape, Text, shifted
+from ...drawing.shapes import Arrow, Circle, Group, Line, Pen, Shape, Text, shifted
 from ...drawing.spots import Obstacles, Request
 from ...drawing.text import Box as LetterBox
 from ...drawing.text import escape, lay_out
@@ -31,6 +31,7 @@ LARGEST = 4500.0  # mm of a page, or only what is around the vectors is shown
 AROUND = 40.0
 SMALL, PART = 3.5, 1.0 / 200.0  # mm of a letter at the least; its part of a page
 WIDE = 0.7  # of a letter's width, of its height
+SHOWN = 0.4  # letters: the radius of a circle at an end that somebody has shown
 SAMPLE, ROW = 16.0, 1.9  # of the legend: length of a line in mm, height of a row in letters
 MARKS = {Verdict.RIGHT: "✓", Verdict.CARRIED: "(✓)", Verdict.SMALL: "○"}
 
@@ -145,6 +146,8 @@ def over(marked: Marked, found: Sequence[Vector], height: float) -> Iterator[Sha
         colour, pen = (BLUE, Pen.MAIN) if line.verdict.passed else (RED, Pen.DASHED)
         if tail != tip:
             yield Arrow(tail, tip, pen, line.name, colour=colour)
+        if line.name in marked.answers.told:
+            yield from (Circle(end, SHOWN * height, Pen.MAIN, colour=colour) for end in (tail, tip))
         at = (placed.corners[str(number)] - complex(layout.left, layout.bottom)) * times
         yield Text(at, text, height, role="label", name=line.name, colour=colour)
         way = [point * times for point in placed.leaders.get(str(number), ())]
@@ -164,9 +167,13 @@ def legend(marked: Marked, language: str, own: bool, at: complex, height: float)
     rows = [(Pen.MAIN, BLUE, "drawing.right"), (Pen.DASHED, RED, "drawing.wrong")]
     rows += [] if own else [(Pen.AXIS, BLUE, "drawing.should")]
     rows.append((Pen.THIN, GREY, "drawing.own"))
+    sample = SAMPLE * height / SMALL
     for number, (pen, colour, key) in enumerate(rows, start=1):
         place = at - 1j * ROW * height * number
-        sample = SAMPLE * height / SMALL
         middle = place + 0.5j * height
         yield Line(middle, middle + sample, pen, colour=colour)
         yield Text(place + sample + height, escape(said[key]), height)
+    if marked.answers.told:
+        place = at - 1j * ROW * height * (len(rows) + 1)
+        yield Circle(place + 0.5 * (sample + 1j * height), SHOWN * height, Pen.MAIN, colour=BLUE)
+        yield Text(place + sample + height, escape(said["drawing.told"]), height)

@@ -193,11 +193,11 @@ def _page_body(door: Door, sitting: Sitting, ask: PageAsk, path: str, students: 
     out = button(OUT, said["ask.out"])
     if ask.kind == "which":
         shown = (
-            tag("figure", picture(n), tag("figcaption", button(one, said["ask.keep"], id=f"keep-{n}", class_="main"),
-                " ", sitting.shown(source)))
+            tag("figure", tag("figcaption", button(one, said["ask.keep"], id=f"keep-{n}", class_="main"),
+                " ", sitting.shown(source)), picture(n))
             for n, (one, source) in enumerate(zip(ask.pages, ask.sources, strict=True))
         )  # fmt: skip
-        parts = [tag("div", *shown, class_="pair"), tag("p", button(PASSED, said["ask.both"]))]
+        parts = [tag("p", button(PASSED, said["ask.both"])), tag("div", *shown, class_="pair")]
     else:
         named = [button(f"{ENTRY}{n}", name) for n, name in enumerate(students)]
         written = [labelled(said["ask.name"], typed("who"), "who"), tag("button", said["ask.take"], type="submit")]
