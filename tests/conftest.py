@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import os
+from typing import Any
 
 import pytest
 
@@ -29,3 +30,11 @@ def pytest_collection_finish() -> None:
     gc.collect()
     gc.freeze()
     gc.set_threshold(10_000, 10, 20)
+
+
+@pytest.fixture(scope="session")
+def stack(tmp_path_factory: pytest.TempPathFactory) -> Any:
+    """A small stack of photographed sheets, see `tests/photos/stacks.py`."""
+    from kulman.tests.photos.stacks import small_stack
+
+    return small_stack(tmp_path_factory.mktemp("stack"))

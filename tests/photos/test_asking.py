@@ -9,7 +9,7 @@ import pytest
 
 from kulman import check
 from kulman.plans.marking.answers import Verdict
-from kulman.tests.photos.stacks import TASK, Stack, small_stack
+from kulman.tests.photos.stacks import TASK, Stack
 from kulman.variants.marking.checks import Check, reported
 from kulman.variants.marking.marked import Desk
 from kulman.variants.marking.reading import Answers, stem_of
@@ -19,11 +19,6 @@ from kulman.variants.photos.pictures import Photo
 from kulman.variants.roster import Entry, Roster, Who
 
 Settled = list[tuple[Desk, Answers, list[EndAsk]]]
-
-
-@pytest.fixture(scope="module")
-def stack(tmp_path_factory: pytest.TempPathFactory) -> Stack:
-    return small_stack(tmp_path_factory.mktemp("stack"))
 
 
 @pytest.fixture(scope="module")

@@ -7,6 +7,7 @@ first. Where a vector ends is chosen by links, so that no script is needed; with
 from __future__ import annotations
 
 import cmath
+import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from html import escape
@@ -22,6 +23,7 @@ FEWEST = 55.0  # mm of a side that is shown
 POINT = 0.009  # part of the picture that a spot has
 HEAD, PART, WING = 4.0, 0.5, cmath.rect(1.0, 0.2)  # spots, or part of its vector, of an arrowhead; its half angle
 RING, REACH = 1.8, 2.2  # spots of the ring at a tail; that can be pressed
+_OURS = re.compile(r"forms/[0-9]{3}-[^/\s:;,]*")  # names of files in the folder of a process
 PASSED = "?"  # what is answered where nothing can be told
 Box = tuple[float, float, float, float]
 
@@ -94,10 +96,11 @@ class Sitting:
         number = source.rpartition("/")[2].partition("-")[0]
         return int(number) - 1 if number.isdecimal() and 0 < int(number) <= len(self.handed.files) else -1
 
-    def shown(self, source: str) -> str:
-        """Return what the file was called that has come."""
-        number = self.sent(source)
-        return self.handed.files[number].name if number >= 0 else source
+    def shown(self, text: str) -> str:
+        """Return a text with the names of files as they have come."""
+        return _OURS.sub(
+            lambda found: self.handed.files[number].name if (number := self.sent(found[0])) >= 0 else found[0], text
+        )
 
 
 def size_of(sitting: Sitting) -> int:
@@ -143,7 +146,7 @@ def overview(door: Door, sitting: Sitting) -> str:
         door,
         said["ask.title"],
         tag("p", tag("a", f"← {said['ask.back']}", href=sitting.back)),
-        *(note(door.told(problem), kind="problem") for problem in sitting.asking.notes),
+        *(note(sitting.shown(door.told(problem)), kind="problem") for problem in sitting.asking.notes),
         tag("p", said["ask.about"].format(n=len(left), of=len(sitting.asks))),
         tag("form", first, " ", done, method="post", action=door.link(path), class_="buttons"),
         tag("ul", *rows, class_="files"),
@@ -175,8 +178,7 @@ def question(door: Door, sitting: Sitting, number: int, students: Sequence[str],
 def _page_body(door: Door, sitting: Sitting, ask: PageAsk, path: str, students: Sequence[str]) -> Iterable[Html]:
     said = door.said
     if ask.reason is not None:
-        told = door.told(ask.reason).replace(ask.sources[0], sitting.shown(ask.sources[0]))
-        yield note(told, kind="problem")
+        yield note(sitting.shown(door.told(ask.reason)), kind="problem")
     yield tag("p", said[f"ask.{ask.kind}_about"])
 
     def button(value: str, text: str, **how: str) -> Html:

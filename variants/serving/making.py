@@ -383,7 +383,7 @@ def answered_by_files(advance: Advance, handed: Handed, told: Told) -> tuple[str
     ends, pictures = ends_asked(desk, answers) if answers.photos else ([], {})
     report, returned = reported(desk, answers)[0], list[bytes]()
     if answers.photos:
-        for kind in PHOTOS:
+        for kind in sorted(PHOTOS):
             files = [*report_files(report, Path(f"marked{kind}"))]
             for path, data in files:
                 path.write_bytes(data)

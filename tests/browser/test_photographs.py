@@ -1,0 +1,117 @@
+"""Photographs in a real browser with the keyboard alone: a teacher's small stack ends as typed forms do."""
+
+from __future__ import annotations
+
+import csv
+import io
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from kulman import check
+from kulman.tests.browser.test_serving import choose, fault_free, followed, reach, saved
+from kulman.tests.photos.stacks import TASK, Stack
+from kulman.tests.support.serving import served
+from kulman.variants.marking.checks import write_tables
+
+MINUTES = 8 * 60_000
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    with served() as (found, _):
+        yield found
+
+
+@pytest.fixture
+def page(browser: Any, address: str) -> Iterator[Any]:
+    wrong: list[str] = []
+    opened = browser.new_page(viewport={"width": 1280, "height": 900})
+    opened.on("console", lambda message: wrong.append(message.text))
+    opened.on("pageerror", lambda error: wrong.append(str(error)))
+    opened.goto(address)
+    yield opened
+    opened.close()
+    assert wrong == []
+
+
+def pressed(page: Any, times: int = 1) -> None:
+    """Press Enter on what has the focus, and wait for the page that follows."""
+    for _ in range(times):
+        with page.expect_navigation():
+            page.keyboard.press("Enter")
+        page.wait_for_load_state("networkidle")
+
+
+def answered(page: Any, stack: Stack) -> int:
+    """Answer the question that is shown, and return with how many keys that choose something."""
+    fault_free(page)
+    if page.locator("#keep-0").count():
+        followed(page, "#keep-0")
+        return 1
+    if page.locator("button[value^='#']").count():
+        unread = page.locator(".problem").count()
+        followed(page, "button[value='-']" if unread else "button[value='#1']")
+        return 1
+    symbol = page.locator("h1").inner_text()
+    if not page.locator("#yes").count():
+        raise AssertionError(f"nothing is believed of {symbol}")
+    reach(page, "svg a")
+    pressed(page)  # the nearest point: that of the end itself
+    assert page.evaluate("document.activeElement.id") == "yes"
+    pressed(page)
+    return 2
+
+
+def test_a_teacher_is_asked_and_marks_are_those_of_typed_forms(page: Any, stack: Stack, tmp_path: Path) -> None:
+    followed(page, "a[href$='/marks']")
+    choose(page, "#tasks", TASK)
+    reach(page, "#forms").set_input_files(stack.pictures)
+    reach(page, "#roster").set_input_files(stack.roster)
+    reach(page, "button.main")
+    page.keyboard.press("Enter")
+    page.locator("a[href*='/asked/']").first.wait_for(timeout=MINUTES)
+    fault_free(page)
+    asked = page.locator(".files li").count()
+    followed(page, "a.main")
+    for _ in range(asked):
+        assert answered(page, stack) <= 2
+        if page.locator("#done").count():
+            break
+
+    assert page.evaluate("document.activeElement.id") == "done"
+    pressed(page)
+    page.locator("a[href*='.zip']").wait_for(timeout=MINUTES)
+    with zipfile.ZipFile(io.BytesIO(saved(page, "a[href*='.zip']"))) as archive:
+        made = {name: archive.read(name) for name in archive.namelist()}
+    typed = check(TASK, roster=stack.roster, lang="uk")
+    answers = typed.ordered(typed.read(str(stack.typed)))
+    write_tables(typed, typed.mark_all(answers, jobs=1), answers, [], tmp_path / "moodle.csv")
+
+    rows, wanted = (
+        [(row["Full name"], row["Grade"]) for row in csv.DictReader(io.StringIO(data.decode("utf-8-sig")))]
+        for data in (made["moodle.csv"], (tmp_path / "moodle.csv").read_bytes())
+    )
+    assert rows == wanted
+    assert made["sheets.pdf"].startswith(b"%PDF")
+    assert sum(name.endswith(".pdf") for name in made) == len(wanted) + 1  # one of each, one of all
+
+
+def test_an_end_is_moved_by_a_click_on_the_picture(page: Any, stack: Stack) -> None:
+    page.goto(f"{page.url}task/{TASK}/check?v=3")
+    page.set_input_files("#drawing", stack.pictures[0])
+    page.locator("form[enctype] button.main").click(timeout=MINUTES)
+    page.locator("a[href*='/asked/']").click(timeout=MINUTES)
+    page.locator("a.main").click()
+    before = page.locator("[name='tip']").input_value()
+    box = page.locator("#plan").bounding_box()
+    with page.expect_navigation():
+        page.mouse.click(box["x"] + 0.6 * box["width"], box["y"] + 0.3 * box["height"])
+    assert page.locator("[name='tip']").input_value() != before
+    assert page.evaluate("document.activeElement.id") == "yes"
+    for width in (1280, 390):
+        page.set_viewport_size({"width": width, "height": 844})
+        fault_free(page)
