@@ -34,6 +34,7 @@ SURE = 0.6  # part of a plan that tells where its pole is
 LETTER = 4.0  # mm of a line that may be a vector
 LINE, SHORT = 8.0, 0.1  # mm of a line, part of the longest vector of a plan, that tell how the sheet is turned
 STEP, WIDTH = math.radians(0.2), 3  # between turns that are tried; steps within which a line has its direction
+LIKELY, NEAR = 0.9, math.radians(2.0)  # part of the best turn that another may have; between a turn and a better one
 LEVEL = math.radians(0.5)  # of a turn that does no harm
 QUARTER = math.pi / 2.0
 
@@ -116,7 +117,9 @@ def _askew(tails: Complex, tips: Complex, ways: Floats) -> float:
     for own, size in zip(places, np.abs(spans).tolist(), strict=True):
         near = np.unique((own[:, None] + np.arange(-WIDTH, WIDTH + 1)) % len(turns))
         bins[near] += size
-    best = bins >= bins.max() - 1e-9
+    likely = min(turns[bins >= LIKELY * bins.max()], key=abs)  # what is turned less, of what is as good
+    near = np.abs(turns - likely) <= NEAR
+    best = near & (bins >= bins[near].max())
     return float(min(turns[best], key=abs))
 
 
@@ -153,6 +156,6 @@ def _lines(sheets: Sequence[Free], apart: float) -> Iterator[tuple[float, Stroke
 
 
 def quarters_of(plans: Sequence[FoundPlan]) -> int:
-    """Return by how many quarters of a turn sheets must be turned for most plans to stand as they should."""
+    """Return by how many quarters of a turn a sheet must be turned for most of its plans to stand as they should."""
     turns = [round(plan.turn / QUARTER) % 4 for plan in plans]
     return -max(turns, key=turns.count) % 4 if turns else 0

@@ -227,9 +227,12 @@ def _own_sheets(photos: Sequence[Photo], keyed: Keyed) -> Sheets:
     ways = ways_of(keyed)
     sheets = [laid_flat(photo, ways) for photo in photos]
     plans = plans_on(sheets, keyed, APART)
-    quarters = quarters_of([*plans.values()])
-    if quarters:
-        sheets = [turned(sheet, quarters) for sheet in sheets]
+    quarters = [
+        quarters_of([plan for plan in plans.values() if math.floor(plan.pole.real / APART) == number])
+        for number in range(1, len(sheets) + 1)
+    ]
+    if any(quarters):
+        sheets = [turned(sheet, by) if by else sheet for sheet, by in zip(sheets, quarters, strict=True)]
         plans = plans_on(sheets, keyed, APART)
     on = {plan: math.floor(one.pole.real / APART) for plan, one in plans.items()}
     poles = {plan: (on[plan], one.pole - APART * on[plan]) for plan, one in plans.items()}

@@ -1,0 +1,131 @@
+"""Sheets of one's own with markers stuck on them, photographed: laid flat, plans found, nothing right is wrong."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from kulman import KulmanError
+from kulman.drawing.markers import EACH, FREE, STUCK, fields, stickers
+from kulman.drawing.writers import page_files
+from kulman.plans.marking.answers import Verdict
+from kulman.tests.photos.measure import chosen_ways
+from kulman.tests.photos.synthesiser import PHONE, PX, SCANNER, Random, Sheet, Truth, drawn, photographed, sheet_for
+from kulman.tests.support.cases import some
+from kulman.variants.marking.checks import check
+from kulman.variants.marking.marked import Marked
+from kulman.variants.photos.pictures import read_photos
+from kulman.variants.photos.straight import by_squares
+
+CLEAR = 24.0  # mm between the middle of a marker and a line
+
+
+def stuck_on(sheet: Sheet, number: int, lines: list[Truth], random: Random) -> np.ndarray:
+    """A white page with eight markers, near corners and the middles of sides, on no line, a little turned."""
+    height, width = sheet.printed[number].shape
+    page = np.full((height, width), 255, np.uint8)
+    wide, high = width / PX - STUCK - 6, height / PX - STUCK - 6
+    drawn_there = np.concatenate([one.tail + (one.tip - one.tail) * np.linspace(0, 1, 60) for one in lines])
+    corners = np.array([complex(x, y) for x in np.arange(6, wide, 5) for y in np.arange(6, high, 5)])
+    middles = corners + STUCK / 2 * (1 + 1j)
+    free = corners[np.abs(middles[:, None] - drawn_there[None, :]).min(axis=1) > CLEAR]
+    for own, part in enumerate((0, 1, 1 + 1j, 1j, 0.5, 0.5 + 1j, 0.5j, 1 + 0.5j)):
+        at = free[np.abs(free - complex(6 + part.real * wide, 6 + part.imag * high)).argmin()]
+        free = free[np.abs(free - at) > 1.5 * STUCK]
+        fine = np.kron(np.where(fields(EACH * (FREE - 1) + own), 0, 255).astype(np.uint8), np.ones((40, 40), np.uint8))
+        fine = cv2.copyMakeBorder(fine, 20, 20, 20, 20, cv2.BORDER_CONSTANT, value=255)
+        middle = len(fine) / 2 - 0.5
+        way = cv2.getRotationMatrix2D((middle, middle), random.normal(0, 4), STUCK * PX / 240)
+        place = at + STUCK / 2 * (1 + 1j)
+        way[:, 2] += place.real * PX - 0.5 - middle, height - place.imag * PX - 0.5 - middle
+        page = np.minimum(page, cv2.warpAffine(fine, way, (width, height), borderValue=255, flags=cv2.INTER_AREA))
+    return page
+
+
+def own_sheets(
+    task: str, quality: str, turn: int, folder: Path, seed: int
+) -> tuple[Sheet, list[Path], dict[str, Truth]]:
+    """Photograph the plans of an honest student on white paper, turned by quarters; return also what was drawn."""
+    sheet, files, truth = sheet_for(task), list[Path](), dict[str, Truth]()
+    sheet = replace(sheet, printed={})
+    for number in sorted({page for page, _ in sheet.poles.values()}):
+        page = sheet.pages[number]
+        sheet.printed[number] = np.full((round(page.height * PX), round(page.width * PX)), 255, np.uint8)
+        where = list(drawn(sheet, number, np.random.default_rng(seed), chosen_ways(sheet, -1))[1].values())
+        sheet.printed[number] = stuck_on(sheet, number, where, np.random.default_rng(seed))
+        random = np.random.default_rng(seed)
+        ink, own = drawn(sheet, number, random, chosen_ways(sheet, -1))
+        truth |= own
+        files.append(folder / f"own-{number}.jpg")
+        files[-1].write_bytes(photographed(np.rot90(ink, turn).copy(), random, quality))
+    return sheet, files, truth
+
+
+def marked_of(sheet: Sheet, files: list[Path]) -> Marked:
+    ready = check(sheet.case.task, sheet.case.variant, lang="en")
+    (answers,) = ready.read(*map(str, files[:1]))
+    photos = tuple(photo for file in files for photo in read_photos(file))
+    return ready.mark(replace(answers, photos=photos)).marked
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_sheet_is_laid_flat_by_squares_that_lie_anywhere(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    count, half = int(random.integers(5, 9)), 130.0
+    middles = random.uniform(-half, half, count) + 1j * random.uniform(-half, half, count)
+    square = STUCK / 2 * np.array([-1 + 1j, 1 + 1j, 1 - 1j, -1 - 1j])
+    corners = middles[:, None] + square * np.exp(1j * random.uniform(0, math.tau, count))[:, None]
+    tilt, lens = random.uniform(-0.25, 0.25, 2), random.uniform(-0.06, 0.03)
+
+    def seen(z: np.ndarray) -> np.ndarray:
+        w = np.conj(z) * 8.0 / (1.0 + (z.real * tilt[0] + z.imag * tilt[1]) / 450.0)
+        return w * (1.0 + lens * np.abs(w / 2000.0) ** 2) + 1500 + 1000j
+
+    way, laid = by_squares(dict(enumerate(map(tuple, seen(corners)))), STUCK, 1500 + 1000j)
+    assert way.error < 0.01
+    np.testing.assert_allclose(way.at(laid), seen(corners), atol=0.1)
+    true = np.abs(corners.ravel()[:, None] - corners.ravel()[None, :])
+    np.testing.assert_allclose(np.abs(laid.ravel()[:, None] - laid.ravel()[None, :]), true, atol=0.05)
+
+
+def test_markers_on_their_page_are_found_as_squares(tmp_path: Path) -> None:
+    import pypdfium2
+
+    ((_, data),) = page_files([stickers("uk")], Path("page.pdf"))
+    whole = pypdfium2.PdfDocument(data)[0].render(scale=300 / 72, grayscale=True).to_numpy()
+    column = whole.reshape(whole.shape[:2])[:, : round(29 * 300 / 25.4)]
+    file = tmp_path / "column.png"
+    file.write_bytes(cv2.imencode(".png", column)[1].tobytes())
+    (photo,) = read_photos(file)
+    assert photo.number == FREE
+    assert len(photo.markers) == EACH
+    way, laid = by_squares(photo.markers, STUCK, photo.centre)
+    assert way.error < 0.05
+    np.testing.assert_allclose(np.abs(np.diff(laid, axis=1)), STUCK, atol=0.05)
+
+
+@pytest.mark.parametrize(
+    ("task", "quality", "turn"),
+    some(
+        [
+            ("madi-four-bar", SCANNER, 0),
+            ("nau-slider-crank", PHONE, 1),
+            ("scheme-09-shaper", PHONE, 2),
+        ]
+    ),
+)
+def test_plans_on_a_sheet_of_ones_own_are_read(task: str, quality: str, turn: int, tmp_path: Path) -> None:
+    sheet, files, truth = own_sheets(task, quality, turn, tmp_path, 3)
+    marked = marked_of(sheet, files)
+    assert marked.seen is not None
+    read = marked.seen.recognised.vectors
+    long = [n for n, one in truth.items() if abs(one.tip - one.tail) >= 5 and n in sheet.keyed.key.questions]
+    assert len([name for name in long if name in read]) >= 0.6 * len(long)
+    for line in marked.lines:
+        assert line.verdict is not Verdict.WRONG, line.name
+    assert {note.key for note in marked.notes if isinstance(note, KulmanError)} >= {"photo-own"}
