@@ -28,8 +28,9 @@ def address() -> Iterator[str]:
 
 @pytest.fixture
 def page(browser: Any, address: str) -> Iterator[Any]:
-    wrong: list[str] = []
+    wrong = list[str]()
     opened = browser.new_page(viewport={"width": 1280, "height": 900})
+    opened.set_default_timeout(MINUTES)
     opened.on("console", lambda message: wrong.append(message.text))
     opened.on("pageerror", lambda error: wrong.append(str(error)))
     opened.goto(address)

@@ -9,6 +9,7 @@ import pytest
 
 from kulman import check
 from kulman.plans.marking.answers import Verdict
+from kulman.scales.errors import InputError
 from kulman.tests.photos.stacks import TASK, Stack
 from kulman.variants.marking.checks import Check, reported
 from kulman.variants.marking.marked import Desk
@@ -143,6 +144,22 @@ def test_a_student_who_is_chosen_later_gets_the_page_and_is_asked_which_one_coun
     assert [one.who.student for one in found] == ["Koval", "Koval"]
     done, none = gathered(files, roster, Told({**said.pages, page_of(named): OUT}, {}, frozenset(which.names)))
     assert ([one.photos for one in done], none) == ([(nameless,)], [])
+
+
+def test_a_picture_that_cannot_be_read_is_told_of_its_student(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kulman.variants.photos.asking._small", lambda photo: b"")
+    roster = Roster((Entry(Who(student="Koval"), "1", {}, "r:2"), Entry(Who(student="Bondar"), "2", {}, "r:3")))
+    broken = InputError("photo-few", file="002-img.jpg")
+    files = [
+        answers_of("001-koval.jpg", photo(2, b"1"), who="Koval"),
+        Answers("002-img.jpg", Who(), {}, {}, {}, unread=broken),
+    ]
+
+    beside, alone = (gathered(files, roster, Told({"002-img.jpg": said}))[0] for said in ("#0", "#1"))
+
+    assert [(one.who.student, one.problems, one.unread) for one in beside] == [("Koval", (broken,), None)]
+    assert [(one.who.student, one.unread) for one in alone] == [("Koval", None), ("Bondar", broken)]
+    assert len(gathered(files, roster, Told({"002-img.jpg": OUT}))[0]) == 1
 
 
 def test_in_a_stack_the_id_of_a_sheet_tells_the_student(ready: Check, read: list[Answers]) -> None:

@@ -66,7 +66,7 @@ class Answers:
     about: Mapping[str, str]
     lines: Mapping[str, Reply]
     scales: Mapping[str, Mu]
-    problems: tuple[LocatedError, ...] = ()
+    problems: tuple[KulmanError, ...] = ()
     columns: tuple[str, ...] = ()
     unread: KulmanError | None = None
     drawn: Drawn | None = None

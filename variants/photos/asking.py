@@ -128,7 +128,8 @@ def gathered(
             if not said and not alone:
                 asks.append(PageAsk("unread", (one.source,), (one.source,), reason=one.unread))
             if said != OUT and not alone:
-                answers.append(one if not said else replace(one, who=_who(said, roster)))
+                whose = replace(one, who=_who(said, roster)) if said else one
+                by_who.setdefault(_called(whose, roster) or said or one.source, []).append(whose)
             continue
         if not one.photos:
             answers.append(one)
@@ -141,13 +142,12 @@ def gathered(
         said = next((who for page in pages if (who := told.pages.get(page, OUT)) != OUT), "")
         if said:
             one = replace(one, who=_who(said, roster))
-        name = f"{stem_of(one.source)} {one.about.get('sheet', '')}" if often[one.source] == 1 else ""
-        if roster is not None and not alone:
-            entry = roster.find(one.who)
-            name = "" if entry is None else entry.place
+        name = _called(one, roster) or said
+        if roster is None and not said and often[one.source] == 1:
+            name = f"{stem_of(one.source)} {one.about.get('sheet', '')}"
         one = replace(one, photos=own)
-        if name or said or alone:
-            by_who.setdefault("" if alone else name or said, []).append(one)
+        if name or alone:
+            by_who.setdefault("" if alone else name, []).append(one)
         else:
             small = tuple(map(_small, own[:1]))
             asks.append(PageAsk("whose", (*pages,), (one.source,), own[0].number, pictures=small))
@@ -164,6 +164,12 @@ def page_of(photo: Photo) -> str:
     return digest_of(photo.picture)[:24]
 
 
+def _called(answers: Answers, roster: Roster | None) -> str:
+    """Return the place in the roster of a student, where there is one."""
+    entry = roster.find(answers.who) if roster is not None else None
+    return "" if entry is None else entry.place
+
+
 def _who(said: str, roster: Roster | None) -> Who:
     number = said.removeprefix(ENTRY)
     if said.startswith(ENTRY) and roster is not None and number.isdecimal() and int(number) < len(roster.entries):
@@ -173,8 +179,10 @@ def _who(said: str, roster: Roster | None) -> Who:
 
 def _together(several: Sequence[Answers]) -> tuple[list[Answers], list[PageAsk]]:
     """Return the answers of a student with all pages in one, or apart where one comes twice, and what is asked then."""
-    by_number, first = dict[int, list[tuple[Answers, Photo]]](), several[0]
-    for one in several:
+    by_number = dict[int, list[tuple[Answers, Photo]]]()
+    unread = [one.unread for one in several if one.unread is not None]
+    photographed = [replace(one, problems=(*one.problems, *unread)) for one in several if one.photos]
+    for one in photographed:
         for photo in one.photos:
             by_number.setdefault(photo.number, []).append((one, photo))
     again = {number: pages for number, pages in by_number.items() if len(pages) > 1}
@@ -185,13 +193,16 @@ def _together(several: Sequence[Answers]) -> tuple[list[Answers], list[PageAsk]]
                 tuple(page_of(photo) for _, photo in pages),
                 tuple(one.source for one, _ in pages),
                 number,
-                first.who.student,
+                pages[0][0].who.student,
                 pictures=tuple(_small(photo) for _, photo in pages),
             )
             for number, pages in again.items()
         ]
-        return [*several], asks
-    about = next((one.about for one in several if one.about), first.about)
+        return photographed, asks
+    if not photographed:
+        return [*several], []
+    first = photographed[0]
+    about = next((one.about for one in photographed if one.about), first.about)
     photos = tuple(photo for number in sorted(by_number) for _, photo in by_number[number])
     return [replace(first, photos=photos, about=about)], []
 

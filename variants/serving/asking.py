@@ -270,7 +270,7 @@ def _end_body(door: Door, sitting: Sitting, ask: EndAsk, path: str, chosen: Chos
     ring = tail is None and tip is not None
     yield tag("p", said[f"ask.how_{moved}"], " ", said["ask.ring"] if ring else "", id="how")
     other, key = ("tip", "ask.tip") if moved == "tail" else ("tail", "ask.tail")
-    views = tag("a", said["ask.near" if chosen.whole else "ask.whole"],
+    views = None if box == ask.box and not chosen.whole else tag("a", said["ask.near" if chosen.whole else "ask.whole"],
                 href=link("plan", whole="" if chosen.whole else "1"), class_="button")  # fmt: skip
     ways = tag("a", said[key], href=link("plan", move=other), class_="button") if yes is not None else None
     source = door.link(f"/asked/{sitting.name}/plan/{ask.picture}.png")
