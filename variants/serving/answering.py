@@ -155,9 +155,10 @@ class Questions:
         """Return a picture as it came: the browser tries to show what the program cannot read."""
         _, sitting = self.sitting(request)
         number, files = request.path_params["number"], sitting.handed.files
-        if number >= len(files) or Path(files[number].name).suffix.lower() not in PICTURES:
+        suffix = Path(files[number].name).suffix.lower() if number < len(files) else ""
+        if suffix not in PICTURES:
             raise HTTPException(404)
-        kind = "image/png" if files[number].name.lower().endswith(".png") else "image/jpeg"
+        kind = "image/png" if suffix == ".png" else "image/jpeg"
         return Response(files[number].data, media_type=kind, headers={"Content-Security-Policy": "sandbox"})
 
 

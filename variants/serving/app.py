@@ -217,7 +217,7 @@ class _Answers:
         found = self.desk.made.get(request.path_params["name"])
         if not isinstance(found, Served):
             raise HTTPException(404)
-        return _file(found, as_name="" if found.name.endswith(".html") else found.name)
+        return _file(found, as_name=found.name)
 
     async def own_page(self, request: Request) -> Response:
         door, kind = self.desk.door(request), request.query_params.get("kind", "")

@@ -11,9 +11,11 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from html import escape
+from pathlib import Path
 
 from ..marking.reading import Ends
 from ..photos.asking import ENTRY, OUT, Asking, EndAsk, PageAsk, Told
+from ..photos.pictures import PICTURES
 from .making import Handed
 from .pages import Door, Html, note, page, scripted, tag, typed
 from .pages import field as labelled
@@ -187,7 +189,7 @@ def _page_body(door: Door, sitting: Sitting, ask: PageAsk, path: str, students: 
     def picture(at: int) -> Html:
         number = sitting.sent(ask.sources[at])
         name = sitting.shown(ask.sources[at])
-        if not ask.pictures and not name.lower().endswith((".jpg", ".jpeg", ".png")):
+        if not ask.pictures and Path(name).suffix.lower() not in PICTURES:
             return tag("p", name)
         source = f"{path}/{at}.png" if ask.pictures else f"/asked/{sitting.name}/sent/{number}"
         return tag("img", src=door.link(source), alt=f"{said['ask.picture']}: {name}", class_="paper page")
