@@ -88,6 +88,7 @@ def test_a_teacher_is_asked_and_marks_are_those_of_typed_forms(page: Any, stack:
     page.locator("a[href*='.zip']").wait_for(timeout=MINUTES)
     with zipfile.ZipFile(io.BytesIO(saved(page, "a[href*='.zip']"))) as archive:
         made = {name: archive.read(name) for name in archive.namelist()}
+    assert page.locator("a.button[href*='/asked/']").count() == 1  # answers can be changed
     typed = check(TASK, roster=stack.roster, lang="uk")
     answers = typed.ordered(typed.read(str(stack.typed)))
     write_tables(typed, typed.mark_all(answers, jobs=1), answers, [], tmp_path / "moodle.csv")

@@ -292,7 +292,7 @@ class _Answers:
         if sitting is not None and job.outcome is not None and job.outcome.asking is not None:
             sitting.asking = job.outcome.asking
             return RedirectResponse(door.link(f"/asked/{job.name}"), 303)
-        return HTMLResponse(pages.job(door, job))
+        return HTMLResponse(pages.job(door, job, sitting is not None and bool(sitting.asks)))
 
     async def job_state(self, request: Request) -> Response:
         job, door = self.found_job(request), self.desk.door(request)

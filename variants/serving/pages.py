@@ -501,8 +501,8 @@ def marks(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> st
     )
 
 
-def job(door: Door, work: Job) -> str:
-    """Return the page of the work for a class: how far it is, or what has come of it."""
+def job(door: Door, work: Job, asked: bool = False) -> str:
+    """Return the page of the work for a class: how far it is, or what has come of it, and if it was `asked` about."""
     said, path = door.said, f"/job/{work.name}"
     if work.problem:
         body = [note(work.problem, kind="problem")]
@@ -516,6 +516,9 @@ def job(door: Door, work: Job) -> str:
                              download=True))]  # fmt: skip
         if work.outcome.page:
             body.append(tag("p", tag("a", said["job.page"], href=door.link(f"{path}/class.html"), class_="button")))
+        if asked:  # answers can be changed, and all be marked anew
+            again = tag("a", said["ask.all"], href=door.link(f"/asked/{work.name}"), class_="button")
+            body.append(tag("p", again))
         body.append(tag("ul", *(tag("li", line) for line in work.outcome.lines), class_="lines"))
     return page(door, work.title, *body, at=path)
 
