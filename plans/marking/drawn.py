@@ -303,12 +303,14 @@ class _Search:
 
     def _turns(self, right: Mapping[float, list[_Fit]]) -> list[float]:
         """Return how a sheet may be turned on which no plan is right: a plan that is all there may tell, if wrong."""
-        turns = sorted(TURNS, key=lambda turn: -sum(fit.worth for fit in right[turn]))
-        for plan in [plan for plan, shape in self.plans.items() if not shape.flat][:1]:
-            lines = {turn: max((f.lines for f in self._ways(plan, turn) if self._told(f)), default=0.0) for turn in turns}
-            if max(lines.values()) >= MANY_LINES:
-                return [turn for turn in turns if lines[turn] >= max(lines.values()) - UNTOLD]
-        return turns
+        turns = sorted(TURNS, key=lambda turn: -sum(fit.worth for fit in right[turn]))  # those after it take less long
+        plan = next((plan for plan, shape in self.plans.items() if not shape.flat), None)
+        if plan is None:
+            return [*TURNS]
+        whole = {turn: [fit.lines for fit in self._ways(plan, turn) if self._told(fit)] for turn in turns}
+        lines = {turn: max(found, default=0.0) for turn, found in whole.items()}
+        likely = max(lines.values()) - UNTOLD if max(lines.values()) >= MANY_LINES else 0.0
+        return [turn for turn in TURNS if lines[turn] >= likely]
 
     def _resized(self, right: list[_Fit]) -> None:
         """See whether several plans are drawn so many times as large as on the sheet: then all may be."""

@@ -306,9 +306,7 @@ def _crossings(starts: Complex, stops: Complex, nodes: Complex) -> Complex:
     return np.delete(places, np.unique(near))
 
 
-def _pairs(
-    runs: tuple[Complex, Complex, Floats], nodes: Complex, ends: int, drawn: Indices
-) -> tuple[Indices, Indices]:
+def _pairs(runs: tuple[Complex, Complex, Floats], nodes: Complex, ends: int, drawn: Indices) -> tuple[Indices, Indices]:
     """Return the indices of nodes that lines join, those of `drawn` segments among them; each pair in both orders.
 
     A segment ends at one of them at the least: of a vector something is drawn that begins or ends where it does.

@@ -182,14 +182,17 @@ def test_a_plan_that_is_missing_is_told_and_not_wrong(tmp_path: Path) -> None:
     assert any("Velocity plan" in note.text("en") and "V_B" in note.text("en") for note in found.notes)
 
 
-@pytest.mark.soak
-def test_a_drawing_of_another_variant_is_recognised(tmp_path: Path) -> None:
+def test_a_drawing_of_another_variant_is_recognised_and_measured_as_it_is_drawn(tmp_path: Path) -> None:
     ready, _ = asked("nau-slider-crank", variant="3")
     _, other = asked("nau-slider-crank", variant="7")
 
     found = marked(ready, handed_in(tmp_path, other, other.key.paper.program, other.key.values))
 
     assert found.fits == "7"
+    measured = {line.name: line.answer.mm for line in found.lines if line.answer is not None}
+    assert len(measured) >= 0.9 * len(found.lines) > 3
+    mus = {name: other.key.paper.mus[question.plan] for name, question in other.key.questions.items()}
+    assert measured == {name: pytest.approx(abs(other.key.values[name]) / mus[name], abs=0.1) for name in measured}
 
 
 def test_a_drawing_of_something_else_is_refused(tmp_path: Path) -> None:
