@@ -280,7 +280,7 @@ def test_a_point_between_lines_in_one_direction_is_where_its_arrowhead_is() -> N
     pencil = pencil_of([(pole, end)], [(pole, drawn_at), (drawn_at, end)])
     way = plan_of([0j, 31.5 + 0j, 70 + 0j], (0, 1), (1, 2))  # where they should be
 
-    points, errors, found = traced(pencil, way, pole + way.places, pole)
+    points, errors, found = traced(pencil, way, pole + way.places, pole + way.places, pole)
 
     assert {*found} == {0, 1}
     assert abs(points - [pole, drawn_at, end]).max() < 0.3
@@ -292,7 +292,7 @@ def test_a_point_that_nothing_tells_is_not_taken_from_where_it_should_be() -> No
     pencil = pencil_of([(pole, end)], [(pole, end)])
     way = plan_of([0j, 31.5 + 0j, 70 + 0j, 31.5 + 30j], (0, 1), (1, 2), (1, 3))
 
-    _, errors, found = traced(pencil, way, pole + way.places, pole)
+    _, errors, found = traced(pencil, way, pole + way.places, pole + way.places, pole)
 
     assert {*found} == {0, 1}  # a line that is not drawn is not found
     assert errors[1] > 5.0
@@ -304,7 +304,7 @@ def test_lines_are_read_as_they_are_drawn_not_as_they_should_be() -> None:
     pencil = pencil_of([(pole, a), (a, b), (pole, b)], [(pole, a)])
     way = plan_of([0j, 40 + 0j, 50 + 25j], (0, 1), (1, 2), (0, 2))
 
-    points, errors, _ = traced(pencil, way, pole + way.places, pole)
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
 
     assert abs(points - [pole, a, b]).max() < 0.15
     assert errors.max() < 0.3

@@ -134,9 +134,16 @@ def _traced(lines: Lines, fit: Fit, pole: complex, mu: float) -> Fit:
     way = fit.way
     wanted = pole + fit.times * way.places / mu
     near = (fit.errors < SURE) & (np.abs(fit.points - wanted) < OFF[0])
-    points, errors, found = traced(lines.pencil, way, np.where(near, fit.points, wanted), pole)
-    good = np.array([found[number].part if number in found else 0.0 for number in range(len(way.lines))])
-    return _fitted(way, mu, points, errors, fit.times, good)
+    best = fit
+    for begun in (wanted, np.where(near, fit.points, wanted)):
+        points, errors, found = traced(lines.pencil, way, wanted, begun, pole)
+        good = np.array([found[number].part if number in found else 0.0 for number in range(len(way.lines))])
+        own = _fitted(way, mu, points, errors, fit.times, good)
+        if best is fit or own.quality > best.quality:
+            best = own
+        if best.quality >= WHOLE:
+            break
+    return best
 
 
 def _fitted(way: Way, mu: float, points: Complex, errors: Floats, times: float, good: Floats) -> Fit:

@@ -26,18 +26,21 @@ ALONG, ACROSS = 0.25, 0.1  # mm between places along a line, and across it
 MOST = 160  # places along a line that is sought
 FAINT = 0.05  # darkness of a line at the least
 THERE = 0.75  # part of a line that must be dark
-STRAY = 0.02  # what a line loses that is as far aside as it may be
+STRAY = 0.15  # what a line loses that is as far aside as it may be
 FALL, ROUND = 0.5, 0.15  # part of its darkness at which a line ends; mm that ends are rounded
 REACH, CLEAR = 3.0, 1.2  # mm beside where a line should end, that it may; that must be clear beyond
 WINGS = tuple(math.radians(degrees) for degrees in (10.0, 13.0, 16.0, 20.0, 25.0))  # of arrowheads, half
 WING, APART = 3.2, 0.55  # mm of a wing at the most; mm from its line where it is told from that
 LEAN = math.sin(math.radians(5.0))  # of a wing against its line at the least
+ARROWED = 9.0  # mm of a vector whose arrowhead can be told from its line
 POINTED = 0.55  # part of how dark their line is that wings must be
 POLE, ENDING, POINTING = 0.15, 0.35, 0.3  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
 NEAR = 1.0  # mm that a point may be from where it should be, as far as nothing tells
 LIKELY = 2.5  # errors between a crossing and an end that is that of the point
 ALIKE = 0.8  # mm within which ends and arrowheads are those of one point
-FLAT = 0.6  # mm, error of a crossing that ends must tell
+FLAT, TOLD = 0.6, 1.5  # mm, error of a crossing that ends must tell; from which a single end does not
+TIE = 0.1, 0.35  # mm, error of a short vector; part of it
+FAR = 3.0  # mm from where it should be that no point is
 LOST = 99.0  # mm, error of a point of which nothing is known
 
 Complex = NDArray[np.complex128]
@@ -90,27 +93,21 @@ class Spot:
         return POINTING if self.arrow else ENDING
 
 
-def traced(pencil: Pencil, way: Way, points: Complex, pole: complex) -> tuple[Complex, Floats, dict[int, Traced]]:
-    """Return the points of a plan as they are drawn, near to `points`, their errors, and its lines that are there."""
-    tails, tips = way.tails[way.lines], way.tips[way.lines]
-    found: dict[int, Traced] = {}
-    errors = np.full(len(points), LOST)
+def traced(
+    pencil: Pencil, way: Way, wanted: Complex, points: Complex, pole: complex
+) -> tuple[Complex, Floats, dict[int, Traced]]:
+    """Return the points of a plan as they are drawn, their errors, and its lines that are there.
+
+    `wanted` is where they should be, `points` where they seem to be.
+    """
+    ends = way.tails[way.lines], way.tips[way.lines]
+    sizes = np.abs(wanted[ends[1]] - wanted[ends[0]])
+    errors, found = np.full(len(points), LOST), dict[int, Traced]()
     for aside, step in PASSES:
-        found = {}
-        for number, (tail, tip) in enumerate(zip(tails.tolist(), tips.tolist(), strict=True)):
-            line = _line(pencil, complex(points[tail]), complex(points[tip]), aside, step)
-            if line is not None:
-                found[number] = line
-        spots = _spots(pencil, way, points, found)
-        moved, errors = points.copy(), np.full(len(points), LOST)
-        for mark in range(len(points)):
-            own = [line for n, line in found.items() if mark in (tails[n], tips[n])]
-            if own:
-                own += [found[n] for n in np.flatnonzero(between(way, mark)).tolist() if n in found]
-                at_pole = pole if abs(way.places[mark]) <= 1e-9 * way.longest else None
-                moved[mark], errors[mark] = _point(complex(points[mark]), own, spots.get(mark, []), at_pole)
-        points = np.where(errors < LOST, moved, points)
-    return points, errors, found
+        lines = (_line(pencil, *points[[tail, tip]].tolist(), aside, step) for tail, tip in zip(*ends, strict=True))
+        found = {n: line for n, line in enumerate(lines) if line is not None and sizes[n] >= SHORTEST}
+        points, errors = _solved(way, wanted, points, found, _spots(pencil, way, points, found), pole)
+    return points, np.where(np.abs(points - wanted) > FAR, LOST, errors), found
 
 
 def between(way: Way, mark: int) -> NDArray[np.bool_]:
@@ -125,7 +122,7 @@ def between(way: Way, mark: int) -> NDArray[np.bool_]:
 def _line(pencil: Pencil, tail: complex, tip: complex, aside: float, step: float) -> Traced | None:
     """Return the line that is drawn near to a way, or None."""
     size = abs(tip - tail)
-    if size < SHORTEST:
+    if size < SHORTEST / 2:
         return None
     unit, trim = (tip - tail) / size, min(0.5, size / 8)
     count = int(np.clip(size / ALONG, 8, MOST))
@@ -133,7 +130,7 @@ def _line(pencil: Pencil, tail: complex, tip: complex, aside: float, step: float
     across = np.arange(-aside, aside + ACROSS / 2, ACROSS)
     strip, hidden = pencil.at(tail + along[:, None] * unit + 1j * unit * across[None, :])
     seen = ~hidden.all(axis=1)
-    if seen.sum() < max(4, 0.25 * count):
+    if seen.sum() < max(4, 0.25 * count) or hidden.all(axis=0).any():
         return None
     level = max(float(np.median(strip[seen].max(axis=1))), FAINT)
     strip = np.where(hidden, np.nan, np.minimum(strip / level, 1.0))
@@ -210,6 +207,8 @@ def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Itera
     unit = line.unit if dot(line.unit, tip - tail) > 0 else -line.unit
     foot = line.through + dot(line.unit, tip - line.through) * line.unit
     size = abs(tip - tail)
+    if size < ARROWED:
+        return
     at = np.arange(-min(REACH, size / 3), REACH, 1.0 / PER_MM)
     best, place, angle = 0.0, 0.0, 0.0
     for wing in WINGS:
@@ -221,7 +220,7 @@ def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Itera
         own = int(score.argmax())
         if score[own] > best:
             best, place, angle = float(score[own]), float(at[own]), wing
-    if best > POINTED:
+    if best > POINTED and at[0] < place < at[-1]:
         ends = [_wing(pencil, foot + place * unit, -unit * np.exp(1j * side), unit, size) for side in (angle, -angle)]
         if abs(ends[0] - ends[1]) < ALIKE:
             yield Spot(complex(foot + (place + sum(ends) / 2) * unit), unit, arrow=True)
@@ -243,29 +242,80 @@ def _wing(pencil: Pencil, apex: complex, leg: complex, unit: complex, size: floa
     return float(cross(through - apex, way)) / lean if abs(lean) > LEAN else LOST
 
 
-def _point(point: complex, lines: list[Traced], spots: list[Spot], pole: complex | None) -> tuple[complex, float]:
-    """Return where a point of a plan is, and its error: where lines cross, and with ends where that is flat."""
-    rows = [(1j * line.unit, line.through, LINE) for line in lines]
-    if pole is not None:
-        rows += [(1 + 0j, pole, POLE), (1j, pole, POLE)]
-    crossing, error = _solved(rows, point)
-    far = {spot: abs(dot(spot.unit, spot.place - crossing)) / math.hypot(error, spot.error) for spot in spots}
-    near = [spot for spot in spots if far[spot] < LIKELY]
-    if error > FLAT:  # an arrowhead tells, or several ends that are one
-        arrows = [spot for spot in near if spot.arrow]
-        least = arrows or near
-        apart = max((abs(dot(one.unit, one.place - other.place)) for one in least for other in least), default=LOST)
-        if apart > ALIKE or (len(near) < 2 and not arrows):
-            return crossing, error
-        near = [one for one in near if abs(dot(one.unit, one.place - least[0].place)) <= ALIKE]
-    return _solved([*rows, *((spot.unit, spot.place, spot.error) for spot in near)], point)
+def _solved(
+    way: Way,
+    wanted: Complex,
+    points: Complex,
+    found: dict[int, Traced],
+    spots: dict[int, list[Spot]],
+    pole: complex,
+) -> tuple[Complex, Floats]:
+    """Return where points of a plan are, and their errors: where lines cross, and with ends where that is flat.
+
+    Points that a short vector joins, which is not measured, are as far from one another as they should be, about.
+    """
+    rows = _Rows(points)
+    for mark in range(len(points)):
+        own = {n for n in found if mark in (way.tails[way.lines[n]], way.tips[way.lines[n]])}
+        if own:
+            for n in sorted(own | {n for n in np.flatnonzero(between(way, mark)).tolist() if n in found}):
+                rows.add(mark, 1j * found[n].unit, found[n].through, LINE)
+        if abs(way.places[mark]) <= 1e-9 * way.longest:
+            rows.add(mark, 1.0, pole, POLE)
+            rows.add(mark, 1j, pole, POLE)
+    for tail, tip in zip(way.tails[way.lines].tolist(), way.tips[way.lines].tolist(), strict=True):
+        span = complex(wanted[tip] - wanted[tail])
+        if abs(span) < SHORTEST:
+            for unit in (1.0, 1j):
+                rows.tie(tail, tip, unit, span, TIE[0] + TIE[1] * abs(span))
+    crossings, errors = rows.solved()
+    for mark, some in spots.items():
+        for spot in _telling(some, complex(crossings[mark]), float(errors[mark])):
+            rows.add(mark, spot.unit, spot.place, spot.error)
+    return rows.solved()
 
 
-def _solved(rows: list[tuple[complex, complex, float]], point: complex) -> tuple[complex, float]:
-    """Return the place that lies best in directions from places, each with its error, and its own error."""
-    normals = np.array([[way.real, way.imag] for way, *_ in rows]) / np.array([[error] for *_, error in rows])
-    right = np.array([float(dot(way, place - point)) / error for way, place, error in rows])
-    own = normals.T @ normals
-    x, y = np.linalg.solve(own + np.eye(2) / NEAR**2, normals.T @ right)
-    error = math.sqrt(float(np.trace(np.linalg.inv(own + np.eye(2) / LOST**2))))
-    return point + complex(x, y), error
+def _telling(spots: list[Spot], crossing: complex, error: float) -> list[Spot]:
+    """Return the ends and arrowheads that tell of a point: of a flat crossing an arrowhead, or ends that are one."""
+    near = [s for s in spots if abs(dot(s.unit, s.place - crossing)) < LIKELY * math.hypot(min(error, NEAR), s.error)]
+    if error <= FLAT:
+        return near
+    arrows = [spot for spot in near if spot.arrow]
+    least = arrows or near
+    apart = max((abs(dot(one.unit, one.place - other.place)) for one in least for other in least), default=LOST)
+    if apart > ALIKE or (len(near) < 2 and not arrows and error > TOLD):
+        return []
+    return [one for one in near if abs(dot(one.unit, one.place - least[0].place)) <= ALIKE]
+
+
+class _Rows:
+    """Equations of the points of a plan, each divided by its error."""
+
+    def __init__(self, points: Complex) -> None:
+        self.points = points
+        self.rows: list[Floats] = []
+        self.right: list[float] = []
+
+    def add(self, mark: int, unit: complex, place: complex, error: float) -> None:
+        """Say that a point lies at a place in a direction."""
+        row = np.zeros((len(self.points), 2))
+        row[mark] = unit.real / error, unit.imag / error
+        self.rows.append(row.ravel())
+        self.right.append(float(dot(unit, place - self.points[mark])) / error)
+
+    def tie(self, tail: int, tip: int, unit: complex, span: complex, error: float) -> None:
+        """Say how far one point is from another in a direction."""
+        row = np.zeros((len(self.points), 2))
+        row[tip] = unit.real / error, unit.imag / error
+        row[tail] = -row[tip]
+        self.rows.append(row.ravel())
+        self.right.append(float(dot(unit, span - self.points[tip] + self.points[tail])) / error)
+
+    def solved(self) -> tuple[Complex, Floats]:
+        """Return the points and their errors; what nothing tells stays where it is, and its error is large."""
+        rows = np.array(self.rows).reshape(len(self.rows), -1)
+        own, free = rows.T @ rows, np.eye(2 * len(self.points))
+        x = np.linalg.solve(own + free / NEAR**2, rows.T @ np.array(self.right)) if len(rows) else np.zeros(len(free))
+        spread = np.diag(np.linalg.inv(own + free / LOST**2)) if len(rows) else np.full(len(free), LOST**2)
+        moved = x.reshape(-1, 2)
+        return self.points + moved[:, 0] + 1j * moved[:, 1], np.sqrt(spread.reshape(-1, 2).sum(axis=1))
