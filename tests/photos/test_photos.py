@@ -183,6 +183,40 @@ def test_pictures_of_something_else_are_refused(tmp_path: Path, name: str) -> No
     assert "\n" not in refused.value.text("uk")
 
 
+def of_16_bits(page: Image.Image) -> Image.Image:
+    return Image.fromarray(np.asarray(page).astype(np.uint16) * 257)
+
+
+def of_transparent_paper(page: Image.Image) -> Image.Image:
+    ink = np.zeros((page.height, page.width, 4), np.uint8)
+    ink[..., 3] = 255 - np.asarray(page)
+    return Image.fromarray(ink)
+
+
+@pytest.mark.parametrize(
+    ("made", "suffix", "turn"),
+    [
+        pytest.param(of_16_bits, ".png", 1, id="16 bits"),
+        pytest.param(of_transparent_paper, ".png", 1, id="transparent paper"),
+        pytest.param(lambda page: page.convert("CMYK"), ".jpg", 1, id="four inks"),
+        pytest.param(lambda page: page.rotate(180), ".jpg", 3, id="turned as EXIF says"),
+    ],
+)
+def test_pictures_of_all_kinds_are_read(
+    made: Callable[[Image.Image], Image.Image], suffix: str, turn: int, tmp_path: Path
+) -> None:
+    page = Image.fromarray(printed(sheet_for(TASK, only=PLANS), 1)).reduce(3)
+    exif = Image.Exif()
+    exif[0x112] = turn
+    made(page).save(tmp_path / f"page{suffix}", exif=exif)
+
+    (photo,) = read_photos(tmp_path / f"page{suffix}")
+
+    assert photo.number == 2
+    top, bottom = (photo.markers[EACH + own][0].imag for own in (2, 0))
+    assert top < bottom
+
+
 def test_a_missing_package_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "zxingcpp", None)
 

@@ -132,12 +132,24 @@ def _of_picture(data: bytes) -> list[Found] | str:
                 return "photo-pixels"
             if min(picture.size) < LEAST:
                 return "photo-small"
-            grey = np.asarray(ImageOps.exif_transpose(picture.convert("L")))
+            grey = np.asarray(_grey(ImageOps.exif_transpose(picture)))
     except MemoryError:
         return "photo-late"
     except Exception:  # whatever a decoder does not like
         return "photo-broken"
     return _checked(list(_sheets(grey)))
+
+
+def _grey(picture: Any) -> Any:
+    """Return a picture in grey of 8 bits, on white paper where it is transparent."""
+    from PIL import Image
+
+    if picture.mode.startswith("I"):  # 16 bits, which Pillow would cut off
+        return picture.point(lambda light: light * (1.0 / 257.0)).convert("L")
+    if "A" in picture.getbands() or "transparency" in picture.info:
+        over = picture.convert("RGBA")
+        return Image.alpha_composite(Image.new("RGBA", over.size, "white"), over).convert("L")
+    return picture.convert("L")
 
 
 def _of_pdf(data: bytes) -> list[Found] | str:
