@@ -18,11 +18,12 @@ TOPICS = (
     "install",
     "own-mechanism",
     "task-file",
+    "subjects",
     "marking",
     "classes",
     "settings",
     "python",
-)  # in the order of reading
+)
 _LINK = re.compile(r"!?\[([^\]]+)\]\(([^)\s]+)\)")
 _COMMENT = re.compile(r"^<!--.*?-->\n", re.MULTILINE | re.DOTALL)
 
