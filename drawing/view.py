@@ -27,6 +27,7 @@ NUMERAL = 2.5  # mm that letters keep away from the numeral of a detail
 BROKEN = 0.5  # mm between a letter and a line broken at it
 STRUCK = 0.15  # mm between a letter and a thin line that seems to run through it
 UNBROKEN = ("leader", "shelf", "right-angle", "arrow")  # roles of thin lines that break off nowhere
+DOT = 1.2  # mm; what is left of a construction line beside a letter is no shorter
 # heights of its letters that a line of a heading has below it for scripts, and above for parentheses, for squares
 BELOW, PARENTHESES, SQUARES = 0.42, 1.17, 1.35
 
@@ -353,6 +354,8 @@ def left_of(shape: Shape, boxes: tuple[Box, ...]) -> list[Shape]:
     match shape:
         case Line(a=a, b=b, pen=pen, role=role) if pen is not Pen.MAIN and role not in UNBROKEN:
             sides = beside(a, b, boxes)
+            if role == "construction":  # its ends are free: a dot beside a letter would read as a prime
+                sides = [side for side in sides if abs(side[1] - side[0]) >= DOT] or sides
             return [replace(shape, a=start, b=end) for start, end in sides] if sides not in ([], [(a, b)]) else [shape]
         case Arc(pen=pen) if pen is not Pen.MAIN:
             return [*around(shape, boxes)] or [shape]

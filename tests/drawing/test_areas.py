@@ -9,6 +9,7 @@ import shapely
 
 from kulman.drawing.areas import beside, clipped, coarser, hatched, strokes, thinned
 from kulman.drawing.shapes import Group, Line, Pen, Polyline
+from kulman.drawing.view import left_of
 from kulman.tests.support.shapes import places, within
 
 STAR = [cmath.rect(40.0, 2.0 * cmath.pi * 2 * k / 5) + 3 - 7j for k in range(5)]  # crosses itself: a hole in the middle
@@ -78,6 +79,17 @@ def test_lines_are_clipped_and_broken_where_boxes_say() -> None:
         assert np.count_nonzero(shown == hidden) <= 2 * len(BOXES)
     assert (clipped(1j, 1j, BOXES[0]), clipped(9 + 0j, 9 + 0j, BOXES[0])) == ((1j, 1j), None)  # a place as a line
     assert beside(-9 + 2j, 9 + 2j, BOXES[:1]) == [(-9 + 2j, 9 + 2j)]  # along the side of a box
+
+
+@pytest.mark.parametrize("past", [0.4, 3.0])
+def test_no_dot_of_a_construction_line_is_left_beside_a_letter(past: float) -> None:
+    line = Line(0j, 14.0 + past + 0j, Pen.THIN, role="construction")
+    letter = (8.0, -2.0, 14.0, 2.0)
+
+    pieces = left_of(line, (letter,))
+
+    ends = [end for piece in pieces for end in (piece.a, piece.b)]
+    assert ends == pytest.approx([0j, 8.0 + 0j, 14.0 + 0j, 17.0 + 0j][: 4 if past > 1.0 else 2], abs=1e-6)
 
 
 @pytest.mark.parametrize("within", [0.02, 0.1, 1.0])
