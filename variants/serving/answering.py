@@ -24,7 +24,7 @@ async def marked_alone(desk: Desk, door: Door, sitting: Sitting) -> Response:
     """Mark what a student has handed in, with what has been answered, and lead to the report."""
     handed, asked = sitting.handed, sitting.handed.asked
     like = asked.task, asked.variant
-    report, asking, returned = await desk.crew.do(making.answered_by_files, handed, sitting.told, like=like)
+    report, asking, returned = await desk.photos.do(making.answered_by_files, handed, sitting.told, like=like)
     if not sitting.asks:  # later there is nothing new to ask
         sitting.asking = asking
     links = [(sitting.back, f"← {door.said['form.again']}")]

@@ -20,7 +20,7 @@ from .making import KINDS, Job
 from .pages import Door
 from .safety import Doors
 
-SECONDS, CLASS_SECONDS = 60.0, 3600.0  # that a job may take, and one for a class
+SECONDS, PHOTO_SECONDS, CLASS_SECONDS = 60.0, 300.0, 3600.0  # that a job may take, photographs, and one for a class
 WAITING, CLASSES_WAITING = 100, 4  # jobs that may wait
 ANSWERS, OWN_TASKS, DONE = 500, 100, 8  # results, task files, classes that are kept
 LARGEST = 200_000_000  # bytes of results kept
@@ -55,6 +55,7 @@ class Desk:
         self.kinds = writable()
         self.home = Home()
         self.crew = Crew(self.cores, WAITING, SECONDS, self.home.path, "seat")
+        self.photos = Crew(max(self.cores // 2, 1), WAITING, PHOTO_SECONDS, self.home.path, "photo")
         self.classes = Crew(1, CLASSES_WAITING, CLASS_SECONDS, self.home.path, "class")
         self.made = Store[Any](ANSWERS, LARGEST, _size, lambda gone: None)
         self.own = Store[bytes](OWN_TASKS, LARGEST // 10, len, lambda gone: None)
@@ -69,6 +70,7 @@ class Desk:
     def close(self) -> None:
         """End the processes and remove what they have written."""
         self.crew.stop()
+        self.photos.stop()
         self.classes.stop()
         self.home.remove()
 
