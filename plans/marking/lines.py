@@ -182,7 +182,7 @@ def lines_of(tails: Complex, tips: Complex) -> Lines:
 def _distinct(codes: Indices) -> Indices:
     """Return what whole numbers there are, ascending; of many that differ this is faster than NumPy's own."""
     codes = np.sort(codes)
-    return codes[np.append(True, codes[1:] != codes[:-1])[: len(codes)]]
+    return np.asarray(codes[np.append(True, codes[1:] != codes[:-1])[: len(codes)]])
 
 
 def _hubs(nodes: Complex) -> Indices:
