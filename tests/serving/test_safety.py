@@ -172,4 +172,4 @@ def test_a_busy_server_says_so(client: TestClient, monkeypatch: pytest.MonkeyPat
 
     assert answer.status_code == 503
     assert answer.headers["retry-after"] == "10"
-    assert "за кілька секунд" in answer.text
+    assert "через кілька секунд" in answer.text

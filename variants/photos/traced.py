@@ -104,7 +104,10 @@ def traced(
     sizes = np.abs(wanted[ends[1]] - wanted[ends[0]])
     errors, found = np.full(len(points), LOST), dict[int, Traced]()
     for aside, step in PASSES:
-        lines = (_line(pencil, *points[[tail, tip]].tolist(), aside, step) for tail, tip in zip(*ends, strict=True))
+        lines = [
+            _line(pencil, complex(points[tail]), complex(points[tip]), aside, step)
+            for tail, tip in zip(*ends, strict=True)
+        ]
         found = {n: line for n, line in enumerate(lines) if line is not None and sizes[n] >= SHORTEST}
         points, errors = _solved(way, wanted, points, found, _spots(pencil, way, points, found), pole)
     return points, np.where(np.abs(points - wanted) > FAR, LOST, errors), found
@@ -188,11 +191,11 @@ def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterato
     along = np.arange(-inside, REACH + CLEAR, 1.0 / PER_MM)
     across = np.arange(-0.2, 0.21, 0.1)
     strip, hidden = pencil.at(foot + along[:, None] * unit + 1j * unit * across[None, :])
-    hid, dark = hidden.any(axis=1), strip.mean(axis=1)
+    hid, dark = np.asarray(hidden.any(axis=1)), np.asarray(strip.mean(axis=1))
     before = ~hid & (along < 0.0)
     if not before.any():
         return
-    on: NDArray[np.bool_] = np.asarray((dark > max(FAINT / 2, FALL * float(np.median(dark[before])))) & ~hid)
+    on = np.asarray((dark > max(FAINT / 2, FALL * float(np.median(dark[before])))) & ~hid)
     clear = round(CLEAR * PER_MM)
     for at in np.flatnonzero(on).tolist():
         beyond = slice(at + 1, at + 1 + clear)
