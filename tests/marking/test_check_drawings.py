@@ -182,6 +182,21 @@ def test_a_plan_that_is_missing_is_told_and_not_wrong(tmp_path: Path) -> None:
     assert any("Velocity plan" in note.text("en") and "V_B" in note.text("en") for note in found.notes)
 
 
+def test_a_vector_too_short_to_be_seen_costs_nothing(tmp_path: Path) -> None:
+    ready, key = asked("scheme-13-toggle-press", variant="3")
+    file = handed_in(tmp_path, key, key.key.paper.program, key.key.values)
+    result = marked(ready, file)
+    tiny = {
+        n for n, q in key.key.questions.items() if q.vector and 0 < abs(key.key[n]) < 2.0 * key.key.paper.mus[q.plan]
+    }
+    assert {"F_i2", "G_2", "R_12_t"} <= tiny
+    assert Verdict.MISSING not in {verdict for name, verdict in verdicts(result).items() if name in tiny}
+    assert result.mark == pytest.approx(100.0)
+    (note,) = {str(note) for note in result.notes if note.key == "drawing-tiny" and "F_i2" in str(note)}
+    assert "R^t_12" in note
+    assert "G_2" in note
+
+
 def test_a_drawing_of_another_variant_is_recognised_and_measured_as_it_is_drawn(tmp_path: Path) -> None:
     ready, _ = asked("nau-slider-crank", variant="3")
     _, other = asked("nau-slider-crank", variant="7")

@@ -29,6 +29,7 @@ MUCH = 0.8  # part of the vectors of a variant that a drawing of it has
 LIKELY = 3  # other variants that are looked at closely
 QUARTER = math.pi / 2.0
 DIGITS = 3
+TINY = 2.0  # mm of a vector: of shorter ones none can be asked for
 _MU = re.compile(r"(?:[μµ]|\bmu)\s*_?\s*\{?\s*([^\W_][\w. ]{0,12}?)\s*\}?\s*[=:]\s*(.{1,60})")
 _BARE = re.compile(r"[0-9]+(?:[.,][0-9]+)?(?![0-9.,]|\s*[·*/:])")
 
@@ -186,9 +187,23 @@ def measured(answers: Answers, key: Keyed, found: Seen) -> tuple[Answers, list[K
     asked = {question.name for part in key.parts for question in part.asked}
     columns = tuple(name for name in lines if name in asked)
     # a force that is another one turned round has no line of its own
-    columns += tuple(n for n in recognised.missing if n in asked and key.key.questions[n].step.law != "opposite")
-    notes: list[KulmanError] = [] if found.fits else [*_scales(key, found), *_missing(key, found, columns)]
+    gone = [n for n in recognised.missing if n in asked and key.key.questions[n].step.law != "opposite"]
+    tiny = [name for name in gone if _tiny(key, found, name)]
+    columns += tuple(name for name in gone if name not in tiny)
+    notes: list[KulmanError] = []
+    if not found.fits:
+        notes += [
+            *_scales(key, found),
+            *_missing(key, found, columns),
+            *_told_of(key, tiny, lambda plan: "drawing-tiny"),
+        ]
     return replace(answers, lines=lines, columns=columns), notes
+
+
+def _tiny(key: Keyed, found: Seen, name: str) -> bool:
+    """Whether a vector, at the scale factor of its plan, is too short to be seen."""
+    plan = key.key.questions[name].plan
+    return plan in found.mus and abs(key.key[name]) < TINY * found.mus[plan]
 
 
 def heading(key: Keyed, plan: str) -> str:
@@ -211,10 +226,14 @@ def _scales(key: Keyed, found: Seen) -> Iterator[InputError]:
 
 def _missing(key: Keyed, found: Seen, columns: Iterable[str]) -> Iterator[InputError]:
     """Go through what was not found, plan by plan."""
+    plans, missing = found.recognised.plans, (name for name in columns if name in found.recognised.missing)
+    yield from _told_of(key, missing, lambda plan: "drawing-missing" if plan in plans else "drawing-no-plan")
+
+
+def _told_of(key: Keyed, names: Iterable[str], said: Callable[[str], str]) -> Iterator[InputError]:
+    """Go through plans with what is `said` of these vectors of theirs: the key of a message."""
     by_plan: dict[str, list[str]] = {}
-    for name in columns:
-        if name in found.recognised.missing:
-            by_plan.setdefault(key.key.questions[name].plan, []).append(key.symbol(name))
-    for plan, names in by_plan.items():
-        where = "drawing-missing" if plan in found.recognised.plans else "drawing-no-plan"
-        yield InputError(where, plan=Written(heading(key, plan)), names=Written(", ".join(names)))
+    for name in names:
+        by_plan.setdefault(key.key.questions[name].plan, []).append(key.symbol(name))
+    for plan, symbols in by_plan.items():
+        yield InputError(said(plan), plan=Written(heading(key, plan)), names=Written(", ".join(symbols)))
