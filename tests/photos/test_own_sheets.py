@@ -18,9 +18,12 @@ from kulman.tests.photos.measure import chosen_ways
 from kulman.tests.photos.synthesiser import PHONE, PX, SCANNER, Random, Sheet, Truth, drawn, photographed, sheet_for
 from kulman.tests.support.cases import some
 from kulman.variants.marking.checks import check
-from kulman.variants.marking.marked import Marked
-from kulman.variants.photos.pictures import read_photos
+from kulman.variants.marking.marked import Desk, Marked
+from kulman.variants.marking.reading import Answers
+from kulman.variants.photos.asking import Told, ends_asked, gathered, page_of
+from kulman.variants.photos.pictures import Photo, read_photos
 from kulman.variants.photos.straight import by_squares
+from kulman.variants.roster import Who
 
 CLEAR = 24.0  # mm between the middle of a marker and a line
 
@@ -109,6 +112,14 @@ def test_markers_on_their_page_are_found_as_squares(tmp_path: Path) -> None:
     np.testing.assert_allclose(np.abs(np.diff(laid, axis=1)), STUCK, atol=0.05)
 
 
+def test_two_sheets_of_ones_own_are_no_page_that_comes_twice() -> None:
+    photos = [Photo(f"koval-{number}.jpg", FREE, {}, 0j, (), bytes([number])) for number in (1, 2)]
+    own = [Answers(one.source, Who(student="Коваль"), {}, {}, {}, photos=(one,)) for one in photos]
+    found, asks = gathered(own, None, Told(), alone=True)
+    assert asks == []
+    assert [one.photos for one in found] == [tuple(photos)]
+
+
 @pytest.mark.parametrize(
     ("task", "quality", "turn"),
     some(
@@ -129,3 +140,15 @@ def test_plans_on_a_sheet_of_ones_own_are_read(task: str, quality: str, turn: in
     for line in marked.lines:
         assert line.verdict is not Verdict.WRONG, line.name
     assert {note.key for note in marked.notes if isinstance(note, KulmanError)} >= {"photo-own"}
+    desk = Desk(check(sheet.case.task, sheet.case.variant, lang="en"))
+    asks, pictures = ends_asked(desk, marked.answers)
+    digests = {page_of(photo): photo.source for photo in marked.answers.photos}
+    for ask in asks:
+        assert ask.name not in read
+        assert ask.picture in pictures
+        (drawn_on,) = [one.page for name, one in truth.items() if name == ask.name]
+        assert digests[ask.page].endswith(f"own-{drawn_on}.jpg")
+    told = {ask.name: None for ask in asks[:1]}
+    settled = desk.mark(replace(marked.answers, told=told))
+    assert settled.seen is not None
+    assert not settled.seen.written

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...drawing.markers import FREE
 from ...plans.laws import cross, dot
 from ...plans.marking.drawn import MEASURED
 from ...plans.marking.ways import Shape as Way
@@ -25,8 +26,8 @@ from ..marking.reading import Answers, Ends, stem_of
 from ..marking.seen import heading
 from ..roster import Roster, Who
 from .matching import LONG
-from .pictures import PICTURES, Photo
-from .reading import Flat, Sheets, on_page, plans_of
+from .pictures import PICTURES, Photo, grey_of
+from .reading import Flat, Sheets, numbered, on_page, plans_of
 from .straight import PER_MM
 
 OUT = "-"  # what is said of a page that is left out
@@ -185,7 +186,7 @@ def _together(several: Sequence[Answers]) -> tuple[list[Answers], list[PageAsk]]
     for one in photographed:
         for photo in one.photos:
             by_number.setdefault(photo.number, []).append((one, photo))
-    again = {number: pages for number, pages in by_number.items() if len(pages) > 1}
+    again = {number: pages for number, pages in by_number.items() if len(pages) > 1 and number != FREE}
     if again:
         asks = [
             PageAsk(
@@ -203,7 +204,7 @@ def _together(several: Sequence[Answers]) -> tuple[list[Answers], list[PageAsk]]
         return [*several], []
     first = photographed[0]
     about = next((one.about for one in photographed if one.about), first.about)
-    photos = tuple(photo for number in sorted(by_number) for _, photo in by_number[number])
+    photos = tuple(photo for number in sorted(by_number) for _, photo in by_number[number])  # FREE ones in their order
     return [replace(first, photos=photos, about=about)], []
 
 
@@ -216,7 +217,7 @@ def _with(answers: Answers, told: Told) -> Answers:
 def _small(photo: Photo) -> bytes:
     import cv2
 
-    grey: Any = cv2.imdecode(np.frombuffer(photo.picture, np.uint8), cv2.IMREAD_GRAYSCALE)
+    grey = grey_of(photo)
     times = SMALL / max(grey.shape)
     return _png(cv2.resize(grey, None, fx=times, fy=times, interpolation=cv2.INTER_AREA) if times < 1.0 else grey)
 
@@ -245,7 +246,7 @@ def ends_asked(desk: Desk, answers: Answers) -> tuple[list[EndAsk], dict[str, by
     sure = surely(answers, key, sheets, found, desk.terms.rubric).recognised
     wanted = desk.terms.rubric.asked or {question.name for part in key.parts for question in part.asked}
     asks, pictures, ways = list[EndAsk](), dict[str, bytes](), plans_of(key)
-    digests = {photo.number: page_of(photo) for photo in answers.photos}
+    digests = {number: page_of(photo) for number, photo in numbered(answers.photos)}
     flats = {page.number: page for page in sheets.pages}
     for plan, (number, pole) in sheets.blank.poles.items():
         way, mu = ways[plan], sheets.blank.mus[plan] / sheets.printed

@@ -210,7 +210,7 @@ def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: 
     def blank(language: str, paper: str) -> Blank:
         return kept.get((*name, language, paper), lambda: blank_of(request, keyed, language, paper))
 
-    own = all(photo.number == FREE for photo in photos)
+    own = of_ones_own(photos)
     sheets = _own_sheets(photos, keyed) if own else read_sheets(photos, _fitting(photos, request, blank))
     found = _recognised(sheets, keyed)
     times = 1.0 if own else print_scale(sheets, found)
@@ -219,7 +219,23 @@ def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: 
         found = _recognised(sheets, keyed)
     sheets, found = replace(sheets, believed=found.vectors), sure(sheets, keyed, found)
     mus = {plan: sheets.blank.mus[plan] for plan in found.plans}
-    return sheets, Seen(found, mus, frozenset() if own else frozenset(mus))
+    return sheets, Seen(found, mus, _printed(sheets.blank))
+
+
+def of_ones_own(photos: Sequence[Photo]) -> bool:
+    """Return whether all these are sheets of one's own, with markers stuck on them."""
+    return all(photo.number == FREE for photo in photos)
+
+
+def numbered(photos: Sequence[Photo]) -> Iterator[tuple[int, Photo]]:
+    """Go through photographs and the numbers of their pages: sheets of one's own are counted."""
+    own = of_ones_own(photos)
+    return ((number if own else photo.number, photo) for number, photo in enumerate(photos, start=1))
+
+
+def _printed(blank: Blank) -> frozenset[str]:
+    """Return the plans whose scale factors are printed: none on sheets of one's own."""
+    return frozenset(blank.mus if blank.pages else ())
 
 
 def _own_sheets(photos: Sequence[Photo], keyed: Keyed) -> Sheets:
@@ -390,7 +406,7 @@ def settled(sheets: Sheets, keyed: Keyed, found: Seen, told: Mapping[str, Ends |
             vectors[name] = Found(tail, tip, plan, 1.0)
     missing = (name for name in (*found.recognised.missing, *told) if name not in vectors)
     mus = {plan: blank.mus[plan] for plan in plans}
-    return Seen(Recognised(plans, vectors, tuple(dict.fromkeys(missing))), mus, frozenset(mus))
+    return Seen(Recognised(plans, vectors, tuple(dict.fromkeys(missing))), mus, _printed(blank) & {*mus})
 
 
 def sure(sheets: Sheets, keyed: Keyed, found: Recognised) -> Recognised:
