@@ -55,7 +55,7 @@ def test_every_student_gets_a_sheet_and_who_does_not_is_named(tmp_path: Path, ru
     assert status == 2
     assert "students: 5, done: 2" in printed
     problems = err.splitlines()
-    assert [line.split(":")[1].strip() for line in problems[:3]] == ["C4", "5", "D6, phi"]
+    assert [line.split(":")[1].strip() for line in problems[:3]] == ["C4", "row 5", "D6, phi"]
     assert "manifest.csv" in problems[3]
     sheets = {f"{stem}{end}" for stem in ("001-Ivan-Koval-3", "002-Olha-5") for end in (".pdf", ".svg")}
     assert set(files(out)) == {*sheets, "key.csv", "manifest.csv"}
@@ -339,7 +339,7 @@ def test_scheme_and_variant_are_those_of_the_record_book(tmp_path: Path) -> None
     ]
     assert [problem.split(": ", 1)[1] for problem in done.problems] == [
         "B5: record book 'КБ-404' gives scheme 4, and only so many tasks are named: 3",
-        "6: neither a task nor a record book that gives one is written for this student; the tasks are: "
+        "row 6: neither a task nor a record book that gives one is written for this student; the tasks are: "
         + ", ".join(SCHEMES),
     ]
 

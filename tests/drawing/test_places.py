@@ -16,7 +16,7 @@ from kulman.drawing.page import extent
 from kulman.drawing.shapes import Arc, Circle, Group, Line, Pen, Text
 from kulman.drawing.spots import FINE, MAIN, Obstacles, Surroundings, first_clear
 from kulman.drawing.text import lay_out
-from kulman.drawing.view import ELSEWHERE, Canvas
+from kulman.drawing.view import DOT, ELSEWHERE, Canvas
 from kulman.tests.support.cases import some
 from kulman.tests.support.shapes import places, within
 
@@ -608,7 +608,8 @@ def test_thin_lines_break_off_at_letters_that_they_would_strike_and_nowhere_else
     for name, line in before:
         left = shapely.union_all([piece for own, piece in after if own == name])
         assert left.difference(line.buffer(0.01)).length < 1e-6
-        assert line.difference(near).difference(left.buffer(0.3)).length < 1e-6
+        lost = shapely.get_parts(line.difference(near).difference(left.buffer(0.3)))
+        assert all(part.length < DOT for part in lost)  # what is left beside a letter would read as a prime
         if name == "whole":
             assert left.length == pytest.approx(line.length)
         elif line.difference(near).length > 0.5:
