@@ -28,6 +28,7 @@ TASKS = (
 COURSES = ("madi-cam", "madi-gear", "karpenko-hoist")
 LOWERED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 SHOWN = 2e-3  # part of a value within which four digits show it
+PLAIN = 1.5  # ms for 2000 attributes, where a frame of the largest page takes 1.2 to 1.5
 Opened = Callable[[str], Any]
 
 
@@ -264,7 +265,14 @@ def test_no_letter_of_a_crowded_plan_stands_on_another_and_a_frame_is_quick(task
         const begin = performance.now();
         for (let n = 0; n < 9; n++) go(place(k * 9 + n));
         return (performance.now() - begin) / 9 }))"""
-    assert page.evaluate(frames) < 2.0
+    # a machine that is slow, or has other work, is slow at plain attributes, too
+    plain = """() => { const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
+        return Math.min(...Array.from({ length: 40 }, () => {
+            const begin = performance.now();
+            for (let n = 0; n < 2000; n++) line.setAttribute("x1", n + 0.5);
+            return performance.now() - begin })) }"""
+    before, frame, after = map(page.evaluate, (plain, frames, plain))
+    assert frame < 2.0 * max(1.0, before / PLAIN, after / PLAIN)
 
 
 def test_keyboard_alone_suffices_and_nothing_is_out_of_reach(opened: Opened) -> None:
