@@ -78,12 +78,14 @@ LONG: list[str | int] = [*MORE, *range(3, 100)]
 @pytest.mark.parametrize("of", [*TASKS, *range(3), *NEAR, *(pytest.param(of, marks=pytest.mark.soak) for of in LONG)])
 def test_conditions_are_those_of_differences_with_fifty_digits(of: str | int | float) -> None:
     solved = standing(of)
-    program, names = solved.program, varied(solved)
+    near = [name for name in varied(solved) if name.startswith("_near_")]  # where a template is guessed to lie
+    program, names = solved.program, [name for name in varied(solved) if name not in near]
     sizes, shown, known = references(program, solved.values), plans_of(program), conditions_of(solved)
 
     ours = derivatives(program, solved.givens, names)
     theirs = differences(program, solved.givens, names, [step.name for step in results(program)])
 
+    assert not any(slopes.any() for slopes in derivatives(program, solved.givens, near).values())
     for name, slopes in theirs.items():
         if name.startswith("delta_"):  # two routes to one value do not differ, whatever is given
             continue

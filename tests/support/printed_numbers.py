@@ -78,7 +78,9 @@ def finer(mm: str, mu: str, printed: str, paper: str) -> bool:
     shorter, last = mm[:-1].rstrip(".,"), mm[-1]
     unit = 10.0 ** -len(re.split("[.,]", f"{shorter}.")[1])
     near = {value(shorter) + unit * up for up in ((0,) if last < "5" else (1,) if last > "5" else (0, 1))}
-    return ruled(shorter, paper) and any(f"{one * value(mu):.3g}" != f"{value(printed):.3g}" for one in near)
+    half = 0.499 * 10.0 ** -len(re.split("[.,]", f"{printed}.")[1])  # what is printed was one of these
+    exact = {value(printed) + half, value(printed) - half}
+    return ruled(shorter, paper) and any(f"{one * value(mu):.3g}" != f"{of:.3g}" for one in near for of in exact)
 
 
 def shows(printed: float, millimetres: float, near: float = 0.005001) -> bool:
