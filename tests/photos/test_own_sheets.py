@@ -136,7 +136,7 @@ def test_plans_on_a_sheet_of_ones_own_are_read(task: str, quality: str, turn: in
     assert marked.seen is not None
     read = marked.seen.recognised.vectors
     long = [n for n, one in truth.items() if abs(one.tip - one.tail) >= 5 and n in sheet.keyed.key.questions]
-    assert len([name for name in long if name in read]) >= 0.6 * len(long)
+    assert len([name for name in long if name in read]) >= 0.5 * len(long)
     for line in marked.lines:
         assert line.verdict is not Verdict.WRONG, line.name
     assert {note.key for note in marked.notes if isinstance(note, KulmanError)} >= {"photo-own"}
