@@ -22,10 +22,9 @@ from ...scales.errors import InputError
 from ...scales.numbers import SHOWN, quote
 from ..marking.keyed import Keyed
 from .pictures import Photo, grey_of
-from .straight import PER_MM, Straight, by_squares, flat
+from .straight import ASTRAY, PER_MM, Straight, by_squares, flat
 from .strokes import Ink, Stroke, strokes
 
-ASTRAY = 0.3  # mm that corners of markers may lie beside squares, root of the mean square
 ROUND = 40.0  # mm of the sheet around its markers that is looked at
 LARGEST = 620.0, 460.0  # mm of that: A3 with markers near its edges
 COARSE, TABLE = 50, 0.7  # pixels that a pencil does not fill; of the brightness of paper, what is darker than paper

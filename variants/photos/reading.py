@@ -38,11 +38,10 @@ from ..sheets import PAPER, drawing_for_print, scan_code, scannable_of_case
 from .free import laid_flat, plans_on, quarters_of, turned, ways_of
 from .matching import lines_of, matched
 from .pictures import Photo, grey_of
-from .straight import PER_MM, flat, framed, straightened
+from .straight import ASTRAY, PER_MM, flat, framed, straightened
 from .strokes import Ink, strokes
 from .traced import HIDES, Pencil
 
-ASTRAY = 0.3  # mm that markers may lie beside where they are printed, root of the mean square
 APART = 1000.0  # mm between pages of a drawing
 INKED = 200  # of 255: what is darker is print
 SLACK = 6.0  # mm that plans may go beyond the frame, and the boxes in it

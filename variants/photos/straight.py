@@ -18,6 +18,7 @@ from ...drawing.markers import SIDE, Place
 from ...drawing.text import Box
 
 PER_MM = 10  # pixels of a straightened page
+ASTRAY = 0.3  # mm that corners of markers may lie beside where the map has them, root of the mean square
 BENDS = 6  # coefficients of the bend, after the eight of the homography, before the radial one
 STIFF = 0.003  # parts of the page's half diagonal that a bend shifts corners by, about
 STEPS, STEP = 25, 1e-6

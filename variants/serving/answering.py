@@ -11,10 +11,10 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, RedirectResponse, Response
 from starlette.routing import Route
 
-from ..photos.asking import EndAsk, PageAsk
+from ..photos.asking import OUT, EndAsk, PageAsk
 from ..photos.pictures import PICTURES
 from . import making, pages
-from .asking import Chosen, Sitting, overview, place_of, question
+from .asking import PASSED, Chosen, Sitting, overview, place_of, question
 from .desk import Desk, Served
 from .pages import Door
 from .safety import STUDENT
@@ -132,7 +132,7 @@ class Questions:
         if isinstance(ask, EndAsk):
             tail, tip = (place_of(texts.get(end, ""), ask.box) for end in ("tail", "tip"))
             ends = None if tail is None or tip is None else (tail, tip)
-            said = said if ends is not None or said == "-" else "?"
+            said = said if ends is not None or said == OUT else PASSED
         if said:
             sitting.answer(ask, said, ends)
         left = sitting.left
