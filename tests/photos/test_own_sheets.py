@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 import pytest
 
-from kulman import KulmanError
+from kulman import KulmanError, cli
 from kulman.drawing.markers import EACH, FREE, STUCK, fields, stickers
 from kulman.drawing.writers import page_files
 from kulman.plans.marking.answers import Verdict
@@ -110,6 +110,15 @@ def test_markers_on_their_page_are_found_as_squares(tmp_path: Path) -> None:
     way, laid = by_squares(photo.markers, STUCK, photo.centre)
     assert way.error < 0.05
     np.testing.assert_allclose(np.abs(np.diff(laid, axis=1)), STUCK, atol=0.05)
+
+
+@pytest.mark.parametrize("other", ["--key", "--format=A3"])
+def test_markers_are_printed_alone_on_a4(other: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as stopped:
+        cli.main(["handout", "--markers", other, "--lang", "en", "-o", str(tmp_path / "markers.pdf")])
+    assert stopped.value.code == 2
+    assert "expected --markers without" in capsys.readouterr().err
+    assert not [*tmp_path.iterdir()]
 
 
 def test_two_sheets_of_ones_own_are_no_page_that_comes_twice() -> None:

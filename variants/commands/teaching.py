@@ -84,6 +84,8 @@ def _markers(files: tuple[Path, ...], tile: str | None, options: dict[str, Any])
     for name in ("steps", "key", "hidden_key", "over", "grid", "scan"):
         if options[name]:
             raise InputError("handout-apart", first="--markers", second=f"--{name.replace('_', '-')}")
+    if options["format"] != "A4":
+        raise InputError("handout-apart", first="--markers", second=f"--format {options['format']}")
     page = stickers(console.of_documents(options["lang"]))
     console.say_written(save_all(files, WRITERS, lambda path: page_files([page], path, tile)), False)
 
