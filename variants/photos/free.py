@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ...drawing.markers import STUCK
 from ...plans.marking.drawn import Drawn, FoundPlan, recognise
-from ...plans.marking.ways import shapes_of
+from ...plans.marking.ways import Shape, shapes_of
 from ...scales.errors import InputError
 from ...scales.numbers import SHOWN, quote
 from ..marking.keyed import Keyed
@@ -30,6 +30,7 @@ LARGEST = 620.0, 460.0  # mm of that: A3 with markers near its edges
 COARSE, TABLE = 50, 0.7  # pixels that a pencil does not fill; of the brightness of paper, what is darker than paper
 WHITE = 2.0  # mm round a marker that its paper may be seen
 SURE = 0.6  # part of a plan that tells where its pole is
+COMMON = 2  # forces of a plan that lie on another one, too, which make the two look alike
 LETTER = 4.0  # mm of a line that may be a vector
 LINE, SHORT = 8.0, 0.1  # mm of a line, part of the longest vector of a plan, that tell how the sheet is turned
 STEP, WIDTH = math.radians(0.2), 3  # between turns that are tried; steps within which a line has its direction
@@ -142,11 +143,29 @@ def plans_on(sheets: Sequence[Free], keyed: Keyed, apart: float) -> dict[str, Fo
     lines = [(line.tail + by, line.tip + by) for by, line in _lines(sheets, apart)]
     ends = np.array(lines, complex).reshape(-1, 2)
     drawn = Drawn(ends[:, 0], ends[:, 1])
+    right = {plan: shape[0] for plan in keyed.key.paper.mus if (shape := shapes_of(keyed.key, None, plan))}
     found = {plan: one for plan, one in recognise(drawn, keyed.key, None, {}).plans.items() if one.quality >= SURE}
-    if len(found) < len([plan for plan in keyed.key.paper.program.plans if plan in keyed.key.paper.mus]):
+    if len(found) < len(right):
         every = recognise(drawn, keyed.key, keyed.book, {plan: one.mu for plan, one in found.items()}).plans
         found = {**{plan: one for plan, one in every.items() if one.quality >= SURE}, **found}
-    return {plan: one for plan, one in found.items() if not one.alone}
+    return {plan: one for plan, one in found.items() if not one.alone and not _within(plan, found, right)}
+
+
+def _within(plan: str, found: Mapping[str, FoundPlan], right: Mapping[str, Shape]) -> bool:
+    """Whether what is found may be a part of another plan: all but one of its forces lie there, too."""
+
+    def laid(name: str) -> Complex:
+        at, shape = found[name], right[name]
+        return at.pole + shape.places * cmath.rect(1.0 / at.mu, at.turn)
+
+    own = set(right[plan].names)
+    for other in right.keys() - {plan}:
+        common = own & set(right[other].names)
+        if len(common) < max(COMMON, len(own) - 1):
+            continue
+        if other not in found or np.abs(laid(plan)[:, None] - laid(other)).min(axis=1).max() <= LETTER:
+            return True
+    return False
 
 
 def _lines(sheets: Sequence[Free], apart: float) -> Iterator[tuple[float, Stroke]]:
