@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,29 +13,14 @@ import pytest
 from kulman import check
 from kulman.tests.browser.test_serving import choose, fault_free, followed, reach, saved
 from kulman.tests.photos.stacks import TASK, Stack
-from kulman.tests.support.serving import served
 from kulman.variants.marking.checks import write_tables
 
 MINUTES = 8 * 60_000
 
 
-@pytest.fixture(scope="module")
-def address() -> Iterator[str]:
-    with served() as (found, _):
-        yield found
-
-
-@pytest.fixture
-def page(browser: Any, address: str) -> Iterator[Any]:
-    wrong = list[str]()
-    opened = browser.new_page(viewport={"width": 1280, "height": 900})
-    opened.set_default_timeout(MINUTES)
-    opened.on("console", lambda message: wrong.append(message.text))
-    opened.on("pageerror", lambda error: wrong.append(str(error)))
-    opened.goto(address)
-    yield opened
-    opened.close()
-    assert wrong == []
+@pytest.fixture(autouse=True)
+def patient(page: Any) -> None:
+    page.set_default_timeout(MINUTES)
 
 
 def pressed(page: Any, times: int = 1) -> None:

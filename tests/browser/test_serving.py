@@ -4,37 +4,15 @@ from __future__ import annotations
 
 import io
 import zipfile
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 import kulman
-from kulman.tests.support.serving import served
 
 TASK = "nau-slider-crank"
 ROSTER = "student;group;variant\nІ. Петренко;АТ-301;3\nО. Коваль;АТ-301;7\n"
-
-
-@pytest.fixture(scope="module")
-def address() -> Iterator[str]:
-    with served() as (found, _):
-        yield found
-
-
-@pytest.fixture
-def page(browser: Any, address: str) -> Iterator[Any]:
-    """The first page; nothing may be said on the console, nor asked of anybody else, while it is used."""
-    wrong: list[str] = []
-    opened = browser.new_page(viewport={"width": 1280, "height": 900})
-    opened.on("console", lambda message: wrong.append(message.text))
-    opened.on("pageerror", lambda error: wrong.append(str(error)))
-    opened.on("request", lambda asked: wrong.append(asked.url) if not asked.url.startswith(address) else None)
-    opened.goto(address)
-    yield opened
-    opened.close()
-    assert wrong == []
 
 
 def reach(page: Any, selector: str) -> Any:
