@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
 
 from ..drawing.words import Given, Words
-from ..plans.names import role
+from ..plans.names import role, scale_factor
 from ..plans.solved import Check, Course, Solved
 from ..scales.choices import RULER, SHEET
 from ..scales.errors import InputError
@@ -452,7 +452,7 @@ def beside(task: Task, folder: str) -> Any:
 def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser]:
     """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
     choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
-    for name, text in scales.items():
+    for name, text in _by_symbol(scales, kind_of(task.kind).scale_symbols(solved), solved).items():
         _choosable(task, name, text, solved)
         try:
             symbol = name if role(name).kind == "mu" else segment_symbol(name)
@@ -468,6 +468,19 @@ def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser
             raise InputError("scale-not-drawn", text=quote(name), known=known)
         choosers[symbol] = chosen
     return choosers
+
+
+def _by_symbol(scales: Settings, known: Sequence[str], solved: Solved) -> Settings:
+    """Return what is said of each scale factor: of all plans of forces where mu_F is said, as sheets have it."""
+    found = dict(scales)
+    for name, text in scales.items():
+        if role(name).kind == "mu" and name not in known and name == scale_factor(role(name).of):
+            drawn = [symbol for symbol in solved.scale_of_plan.values() if symbol in known]
+            same = [symbol for symbol in drawn if role(symbol).of == role(name).of]
+            if same:
+                del found[name]
+                found |= {symbol: scales.get(symbol, text) for symbol in same}
+    return found
 
 
 def _choosable(task: Task, name: str, text: str | float, solved: Solved) -> None:

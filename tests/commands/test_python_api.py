@@ -66,6 +66,11 @@ WRONG_SHEET: dict[str, tuple[dict[str, Any], str]] = {
 }
 
 
+def test_a_scale_factor_as_the_sheet_has_it_is_that_of_all_plans_of_forces() -> None:
+    of = kulman.solve(TASK, "3", scales={"mu_F": 50, "mu_F_1": 20}).scales
+    assert {name: scale.mu for name, scale in of.items() if name.startswith("mu_F")} == {"mu_F_23": 50, "mu_F_1": 20}
+
+
 @pytest.fixture(scope="module")
 def solution() -> Solution:
     return kulman.solve(TASK, "3")
