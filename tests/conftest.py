@@ -35,6 +35,6 @@ def pytest_collection_finish() -> None:
 @pytest.fixture(scope="session")
 def stack(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """A small stack of photographed sheets, see `tests/photos/stacks.py`."""
-    from kulman.tests.photos.stacks import small_stack
+    from kulman.tests.photos.stacks import SMALL, stack_of
 
-    return small_stack(tmp_path_factory.mktemp("stack"))
+    return stack_of(tmp_path_factory.mktemp("stack"), SMALL)

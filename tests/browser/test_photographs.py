@@ -12,7 +12,7 @@ import pytest
 
 from kulman import check
 from kulman.tests.browser.test_serving import choose, fault_free, followed, reach, saved
-from kulman.tests.photos.stacks import TASK, Stack
+from kulman.tests.photos.stacks import CLASS, TASK, Stack, stack_of
 from kulman.variants.marking.checks import write_tables
 
 MINUTES = 8 * 60_000
@@ -38,8 +38,10 @@ def answered(page: Any, stack: Stack) -> int:
         followed(page, "#keep-0")
         return 1
     if page.locator("button[value^='#']").count():
-        unread = page.locator(".problem").count()
-        followed(page, "button[value='-']" if unread else "button[value='#1']")
+        about = page.locator(".about").first.inner_text()
+        whose = next((f"#{number}" for name, number in stack.whose.items() if name in about), "-")
+        assert (whose == "-") == bool(page.locator(".problem").count())
+        followed(page, f"button[value='{whose}']")
         return 1
     symbol = page.locator("h1").inner_text()
     if not page.locator("#yes").count():
@@ -51,7 +53,16 @@ def answered(page: Any, stack: Stack) -> int:
     return 2
 
 
-def test_a_teacher_is_asked_and_marks_are_those_of_typed_forms(page: Any, stack: Stack, tmp_path: Path) -> None:
+@pytest.fixture(params=[2, pytest.param(30, marks=pytest.mark.soak)], ids=["two", "thirty"])
+def handed_in(request: pytest.FixtureRequest, tmp_path: Path) -> Stack:
+    """Pictures of two students, or thirty: three that cannot be read, two without a name, one twice."""
+    if request.param == 2:
+        return request.getfixturevalue("stack")
+    return stack_of(tmp_path, CLASS, nameless=2, blurred=3)
+
+
+def test_a_teacher_is_asked_and_marks_are_those_of_typed_forms(page: Any, handed_in: Stack, tmp_path: Path) -> None:
+    stack = handed_in
     followed(page, "a[href$='/marks']")
     choose(page, "#tasks", TASK)
     reach(page, "#forms").set_input_files(stack.pictures)

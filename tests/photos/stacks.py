@@ -1,4 +1,4 @@
-"""A small stack of photographed sheets as a teacher gets it, and the same answers typed into a table."""
+"""A stack of photographed sheets as a teacher gets it, and the same answers typed into a table."""
 
 from __future__ import annotations
 
@@ -15,56 +15,68 @@ from kulman.tests.photos.measure import chosen_ways
 from kulman.tests.photos.synthesiser import SCANNER, Truth, drawn, photographed, sheet_for
 
 TASK = "nau-slider-crank"
-ROSTER = "student;group;variant\nІ. Петренко;АТ-301;3\nО. Коваль;АТ-301;7\n"
 PAGE = 1  # from 0, on which the plans of velocities and accelerations are
 MISTAKE = "M24"
+SMALL = {"І. Петренко": ("3", ""), "О. Коваль": ("7", MISTAKE)}  # variant and mistake of each student
+LETTERS = "АБВГДЕЖЗИКЛМНОПРСТУФХЦЧШЮЯ"  # of students of whom there are thirty pictures
+CLASS = {f"Студент {letter}": (str(n % 10), MISTAKE if n % 5 == 2 else "") for n, letter in enumerate(LETTERS)}
 
 
 @dataclass(frozen=True)
 class Stack:
-    """Files: two photographs of one page, one without a name, one that cannot be read; a roster; the same typed."""
+    """Files: pictures of a page of each student, the first one twice, some without a name, some that cannot be read.
+
+    `whose` are the numbers in the roster of students whose pictures have no name; `typed` are the same answers typed.
+    """
 
     folder: Path
     pictures: list[Path]
     roster: Path
     typed: Path
     truth: dict[str, dict[str, Truth]]
+    whose: dict[str, int]
 
 
-def small_stack(folder: Path) -> Stack:
-    """Draw and photograph it."""
-    random, truth, inks = np.random.default_rng(11), dict[str, dict[str, Truth]](), {}
-    for variant, mistake in (("3", ""), ("7", MISTAKE)):
+def stack_of(folder: Path, students: dict[str, tuple[str, str]], nameless: int = 1, blurred: int = 1) -> Stack:
+    """Draw and photograph a page of each of the students; the last ones have forgotten their names."""
+    random, truth, made = np.random.default_rng(11), dict[str, dict[str, Truth]](), dict[str, bytes]()
+    named, whose = len(students) - nameless, dict[str, int]()
+    for number, (student, (variant, mistake)) in enumerate(students.items()):
         sheet = sheet_for(TASK, variant)
         names = {sheet.keyed.book.signatures[n].broken.mistake: n for n in range(len(sheet.keyed.book.signatures))}
-        ways = chosen_ways(sheet, names[mistake] if mistake else RIGHT)
-        inks[variant], truth[variant] = drawn(sheet, PAGE, random, ways)
-    made = {
-        "І. Петренко-2.jpg": photographed(inks["3"], random, SCANNER),
-        "І. Петренко-2 (1).jpg": photographed(inks["3"], random, SCANNER),
-        "IMG_2001.jpg": photographed(inks["7"], random, SCANNER),
-    }
-    grey = cv2.imdecode(np.frombuffer(made["IMG_2001.jpg"], np.uint8), cv2.IMREAD_GRAYSCALE)
-    blurred = cv2.GaussianBlur(cv2.resize(grey, None, fx=0.3, fy=0.3), (0, 0), 12)
-    made["IMG_2002.jpg"] = bytes(cv2.imencode(".jpg", blurred)[1].tobytes())
+        ink, truth[student] = drawn(sheet, PAGE, random, chosen_ways(sheet, names[mistake] if mistake else RIGHT))
+        name = f"{student}-2.jpg" if number < named else f"IMG_{2001 + number - named}.jpg"
+        made[name] = photographed(ink, random, SCANNER)
+        if number == 0:
+            made[f"{student}-2 (1).jpg"] = photographed(ink, random, SCANNER)
+        if number >= named:
+            whose[name] = number
+    grey = cv2.imdecode(np.frombuffer(made[name], np.uint8), cv2.IMREAD_GRAYSCALE)
+    for number in range(blurred):
+        faint = cv2.GaussianBlur(cv2.resize(grey, None, fx=0.3, fy=0.3), (0, 0), 12 + number)
+        made[f"IMG_{2001 + nameless + number}.jpg"] = bytes(cv2.imencode(".jpg", faint)[1].tobytes())
     pictures = [folder / name for name in made]
     for file in pictures:
         file.write_bytes(made[file.name])
-    (roster := folder / "roster.csv").write_text(ROSTER, encoding="utf-8")
-    (typed := folder / "typed.csv").write_text(_typed(truth), encoding="utf-8")
-    return Stack(folder, pictures, roster, typed, truth)
+    listed = "".join(f"{student};АТ-301;{variant}\n" for student, (variant, _) in students.items())
+    (roster := folder / "roster.csv").write_text(f"student;group;variant\n{listed}", encoding="utf-8")
+    (typed := folder / "typed.csv").write_text(_typed(students, truth), encoding="utf-8")
+    return Stack(folder, pictures, roster, typed, truth, whose)
 
 
-def _typed(truth: dict[str, dict[str, Truth]]) -> str:
+def _typed(students: dict[str, tuple[str, str]], truth: dict[str, dict[str, Truth]]) -> str:
     """What these students have drawn, measured and typed: segments and directions, with the scale factors printed."""
-    names = [name for name in truth["3"] if name in truth["7"] and sheet_for(TASK, "3").keyed.key.questions.get(name)]
-    plans = sorted({truth["3"][name].plan for name in names})
-    scales = {plan: sheet_for(TASK, "3").keyed.solution.solved.scale_of_plan[plan] for plan in plans}
+    sheets = {student: sheet_for(TASK, variant) for student, (variant, _) in students.items()}
+    first, own = next(iter(sheets.values())), next(iter(truth.values()))
+    common = [name for name in own if all(name in one for one in truth.values())]
+    names = [name for name in common if first.keyed.key.questions.get(name)]
+    plans = sorted({own[name].plan for name in names})
+    scales = {plan: first.keyed.solution.solved.scale_of_plan[plan] for plan in plans}
     rows = [["student", *scales.values(), *(head for name in names for head in (f"{name}.mm", f"{name}.dir"))]]
-    for student, variant in (("І. Петренко", "3"), ("О. Коваль", "7")):
-        row = [student, *(f"{sheet_for(TASK, variant).mus[plan]:g}" for plan in plans)]
+    for student, sheet in sheets.items():
+        row = [student, *(f"{sheet.mus[plan]:g}" for plan in plans)]
         for name in names:
-            way = truth[variant][name].tip - truth[variant][name].tail
+            way = truth[student][name].tip - truth[student][name].tail
             row += [f"{abs(way):.1f}", f"{math.degrees(cmath.phase(way)) % 360:.0f}"]
         rows.append(row)
     return "".join(";".join(row) + "\n" for row in rows)

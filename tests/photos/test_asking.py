@@ -63,8 +63,7 @@ def test_photographs_that_have_been_asked_about_are_worth_what_typed_forms_are(
     typed = {one.who.student: ready.mark(one).marked.mark for one in ready.read(str(stack.typed))}
     marks = {}
     for desk, answers, asks in settled:
-        key = desk.of(answers)[1]
-        truth = stack.truth[key.solution.variant]
+        truth = stack.truth[answers.who.student]
         ends = {ask.name: (truth[ask.name].tail, truth[ask.name].tip) for ask in asks}
         marks[answers.who.student] = desk.mark(replace(answers, told=ends)).mark
         assert asks  # or the stack asks for nothing
@@ -85,8 +84,8 @@ def test_what_is_not_answered_costs_nothing_and_what_is_not_drawn_is_missing(set
 
 
 def test_what_was_believed_and_the_spots_lie_on_what_was_drawn(stack: Stack, settled: Settled) -> None:
-    for desk, answers, asks in settled:
-        truth = stack.truth[desk.of(answers)[1].solution.variant]
+    for _, answers, asks in settled:
+        truth = stack.truth[answers.who.student]
         for ask in asks:
             for believed, true in ((ask.tail, truth[ask.name].tail), (ask.tip, truth[ask.name].tip)):
                 assert believed is None or abs(believed - true) < 1.0
@@ -98,7 +97,7 @@ def test_what_was_believed_and_the_spots_lie_on_what_was_drawn(stack: Stack, set
 
 def test_a_sheet_that_is_returned_shows_what_has_been_told(stack: Stack, settled: Settled) -> None:
     desk, answers, asks = settled[0]
-    truth = stack.truth["3"][asks[0].name]
+    truth = stack.truth[answers.who.student][asks[0].name]
     told = replace(answers, told={asks[0].name: (truth.tail, truth.tip)})
 
     pages = [next(iter(report_files(reported(desk, one)[0], Path("x.png"))))[1] for one in (answers, told)]
