@@ -19,7 +19,8 @@ PAGE = 1  # from 0, on which the plans of velocities and accelerations are
 MISTAKE = "M24"
 SMALL = {"І. Петренко": ("3", ""), "О. Коваль": ("7", MISTAKE)}  # variant and mistake of each student
 LETTERS = "АБВГДЕЖЗИКЛМНОПРСТУФХЦЧШЮЯ"  # of students of whom there are thirty pictures
-CLASS = {f"Студент {letter}": (str(n % 10), MISTAKE if n % 5 == 2 else "") for n, letter in enumerate(LETTERS)}
+VARIANTS = "012345789"  # of which both plans are on one page
+CLASS = {f"Студент {one}": (VARIANTS[n % 9], MISTAKE if n % 5 == 2 else "") for n, one in enumerate(LETTERS)}
 
 
 @dataclass(frozen=True)
@@ -67,16 +68,17 @@ def stack_of(folder: Path, students: dict[str, tuple[str, str]], nameless: int =
 def _typed(students: dict[str, tuple[str, str]], truth: dict[str, dict[str, Truth]]) -> str:
     """What these students have drawn, measured and typed: segments and directions, with the scale factors printed."""
     sheets = {student: sheet_for(TASK, variant) for student, (variant, _) in students.items()}
-    first, own = next(iter(sheets.values())), next(iter(truth.values()))
-    common = [name for name in own if all(name in one for one in truth.values())]
-    names = [name for name in common if first.keyed.key.questions.get(name)]
-    plans = sorted({own[name].plan for name in names})
+    first = next(iter(sheets.values()))
+    plan_of = {name: one.plan for own in truth.values() for name, one in own.items()}
+    names = [name for name in plan_of if first.keyed.key.questions.get(name)]
+    plans = sorted({plan_of[name] for name in names})
     scales = {plan: first.keyed.solution.solved.scale_of_plan[plan] for plan in plans}
     rows = [["student", *scales.values(), *(head for name in names for head in (f"{name}.mm", f"{name}.dir"))]]
     for student, sheet in sheets.items():
         row = [student, *(f"{sheet.mus[plan]:g}" for plan in plans)]
         for name in names:
-            way = truth[student][name].tip - truth[student][name].tail
-            row += [f"{abs(way):.1f}", f"{math.degrees(cmath.phase(way)) % 360:.0f}"]
+            own = truth[student].get(name)  # a plan may be on another page
+            way = own.tip - own.tail if own else None
+            row += [f"{abs(way):.1f}", f"{math.degrees(cmath.phase(way)) % 360:.0f}"] if way is not None else ["", ""]
         rows.append(row)
     return "".join(";".join(row) + "\n" for row in rows)

@@ -136,6 +136,21 @@ def test_a_mistake_is_named_and_a_line_that_is_not_sure_is_not_wrong(tmp_path: P
     assert figures.named == 1
 
 
+@pytest.mark.parametrize("only", [None, "velocity,forces"])
+def test_a_page_that_is_not_handed_in_is_missing_where_it_is_asked_for(only: str | None, tmp_path: Path) -> None:
+    sheet, random = sheet_for(TASK, only=only), np.random.default_rng(5)
+    (file := tmp_path / "student.jpg").write_bytes(
+        photographed(drawn(sheet, sheet.poles["velocity"][0], random, chosen_ways(sheet, RIGHT))[0], random, PHONE)
+    )
+    ready = check(TASK, "0", only=only, lang="en")
+    marked = ready.mark(ready.read(str(file))[0]).marked
+
+    assert "photo-no-page" in {note.key for note in marked.notes if isinstance(note, InputError)}
+    missing = {line.plan for line in marked.lines if line.verdict is Verdict.MISSING}
+    assert missing == (set() if only is None else {"forces_23", "forces_2", "forces_1"})
+    assert (marked.mark == 100.0) == (only is None)
+
+
 def test_marked_sheets_are_returned(honest: tuple[Report, dict[str, Truth]]) -> None:
     (_, png), (_, pdf) = (next(iter(report_files(honest[0], Path(f"marked{kind}")))) for kind in (".png", ".pdf"))
 

@@ -267,10 +267,17 @@ class Desk:
             sheets, on_drawing = self.photographed(answers, key)
             notes += sheets.notes
             on_drawing = surely(answers, key, sheets, on_drawing, rubric)
-            answers, told = measured(replace(answers, drawn=sheets.drawn), key, on_drawing)
-            # what was not read is looked at by eye, and costs nothing
+            absent = sheets.absent({photo.number for photo in answers.photos})
+            answers, told = measured(replace(answers, drawn=sheets.drawn), key, on_drawing, absent)
+            # what was not read is looked at by eye, and costs nothing; plans that are asked for must be handed in
             read = directed(answers.lines, key, rubric.tolerance.degrees)
-            kept = tuple(name for name in answers.columns if name in read or name in answers.told)
+            all_read = not any(one.key.startswith("photo-") for one in answers.problems)
+            lost = absent if terms.request.only and all_read else ()
+            kept = tuple(
+                name
+                for name in answers.columns
+                if name in read or name in answers.told or key.key.questions[name].plan in lost
+            )
             answers = replace(answers, columns=kept, lines=read)
             notes += told
         elif answers.drawn is not None:

@@ -166,8 +166,12 @@ def _factor(text: str, units: tuple[str, str]) -> Mu | None:
     return None
 
 
-def measured(answers: Answers, key: Keyed, found: Seen) -> tuple[Answers, list[KulmanError]]:
+def measured(
+    answers: Answers, key: Keyed, found: Seen, absent: Collection[str] = ()
+) -> tuple[Answers, list[KulmanError]]:
     """Return answers with what was measured on their drawing, and what is to be said of it.
+
+    Plans that are `absent` are on pages of a handout that have not been handed in.
 
     Raises
     ------
@@ -194,7 +198,7 @@ def measured(answers: Answers, key: Keyed, found: Seen) -> tuple[Answers, list[K
     if not found.fits:
         notes += [
             *_scales(key, found),
-            *_missing(key, found, columns),
+            *_missing(answers, key, found, columns, absent),
             *_told_of(key, tiny, lambda plan: "drawing-tiny"),
         ]
     return replace(answers, lines=lines, columns=columns), notes
@@ -224,10 +228,17 @@ def _scales(key: Keyed, found: Seen) -> Iterator[InputError]:
         yield InputError(how, plan=Written(heading(key, plan)), mu=Written(shown))
 
 
-def _missing(key: Keyed, found: Seen, columns: Iterable[str]) -> Iterator[InputError]:
+def _missing(
+    answers: Answers, key: Keyed, found: Seen, columns: Iterable[str], absent: Collection[str]
+) -> Iterator[InputError]:
     """Go through what was not found, plan by plan."""
-    plans, missing = found.recognised.plans, (name for name in columns if name in found.recognised.missing)
-    yield from _told_of(key, missing, lambda plan: "drawing-missing" if plan in plans else "drawing-no-plan")
+
+    def said(plan: str) -> str:
+        if plan in found.recognised.plans:
+            return "drawing-missing"
+        return "photo-no-page" if plan in absent else "photo-no-plan" if answers.photos else "drawing-no-plan"
+
+    yield from _told_of(key, (name for name in columns if name in found.recognised.missing), said)
 
 
 def _told_of(key: Keyed, names: Iterable[str], said: Callable[[str], str]) -> Iterator[InputError]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -139,6 +139,11 @@ class Sheets:
     notes: tuple[KulmanError, ...]
     printed: float = 1.0  # how many times as large as they are printed lengths on the sheet are
     believed: Mapping[str, Found] = field(default_factory=dict)  # vectors by name, also those that are not sure
+
+    def absent(self, handed_in: Collection[int]) -> frozenset[str]:
+        """Return the plans that are on other pages of the handout than those of these numbers."""
+        printed = self.blank.poles.items() if self.blank.pages else ()
+        return frozenset(plan for plan, (page, _) in printed if page not in handed_in)
 
 
 def _added(shape: Shape) -> bool:
