@@ -7,7 +7,7 @@ through both, whatever pieces it was drawn in. All that is looked for later is a
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -28,12 +28,35 @@ FLAT = 0.05  # sine of two lines that cross too flatly to make a node
 MANY = 48  # nodes on one line, of which all pairs are looked at; of one with more those nearest to each other
 CELL = 0.5  # mm, side of the squares in which nodes are looked up
 WAYS = 64  # directions of lines that are told apart where they go out
+BINS, FAR = 1440, 10_000.0  # directions of lines by which they are looked up; mm, beyond all sizes
 REACH = 3  # squares around a node from which it is found
 SQUARES = 16_000_000  # the most squares
 
 Complex = NDArray[np.complex128]
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
+
+
+@dataclass(frozen=True, slots=True)
+class Letter:
+    """A text of a drawing: its middle and its height, mm."""
+
+    text: str
+    place: complex
+    height: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Drawn:
+    """What a drawing holds, in millimetres of paper, y up: segments as they were found, complex of shape (N,).
+
+    `arrows` are the indices of those that have an arrowhead at their tip.
+    """
+
+    tails: Complex
+    tips: Complex
+    letters: tuple[Letter, ...] = ()
+    arrows: Indices = field(default_factory=lambda: np.zeros(0, np.intp))
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,9 +122,10 @@ class Lines:
             found[(low + step)[here] % WAYS, hubs[here]] = True
         return found
 
-    def goes_out(self, nodes: Indices, angle: float) -> NDArray[np.bool_]:
-        """Return from which nodes a line of some length goes out about a direction, radians."""
-        return np.asarray(self.outward[math.floor(angle * (WAYS / math.tau)) % WAYS][self.hubs[nodes]])
+    def goes_out(self, nodes: Indices, angles: Floats) -> NDArray[np.bool_]:
+        """Return from which nodes a line of some length goes out about directions, radians, one for each."""
+        ways = np.floor(angles * (WAYS / math.tau)).astype(np.intp) % WAYS
+        return np.asarray(self.outward[ways, self.hubs[nodes]])
 
     def covers(self, start: complex, stop: complex) -> bool:
         """Whether segments cover the whole way between two places, whatever else runs beside it."""
@@ -132,23 +156,43 @@ class Lines:
                 return complex(ends[np.abs(ends - middle) <= max(ASIDE, np.abs(ends - middle).min())].mean())
         return None
 
-    def goes_on(self, first: int, second: int) -> bool:
-        """Whether a line that joins two nodes goes on to another node beyond the second one."""
+    def go_on(self, first: Indices, second: Indices) -> NDArray[np.bool_]:
+        """Return which lines that join two nodes go on to another node beyond the second one."""
         count = len(self.nodes)
-        begin, end = np.searchsorted(self.codes, (second * count, (second + 1) * count))
-        way, ways = (
-            self.nodes[second] - self.nodes[first],
-            self.nodes[self.codes[begin:end] % count] - self.nodes[second],
-        )
-        return bool((np.abs(np.angle(ways / way)) < TILT + ASTRAY / np.abs(ways)).any())
+        begin, end = np.searchsorted(self.codes, second * count), np.searchsorted(self.codes, (second + 1) * count)
+        own = np.repeat(np.arange(len(first)), end - begin)  # all pairs that begin at the second nodes
+        at = np.arange(len(own)) + (begin - np.cumsum(end - begin) + (end - begin))[own]
+        beyond = self.nodes[self.codes[at] % count] - self.nodes[second[own]]
+        off = np.abs(np.angle(beyond / (self.nodes[second] - self.nodes[first])[own]))
+        on = own[off < TILT + ASTRAY / np.abs(beyond)]
+        return np.bincount(on, minlength=len(first)) > 0
 
-    def along(self, angle: float, within: float) -> Indices:
-        """Return the pairs whose direction is an angle, within so many radians."""
-        low, high = (angle - within) % (2.0 * math.pi), (angle + within) % (2.0 * math.pi)
-        begin, end = np.searchsorted(self.angles, (low, high))
-        if low <= high:
-            return np.arange(begin, end)
-        return np.concatenate((np.arange(begin, len(self.angles)), np.arange(end)))
+    @cached_property
+    def _sorted(self) -> tuple[Indices, Floats]:
+        """The pairs by direction, of which `BINS` are told apart, and then by size; what they are found by there."""
+        found = np.floor(self.angles * (BINS / math.tau)) * FAR + np.minimum(self.sizes, FAR / 2.0)
+        order = np.argsort(found, kind="stable")
+        return order, found[order]
+
+    def ranges(self, angles: Floats, within: Floats, low: Floats, high: Floats) -> tuple[Indices, Indices]:
+        """Return where pairs begin and stop that have about some directions, and sizes between two; see `within`.
+
+        All are of shape (N,), radians and mm; what is returned of shape (N, bins).
+        """
+        first = np.floor((angles - within) * (BINS / math.tau))
+        count = np.floor((angles + within) * (BINS / math.tau)) - first + 1
+        steps = np.arange(int(count.max(initial=0)))
+        bins = (first[:, None] + steps) % BINS * FAR
+        begin = np.searchsorted(self._sorted[1], bins + np.maximum(low, 0.0)[:, None])
+        end = np.searchsorted(self._sorted[1], bins + np.clip(high, 0.0, FAR / 2.0)[:, None])
+        return begin, np.where(steps < count[:, None], np.maximum(begin, end), begin)
+
+    def within(self, found: tuple[Indices, Indices]) -> tuple[Indices, Indices]:
+        """Return for ranges of pairs, of shape (N, bins), the numbers of the row of each pair, and the pairs."""
+        begin, counts = found[0].ravel(), (found[1] - found[0]).ravel()
+        own = np.repeat(np.arange(len(begin)), counts)
+        at = np.arange(len(own)) + (begin - np.cumsum(counts) + counts)[own]
+        return own // max(found[0].shape[1], 1), self._sorted[0][at]
 
 
 def lines_of(tails: Complex, tips: Complex) -> Lines:

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from kulman import sheet
-from kulman.plans.marking.drawn import Drawn
+from kulman.plans.marking.lines import Drawn
 from kulman.scales.errors import InputError
 from kulman.tests.support.cases import some
 from kulman.variants.drawings import marks

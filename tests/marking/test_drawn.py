@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from kulman.plans.marking.answers import Answer
-from kulman.plans.marking.drawn import DIRECTED, MEASURED, Drawn, recognise
+from kulman.plans.marking.drawn import DIRECTED, MEASURED, recognise
 from kulman.plans.marking.key import Key
+from kulman.plans.marking.lines import Drawn
 from kulman.plans.marking.verdicts import mark
 from kulman.plans.mistakes.book import Book, Signature
 from kulman.plans.mistakes.explaining import explain

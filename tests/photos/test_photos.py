@@ -23,7 +23,7 @@ from kulman.drawing.formats import drawing_area
 from kulman.drawing.markers import EACH, SIDE, fields, stands
 from kulman.drawing.shapes import shifted
 from kulman.plans.marking.answers import Verdict
-from kulman.plans.marking.drawn import Drawn
+from kulman.plans.marking.lines import Drawn
 from kulman.plans.marking.ways import RIGHT, Shape
 from kulman.scales.errors import InputError
 from kulman.tests.photos.measure import Figures, chosen_ways, compared, linkages, measured, mistakes_of

@@ -14,8 +14,8 @@ import numpy as np
 from kulman import sheet, solve
 from kulman.drawing.shapes import Arc, Arrow, Group, Line, Polyline, Shape, Vector, sides_of
 from kulman.plans.hands.shaky import paper_of, preset
-from kulman.plans.marking.drawn import Drawn, Letter
 from kulman.plans.marking.key import Key, answer_key
+from kulman.plans.marking.lines import Drawn, Letter
 from kulman.plans.marking.ways import changed_edges, edges_of
 from kulman.plans.mistakes.book import Book, Signature, book
 from kulman.plans.names import POINT, role

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
-from ...plans.marking.drawn import Drawn
+from ...plans.marking.lines import Drawn
 from ...scales.errors import InputError
 from .dxf import read_dxf
 from .marks import LARGEST, MOST, FaultError, Marks, handed_in

@@ -15,7 +15,7 @@ from ...scales.numbers import SHOWN, quote
 if TYPE_CHECKING:  # the process that reads a PDF collects, and does no more
     import numpy as np
 
-    from ...plans.marking.drawn import Drawn, Letter
+    from ...plans.marking.lines import Drawn, Letter
 
 LARGEST = 16_000_000  # bytes, also unpacked
 MOST, STEPS = 30_000, 3  # lines of a drawing; what is counted for each: an entity and its ends
@@ -122,7 +122,7 @@ class Marks:
         """Return the drawing: arrows from tail to tip, as long as they look, runs of letters joined to texts."""
         import numpy as np
 
-        from ...plans.marking.drawn import Drawn
+        from ...plans.marking.lines import Drawn
 
         ends = np.array(self.lines, dtype=complex).reshape(-1, 2)
         corners = np.array(self.heads, dtype=complex).reshape(-1, 3)
@@ -171,7 +171,7 @@ def _pointed(ends: np.ndarray, heads: np.ndarray) -> tuple[np.ndarray, np.ndarra
 
 def _letters(pieces: Sequence[Piece]) -> Iterator[Letter]:
     """Go through the texts of a drawing: runs that follow one another on a line, with scripts, are one."""
-    from ...plans.marking.drawn import Letter
+    from ...plans.marking.lines import Letter
 
     run: list[Piece] = []
     for piece in (*pieces, None):

@@ -21,7 +21,7 @@ from ...drawing.text import escape, lay_out
 from ...drawing.writers import page_files
 from ...plans.marking.answers import Line as Judged
 from ...plans.marking.answers import Verdict
-from ...plans.marking.drawn import Drawn, Letter
+from ...plans.marking.lines import Drawn, Letter
 from .marked import Marked
 from .wording import texts
 

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple, SupportsFloat, TypeVar
 
 from ...drawing.words import GREEK
 from ...plans.marking.answers import FREE, Answer
-from ...plans.marking.drawn import Drawn
+from ...plans.marking.lines import Drawn
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin, unknown

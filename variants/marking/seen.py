@@ -13,7 +13,8 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from ...plans.marking.drawn import Drawn, Recognised, part_there, recognise
+from ...plans.marking.drawn import Recognised, part_there, recognise
+from ...plans.marking.lines import Drawn
 from ...plans.names import LEVER, role
 from ...scales.errors import InputError, KulmanError, Written
 from ...scales.names import latin
@@ -79,12 +80,12 @@ def _right(found: Recognised) -> float:
 
 def _another(drawn: Drawn, key: Keyed, others: Iterable[str], other_key: Callable[[str], Keyed]) -> str:
     """Return the variant that a drawing shows, if it is another one: of this one little is there, of that much."""
-    most, fits, looks = part_there(drawn, key.key), "", list[tuple[float, str]]()
+    most, fits, looks = part_there(drawn, key.key, MUCH), "", list[tuple[float, str]]()
     if most >= MUCH:
         return fits
     for other in others:
         with suppress(KulmanError):  # this variant has no plan with the student's data
-            looks.append((part_there(drawn, other_key(other).key), other))
+            looks.append((part_there(drawn, other_key(other).key, MUCH), other))
     looks = sorted((look for look in looks if look[0] >= MUCH), reverse=True)[:LIKELY]
     for _, other in looks:
         part = _right(_look(drawn, other_key(other), False)[0])

@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...drawing.markers import STUCK
-from ...plans.marking.drawn import Drawn, FoundPlan, recognise
+from ...plans.marking.drawn import FoundPlan, recognise
+from ...plans.marking.lines import Drawn
 from ...plans.marking.ways import Shape, shapes_of
 from ...scales.errors import InputError
 from ...scales.numbers import SHOWN, quote

@@ -23,7 +23,8 @@ from ...drawing.page import Page
 from ...drawing.shapes import Group, Shape, Vector
 from ...drawing.writers import page_files
 from ...plans.board import POSITION
-from ...plans.marking.drawn import Drawn, Found, FoundPlan, Recognised
+from ...plans.marking.drawn import Found, FoundPlan, Recognised
+from ...plans.marking.lines import Drawn
 from ...plans.marking.ways import Shape as Way
 from ...plans.marking.ways import edges_of, shape_of
 from ...plans.names import LEVER, role
