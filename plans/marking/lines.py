@@ -31,6 +31,7 @@ WAYS = 64  # directions of lines that are told apart where they go out
 BINS, FAR = 1440, 10_000.0  # directions of lines by which they are looked up; mm, beyond all sizes
 REACH = 3  # squares around a node from which it is found
 SQUARES = 16_000_000  # the most squares
+FINE = 65_000.0  # of `REACH`, by which nodes are told nearer
 
 Complex = NDArray[np.complex128]
 Floats = NDArray[np.float64]
@@ -233,8 +234,27 @@ def _hubs(nodes: Complex) -> Indices:
     """Return the numbers of groups of nodes that are close together."""
     if not len(nodes):
         return np.zeros(0, np.intp)
-    points = _points(nodes)
-    return _components(len(nodes), *shapely.STRtree(points).query(points, predicate="dwithin", distance=CLOSE))
+    return _components(len(nodes), *_near(nodes, CLOSE))
+
+
+def _near(places: Complex, within: float) -> tuple[Indices, Indices]:
+    """Return which places are near one another, mm, each pair of them once: places in squares side by side."""
+    across, up = (np.floor(axis / within).astype(np.int64) for axis in (places.real, places.imag))
+    up -= up.min(initial=0)
+    rows = int(up.max(initial=0)) + 3
+    codes = across * rows + up
+    order = np.argsort(codes, kind="stable")
+    codes, places = codes[order], places[order]
+    found = []
+    for first, last in ((np.arange(1, len(codes) + 1), codes + 1), (None, codes + rows + 1)):
+        begin = np.searchsorted(codes, codes + rows - 1) if first is None else first
+        counts = np.maximum(np.searchsorted(codes, last, side="right") - begin, 0)
+        one = np.repeat(np.arange(len(codes)), counts)
+        other = np.arange(len(one)) + (begin - np.cumsum(counts) + counts)[one]
+        near = np.abs(places[one] - places[other]) <= within
+        found.append((order[one[near]], order[other[near]]))
+    one, other = (np.concatenate([pair[side] for pair in found]) for side in (0, 1))
+    return one, other
 
 
 def _components(count: int, one: Indices, other: Indices) -> Indices:
@@ -258,15 +278,20 @@ def _segments(tails: Complex, tips: Complex) -> NDArray[np.object_]:
     return np.asarray(shapely.linestrings(ends))
 
 
+def _about(starts: Complex, stops: Complex, within: Floats | float) -> NDArray[np.object_]:
+    """Return the boxes about segments, so many mm larger: trees find what is in a box faster than what is near."""
+    low, high = np.minimum(starts.real, stops.real), np.maximum(starts.real, stops.real)
+    down, up = np.minimum(starts.imag, stops.imag), np.maximum(starts.imag, stops.imag)
+    return np.asarray(shapely.box(low - within, down - within, high + within, up + within))
+
+
 def _clustered(ends: Complex) -> tuple[Complex, Indices]:
     """Return the middles of ends that stand together, and of which of them each end is."""
     if not len(ends):
         return ends, np.zeros(0, np.intp)
     # many ends stand at the very same place
     places, own, counts = np.unique(np.round(ends, 3), return_inverse=True, return_counts=True)
-    points = _points(places)
-    one, other = shapely.STRtree(points).query(points, predicate="dwithin", distance=SAME)
-    labels = _components(len(places), one, other)
+    labels = _components(len(places), *_near(places, SAME))
     return _mean(labels, places, counts.astype(float)), labels[own.reshape(-1)]
 
 
@@ -281,14 +306,16 @@ def _runs(tails: Complex, tips: Complex) -> tuple[Complex, Complex, Floats]:
     if not len(tails):
         return tails, tips, np.zeros(0)
     drawn = _segments(tails, tips)
-    one, other = shapely.STRtree(drawn).query(drawn, predicate="dwithin", distance=ASIDE)
+    one, other = shapely.STRtree(drawn).query(_about(tails, tips, ASIDE))
     sizes = np.abs(tips - tails)
     longer = (sizes[one] > sizes[other]) | ((sizes[one] == sizes[other]) & (one < other))
     one, other = one[longer], other[longer]
     way = (tips - tails)[one] / sizes[one]
     aside = [np.abs(cross(way, end[other] - tails[one])) for end in (tails, tips)]
     together = (aside[0] < ASIDE) & (aside[1] < ASIDE)
-    labels = _components(len(tails), one[together], other[together])
+    one, other = one[together], other[together]
+    near = shapely.dwithin(drawn[one], drawn[other], ASIDE)
+    labels = _components(len(tails), one[near], other[near])
     order = np.lexsort((-sizes, labels))
     longest = order[np.searchsorted(labels[order], np.arange(labels.max() + 1))]
     begin, way = tails[longest][labels], ((tips - tails) / sizes)[longest][labels]
@@ -315,13 +342,14 @@ def _lengthened(tails: Complex, tips: Complex) -> tuple[Complex, Complex]:
     long = np.abs(tips - tails) > SEED
     if not long.any():
         return tails[long], tips[long]
-    tree = shapely.STRtree(_segments(tails, tips))
+    drawn = _segments(tails, tips)
     tails_of, tips_of = tails[long], tips[long]
-    one, other = tree.query(_segments(tails_of, tips_of), predicate="dwithin", distance=ASIDE)
+    one, other = shapely.STRtree(drawn).query(_about(tails_of, tips_of, ASIDE))
     way = (tips_of - tails_of) / np.abs(tips_of - tails_of)
     along = [dot(way[one], end[other] - tails_of[one]) for end in (tails, tips)]
     aside = [np.abs(cross(way[one], end[other] - tails_of[one])) for end in (tails, tips)]
-    together = (aside[0] < BESIDE) & (aside[1] < BESIDE)
+    together = np.flatnonzero((aside[0] < BESIDE) & (aside[1] < BESIDE))
+    together = together[shapely.dwithin(drawn[long][one[together]], drawn[other[together]], ASIDE)]
     least, most = np.zeros(len(way)), np.abs(tips_of - tails_of)
     for place in along:
         np.minimum.at(least, one[together], place[together])
@@ -358,9 +386,12 @@ def _pairs(runs: tuple[Complex, Complex, Floats], nodes: Complex, ends: int, dra
     starts, stops, beside = runs
     if not len(starts):
         return np.zeros(0, np.intp), np.zeros(0, np.intp)
-    tree, drawn_runs = shapely.STRtree(_points(nodes)), _segments(starts, stops)
-    line, node = tree.query(drawn_runs, predicate="dwithin", distance=BESIDE + beside)
-    ways = (stops - starts) / np.abs(stops - starts)
+    line, node = shapely.STRtree(_points(nodes)).query(_about(starts, stops, BESIDE + beside))
+    sizes = np.abs(stops - starts)
+    ways = (stops - starts) / sizes
+    along = np.clip(dot(ways[line], nodes[node] - starts[line]), 0.0, sizes[line])
+    near = np.abs(starts[line] + along * ways[line] - nodes[node]) <= (BESIDE + beside)[line]
+    line, node = line[near], node[near]
     order = np.lexsort((dot(ways[line], nodes[node] - starts[line]), line))
     line, node = line[order], node[order]
     found: list[tuple[Indices, Indices]] = []
@@ -394,6 +425,7 @@ def _squares(nodes: Complex) -> tuple[NDArray[np.int32], complex]:
     number = np.broadcast_to(np.arange(len(nodes))[:, None], x.shape)
     inside = (apart <= REACH) & (x >= 0) & (y >= 0) & (x < columns) & (y < rows)
     x, y, number, apart = x[inside], y[inside], number[inside], apart[inside]
-    order = np.argsort(-apart, kind="stable")  # the nearest is written last
+    far = ((REACH - apart) * (FINE / REACH)).astype(np.uint16)  # whole numbers of 16 bits are sorted faster
+    order = np.argsort(far, kind="stable")  # the nearest is written last
     squares[y[order].astype(np.intp), x[order].astype(np.intp)] = number[order]
     return squares, corner
