@@ -282,7 +282,7 @@ class Laying:
         factors = cmath.rect(1.0, turn) * (self.lines.sizes[pairs] / sizes[own])
         marks = stack.places[rows, stack.tails[rows, ats]] + stack.places[rows, stack.tips[rows, ats]]
         nodes = self.lines.nodes[self.lines.first[pairs]] + self.lines.nodes[self.lines.second[pairs]]
-        return rows, (nodes - factors * marks) / 2.0, factors, most
+        return rows, np.asarray((nodes - factors * marks) / 2.0), np.asarray(factors), most
 
     def _at_most(
         self,

@@ -7,6 +7,7 @@ through both, whatever pieces it was drawn in. All that is looked for later is a
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -26,6 +27,7 @@ CLOSE = 0.7  # mm within which one node may be taken for another
 LEAST = 1.0  # mm; nodes nearer than this are no ends of a vector that can be told
 FLAT = 0.05  # sine of two lines that cross too flatly to make a node
 MANY = 48  # nodes on one line, of which all pairs are looked at; of one with more those nearest to each other
+AT_ONCE = 1000  # lines about which others are looked for
 CELL = 0.5  # mm, side of the squares in which nodes are looked up
 WAYS = 64  # directions of lines that are told apart where they go out
 BINS, FAR = 1440, 10_000.0  # directions of lines by which they are looked up; mm, beyond all sizes
@@ -202,10 +204,11 @@ def lines_of(tails: Complex, tips: Complex) -> Lines:
     tails, tips = tails[whole], tips[whole]
     nodes, number = _clustered(np.concatenate((tails, tips)))
     long = np.abs(tips - tails) > SAME
-    starts, stops, beside = _runs(tails[long], tips[long])
+    in_line = _in_line(tails[long], tips[long])
+    starts, stops, beside = _runs(tails[long], tips[long], in_line)
     crossings = _crossings(starts, stops, nodes)
     every = np.concatenate((nodes, crossings))
-    more = _lengthened(tails[long], tips[long])
+    more = _lengthened(tails[long], tips[long], in_line)
     runs = (
         np.concatenate((starts, more[0])),
         np.concatenate((stops, more[1])),
@@ -278,13 +281,6 @@ def _segments(tails: Complex, tips: Complex) -> NDArray[np.object_]:
     return np.asarray(shapely.linestrings(ends))
 
 
-def _about(starts: Complex, stops: Complex, within: Floats | float) -> NDArray[np.object_]:
-    """Return the boxes about segments, so many mm larger: trees find what is in a box faster than what is near."""
-    low, high = np.minimum(starts.real, stops.real), np.maximum(starts.real, stops.real)
-    down, up = np.minimum(starts.imag, stops.imag), np.maximum(starts.imag, stops.imag)
-    return np.asarray(shapely.box(low - within, down - within, high + within, up + within))
-
-
 def _clustered(ends: Complex) -> tuple[Complex, Indices]:
     """Return the middles of ends that stand together, and of which of them each end is."""
     if not len(ends):
@@ -301,21 +297,53 @@ def _mean(labels: Indices, places: Complex, weights: Floats) -> Complex:
     return np.asarray(sums / total)
 
 
-def _runs(tails: Complex, tips: Complex) -> tuple[Complex, Complex, Floats]:
+def _in_boxes(
+    tree: shapely.STRtree, starts: Complex, stops: Complex, within: Floats
+) -> Iterator[tuple[Indices, Indices]]:
+    """Go through what may be within so many mm of segments, some of these after the other: numbers of both.
+
+    What is in their boxes, which trees find faster than what is near.
+    """
+    low, high = np.minimum(starts.real, stops.real) - within, np.maximum(starts.real, stops.real) + within
+    down, up = np.minimum(starts.imag, stops.imag) - within, np.maximum(starts.imag, stops.imag) + within
+    for begin in range(0, len(starts), AT_ONCE):
+        some = slice(begin, begin + AT_ONCE)
+        one, other = tree.query(shapely.box(low[some], down[some], high[some], up[some]))
+        yield one + begin, other
+
+
+def _joined(pairs: Iterable[tuple[Indices, Indices]]) -> tuple[Indices, Indices]:
+    found = [(np.zeros(0, np.intp), np.zeros(0, np.intp)), *pairs]
+    return np.concatenate([one for one, _ in found]), np.concatenate([other for _, other in found])
+
+
+def _in_line(tails: Complex, tips: Complex) -> tuple[Indices, Indices, Floats]:
+    """Return which segments have which others along their lines, and how far these lie beside it, mm."""
+    drawn, found = _segments(tails, tips), list[tuple[Indices, Indices]]()
+    ways = (tips - tails) / np.abs(tips - tails)
+
+    def aside(one: Indices, other: Indices) -> Floats:
+        off = [np.abs(cross(ways[one], end[other] - tails[one])) for end in (tails, tips)]
+        return np.asarray(np.maximum(*off))
+
+    for one, other in _in_boxes(shapely.STRtree(drawn), tails, tips, np.full(len(tails), ASIDE)):
+        here = aside(one, other) < BESIDE
+        one, other = one[here], other[here]
+        here = shapely.dwithin(drawn[one], drawn[other], ASIDE)
+        found.append((one[here], other[here]))
+    one, other = _joined(found)
+    return one, other, aside(one, other)
+
+
+def _runs(tails: Complex, tips: Complex, in_line: tuple[Indices, Indices, Floats]) -> tuple[Complex, Complex, Floats]:
     """Return both ends of straight lines, each put together of its pieces and copies; how far these lie beside it."""
     if not len(tails):
         return tails, tips, np.zeros(0)
-    drawn = _segments(tails, tips)
-    one, other = shapely.STRtree(drawn).query(_about(tails, tips, ASIDE))
+    one, other, aside = in_line
     sizes = np.abs(tips - tails)
     longer = (sizes[one] > sizes[other]) | ((sizes[one] == sizes[other]) & (one < other))
-    one, other = one[longer], other[longer]
-    way = (tips - tails)[one] / sizes[one]
-    aside = [np.abs(cross(way, end[other] - tails[one])) for end in (tails, tips)]
-    together = (aside[0] < ASIDE) & (aside[1] < ASIDE)
-    one, other = one[together], other[together]
-    near = shapely.dwithin(drawn[one], drawn[other], ASIDE)
-    labels = _components(len(tails), one[near], other[near])
+    together = longer & (aside < ASIDE)
+    labels = _components(len(tails), one[together], other[together])
     order = np.lexsort((-sizes, labels))
     longest = order[np.searchsorted(labels[order], np.arange(labels.max() + 1))]
     begin, way = tails[longest][labels], ((tips - tails) / sizes)[longest][labels]
@@ -337,25 +365,17 @@ def _runs(tails: Complex, tips: Complex) -> tuple[Complex, Complex, Floats]:
     return np.concatenate((starts[straight], tails[alone])), np.concatenate((stops[straight], tips[alone])), beside
 
 
-def _lengthened(tails: Complex, tips: Complex) -> tuple[Complex, Complex]:
+def _lengthened(tails: Complex, tips: Complex, in_line: tuple[Indices, Indices, Floats]) -> tuple[Complex, Complex]:
     """Return segments with the pieces that go on in line with each: of lines close together each keeps its own."""
-    long = np.abs(tips - tails) > SEED
-    if not long.any():
-        return tails[long], tips[long]
-    drawn = _segments(tails, tips)
-    tails_of, tips_of = tails[long], tips[long]
-    one, other = shapely.STRtree(drawn).query(_about(tails_of, tips_of, ASIDE))
-    way = (tips_of - tails_of) / np.abs(tips_of - tails_of)
-    along = [dot(way[one], end[other] - tails_of[one]) for end in (tails, tips)]
-    aside = [np.abs(cross(way[one], end[other] - tails_of[one])) for end in (tails, tips)]
-    together = np.flatnonzero((aside[0] < BESIDE) & (aside[1] < BESIDE))
-    together = together[shapely.dwithin(drawn[long][one[together]], drawn[other[together]], ASIDE)]
-    least, most = np.zeros(len(way)), np.abs(tips_of - tails_of)
-    for place in along:
-        np.minimum.at(least, one[together], place[together])
-        np.maximum.at(most, one[together], place[together])
-    grown = (least < -ASIDE) | (most > np.abs(tips_of - tails_of) + ASIDE)
-    return (tails_of + least * way)[grown], (tails_of + most * way)[grown]
+    one, other, _ = in_line
+    sizes = np.abs(tips - tails)
+    ways, least, most = (tips - tails) / sizes, np.zeros(len(sizes)), sizes.copy()
+    for end in (tails, tips):
+        along = dot(ways[one], end[other] - tails[one])
+        np.minimum.at(least, one, along)
+        np.maximum.at(most, one, along)
+    grown = (sizes > SEED) & ((least < -ASIDE) | (most > sizes + ASIDE))
+    return (tails + least * ways)[grown], (tails + most * ways)[grown]
 
 
 def _crossings(starts: Complex, stops: Complex, nodes: Complex) -> Complex:
@@ -386,12 +406,15 @@ def _pairs(runs: tuple[Complex, Complex, Floats], nodes: Complex, ends: int, dra
     starts, stops, beside = runs
     if not len(starts):
         return np.zeros(0, np.intp), np.zeros(0, np.intp)
-    line, node = shapely.STRtree(_points(nodes)).query(_about(starts, stops, BESIDE + beside))
-    sizes = np.abs(stops - starts)
-    ways = (stops - starts) / sizes
-    along = np.clip(dot(ways[line], nodes[node] - starts[line]), 0.0, sizes[line])
-    near = np.abs(starts[line] + along * ways[line] - nodes[node]) <= (BESIDE + beside)[line]
-    line, node = line[near], node[near]
+    sizes, ways = np.abs(stops - starts), (stops - starts) / np.abs(stops - starts)
+
+    def near(line: Indices, node: Indices) -> tuple[Indices, Indices]:
+        along = np.clip(dot(ways[line], nodes[node] - starts[line]), 0.0, sizes[line])
+        here = np.abs(starts[line] + along * ways[line] - nodes[node]) <= BESIDE + beside[line]
+        return line[here], node[here]
+
+    boxes = _in_boxes(shapely.STRtree(_points(nodes)), starts, stops, BESIDE + beside)
+    line, node = _joined(near(*some) for some in boxes)
     order = np.lexsort((dot(ways[line], nodes[node] - starts[line]), line))
     line, node = line[order], node[order]
     found: list[tuple[Indices, Indices]] = []
