@@ -247,12 +247,14 @@ class _Ends:
         """Return the dead positions on a stretch, and its two ends as (place, driver's place) unless it has none."""
         speeds = np.abs(self.velocity(stretch.place(stretch.grid())))
         usual = (self.size if self.output.slides else 1.0) / (1.0 if self.drive.turns else self.size)
-        median = np.median(speeds[np.isfinite(speeds)]) if np.isfinite(speeds).any() else 0.0
+        known = np.sort(speeds[np.isfinite(speeds)])  # np.median and np.unique would import all of numpy.ma
+        median = known[(len(known) - 1) // 2 : len(known) // 2 + 1].mean() if len(known) else 0.0
         roots = zeros(self.velocity, stretch)[0] if median > STILL * usual else speeds[:0]
         roots = roots[np.abs(self.velocity(roots)) <= median] if len(roots) else roots
         ends = [] if stretch.closed else [stretch.low, stretch.high]
         inside = [end + s * INSIDE * stretch.length for end, s in zip(ends, (1.0, -1.0), strict=False)]
-        at = np.unique(np.concatenate((stretch.place(stretch.grid()), roots, ends, inside)))
+        at = np.sort(np.concatenate((stretch.place(stretch.grid()), roots, ends, inside)))
+        at = at[np.append(True, at[1:] > at[:-1])]
         places = self.output.places(self.along(at))
         known = np.flatnonzero(np.isfinite(places))
         found = [(float(places[i]), float(x)) for i, x in zip(known[[0, -1]], ends, strict=False)] if len(known) else []

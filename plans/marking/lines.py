@@ -395,7 +395,7 @@ def _crossings(starts: Complex, stops: Complex, nodes: Complex) -> Complex:
     if not len(places):
         return places
     near, _ = shapely.STRtree(_points(nodes)).query(_points(places), predicate="dwithin", distance=BESIDE)
-    return np.delete(places, np.unique(near))
+    return np.delete(places, near)
 
 
 def _pairs(runs: tuple[Complex, Complex, Floats], nodes: Complex, ends: int, drawn: Indices) -> tuple[Indices, Indices]:
