@@ -139,15 +139,20 @@ def shapes_of(key: Key, book: Book | None, plan: str) -> tuple[Shape, ...]:
     right = shape_of(plan, right_edges, key.values)
     if right is None or not right.longest:
         return ()
-    found = {look_of(right): right}
+    found, looks = {look_of(right): right}, dict[tuple[Any, ...], tuple[Any, ...]]()
     for number, one in enumerate(book.signatures if book else ()):
         if one.broken.mistake in BY_SCALE:
             continue
         changed = any(step.plan == plan for steps in one.broken.change.steps.values() for step in steps)
         edges = changed_edges(right_edges, one.broken.program, plan) if changed else right_edges
+        drawn = edges, *(one.values.get(mark) for _, *ends in edges for mark in ends)
+        if drawn in looks:  # most mistakes leave most plans as they are
+            look = looks[drawn]
+            found[look] = replace(found[look], broken=(*found[look].broken, number))
+            continue
         shape = shape_of(plan, edges, one.values, number)
         if shape is not None and shape.longest:
-            look = look_of(shape)
+            looks[drawn] = look = look_of(shape)
             before = found.get(look)
             found[look] = shape if before is None else replace(before, broken=(*before.broken, number))
     return tuple(found.values())
