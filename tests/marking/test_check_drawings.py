@@ -221,6 +221,20 @@ def test_a_drawing_of_something_else_is_refused(tmp_path: Path) -> None:
     assert error.value.key == "drawing-unknown"
 
 
+@pytest.mark.parametrize("times", [10.0, 0.02])
+def test_a_drawing_in_another_unit_is_refused_by_its_size(tmp_path: Path, times: float) -> None:
+    ready, own = asked("nau-slider-crank")
+    lines, _ = plans_of(own, own.solution.solved.program, own.key.values)
+    file = tmp_path / "x.dxf"
+    file.write_bytes(as_dxf([(a * times, b * times) for a, b in lines], []))
+
+    with pytest.raises(InputError) as error:
+        marked(ready, file)
+
+    assert error.value.key == "drawing-size"
+    assert str(round(times * max(abs(a - b) for a, b in lines))) in str(error.value)
+
+
 def test_a_drawing_is_returned_with_verdicts(tmp_path: Path, command: Run) -> None:
     _, key = asked("nau-slider-crank")
     one = next(one for one in key.book.signatures if one.broken.mistake == "M39")

@@ -113,6 +113,18 @@ def test_lines_are_those_that_ezdxf_finds(tmp_path: Path) -> None:
     assert far(found, Drawn(tails, tips)).max() < 1e-6
 
 
+def test_multilines_are_read_through_their_vertices(tmp_path: Path) -> None:
+    document, file = ezdxf.new("R2010", units=4), tmp_path / "m.dxf"
+    document.modelspace().add_mline([(0, 0), (50, 0), (50, 30)], close=True)
+    document.saveas(file)
+
+    found = read_drawing(file)
+
+    corners = np.array([0j, 50 + 0j, 50 + 30j])
+    assert len(found.tails) == 3
+    assert far(found, Drawn(corners, np.roll(corners, -1))).max() < 1e-6
+
+
 def _exploded(insert):
     for part in insert.virtual_entities():
         kind = part.dxftype()

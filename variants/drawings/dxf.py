@@ -137,6 +137,10 @@ class _Dxf:
             self.marks.path([way.at(_place(groups)), way.at(_place(groups, 11))])
         elif kind in ("LWPOLYLINE", "LEADER"):
             self.broken(groups, way)
+        elif kind == "MLINE":  # drawn through its vertices, whatever lines run beside them
+            ends = [float(value) for code, value in groups if code in (11, 21)]
+            corners = [way.at(complex(x, y)) for x, y in zip(ends[::2], ends[1::2], strict=True)]
+            self.marks.path(corners, bool(int(_number(groups, 71)) & 2))
         elif kind in ("SOLID", "TRACE"):
             corners = list(dict.fromkeys(way.at(_place(groups, code)) for code in (10, 11, 12, 13)))
             if len(corners) == 3:

@@ -30,6 +30,7 @@ MUCH = 0.8  # part of the vectors of a variant that a drawing of it has
 LIKELY = 3  # other variants that are looked at closely
 QUARTER = math.pi / 2.0
 DIGITS = 3
+LEAST, LARGEST = 15.0, 1200.0  # mm, the longest line of a drawing on a sheet of paper
 TINY = 2.0  # mm of a vector: of shorter ones none can be asked for
 _MU = re.compile(r"(?:[μµ]|\bmu)\s*_?\s*\{?\s*([^\W_][\w. ]{0,12}?)\s*\}?\s*[=:]\s*(.{1,60})")
 _BARE = re.compile(r"[0-9]+(?:[.,][0-9]+)?(?![0-9.,]|\s*[·*/:])")
@@ -182,7 +183,7 @@ def measured(
     recognised = found.recognised
     sure = max((plan.quality for plan in recognised.plans.values()), default=0.0) >= SURE
     if not (recognised.vectors and sure) and not found.fits:
-        raise InputError("drawing-unknown", file=quote(answers.source, SHOWN))
+        raise _unknown(answers)
     lines = {}
     for name, vector in recognised.vectors.items():
         way, mu = vector.tip - vector.tail, Mu(found.mus[vector.plan], sure=True)
@@ -203,6 +204,15 @@ def measured(
             *_told_of(key, tiny, lambda plan: "drawing-tiny"),
         ]
     return replace(answers, lines=lines, columns=columns), notes
+
+
+def _unknown(answers: Answers) -> InputError:
+    """Return why nothing of the task was recognised: by its size a drawing may have been saved in another unit."""
+    file, drawn = quote(answers.source, SHOWN), answers.drawn
+    longest = 0.0 if drawn is None else float(abs(drawn.tips - drawn.tails).max(initial=0.0))
+    if longest > LARGEST or longest < LEAST:
+        return InputError("drawing-size", file=file, n=round(longest))
+    return InputError("drawing-unknown", file=file)
 
 
 def _tiny(key: Keyed, found: Seen, name: str) -> bool:
