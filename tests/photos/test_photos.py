@@ -38,7 +38,7 @@ from kulman.variants.photos.matching import lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import on_page, print_scale
 from kulman.variants.photos.straight import PER_MM, framed, straightened
-from kulman.variants.photos.traced import Pencil, traced
+from kulman.variants.photos.traced import Pencil, ends_at, senses, traced
 from kulman.variants.roster import Who
 from kulman.variants.sheets import drawing_for_print, scan_code
 
@@ -334,6 +334,55 @@ def test_a_point_between_lines_in_one_direction_is_where_its_arrowhead_is() -> N
     assert {*found} == {0, 1}
     assert abs(points - [pole, drawn_at, end]).max() < 0.3
     assert errors.max() < 0.5
+
+
+def test_an_end_and_an_arrowhead_that_differ_tell_nothing() -> None:
+    pole, end = 20 + 20j, 90 + 20j
+    way = plan_of([0j, 70 + 0j], (0, 1))
+    pencil = pencil_of([(pole, end)], [(pole, end - 1.5)])  # as where a letter touches one of them
+
+    _, errors, found = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert {*found} == {0}
+    assert errors[1] > 5.0
+
+
+A, B, C = 20 + 20j, 80 + 20j, 60 + 45j
+NEARLY = B + 4j  # beside B, as a reaction and its normal part end
+
+
+@pytest.mark.parametrize(
+    ("edges", "arrows", "told"),
+    [
+        pytest.param([(0, 1), (1, 2)], [(A, B), (B, C)], {0: 1, 1: 1}, id="as they should"),
+        pytest.param([(0, 1), (1, 2)], [(B, A), (B, C)], {0: -1, 1: 1}, id="one the other way round"),
+        pytest.param([(0, 1), (1, 2)], [(B, C)], {1: 1}, id="none"),
+        pytest.param([(0, 1), (1, 2)], [(A, B), (B, A), (B, C)], {1: 1}, id="at both ends"),
+        pytest.param([(0, 1), (1, 0)], [(B, A)], {}, id="a vector both ways"),
+        pytest.param([(0, 1), (0, 3)], [(B, A), (A, NEARLY)], {0: 0}, id="of lines nearly in one direction"),
+    ],
+)
+def test_arrowheads_tell_which_way_a_vector_goes(
+    edges: list[tuple[int, int]], arrows: list[tuple[complex, complex]], told: dict[int, int]
+) -> None:
+    points = np.array([A, B, C, NEARLY])
+    pencil, way = pencil_of([(points[a], points[b]) for a, b in edges], arrows), plan_of([*(points - A)], *edges)
+    way = replace(way, lines=way.lines[: 1 if edges[1] == (1, 0) else 2])
+    _, _, found = traced(pencil, way, points, points, A)
+
+    said = senses(pencil, way, points, found)
+
+    assert {n: said[n] for n in said if n in told or said[n] != 1} == told
+
+
+def test_a_vector_that_is_longer_than_it_should_be_ends_where_its_arrowhead_is() -> None:
+    pole, end, right = 20 + 20j, 90 + 20j, 60 + 20j
+    longer, doubtful = pencil_of([(pole, end)], [(pole, end)]), pencil_of([(pole, end)], [(pole, end), (pole, right)])
+
+    assert ends_at(longer, pole, end, right)
+    assert not ends_at(longer, pole, right, end)
+    assert not ends_at(doubtful, pole, end, right)
+    assert not ends_at(longer, pole, end, pole + 5)  # too short for an arrowhead
 
 
 def test_a_point_that_nothing_tells_is_not_taken_from_where_it_should_be() -> None:

@@ -335,7 +335,8 @@ def _without_doubt(answers: Answers, key: Keyed, found: Seen, rubric: Rubric) ->
         line.name
         for line in marking.lines
         if line.verdict is Verdict.WRONG and line.about == "size" and line.answer is not None and line.answer.mm
-        if abs(line.answer.mm - abs(line.right) / found.mus[read.vectors[line.name].plan]) <= READ
+        for mu in [found.mus[read.vectors[line.name].plan]]
+        if any(abs(line.answer.mm - abs(x) / mu) <= line.allowed / mu + READ for x in (line.right, line.follows))
     }
     sure = {name: one for name, one in read.vectors.items() if name not in doubtful}
     return replace(found, recognised=Recognised(read.plans, sure, (*read.missing, *sorted(doubtful))))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from ...plans.marking.ways import Shape as Way
 from ...plans.marking.ways import shapes_of
 from ..marking.keyed import Keyed
 from .strokes import END, LINE
-from .traced import Pencil, between, traced
+from .traced import Pencil, Traced, between, senses, traced
 
 LONG = 4.0  # mm of a vector whose line is sought
 OFF, SKEW, TURN = (3.0, 1.5), 1.0, 0.03  # mm a line may be off at first, and then; mm at its ends and sine besides
@@ -64,6 +64,7 @@ class Fit:
     quality: float
     worth: float
     there: frozenset[frozenset[int]]
+    lines: Mapping[int, Traced] = field(default_factory=dict)
 
 
 def lines_of(tails: Complex, tips: Complex, pencil: Pencil | None = None) -> Lines:
@@ -87,10 +88,15 @@ def matched(
         mistake = "" if fit.way.right else keyed.book.signatures[fit.way.broken[0]].broken.mistake
         at = complex(fit.points[int(np.abs(fit.way.places).argmin())])
         plans[plan] = FoundPlan(mus[plan] / fit.times, 0.0, at, fit.quality, mistake)
-        for name, tail, tip in zip(fit.way.names, fit.way.tails.tolist(), fit.way.tips.tolist(), strict=True):
+        way = fit.way
+        told = {} if lines is None or lines.pencil is None else senses(lines.pencil, way, fit.points, fit.lines)
+        pointed = {frozenset((int(way.tails[at]), int(way.tips[at]))): told.get(n) for n, at in enumerate(way.lines)}
+        for name, tail, tip in zip(way.names, way.tails.tolist(), way.tips.tolist(), strict=True):
             error = float(np.hypot(fit.errors[tail], fit.errors[tip]))
-            if name in asked and error <= SURE and frozenset((tail, tip)) in fit.there:
-                vectors[name] = Found(complex(fit.points[tail]), complex(fit.points[tip]), plan, 1.0 - error)
+            if name in asked and error <= SURE and (line := frozenset((tail, tip))) in fit.there:
+                first, last = (tip, tail) if (sense := pointed[line]) == -1 else (tail, tip)
+                certainty = 1.0 - error if sense != 0 else 0.0
+                vectors[name] = Found(complex(fit.points[first]), complex(fit.points[last]), plan, certainty)
         missing += [name for name in asked if name not in vectors]
     return Recognised(plans, vectors, tuple(missing))
 
@@ -138,7 +144,7 @@ def _traced(lines: Lines, fit: Fit, pole: complex, mu: float) -> Fit:
     for begun in (wanted, np.where(near, fit.points, wanted)):
         points, errors, found = traced(lines.pencil, way, wanted, begun, pole)
         good = np.array([found[number].part if number in found else 0.0 for number in range(len(way.lines))])
-        own = _fitted(way, mu, points, errors, fit.times, good)
+        own = replace(_fitted(way, mu, points, errors, fit.times, good), lines=found)
         if best is fit or own.quality > best.quality:
             best = own
         if best.quality >= WHOLE:

@@ -41,7 +41,7 @@ from .matching import lines_of, matched
 from .pictures import Photo, grey_of
 from .straight import ASTRAY, PER_MM, flat, framed, straightened
 from .strokes import Ink, strokes
-from .traced import HIDES, Pencil
+from .traced import HIDES, Pencil, ends_at
 
 APART = 1000.0  # mm between pages of a drawing
 INKED = 200  # of 255: what is darker is print
@@ -51,6 +51,7 @@ COVERED = 0.85  # part of a vector along which the pencil must be seen
 SHORT = 5.0  # mm of a vector that is read at the least
 OFF, ASTRAY_PART = 1.0, 0.02  # mm and part of a vector by which it may be beside where it should be
 HAND = 0.4  # mm that the ends of a vector may lie beside its line, which turns short ones
+CERTAIN = 0.75  # of a vector that may be a part of a longer line
 QUALITY = 0.8  # part of a plan with a mistake that must be there
 LONG, FEWEST, LIKE = 15.0, 4, 0.01  # mm of vectors that tell how large the sheet is printed; how many; how alike
 PRINTED, MOST = 0.012, 0.1  # parts by which a print that is told is smaller or larger
@@ -443,9 +444,11 @@ def _doubtful(
     number, tail = on_page(sheets, vector.tail)
     _, tip = on_page(sheets, vector.tip)
     page, way = pages.get(number), tip - tail
-    if page is None or abs(way) < SHORT or page.covered(tail, tip) < COVERED:
+    if page is None or not vector.certainty or abs(way) < SHORT or page.covered(tail, tip) < COVERED:
         return True
     right = complex(keyed.key[name]) / sheets.blank.mus[vector.plan] * sheets.printed
     if abs(way - right) <= OFF + ASTRAY_PART * abs(right):
         return False
-    return abs(right) >= SHORT and page.covered(tail, tail + right) >= COVERED
+    if abs(right) < SHORT or page.covered(tail, tail + right) < COVERED:
+        return False
+    return vector.certainty < CERTAIN or not ends_at(Pencil(page.dark), tail, tip, tail + right)

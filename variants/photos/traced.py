@@ -8,7 +8,7 @@ where its lines cross, weighed against ends and arrowheads: these alone tell whe
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,7 +33,9 @@ WINGS = tuple(math.radians(degrees) for degrees in (10.0, 13.0, 16.0, 20.0, 25.0
 WING, APART = 3.2, 0.55  # mm of a wing at the most; mm from its line where it is told from that
 LEAN = math.sin(math.radians(5.0))  # of a wing against its line at the least
 ARROWED = 9.0  # mm of a vector whose arrowhead can be told from its line
-POINTED = 0.55  # part of how dark their line is that wings must be
+POINTED, BARE = 0.55, 0.3  # parts of how dark their line is that wings must be, and where none is seen at the most
+DOUBTED = 0.2  # part by which wings at the wrong end are darker from which they make the sense doubtful
+TOUCHED, BESIDE, FEWEST = 0.95, 0.5, 5  # cosine, mm from which others may have wings, be these; places that tell
 POLE, ENDING, POINTING = 0.15, 0.35, 0.3  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
 NEAR = 1.0  # mm that a point may be from where it should be, as far as nothing tells
 LIKELY = 2.5  # errors between a crossing and an end that is that of the point
@@ -45,6 +47,7 @@ LOST = 99.0  # mm, error of a point of which nothing is known
 
 Complex = NDArray[np.complex128]
 Floats = NDArray[np.float64]
+Ends = tuple[complex, complex]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -183,6 +186,76 @@ def _spots(pencil: Pencil, way: Way, points: Complex, found: dict[int, Traced]) 
     return spots
 
 
+def senses(pencil: Pencil, way: Way, points: Complex, found: Mapping[int, Traced]) -> dict[int, int]:
+    """Return of lines of a plan how their arrowheads point: 1 as they should, -1 the other way, 0 doubtfully.
+
+    Lines that are vectors both ways, short ones, and those that nothing tells of are left out. An arrowhead that lines
+    nearly in one direction may have may be that of each of them.
+    """
+    heads = {n: (complex(points[way.tails[way.lines[n]]]), complex(points[way.tips[way.lines[n]]])) for n in found}
+    heads = {n: ends for n, ends in heads.items() if abs(ends[1] - ends[0]) > BESIDE}
+    told = dict[int, int]()
+    for number, (tail, tip) in heads.items():
+        if way.both[number] or abs(tip - tail) < ARROWED:
+            continue
+        others = {n: ends for n, ends in heads.items() if n != number}
+        (at_tip, _), (at_tail, shared) = _along(tail, tip, others), _along(tip, tail, others)
+        if at_tip or at_tail:
+            continue
+        pairs, dark = ((tail, tip), (tip, tail)), found[number].dark
+        forth, back = (_winged(pencil, *ends, dark, others.values()) for ends in pairs)
+        if forth is None or back is None:
+            continue
+        if max(forth, back) >= POINTED and min(forth, back) <= BARE:
+            told[number] = 1 if forth > back else 0 if shared else -1
+        elif back > forth + DOUBTED:
+            told[number] = 0
+    return told
+
+
+def _along(tail: complex, tip: complex, others: Mapping[int, Ends]) -> tuple[bool, bool]:
+    """Return whether lines that go out from a tip about as that to the tail have their heads there, or their tails."""
+    headed, shared = False, False
+    for ends in others.values():
+        for other, end in (ends, ends[::-1]):
+            if abs(end - tip) < WING and dot(other - end, tail - tip) > TOUCHED * abs(other - end) * abs(tail - tip):
+                headed, shared = headed or end == ends[1], shared or end == ends[0]
+    return headed, shared
+
+
+def ends_at(pencil: Pencil, tail: complex, tip: complex, other: complex) -> bool:
+    """Whether a line from a tail has its arrowhead clearly at a tip, and none at another place along it."""
+    if min(abs(tip - tail), abs(other - tail)) < ARROWED:
+        return False
+    along = np.asarray(tail + (tip - tail) * np.linspace(0.1, 0.9, MOST), complex)
+    dark = float(np.median(pencil.at(along)[0]))
+    here, there = (_winged(pencil, tail, end, max(dark, FAINT), ()) for end in (tip, other))
+    return here is not None and there is not None and here >= POINTED and there <= BARE
+
+
+def _winged(pencil: Pencil, tail: complex, tip: complex, line: float, others: Iterable[Ends]) -> float | None:
+    """Return how dark, against their line, the wings of an arrowhead at a tip are; None where other lines hide them."""
+    size, best = abs(tip - tail), list[float]()
+    unit = (tip - tail) / size
+    at = np.arange(-NEAR, NEAR + 0.05, 1.0 / PER_MM)
+    for wing in WINGS:
+        behind, both = _behind(wing, size), list[Floats]()
+        if len(behind) < FEWEST:
+            continue
+        for side in (wing, -wing):
+            legs = tip + at[:, None] * unit - unit * np.exp(1j * side) * behind[None, :]
+            dark, hidden = pencil.at(legs)
+            for a, b in others:
+                along, aside = dot(b - a, legs - a) / abs(b - a), np.abs(cross(b - a, legs - a)) / abs(b - a)
+                hidden |= np.asarray((aside < BESIDE) & (along > -BESIDE) & (along < abs(b - a) + BESIDE))
+            count = (~hidden).sum(axis=1)
+            mean = np.where(hidden, 0.0, dark).sum(axis=1) / np.maximum(count, 1)
+            both.append(np.where(count < FEWEST, np.nan, mean))
+        wings = np.minimum(*both) / line
+        best += wings[~np.isnan(wings)].tolist()
+    return max(best, default=None)
+
+
 def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[Spot]:
     """Go through where a line ends near to its tip: there its darkness falls."""
     unit = line.unit if dot(line.unit, tip - tail) > 0 else -line.unit
@@ -279,16 +352,16 @@ def _solved(
 
 
 def _telling(spots: list[Spot], crossing: complex, error: float) -> list[Spot]:
-    """Return the ends and arrowheads that tell of a point: of a flat crossing an arrowhead, or ends that are one."""
+    """Return the ends and arrowheads that tell of a point: of a flat crossing an arrowhead, or ends that are one.
+
+    Where a line ends and its arrowhead points elsewhere, nothing tells: a letter may touch either.
+    """
     near = [s for s in spots if abs(dot(s.unit, s.place - crossing)) < LIKELY * math.hypot(min(error, NEAR), s.error)]
     if error <= FLAT:
         return near
-    arrows = [spot for spot in near if spot.arrow]
-    least = arrows or near
-    apart = max((abs(dot(one.unit, one.place - other.place)) for one in least for other in least), default=LOST)
-    if apart > ALIKE or (len(near) < 2 and not arrows and error > TOLD):
-        return []
-    return [one for one in near if abs(dot(one.unit, one.place - least[0].place)) <= ALIKE]
+    apart = max((abs(dot(one.unit, one.place - other.place)) for one in near for other in near), default=LOST)
+    alone = len(near) < 2 and not any(spot.arrow for spot in near) and error > TOLD
+    return [] if apart > ALIKE or alone else near
 
 
 class _Rows:
