@@ -31,6 +31,7 @@ from kulman.tests.photos.synthesiser import PHONE, PX, Truth, drawn, photographe
 from kulman.variants.case import Request
 from kulman.variants.drawings import pdf
 from kulman.variants.drawings.files import read_drawing
+from kulman.variants.marking.marked import surely
 from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import Report, report_files
 from kulman.variants.photos import pictures
@@ -149,6 +150,25 @@ def test_a_page_that_is_not_handed_in_is_missing_where_it_is_asked_for(only: str
     missing = {line.plan for line in marked.lines if line.verdict is Verdict.MISSING}
     assert missing == (set() if only is None else {"forces_23", "forces_2", "forces_1"})
     assert (marked.mark == 100.0) == (only is None)
+
+
+@pytest.mark.parametrize(("beyond", "wrong"), [(0.7, False), (2.0, True)])
+def test_a_vector_is_wrong_only_beyond_what_hand_and_reading_may_miss(
+    beyond: float, wrong: bool, honest: tuple[Report, dict[str, Truth]]
+) -> None:
+    marked, name = honest[0].marked, "V_B"
+    assert marked.seen is not None
+    assert marked.sheets is not None
+    read, right = marked.seen.recognised, marked.marking[name]
+    mu, vector = marked.seen.mus["velocity"], read.vectors[name]
+    tip = vector.tail + right.right / mu * (1.0 + (right.allowed + beyond * mu) / abs(right.right))
+    other = replace(read, vectors={**read.vectors, name: replace(vector, tip=tip)})
+    rubric = check(TASK, "0", only=PLANS, lang="en").rubric
+
+    found = surely(marked.answers, marked.keyed, marked.sheets, replace(marked.seen, recognised=other), rubric)
+
+    assert (name in found.recognised.vectors) is wrong
+    assert (name in found.recognised.missing) is not wrong
 
 
 def test_marked_sheets_are_returned(honest: tuple[Report, dict[str, Truth]]) -> None:
