@@ -313,6 +313,30 @@ def test_a_class_is_told_who_is_missing_and_where_notes_are(tmp_path: Path, caps
     assert absent == ["Student 02 – nothing handed in"]
 
 
+def test_a_wrong_row_of_the_roster_harms_no_other_student(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    faulty = [["Student 02", "17", "2"], ["Student 03", "", "1,2E+11"]]
+    roster = write(tmp_path, [["student", "variant", "record book"], ["Student 01", "3", "1"], *faulty], name="roster")
+    rows = [["student", "V_B", "V_A"], *([f"Student 0{n}", "5,6", "5,86"] for n in (1, 2, 3))]
+    answers, form, grades = write(tmp_path, rows), tmp_path / "form.csv", tmp_path / "grades.csv"
+
+    status, out, err = run(capsys, answers, "--roster", roster, "--form", form, "--moodle", grades, "--lang", "en")
+
+    told = err.splitlines()
+    assert (status, len(told)) == (0, 2)
+    assert "B3: " in told[0] and "17" in told[0]
+    assert "row 4: " in told[1] and "1,2E+11" in told[1]
+    variants = [row.split(",")[4] for row in form.read_text(encoding="utf-8-sig").splitlines()[1:]]
+    assert variants == ["3", "", ""]
+    assert "Student 01    100" in out
+    assert [" – " in line for line in out.splitlines() if "Student 0" in line] == [False, True, True]
+    assert grades.read_text(encoding="utf-8-sig").count("Student") == 1
+
+    wrong = write(tmp_path, [["student", "variant"], ["Student 01", "17"], ["Student 02", "18"]], name="wrong")
+    status, _, err = run(capsys, answers, "--roster", wrong, "--lang", "en")
+
+    assert (status, "B2: " in err) == (2, True)  # of no row is it known which variant: that is another task's list
+
+
 def test_a_roster_finds_who_is_named_once_by_the_surest_key() -> None:
     named = [("1", "О'Коннор І."), ("2", "Same Name"), ("3", "same  name."), ("", "Ёлкин")]
     entries = tuple(Entry(Who(student=student, number=number), "3", {}, "") for number, student in named)

@@ -28,7 +28,7 @@ from ..roster import Digits, Entry, Who, collated, read_roster, shared_by_mistak
 from ..sheets import sheet_id
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, table_bytes
-from ..task import Task
+from ..task import LocatedError, Task
 from .class_page import PAGE, ClassPage
 from .keyed import asked_of, class_header, columns_of, form_rows, fullest, read_rubric, solved
 from .marked import Desk, Terms, variant_of
@@ -76,7 +76,7 @@ class Check(Terms):
             rows = [class_header(key, self.rubric.directions != "ignored", self.rubric.asked)]
             for entry in self.roster.entries:  # the sheet id is for them to copy
                 who = entry.who
-                rows.append((who.student, who.group, who.book, who.number, entry.variant_of(task, self.digits), ""))
+                rows.append((who.student, who.group, who.book, who.number, self._variant_of(entry), ""))
             bold, frozen = [0], 1
         else:
             rows, _ = self.form()
@@ -106,7 +106,7 @@ class Check(Terms):
         if self.roster is not None and max(often.values(), default=1) > 1:
             for entry in self.roster.entries:
                 with suppress(KulmanError):  # whose data are none of the task: told where the student is marked
-                    variant = entry.variant_of(self.request.task, self.digits)
+                    variant = self._variant_of(entry)
                     sheets.setdefault(sheet_id(self.request.task, variant, entry.settings), []).append(entry)
         return [self._named(one, sheets if often[one.source] > 1 else {}) for one in found]
 
@@ -131,11 +131,24 @@ class Check(Terms):
 
     @property
     def warnings(self) -> tuple[InputError, ...]:
-        """What a teacher should know of the roster: record books and variants that several students have."""
-        task, entries = self.request.task, self.roster.entries if self.roster else ()
-        works = [(entry.who, entry.variant_of(task, self.digits), entry.settings) for entry in entries]
-        students = ((who, variant if not own else "") for who, variant, own in works)
-        return tuple(shared_by_mistake(students, 0 if self.request.variant else len(task.variants)))
+        """What a teacher should know of the roster: wrong rows, record books and variants that several students have."""
+        entries = self.roster.entries if self.roster else ()
+        wrong = (problem for entry in entries if (problem := self._problem(entry)) is not None)
+        students = ((entry.who, "" if entry.settings else self._variant_of(entry)) for entry in entries)
+        possible = 0 if self.request.variant else len(self.request.task.variants)
+        return (*wrong, *shared_by_mistake(students, possible))
+
+    def _problem(self, entry: Entry) -> InputError | None:
+        """Return why the row of a student cannot be used, if it cannot: it harms nobody else."""
+        try:
+            entry.variant_of(self.request.task, self.digits)
+        except InputError as error:
+            return LocatedError(entry.place, error)
+        return entry.problem
+
+    def _variant_of(self, entry: Entry) -> str:
+        """Return the variant of a student by the roster; empty where it says none, or a wrong one."""
+        return "" if self._problem(entry) else entry.variant_of(self.request.task, self.digits)
 
     def ordered(self, answers: Iterable[Answers]) -> list[Answers]:
         """Return answers in the order of the roster; those of strangers, and all without one, by their names."""
@@ -156,8 +169,7 @@ class Check(Terms):
         for one, result in zip(answers, results, strict=True):
             entry = self.roster.find(one.who)
             (strangers if entry is None else found.setdefault(id(entry), [])).append(result)
-        task, digits = self.request.task, self.digits
-        absent = {id(one): replace(one, variant=one.variant_of(task, digits)) for one in self.roster.entries}
+        absent = {id(one): replace(one, variant=self._variant_of(one)) for one in self.roster.entries}
         lines = (found.get(one, [entry]) for one, entry in absent.items())
         return [*(line for several in lines for line in several), *strangers]
 
@@ -272,7 +284,10 @@ def check(
     others = frozenset(asked_of(whole).names).difference(asked.names)
     asked = replace(asked, others=others, unasked=frozenset(whole.quantities).difference(asked.names))
     marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked, directions)
-    students = None if roster is None else read_roster(os.fspath(roster), of)
+    students = None if roster is None else read_roster(os.fspath(roster), of, each=True)
+    for one in students.entries[:1] if students else ():
+        if one.problem is not None and all(entry.problem for entry in students.entries):  # the list of another task
+            raise one.problem
     return Check(request, marking, asked, students, digits, own)
 
 

@@ -172,8 +172,10 @@ def variant_of(terms: Terms, answers: Answers, entry: Entry | None) -> tuple[str
     Raises
     ------
     InputError
-        The record book has no such digits.
+        The record book has no such digits; the student's row of the roster is wrong.
     """
+    if entry is not None and entry.problem is not None:
+        raise entry.problem
     task, about, notes = terms.request.task, answers.about, list[KulmanError]()
     if terms.roster is not None and entry is None:
         notes.append(
