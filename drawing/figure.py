@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any, Generic, TypeVar
 
@@ -113,7 +113,10 @@ def family(name: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class SheetContents(Generic[Subject]):
-    """What a sheet shows: a solved subject, the plans wanted, choosers of scales, givens, words, norm."""
+    """What a sheet shows: a solved subject, the plans wanted, choosers of scales, givens, words, norm.
+
+    With `as_wanted` it is refused as soon as it would have to be drawn smaller than the task wants.
+    """
 
     solved: Subject
     plans: tuple[str, ...]
@@ -121,6 +124,7 @@ class SheetContents(Generic[Subject]):
     givens: Mapping[str, Given]
     words: Words
     norm: Norm = "gost"
+    as_wanted: bool = field(default=False, kw_only=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,6 +271,11 @@ class Fitting(ABC, Generic[Subject, Scene]):
                 if sheet.name != SIZES[-1]:
                     raise InputError("sheet-too-small", format=sheet.name)
                 raise InputError("sheet-too-large", wide=f"{size[0]:.0f}", high=f"{size[1]:.0f}")
+
+    def refuse_smaller(self, sheet: Format) -> None:
+        """Raise InputError where all is to be drawn as it is wanted: it has no room so."""
+        if self.contents.as_wanted:
+            raise InputError("variant-room", format=sheet.name)
 
     def has_next(self, rungs: Rungs, ladder: str) -> bool:
         """Whether a ladder has a further rung."""

@@ -70,6 +70,7 @@ class Request:
     lettering: str = "gost"
     positions: int | None = None  # of the whole cycle, where that is drawn instead
     readings: str = SHEET  # or `ruler`: how segments are read
+    as_wanted: bool = False  # whether the sheet of a cam, a gear pair, a hoist is refused where it has to be smaller
 
     def case(self) -> Case:
         """Solve what is asked for; what there is not, or is of the wrong kind, is refused."""
@@ -282,7 +283,9 @@ class Kind(Generic[Subject, Answer]):
         """Draw the sheet of a case; on the smallest format that holds everything where `paper` is not said."""
         from ..drawing.figure import SheetContents
 
-        contents = SheetContents(case.solved, case.plans, case.choosers, case.givens, words, norm)
+        contents = SheetContents(
+            case.solved, case.plans, case.choosers, case.givens, words, norm, as_wanted=case.as_wanted
+        )
         return cast("Drawn", self._in("drawing", "sheet", f"{self.table.title()}Fitting")(contents).draw(paper))
 
     def moving(self, case: Case, words: Words) -> dict[str, Any]:

@@ -152,6 +152,8 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
         """Try one page as large as wanted, then with plans and, on the `last` format, diagrams and profiles smaller."""
         wanted, *smaller = self._ways(last)
         found = self.placed(sheet, wanted)
+        if found is None and last:
+            self.refuse_smaller(sheet)
         if found is not None or not smaller or not may_fit(self.views(sheet, smaller[-1]), sheet):
             return found
         tried = (self.placed(sheet, rungs) for rungs in smaller if self._legible(sheet, rungs))

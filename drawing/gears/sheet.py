@@ -10,7 +10,7 @@ from typing import Any
 from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
 from ...plans.gears.solve import SolvedGear
 from ...scales.errors import InputError
-from ...scales.scale import Scale
+from ...scales.scale import Fixed, Scale
 from ..compose import arrange, last
 from ..extents import Rungs
 from ..figure import Figure, Fitting, Found, SheetContents
@@ -85,7 +85,7 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
         lines = {"mu_l": (sizes["a_w"], high), "near": (2.0 * sizes["p"], wide), "rolled": (sizes["l_N1N2"], wide)}
         for name, (length, most) in lines.items():
             first[name] = next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
-        first = self.fitted(sheet, first)
+        first = self._as_wanted(self.fitted(sheet, self._as_wanted(first, sheet)), sheet)
         while True:
             ways = [own for steps in SMALLER if (own := self._in_order(usual, self._lowered(first, steps)))]
             rungs = min(ways, key=lambda found: last(found[2]))[0] if ways else first
@@ -94,6 +94,12 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
             if not self.has_next(first, "mu_l"):
                 raise InputError("sheet-too-small", format=sheet.name)
             first = self.lower(first, "mu_l")  # the first page has less room than the others
+
+    def _as_wanted(self, rungs: Rungs, sheet: Format) -> Rungs:
+        """Return rungs; where all is to be drawn as wanted they are refused if the task's own scale is given up."""
+        if rungs["mu_l"] and isinstance(self.contents.choosers.get("mu_l"), Fixed):
+            self.refuse_smaller(sheet)
+        return rungs
 
     def _lowered(self, rungs: Rungs, steps: Mapping[str, int]) -> Rungs:
         """Return rungs so many steps further, as far as there are any."""

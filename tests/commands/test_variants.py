@@ -7,7 +7,7 @@ import json
 import re
 from base64 import b64decode
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
 from xml.etree import ElementTree
@@ -27,7 +27,7 @@ from kulman.scales.units import format_unit
 from kulman.tests.support.cases import solve_case, some
 from kulman.tests.support.commands import Run
 from kulman.tests.support.task_files import task_of, with_changes
-from kulman.variants.case import Case
+from kulman.variants.case import Case, Request
 from kulman.variants.kinds import linkage
 from kulman.variants.kinds.linkage import _short_vectors
 from kulman.variants.making.new_variants import (
@@ -39,6 +39,7 @@ from kulman.variants.making.new_variants import (
 )
 from kulman.variants.making.questions import html, questions_of
 from kulman.variants.reader import read_text
+from kulman.variants.sheets import draw_case
 from kulman.variants.shelf import bundled
 from kulman.variants.task import Task
 
@@ -127,6 +128,20 @@ def test_a_plan_that_is_a_line_makes_a_poor_exercise(phi: str, quantity: str) ->
     case = solve_case(TASK, "3", {"phi": phi}, None, None)
 
     assert [error.data for error in case.kind.unfit(case) if error.key == "variant-short"] == [{"quantity": quantity}]
+
+
+@pytest.mark.parametrize(
+    ("task", "settings"), [("madi-cam", {"h": "60 mm"}), ("madi-gear", {"m": "8 mm"}), ("madi-gear", {"z_1": "20"})]
+)
+def test_what_would_be_drawn_smaller_is_refused_before_it_is(task: str, settings: dict[str, str]) -> None:
+    asked = Request(load_task(task), None, settings)
+
+    assert any(warning.key in ("scales-changed", "scale-coarser") for warning in draw_case(asked.case()).warnings)
+    with pytest.raises(InputError) as refused:
+        draw_case(replace(asked, as_wanted=True).case())
+    assert refused.value.key == "variant-room"
+    own = Request(load_task(task), as_wanted=True).case()  # which is drawn as it is wanted
+    assert len(draw_case(own).pages) == len(draw_case(replace(own, as_wanted=False)).pages)
 
 
 def test_what_is_short_in_all_variants_is_looked_for_in_no_more_of_them_than_needed(

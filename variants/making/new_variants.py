@@ -252,14 +252,19 @@ def _looked_at(
 ) -> Judgement:
     """Return why data have no solution or no sheet, and what makes them a poor exercise; None where nothing does.
 
-    A sheet may have so many `pages`. Unless `through`, what makes a poor exercise is not drawn.
+    A sheet may have so many `pages`. Unless `through`, what makes a poor exercise is not drawn, or no further.
     """
     try:
-        case = Request(task, variant, settings).case()
+        case = Request(task, variant, settings, as_wanted=not through).case()
         remark = next(case.kind.unfit(case), None)
         if remark is not None and not through:
             return None, remark
-        drawn = draw_case(case)
+        try:
+            drawn = draw_case(case)
+        except InputError as error:
+            if error.key != "variant-room" or pages() <= case.kind.pages:
+                raise
+            drawn = draw_case(replace(case, as_wanted=False))  # the task's own sheet does not fit a page either
     except KulmanError as error:
         return error, None
     if remark is None and len(drawn.pages) > case.kind.pages:
