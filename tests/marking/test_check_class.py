@@ -323,8 +323,8 @@ def test_a_wrong_row_of_the_roster_harms_no_other_student(tmp_path: Path, capsys
 
     told = err.splitlines()
     assert (status, len(told)) == (0, 2)
-    assert "B3: " in told[0] and "17" in told[0]
-    assert "row 4: " in told[1] and "1,2E+11" in told[1]
+    assert re.search("B3: .*17", told[0])
+    assert re.search("row 4: .*1,2E", told[1])
     variants = [row.split(",")[4] for row in form.read_text(encoding="utf-8-sig").splitlines()[1:]]
     assert variants == ["3", "", ""]
     assert "Student 01    100" in out

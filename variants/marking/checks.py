@@ -131,7 +131,7 @@ class Check(Terms):
 
     @property
     def warnings(self) -> tuple[InputError, ...]:
-        """What a teacher should know of the roster: wrong rows, record books and variants that several students have."""
+        """What a teacher should know of the roster: wrong rows, books and variants that several students have."""
         entries = self.roster.entries if self.roster else ()
         wrong = (problem for entry in entries if (problem := self._problem(entry)) is not None)
         students = ((entry.who, "" if entry.settings else self._variant_of(entry)) for entry in entries)
