@@ -240,8 +240,12 @@ class Fitting(ABC, Generic[Subject, Scene]):
 
         Raises InputError: a view has no room on any page.
         """
+        return self.in_order(sheet, self.wanted)
+
+    def in_order(self, sheet: Format, wanted: Rungs) -> Found:
+        """Take several pages in reading order, from these rungs on."""
         for first in (False, True):  # where nothing stands on the first page as it is, all becomes small enough for it
-            rungs = self.enlarged(sheet, self.fitted(sheet, self.wanted, first), first)
+            rungs = self.enlarged(sheet, self.fitted(sheet, wanted, first), first)
             views = self.views(sheet, rungs)
             places = arrange([view.size for view in views], sheet, self.contents.norm)
             if places is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -22,7 +23,10 @@ from ..printed import decimals_for
 from ..words import Words
 
 LEAST = 1e-3  # part of the mean force that the circle is taken for at least
-SPAN, ROPE, DIAMETER = 220.0, 350.0, 150.0  # mm of paper that the longer beam, the rope and the circle may take
+SPAN, ROPE, DIAMETER = 280.0, 350.0, 210.0  # mm of paper that the longer beam, the rope and the circle may take
+# mm that letters, dimensions and heading add to the scheme and to the circle; mm^2 that the scheme, and both, may take
+ABOUT_SCHEME, ABOUT_CIRCLE = (41.0, 91.0), 63.0
+LARGEST, BOTH = 7.2e4, 1.1e5
 # mm^2 of A1: of figures with their texts, and of tables that every sheet has
 AREAS = {SCHEME_PART: 2e4, FORCES_PART: 1.25e5, ROOTS_PART: 9e4, CIRCLE_PART: 3e4, BEAMS_PART: 3e4}
 TABLES = 4e4
@@ -79,15 +83,22 @@ def lettered(words: Words, roots: int = 0) -> Words:
 def ladder(solved: SolvedHoist, choosers: Choosers, symbol: str) -> tuple[float, ...]:
     """Return the values of a scale factor that may be chosen, one of `UNITS`, the one wanted first.
 
-    Where nothing is said, beams take 220 mm at most and a rope 350, a circle 150.
+    Where nothing is said, scheme and circle are as large as they may be, the circle as the scheme leaves room.
     """
+    span, rope = max(solved.size(f"l_{i}") for i in BENT), solved.size("L")
+
+    def scheme(mu: float) -> float:  # mm^2
+        return (span / mu + ABOUT_SCHEME[0]) * (rope / mu + ABOUT_SCHEME[1])
+
     if symbol == SCALES[SCHEME]:
-        span, rope = max(solved.size(f"l_{i}") for i in BENT), solved.size("L")
-        finest, largest = max(span / SPAN, rope / ROPE), max(span, rope)
+        largest = max(span, rope)
+        wanted = next(mu for mu in steps(max(span / SPAN, rope / ROPE)) if scheme(mu) <= LARGEST)
     else:
         largest = 2.0 * solved.size("R")
-        finest = max(largest, LEAST * solved.size("P_m")) / DIAMETER
-    chooser = choosers.get(symbol, From(steps(finest)[0]))
+        left = BOTH - scheme(ladder(solved, choosers, SCALES[SCHEME])[0])
+        diameter = min(DIAMETER, math.sqrt(max(left, BOTH - LARGEST)) - ABOUT_CIRCLE)
+        wanted = steps(max(largest, LEAST * solved.size("P_m")) / diameter)[0]
+    chooser = choosers.get(symbol, From(wanted))
     values = chooser.ladder(solved.size)
     if symbol in solved.scale_of_plan.values():
         visible(chooser, symbol, values[0], largest, UNITS[symbol])

@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
+from ...plans.hoist.construction import SCHEME
 from ...plans.hoist.hoist import BEAMS_PART, CIRCLE_PART, FORCES_PART, ROOTS_PART, SCHEME_PART
+from ...plans.hoist.model import CIRCLE
 from ...plans.hoist.solve import SCALES, SolvedHoist, reduced
 from ...scales.scale import Scale
+from ..compose import last
 from ..extents import Rungs
-from ..figure import Figure, Fitting, SheetContents
+from ..figure import Figure, Fitting, Found, SheetContents
 from ..formats import STYLES, Format
 from .scene import UNITS, HoistScene, first_scales, ladder, lettered
 
@@ -45,6 +48,11 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
     def part(self, rungs: Rungs) -> float:
         """Return how large diagrams are drawn, in their usual size."""
         return PARTS[rungs["part"]]
+
+    def on_pages(self, sheet: Format) -> Found:
+        """Take several pages in reading order, with scheme and circle a step smaller where that spares one."""
+        smaller = self.lower(self.lower(self.wanted, SCALES[SCHEME]), SCALES[CIRCLE])
+        return min((self.in_order(sheet, rungs) for rungs in (self.wanted, smaller)), key=lambda way: last(way[2]))
 
     def figures(self, scene: HoistScene, width: float) -> Iterator[HoistFigure]:
         """Go through the figures of a sheet in the order of the work."""

@@ -23,7 +23,7 @@ DRIVER = "driver"  # the figure of the driver apart, among the plans that have s
 ARMS = scale_factor("h")  # of Zhukovsky's lever: what is found as on the velocity plan is drawn larger
 # mm, how long the longest segment of a plan of forces is at least and at most, on one page and on several, by format
 SEGMENTS = {
-    "A1": ((45.0, 220.0), (40.0, 240.0)),
+    "A1": ((46.0, 220.0), (40.0, 240.0)),
     "A2": ((40.0, 160.0), (40.0, 200.0)),
     "A3": ((45.0, 130.0), (45.0, 190.0)),
     "A4": ((40.0, 130.0), (40.0, 160.0)),
@@ -36,25 +36,26 @@ KEPT = {"l": 200.0, "V": 80.0, "a": 80.0, "F": 70.0}
 HUNG = 13.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
 ALIKE = 3.0  # times as long as the longest force of another plan, at most, where both are drawn to one scale factor
 CRANK = 45.0  # mm, the least length of a crank drawn apart
-ARROW = 0.7  # of the crank, where the arrow of its rotation stands
+ZERO_LINE, ARC = 1.1, 0.45  # of the crank: how long the line is from which phi is measured, the radius of its arc
 MARKS = ("place", "pole", "lay", "back", "chain", "meet", "arc", "divide", "same")
 # mm that letters and the heading add to the lines of a figure, and what it takes at least
-MOTION, POLYGON = (30.0, 48.0), (34.0, 52.0)  # plans of motion, and of forces
-MECHANISM, GROUP, AROUND_LEVER = (44.0, 54.0), (56.0, 84.0), (70.0, 98.0)
+MOTION, POLYGON = (25.0, 48.0), (27.0, 50.0)  # plans of motion, and of forces
+MECHANISM, GROUP, AROUND_LEVER = (40.0, 56.0), (56.0, 90.0), (62.0, 102.0)
 GROUPS = {TRIAD: (62.0, 142.0)}  # arms about its special point take more
 SPLIT = (150.0, 130.0)  # accelerations of compound motion, which stand on the mechanism
-HEADING = (72.0, 42.0)
+HEADING, WIDER, WIDEST = (72.0, 42.0), (84.0, 42.0), (140.0, 42.0)  # of plans of motion, of forces, of the lever
 # a slider, the driver; of insets, for each force that would be a point
-APART, CRANKS, INSET = (64.0, 90.0), (86.0, 108.0), (55.0, 70.0)
+APART, CRANKS, INSET = (64.0, 90.0), ((58.0, 64.0), (82.0, 104.0)), (55.0, 70.0)
 RATES = frozenset(("velocity", "acceleration"))  # plans beside which nothing stands on the mechanism
 SCHEME = (110.0, 80.0)  # mm of a scheme off which lengths are taken
+ON_AXIS = 0.3  # tangent of the angle at which a pivot is seen from a slider that runs on its axis to there
 POINT, ZERO = 0.035, 1e-4  # parts of the longest vector below which another is a point, and is not drawn
 # mm^2 of equations and tables: for the structure, a link, a quantity of a plan, the equations of moments of a group,
 # a load diagram
-STRUCTURE, LINK, DIAGRAM, HEADINGS = 13500.0, 1500.0, 12500.0, 3600.0
+STRUCTURE, LINK, DIAGRAM, HEADINGS = 17000.0, 1500.0, 12500.0, 3600.0
 TEXTS = {"velocity": 3000.0, "acceleration": 3000.0, "forces": 4200.0, "lever": 1800.0}
 TEXTS |= {VELOCITY: 8000.0, ACCELERATION: 8000.0}
-MOMENTS = {"RRR": 16000.0, TRIAD: 50000.0}
+MOMENTS = {"RRR": 16000.0, "RPR": 16000.0, TRIAD: 50000.0}
 
 
 def first_scales(
@@ -157,7 +158,6 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
             Extent(symbols[p], _around(marks_on(solved, p)), SPLIT) for p in symbols if role(p).kind == ACCELERATION
         )
     if "forces" in plans:
-        apart = Extent("", (0.0, 0.0), CRANKS)
         for group in solved.structure.groups:
             links = [link for link in solved.mechanism.links if link.number in group.links]
             places = [solved.point(point) for link in links for point in link.points]
@@ -169,16 +169,18 @@ def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:
                 yield Extent("mu_l", _around(own), APART)
         for plan in (plan for plan in symbols if role(plan).kind == FORCES):
             yield from _plan(solved, plan)
-        yield apart
+        driver = [*solved.mechanism.link(solved.structure.driver).points]
+        yield Extent("mu_l", _around([solved.point(point) for point in driver]), *CRANKS)
     if "lever" in plans:
         high, wide = _around(_images(solved))
-        yield Extent(ARMS, (wide, high), AROUND_LEVER, HEADING)
+        yield Extent(ARMS, (wide, high), AROUND_LEVER, WIDEST)
 
 
 def _plan(solved: SolvedLinkage, plan: str) -> Iterator[Extent]:
     """Return the figure of a plan, and insets for the forces in it that would be points."""
     forces = role(plan).kind == FORCES
-    yield Extent(solved.scale_of_plan[plan], _around(marks_on(solved, plan)), POLYGON if forces else MOTION, HEADING)
+    around, least = (POLYGON, WIDER) if forces else (MOTION, HEADING)
+    yield Extent(solved.scale_of_plan[plan], _around(marks_on(solved, plan)), around, least)
     sizes = [abs(q.value or 0.0) for name, q in solved.quantities.items() if solved.shown_on.get(name) == plan]
     points = sum(ZERO * max(sizes) < size < POINT * max(sizes) for size in sizes)
     if forces and points > 1:
@@ -204,8 +206,11 @@ def _mechanism(solved: SolvedLinkage) -> Size:
     places = [solved.point(point) for link in solved.mechanism.links for point in link.points]
     places += [place for ends in _slots(solved).values() for place in ends]
     places += _special_points(solved, [link.number for link in solved.mechanism.links])
-    if isinstance(driver := solved.mechanism.driver, Driver):
-        places += [solved.point(driver.pivot) + ARROW * _crank(solved) * way for way in (1, 1j, -1, -1j)]
+    places += _axes(solved)
+    if isinstance(driver := solved.mechanism.driver, Driver):  # the direction from which phi is measured, and its arc
+        o, phi = solved.point(driver.pivot), math.remainder(solved.values[driver.angle], 2.0 * math.pi)
+        quarters = range(math.floor(2.0 * (phi % (2.0 * math.pi)) / math.pi) + 1)
+        places += [o + ZERO_LINE * _crank(solved), *(o + ARC * _crank(solved) * 1j**k for k in quarters)]
     return _around(places)
 
 
@@ -213,6 +218,18 @@ def _special_points(solved: SolvedLinkage, links: Collection[int]) -> list[compl
     """Return the special points of groups that are drawn with these links: they may lie far from all joints."""
     meets = (step.name for step in solved.program.on(POSITION) if step.verb == "meet")
     return [solved.point(name) for name in meets if not role(name).hidden and {*role(name).links} & {*links}]
+
+
+def _axes(solved: SolvedLinkage) -> list[complex]:
+    """Return the ends of the axes of the frame's guides: pivots near them, else as far as a crank is long."""
+    ends: list[complex] = []
+    for pair in solved.mechanism.pairs:
+        if isinstance(pair, Prismatic) and pair.links[1] == FRAME:
+            at, along = solved.point(pair.point), solved.point(solved.guide_name(pair))
+            feet = ((solved.point(point) - at) / along for point in solved.mechanism.frame_points)
+            near = [foot.real for foot in feet if abs(foot.imag) < ON_AXIS * abs(foot.real)]
+            ends += [at + way * along for way in near[:1] or (-_crank(solved), _crank(solved))]
+    return ends
 
 
 def _slots(solved: SolvedLinkage) -> dict[int, list[complex]]:

@@ -26,6 +26,7 @@ from ...shapes import Arc, Arrow, Circle, Group, Line, Pen, Polyline, Shape, Vec
 from ...symbols import angle_dimension, turning_arrow, unit
 from ...text import lay_out
 from ...view import Canvas, View
+from ..ladders import ON_AXIS
 from ..scene import Scene
 from .links import (
     NEAR,
@@ -226,7 +227,7 @@ def draw_axes(canvas: Canvas, scene: Scene) -> None:
     for pair in scene.sliding():
         at, u = scene.mm(pair.point), guide_of(scene, pair)
         feet = [(scene.mm(point) - at) / u for point in scene.mechanism.frame_points]
-        near = [foot.real for foot in feet if abs(foot.imag) < 0.3 * abs(foot.real)]
+        near = [foot.real for foot in feet if abs(foot.imag) < ON_AXIS * abs(foot.real)]
         way = near[:1] or scene.run_of(pair)
         canvas.add(Line(at + u * (min(0.0, *way) - PAST), at + u * (max(0.0, *way) + PAST), Pen.AXIS))
 
