@@ -50,7 +50,8 @@ def on_a_page(
     page = Slicing(own, room, joined)
     if not page.fits:
         return None
-    places = {i: (x, y) for i, x, y in spread(page.cut(), own, (0.0, room[1]), room, len(sizes) + begun)}
+    corners = len(sizes) + begun, 0 if begun else -1
+    places = {i: (x, y) for i, x, y in spread(page.cut(), own, (0.0, room[1]), room, *corners)}
     return [Placement(0, x0 + places[i + begun][0], y0 + places[i + begun][1]) for i in range(len(sizes))]
 
 

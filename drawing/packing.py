@@ -21,6 +21,7 @@ Size: TypeAlias = tuple[float, float]
 STEPS = 300  # of the grid on the width and on the height of a page
 NEVER = 9999  # more steps than any page has
 LEAST = 3.0  # mm between views; what the grid adds to it is shared out
+UNDER = 10.0  # mm at most between column 26 and what stands under it
 SLACK = 1e-9  # mm, for rounding
 
 
@@ -53,12 +54,12 @@ def size_of(part: Cut | int, sizes: Sequence[Size]) -> Size:
 
 
 def spread(
-    part: Cut | int, sizes: Sequence[Size], corner: Size, room: Size, last: int = -1
+    part: Cut | int, sizes: Sequence[Size], corner: Size, room: Size, last: int = -1, first: int = -1
 ) -> Iterator[tuple[int, float, float]]:
     """Go through the views of a part with their lower left corners; `corner` is the upper left one of its `room`.
 
     What is left empty is shared out evenly between parts; a view hangs from the top of its room, in the middle of its
-    width; the `last` one stands in the lower right corner.
+    width; the `last` one stands in the lower right corner, and what alone is under the `first` one close to it.
     """
     (x, y), (wide, high) = corner, room
     if isinstance(part, int):
@@ -68,8 +69,10 @@ def spread(
     inner = [size_of(one, sizes) for one in part.parts]
     free = (wide if part.beside else high) - sum(size[not part.beside] for size in inner)
     between = free / (len(inner) - 1)
+    if not part.beside and part.parts[0] == first and len(inner) == 2:
+        between = min(between, UNDER)
     for one, size in zip(part.parts, inner, strict=True):
-        yield from spread(one, sizes, (x, y), (size[0], high) if part.beside else (wide, size[1]), last)
+        yield from spread(one, sizes, (x, y), (size[0], high) if part.beside else (wide, size[1]), last, first)
         if part.beside:
             x += size[0] + between
         else:
