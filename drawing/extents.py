@@ -22,6 +22,7 @@ from .formats import FORMATS, GAPS, Format, Norm, printable, room, usable
 NORMS: tuple[Norm, ...] = ("gost", "iso")
 # parts of a page that estimates may cover, since views leave gaps: of the only page, of each of two, of more
 FILL, TWO, SHARED = 0.88, 0.80, 0.70
+ALONE = 0.865  # of the only page, with the least segments: else two pages have larger plans
 FIXED = 0.90  # of any page where all plans are fixed, and none can become smaller
 # of these, and of the least segments, where what is drawn takes more pages than that
 SHARES = (1.0, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6)
@@ -137,10 +138,13 @@ def ways(
         if not any(rungs[symbol] for symbol in chosen) and _shrunk(extents, rungs, less, FILL * _page(less), math.inf):
             yield less, rungs, 1
     single, several = segments[sheet.letters]
+    free, alone = any(ladder.free for ladder in extents.ladders.values()), ALONE * _page(sheet)
     count, fits = 0, False
     while count < MOST:
         (least, most), tried = several if count else single, list[Rungs]()
         count += 1
+        if count == 1 and free and not _shrunk(extents, _begun(extents, sheet, most), sheet, alone, least):
+            continue
         for share, part in ((share, part) for share in SHARES for part in SHARES if part >= share):
             rungs = _begun(extents, sheet, most)
             room = part * _covered(extents, count) * count * _page(sheet)

@@ -23,7 +23,7 @@ DRIVER = "driver"  # the figure of the driver apart, among the plans that have s
 ARMS = scale_factor("h")  # of Zhukovsky's lever: what is found as on the velocity plan is drawn larger
 # mm, how long the longest segment of a plan of forces is at least and at most, on one page and on several, by format
 SEGMENTS = {
-    "A1": ((46.0, 220.0), (40.0, 240.0)),
+    "A1": ((45.0, 220.0), (40.0, 240.0)),
     "A2": ((40.0, 160.0), (40.0, 200.0)),
     "A3": ((45.0, 130.0), (45.0, 190.0)),
     "A4": ((40.0, 130.0), (40.0, 160.0)),
@@ -55,7 +55,7 @@ POINT, ZERO = 0.035, 1e-4  # parts of the longest vector below which another is 
 STRUCTURE, LINK, DIAGRAM, HEADINGS = 17000.0, 1500.0, 12500.0, 3600.0
 TEXTS = {"velocity": 3000.0, "acceleration": 3000.0, "forces": 4200.0, "lever": 1800.0}
 TEXTS |= {VELOCITY: 8000.0, ACCELERATION: 8000.0}
-MOMENTS = {"RRR": 16000.0, "RPR": 16000.0, TRIAD: 50000.0}
+MOMENTS = {"RRR": 16000.0, "RPR": 10000.0, TRIAD: 50000.0}
 
 
 def first_scales(
