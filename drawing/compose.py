@@ -23,6 +23,7 @@ FULL = 0.69  # part of a page that views should take at least before the next on
 TOLD, TEXT, FIGURE, GROUP, PART = range(-2, 3)  # what may begin with a view
 MANY = 3  # pages on which views may come in another order
 ENOUGH = {"A4": 0.51, "A3": 0.66, "A2": 0.66, "A1": 0.66}  # part of a page below which tables and texts break for it
+KEPT = 8  # parts of the views of a page that are tried in reading order
 PIECES = 2  # rows or lines at least on each page
 
 
@@ -289,6 +290,26 @@ class Breaking:
         return None if placed is None else [*zip(views, placed, strict=True)]
 
 
+def as_read(page: Sequence[Standing], sheet: Format, norm: Norm, first: bool) -> Sequence[Standing]:
+    """Return the views of a page at places in reading order, as many from the first one on as can be.
+
+    The others come as on the only page: figures before tables, or high ones before low ones.
+    """
+    views, count = [view for view, _ in page], len(page)
+    begins = begins_of(views)
+    for kept in range(count, 1, -max(1, count // KEPT)):
+        rest = sorted(range(kept, count), key=lambda i: -views[i].size[1])
+        figures = [i for i in range(kept, count) if begins[i] == FIGURE]
+        for order in dict.fromkeys(
+            ((*range(kept), *figures, *(i for i in rest if i not in figures)), (*range(kept), *rest))
+        ):
+            sizes, kinds = [views[i].size for i in order], [begins[i] for i in order]
+            placed = on_a_page(sizes, sheet, norm, kinds, first)
+            if placed is not None:
+                return page if kept == count else [(views[i], place) for i, place in zip(order, placed, strict=True)]
+    return page
+
+
 def begins_of(views: Iterable[View]) -> list[int]:
     """Return what begins with each view: a figure, or nothing, since it is a table or a text, perhaps of a figure."""
     found: list[int] = []
@@ -367,6 +388,7 @@ def compose(
             ) is not None:
                 sheets[-1], parted[-1] = less, [*zip(own, placed, strict=True)]
                 break
+    parted = [as_read(page, paper, norm, k == 0) for k, (page, paper) in enumerate(zip(parted, sheets, strict=True))]
     drawn = tuple(tuple(view.at(place.x, place.y) for view, place in page) for page in parted)
     parts = (view for page in parted for view, _ in page if view.of)
     return Drawn((*views, *parts), drawn, scales, tuple(sheets), norm, reduction)
