@@ -11,7 +11,7 @@ import shapely
 from kulman.drawing.compose import FIGURE, FULL, MANY, TOLD, Pages, arrange, compose, last, on_a_page
 from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
-from kulman.drawing.packing import LEAST, STEPS, Placement, Slicing, size_of, spread
+from kulman.drawing.packing import LEAST, STEPS, UNDER, Placement, Slicing, size_of, spread
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Line
 from kulman.drawing.tables import table, text_block
@@ -122,6 +122,12 @@ def test_views_in_a_row_hang_from_one_line_and_slack_is_spread_evenly():
     places = {i: (x, y) for i, x, y in spread(row.cut(), row.sizes, (0.0, 200.0), row.room)}
     assert {y + row.sizes[i][1] for i, (_, y) in places.items()} == {200.0}
     assert [places[i][0] for i in range(3)] == pytest.approx([0.0, 272.5, 410.0])
+
+
+def test_what_alone_stands_under_the_corner_hangs_close_to_it():
+    column = Slicing([(70, 14), (60, 70)], (75, 300))
+    places = {i: y for i, _, y in spread(column.cut(), column.sizes, (0.0, 300.0), column.room, first=0)}
+    assert places[1] + 70 == pytest.approx(300 - 14 - UNDER)
 
 
 def test_what_belongs_together_is_not_parted_first():

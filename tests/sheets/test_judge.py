@@ -204,6 +204,28 @@ def short_of(sheet: Sheet) -> list[str]:
     return said
 
 
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    [
+        ("karpenko-hoist", "V05"),
+        ("scheme-03-crank-rocker", "0"),
+        *(pytest.param("scheme-19-scotch-yoke", v, marks=pytest.mark.soak) for v in ("1", "4")),
+        *(pytest.param("karpenko-hoist", v, marks=pytest.mark.soak) for v in ("V01", "V03")),
+    ],
+)
+def test_a_sheet_uses_the_room_of_its_page(task: str, variant: str) -> None:
+    assert faults(sheet_of(task, variant)) == []
+
+
+def test_figures_of_a_crowded_page_come_in_the_order_of_the_work() -> None:
+    (page,) = sheet_of("madi-four-bar").pages
+
+    wanted = ["position", "velocity", "acceleration", "group_23"]
+    row = sorted((view for view in page.views if view.name in wanted), key=lambda view: view.box[0])
+    assert [view.name for view in row] == wanted
+    assert max(view.box[3] for view in row) - min(view.box[3] for view in row) < 1.0
+
+
 def pages_of(task: str, variant: str, languages: Iterable[str] = LANGUAGES) -> list[int]:
     """How many pages a sheet has in each language."""
     return [len(kulman.sheet(task, variant, lang=language).pages) for language in languages]
