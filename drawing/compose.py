@@ -290,7 +290,7 @@ class Breaking:
         return None if placed is None else [*zip(views, placed, strict=True)]
 
 
-def as_read(page: Sequence[Standing], sheet: Format, norm: Norm, first: bool) -> Sequence[Standing]:
+def as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
     """Return the views of a page at places in reading order, as many from the first one on as can be.
 
     The others come as on the only page: figures before tables, or high ones before low ones.

@@ -49,13 +49,14 @@ APART, CRANKS, INSET = (64.0, 90.0), ((58.0, 64.0), (82.0, 104.0)), (55.0, 70.0)
 RATES = frozenset(("velocity", "acceleration"))  # plans beside which nothing stands on the mechanism
 SCHEME = (110.0, 80.0)  # mm of a scheme off which lengths are taken
 ON_AXIS = 0.3  # tangent of the angle at which a pivot is seen from a slider that runs on its axis to there
+STROKE = 1.3  # of the crank, how far a slider may run on both sides
 POINT, ZERO = 0.035, 1e-4  # parts of the longest vector below which another is a point, and is not drawn
 # mm^2 of equations and tables: for the structure, a link, a quantity of a plan, the equations of moments of a group,
 # a load diagram
 STRUCTURE, LINK, DIAGRAM, HEADINGS = 17000.0, 1500.0, 12500.0, 3600.0
 TEXTS = {"velocity": 3000.0, "acceleration": 3000.0, "forces": 4200.0, "lever": 1800.0}
 TEXTS |= {VELOCITY: 8000.0, ACCELERATION: 8000.0}
-MOMENTS = {"RRR": 16000.0, "RPR": 10000.0, TRIAD: 50000.0}
+MOMENTS = {"RRR": 16000.0, "RPR": 3000.0, TRIAD: 50000.0}
 
 
 def first_scales(
@@ -221,14 +222,14 @@ def _special_points(solved: SolvedLinkage, links: Collection[int]) -> list[compl
 
 
 def _axes(solved: SolvedLinkage) -> list[complex]:
-    """Return the ends of the axes of the frame's guides: pivots near them, else as far as a crank is long."""
+    """Return the ends of the axes of the frame's guides: pivots near them, else as far as sliders may run."""
     ends: list[complex] = []
     for pair in solved.mechanism.pairs:
         if isinstance(pair, Prismatic) and pair.links[1] == FRAME:
             at, along = solved.point(pair.point), solved.point(solved.guide_name(pair))
             feet = ((solved.point(point) - at) / along for point in solved.mechanism.frame_points)
             near = [foot.real for foot in feet if abs(foot.imag) < ON_AXIS * abs(foot.real)]
-            ends += [at + way * along for way in near[:1] or (-_crank(solved), _crank(solved))]
+            ends += [at + way * along for way in near[:1] or (-STROKE * _crank(solved), STROKE * _crank(solved))]
     return ends
 
 
