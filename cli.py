@@ -310,12 +310,14 @@ def sweep(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json:
 @console.as_json
 def chart(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> None:
     """Measure TASK: speed against accuracy, stability, which parts of the model it needs, or how many sections."""
+    from .scales.kept import seldom_collected
     from .variants.charts.charts import chart as measured
 
     language = console.of_documents(options.pop("lang"), bool(files))
-    with console.progress() as advance:
-        found = measured(task, set=settings, lang=language, advance=advance, **options)
-    console.hand_over(found, files, as_json)
+    with seldom_collected():
+        with console.progress() as advance:
+            found = measured(task, set=settings, lang=language, advance=advance, **options)
+        console.hand_over(found, files, as_json)
     console.warn(found.warnings)
 
 

@@ -2,10 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+import gc
+from collections.abc import Callable, Hashable, Iterator
+from contextlib import contextmanager
 from typing import Generic, TypeVar
 
 Made = TypeVar("Made")
+COLLECTED = 200_000  # objects made anew after which garbage is looked for: 40 MB
+
+
+@contextmanager
+def seldom_collected() -> Iterator[None]:
+    """Look for garbage less often, in this process and its copies: what is kept is gone through every time."""
+    usual = gc.get_threshold()
+    gc.set_threshold(max(COLLECTED, usual[0]) if usual[0] else 0, *usual[1:])
+    try:
+        yield
+    finally:
+        gc.set_threshold(*usual)
 
 
 class Kept(Generic[Made]):

@@ -271,8 +271,13 @@ class Arrays(OfCase):
             pandas = import_module("pandas")  # the user's own, if there is one
         except ImportError:
             raise InputError("pandas-missing") from None
+        import numpy as np
+
         columns = [*self.arrays()]
-        frame = pandas.DataFrame({column.name: column.values.ravel() for column in columns})
+        block = np.empty((len(columns), len(self)))  # filled once; pandas would copy columns, and copy them together
+        for row, column in zip(block, columns, strict=True):
+            row.reshape(column.values.shape)[...] = column.values
+        frame = pandas.DataFrame(block.T, columns=[column.name for column in columns], copy=False)
         frame.attrs["units"] = {column.name: column.unit for column in columns}
         return frame
 
@@ -282,9 +287,9 @@ class Arrays(OfCase):
         shown, states = self._columns(words)
         units = [words.spelled(column.unit) for column in shown]
         heads = (f"{column.name} [{of}]" if of else column.name for column, of in zip(shown, units, strict=True))
-        rows = zip(*(column.values.ravel().tolist() for column in shown), *states.values(), strict=True)
-        numbered = tuple((k, *row) for k, row in enumerate(rows))
-        return Table(("k", *heads, *states), numbered, words.language, self.task.id)
+        values = (column.values.ravel().tolist() for column in shown)
+        rows = tuple(zip(range(len(self)), *values, *states.values(), strict=True))
+        return Table(("k", *heads, *states), rows, words.language, self.task.id)
 
     def to_json(self) -> dict[str, Any]:
         """Return what is printed with `--json`: everything in SI."""
@@ -320,7 +325,8 @@ def html_table(rows: Sequence[Sequence[str]]) -> str:
             continue
         cells = (f"<{tag}{'' if k else aside}>{escape(text)}</{tag}>" for k, text in enumerate(row))
         lines.append(f"<tr>{''.join(cells)}</tr>")
-    return f'<table style="text-align: right">{"".join(lines)}</table>'
+    table = f'<table style="text-align: right">{"".join(lines)}</table>'
+    return f'<div style="max-width: 100%; overflow-x: auto">{table}</div>'  # a wide one is moved sideways, not cut off
 
 
 def picture(svg: str | bytes, said: str = "") -> str:
@@ -388,13 +394,14 @@ def csv_text(
     Numbers are in full precision where nothing else writes a `number`.
     """
     comma, told = separator is None and language != "en", number or exact
-    stream = io.StringIO(newline="")
-    writer = csv.writer(stream, delimiter=separator or (";" if comma else ","), lineterminator="\r\n")
+    stream, between = io.StringIO(newline=""), separator or (";" if comma else ",")
+    writer = csv.writer(stream, delimiter=between, lineterminator="\r\n")
     head, *under = [tuple(row) for row in rows] or [()]
     writer.writerow([_text(cell, comma, told) for cell in head])
-    if told is exact and {*map(len, under)} == {len(head)}:  # whole columns of numbers take a fifth of the time
+    if told is exact and len(head) > 1 and {*map(len, under)} == {len(head)}:  # a tenth of the time, column by column
         columns = [*zip(*under, strict=True)]
-        writer.writerows(zip(*(_texts(column, comma) for column in _watched(columns, len(under))), strict=True))
+        cells = (_texts(column, comma, between) for column in _watched(columns, len(under)))
+        stream.writelines(f"{between.join(row)}\r\n" for row in zip(*cells, strict=True))
     else:
         writer.writerows([_text(cell, comma, told) for cell in row] for row in under)
     return stream.getvalue()
@@ -409,19 +416,27 @@ def _watched(parts: Sequence[Item], rows: int) -> Iterator[Item]:
             told(1, len(parts))
 
 
-def _texts(column: Sequence[Cell], comma: bool) -> list[str]:
-    """Return the cells of a column as a spreadsheet reads them, in full precision."""
+def _texts(column: Sequence[Cell], comma: bool, between: str) -> list[str]:
+    """Return the cells of a column as a spreadsheet reads them, in full precision, and with quotes as CSV has them."""
     kinds = {*map(type, column)}
-    if kinds == {str}:  # statuses
-        known = {text: harmless(text) for text in {*map(str, column)}}
-        return [known[text] for text in map(str, column)]
     if kinds == {int}:
         return [*map(str, column)]
+    if kinds == {str}:  # statuses
+        known = {text: _quoted(harmless(text), between) for text in {*map(str, column)}}
+        return [known[text] for text in map(str, column)]
     if kinds != {float}:
-        return [_text(cell, comma, exact) for cell in column]
+        return [_quoted(_text(cell, comma, exact), between) for cell in column]
     numbers = cast("Sequence[float]", column)
-    texts = [repr(x + 0.0) if -math.inf < x < math.inf else "" for x in numbers]
+    if all(map(math.isfinite, numbers)) and 0.0 not in numbers:  # nothing to be left out, and no zero below zero
+        texts = [*map(repr, numbers)]
+    else:
+        texts = [repr(x + 0.0) if -math.inf < x < math.inf else "" for x in numbers]
     return [text.replace(".", ",") for text in texts] if comma else texts
+
+
+def _quoted(text: str, between: str) -> str:
+    """Return the text of a cell as it stands in a row of CSV."""
+    return '"' + text.replace('"', '""') + '"' if any(sign in text for sign in (between, '"', "\r", "\n")) else text
 
 
 def _text(cell: Cell, comma: bool, number: Callable[[float], str]) -> str:

@@ -202,7 +202,7 @@ def test_the_reconstructed_law_is_told_wherever_the_cam_is() -> None:
         found = solve(TASK, lang=lang, only="pressure")
 
         assert found.to_json()["note"] == note
-        assert f"<p>{note}</p><table" in found._repr_html_()
+        assert f"<p>{note}</p><div" in found._repr_html_()
     drawn = read(sheet(TASK, only="diagrams", lang=lang).svg())
     assert note not in " ".join(" ".join(lines_of(drawn["choices"])).split())  # a student has no figure to lose
     assert "note" not in solve("nau-slider-crank").to_json()

@@ -155,7 +155,9 @@ def test_a_notebook_shows_a_solution_as_its_table_or_why_there_is_none(solution:
     apart = kulman.solve(TASK, set={"l_AB": 20, "phi": 90}, lang="uk")
     same = pickle.loads(pickle.dumps(apart))
 
-    assert solution._repr_html_().startswith("<table")
+    assert solution._repr_html_().startswith(
+        '<div style="max-width: 100%; overflow-x: auto"><table'
+    )  # which is not cut off
     assert all(f">{name}<" in solution._repr_html_() for name in solution.listed)
     assert apart.status == "no-assembly"
     assert apart.reason is not None

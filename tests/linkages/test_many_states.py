@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import json
+import math
 import re
 import sys
 import warnings
@@ -11,12 +14,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 import kulman
 from kulman import KulmanError, Quantity, Series, Status, load_task, solve, solve_many, sweep
 from kulman.plans.boards.exact import STATUSES
 from kulman.tests.support.cases import some
 from kulman.variants.shelf import bundled
+from kulman.variants.tables import Table, harmless
 
 LINKAGES = bundled("mechanism")
 TASK = "nau-slider-crank"
@@ -216,18 +221,37 @@ def test_states_become_a_data_frame_where_pandas_is(monkeypatch: pytest.MonkeyPa
     states = solve_many(TASK, phi=[0.1, 0.2], names="V_B")
     made: dict[str, Any] = {}
 
-    def data_frame(columns: dict[str, Any]) -> SimpleNamespace:
-        made.update(columns)
+    def data_frame(block: NDArray[Any], columns: list[str], copy: bool) -> SimpleNamespace:
+        made.update(zip(columns, block.T, strict=True))
         return SimpleNamespace(attrs={})
 
     monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=data_frame))
     frame = states.to_dataframe()
     assert frame.attrs["units"] == {"phi": "rad", "V_B": "m/s", "V_B.x": "m/s", "V_B.y": "m/s"}
     assert made["phi"].tolist() == [0.1, 0.2]
+    assert made["V_B.x"].tolist() == states["V_B.x"].tolist()
+    assert not np.shares_memory(made["V_B.x"], states.values["V_B"])  # who changes the frame changes no states
 
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(KulmanError, match="pandas"):
         states.to_dataframe()
+
+
+@pytest.mark.parametrize("language", ["en", "uk"])
+def test_a_row_of_csv_is_read_back_as_it_was_written(language: str) -> None:
+    said = ["a", "б; в", 'x, "y"', "two\r\nlines", "\n"]
+    rows = [(k, 0.1 * k, -0.0, math.nan, said[k], None if k else 1.5) for k in range(5)]
+
+    head, *read = csv.reader(
+        io.StringIO(Table(tuple("abcdef"), rows, language).csv()), delimiter=",;"[language == "uk"]
+    )
+
+    assert head == [*"abcdef"]
+    numbers = [text.replace(",", ".") for row in read for text in (row[1], row[2])]
+    assert [float(text) for text in numbers] == [number for row in rows for number in row[1:3]]
+    assert {str(row[2]) for row in read} <= {"0.0", "0,0"}
+    assert [row[4].lstrip("'") for row in read] == [said[0], *(harmless(text).lstrip("'") for text in said[1:])]
+    assert [(row[0], row[3], row[5].replace(",", ".")) for row in read[:2]] == [("0", "", "1.5"), ("1", "", "")]
 
 
 def test_states_are_saved_as_tables_and_as_json(tmp_path: Any) -> None:

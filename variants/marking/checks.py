@@ -5,13 +5,12 @@ A class is marked on all cores: reports whole or not at all, and what a killed r
 
 from __future__ import annotations
 
-import gc
 import json
 import os
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,6 +18,7 @@ from ...drawing.formats import format_named
 from ...drawing.writers import Files, folder_for, save_all, slug, write_whole
 from ...plans.quantities import Quantity
 from ...scales.errors import InputError, KulmanError
+from ...scales.kept import seldom_collected
 from ...scales.names import by_name
 from ...scales.version import __version__
 from ..case import Request, Settings, Wanted, plans_wanted
@@ -41,7 +41,6 @@ PathLike = str | os.PathLike[str]
 JOURNAL = ".kulman-check.jsonl"
 REPORTS_NOTED = ".kulman-reports.json"  # which reports of a folder are the program's own
 RETURNED = ".pdf"  # of sheets that were photographed, with verdicts over them
-COLLECTED = 200_000  # objects made anew after which garbage is looked for: 40 MB
 Item = tuple[int, Answers]
 
 
@@ -285,9 +284,9 @@ def check(
     asked = replace(asked, others=others, unasked=frozenset(whole.quantities).difference(asked.names))
     marking = read_rubric(None if rubric is None else os.fspath(rubric), preset, asked, directions)
     students = None if roster is None else read_roster(os.fspath(roster), of, each=True)
-    for one in students.entries[:1] if students else ():
-        if one.problem is not None and all(entry.problem for entry in students.entries):  # the list of another task
-            raise one.problem
+    problems = [entry.problem for entry in students.entries] if students is not None else []
+    if problems and problems[0] is not None and all(problems):  # the list of another task
+        raise problems[0]
     return Check(request, marking, asked, students, digits, own)
 
 
@@ -326,7 +325,7 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
                 found[number] = before
     advance(len(found), len(answers))
     todo = [item for item in enumerate(answers) if item[0] not in found]
-    with _seldom_collected():
+    with seldom_collected():  # keys are many objects
         for done in shared_out(job.begin, todo, jobs or os.cpu_count() or 1, lambda item: _variant(job.terms, item[1])):
             for number, student, result in ((*todo[place], made) for place, made in done):
                 if result is None:  # the student's answers have killed the process that marked them
@@ -348,17 +347,6 @@ def _variant(terms: Terms, answers: Answers) -> str:
         return variant_of(terms, answers, terms.roster.find(answers.who) if terms.roster else None)[0]
     except KulmanError:
         return ""
-
-
-@contextmanager
-def _seldom_collected() -> Iterator[None]:
-    """Look for garbage less often, in this process and its copies: keys are many objects, gone through every time."""
-    usual = gc.get_threshold()
-    gc.set_threshold(max(COLLECTED, usual[0]) if usual[0] else 0, *usual[1:])
-    try:
-        yield
-    finally:
-        gc.set_threshold(*usual)
 
 
 def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
