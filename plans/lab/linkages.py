@@ -33,7 +33,7 @@ from ..linkages.solved import SolvedLinkage
 from ..names import LEVER, role
 from ..quantities import BALANCES, plans_of, references
 from .contours import Contours
-from .race import ENOUGH, FULL, SEED, Clock, Contest, Discipline, Effort, Entry, Way, timed
+from .race import FULL, SEED, Clock, Contest, Discipline, Effort, Entry, Way, timed
 
 Array = NDArray[Any]
 Values = dict[str, Array]
@@ -45,6 +45,7 @@ STEPS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 SECTIONS = (12, 24, 48, 96, 192, 384)
 LONG = 1.0  # seconds that are too many
 FEW = 100  # positions on which it is tried how long a method takes
+BEARABLE = 0.03  # seconds that it may take at more positions at once
 NEAR_DEAD = 0.01  # part of the cycle
 DRAWN, DRAWINGS = 12, 400  # positions that are drawn, how many times
 GRID = 72  # places round the cycle at which Newton's method knows where the links lie
@@ -277,7 +278,7 @@ def _by_others(
         # it may not be bearable at more positions at once
         spent = rivals.time(partial(method, settings[0]), FEW, names, clock)
         size = effort.at_once
-        while spent * size > ENOUGH and size > FEW:
+        while spent * size > BEARABLE and size > FEW:
             size //= 10
         for setting in settings:
             spent = rivals.time(partial(method, setting), size, names, clock)
