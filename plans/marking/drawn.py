@@ -162,20 +162,24 @@ class _Search:
         for turn in TURNS:
             may = whole
             for shape, weight in weights.items():
-                may -= max(0.0, weight - self._lines_there(shape, turn))
+                spare = (may - least * whole) / weight if least else 1.0  # part of it that may lack
+                may -= max(0.0, weight - self._lines_there(shape, turn, 1.0 - spare))
                 if may < least * whole:
                     break
             most = max(most, may)
         return most / whole if whole else 0.0
 
-    def _lines_there(self, shape: Shape, turn: float) -> float:
-        """Return how many lines of a shape may be there, at a first look: of its usual size, else of any."""
-        lines, whole, found = self.laying.lines, float(shape.weights.sum()), 0.0
+    def _lines_there(self, shape: Shape, turn: float, part: float) -> float:
+        """Return how many lines of a shape may be there, at a first look: of its usual size, else of any.
+
+        None if it is less than a part of them.
+        """
+        whole, found = float(shape.weights.sum()), 0.0
         for usually in (True, False):
-            if found < (1.0 - ALL) * whole and len((laid := self.laying.lay(shape, turn, usually)).worth):
-                at = laid.nodes[laid.worth.argmax()]
-                there = lines.joined(at[shape.tails[shape.lines]], at[shape.tips[shape.lines]], loosely=True)
-                found = max(found, float(shape.weights[there].sum()))
+            if found < (1.0 - ALL) * whole:
+                (laid,) = self.laying.lay_all([shape], turn, 0.0, part, usually=usually)
+                if len(laid.worth):
+                    found = max(found, whole * float(laid.parts[laid.worth.argmax()]))
         return found
 
     def _fits(self) -> dict[str, Fit]:
@@ -183,9 +187,8 @@ class _Search:
 
         By how much the sheet is turned, a multiple of a right angle, the right plans tell as far as they are there.
         """
-        right = {
-            turn: [fit for shape in self.plans.values() if (fit := self.laying.best(shape, turn))] for turn in TURNS
-        }
+        laid = {t: [self.laying.best(shape, t, ENOUGH) for shape in self.plans.values()] for t in TURNS}
+        right = {turn: [fit for fit in fits if fit is not None] for turn, fits in laid.items()}
         turn = max(TURNS, key=lambda turn: sum(fit.worth for fit in right[turn]))
         self._resized(right[turn])
         told = {turn: [fit for fit in right[turn] if self._told(fit)] for turn in TURNS}

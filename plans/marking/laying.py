@@ -32,6 +32,7 @@ MANY = 200  # places of a plan, the best ones, of which those that differ are so
 KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less than the best by more than so much
 PROMISING, AT_ONCE = 1500, 500  # ways to lay a plan that are looked at, the most promising ones first; at once
 MANY_SHAPES = 20  # shapes of which so many ways are looked at
+SMALL = 1e-9  # of a plan of which nothing can be seen
 UNSEEN = 0.15  # part of a plan by which lines that go out may tell less of it than there is
 SURELY = 7.0  # mm from which a vector surely has a direction
 ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
@@ -102,12 +103,13 @@ class Fit:
 
 
 class Laid(NamedTuple):
-    """Ways to lay a shape: origins, factors, nodes of its marks, and what each may be worth."""
+    """Ways to lay a shape: origins, factors, nodes of its marks; what each may be worth, what part of it be there."""
 
     origins: Complex
     factors: Complex
     nodes: Indices
     worth: Floats
+    parts: Floats
 
     @property
     def most(self) -> float:
@@ -151,7 +153,7 @@ class Laying:
     given: Mapping[str, float]
     used: set[tuple[int, int]] = field(default_factory=set)
     times: float = 1.0
-    _laid: dict[tuple[Shape, float, float, bool], Laid] = field(default_factory=dict)
+    _laid: dict[tuple[Shape, float, float], Laid] = field(default_factory=dict)
 
     def expected(self, plan: str) -> float:
         """Return the scale factor that a plan should have, SI per mm; zero where nobody knows."""
@@ -167,15 +169,15 @@ class Laying:
         one, other = sorted(int(self.lines.hubs[node]) for node in pair)
         return one, other
 
-    def best(self, shape: Shape, turn: float) -> Fit | None:
-        """Return where a shape fits best on a sheet turned so, radians."""
-        return self.closest(shape, self.lay(shape, turn))
+    def best(self, shape: Shape, turn: float, part: float = 0.0) -> Fit | None:
+        """Return where a shape fits best on a sheet turned so, radians, if such a part of it may be there."""
+        return self.closest(shape, self.lay(shape, turn), part)
 
-    def lay(self, shape: Shape, turn: float, usually: bool = False) -> Laid:
-        """Lay a shape in all ways that may be worth nearly as much as the best of them; see `lay_all`."""
-        name = shape, turn, self.times, usually
+    def lay(self, shape: Shape, turn: float) -> Laid:
+        """Lay a shape in all ways that may be worth nearly as much as the best of them."""
+        name = shape, turn, self.times
         if name not in self._laid:
-            (self._laid[name],) = self.lay_all([shape], turn, CLOSE, usually=usually)
+            (self._laid[name],) = self.lay_all([shape], turn, CLOSE)
         return self._laid[name]
 
     def lay_all(
@@ -204,35 +206,41 @@ class Laying:
         rows, origins, factors, most = self._ways(stack, turn, part, least, usually)
         order = np.argsort(-most, kind="stable")[: PROMISING * min(len(shapes), MANY_SHAPES)]
         rows, origins, factors, most = rows[order], origins[order], factors[order], most[order]
-        nodes, worth, done = np.zeros((len(order), stack.places.shape[1]), np.intp), np.zeros(len(order)), 0
+        nodes, done = np.zeros((len(order), stack.places.shape[1]), np.intp), 0
+        worth, parts = np.zeros(len(order)), np.zeros(len(order))
         while done < len(order) and most[done] >= least:
             some = slice(done, done + AT_ONCE)
             nodes[some] = self.lines.near(origins[some, None] + factors[some, None] * stack.places[rows[some]])
-            worth[some] = self._worth(stack, rows[some], nodes[some], np.abs(factors[some]))
+            worth[some], parts[some] = self._worth(stack, rows[some], nodes[some], np.abs(factors[some]))
             done = min(done + AT_ONCE, len(order))
             least = max(least, worth[:done].max() - within)
         found = [np.flatnonzero(rows[:done] == row) for row in range(len(shapes))]
         return [
-            Laid(origins[own], factors[own], nodes[own, : len(shape.marks)], worth[own])
+            Laid(origins[own], factors[own], nodes[own, : len(shape.marks)], worth[own], parts[own])
             for shape, own in zip(shapes, found, strict=True)
         ]
 
-    def _worth(self, stack: _Stack, rows: Indices, nodes: Indices, per_unit: Floats) -> Floats:
-        """Return what ways to lay shapes, of these rows of a stack, may be worth: nodes beside their lines count."""
+    def _worth(self, stack: _Stack, rows: Indices, nodes: Indices, per_unit: Floats) -> tuple[Floats, Floats]:
+        """Return what ways to lay shapes, of these rows of a stack, may be worth, and what part of each may be there.
+
+        Nodes beside those of their lines count as well.
+        """
         one, other = (np.take_along_axis(nodes, side[rows], 1) for side in (stack.tails, stack.tips))
         weights = np.where(stack.sizes[rows] * per_unit[:, None] < SHORT, 0.0, stack.weights[rows])
-        there = self.lines.joined(one, other, loosely=True)
-        return np.asarray(
-            np.where(there, weights, -ABSENT * weights).sum(axis=1) + self._as_usual(stack.plan, per_unit)
-        )
+        whole = weights.sum(axis=1)
+        there = (weights * self.lines.joined(one, other, loosely=True)).sum(axis=1)
+        worth = (1.0 + ABSENT) * there - ABSENT * whole + self._as_usual(stack.plan, per_unit)
+        return worth, there / np.maximum(whole, SMALL)
 
-    def closest(self, shape: Shape, laid: Laid) -> Fit | None:
-        """Return the best of the ways in which a shape is laid, looked at closely."""
+    def closest(self, shape: Shape, laid: Laid, part: float = 0.0) -> Fit | None:
+        """Return the best of the ways in which a shape is laid, looked at closely; of which a part may be there."""
         best, seen, worth = None, set[bytes](), laid.worth
         for at in np.argsort(-worth, kind="stable")[:MANY]:
             if worth[at] < laid.most - CLOSE or len(seen) == KEPT:
                 break
             nodes = laid.nodes[at]
+            if laid.parts[at] < part - UNSEEN:
+                continue
             if (look := np.where(nodes < 0, nodes, self.lines.hubs[nodes]).tobytes()) not in seen:
                 seen.add(look)
                 fit = self._settled(shape, complex(laid.origins[at]), complex(laid.factors[at]))
