@@ -23,6 +23,7 @@ from kulman.drawing.formats import drawing_area
 from kulman.drawing.markers import EACH, SIDE, fields, stands
 from kulman.drawing.shapes import shifted
 from kulman.plans.marking.answers import Verdict
+from kulman.plans.marking.drawn import Found, FoundPlan, Recognised
 from kulman.plans.marking.lines import Drawn
 from kulman.plans.marking.ways import RIGHT, Shape
 from kulman.scales.errors import InputError
@@ -438,4 +439,14 @@ def test_a_sheet_printed_smaller_is_noticed() -> None:
         found = matched({number: lines_of(*ends)}, poles, sheet.mus, sheet.keyed)
         printed_so = SimpleNamespace(blank=SimpleNamespace(mus=sheet.mus))
 
-        assert print_scale(printed_so, found) == pytest.approx(times, abs=0.003)
+        assert print_scale(printed_so, sheet.keyed, found) == pytest.approx(times, abs=0.003)
+
+
+def test_one_plan_that_a_mistake_makes_larger_is_no_smaller_print() -> None:
+    sheet = sheet_for(TASK, only=PLANS)
+    mu, vectors = sheet.mus["velocity"], dict[str, Found]()
+    for name, times in (("V_A", 1.0), ("V_BA", 1.03), ("V_B", 1.03), ("V_S2", 1.03)):
+        vectors[name] = Found(0j, complex(sheet.keyed.key[name]) / mu * times, "velocity", 1.0)
+    found = Recognised({"velocity": FoundPlan(mu / 1.03, 0.0, 0j, 1.0)}, vectors, ())
+
+    assert print_scale(SimpleNamespace(blank=SimpleNamespace(mus=sheet.mus)), sheet.keyed, found) == 1.0

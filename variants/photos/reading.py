@@ -53,7 +53,8 @@ OFF, ASTRAY_PART = 1.0, 0.02  # mm and part of a vector by which it may be besid
 HAND = 0.4  # mm that the ends of a vector may lie beside its line, which turns short ones
 CERTAIN = 0.75  # of a vector that may be a part of a longer line
 QUALITY = 0.8  # part of a plan with a mistake that must be there
-LONG, FEWEST, LIKE = 15.0, 4, 0.01  # mm of vectors that tell how large the sheet is printed; how many; how alike
+LONG, FEWEST = 15.0, 4  # mm of vectors that tell how large the sheet is printed; how many
+LIKE, MISSED, ALIKE = 0.01, 0.6, 0.8  # part of each, and mm, by which they may differ; part of them that is alike
 PRINTED, MOST = 0.012, 0.1  # parts by which a print that is told is smaller or larger
 
 
@@ -219,7 +220,7 @@ def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: 
     own = of_ones_own(photos)
     sheets = _own_sheets(photos, keyed) if own else read_sheets(photos, _fitting(photos, request, blank))
     found = _recognised(sheets, keyed)
-    times = 1.0 if own else print_scale(sheets, found)
+    times = 1.0 if own else print_scale(sheets, keyed, found)
     if times != 1.0:
         sheets = shrunk(sheets, times)
         found = _recognised(sheets, keyed)
@@ -348,19 +349,20 @@ def read_sheets(photos: Sequence[Photo], blank: Blank) -> Sheets:
     return Sheets(blank, tuple(pages), Drawn(lines[:, 0], lines[:, 1]), tuple(notes))
 
 
-def print_scale(sheets: Sheets, found: Recognised) -> float:
+def print_scale(sheets: Sheets, keyed: Keyed, found: Recognised) -> float:
     """Return how many times as large as they should be lengths on the sheets are, 1 where nothing tells.
 
     A sheet that was printed smaller has its markers smaller, too; the student's ruler is as it was.
     """
     mus = sheets.blank.mus
-    right = {name: plan for name, plan in found.plans.items() if name in mus and not (plan.mistake or plan.alone)}
-    long = [one for one in found.vectors.values() if one.plan in right and abs(one.tip - one.tail) >= LONG]
-    ratios = [mus[one.plan] / right[one.plan].mu for one in long]
-    if len(ratios) < FEWEST:
+    right = {name for name, plan in found.plans.items() if name in mus and not (plan.mistake or plan.alone)}
+    long = [(name, one) for name, one in found.vectors.items() if one.plan in right and abs(one.tip - one.tail) >= LONG]
+    if len(long) < FEWEST:
         return 1.0
-    middle = float(np.median(ratios))
-    alike = max(abs(one - middle) for one in ratios) <= LIKE * middle
+    sizes = np.array([abs(one.tip - one.tail) for _, one in long])
+    wanted = np.array([abs(keyed.key[name]) / mus[one.plan] for name, one in long])
+    middle = float(np.median(sizes / wanted))
+    alike = np.mean(np.abs(sizes - middle * wanted) <= np.maximum(LIKE * sizes, MISSED)) >= ALIKE
     return middle if alike and PRINTED < abs(middle - 1.0) < MOST else 1.0
 
 
