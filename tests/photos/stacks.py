@@ -20,7 +20,10 @@ MISTAKE = "M24"
 SMALL = {"І. Петренко": ("3", ""), "О. Коваль": ("7", MISTAKE)}  # variant and mistake of each student
 LETTERS = "АБВГДЕЖЗИКЛМНОПРСТУФХЦЧШЮЯ"  # of students of whom there are thirty pictures
 VARIANTS = "012345789"  # of which both plans are on one page
-CLASS = {f"Студент {one}": (VARIANTS[n % 9], MISTAKE if n % 5 == 2 else "") for n, one in enumerate(LETTERS)}
+WRONG = "27"  # of which the plans stay on the paper with that mistake
+CLASS = {
+    f"Студент {one}": (VARIANTS[n % 9], MISTAKE if VARIANTS[n % 9] in WRONG else "") for n, one in enumerate(LETTERS)
+}
 
 
 @dataclass(frozen=True)
