@@ -477,7 +477,8 @@ def _by_symbol(scales: Settings, known: Sequence[str], solved: Solved) -> Settin
     """Return what is said of each scale factor: of all plans of forces where mu_F is said, as sheets have it."""
     found = dict(scales)
     for name, text in scales.items():
-        if role(name).kind == "mu" and name not in known and name == scale_factor(role(name).of):
+        of_all = role(name).kind == "mu" and name == scale_factor(role(name).of)
+        if of_all and name not in known and name not in solved.quantities:
             drawn = [symbol for symbol in solved.scale_of_plan.values() if symbol in known]
             same = [symbol for symbol in drawn if role(symbol).of == role(name).of]
             if same:

@@ -41,9 +41,14 @@ class Stack:
     whose: dict[str, int]
 
 
-def stack_of(folder: Path, students: dict[str, tuple[str, str]], nameless: int = 1, blurred: int = 1) -> Stack:
-    """Draw and photograph a page of each of the students; the last ones have forgotten their names."""
-    random, truth, made = np.random.default_rng(11), dict[str, dict[str, Truth]](), dict[str, bytes]()
+def stack_of(
+    folder: Path, students: dict[str, tuple[str, str]], nameless: int = 1, blurred: int = 1, seed: int = 16
+) -> Stack:
+    """Draw and photograph a page of each of the students; the last ones have forgotten their names.
+
+    The `seed` is one of which something is asked of each student of the small stack.
+    """
+    random, truth, made = np.random.default_rng(seed), dict[str, dict[str, Truth]](), dict[str, bytes]()
     named, whose = len(students) - nameless, dict[str, int]()
     for number, (student, (variant, mistake)) in enumerate(students.items()):
         sheet = sheet_for(TASK, variant)
