@@ -208,7 +208,10 @@ def test_a_ruler_reads_half_millimetres_and_all_else_follows_from_them(task: str
     if differ[0] is not None and differ[1] is not None:
         plan, lever, part = map(number, differ[0].groups())
         assert part == pytest.approx(100.0 * (lever - plan) / lever, abs=0.02)
-        assert abs(number(differ[1][3])) < abs(part) < 5.0
+        # how much, chance decides: the segments of the sheet, to 0.01 mm, leave no more than a quarter of a percent
+        assert abs(part) < 5.0
+        assert abs(number(differ[1][3])) <= 0.25
+        assert differ[0].groups() != differ[1].groups()
 
 
 def assert_a_quantity_has_one_number(written: Note) -> None:

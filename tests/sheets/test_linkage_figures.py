@@ -260,7 +260,8 @@ def misturned(case: Linkage) -> list[object]:
         if radius * abs(sweep) < 2.0 * style.arrow or abs(sweep) < FLATTEST:
             faults.append((name, "is all arrowhead, or looks straight"))
         ends = [end for line in view.inside("link", number) for end in line.points]
-        if radius > max(1.2 * style.force, *(abs(end - centre) for end in ends)):
+        # the line of a link ends at the circle of its joint
+        if radius > max(1.2 * style.force, *(abs(end - centre) + style.pair for end in ends)):
             faults.append((name, "stands beyond its link"))
         others = [other for other in arcs if other != name and other.endswith(f"_{number}")]
         faults += [(name, other) for other in others if lines[name].distance(lines[other]) < 0.5 * style.label]
