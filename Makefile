@@ -22,7 +22,7 @@ test: $(READY)
 	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m "not soak"
 
 soak: $(READY)
-	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m soak
+	$(PY) -m pytest -q -n $(WORKERS) --dist worksteal -m soak --ignore tests/browser  # which make browser runs
 
 # pages, driven in the system's Chromium
 browser: $(READY)

@@ -117,6 +117,7 @@ def test_an_end_is_moved_by_a_click_on_the_picture(page: Any, stack: Stack) -> N
     page.locator("form[enctype] button.main").click(timeout=MINUTES)
     page.locator("a[href*='/asked/']").click(timeout=MINUTES)
     page.locator("a.main").click()
+    page.wait_for_load_state("networkidle")  # the script that takes clicks has come
     before = page.locator("[name='tip']").input_value()
     box = page.locator("#plan").bounding_box()
     with page.expect_navigation():

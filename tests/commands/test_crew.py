@@ -113,10 +113,11 @@ def test_many_that_are_alike_go_to_all_processes_and_what_is_large_stops_nobody(
 
 
 def test_what_cannot_be_sent_is_an_error_and_no_process_stays() -> None:
+    before = {*multiprocessing.active_children()}  # of other tests: one that reads drawings stays
     with pytest.raises((AttributeError, PicklingError), match="pickle"):
         list(shared_out(Place(odd=31).begin, list(range(60)), 2, str))
 
-    assert multiprocessing.active_children() == []
+    assert {*multiprocessing.active_children()} <= before
 
 
 @dataclass(frozen=True)
@@ -136,10 +137,11 @@ class Slow:
 
 
 def test_a_process_that_is_stopped_leaves_the_rest_of_its_piece(tmp_path: Path) -> None:
+    before = {*multiprocessing.active_children()}
     with pytest.raises(ValueError):
         list(shared_out(Slow(tmp_path).begin, range(40), 2, lambda item: item > 0))
 
-    assert multiprocessing.active_children() == []
+    assert {*multiprocessing.active_children()} <= before
     assert len(list(tmp_path.iterdir())) < 16  # a piece
 
 
