@@ -223,7 +223,7 @@ class _Board:
         bad = self.in_trouble()
         bad.sort(key=lambda i: (self.requests[i].priority, self.now[i] < spots.COVER, i))
         for i in bad:
-            if i in self.in_trouble():
+            if self._troubled(i):
                 afield = bool(first) and self.requests[i].afield
                 self._apart(i, spots.COVER, afield, cross and afield)
         for i in self._crossed() * 2:  # who moves may leave room for another
@@ -297,6 +297,11 @@ class _Board:
         bad = (self.now >= spots.COVER) | (touch.sum(axis=1) > 1)
         labels: list[int] = (bad & self.down).nonzero()[0].tolist()
         return labels
+
+    def _troubled(self, i: int) -> bool:
+        """Tell whether label i is in trouble."""
+        touched = self._beside(i, self.now_x[i : i + 1], self.now_y[i : i + 1])[0]
+        return bool(self.down[i] and (self.now[i] >= spots.COVER or touched.any()))
 
     def _improve(self, i: int) -> bool:
         cost, k = self._best(i)
