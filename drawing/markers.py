@@ -153,12 +153,19 @@ def _areas(black: NDArray[np.bool_], at: complex, side: float, pen: float) -> It
             yield Polyline(area, Pen.THIN, closed=True, fill=True, role="marker")
 
 
+def places_of(low: complex, high: complex) -> tuple[int, int, int, int]:
+    """Return the first and the last squares of a box, from left and from below."""
+    x0, y0, x1, y1 = (max(0, int(edge / UNIT)) for edge in (low.real, low.imag, high.real, high.imag))
+    return x0, y0, x1, y1
+
+
 class _Room:
     """Which places of a page are empty, now and when all is drawn."""
 
     def __init__(self, page: Page, whole: Sequence[Group], area: Box) -> None:
         """Look at all that stands on a page."""
         self.width, self.height, self.area = page.width, page.height, area
+        self.stood = list[tuple[int, int, int, int]]()  # the places of markers that have been stood, as `free` counts
         # in all that is drawn; in views, too, where what is drawn wrong has room, and letters
         self.layers = [np.zeros((round(page.height / UNIT) + 1, round(page.width / UNIT) + 1), bool) for _ in range(2)]
         for shape in (*page.shapes, *whole):
@@ -203,7 +210,7 @@ class _Room:
 
     def box(self, low: complex, high: complex, first: int = 0) -> None:
         """Take all places of a box, from the first layer on."""
-        x0, y0, x1, y1 = (max(0, int(edge / UNIT)) for edge in (low.real, low.imag, high.real, high.imag))
+        x0, y0, x1, y1 = places_of(low, high)
         for layer in self.layers[first:]:
             layer[y0 : y1 + 1, x0 : x1 + 1] = True
 
@@ -216,6 +223,8 @@ class _Room:
         x1, y1 = ((part + side + white) / UNIT for part in (at.real, at.imag))
         x0, x1 = (np.clip(x.astype(int), 0, columns) for x in (x0, x1 + 1))
         y0, y1 = (np.clip(y.astype(int), 0, rows) for y in (y0, y1 + 1))
+        for left, low, right, high in self.stood:
+            inside &= (x1 <= left) | (x0 > right) | (y1 <= low) | (y0 > high)
         s = self.sums[where]
         return np.asarray(inside & (s[y1, x1] - s[y0, x1] - s[y1, x0] + s[y0, x0] == 0))
 
@@ -246,8 +255,7 @@ class _Room:
         free = self.free(every, SIDE, ROUND, where)
         if free.any() and cost[free].min() <= most:
             at = found[own] = complex(every[free][cost[free].argmin()])
-            self.box(at, at + SIDE * (1 + 1j))
-            self.sums = self.summed()
+            self.stood.append(places_of(at, at + SIDE * (1 + 1j)))
 
     def code(self) -> tuple[complex, float] | None:
         """Return where a QR code has room inside the frame, and its side; the lowest place, then the rightmost."""
