@@ -25,6 +25,7 @@ from kulman.tests.support import screw_jack
 from kulman.tests.support.cases import some
 from kulman.tests.support.dyads import KINDS, random_dyads, random_triads
 from kulman.tests.support.screw_jack import LAWS_OF_JACK, jack
+from kulman.tests.support.sources import trees
 from kulman.variants.shelf import bundled
 
 ROOT = Path(__file__).parents[2]
@@ -50,9 +51,9 @@ def of_name(receiver: ast.expr) -> bool:
     return False
 
 
-def taken_apart(source: str) -> Iterator[int]:
+def taken_apart(tree: ast.AST) -> Iterator[int]:
     """Go through the lines of a module that take a name apart: by a method of strings, or by a slice."""
-    for node in ast.walk(ast.parse(source)):
+    for node in ast.walk(tree):
         match node:
             case ast.Call(func=ast.Attribute(attr=attr, value=value)) if attr in APART and of_name(value):
                 yield node.lineno
@@ -66,12 +67,11 @@ def whole(value: ast.expr) -> bool:
 
 
 def test_names_are_taken_apart_in_few_places() -> None:
-    files = sorted(path for layer in ("plans", "drawing", "variants") for path in (ROOT / layer).rglob("*.py"))
     found = [
-        f"{path.relative_to(ROOT)}:{line}"
-        for path in files
-        if not str(path.relative_to(ROOT)).startswith(READERS)
-        for line in taken_apart(path.read_text(encoding="utf-8"))
+        f"{path}:{line}"
+        for path, tree in trees().items()
+        if path.parts[0] in ("plans", "drawing", "variants") and not str(path).startswith(READERS)
+        for line in taken_apart(tree)
     ]
     assert len(found) <= MOST, found
 
@@ -89,7 +89,7 @@ def test_names_are_taken_apart_in_few_places() -> None:
     ],
 )
 def test_count_sees_names_and_passes_texts_over(source: str, count: int) -> None:
-    assert len(list(taken_apart(source))) == count
+    assert len(list(taken_apart(ast.parse(source)))) == count
 
 
 def agree(program: Program) -> None:

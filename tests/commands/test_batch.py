@@ -161,7 +161,8 @@ def test_a_class_is_printed_in_one_go_in_the_order_of_its_roster(tmp_path: Path)
 @pytest.mark.parametrize(
     ("task", "variant"),
     [
-        ("scheme-16-hay-baler", None),
+        ("nau-slider-crank", None),
+        pytest.param("scheme-16-hay-baler", None, marks=pytest.mark.soak),
         # ropes of 24, 8, 60 m
         *(pytest.param("karpenko-hoist", variant, marks=pytest.mark.soak) for variant in ("V07", "V01", "V09")),
         *(pytest.param(task, None, marks=pytest.mark.soak) for task in ("madi-cam", "madi-gear")),

@@ -21,6 +21,7 @@ import pytest
 
 from kulman import batch
 from kulman.scales.errors import InputError
+from kulman.tests.support.cases import some
 from kulman.tests.support.commands import files, roster
 from kulman.variants.crew import on_cluster, shared_out
 
@@ -56,7 +57,7 @@ def made(work: Squares, jobs: int, **more: int) -> dict[int, int | None]:
     return dict(done)
 
 
-@pytest.mark.parametrize("jobs", [-3, 0, 1, 2, 1000])
+@pytest.mark.parametrize("jobs", some([-3, 0, 1, 2, 1000], 1, 2, 3))
 def test_any_number_of_processes_makes_everything(jobs: int) -> None:
     assert made(Squares(), jobs, alone=0) == made(Squares(), min(jobs, 2)) == SQUARES
 

@@ -216,8 +216,8 @@ def test_files_are_the_same_again_and_others_are_refused(tmp_path: Path) -> None
     assert len(first.read_bytes()) < 20_000
     assert not sheet.warnings_of("a.ggb")
     for task, options, key in (
-        ("madi-cam", {}, "construction-kinds"),
-        ("nau-slider-crank", {"positions": 6}, "handout-apart"),
+        ("madi-cam", {"only": "diagrams"}, "construction-kinds"),
+        ("nau-slider-crank", {"positions": 3}, "handout-apart"),
     ):
         with pytest.raises(InputError) as refused:
             kulman.sheet(task, **options).save(tmp_path / "c.ggb")

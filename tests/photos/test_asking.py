@@ -1,4 +1,7 @@
-"""What is asked of photographs, and what follows from answers: whose pages are, which counts, where vectors end."""
+"""What is asked of photographs, and what follows from answers: whose pages are, which counts, where vectors end.
+
+Of vectors, whose questions take longest, `tests/serving/test_asking.py` asks by default, these tests in the soak.
+"""
 
 from __future__ import annotations
 
@@ -57,6 +60,7 @@ def test_what_is_asked_of_pages(ready: Check, read: list[Answers]) -> None:
     assert all(picture.startswith(b"\x89PNG") for ask in asks for picture in ask.pictures)
 
 
+@pytest.mark.soak
 def test_photographs_that_have_been_asked_about_are_worth_what_typed_forms_are(
     stack: Stack, ready: Check, settled: Settled
 ) -> None:
@@ -72,6 +76,7 @@ def test_photographs_that_have_been_asked_about_are_worth_what_typed_forms_are(
     assert sorted(marks.values()) != [100.0, 100.0]  # one has made a mistake
 
 
+@pytest.mark.soak
 def test_what_is_not_answered_costs_nothing_and_what_is_not_drawn_is_missing(settled: Settled) -> None:
     desk, answers, asks = settled[0]
     name = asks[0].name
@@ -83,6 +88,7 @@ def test_what_is_not_answered_costs_nothing_and_what_is_not_drawn_is_missing(set
     assert absent.mark < unanswered.mark
 
 
+@pytest.mark.soak
 def test_what_was_believed_and_the_spots_lie_on_what_was_drawn(stack: Stack, settled: Settled) -> None:
     for _, answers, asks in settled:
         truth = stack.truth[answers.who.student]
@@ -95,6 +101,7 @@ def test_what_was_believed_and_the_spots_lie_on_what_was_drawn(stack: Stack, set
                 assert ask.box[1] < true.imag < ask.box[3]
 
 
+@pytest.mark.soak
 def test_a_sheet_that_is_returned_shows_what_has_been_told(stack: Stack, settled: Settled) -> None:
     desk, answers, asks = settled[0]
     truth = stack.truth[answers.who.student][asks[0].name]

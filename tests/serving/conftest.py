@@ -11,7 +11,7 @@ from kulman.tests.support.serving import asked
 from kulman.variants.serving.safety import doors_for
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def client() -> Iterator[TestClient]:
     with asked(doors_for("127.0.0.1", (), None)) as found:
         yield found

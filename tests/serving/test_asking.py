@@ -47,31 +47,14 @@ def test_a_blank_to_be_photographed_is_that_of_the_command(client: TestClient, t
     assert not links(client, client.get("/task/madi-gear").text, "/scan.pdf")  # whose plans are not read
 
 
-def test_a_student_hands_in_photographs_and_answers_what_is_not_sure(client: TestClient, stack: Stack) -> None:
+@pytest.fixture(scope="module")
+def report(client: TestClient, stack: Stack) -> str:
+    """What a student gets who has handed in a photograph and one that cannot be read."""
     good, _, _, blurred = stack.pictures
-    report = followed(client, client.post(CHECK, files=upload(good, blurred)))
-    (questions,) = links(client, report, "/asked/")
-    overview = client.get(questions).text
-    question = client.get(f"{questions}/1").text
-
-    assert report.count("data:image/jpeg") == 1
-    assert client.get(links(client, report, "/result/")[0]).content.startswith(b"%PDF")
-    assert f"{blurred.name}: " in overview  # which could not be read
-    assert "a<sup>n</sup><sub>BA</sub>" in question
-    assert "a<sup>n</sup><sub>BA</sub>" not in report.partition("<table>")[2]
-    (picture,) = links(client, question, ".png")
-    assert client.get(picture).content.startswith(b"\x89PNG")
-    ends = dict(re.findall(r'name="(tail|tip)" value="([^"]+)"', question))
-    told = client.post(f"{questions}/1", data={**ends, "say": "yes"})
-    assert told.headers["location"].endswith("#done")
-
-    marked = followed(client, client.post(questions))
-
-    assert "a<sup>n</sup><sub>BA</sub>" in marked.partition("<table>")[2]
+    return followed(client, client.post(CHECK, files=upload(good, blurred)))
 
 
-def test_a_place_of_the_picture_means_the_spot_near_it(client: TestClient, stack: Stack) -> None:
-    report = followed(client, client.post(CHECK, files=upload(stack.pictures[0])))
+def test_a_place_of_the_picture_means_the_spot_near_it(client: TestClient, report: str) -> None:
     (questions,) = links(client, report, "/asked/")
     ask = client.app_state["desk"].sittings.get(questions.rpartition("/")[2]).asking.ends[0]  # type: ignore[attr-defined]
     spot = ask.spots[-1]
@@ -86,6 +69,29 @@ def test_a_place_of_the_picture_means_the_spot_near_it(client: TestClient, stack
     assert client.get(f"{questions}/99").status_code == 404
     assert client.get(f"{questions}/plan/none.png").status_code == 404
     assert client.get("/asked/nobody").status_code == 404
+
+
+def test_a_student_hands_in_photographs_and_answers_what_is_not_sure(
+    client: TestClient, report: str, stack: Stack
+) -> None:
+    (questions,) = links(client, report, "/asked/")
+    overview = client.get(questions).text
+    question = client.get(f"{questions}/1").text
+
+    assert report.count("data:image/jpeg") == 1
+    assert client.get(links(client, report, "/result/")[0]).content.startswith(b"%PDF")
+    assert f"{stack.pictures[-1].name}: " in overview  # which could not be read
+    assert "a<sup>n</sup><sub>BA</sub>" in question
+    assert "a<sup>n</sup><sub>BA</sub>" not in report.partition("<table>")[2]
+    (picture,) = links(client, question, ".png")
+    assert client.get(picture).content.startswith(b"\x89PNG")
+    ends = dict(re.findall(r'name="(tail|tip)" value="([^"]+)"', question))
+    told = client.post(f"{questions}/1", data={**ends, "say": "yes"})
+    assert told.headers["location"].endswith("#done")
+
+    marked = followed(client, client.post(questions))
+
+    assert "a<sup>n</sup><sub>BA</sub>" in marked.partition("<table>")[2]
 
 
 @pytest.mark.parametrize("text", ["", "1", "1,2,3", "nan,1", "inf,1", "-1,1", "11,1", "a,b"])

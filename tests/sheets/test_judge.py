@@ -274,15 +274,14 @@ def test_sheets_of_small_formats_are_as_good_as_any(task: str, format: str) -> N
 
 
 # a short crank between its rod and the axis x; a link that turns among others
-@pytest.mark.parametrize(
-    ("task", "variant"),
-    [pytest.param("scheme-14-jaw-crusher", "3", marks=pytest.mark.soak), ("scheme-17-sewing-machine", "8")],
-)
+@pytest.mark.soak
+@pytest.mark.parametrize(("task", "variant"), [("scheme-14-jaw-crusher", "3"), ("scheme-17-sewing-machine", "8")])
 def test_letters_of_angles_and_senses_cross_no_link(task: str, variant: str) -> None:
     assert [finding for finding in found(sheet_of(task, variant)) if finding.kind == "leaders"] == []
 
 
 # curves with many points on little paper
+@pytest.mark.soak
 @pytest.mark.parametrize("task", ["madi-cam"])
 def test_numbers_of_points_that_crowd_have_no_leaders_through_curves(task: str) -> None:
     assert [finding for finding in found(sheet_of(task, format="A4")) if finding.kind == "leaders"] == []

@@ -197,6 +197,7 @@ def test_no_plan_is_small_beside_mechanism_and_lever(task: str, variant: str) ->
     assert min(longest.values()) >= 100.0, longest
 
 
+@pytest.mark.soak
 def test_scale_factors_leave_room_for_a_special_point_far_from_all_joints() -> None:
     task, variant = "scheme-20-press-automaton", "2"
 

@@ -1,0 +1,349 @@
+"""New variants, made within ranges or taken from tables of variants as departments keep them."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Callable
+from dataclasses import replace
+from decimal import Decimal
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+from kulman import all_variants, load_task, sheet, solve
+from kulman.plans.boards.exact import SMALL
+from kulman.scales.errors import InputError
+from kulman.scales.units import format_unit
+from kulman.tests.support.cases import solve_case, some
+from kulman.tests.support.commands import Run
+from kulman.tests.support.task_files import task_of, with_changes
+from kulman.variants.case import Case, Request
+from kulman.variants.kinds import linkage
+from kulman.variants.kinds.linkage import _short_vectors
+from kulman.variants.making.new_variants import (
+    _most_pages,
+    _ranges_of,
+    _with_variants,
+    import_variants,
+    read_variants,
+)
+from kulman.variants.reader import read_text
+from kulman.variants.sheets import draw_case
+from kulman.variants.shelf import bundled
+from kulman.variants.task import Task
+
+TASK = "nau-slider-crank"
+ROWS = """\
+Варіант;phi [град];l_OA, мм;l_AB, мм;l_AS2, мм;n_1, об/хв;m_2, кг;m_3, кг;J_S2, кг·м²;F_3, кН
+В1;30;25;125;42;2000;0,8;0,6;0,005;2
+2;45;30;140;46;1800;1,8;1,5;0,01;3,5
+long;60;80;70;20;1800;1;1;0,01;2
+bad;60;20;abc;5;100;1;1;0,01;2
+half;60;20;;5;100;1;1;0,01;2
+2;50;30;140;46;1800;1,8;1,5;0,01;3,5
+"""
+
+
+@pytest.mark.parametrize(
+    ("task", "count", "ranges"),
+    some(
+        [
+            (TASK, 2, {"l_OA": "20..60/5 mm", "phi": "0..345/15"}),
+            ("madi-four-bar", 1, {}),
+            pytest.param("scheme-06-opposed-compressor", 1, {}, marks=pytest.mark.soak),
+            pytest.param(TASK, 20, {"l_OA": "20..90/5 mm", "phi": "0..355/5"}, marks=pytest.mark.soak),
+            pytest.param("madi-four-bar", 6, {"l_AB": "80..300/5 mm", "phi": "0..350/10"}, marks=pytest.mark.soak),
+        ],
+        0,
+    ),
+)
+def test_made_variants_are_good_exercises(task: str, count: int, ranges: dict[str, str]) -> None:
+    new = all_variants(task, make=count, ranges=ranges, seed=7).new
+
+    assert new is not None
+    own = len(sheet(task).pages)  # of most tasks one
+    rows = [tuple(row.values.values()) for row in new.task.variants.values()]
+    assert len(set(rows)) == count
+    for variant in new.task.variants:
+        solution = solve(new.task, variant)
+        assert solution.status == "ok"
+        assert solution.warnings == ()
+        assert solution.solved.worst_sine()[1] >= SMALL
+        drawn = sheet(new.task, variant)
+        assert drawn.warnings == ()
+        assert len(drawn.pages) <= own
+        speeds = {name: item.value for name, item in solution.quantities.items() if re.match(r"V_\w+$", name)}
+        assert min(speeds.values()) >= 0.01 * max(speeds.values())  # no plan is a line
+        for step in range(0, 360, 20):  # the crank turns round
+            assert solve(new.task, variant, set={"phi": step}, only="position").status != "no-assembly"
+
+
+@pytest.mark.parametrize(("phi", "quantity"), [("180°", "V_B"), ("90°", "V_BA")])
+def test_a_plan_that_is_a_line_makes_a_poor_exercise(phi: str, quantity: str) -> None:
+    case = solve_case(TASK, "3", {"phi": phi}, None, None)
+
+    assert [error.data for error in case.kind.unfit(case) if error.key == "variant-short"] == [{"quantity": quantity}]
+
+
+@pytest.mark.parametrize(
+    ("task", "settings"),
+    some([("madi-cam", {"h": "60 mm"}), ("madi-gear", {"m": "8 mm"}), ("madi-gear", {"z_1": "20"})], 1),
+)
+def test_what_would_be_drawn_smaller_is_refused_before_it_is(task: str, settings: dict[str, str]) -> None:
+    asked = Request(load_task(task), None, settings)
+
+    assert any(warning.key in ("scales-changed", "scale-coarser") for warning in draw_case(asked.case()).warnings)
+    with pytest.raises(InputError) as refused:
+        draw_case(replace(asked, as_wanted=True).case())
+    assert refused.value.key == "variant-room"
+    own = Request(load_task(task), as_wanted=True).case()  # which is drawn as it is wanted
+    assert len(draw_case(own).pages) == len(draw_case(replace(own, as_wanted=False)).pages)
+
+
+def test_what_is_short_in_all_variants_is_looked_for_in_no_more_of_them_than_needed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    looked: list[str] = []
+
+    def counted(case: Case) -> set[str]:
+        looked.append(case.variant)
+        return _short_vectors(case)
+
+    monkeypatch.setattr(linkage, "_short_vectors", counted)
+    fit, poor = (solve_case(TASK, "3", {"phi": phi}, None, None) for phi in ("60°", "180°"))
+
+    assert list(fit.kind.unfit(fit)) == []
+    assert looked == ["3"]
+    assert [error.key for error in poor.kind.unfit(poor)] == ["variant-short"]
+    assert looked == ["3", "3", "0"]  # where the first variant has none, none is short in all
+
+
+@pytest.mark.parametrize(
+    "text", ["25..60/5 mm", "2,5..6/0,5 см", "25мм..60мм/5мм", "25…60/5", "25–60 / 5 мм", "0.025 .. 0.06 / 0.005 m"]
+)
+def test_a_range_is_read_in_every_usual_form(text: str) -> None:
+    found = _ranges_of(load_task(TASK), {"l_OA": text})["l_OA"]
+
+    assert (found.low, found.high, found.step, found.unit) == (25, 60, 5, "mm")
+    for bad in ("..", "5..", "..5", "5../2", "5..7/", "5", ""):
+        with pytest.raises(InputError):
+            _ranges_of(load_task(TASK), {"l_OA": bad})
+
+
+def test_ranges_about_the_only_variant_of_a_task_have_round_steps_some_twenty_of_them() -> None:
+    ranges = _ranges_of(load_task("bertyaev-six-bar"), {})
+
+    assert ranges
+    for name, usual in ranges.items():
+        assert usual.low < usual.high, name
+        assert usual.step.normalize().as_tuple().digits in ((1,), (2,), (5,)), name
+        assert 8 <= (usual.high - usual.low) / usual.step <= 21, name
+
+
+def test_what_is_counted_is_whole_in_new_variants() -> None:
+    spans = _ranges_of(load_task("madi-gear"), {"z_2": "12..40"})
+
+    for name in ("z_1", "z_2"):
+        assert spans[name].low % 1 == spans[name].step % 1 == 0, name
+        assert spans[name].high > spans[name].low
+
+
+def test_made_variants_keep_to_ranges_and_steps() -> None:
+    new = all_variants(TASK, make=2, ranges={"l_OA": "20..40/5 мм", "n_1": "600..1400/100"}, set={"m_3": "1 kg"}).new
+
+    assert new is not None
+    for row in re.findall(r"\[\[variant\]\]\n((?:.+\n)+)", new.text):
+        said = dict(re.findall(r'(\w+) = "(\S+)[^"]*"', row))
+        assert Decimal(said["l_OA"]) in range(20, 41, 5)
+        assert Decimal(said["n_1"]) in range(600, 1401, 100)
+        assert said["m_3"] == "1"
+    assert new.text.count("reconstruction") == 1  # the comment at its head stays
+    assert "reconstructed" not in new.text  # what the old variants said of theirs does not
+
+
+def test_a_seed_tells_the_variants() -> None:
+    made = [all_variants(TASK, make=1, seed=seed).new for seed in (3, 3, 4)]
+
+    first, again, other = (new.text for new in made if new is not None)
+    assert first == again != other
+
+
+@pytest.mark.parametrize("name", bundled())
+def test_other_variants_leave_everything_else_as_it_is(name: str) -> None:
+    task = load_task(name)
+    first, *_ = task.variants.values()
+    row = {
+        given: value if isinstance(value, str) else f"{unit.from_si(value):.12g} {unit.name}".removesuffix(" 1")
+        for given, value in first.values.items()
+        if (unit := task.givens[given].unit) is not None or isinstance(value, str)
+    }
+
+    found, faults = read_text(_with_variants(task.text, [("one", row), ("two", row)]), "new.toml")
+
+    assert faults == ()
+    assert found is not None
+    assert list(found.variants) == ["one", "two"]
+    assert found.resolve("two") == pytest.approx(task.resolve(first.id))
+    assert (found.givens, found.subject, found.scales) == (task.givens, task.subject, task.scales)
+
+
+@pytest.mark.parametrize("turned", some([False, True], 1))
+def test_a_spreadsheet_becomes_variants(turned: bool, tmp_path: Path, run: Run) -> None:
+    file, out = tmp_path / "variants.csv", tmp_path / "class.toml"
+    cells = [line.split(";") for line in ROWS.splitlines()]
+    rows = [";".join(row) for row in (zip(*cells, strict=True) if turned else cells)]
+    file.write_text("\n".join(("Курсова робота", "", *rows)) + "\n", encoding="utf-8-sig")
+
+    status, _, err = run("variants", TASK, "--from", str(file), "-o", str(out))
+
+    assert status == 2
+    told = [line.removeprefix(f"{file}: ") for line in err.splitlines()]
+    assert [re.split(r"[:,] ", line)[1] for line in told[:4]] == ["long", "l_AB", "half", "2"]
+    task = load_task(out)
+    assert list(task.variants) == ["В1", "2"]
+    assert task.resolve("2")["l_AB"] == pytest.approx(0.14)
+    assert task.resolve("В1")["F_3"] == pytest.approx(2000.0)
+    assert solve(task, "2")["V_B"].value == pytest.approx(solve(TASK, "1")["V_B"].value)
+
+
+@pytest.mark.parametrize("x_1", [pytest.param("0.2", id="drawn"), pytest.param("-3", id="refused")])
+def test_pages_are_counted_though_the_first_variant_of_a_task_is_refused(x_1: str) -> None:
+    task = task_of(with_changes(load_task("madi-gear").text, ("x_1 = 0.2", f"x_1 = {x_1}")))
+
+    assert _most_pages(task)() == 2
+
+
+# Tables of variants as departments keep them: whatever symbols, units, merged cells and empty rows they have.
+GUIDE = """\
+Параметр;Позначення;Одиниці;Номер варіанта;;
+;;;0;1;2
+Положення механізму;φ;град;30;45;60
+Розмір ланок;;;;;
+;l_{OA};мм;25;30;35
+
+;l_{AB};мм;125;140;170
+;l_{AS_2};мм;42;46;55
+Частота обертання ланки 1;n₁;об/хв;2 000;1800;1600
+Маса ланок;;;;;
+;m2;кг;0,8;1,8;2,5
+;m3;кг;0,6;1,5;2,0
+Момент інерції;JS2;кг·м²;0,005;0,01;0,015
+Сила;F_3;Н;2000;3500;4000
+"""
+
+
+def table(folder: Path, text: str) -> str:
+    file = folder / "table.csv"
+    file.write_text(text, encoding="utf-8-sig")
+    return str(file)
+
+
+def values(task: Task, file: str) -> dict[str, dict[str, float | str]]:
+    read = read_variants(file, task)
+    assert [str(problem) for one in read for problem in one.problems] == []
+    return {one.id: {name: task.givens[name].read(text) for name, text in one.row.items()} for one in read}
+
+
+def latex(name: str) -> str:
+    head, _, rest = name.partition("_")
+    return f"{head}_{{{rest}}}" if rest else head
+
+
+def told(name: str) -> str:
+    return f"Величина {name}" if len(name) > 1 else name
+
+
+@pytest.mark.parametrize("form", [str, latex, lambda name: name.replace("_", ""), told])
+@pytest.mark.parametrize("name", some(bundled(), *range(0, 99, 3)))
+def test_symbols_and_units_are_read_in_every_usual_form(name: str, form: Callable[[str], str], tmp_path: Path) -> None:
+    task = load_task(name)
+    rows_of = {variant: row.values for variant, row in task.variants.items()}
+    variants = {variant: row for variant, row in rows_of.items() if variant.isdigit()} or rows_of
+    givens = [given for given in task.givens if all(isinstance(row.get(given), float) for row in variants.values())]
+    units = [task.givens[given].unit for given in givens]
+    shown = ["" if unit is None or unit.name == "1" else format_unit(unit, "uk") for unit in units]
+    head = ["", *(f"{form(given)}, {unit}" if unit else form(given) for given, unit in zip(givens, shown, strict=True))]
+    asked = [(given, unit) for given, unit in zip(givens, units, strict=True) if unit]
+    rows = [
+        [variant, *(f"{unit.from_si(row[given]):.12g}".replace(".", ",") for given, unit in asked)]
+        for variant, row in variants.items()
+    ]
+    for way, cells in (("rows", [head, *rows]), ("columns", [*zip(head, *rows, strict=True)])):
+        file = tmp_path / f"{way}.csv"
+        with file.open("w", encoding="utf-8-sig", newline="") as stream:
+            csv.writer(stream, delimiter=";").writerows(cells)
+
+        found = values(task, str(file))
+
+        assert list(found) == list(variants)
+        for variant, row in variants.items():
+            assert found[variant] == pytest.approx({given: row[given] for given in givens}, rel=1e-9)
+
+
+def test_the_table_of_a_printed_guide_is_read_as_it_stands(tmp_path: Path) -> None:
+    task = load_task(TASK)
+
+    found = values(task, table(tmp_path, GUIDE))
+
+    for variant in "012":
+        stated = task.variants[variant].values
+        assert found[variant] == pytest.approx({name: stated[name] for name in found[variant]})
+        assert len(found[variant]) == 9
+
+
+def test_merged_cells_say_the_same_of_all(tmp_path: Path) -> None:
+    book = openpyxl.Workbook()
+    sheet = book.active
+    assert sheet is not None
+    rows: list[list[object]] = [["Курсова робота"], [], ["Параметр", "Одиниці", "Варіант"], [None, None, 3, 4, 5]]
+    rows += [[name, unit, *cells] for name, unit, *cells in (
+        ("phi", "град", 30, 45, 60), ("l_OA", "мм", 25), ("l_AB", "мм", 125, 140, 170), ("m_2", None, 0.8, 1.8, 2.5),
+    )]  # fmt: skip
+    for row in rows:
+        sheet.append(row)
+    for cells in ("A1:E1", "A3:A4", "C3:E3", "C6:E6", "Z1:Z300"):
+        sheet.merge_cells(cells)
+    book.save(tmp_path / "table.xlsx")
+
+    found = values(load_task(TASK), str(tmp_path / "table.xlsx"))
+
+    assert list(found) == ["3", "4", "5"]
+    assert [row["l_OA"] for row in found.values()] == [pytest.approx(0.025)] * 3
+    assert [row["m_2"] for row in found.values()] == [0.8, 1.8, 2.5]
+
+
+@pytest.mark.parametrize(
+    ("header", "given", "said"),
+    [
+        ("l_OA [см]", "l_OA", "0.025"),
+        ("F_3, кгс", "F_3", "кгс"),
+        ("Сила F_3 (кгс)", "F_3", "кгс"),
+        ("Сила корисного опору, Н: F_3", "F_3", "2.5"),
+        ("m_2 (маса шатуна), кг", "m_2", "2.5"),
+    ],
+)
+def test_a_unit_of_a_header_is_never_passed_over(header: str, given: str, said: str, tmp_path: Path) -> None:
+    task = load_task(TASK)
+    file = table(tmp_path, f'Варіант;phi, град;"{header}"\n1;30;2,5\n')
+
+    [read] = read_variants(file, task)
+
+    if read.problems:
+        assert re.search(rf"C2, {given}: .*{said}", str(read.problems[0]))
+    else:
+        assert task.givens[given].read(read.row[given]) == pytest.approx(float(said))
+    assert bool(read.problems) == (said == "кгс")
+
+
+def test_numbers_without_ids_are_counted_and_data_that_are_missing_named(tmp_path: Path) -> None:
+    assert list(values(load_task(TASK), table(tmp_path, "phi;l_OA\n\n30;25\n45;30\n\n\n"))) == ["1", "2"]
+    with pytest.raises(InputError, match=r"table\.csv: A2, 1: no value of l_OA is given"):
+        import_variants(TASK, table(tmp_path, "Варіант;phi;l_AB\n1;30;125\n"))
+
+
+def test_two_symbols_of_one_name_are_not_taken_for_a_given(tmp_path: Path) -> None:
+    [read] = read_variants(table(tmp_path, "Варіант;phi;Відношення l_OA до l_AB\n1;30;0,2\n"), load_task(TASK))
+
+    assert set(read.row) == {"phi"}
