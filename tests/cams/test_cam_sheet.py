@@ -513,6 +513,7 @@ def test_the_judges_see_what_is_spoiled_on_a_sheet_of_a_rocker(fault: str) -> No
     assert any(one.startswith(fault) for one in found), found
 
 
+@pytest.mark.soak
 def test_numbers_of_positions_stand_apart_where_the_phases_of_a_rocker_fill_the_turn() -> None:
     turn = (("phi_rise", "200 deg"), ("phi_upper", "0 deg"), ("phi_fall", "160 deg"))
     case = CamCase(turn, "A1", "en", ROCKER, only="sizes,profile")

@@ -159,7 +159,8 @@ def test_pictures_are_the_same_twice_and_have_no_colour(task: str, name: str, tm
     assert [colour for colour in colours if len({colour[:2], colour[2:4], colour[4:]}) > 1] == []
 
 
-@pytest.mark.parametrize("task", ["few", *(pytest.param(task, marks=pytest.mark.soak) for task in (TASK, CAM))])
+@pytest.mark.soak
+@pytest.mark.parametrize("task", ["few", TASK, CAM])
 def test_a_pdf_has_a_page_for_each_chart(
     task: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -450,6 +450,7 @@ def test_a_motion_that_nobody_follows_is_refused_in_a_line(variant: str, name: s
     assert all("\n" not in told.value.text(language) for language in LANGUAGES)
 
 
+@pytest.mark.soak
 def test_many_swings_before_the_lift_off_are_no_trouble_where_the_formulas_are_valid() -> None:
     slow = {**VARIANTS["V10"], "V_0": 1e-7, "a": 0.0}
     found = forces(slow).found

@@ -221,7 +221,7 @@ def test_a_drawing_of_something_else_is_refused(tmp_path: Path) -> None:
     assert error.value.key == "drawing-unknown"
 
 
-@pytest.mark.parametrize("times", [10.0, 0.02])
+@pytest.mark.parametrize("times", some([10.0, 0.02], 1))
 def test_a_drawing_in_another_unit_is_refused_by_its_size(tmp_path: Path, times: float) -> None:
     ready, own = asked("nau-slider-crank")
     lines, _ = plans_of(own, own.solution.solved.program, own.key.values)

@@ -87,11 +87,15 @@ def test_answers_of_honest_hands_are_right(task: str, count: int, directions: bo
 
 @pytest.mark.parametrize(
     ("task", "calculated", "most"),
-    [
-        *((task, False, 0.25) for task in ("scheme-01-compressor", "scheme-08-planer")),
-        *((task, True, 0.1) for task in ("scheme-11-slotter", "scheme-12-shaking-conveyor")),
-        ("scheme-20-press-automaton", True, 0.1),
-    ],
+    some(
+        [
+            *((task, False, 0.25) for task in ("scheme-01-compressor", "scheme-08-planer")),
+            *((task, True, 0.1) for task in ("scheme-11-slotter", "scheme-12-shaking-conveyor")),
+            ("scheme-20-press-automaton", True, 0.1),
+        ],
+        0,
+        3,
+    ),
 )
 def test_no_line_of_an_honest_hand_fails_often_least_what_is_calculated(
     task: str, calculated: bool, most: float

@@ -177,10 +177,12 @@ def offset(view: View, arrow: Arrow, style: Style) -> list[object]:
     return [(view.name, *fault) for fault in faults]
 
 
+@pytest.mark.soak
 def test_forces_within_a_large_block_lie_side_by_side() -> None:
     assert misplaced(motion_and_forces("scheme-10-shaper-two-blocks", "0")) == []
 
 
+@pytest.mark.soak
 def test_forces_on_one_line_stay_near_their_slider() -> None:
     view = drawn("scheme-13-toggle-press", FORCES)[1]["group_45"]
     pin = view.point("D")
@@ -479,6 +481,7 @@ def test_letter_beside_the_numeral_of_an_inset_does_not_read_as_its_index() -> N
     assert letter[0] - right > 3.0
 
 
+@pytest.mark.soak
 def test_letters_of_an_inset_stand_in_its_frame() -> None:
     insets = [i for view in Linkage("scheme-12-shaking-conveyor", "1", format="A1").sheet.views for i in view.insets]
 
