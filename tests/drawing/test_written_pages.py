@@ -131,6 +131,17 @@ def test_runs_of_a_text_stand_where_its_layout_says_and_a_squeezed_text_keeps_it
     assert (a, b, c, d) == pytest.approx((0.5, 0, 0, 1), abs=1e-6)
 
 
+def test_letters_as_lines_are_squeezed_as_their_text_is() -> None:
+    def width(squeeze: float) -> float:
+        root = read(replace(page(Text(60 + 200j, "Затв.", 5.0, squeeze=squeeze)), lettering="strokes"))
+        xs = [
+            float(pair.partition(",")[0]) for line in root.iter(f"{SVG}polyline") for pair in line.get("points").split()
+        ]
+        return max(xs) - min(xs)
+
+    assert width(0.5) == pytest.approx(0.5 * width(1.0), abs=1e-4)
+
+
 def test_pens_are_of_two_widths_and_dashed_lines_start_and_end_with_a_dash() -> None:
     thinnest = {(841, 594): 0.3, (594, 420): 0.25, (420, 297): 0.25, (210, 297): 0.2}
     for size, least in thinnest.items():

@@ -3,13 +3,16 @@
 import math
 import random
 import re
+import zipfile
 from collections.abc import Mapping
 from functools import cache
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from lxml import etree
 
 import kulman
 from kulman.drawing.linkages.geogebra import Construction
@@ -207,6 +210,19 @@ def test_letters_are_those_of_the_sheet() -> None:
     speeds = next(text for text in texts if text.startswith("V_{A} = ")).splitlines()
     (speed,) = (float(line.split()[2]) for line in speeds if line.startswith("V_{E} "))
     assert speed == pytest.approx(abs(solved_with("scheme-09-shaper")["V_E"]))
+
+
+def test_a_label_that_is_shown_is_the_letter_and_another_letter_is_a_text() -> None:
+    written, _ = construction("nau-slider-crank")
+    raised = {item.label for item in written.board.items if "^" in written.words.symbol(role(item.name).shown)}
+
+    with zipfile.ZipFile(BytesIO(written.packed(("title", "variant")))) as packed:
+        root = etree.fromstring(packed.read("geogebra.xml"))
+    shown = {found.getparent().get("label") for found in root.iter("show") if found.get("label") == "true"}
+
+    assert {"A", "V_{BA}", "F_{i2}"} <= shown
+    assert {"a_{nBA}", "R_{t12}"} <= raised
+    assert not raised & shown
 
 
 def test_files_are_the_same_again_and_others_are_refused(tmp_path: Path) -> None:

@@ -515,9 +515,11 @@ def test_rulers_say_their_length_and_pivots_come_with_their_letters(lang: str) -
     blank = handout(TASK, lang=lang)
 
     for page in blank.pages:
-        said = [text.markup for text in leaves(page.shapes) if isinstance(text, Text) and text.name == "print"]
+        prints = [text for text in leaves(page.shapes) if isinstance(text, Text) and text.name == "print"]
+        said = [text.markup for text in prints]
         mm = "mm" if lang == "en" else "мм"
         assert (said.count("0"), said.count("100"), sum(text.startswith(f"100 {mm};") for text in said)) == (2, 1, 1)
+        assert {text.height for text in prints} == {2.5}  # the least of the row
     driver = next(view for view in views_of(blank) if view.name == "driver")
     assert [group.name for group in all_groups(driver) if group.role == "pivot"] == ["O"]
     assert "O" in [text.markup for text in leaves(driver.shapes) if isinstance(text, Text)]
