@@ -32,9 +32,11 @@ from kulman.tests.photos.synthesiser import PHONE, PX, Truth, drawn, photographe
 from kulman.variants.case import Request
 from kulman.variants.drawings import pdf
 from kulman.variants.drawings.files import read_drawing
+from kulman.variants.marking.checks import Check
 from kulman.variants.marking.marked import surely
 from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import Report, report_files
+from kulman.variants.marking.result import Result
 from kulman.variants.photos import pictures
 from kulman.variants.photos.matching import lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
@@ -138,19 +140,63 @@ def test_a_mistake_is_named_and_a_line_that_is_not_sure_is_not_wrong(tmp_path: P
     assert figures.named == 1
 
 
-@pytest.mark.parametrize("only", [None, "velocity,forces"])
-def test_a_page_that_is_not_handed_in_is_missing_where_it_is_asked_for(only: str | None, tmp_path: Path) -> None:
-    sheet, random = sheet_for(TASK, only=only), np.random.default_rng(5)
-    (file := tmp_path / "student.jpg").write_bytes(
-        photographed(drawn(sheet, sheet.poles["velocity"][0], random, chosen_ways(sheet, RIGHT))[0], random, PHONE)
-    )
-    ready = check(TASK, "0", only=only, lang="en")
-    marked = ready.mark(ready.read(str(file))[0]).marked
+FORCES = {"forces_23", "forces_2", "forces_1"}
 
-    assert "photo-no-page" in {note.key for note in marked.notes if isinstance(note, InputError)}
-    missing = {line.plan for line in marked.lines if line.verdict is Verdict.MISSING}
-    assert missing == (set() if only is None else {"forces_23", "forces_2", "forces_1"})
-    assert (marked.mark == 100.0) == (only is None)
+
+def pages_of(only: str | None, *plans: str) -> list[bytes]:
+    """Photographs of the pages on which an honest student has drawn these plans."""
+    sheet, random = sheet_for(TASK, only=only), np.random.default_rng(5)
+    ways, numbers = chosen_ways(sheet, RIGHT), dict.fromkeys(sheet.poles[plan][0] for plan in plans)
+    return [photographed(drawn(sheet, number, random, ways)[0], random, PHONE) for number in numbers]
+
+
+def missing(answers: Answers, ready: Check) -> set[str]:
+    """Of which plans vectors are missing."""
+    return {line.plan for line in ready.mark(answers).marked.lines if line.verdict is Verdict.MISSING}
+
+
+def notes_of(result: Result) -> str:
+    return " | ".join(result.notes)
+
+
+@pytest.mark.parametrize("only", [None, "velocity,forces"])
+def test_a_page_that_is_not_handed_in_is_missing_as_empty_cells_of_a_form_are(only: str | None, tmp_path: Path) -> None:
+    (page,) = pages_of(only, "velocity")
+    (tmp_path / "student.jpg").write_bytes(page)
+    ready = check(TASK, "0", only=only, lang="en")
+    (answers,) = ready.read(str(tmp_path / "student.jpg"))
+    unread = replace(answers, problems=(InputError("photo-few", file="student-3.jpg"),))
+
+    assert missing(answers, ready) == FORCES
+    assert ready.mark(answers).marked.mark < 70.0
+    assert missing(unread, ready) == set()  # the page may be the one that could not be read
+    assert missing(replace(answers, plans=frozenset()), ready) == (set() if only is None else FORCES)
+
+
+def test_what_somebody_of_a_class_has_drawn_is_asked_of_all(tmp_path: Path) -> None:
+    both, one = pages_of(None, "velocity", "forces_23"), pages_of(None, "velocity")
+    for name, page in (("Koval-2", both[0]), ("Bondar-2", one[0]), ("Melnyk-2", one[0])):
+        (tmp_path / f"{name}.jpg").write_bytes(page)
+    ready = check(TASK, "0", lang="en")
+
+    few = ready.mark_all(ready.read(str(tmp_path)), jobs=1)
+    (tmp_path / "Koval-3.jpg").write_bytes(both[1])
+    found = ready.read(str(tmp_path))
+    by_name = {Path(one.source).name.partition("-")[0]: one for one in found}
+    broken = InputError("photo-few", file="Melnyk-3.jpg")
+    whole = [by_name["Koval"], by_name["Bondar"], replace(by_name["Melnyk"], problems=(broken,))]
+    koval, bondar, melnyk = ready.mark_all(whole, tmp_path / "reports", jobs=1)
+
+    assert {one.mark for one in few} == {100.0}  # of nobody's a page with forces is there: it was not asked for
+    assert all("it was read of nobody in the class, so it is not asked for" in notes_of(one) for one in few)
+    assert koval.mark == melnyk.mark == 100.0
+    assert bondar.mark is not None
+    assert bondar.mark < 70.0
+    assert bondar.counts["missing"] > 5
+    assert "has not been handed in, so it is missing" in notes_of(bondar)
+    assert "not recognised on the photographs" in notes_of(melnyk)
+    report = (tmp_path / "reports" / bondar.reports[1]).read_text(encoding="utf-8")
+    assert "has not been handed in, so it is missing" in report
 
 
 @pytest.mark.parametrize(("beyond", "wrong"), [(0.7, False), (2.0, True)])

@@ -314,15 +314,42 @@ class Job:
 
 
 def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int | None = None) -> list[Result]:
-    """Mark all students of a class, in their order, as `Check.mark_all` says."""
-    folder, names = None if job.folder is None else Path(job.folder), list[str]()
-    journal, found = None, dict[int, Result]()
-    if folder is not None:
-        journal, names = Journal(folder / JOURNAL, Result.from_json), job.names(answers)
-        for number, name in enumerate(names):  # what an earlier run found of the same answers, if its reports are there
+    """Mark all students of a class, in their order, as `Check.mark_all` says.
+
+    Of photographs, a plan that was read of one student is asked of all: who has not handed in its page is marked anew.
+    """
+    folder = None if job.folder is None else Path(job.folder)
+    journal = None if folder is None else Journal(folder / JOURNAL, Result.from_json)
+    if sum(bool(one.photos) for one in answers) > 1:
+        answers = [replace(one, plans=frozenset()) if one.photos else one for one in answers]
+    results = _each_marked(job, answers, {}, journal, advance, jobs)
+    plans = frozenset(plan for result in results for plan in result.plans)
+    asked = [plans.intersection(result.absent) for result in results]
+    if any(asked):
+        answers = [replace(one, plans=lost) if lost else one for one, lost in zip(answers, asked, strict=True)]
+        done = {number: result for number, result in enumerate(results) if not asked[number]}
+        results = _each_marked(job, answers, done, journal, lambda more, whole: None, jobs)
+    if journal and folder:
+        journal.finish()
+        _tidy(folder, {name for result in results for name in result.reports})
+    return results
+
+
+def _each_marked(
+    job: Job,
+    answers: Sequence[Answers],
+    found: dict[int, Result],
+    journal: Journal[Result] | None,
+    advance: Advance,
+    jobs: int | None,
+) -> list[Result]:
+    """Mark those of a class who are not among the `found`."""
+    names = job.names(answers) if journal else []
+    if journal and job.folder:
+        for number, name in enumerate(names):  # what an earlier run made of the same answers, if its reports are there
             before = journal.before.get(name)
-            if before is not None and all((folder / report).is_file() for report in before.reports):
-                found[number] = before
+            if before is not None and all((Path(job.folder) / report).is_file() for report in before.reports):
+                found.setdefault(number, before)
     advance(len(found), len(answers))
     todo = [item for item in enumerate(answers) if item[0] not in found]
     with seldom_collected():  # keys are many objects
@@ -334,11 +361,7 @@ def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int
                     journal.note(names[number], result)
                 found[number] = result
             advance(len(done), len(answers))
-    results = [found[number] for number in range(len(answers))]
-    if journal and folder:
-        journal.finish()
-        _tidy(folder, {name for result in results for name in result.reports})
-    return results
+    return [found[number] for number in range(len(answers))]
 
 
 def _variant(terms: Terms, answers: Answers) -> str:

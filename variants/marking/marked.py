@@ -130,7 +130,7 @@ class Marked:
     `lines` are those that count, `parts` what part of the full mark each is; `notes` say what was odd: cells that could
     not be read, another variant, another id; `misfits` are scale factors written wrongly, each by the line at which it
     counts; `fits` is another variant that the answers fit, if any; `seen` is what was recognised on a drawing,
-    `sheets` the photographs that it was read from.
+    `sheets` the photographs that it was read from, `absent` plans whose pages are not there, which costs nothing.
     """
 
     answers: Answers
@@ -146,6 +146,7 @@ class Marked:
     fits: str = ""
     seen: Seen | None = None
     sheets: Sheets | None = None
+    absent: frozenset[str] = frozenset()
 
     @property
     def slips(self) -> bool:
@@ -262,19 +263,21 @@ class Desk:
         entry, key, notes = self.of(answers)
         variant, settings = key.solution.variant, entry.settings if entry else {}
         others = [other for other in terms.request.task.variants if other != variant][: KEPT - 1]
-        on_drawing, sheets = None, None
+        on_drawing, sheets, absent = None, None, frozenset[str]()
         if answers.photos:
             from ..photos.reading import directed
 
             sheets, on_drawing = self.photographed(answers, key)
             notes += sheets.notes
             on_drawing = surely(answers, key, sheets, on_drawing, rubric)
-            absent = sheets.absent({photo.number for photo in answers.photos})
-            answers, told = measured(replace(answers, drawn=sheets.drawn), key, on_drawing, absent)
+            if not any(one.key.startswith("photo-") for one in answers.problems):  # or the page may be the unread one
+                absent = sheets.absent({photo.number for photo in answers.photos})
+            said = terms.request.only or rubric.asked or answers.plans is None  # what is asked for
+            lost = absent if said else absent & (answers.plans or frozenset())
+            absent -= lost
+            answers, told = measured(replace(answers, drawn=sheets.drawn), key, on_drawing, lost, absent)
             # what was not read is looked at by eye, and costs nothing; plans that are asked for must be handed in
             read = directed(answers.lines, key, rubric.tolerance.degrees)
-            all_read = not any(one.key.startswith("photo-") for one in answers.problems)
-            lost = absent if terms.request.only and all_read else ()
             kept = tuple(
                 name
                 for name in answers.columns
@@ -313,8 +316,9 @@ class Desk:
         notes += [InputError("marked-directions")] if untold and rubric.directions != "ignored" else []
         mark_of, all_notes = rubric.mark(lines, parts), (*answers.problems, *notes)
         return Marked(
-            answers, entry, key, marking, candidates, lines, mark_of, parts, all_notes, borne, fits, on_drawing, sheets
-        )
+            answers, entry, key, marking, candidates, lines, mark_of, parts, all_notes, borne, fits, on_drawing, sheets,
+            absent,
+        )  # fmt: skip
 
 
 def surely(answers: Answers, key: Keyed, sheets: Sheets, found: Seen, rubric: Rubric) -> Seen:

@@ -58,7 +58,8 @@ class Answers:
     quantities that a class was asked, nothing for a form of one's own. `unread` is why a file could not be read, which
     is a student without a mark, not one who has handed in nothing. Of a drawing there are no lines until it is known
     for which variant: what it holds is `drawn`; nor of `photos` of sheets that were drawn by hand, of whose vectors
-    somebody may have `told` where they end, mm of their page, or that they are not there.
+    somebody may have `told` where they end, mm of their page, or that they are not there. Of `plans`, or of all where
+    that is not said, a student of whom there are photographs must have handed in the pages.
     """
 
     source: str
@@ -72,6 +73,7 @@ class Answers:
     drawn: Drawn | None = None
     photos: tuple[Photo, ...] = ()
     told: Mapping[str, Ends | None] = field(default_factory=dict)
+    plans: frozenset[str] | None = None
 
     def __repr__(self) -> str:
         """Return where they come from, and how many there are."""
@@ -84,7 +86,8 @@ class Answers:
         lines = () if self.drawn is None else (self.drawn.tails, self.drawn.tips, self.drawn.arrows)
         drawn = [one.tolist() for one in lines], self.drawn and self.drawn.letters
         pictures = [digest_of(photo.picture) for photo in self.photos]
-        return digest_of(repr((said, [*map(str, self.problems)], str(self.unread), drawn, pictures)))
+        plans = None if self.plans is None else sorted(self.plans)
+        return digest_of(repr((said, [*map(str, self.problems)], str(self.unread), drawn, pictures, plans)))
 
 
 Warn = Callable[[KulmanError], None]

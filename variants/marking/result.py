@@ -170,7 +170,10 @@ def _most(segment: Measured) -> float:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """One student: who, which variant, the mark (None where the answers could not be marked), verdicts, mistakes."""
+    """One student: who, which variant, the mark (None where the answers could not be marked), verdicts, mistakes.
+
+    `plans` are those that were read on photographs, `absent` those whose pages are not there, which has cost nothing.
+    """
 
     source: str
     who: Who
@@ -185,6 +188,8 @@ class Result:
     segments: Mapping[str, Measured] = field(default_factory=dict)
     reports: tuple[str, ...] = ()
     fits: str = ""
+    plans: tuple[str, ...] = ()
+    absent: tuple[str, ...] = ()
 
     def flags(self, language: str) -> list[str]:
         """Return what a teacher should check of this student alone."""
@@ -206,7 +211,7 @@ class Result:
             The data are none of a result.
         """
         segments = {name: Measured(**of) for name, of in data["segments"].items()}
-        lists = {name: tuple(data[name]) for name in ("mistakes", "notes", "reports")}
+        lists = {name: tuple(data[name]) for name in ("mistakes", "notes", "reports", "plans", "absent")}
         return cls(**{**data, "who": Who(**data["who"]), "segments": segments, **lists})
 
 
@@ -240,6 +245,8 @@ def result_of(marked: Marked, language: str) -> Result:
         segments,
         (),
         marked.fits,
+        tuple(sorted({one.plan for one in marked.seen.recognised.vectors.values()})) if marked.seen else (),
+        tuple(sorted(marked.absent)),
     )
 
 
