@@ -60,7 +60,7 @@ photos: $(READY)
 $(USABLE): pyproject.toml
 	@echo "The first time packages are fetched and installed: a minute or so ..."
 	$(PYTHON) -m venv .venv
-	$(PY) -m pip install --quiet --disable-pip-version-check --editable ".[docx,dxf,note,png,web]"
+	$(PY) -m pip install --quiet --disable-pip-version-check --editable ".[docx,dxf,note,png,scan,web]"
 	touch $(USABLE)
 
 $(READY): $(USABLE)

@@ -153,19 +153,12 @@ def _areas(black: NDArray[np.bool_], at: complex, side: float, pen: float) -> It
             yield Polyline(area, Pen.THIN, closed=True, fill=True, role="marker")
 
 
-def places_of(low: complex, high: complex) -> tuple[int, int, int, int]:
-    """Return the first and the last squares of a box, from left and from below."""
-    x0, y0, x1, y1 = (max(0, int(edge / UNIT)) for edge in (low.real, low.imag, high.real, high.imag))
-    return x0, y0, x1, y1
-
-
 class _Room:
     """Which places of a page are empty, now and when all is drawn."""
 
     def __init__(self, page: Page, whole: Sequence[Group], area: Box) -> None:
         """Look at all that stands on a page."""
         self.width, self.height, self.area = page.width, page.height, area
-        self.stood = list[tuple[int, int, int, int]]()  # the places of markers that have been stood, as `free` counts
         # in all that is drawn; in views, too, where what is drawn wrong has room, and letters
         self.layers = [np.zeros((round(page.height / UNIT) + 1, round(page.width / UNIT) + 1), bool) for _ in range(2)]
         for shape in (*page.shapes, *whole):
@@ -173,11 +166,9 @@ class _Room:
         for view in whole:
             x0, y0, x1, y1 = extent(view.shapes)
             self.box(complex(x0, y0), complex(x1, y1), INSIDE)
-        self.sums = self.summed()
-
-    def summed(self) -> list[NDArray[np.int64]]:
-        """Return how much is taken below and left of each place."""
-        return [np.pad(layer.astype(np.int64).cumsum(0).cumsum(1), ((1, 0), (1, 0))) for layer in self.layers]
+        # how much is taken below and left of each place, but for markers that have been stood there since
+        self.sums = [np.pad(layer.astype(np.int64).cumsum(0).cumsum(1), ((1, 0), (1, 0))) for layer in self.layers]
+        self.stood = list[tuple[int, ...]]()
 
     def draw(self, shape: Shape) -> None:
         """Take the places of a shape."""
@@ -210,9 +201,13 @@ class _Room:
 
     def box(self, low: complex, high: complex, first: int = 0) -> None:
         """Take all places of a box, from the first layer on."""
-        x0, y0, x1, y1 = places_of(low, high)
+        x0, y0, x1, y1 = self.cells(low, high)
         for layer in self.layers[first:]:
             layer[y0 : y1 + 1, x0 : x1 + 1] = True
+
+    def cells(self, low: complex, high: complex) -> tuple[int, ...]:
+        """Return the first and the last columns and rows of places of a box: left, lower, right, upper."""
+        return tuple(max(0, int(edge / UNIT)) for edge in (low.real, low.imag, high.real, high.imag))
 
     def free(self, at: Complex, side: float, white: float, where: int) -> NDArray[np.bool_]:
         """Return at which lower left corners a square is empty, with white round it, and printers reach it."""
@@ -223,10 +218,11 @@ class _Room:
         x1, y1 = ((part + side + white) / UNIT for part in (at.real, at.imag))
         x0, x1 = (np.clip(x.astype(int), 0, columns) for x in (x0, x1 + 1))
         y0, y1 = (np.clip(y.astype(int), 0, rows) for y in (y0, y1 + 1))
-        for left, low, right, high in self.stood:
-            inside &= (x1 <= left) | (x0 > right) | (y1 <= low) | (y0 > high)
         s = self.sums[where]
-        return np.asarray(inside & (s[y1, x1] - s[y0, x1] - s[y1, x0] + s[y0, x0] == 0))
+        inside &= s[y1, x1] - s[y0, x1] - s[y1, x0] + s[y0, x0] == 0
+        for left, low, right, high in self.stood:
+            inside &= (x0 > right) | (x1 <= left) | (y0 > high) | (y1 <= low)
+        return np.asarray(inside)
 
     def places(self, side: float) -> Complex:
         """Return all lower left corners that are tried."""
@@ -255,7 +251,7 @@ class _Room:
         free = self.free(every, SIDE, ROUND, where)
         if free.any() and cost[free].min() <= most:
             at = found[own] = complex(every[free][cost[free].argmin()])
-            self.stood.append(places_of(at, at + SIDE * (1 + 1j)))
+            self.stood.append(self.cells(at, at + SIDE * (1 + 1j)))
 
     def code(self) -> tuple[complex, float] | None:
         """Return where a QR code has room inside the frame, and its side; the lowest place, then the rightmost."""

@@ -3,7 +3,8 @@
 Students draw all plans of a task, some with one mistake of the book; their sheets are photographed at three qualities
 and marked. Printed are, by quality and by task: pages found; vectors of 5 mm and more that were read; how far their
 ends are from where they were drawn; vectors read confidently and wrongly; lines of honest students that are right;
-mistakes that are named first; time of the processor for reading and marking a page.
+mistakes that are named first, of all and of those that exact readings name; time of the processor for reading and
+marking a page.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from kulman.plans.marking.ways import RIGHT, Shape
 from kulman.scales.errors import KulmanError
 from kulman.tests.photos.synthesiser import QUALITIES, Random, Sheet, Truth, drawn, photographed, sheet_for
 from kulman.variants.marking.checks import check
-from kulman.variants.marking.marked import Marked
+from kulman.variants.marking.marked import Desk, Marked
 from kulman.variants.photos.pictures import read_photos
 from kulman.variants.photos.reading import on_page
 from kulman.variants.shelf import bundled
@@ -46,6 +47,8 @@ class Figures:
     honest_right: int = 0
     planted: int = 0
     named: int = 0
+    tellable: int = 0  # planted mistakes that are named first where every vector is told as it was drawn
+    told: int = 0  # of these named first
     alarms: int = 0
     students: int = 0
     seconds: float = 0.0
@@ -61,7 +64,8 @@ class Figures:
             f"{self.students:3} students, pages {part(self.found_pages, self.pages)} % of {self.pages:3}, "
             f"vectors {part(self.read, self.vectors)} % of {self.vectors:4}, ends 50/95 % {miss} mm, "
             f"wrongly {part(self.wrong, self.read)} %, honest right {part(self.honest_right, self.honest)} %, "
-            f"named first {part(self.named, self.planted)} % of {self.planted:2}, false alarms {self.alarms}, "
+            f"named first {part(self.named, self.planted)} % of {self.planted:2}, of tellable ones "
+            f"{part(self.told, self.tellable)} % of {self.tellable:2}, false alarms {self.alarms}, "
             f"{self.seconds / max(self.pages, 1):.1f} s a page"
         )
 
@@ -101,18 +105,33 @@ def student(sheet: Sheet, quality: str, random: Random, mistake: int, folder: Pa
         files[-1].write_bytes(photographed(ink, random, quality))
     figures = Figures(students=1, pages=len(files))
     ready = check(sheet.case.task, sheet.case.variant, lang="en")
+    desk = Desk(ready)
     begun = time.process_time()
     found = [photo for file in files for photo in read_photos(file)]
     figures.found_pages = len(found)
     answers = replace(ready.read(str(files[0]))[0], photos=tuple(found))
     try:
-        marked = ready.mark(answers).marked
+        marked = desk.mark(answers)
     except KulmanError as error:
         print("   ", stem, quality, error, file=sys.stderr)
         marked = None
     figures.seconds = time.process_time() - begun
     compared(figures, sheet, truth, marked, mistake)
+    if mistake != RIGHT and marked is not None:
+        ends = {name: (one.tail, one.tip) for name, one in truth.items() if name in sheet.keyed.key.questions}
+        figures.tellable = is_named(sheet, mistake, desk.mark(replace(answers, told=ends)))
+        figures.told = figures.tellable * figures.named
+        planted = sheet.keyed.book.signatures[mistake].broken
+        print("    planted", planted.mistake, figures.named, figures.tellable, file=sys.stderr)
     return figures
+
+
+def is_named(sheet: Sheet, mistake: int, marked: Marked | None) -> bool:
+    """Whether a mistake, or one that answers cannot tell from it, is named first."""
+    if not marked or not marked.candidates:
+        return False
+    first = marked.candidates[0]
+    return sheet.keyed.book.signatures[mistake].broken.mistake in {one.mistake for one in first.mistakes} | first.ids
 
 
 def compared(figures: Figures, sheet: Sheet, truth: dict[str, Truth], marked: Marked | None, mistake: int) -> None:
@@ -148,13 +167,11 @@ def compared(figures: Figures, sheet: Sheet, truth: dict[str, Truth], marked: Ma
                     off,
                     file=sys.stderr,
                 )
-    named = {broken.mistake for broken in marked.candidates[0].mistakes} if marked and marked.candidates else set()
-    same = marked.candidates[0].ids if marked and marked.candidates else frozenset()
     if mistake == RIGHT:
-        figures.alarms += bool(named)
+        figures.alarms += bool(marked and marked.candidates and marked.candidates[0].mistakes)
     else:
         figures.planted += 1
-        figures.named += sheet.keyed.book.signatures[mistake].broken.mistake in (named | same)
+        figures.named += is_named(sheet, mistake, marked)
 
 
 def measured(tasks: list[str], count: int, seed: int = 1) -> Iterator[tuple[str, str, Figures]]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import io
 import struct
 import sys
+import time
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -30,7 +31,7 @@ from kulman.scales.errors import InputError
 from kulman.tests.photos.measure import Figures, chosen_ways, compared, linkages, measured, mistakes_of
 from kulman.tests.photos.synthesiser import PHONE, PX, Truth, drawn, photographed, printed, sheet_for
 from kulman.variants.case import Request
-from kulman.variants.drawings import pdf
+from kulman.variants.drawings import apart, pdf
 from kulman.variants.drawings.files import read_drawing
 from kulman.variants.marking.checks import Check
 from kulman.variants.marking.marked import surely
@@ -265,6 +266,61 @@ def test_pictures_of_something_else_are_refused(tmp_path: Path, name: str) -> No
     assert "\n" not in refused.value.text("uk")
 
 
+def busy(seconds: float, *parts: str | int) -> Iterator[str | int]:
+    """Parts, each after so many seconds of the processor."""
+    for part in parts:
+        until = time.process_time() + seconds
+        while time.process_time() < until:
+            pass
+        yield part
+
+
+@pytest.mark.parametrize(
+    ("parts", "seconds", "more", "wrong", "given"),
+    [
+        pytest.param((1, 2, 3), 0.15, 0.15, "", [1, 2, 3], id="longer in all than for one part"),
+        pytest.param((1, 2, 3), 0.01, 5.0, "drawing-late", [], id="too long for the first"),
+        pytest.param((1, 2, 3), 5.0, 0.01, "drawing-late", [1], id="too long for another"),
+        pytest.param((1, "photo-twice", 3), 5.0, 5.0, "photo-twice", [1], id="something is wrong"),
+    ],
+)
+def test_what_is_read_must_give_something_time_and_again(
+    parts: tuple[str | int, ...], seconds: float, more: float, wrong: str, given: list[int]
+) -> None:
+    found = list[int]()
+
+    said = apart._bounded(lambda n, part: found.append(part), lambda data: busy(0.08, *parts), b"", seconds, more)
+
+    assert (said, found) == (wrong, given)
+
+
+def test_pages_of_handouts_are_found_among_others_and_whatever_does_not_look_like_one_is_soon_refused(
+    tmp_path: Path,
+) -> None:
+    sheet, empty = sheet_for(TASK, only=PLANS), Image.new("L", (1240, 1754), 240)
+    page = Image.fromarray(printed(sheet, 1)).resize((1754, 1240))
+    scan, other = tmp_path / "scan.pdf", tmp_path / "other.pdf"
+    empty.save(scan, save_all=True, append_images=[empty, page, empty], resolution=150)
+    empty.save(other, save_all=True, append_images=[empty] * 60, resolution=150)
+
+    (photo,) = read_photos(scan)
+    with pytest.raises(InputError, match=r"no markers|more time"):
+        read_photos(other)
+
+    assert photo.number == 2
+
+
+def test_markers_of_a_large_picture_are_found_on_a_smaller_one_and_put_right(monkeypatch: pytest.MonkeyPatch) -> None:
+    page = printed(sheet_for(TASK, only=PLANS), 1)
+    own = dict(zip(*pictures._markers(page)[::-1], strict=True))
+    monkeypatch.setattr(pictures, "LOOKED", page.size // 5)
+
+    coarse = dict(zip(*pictures._markers(page)[::-1], strict=True))
+
+    assert {*coarse} == {*own}
+    assert max(np.abs(coarse[number] - own[number]).max() for number in own) < 0.3
+
+
 def of_16_bits(page: Image.Image) -> Image.Image:
     return Image.fromarray(np.asarray(page).astype(np.uint16) * 257)
 
@@ -315,10 +371,10 @@ def test_a_missing_package_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 def test_a_file_is_not_called_broken_where_a_package_is_missing(
     room: Any, read: Any, suffix: str, key: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def apart(*how: object) -> object:
+    def missing_package(*how: object) -> object:
         raise InputError(key, packages="pypdfium2", suffix=suffix)
 
-    monkeypatch.setattr(room, "apart", apart)
+    monkeypatch.setattr(room, "apart", missing_package)
     (file := tmp_path / f"x{suffix}").write_bytes(b"%PDF-1.7 or so")
     with pytest.raises(InputError) as refused:
         read(file)
@@ -416,6 +472,7 @@ def test_an_end_and_an_arrowhead_that_differ_tell_nothing() -> None:
 
 A, B, C = 20 + 20j, 80 + 20j, 60 + 45j
 NEARLY = B + 4j  # beside B, as a reaction and its normal part end
+ASLANT = B + 40 * np.exp(1j * np.radians(162))  # from there a line hides a wing of the arrowhead at B
 
 
 @pytest.mark.parametrize(
@@ -427,12 +484,15 @@ NEARLY = B + 4j  # beside B, as a reaction and its normal part end
         pytest.param([(0, 1), (1, 2)], [(A, B), (B, A), (B, C)], {1: 1}, id="at both ends"),
         pytest.param([(0, 1), (1, 0)], [(B, A)], {}, id="a vector both ways"),
         pytest.param([(0, 1), (0, 3)], [(B, A), (A, NEARLY)], {0: 0}, id="of lines nearly in one direction"),
+        pytest.param([(0, 1), (3, 0)], [(B, A), (NEARLY, A)], {0: 0}, id="of which the other has its own there"),
+        pytest.param([(0, 1), (4, 1)], [(B, A), (ASLANT, B)], {0: 0}, id="of which the other has its own at the tip"),
+        pytest.param([(0, 1), (4, 1)], [(A, B), (ASLANT, B), (B, A)], {0: 0}, id="a hidden wing is not a bare one"),
     ],
 )
 def test_arrowheads_tell_which_way_a_vector_goes(
     edges: list[tuple[int, int]], arrows: list[tuple[complex, complex]], told: dict[int, int]
 ) -> None:
-    points = np.array([A, B, C, NEARLY])
+    points = np.array([A, B, C, NEARLY, ASLANT])
     pencil, way = pencil_of([(points[a], points[b]) for a, b in edges], arrows), plan_of([*(points - A)], *edges)
     way = replace(way, lines=way.lines[: 1 if edges[1] == (1, 0) else 2])
     _, _, found = traced(pencil, way, points, points, A)

@@ -6,7 +6,7 @@ Forms of a PDF may hold forms, streams and pictures unpack into more than memory
 from __future__ import annotations
 
 import atexit
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 from threading import Thread
 from time import process_time
@@ -17,33 +17,40 @@ from .marks import FaultError
 
 MEMORY = 800_000_000  # bytes of that process
 PATIENCE, BEAT = 60.0, 0.02  # s, for a process to begin or to end; between looks at its time
+LONGEST = 3600.0  # s, until a process is given up that does nothing, however busy the machine is
 
 
-def apart(begin: Callable[..., None], read: Callable[[bytes], Any], data: bytes, seconds: float) -> Any:
-    """Return what `read` makes of data within so many seconds of the processor, after `begin` has loaded what it needs.
+def apart(
+    begin: Callable[..., None], read: Callable[[bytes], Iterable[Any]], data: bytes, seconds: float, more: float = 1.0
+) -> list[Any]:
+    """Return the parts that `read` goes through, after `begin` has loaded what it needs.
+
+    It has so many seconds of the processor for the first part, then `more` from each part to the next.
 
     Raises
     ------
     FaultError
-        With the key that `read` returns where it makes nothing of them; it takes too long or too much memory.
+        With the key that `read` gives in the place of a part where something is wrong; it takes too long or too much
+        memory.
     ValueError
         It fails in any other way.
     """
     from ..serving.jobs import CrashError
 
+    parts = dict[int, Any]()
     try:
         seat = _seat()
         seat.do(begin, (), PATIENCE, lambda done, whole: None)
-        found = seat.do(_bounded, (read, data, seconds), PATIENCE, lambda done, whole: None)
+        wrong = seat.do(_bounded, (read, data, seconds, more), LONGEST, parts.__setitem__)
     except InputError as error:
         raise error if error.key.endswith("-missing") else FaultError("drawing-late") from None
     except CrashError:
         raise ValueError from None
-    if isinstance(found, str):
-        if found == "drawing-late":  # it is still at it
+    if wrong:
+        if wrong == "drawing-late":  # it is still at it
             seat.stop()
-        raise FaultError(found)
-    return found
+        raise FaultError(wrong)
+    return [parts[number] for number in sorted(parts)]
 
 
 @cache
@@ -62,14 +69,32 @@ def _seat() -> Any:
     return seat
 
 
-def _bounded(advance: Any, read: Callable[[bytes], Any], data: bytes, seconds: float) -> Any:
-    """Return what `read` does, or the key that it takes too long: of the processor's time, however busy that is."""
-    found: list[Any] = []
-    worker = Thread(target=lambda: found.append(read(data)), daemon=True)
+def _bounded(
+    give: Callable[[int, Any], None], read: Callable[[bytes], Iterable[Any]], data: bytes, seconds: float, more: float
+) -> str:
+    """Give the parts of what is read, and return the key of what is wrong: that it takes too long, or what `read` says.
+
+    The processor's time counts, however busy that is.
+    """
+    parts, whole, given = list[Any](), list[bool](), 0
+
+    def work() -> None:
+        for part in read(data):
+            parts.append(part)
+        whole.append(True)
+
+    worker = Thread(target=work, daemon=True)
     until = process_time() + seconds
     worker.start()
-    while worker.is_alive() and process_time() < until:
-        worker.join(BEAT)
-    if worker.is_alive():
-        return "drawing-late"
-    return found[0] if found else "drawing-broken"
+    while worker.is_alive() or given < len(parts):
+        if given == len(parts):
+            if process_time() >= until:
+                return "drawing-late"
+            worker.join(BEAT)
+            continue
+        part, parts[given] = parts[given], None
+        if isinstance(part, str):
+            return part
+        give(given, part)
+        given, until = given + 1, process_time() + more
+    return "" if whole else "drawing-broken"

@@ -20,7 +20,8 @@ def read_pdf(data: bytes) -> Marks:
     """Read a PDF in another process; one that holds only a picture is refused as such."""
     if not re.search(rb"%PDF-[0-9]", data[:2000]):
         raise ValueError
-    return Marks(*apart(_begun, _pages, data, SECONDS))
+    (marks,) = apart(_begun, _pages, data, SECONDS)
+    return Marks(*marks)
 
 
 def _begun(advance: Any) -> None:
@@ -31,8 +32,8 @@ def _begun(advance: Any) -> None:
         raise InputError("extra-missing", packages="pypdfium2", suffix=".pdf") from None
 
 
-def _pages(data: bytes) -> tuple[Any, ...] | str:
-    """Return the lines, filled triangles and letters of a PDF in mm, or the key of what is wrong with it."""
+def _pages(data: bytes) -> Iterator[tuple[Any, ...] | str]:
+    """Give the lines, filled triangles and letters of a PDF in mm, or the key of what is wrong with it."""
     import pypdfium2
 
     try:
@@ -42,12 +43,12 @@ def _pages(data: bytes) -> tuple[Any, ...] | str:
             found.marks.count()
             found.page(page)
     except (pypdfium2.PdfiumError, ValueError, LookupError, ArithmeticError, OSError, MemoryError):
-        return "drawing-broken"
+        yield "drawing-broken"
     except FaultError as fault:
-        return str(fault)
-    if found.pictures and not found.marks.lines:
-        return "drawing-picture"
-    return found.marks.lines, found.marks.heads, found.marks.pieces
+        yield str(fault)
+    else:
+        picture = found.pictures and not found.marks.lines
+        yield "drawing-picture" if picture else (found.marks.lines, found.marks.heads, found.marks.pieces)
 
 
 class _Pdf:

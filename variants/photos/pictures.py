@@ -22,9 +22,11 @@ from ..sheets import CODED
 PICTURES = (".jpg", ".jpeg", ".png")
 LARGEST = 120_000_000  # bytes of a file
 PIXELS = 80_000_000  # of a picture: an A1 sheet at 300 dots an inch has 70 million
-SECONDS = 60.0  # of the processor, for a file
+SECONDS, MORE = 1.0, 20.0  # of the processor, until something of a handout is seen, and from there to the next page
 SHEETS = 200  # pages of a PDF
-DOTS = 300.0  # per inch at which pages of a PDF are looked at
+DOTS = 150.0, 300.0  # per inch at which pages of a PDF are looked at: for markers at all, and for what is drawn
+LOOKED = 16_000_000  # pixels in which markers are looked for; on larger pictures their corners are then put right
+CORNER = 5  # pixels round a corner that tell where it is
 LEAST = 200  # pixels of a side of a picture
 AROUND = 0.6  # of what markers span, kept round them: they may stand away from the edge
 INCH = 72.0
@@ -68,7 +70,10 @@ def read_photos(file: str | Path) -> list[Photo]:
     try:
         if len(data) > LARGEST:
             raise FaultError("photo-large")
-        found = apart(_begun, _of_pdf if suffix == ".pdf" else _of_picture, data, SECONDS)
+        parts = apart(_begun, _of_pdf if suffix == ".pdf" else _of_picture, data, SECONDS, MORE)
+        found = [one for one in parts if one and len(one[1]) >= FEWEST]
+        if not found:
+            raise FaultError("photo-few" if any(parts) else "photo-no-markers")
     except InputError:  # of a package that is missing
         raise
     except FaultError as fault:
@@ -120,8 +125,8 @@ def _begun(advance: Any) -> None:
 Found = tuple[int, dict[int, tuple[complex, ...]], complex, tuple[str, ...], bytes]
 
 
-def _of_picture(data: bytes) -> list[Found] | str:
-    """Return the pages on a picture, or the key of what is wrong with it."""
+def _of_picture(data: bytes) -> Iterator[Found | str | None]:
+    """Go through the pages on a picture, nothing where they begin, or give the key of what is wrong with it."""
     import numpy as np
     from PIL import Image, ImageOps
 
@@ -129,15 +134,19 @@ def _of_picture(data: bytes) -> list[Found] | str:
     try:
         with Image.open(io.BytesIO(data), formats=("JPEG", "PNG")) as picture:
             if picture.width * picture.height > PIXELS:
-                return "photo-pixels"
+                raise FaultError("photo-pixels")
             if min(picture.size) < LEAST:
-                return "photo-small"
+                raise FaultError("photo-small")
+            picture.draft("L", picture.size)  # a JPEG is unpacked in grey at once
             grey = np.asarray(_grey(ImageOps.exif_transpose(picture)))
+    except FaultError as fault:
+        yield str(fault)
     except MemoryError:
-        return "photo-late"
+        yield "photo-late"
     except Exception:  # whatever a decoder does not like
-        return "photo-broken"
-    return _checked(list(_sheets(grey)))
+        yield "photo-broken"
+    else:
+        yield from _sheets(grey)
 
 
 def _grey(picture: Any) -> Any:
@@ -152,51 +161,80 @@ def _grey(picture: Any) -> Any:
     return picture.convert("L")
 
 
-def _of_pdf(data: bytes) -> list[Found] | str:
-    """Return the pages of handouts in a PDF, or the key of what is wrong with it."""
-    import numpy as np
+def _of_pdf(data: bytes) -> Iterator[Found | str | None]:
+    """Go through the pages of handouts in a PDF, nothing where they begin, or give the key of what is wrong with it."""
     import pypdfium2
 
-    found: list[Found] = []
     try:
         document = pypdfium2.PdfDocument(data)
         if len(document) > SHEETS:
-            return "photo-pages"
+            raise FaultError("photo-pages")
         for page in document:
-            width, height = page.get_size()
-            if min(width, height) <= 0.0:
-                return "photo-broken"
-            scale = min(DOTS / INCH, math.sqrt(PIXELS / 4.0 / (width * height)))
-            drawn = page.render(scale=scale, grayscale=True).to_numpy()
-            found += _sheets(np.ascontiguousarray(drawn.reshape(drawn.shape[:2])))
+            if len(_markers(_rendered(page, DOTS[0]))[0]):  # what shows none takes little time
+                yield from _sheets(_rendered(page, DOTS[1]))
     except (pypdfium2.PdfiumError, ValueError, LookupError, ArithmeticError, OSError, MemoryError):
-        return "photo-broken"
+        yield "photo-broken"
     except FaultError as fault:
-        return str(fault)
-    return _checked(found)
+        yield str(fault)
 
 
-def _checked(found: list[Found]) -> list[Found] | str:
-    """Return what was found, or the key that there is nothing, or too little of any page."""
-    enough = [one for one in found if len(one[1]) >= FEWEST]
-    return enough or ("photo-few" if found else "photo-no-markers")
+def _rendered(page: Any, dots: float) -> Any:
+    """Return a page of a PDF as a grey picture, so many dots an inch as long as it is not too large."""
+    import numpy as np
+
+    width, height = page.get_size()
+    if min(width, height) <= 0.0:
+        raise FaultError("photo-broken")
+    bitmap = page.render(scale=min(dots / INCH, math.sqrt(PIXELS / 4.0 / (width * height))), grayscale=True)
+    grey = np.array(bitmap.to_numpy().reshape(bitmap.height, bitmap.width))
+    bitmap.close()
+    return grey
 
 
-def _sheets(grey: Any) -> Iterator[Found]:
-    """Go through the pages of handouts on a grey picture: the markers of each page, and its code."""
+def _markers(grey: Any) -> tuple[list[Any], list[int]]:
+    """Return the corners of the markers on a grey picture, pixels, of shape (4, 2), and their numbers."""
     import cv2
     import numpy as np
 
     means = cv2.aruco.DetectorParameters()
     means.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     finder = cv2.aruco.ArucoDetector(cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_250), means)
-    corners, numbers, _ = finder.detectMarkers(grey)
+    times = math.ceil(math.sqrt(grey.size / LOOKED))
+    small = grey if times == 1 else cv2.resize(grey, None, fx=1 / times, fy=1 / times, interpolation=cv2.INTER_AREA)
+    corners, numbers, _ = finder.detectMarkers(small)
+    found = [own.reshape(4, 2) for own in corners]
+    if times > 1:
+        near, until = (CORNER * times,) * 2, (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_COUNT, 30, 0.05)
+        large: list[Any] = [((own + 0.5) * times - 0.5).astype(np.float32) for own in found]
+        found = [cv2.cornerSubPix(grey, own, near, (-1, -1), until) for own in large]
+    return found, [] if numbers is None else numbers.ravel().tolist()
+
+
+def _sheets(grey: Any) -> Iterator[Found | str | None]:
+    """Go through the pages of handouts on a grey picture, nothing first: the markers of each page, and its code."""
+    import cv2
+
+    try:
+        found = _markers(grey)
+        if found[0]:
+            yield None
+            yield from _pages(grey, *found)
+    except FaultError as fault:
+        yield str(fault)
+    except (MemoryError, cv2.error):  # which is what it calls too little memory
+        yield "photo-late"
+
+
+def _pages(grey: Any, corners: list[Any], numbers: list[int]) -> Iterator[Found]:
+    import cv2
+    import numpy as np
+
     by_page: dict[int, dict[int, tuple[complex, ...]]] = {}
-    for own, number in zip(corners, [] if numbers is None else numbers.ravel().tolist(), strict=True):
+    for own, number in zip(corners, numbers, strict=True):
         same = by_page.setdefault(number // EACH + 1, {})
         if number in same:
             raise FaultError("photo-twice")
-        same[number] = tuple(complex(x, y) for x, y in own.reshape(4, 2).tolist())
+        same[number] = tuple(complex(x, y) for x, y in own.tolist())
     by_page = {page: own for page, own in by_page.items() if len(own) >= 2}
     codes = list(_codes(grey)) if by_page else []
     rows, columns = grey.shape

@@ -12,7 +12,6 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,7 +39,7 @@ from .free import laid_flat, plans_on, quarters_of, turned, ways_of
 from .matching import lines_of, matched
 from .pictures import Photo, grey_of
 from .straight import ASTRAY, PER_MM, flat, framed, straightened
-from .strokes import Ink, strokes
+from .strokes import Ink, Stroke, strokes
 from .traced import HIDES, Pencil, ends_at
 
 APART = 1000.0  # mm between pages of a drawing
@@ -114,14 +113,10 @@ class Blank:
 
     def printed(self, number: int) -> NDArray[np.bool_]:
         """Return where a page is printed, or no plan is drawn, `PER_MM` pixels per mm."""
-        import pypdfium2
-
         page, sheet = self.pages[number - 1], self.formats[number - 1]
-        ((_, data),) = page_files([page], Path("page.pdf"))
-        drawn = pypdfium2.PdfDocument(data)[0].render(scale=PER_MM * 25.4 / 72.0, grayscale=True).to_numpy()
         rows, columns = round(page.height * PER_MM), round(page.width * PER_MM)
         ink = np.zeros((rows, columns), bool)
-        grey = drawn.reshape(drawn.shape[:2])[:rows, :columns]
+        grey = rendered(page, grayscale=True)[:rows, :columns, 0]
         ink[: grey.shape[0], : grey.shape[1]] = grey < INKED
         x0, y0, x1, y1 = drawing_area(sheet, self.case.norm)
         outside = np.ones_like(ink)
@@ -147,6 +142,19 @@ class Sheets:
         """Return the plans that are on other pages of the handout than those of these numbers."""
         printed = self.blank.poles.items() if self.blank.pages else ()
         return frozenset(plan for plan, (page, _) in printed if page not in handed_in)
+
+
+def rendered(page: Page, **how: bool) -> NDArray[np.uint8]:
+    """Return a page as pixels, `PER_MM` a mm, of shape (rows, columns, channels)."""
+    import pypdfium2
+
+    ((_, data),) = page_files([page], Path("page.pdf"))
+    document = pypdfium2.PdfDocument(data)
+    bitmap = document[0].render(scale=PER_MM * 25.4 / 72.0, **how)
+    pixels = np.atleast_3d(bitmap.to_numpy()).copy()
+    bitmap.close()  # many megabytes, which else wait for the garbage to be collected
+    document.close()
+    return pixels
 
 
 def _added(shape: Shape) -> bool:
@@ -274,8 +282,10 @@ def _own_sheets(photos: Sequence[Photo], keyed: Keyed) -> Sheets:
 
 def _dark(ink: Ink) -> NDArray[np.uint8]:
     """Return how dark the pencil is, 0 to 254, and where print hides it."""
-    soft = np.clip(ink.soft * 254.0, 0.0, 254.0).astype(np.uint8)
-    return np.where(ink.printed > 0, HIDES, soft).astype(np.uint8)
+    soft = ink.soft * np.float32(254.0)
+    dark = np.clip(soft, 0.0, 254.0, out=soft).astype(np.uint8)
+    dark[ink.printed > 0] = HIDES
+    return dark
 
 
 def _recognised(sheets: Sheets, keyed: Keyed) -> Recognised:
@@ -323,30 +333,37 @@ def read_sheets(photos: Sequence[Photo], blank: Blank) -> Sheets:
     pages, notes = list[Flat](), list[KulmanError]()
     ends: list[tuple[complex, complex]] = []
     for photo in photos:
-        place = {"file": quote(photo.source, SHOWN), "page": photo.number}
-        if photo.number > len(blank.pages) or (photo.code and ":".join(photo.code) != blank.codes[photo.number - 1]):
-            notes.append(InputError("photo-other", **place))
+        try:
+            page, lines = _read(photo, blank)
+        except InputError as note:
+            notes.append(note)
             continue
-        way = straightened(photo.markers, blank.stands(photo.number), photo.centre)
-        if way.error > ASTRAY:
-            notes.append(InputError("photo-crooked", **place))
-            continue
-        page = blank.pages[photo.number - 1]
-        grey = grey_of(photo)
-        edges = framed(grey, way, drawing_area(blank.formats[photo.number - 1], blank.case.norm))
-        way = straightened(photo.markers, blank.stands(photo.number), photo.centre, edges)
-        picture = flat(grey, way, page.width, page.height)
-        poles = [at for number, at in blank.poles.values() if number == photo.number]
-        found, dark = list[Any](), np.zeros((1, 1), np.uint8)
-        if poles:
-            ink = Ink(picture, blank.printed(photo.number))
-            found = strokes(ink, poles)
-            dark = _dark(ink)
         by = APART * photo.number
-        ends += [(line.tail + by, line.tip + by) for line in found]
-        pages.append(Flat(photo.number, picture, dark, len(found), way.error))
-    lines = np.array(ends, complex).reshape(-1, 2)
-    return Sheets(blank, tuple(pages), Drawn(lines[:, 0], lines[:, 1]), tuple(notes))
+        ends += [(line.tail + by, line.tip + by) for line in lines]
+        pages.append(page)
+    both = np.array(ends, complex).reshape(-1, 2)
+    return Sheets(blank, tuple(pages), Drawn(both[:, 0], both[:, 1]), tuple(notes))
+
+
+def _read(photo: Photo, blank: Blank) -> tuple[Flat, list[Stroke]]:
+    """Lay a page of a handout flat, and read the lines on it."""
+    place = {"file": quote(photo.source, SHOWN), "page": photo.number}
+    if photo.number > len(blank.pages) or (photo.code and ":".join(photo.code) != blank.codes[photo.number - 1]):
+        raise InputError("photo-other", **place)
+    way = straightened(photo.markers, blank.stands(photo.number), photo.centre)
+    if way.error > ASTRAY:
+        raise InputError("photo-crooked", **place)
+    page = blank.pages[photo.number - 1]
+    grey = grey_of(photo)
+    edges = framed(grey, way, drawing_area(blank.formats[photo.number - 1], blank.case.norm))
+    way = straightened(photo.markers, blank.stands(photo.number), photo.centre, edges)
+    picture = flat(grey, way, page.width, page.height)
+    poles = [at for number, at in blank.poles.values() if number == photo.number]
+    if not poles:
+        return Flat(photo.number, picture, np.zeros((1, 1), np.uint8), 0, way.error), []
+    ink = Ink(picture, blank.printed(photo.number))
+    found = strokes(ink, poles)
+    return Flat(photo.number, picture, _dark(ink), len(found), way.error), found
 
 
 def print_scale(sheets: Sheets, keyed: Keyed, found: Recognised) -> float:

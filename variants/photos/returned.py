@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import io
 from base64 import b64encode
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...drawing.page import Page, extent
 from ...drawing.shapes import Shape, shifted
-from ...drawing.writers import page_files
 from ..marking.marked import Marked
 from ..marking.overlay import Vector, legend, over, right, vectors
-from .reading import Flat, on_page
+from .reading import Flat, on_page, rendered
 from .straight import PER_MM
 
 SMALL, LEFT, FOOT = 3.5, 24.0, 8.0  # mm of letters; of the legend from the left; of paper under it
@@ -24,12 +24,13 @@ QUALITY = 85  # of JPEG in a report
 
 def photo_files(marked: Marked, language: str, own: bool, path: Path) -> Iterator[tuple[Path, bytes]]:
     """Make the files of marked sheets: .pdf with a page for each, or .png, of several pages `x-1.png`, `x-2.png`."""
-    pages = list(_pages(marked, language, own))
+    pages = _pages(marked, language, own)
     if path.suffix.lower() == ".pdf":
         yield path, _pdf(pages)
         return
+    alone = len(_with_plans(marked)) == 1
     for number, page in enumerate(pages, start=1):
-        name = path if len(pages) == 1 else path.with_name(f"{path.stem}-{number}{path.suffix}")
+        name = path if alone else path.with_name(f"{path.stem}-{number}{path.suffix}")
         yield name, _written(page, "PNG", dpi=(PER_MM * 25.4,) * 2)
 
 
@@ -50,21 +51,25 @@ def pictures(marked: Marked, language: str, own: bool) -> Iterator[str]:
         yield f"data:image/jpeg;base64,{b64encode(_written(page, 'JPEG', quality=QUALITY)).decode()}"
 
 
+def _with_plans(marked: Marked) -> list[Flat]:
+    """Return the pages on which plans are."""
+    assert marked.sheets is not None
+    return [page for page in marked.sheets.pages if page.number in marked.sheets.blank.pages_with_plans]
+
+
 def _pages(marked: Marked, language: str, own: bool) -> Iterator[Any]:
-    """Go through the pages as pictures."""
+    """Go through the pages as pictures: each is large."""
     sheets, found = marked.sheets, dict[int, list[Vector]]()
     assert sheets is not None
     for line, *places in vectors(marked):
         at = [on_page(sheets, place) for place in places]
         found.setdefault(at[0][0], []).append((line, at[0][1], at[1][1], at[2][1]))
-    for page in sheets.pages:
-        if page.number in sheets.blank.pages_with_plans:
-            yield _page(marked, page, found.get(page.number, []), language, own)
+    for page in _with_plans(marked):
+        yield _page(marked, page, found.get(page.number, []), language, own)
 
 
 def _page(marked: Marked, page: Flat, found: list[Vector], language: str, own: bool) -> Any:
     """Return a page as a picture, with its vectors and what lines mean below it."""
-    import pypdfium2
     from PIL import Image
 
     rows, columns = page.picture.shape
@@ -77,12 +82,13 @@ def _page(marked: Marked, page: Flat, found: list[Vector], language: str, own: b
     foot = FOOT - min(extent(shapes)[1], 0.0)
     moved = tuple(shifted(shape, 1j * foot) for shape in shapes)
     whole = Page(width, height + foot, moved, marked.keyed.solution.task.title[language], language)
-    ((_, data),) = page_files([whole], Path("page.pdf"))
-    drawn = pypdfium2.PdfDocument(data)[0].render(scale=PER_MM * 25.4 / 72.0, rev_byteorder=True).to_numpy()[..., :3]
-    under = np.full(drawn.shape[:2], 255, np.uint16)
+    drawn = rendered(whole, rev_byteorder=True)[..., :3]
+    under: NDArray[np.uint8] = np.full(drawn.shape[:2], 255, np.uint8)
     high, wide = min(rows, len(under)), min(columns, under.shape[1])
     under[:high, :wide] = page.picture[:high, :wide]
-    return Image.fromarray((drawn.astype(np.uint16) * under[..., None] // 255).astype(np.uint8))
+    both = np.multiply(drawn, under[..., None], dtype=np.uint16)
+    both //= 255
+    return Image.fromarray(both.astype(np.uint8))
 
 
 def _written(page: Any, kind: str, **how: Any) -> bytes:
@@ -91,7 +97,7 @@ def _written(page: Any, kind: str, **how: Any) -> bytes:
     return stream.getvalue()
 
 
-def _pdf(pages: list[Any]) -> bytes:
+def _pdf(pages: Iterable[Any]) -> bytes:
     """Return a PDF with a picture on each page, at full size."""
     from reportlab.lib.utils import ImageReader
     from reportlab.pdfgen.canvas import Canvas
@@ -101,7 +107,11 @@ def _pdf(pages: list[Any]) -> bytes:
     for page in pages:
         size = page.width / PER_MM / 25.4 * 72.0, page.height / PER_MM / 25.4 * 72.0
         canvas.setPageSize(size)
-        canvas.drawImage(ImageReader(io.BytesIO(_written(page, "JPEG", quality=QUALITY))), 0, 0, *size)
+        jpeg = _written(page, "JPEG", quality=QUALITY)
+        reader = ImageReader(io.BytesIO(jpeg))
+        # what tells pictures apart: the bytes of the file do, too, and it is not unpacked and kept
+        reader.getRGBData, reader._dataA = (lambda data=jpeg: data), None
+        canvas.drawImage(reader, 0, 0, *size)
         canvas.showPage()
     canvas.save()
     return stream.getvalue()

@@ -27,6 +27,7 @@ HUBER = 2.0  # of the middle error: from where a corner counts less
 PITCH, ASIDE, WIDE = 6.0, 2.5, 6  # mm along the frame between looks at it, and beside it; tenths of its half width
 CONTRAST = 0.2  # darkness of the frame at the least
 GRID = 8  # pixels between places of which the map is reckoned; between them it is straight
+BAND = 256  # rows of a page that are laid flat at a time
 Complex = NDArray[np.complex128]
 
 
@@ -201,8 +202,13 @@ def flat(picture: Any, way: Straight, width: float, height: float, beyond: int |
     columns, rows = round(width * PER_MM), round(height * PER_MM)
     gx, gy = np.meshgrid(np.arange(0, columns + GRID, GRID), np.arange(0, rows + GRID, GRID))
     at = way.at(((gx + 0.5) + 1j * (rows - gy - 0.5)) / PER_MM)
-    x, y = np.meshgrid(np.arange(columns, dtype=np.float32) / GRID, np.arange(rows, dtype=np.float32) / GRID)
-    across, down = (cv2.remap(side.astype(np.float32), x, y, cv2.INTER_LINEAR) for side in (at.real, at.imag))
+    sides = [side.astype(np.float32) for side in (at.real, at.imag)]
     edge = cv2.BORDER_REPLICATE if beyond is None else cv2.BORDER_CONSTANT
-    seen = cv2.remap(picture, across, down, cv2.INTER_CUBIC, borderMode=edge, borderValue=beyond or 0)
-    return np.asarray(seen, np.uint8)
+    seen = np.empty((rows, columns), np.uint8)
+    for top in range(0, rows, BAND):
+        own = seen[top : top + BAND]
+        down = (top + np.arange(len(own), dtype=np.float32)) / GRID
+        x, y = np.meshgrid(np.arange(columns, dtype=np.float32) / GRID, down)
+        across, below = (cv2.remap(side, x, y, cv2.INTER_LINEAR) for side in sides)
+        own[:] = cv2.remap(picture, across, below, cv2.INTER_CUBIC, borderMode=edge, borderValue=beyond or 0)
+    return seen

@@ -20,6 +20,7 @@ from .straight import PER_MM
 
 PAPER = 4.0  # mm, wider than any stroke: what is dark on this width is paper
 COARSE = 4  # times smaller, where the paper is looked for
+WHITE = 255  # what says of a pixel that it is hidden by print
 GROWN = 0.45  # mm by which print is grown before it is left out
 FAINT = 0.06  # darkness below which nothing is a line
 SEEN = 0.4  # of how dark a line is in the middle, what still is a part of it
@@ -76,11 +77,13 @@ class Ink:
         paper = cv2.morphologyEx(small, cv2.MORPH_CLOSE, np.ones((wide, wide), np.uint8))
         paper = cv2.GaussianBlur(paper, (0, 0), wide / 2)
         paper = cv2.resize(paper, (columns, rows), interpolation=cv2.INTER_LINEAR).astype(np.float32)
-        dark = np.maximum(1.0 - page / np.maximum(paper, 1.0), 0.0)
-        dark = dark - np.float32(np.median(dark[::8, ::8]))
+        dark = np.divide(page, np.maximum(paper, 1.0, out=paper), out=paper)  # a page fills many megabytes
+        np.maximum(np.subtract(1.0, dark, out=dark), 0.0, out=dark)
+        dark -= np.float32(np.median(dark[::8, ::8]))
         grown = round(2 * GROWN * PER_MM) | 1
-        self.printed = cv2.dilate(printed.astype(np.uint8), np.ones((grown, grown), np.uint8))
-        self.dark = np.where(self.printed > 0, 0.0, np.clip(dark, 0.0, 1.0)).astype(np.float32)
+        self.printed = cv2.dilate(np.where(printed, WHITE, 0).astype(np.uint8), np.ones((grown, grown), np.uint8))
+        self.dark = np.clip(dark, 0.0, 1.0, out=dark)
+        self.dark[self.printed > 0] = 0.0
         self.soft = cv2.GaussianBlur(self.dark, (0, 0), 1.0)
         self.height = rows / PER_MM
 
@@ -97,7 +100,8 @@ class Ink:
         """Return where edges of lines may be, mm: both ends of each."""
         import cv2
 
-        picture = np.clip(self.soft * 420.0, 0.0, 255.0).astype(np.uint8)
+        bright = self.soft * np.float32(420.0)
+        picture = np.clip(bright, 0.0, 255.0, out=bright).astype(np.uint8)
         found = cv2.createLineSegmentDetector(cv2.LSD_REFINE_STD, scale=0.6).detect(picture)[0]
         if found is None:
             return np.zeros(0, complex), np.zeros(0, complex)
@@ -206,7 +210,7 @@ def _covered(ink: Ink, start: complex, stop: complex, dark: float) -> list[tuple
     along = np.arange(-2 * GAP, size + 2 * GAP, 1.0 / PER_MM)
     places = start + along * unit
     near = np.max([ink.sampled(ink.soft, places + 1j * unit * off) for off in (-0.12, 0.0, 0.12)], axis=0)
-    hidden = ink.sampled(ink.printed.astype(np.float32), places) > 0.5
+    hidden = ink.sampled(ink.printed, places) > WHITE // 2
     on = near > max(FAINT, SEEN * dark)
     found: list[tuple[complex, complex, float]] = []
     at = np.flatnonzero(on)

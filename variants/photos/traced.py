@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,7 @@ WING, APART = 3.2, 0.55  # mm of a wing at the most; mm from its line where it i
 LEAN = math.sin(math.radians(5.0))  # of a wing against its line at the least
 ARROWED = 9.0  # mm of a vector whose arrowhead can be told from its line
 POINTED, BARE = 0.55, 0.3  # parts of how dark their line is that wings must be, and where none is seen at the most
+CLEARLY = 0.85  # the same of wings that must not be other lines
 DOUBTED = 0.2  # part by which wings at the wrong end are darker from which they make the sense doubtful
 TOUCHED, BESIDE, FEWEST = 0.95, 0.5, 5  # cosine, mm from which others may have wings, be these; places that tell
 POLE, ENDING, POINTING = 0.15, 0.35, 0.3  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
@@ -190,7 +192,7 @@ def senses(pencil: Pencil, way: Way, points: Complex, found: Mapping[int, Traced
     """Return of lines of a plan how their arrowheads point: 1 as they should, -1 the other way, 0 doubtfully.
 
     Lines that are vectors both ways, short ones, and those that nothing tells of are left out. An arrowhead that lines
-    nearly in one direction may have may be that of each of them.
+    nearly in one direction may have may be that of each of them; but where a wing is bare, there is none of any.
     """
     heads = {n: (complex(points[way.tails[way.lines[n]]]), complex(points[way.tips[way.lines[n]]])) for n in found}
     heads = {n: ends for n, ends in heads.items() if abs(ends[1] - ends[0]) > BESIDE}
@@ -200,15 +202,17 @@ def senses(pencil: Pencil, way: Way, points: Complex, found: Mapping[int, Traced
             continue
         others = {n: ends for n, ends in heads.items() if n != number}
         (at_tip, _), (at_tail, shared) = _along(tail, tip, others), _along(tip, tail, others)
-        if at_tip or at_tail:
-            continue
         pairs, dark = ((tail, tip), (tip, tail)), found[number].dark
         forth, back = (_winged(pencil, *ends, dark, others.values()) for ends in pairs)
-        if forth is None or back is None:
-            continue
-        if max(forth, back) >= POINTED and min(forth, back) <= BARE:
-            told[number] = 1 if forth > back else 0 if shared else -1
-        elif back > forth + DOUBTED:
+        alone = not (at_tip or at_tail or shared)
+        if forth.faint <= BARE:  # no arrowhead where it should be
+            if back.dark >= POINTED:
+                told[number] = -1 if alone and back.both >= POINTED else 0
+        elif at_tip and not at_tail and back.both >= CLEARLY:
+            told[number] = 0
+        elif alone and forth.both >= POINTED and back.both <= BARE:
+            told[number] = 1
+        elif alone and back.both > forth.both + DOUBTED:
             told[number] = 0
     return told
 
@@ -229,31 +233,43 @@ def ends_at(pencil: Pencil, tail: complex, tip: complex, other: complex) -> bool
         return False
     along = np.asarray(tail + (tip - tail) * np.linspace(0.1, 0.9, MOST), complex)
     dark = float(np.median(pencil.at(along)[0]))
-    here, there = (_winged(pencil, tail, end, max(dark, FAINT), ()) for end in (tip, other))
-    return here is not None and there is not None and here >= POINTED and there <= BARE
+    here, there = (_winged(pencil, tail, end, max(dark, FAINT), ()).both for end in (tip, other))
+    return here >= POINTED and there <= BARE
 
 
-def _winged(pencil: Pencil, tail: complex, tip: complex, line: float, others: Iterable[Ends]) -> float | None:
-    """Return how dark, against their line, the wings of an arrowhead at a tip are; None where other lines hide them."""
-    size, best = abs(tip - tail), list[float]()
+class Wings(NamedTuple):
+    """How dark, against their line, wings of an arrowhead may be: `both` of them, the `faint` and the `dark` side.
+
+    NaN where other lines hide them. No wing of an arrowhead is faint; other lines, letters may be dark on both sides.
+    """
+
+    both: float
+    faint: float
+    dark: float
+
+
+def _winged(pencil: Pencil, tail: complex, tip: complex, line: float, others: Iterable[Ends]) -> Wings:
+    """Return how dark wings of an arrowhead at a tip are."""
+    size, pairs, sides = abs(tip - tail), list[float](), (list[float](), list[float]())
     unit = (tip - tail) / size
     at = np.arange(-NEAR, NEAR + 0.05, 1.0 / PER_MM)
     for wing in WINGS:
         behind, both = _behind(wing, size), list[Floats]()
         if len(behind) < FEWEST:
             continue
-        for side in (wing, -wing):
+        for side, own in zip((wing, -wing), sides, strict=True):
             legs = tip + at[:, None] * unit - unit * np.exp(1j * side) * behind[None, :]
             dark, hidden = pencil.at(legs)
             for a, b in others:
                 along, aside = dot(b - a, legs - a) / abs(b - a), np.abs(cross(b - a, legs - a)) / abs(b - a)
                 hidden |= np.asarray((aside < BESIDE) & (along > -BESIDE) & (along < abs(b - a) + BESIDE))
             count = (~hidden).sum(axis=1)
-            mean = np.where(hidden, 0.0, dark).sum(axis=1) / np.maximum(count, 1)
+            mean = np.where(hidden, 0.0, dark).sum(axis=1) / np.maximum(count, 1) / line
             both.append(np.where(count < FEWEST, np.nan, mean))
-        wings = np.minimum(*both) / line
-        best += wings[~np.isnan(wings)].tolist()
-    return max(best, default=None)
+            own += mean[count >= FEWEST].tolist()
+        pairs += (least := np.minimum(*both))[~np.isnan(least)].tolist()
+    seen = [max(own) for own in sides if own] or [math.nan]
+    return Wings(max(pairs, default=math.nan), min(seen), max(seen))
 
 
 def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[Spot]:
