@@ -15,10 +15,10 @@ from ...plans.gears.solve import MILLI, ScaleErrors
 from ...plans.hands.shaky import PRESETS
 from ...plans.lab.hoists import Steps, Ways
 from ...plans.lab.integrators import RK4, VERLET, growth
-from ..gears.scene import lettered
+from ...scales.errors import RAISED
 from ..words import Words
 from . import paper
-from .paper import Label, beside, box, curve, decimals, legend, mathtext, page, put
+from .paper import Label, beside, box, curve, decimals, legend, mathtext, page, powers, put
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -128,7 +128,7 @@ def _slope(axes: Axes, found: chords.Convergence, where: str, words: Words) -> N
         [low, high], [start, start * (low / high) ** power], color=paper.GREY, lw=2.2, solid_capstyle="butt", zorder=1
     )
     middle = (low * high) ** 0.5
-    text, away = f"{words[f'chart.{where}']}: $n^{{-{power}}}$".replace("-", "−"), 4.0 if above else -4.0
+    text, away = f"{words[f'chart.{where}']}: n{str(-power).translate(RAISED)}", 4.0 if above else -4.0
     sides: Any = {"ha": "left", "va": "bottom"} if above else {"ha": "right", "va": "top"}
     beside(axes, text, (middle, start * (low / middle) ** power), (away, away), fontsize=paper.SMALL + 0.5, **sides)
 
@@ -207,6 +207,8 @@ def _closings(axes: Axes, found: chords.Robustness, words: Words) -> None:
 
 def scales_page(found: ScaleErrors, words: Words, title: str, note: str) -> Figure:
     """Draw the errors of hands against scales, a field for each quantity, what is let pass of each in rings."""
+    from ..gears.scene import lettered  # cams and hoists draw their charts without the sheets of gears
+
     wide, words = (WIDE - GEAR_GAP * (len(found.quantities) - 1)) / len(found.quantities), lettered(words)
     with page(title, note) as figure:
         for k, name in enumerate(found.quantities):
@@ -266,6 +268,7 @@ def _errors(axes: Axes, found: Mapping[str, Steps], words: Words) -> None:
     axes.set(xlim=(axes.get_xlim()[0] * 0.9, 6.0), xticks=[0.01, 0.1, 1.0], yticks=[10.0**n for n in range(-9, 1)])
     axes.yaxis.minorticks_off()
     decimals(words, axes.xaxis)
+    powers(axes.yaxis)
     legend(axes, "lower right", handlelength=4.0, borderaxespad=0.8)
 
 
@@ -298,5 +301,6 @@ def roots_page(found: Mapping[str, Ways], words: Words, title: str, note: str) -
                 label = words[key].format(method=words[f"chart.{method}"], n=root.evaluations)
                 curve(axes, k, np.arange(1, len(error) + 1), error, ms=3.8, label=label)
             axes.set(yscale="log", ylim=(1e-17, 1e2), xlim=(0.0, SHOWN))
+            powers(axes.yaxis)
             legend(axes, corner, handlelength=4.0, frameon=True, framealpha=1.0, edgecolor="white")
     return figure

@@ -16,7 +16,7 @@ from ...plans.lab.stability import CHANGE, DEAD, DIGITS, LIMIT, POLE, Spot, Stab
 from ...plans.laws import TURN
 from ...plans.linkages.limits import Arc
 from ..words import Words
-from .paper import BLACK, GREY, HEIGHT, LIGHT, SMALL, TEXT, box, curve, decimals, mathtext, page
+from .paper import BLACK, GREY, HEIGHT, LIGHT, SMALL, TEXT, box, curve, decimals, mathtext, page, powers
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -151,13 +151,15 @@ def _log(axes: Axes, label: str, words: Words | None = None) -> None:
         decimals(words, axes.yaxis)
     elif decades < 5.0:
         axes.yaxis.set_major_formatter("{x:g}")
+    else:
+        powers(axes.yaxis)
     axes.set_title(label, fontsize=TEXT, pad=3.0)
 
 
 def _digits(axes: Axes, words: Words) -> None:
     """Write at the right how many digits are left."""
     low, high = (math.log10(y) for y in axes.get_ylim())
-    small: Any = {"transform": axes.transAxes, "fontsize": SMALL, "style": "italic"}
+    small: Any = {"transform": axes.transAxes, "fontsize": SMALL, "color": GREY}
     for k in _lost(low, high):
         axes.text(1.008, (k - low) / (high - low), words.short(DIGITS - k), va="center", **small)
     axes.text(1.008, 1.09, words["chart.digits"], va="bottom", **small)

@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...scales.errors import RAISED
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
@@ -162,6 +164,23 @@ def decimals(words: Words, *axes: Axis) -> None:
 
     for axis in axes:
         axis.set_major_formatter(FuncFormatter(lambda value, _: words.short(float(f"{value:.10g}"))))
+
+
+def powers(*axes: Axis) -> None:
+    """Write the numbers of axes as powers of ten, of plain letters: those of mathtext take ten times as long."""
+    from matplotlib.ticker import FuncFormatter
+
+    for axis in axes:
+        axis.set_major_formatter(FuncFormatter(lambda value, _: power_of_ten(value)))
+
+
+def power_of_ten(value: float) -> str:
+    """Return a power of ten as it is written.
+
+    >>> power_of_ten(1e-5), power_of_ten(1000)
+    ('10⁻⁵', '10³')
+    """
+    return f"10{str(round(math.log10(value))).translate(RAISED)}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...plans.lab.race import Contest, Entry
 from ..words import Words
+from . import paper
 from .paper import BLACK, CHAINED, DASHED, DOTTED, GREY, LONG, MIXED, SMALL, SOLID, TEXT, Label, box, page, put
 
 if TYPE_CHECKING:
@@ -138,6 +139,7 @@ def _align(fields: list[Axes]) -> None:
         for axis, base in ((axes.xaxis, 100.0), (axes.yaxis, 10.0)):
             axis.set_major_locator(LogLocator(base, numticks=20))
             axis.set_minor_locator(NullLocator())
+        paper.powers(axes.xaxis, axes.yaxis)
         axes.yaxis.set_minor_formatter(NullFormatter())
 
 
@@ -171,14 +173,13 @@ def setting(entry: Entry) -> str:
     """Return the setting of a method as its point has it.
 
     >>> setting(Entry("plan", 1000, "velocity", None, None, "", 0.0, None, 1, 0.0))
-    '$10^{3}$'
+    '10³'
     """
     if entry.method in SECTIONED or isinstance(entry.setting, str):
         return str(entry.setting)
     if entry.method in STEPPED:
         return f"{entry.setting:g}"
-    power = math.log10(entry.setting)
-    return f"$10^{{{round(power)}}}$".replace("-", "−") if entry.setting != 1 else "1"
+    return paper.power_of_ten(entry.setting) if entry.setting != 1 else "1"
 
 
 def _hands(band: Axes, below: Axes, entries: list[Entry], words: Words) -> None:

@@ -16,7 +16,7 @@ Array = NDArray[Any]
 Clock = Callable[[], float]  # seconds
 T = TypeVar("T")
 ROUNDS = 3  # runs of a piece of work
-ENOUGH = 0.01  # seconds of work that need no repeating
+ENOUGH = 0.004  # seconds of work that need no repeating
 SEED = 1  # the same hand on every paper
 
 
