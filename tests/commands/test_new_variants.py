@@ -208,6 +208,16 @@ def test_a_spreadsheet_becomes_variants(turned: bool, tmp_path: Path, run: Run) 
     assert solve(task, "2")["V_B"].value == pytest.approx(solve(TASK, "1")["V_B"].value)
 
 
+def test_a_file_of_new_variants_is_called_by_its_own_name(folder: Path, run: Run) -> None:
+    run("variants", TASK, "--make", "1", "-o", "АТ-301 осінь.toml", "--lang", "en")
+
+    status, _, err = run("check", "АТ-301 осінь.toml", "-v", "9", "answers.csv", "--lang", "en")
+
+    assert load_task("АТ-301 осінь.toml").id == "АТ-301-осінь"
+    assert (status, err) == (2, "АТ-301-осінь has no variant '9'; it has: 1\n")
+    assert run("check", "АТ-301 осінь.toml", "printed")[0] == 2  # another task's answers
+
+
 @pytest.mark.parametrize("x_1", [pytest.param("0.2", id="drawn"), pytest.param("-3", id="refused")])
 def test_pages_are_counted_though_the_first_variant_of_a_task_is_refused(x_1: str) -> None:
     task = task_of(with_changes(load_task("madi-gear").text, ("x_1 = 0.2", f"x_1 = {x_1}")))

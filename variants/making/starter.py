@@ -19,6 +19,7 @@ from ..shelf import HEADS, summary, text_of
 VARIANTS = (__package__ or "").rpartition(".")[0]
 SUFFIX = ".toml"
 _OWN = re.compile(r'^id = "([^"]+)"', re.MULTILINE)  # what a template calls itself
+_ID = re.compile(r"""^id\s*=\s*(?:"[^"\n]*"|'[^'\n]*')""", re.MULTILINE)
 _HOW = re.compile(r"^#\n(?:#     kulman.*\n)+(?:#.*\n)*", re.MULTILINE)  # how to check, solve and draw it
 _FIRST = re.compile(r"((?:-v|variant|варіанта|варианта) )1\b")
 _KEYS = [re.compile(rf"^{key} = .*\n", re.MULTILINE) for key in ("id", "source")]  # with their comments
@@ -98,6 +99,12 @@ def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0], sou
     except OSError as error:
         raise InputError("output-refused", file=shown, reason=error.strerror or "") from error
     return path
+
+
+def called(text: str, path: Path) -> str:
+    """Return a task file that is called by its own name, where an id is in it: messages and forms say that."""
+    own = _label(path.stem)
+    return _ID.sub(lambda _: f'id = "{own}"', text, count=1) if own else text
 
 
 def _label(stem: str) -> str:
