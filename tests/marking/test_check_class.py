@@ -94,6 +94,8 @@ def test_a_class_gets_tables_reports_and_grades(tmp_path: Path, capsys: pytest.C
 
     assert (status, err) == (0, "")
     assert "students: 5, marked: 5" in printed
+    assert "notes in the report" not in printed  # what is noted of all is said once
+    assert printed.count("no direction of any vector was given") == 1
     assert len(list(out.glob("*.html"))) == len(list(out.glob("*.txt"))) == 5
     assert [path.name for path in out.iterdir() if path.name.startswith(".")] == [checks.REPORTS_NOTED]
     sheet = openpyxl.load_workbook(tables[0]).active

@@ -359,10 +359,12 @@ def moodle_rows(results: Sequence[Result], language: str) -> Iterator[tuple[Cell
 
 
 def class_lines(lines: Lines, language: str) -> Iterator[str]:
-    """Go through what is printed of a class: a line per student, then the whole."""
+    """Go through what is printed of a class: a line per student, what is noted of all of them, then the whole."""
     said, sign = texts(language), "." if language == "en" else ","
     names, results = names_of(lines, language), marked_of(lines)
     width = max(map(len, names), default=0)
+    noted = [result.notes for result in results if result.mark is not None]
+    of_all = [note for note in noted[0] if all(note in notes for notes in noted)] if len(noted) > 1 else []
     for name, line, flags in zip(names, lines, flags_of(lines, language), strict=True):
         if isinstance(line, Entry):
             yield f"{name:{width}}  {'–':>5}  {said['class.absent']}"
@@ -371,10 +373,12 @@ def class_lines(lines: Lines, language: str) -> Iterator[str]:
         missing, notes = line.counts.get(str(Verdict.MISSING), 0), line.notes
         told = [line.first and said["class.feedback_first"].format(symbol=line.first)]
         told += [f"{said['verdict.missing']} {missing}"] if missing else []
-        if line.mark is not None and notes:  # else they say why there is no mark
-            notes = (said["class.notes"].format(n=len(notes), file=spoken(line.source, language)),)
+        if line.mark is not None:  # else they say why there is no mark
+            n = sum(note not in of_all for note in notes)
+            notes = (said["class.notes"].format(n=n, file=spoken(line.source, language)),) if n else ()
         told += ["; ".join(line.explained(language)), *flags, *notes]
         yield f"{name:{width}}  {mark:>5}  {'  '.join(filter(None, told))}".rstrip()
+    yield from (said["class.all"].format(note=note) for note in of_all)
     marks = [result.mark for result in results if result.mark is not None]
     mean = f"{sum(marks) / len(marks) if marks else 0.0:.1f}".replace(".", sign)
     yield said["class.summary"].format(n=len(results), marked=len(marks), mean=mean)
