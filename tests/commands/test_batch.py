@@ -456,3 +456,12 @@ def test_what_is_wrong_with_many_students_is_told_once(tmp_path: Path) -> None:
 
     assert len(told) == 1
     assert re.search(r"csv: C3–C5, C8: .*x", told[0])
+
+
+def test_a_list_that_says_no_variants_is_told_of_once(tmp_path: Path) -> None:
+    rows = [f"Student {n};MM;{'' if n in (2, 3, 4, 7) else 3};" for n in range(1, 9)]
+
+    told = batch(TASK, roster(tmp_path, *rows), tmp_path / "out", kinds=["card"], jobs=1).told
+
+    assert len(told) == 1
+    assert "csv: row 3–5, 8: neither a variant nor a record book" in told[0]

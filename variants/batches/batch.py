@@ -54,7 +54,8 @@ NOTES = {NOTE: ".pdf", "docx": ".docx"}
 FORMS = (*SHEETS, *NOTES, HANDOUT, CARD)
 _SUFFIXES = {*WRITERS, *NOTES.values()}
 JOURNAL = ".kulman-batch.jsonl"
-_PLACED = re.compile(r"(.+?: )([A-Z]{0,3})([0-9]+)([:,] .+)", re.DOTALL)  # a problem: file, column, row, what it is
+# a problem: file, column or the word for a row, its number, what it is
+_PLACED = re.compile(r"(.+?: )([A-Z]{0,3}|\w+ )([0-9]+)([:,] .+)", re.DOTALL)
 _OWN = re.compile(rf"[0-9]{{3,}}-.+|(?:manifest|key)\b.*\.csv|{re.escape(JOURNAL)}")  # names of files of a batch
 
 
@@ -130,14 +131,16 @@ class Batch:
 
 
 def _spans(rows: Sequence[int], column: str) -> str:
-    """Return the places of cells of a column, of neighbours the first and the last.
+    """Return the places of cells of a column, of neighbours the first and the last; a word for a row stands once.
 
-    >>> _spans([3, 4, 5, 9], "E")
-    'E3–E5, E9'
+    >>> _spans([3, 4, 5, 9], "E"), _spans([3, 4, 5, 9], "row ")
+    ('E3–E5, E9', 'row 3–5, 9')
     """
+    word, column = (column, "") if column.endswith(" ") else ("", column)
     starts = [row for row in rows if row - 1 not in rows]
     ends = [row for row in rows if row + 1 not in rows]
-    return ", ".join(f"{column}{a}" + f"–{column}{b}" * (b > a) for a, b in zip(starts, ends, strict=True))
+    spans = (f"{column}{a}" + f"–{column}{b}" * (b > a) for a, b in zip(starts, ends, strict=True))
+    return word + ", ".join(spans)
 
 
 @dataclass(frozen=True)
