@@ -424,6 +424,10 @@ def entry_of(folder: Path, head: str, row: str) -> Entry:
         ("П.І.Б.;Шифр групи;Залікова книжка №;Вар.", "Іван П;АТ;12;3", Who("Іван П", "АТ", "12")),
         ("Фамилия И.О.;Учебная группа;Зач. кн.;Вар.", "Иван П;АТ;12;3", Who("Иван П", "АТ", "12")),
         ("Прізвище, ім'я;Варіант", "Петренко Іван;3", Who("Петренко Іван")),
+        ("Student No.,Student name,Class,Variant", "S1042,Ann Lee,ME-3,3", Who("Ann Lee", "ME-3", "S1042")),
+        ("Family name,Forename,Matriculation number,Var.", "Lee,Ann,1042,3", Who("Lee Ann", book="1042")),
+        ("Прізвище;Ім'я;№ студентського квитка;Вар.", "Лі;Анна;12;3", Who("Лі Анна", book="12")),
+        ("ФИО;Студенческий билет №;E-Mail address;Вар.", "Ли А;12;a@b.c;3", Who("Ли А", book="12", email="a@b.c")),
     ],
 )
 def test_names_are_found_under_the_words_that_people_use(tmp_path: Path, head: str, row: str, who: Who) -> None:
