@@ -25,6 +25,8 @@ from ..scales.errors import InputError
 from ..scales.names import of_kind, unknown
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from ..drawing.words import Words
     from ..plans.solved import Columned
     from ..scales.errors import PositionError
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
     from .case import Case
     from .task import Task
 
+    Array = NDArray[Any]
 Cell: TypeAlias = str | float | int | None
 Rows: TypeAlias = Sequence[Sequence[Cell]]
 Item = TypeVar("Item")
@@ -121,8 +124,7 @@ class Table:
                 return xlsx_bytes((self.columns, *self.rows), self.title, (0,), 1)
             case ".html":
                 return self.html().encode("utf-8", "replace")
-        # spreadsheets know UTF-8 by the mark at its beginning, English ones need none for numbers
-        return self.csv().encode("utf-8" if self.exact and self.language == "en" else "utf-8-sig", "replace")
+        return csv_encoded(self.csv(), self.exact and self.language == "en")
 
 
 FILES: tuple[str, ...] = (".csv", ".xlsx", ".json", ".html")  # of every result
@@ -173,7 +175,10 @@ class Result(Saved):
     def _files(self, path: Path, drawn: Callable[[], Any]) -> Files:
         if path.suffix.lower() == ".json":
             return [(path, (json_text(self.to_json()) + "\n").encode("ascii"))]
-        return [(path, self.data().file(path.suffix))]
+        return [(path, self._file(path.suffix))]
+
+    def _file(self, suffix: str) -> bytes:
+        return self.data().file(suffix)
 
     def _repr_html_(self) -> str:
         """Show the table in a notebook."""
@@ -284,12 +289,27 @@ class Arrays(OfCase):
     def data(self, language: str | None = None) -> Table:
         """Return all columns, the number of the row before them, after them what is said of each row."""
         words = self._words(language)
+        heads, values, states = self._headed(words)
+        rows = tuple(zip(range(len(self)), *(column.tolist() for column in values), *states, strict=True))
+        return Table(heads, rows, words.language, self.task.id)
+
+    def _headed(self, words: Words) -> tuple[tuple[str, ...], list[Array], list[Sequence[str]]]:
+        """Return the heads of all columns, with that of the rows' numbers, their values, and what is said of rows."""
         shown, states = self._columns(words)
         units = [words.spelled(column.unit) for column in shown]
         heads = (f"{column.name} [{of}]" if of else column.name for column, of in zip(shown, units, strict=True))
-        values = (column.values.ravel().tolist() for column in shown)
-        rows = tuple(zip(range(len(self)), *values, *states.values(), strict=True))
-        return Table(("k", *heads, *states), rows, words.language, self.task.id)
+        return ("k", *heads, *states), [column.values.ravel() for column in shown], [*states.values()]
+
+    def csv(self, language: str | None = None) -> str:
+        """Return the same as CSV, put together column by column: without its rows half the time."""
+        words = self._words(language)
+        heads, values, states = self._headed(words)
+        return _csv_of(heads, [range(len(self)), *values, *states], words.language != "en")
+
+    def _file(self, suffix: str) -> bytes:
+        if suffix.lower() == ".csv":
+            return csv_encoded(self.csv(), self.words.language == "en")
+        return Result._file(self, suffix)
 
     def to_json(self) -> dict[str, Any]:
         """Return what is printed with `--json`: everything in SI."""
@@ -394,17 +414,26 @@ def csv_text(
     Numbers are in full precision where nothing else writes a `number`.
     """
     comma, told = separator is None and language != "en", number or exact
-    stream, between = io.StringIO(newline=""), separator or (";" if comma else ",")
-    writer = csv.writer(stream, delimiter=between, lineterminator="\r\n")
     head, *under = [tuple(row) for row in rows] or [()]
-    writer.writerow([_text(cell, comma, told) for cell in head])
-    if told is exact and len(head) > 1 and {*map(len, under)} == {len(head)}:  # a tenth of the time, column by column
-        columns = [*zip(*under, strict=True)]
-        cells = (_texts(column, comma, between) for column in _watched(columns, len(under)))
-        stream.writelines(f"{between.join(row)}\r\n" for row in zip(*cells, strict=True))
-    else:
-        writer.writerows([_text(cell, comma, told) for cell in row] for row in under)
+    if separator is None and told is exact and len(head) > 1 and {*map(len, under)} == {len(head)}:
+        return _csv_of(head, [*zip(*under, strict=True)], comma)
+    stream = io.StringIO(newline="")
+    writer = csv.writer(stream, delimiter=separator or (";" if comma else ","), lineterminator="\r\n")
+    writer.writerows([_text(cell, comma, told) for cell in row] for row in (head, *under))
     return stream.getvalue()
+
+
+def csv_encoded(text: str, plain: bool) -> bytes:
+    """Return CSV as a file: spreadsheets know UTF-8 by the mark at its beginning, `plain` numbers need none."""
+    return text.encode("utf-8" if plain else "utf-8-sig", "replace")
+
+
+def _csv_of(heads: Sequence[Cell], columns: Sequence[Sequence[Cell] | Array], comma: bool) -> str:
+    """Return columns under their heads as CSV, in full precision: a tenth of the time that it takes row by row."""
+    between = ";" if comma else ","
+    cells = [_texts(column, comma, between) for column in _watched(columns, len(columns[0]))]
+    head = between.join(_quoted(_text(cell, comma, exact), between) for cell in heads)
+    return "\r\n".join((head, *map(between.join, zip(*cells, strict=True)), ""))
 
 
 def _watched(parts: Sequence[Item], rows: int) -> Iterator[Item]:
@@ -416,8 +445,14 @@ def _watched(parts: Sequence[Item], rows: int) -> Iterator[Item]:
             told(1, len(parts))
 
 
-def _texts(column: Sequence[Cell], comma: bool, between: str) -> list[str]:
+def _texts(column: Sequence[Cell] | Array, comma: bool, between: str) -> list[str]:
     """Return the cells of a column as a spreadsheet reads them, in full precision, and with quotes as CSV has them."""
+    if not isinstance(column, Sequence):  # an array: what is to be left out is found at once
+        import numpy as np
+
+        if column.dtype.kind == "f" and np.isfinite(column).all():
+            return _commas([*map(repr, (column + 0.0).tolist())], comma)
+        column = column.tolist()
     kinds = {*map(type, column)}
     if kinds == {int}:
         return [*map(str, column)]
@@ -431,6 +466,11 @@ def _texts(column: Sequence[Cell], comma: bool, between: str) -> list[str]:
         texts = [*map(repr, numbers)]
     else:
         texts = [repr(x + 0.0) if -math.inf < x < math.inf else "" for x in numbers]
+    return _commas(texts, comma)
+
+
+def _commas(texts: list[str], comma: bool) -> list[str]:
+    """Return numbers with decimal commas, if those are wanted."""
     return [text.replace(".", ",") for text in texts] if comma else texts
 
 

@@ -266,6 +266,8 @@ def test_states_are_saved_as_tables_and_as_json(tmp_path: Any) -> None:
         "0,1",
         repr(float(states["V_B"][0, 0])).replace(".", ","),
     ]
+    broken = solve_many(TASK, l_AB=([140.0, 20.0, 140.0], "mm"), phi=[1.5, 1.5, 0.0], names="V_B,M_bal")  # NaN, -0.0
+    assert [broken.csv(language) for language in ("en", "uk")] == [broken.data(of).csv() for of in ("en", "uk")]
     apart = solve_many(TASK, l_AB=([140.0, 20.0], "mm"), phi=1.5, names="V_B").csv().splitlines()
     assert apart[2] == "1,0.02,,,,no-assembly"
     data = json.loads((tmp_path / "states.json").read_text())
