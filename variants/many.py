@@ -66,6 +66,10 @@ class ManyStates(Arrays):
         """The shape of all arrays."""
         return self.codes.shape
 
+    def __len__(self) -> int:
+        """Return the number of states, without a word for each."""
+        return int(self.codes.size)
+
     @property
     def statuses(self) -> NDArray[np.str_]:
         """The status of each state, the words of `kulman.Status`."""
