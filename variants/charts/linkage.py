@@ -34,14 +34,14 @@ from ..tables import Cell, aligned
 from . import charts
 from .charts import AccuracyChart, Scene
 
-POSITIONS = {"accuracy": 24, "stability": 120, "depth": 120}
+POSITIONS, RACED = 120, 24  # of the cycle that is looked at; those of them at which methods race
 LINES = 24  # of the table of stability
 LOOKED = 8  # positions at which scale factors are looked for
 
 
-def _cycle_of(name: str, scene: Scene) -> Cycle:
-    """Return the cycle with the plans of the case: that of so many positions is looked at once for all charts."""
-    case, count = scene.case, scene.positions or POSITIONS[name]
+def _cycle_of(scene: Scene) -> Cycle:
+    """Return the cycle with the plans of the case, which is looked at once for all charts."""
+    case, count = scene.case, scene.positions or POSITIONS
     if count not in scene.cycles:
         plans = (
             plan for plan in with_needs((*case.plans, "position"), NEEDS) if plan not in ("cycle", "compound", "dead")
@@ -61,8 +61,8 @@ def _unreachable(case: Case) -> PositionError:
 
 def _accuracy(scene: Scene) -> AccuracyChart:
     """Let all methods compete; `chart-no-rivals` where nothing that is wanted can be compared."""
-    whole = _cycle_of("accuracy", scene)
-    found = contest(whole, len(whole.angles), time.process_time, scene.quantities, charts.EFFORT)
+    whole = _cycle_of(scene)
+    found = contest(whole, scene.positions or RACED, time.process_time, scene.quantities, charts.EFFORT)
     if not found.kinds:
         raise InputError("chart-no-rivals")
     case, drawn = scene.case, list[Entry]()
@@ -79,7 +79,7 @@ def _accuracy(scene: Scene) -> AccuracyChart:
 
 def _stability(scene: Scene) -> _StabilityChart:
     """Look at what is lost over the cycle."""
-    whole = _cycle_of("stability", scene)
+    whole = _cycle_of(scene)
     mus = scales_of_cycle(scene, whole)
     found = stability(whole, scene.quantities or usual(whole), mus, charts.HANDS[scene.hand])
     return _StabilityChart(scene, found, whole, _places(whole), mus)
@@ -87,7 +87,7 @@ def _stability(scene: Scene) -> _StabilityChart:
 
 def _depth(scene: Scene) -> _DepthChart:
     """Look at what each part of the model is worth."""
-    whole = _cycle_of("depth", scene)
+    whole = _cycle_of(scene)
     return _DepthChart(scene, depth(whole, scene.tolerance), _places(whole))
 
 
