@@ -269,7 +269,7 @@ def _errors(axes: Axes, found: Mapping[str, Steps], words: Words) -> None:
     axes.yaxis.minorticks_off()
     decimals(words, axes.xaxis)
     powers(axes.yaxis)
-    legend(axes, "lower right", handlelength=4.0, borderaxespad=0.8)
+    legend(axes, "upper left", bbox_to_anchor=(0.0, 0.94), handlelength=4.0)  # between refused runs and all curves
 
 
 def _growths(axes: Axes, found: Mapping[str, Steps], words: Words) -> None:
