@@ -148,7 +148,7 @@ def arranged(drawings: Mapping[str, tuple[Box, int]]) -> Arranged:
         ways = (_shelved(cells, least + (most - least) * part / TRIED) for part in range(TRIED + 1))
         places, (wide, low) = max(ways, key=lambda way: min(WIDE / way[1][0], HIGH / -way[1][1]))
         found = Arranged(places, (-APART, low, wide, HEAD * LINE / scale), LINE / scale)
-        if fit(found.box) >= scale or scale < SMALLEST:
+        if _fit(found.box) >= scale or scale < SMALLEST:
             return found
         scale *= STEP
 
@@ -174,7 +174,7 @@ def _shelved(cells: Mapping[str, Box], wide: float) -> tuple[dict[str, complex],
     return places, (end, y - deepest)
 
 
-def fit(box: Box) -> float:
+def _fit(box: Box) -> float:
     """Return the pixels of a millimetre with which the view shows a box."""
     left, low, right, high = box
     return min(WIDE / (right - left), HIGH / (high - low))
@@ -182,7 +182,7 @@ def fit(box: Box) -> float:
 
 def packed(objects: Iterable[tuple[Item, Look]], title: str, box: Box) -> bytes:
     """Return a construction as a file; the view shows what is in the box."""
-    left, high, scale = box[0], box[3], fit(box)
+    left, high, scale = box[0], box[3], _fit(box)
     zero = {"xZero": f"{-left * scale:.6g}", "yZero": f"{high * scale:.6g}"}
     view = [
         tag("size", width=WIDE, height=HIGH),

@@ -27,7 +27,7 @@ NEAR = 0.6  # units by which a curve of the font may miss the outline
 CORNER = math.radians(15.0)  # a turn of an outline that is seen
 
 
-class Glyph(NamedTuple):
+class _Glyph(NamedTuple):
     """A letter: its width and the points of its strokes, h/10."""
 
     width: float
@@ -35,16 +35,16 @@ class Glyph(NamedTuple):
 
 
 @cache
-def glyphs() -> dict[str, Glyph]:
+def glyphs() -> dict[str, _Glyph]:
     """Return all letters with their strokes, rounded corners as short chords."""
     text = Path(__file__).with_name("letters.txt").read_text(encoding="utf-8")
-    made = {" ": Glyph(WORD_GAP - GAP, ())}
+    made = {" ": _Glyph(WORD_GAP - GAP, ())}
     for line in text.splitlines():
         if not line or line.startswith("# "):
             continue
         head, *strokes = line.split(" | ")
         letters, width = head.rsplit(maxsplit=1)
-        glyph = Glyph(float(width), tuple(_rounded(stroke.split()) for stroke in strokes))
+        glyph = _Glyph(float(width), tuple(_rounded(stroke.split()) for stroke in strokes))
         made.update(dict.fromkeys(letters, glyph))
     return made
 
@@ -94,7 +94,7 @@ def drawn(string: str, height: float, slanted: bool = False) -> Iterator[tuple[c
         x += glyph.width + GAP
 
 
-def outline(glyph: Glyph, slant: float = 0.0) -> BaseGeometry:
+def outline(glyph: _Glyph, slant: float = 0.0) -> BaseGeometry:
     """Return the area that the strokes of a letter cover, h/10, leaning by `slant` to a height of one."""
     from shapely import affinity
     from shapely.geometry import LineString, Point

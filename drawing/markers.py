@@ -81,7 +81,7 @@ def fields(number: int) -> NDArray[np.bool_]:
     return black
 
 
-def code_fields(text: str) -> NDArray[np.bool_]:
+def _code_fields(text: str) -> NDArray[np.bool_]:
     """Return which fields of the QR code of a text are black, rows from the top, without white round it.
 
     Raises InputError: the package that makes it is missing.
@@ -117,7 +117,7 @@ def scannable(page: Page, whole: Sequence[Group], number: int, text: str, sheet:
     found = room.code()
     if found is not None:
         at, side = found
-        shapes.append(Group(tuple(_areas(code_fields(text), at, side, pen)), "qr", text))
+        shapes.append(Group(tuple(_areas(_code_fields(text), at, side, pen)), "qr", text))
     return replace(page, shapes=(*page.shapes, *shapes))
 
 

@@ -280,7 +280,7 @@ class _Tile:
     window: Box
 
 
-def tiles(page: Page, paper: str = "A4") -> list[_Tile]:
+def _tiles(page: Page, paper: str = "A4") -> list[_Tile]:
     """Return the tiles of a page, row by row from the top left; neighbours share a strip.
 
     Raises InputError: `paper` is not a paper for tiles.
@@ -308,7 +308,7 @@ def write_tiles(pages: Sequence[Page], stream: BinaryIO, paper: str = "A4") -> N
     width, height = PAPERS.get(paper, PAPERS["A4"])
     for number, page in enumerate(pages):
         whole = f"page-{number}"
-        parts = tiles(page, paper)
+        parts = _tiles(page, paper)
         canvas.beginForm(whole, 0, 0, page.width * POINT, page.height * POINT)
         layers = _draw_page(canvas, page)
         canvas.endForm(Resources=document.resources(layers))

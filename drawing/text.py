@@ -151,15 +151,15 @@ def _broken(markup: str, at: int) -> InputError:
     return InputError("markup-broken", text=Written(markup), position=at + 1)
 
 
-class Lettering(NamedTuple):
+class _Lettering(NamedTuple):
     """How text is set: in one of `LETTERINGS`, and whether single Latin letters may be units (`m`, `N`)."""
 
     name: str = "gost"
     latin_units: bool = True
 
 
-_USUAL = Lettering()
-LETTERING: ContextVar[Lettering] = ContextVar("lettering", default=_USUAL)  # of all that is drawn
+_USUAL = _Lettering()
+LETTERING: ContextVar[_Lettering] = ContextVar("lettering", default=_USUAL)  # of all that is drawn
 
 
 @contextmanager
@@ -167,7 +167,7 @@ def lettered(lettering: str, language: str = "en") -> Iterator[None]:
     """Lay text of a language out in one of `LETTERINGS` meanwhile. Raises InputError: there is no such lettering."""
     if lettering not in FACES:
         raise unknown("lettering-unknown", lettering, FACES)
-    before = LETTERING.set(Lettering(lettering, language == "en"))
+    before = LETTERING.set(_Lettering(lettering, language == "en"))
     try:
         yield
     finally:
@@ -183,7 +183,7 @@ def lay_out(markup: str, height: float) -> _TextLayout:
 
 
 @lru_cache(maxsize=8192)
-def _lay_out(markup: str, height: float, lettering: Lettering) -> _TextLayout:
+def _lay_out(markup: str, height: float, lettering: _Lettering) -> _TextLayout:
     pen = _Pen(lettering)
     width, top, bottom = pen.line(read(markup), 0.0, 0.0, height, height)
     if top < bottom:
@@ -258,7 +258,7 @@ class _Pen:
     Each method lays out from the place (x, y) with capitals of `height`; scripts are measured from `base`.
     """
 
-    def __init__(self, lettering: Lettering) -> None:
+    def __init__(self, lettering: _Lettering) -> None:
         self.faces, self.latin_units = FACES[lettering.name], lettering.latin_units
         self.runs: list[Run] = []
         self.rules: list[Box] = []

@@ -311,14 +311,14 @@ def conditions(
     """
     wanted = tuple(names) or tuple(step.name for step in results(program))
     slopes = derivatives(program.needed_for(wanted) if names else program, givens, varied, wanted)
-    sizes, worst, found = sizes_beside(program, values), worst_behind(program, sines), {}
+    sizes, worst, found = _sizes_beside(program, values), worst_behind(program, sines), {}
     for name in wanted:
         total = float(np.abs(slopes[name]).sum())
         found[name] = Condition(ratio(total, sizes[name]) if values[name] == values[name] else None, worst[name])
     return found
 
 
-def sizes_beside(program: Program, values: Mapping[str, Any]) -> dict[str, float]:
+def _sizes_beside(program: Program, values: Mapping[str, Any]) -> dict[str, float]:
     """Return for each quantity the size that its condition refers to, in its unit: see above."""
     shown, sizes = plans_of(program), references(program, values)
     own = {name: float(abs(values[name])) for name in sizes if name not in shown and unit_of(name) != "%"}

@@ -60,7 +60,7 @@ def is_own(text: str) -> bool:
     return re.search(r"\d", text) is not None
 
 
-def hand_of(text: str | Hand) -> tuple[str, Hand, Tolerance]:
+def _hand_of(text: str | Hand) -> tuple[str, Hand, Tolerance]:
     """Return the name, the errors and the tolerance of a hand: a preset, or three errors of one's own.
 
     Parameters
@@ -95,7 +95,7 @@ def drawing(kind: Kind[Any, Any], solved: Solved, scales: Mapping[str, Scale], t
 
     What goes by another name there is told by its own, too.
     """
-    name, hand, tolerance = hand_of(text)  # a wrong one is refused in any position
+    name, hand, tolerance = _hand_of(text)  # a wrong one is refused in any position
     if solved.trouble is not None:
         return None
     drawn, other_names = kind.as_drawn(solved)

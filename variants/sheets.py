@@ -181,7 +181,7 @@ def sheet(
     how = set, only, scales, notation, lang, format, norm, block, lettering, positions
     case = Request(load_task(task), variant, *how).case()
     drawn = draw_case(case)
-    made = partial(_page_bytes, case), partial(construction_of, case, drawn.scales)
+    made = partial(_page_bytes, case), partial(_construction_of, case, drawn.scales)
     return replace(drawn, beside=dict(zip(BESIDE, made, strict=True)))
 
 
@@ -189,7 +189,7 @@ def _page_bytes(case: Case) -> bytes:
     return page_of(case).encode("utf-8")
 
 
-def construction_of(case: Case, scales: Mapping[str, Scale]) -> bytes:
+def _construction_of(case: Case, scales: Mapping[str, Scale]) -> bytes:
     """Return the construction of a case, with scale factors by plan, as a file of GeoGebra.
 
     Raises InputError: constructions of this kind of task are not written.

@@ -96,7 +96,7 @@ class Table:
 
     def csv(self) -> str:
         """Return it as CSV: for `uk` and `ru` with `;` and decimal commas, for `en` with `,` and points."""
-        return csv_text((self.columns, *self.rows), self.language, number=exact if self.exact else _rounded)
+        return _csv_text((self.columns, *self.rows), self.language, number=exact if self.exact else _rounded)
 
     def html(self) -> str:
         """Return it as a page for a browser."""
@@ -121,7 +121,7 @@ class Table:
         """Return what a file holds, of one of `FILES` but JSON."""
         match suffix.lower():
             case ".xlsx":
-                return xlsx_bytes((self.columns, *self.rows), self.title, (0,), 1)
+                return _xlsx_bytes((self.columns, *self.rows), self.title, (0,), 1)
             case ".html":
                 return self.html().encode("utf-8", "replace")
         return csv_encoded(self.csv(), self.exact and self.language == "en")
@@ -392,7 +392,7 @@ def plain(data: Any) -> Any:
 
 def table_bytes(path: Path, rows: Rows, language: str, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:
     """Return rows as the kind of file that the suffix of `path` picks."""
-    return xlsx_bytes(rows, title, bold, frozen) if path.suffix.lower() == ".xlsx" else csv_table(rows, language)
+    return _xlsx_bytes(rows, title, bold, frozen) if path.suffix.lower() == ".xlsx" else csv_table(rows, language)
 
 
 def csv_table(rows: Rows, language: str, separator: str | None = None) -> bytes:
@@ -400,10 +400,10 @@ def csv_table(rows: Rows, language: str, separator: str | None = None) -> bytes:
 
     With a `separator` of its own the file is for another program: decimal points.
     """
-    return csv_text(rows, language, separator, _rounded).encode("utf-8-sig", "replace")  # bytes in a name of a file
+    return _csv_text(rows, language, separator, _rounded).encode("utf-8-sig", "replace")  # bytes in a name of a file
 
 
-def csv_text(
+def _csv_text(
     rows: Iterable[Sequence[Cell]],
     language: str,
     separator: str | None = None,
@@ -512,7 +512,7 @@ def _rounded(value: float) -> str:
     return f"{value:.10g}"
 
 
-def xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:
+def _xlsx_bytes(rows: Rows, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:
     """Return rows as a workbook of one sheet, named by a title; texts are texts there, whatever they begin with.
 
     `bold` rows are counted from 0, so many as are `frozen` stay in sight when the sheet is scrolled. Columns are as

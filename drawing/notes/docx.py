@@ -103,7 +103,7 @@ def docx_bytes(document: Document, drawings: Sequence[Drawing] | None = None) ->
         section.page_width, section.page_height = docx.shared.Mm(sheet.width), docx.shared.Mm(sheet.height)
         section.different_first_page_header_footer = False  # numbers of pages go on
         section.header.is_linked_to_previous = False  # no frame of a smaller page
-        _append(word, folded_in_word(document, pictures))
+        _append(word, _folded_in_word(document, pictures))
     stream = BytesIO()
     word.save(stream)
     return _undated(stream.getvalue())
@@ -116,7 +116,7 @@ def drawings_of(blocks: Iterable[Block], language: str) -> list[Drawing]:
     for figure in (block for block in blocks if isinstance(block, Figure)):
         png = BytesIO()
         write_png([note.figure_page(figure, language)], png, DPI * figure.share)
-        drawings.append(Drawing(png.getvalue(), outlined(note.figure_svg(figure, language))))
+        drawings.append(Drawing(png.getvalue(), _outlined(note.figure_svg(figure, language))))
     return drawings
 
 
@@ -196,7 +196,7 @@ def _frame(word: Word, document: Document) -> None:
         header, png = headers[form], BytesIO()
         header.is_linked_to_previous = False
         write_png([page], png, DPI)
-        svg = outlined(svg_text(page, with_font=False).encode("utf-8"))
+        svg = _outlined(svg_text(page, with_font=False).encode("utf-8"))
         picture = _picture(header.part, Drawing(png.getvalue(), svg), number)
         cells = "".join(_paragraph("Footer", _field(code), _placed(*box)) for code, box in NUMBERED[form])
         size = round(page.width * EMU), round(page.height * EMU)
@@ -255,7 +255,7 @@ def _undated(data: bytes) -> bytes:
 _SHAPES = "{http://www.w3.org/2000/svg}"
 
 
-def outlined(svg: bytes) -> bytes:
+def _outlined(svg: bytes) -> bytes:
     """Return a drawing whose letters are paths at the same places."""
     from lxml import etree
 
@@ -405,7 +405,7 @@ def blocks_in_word(document: Document, pictures: Sequence[Picture]) -> str:
     return "".join(chain.from_iterable(parts))
 
 
-def folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
+def _folded_in_word(document: Document, pictures: Sequence[Picture]) -> str:
     """Return the figures that stand on larger sheets at the end."""
     said = packaged(__package__, "texts", document.language)
     figures = ((block, n) for block, n in note.numbered(document.blocks) if isinstance(block, Figure) and block.folded)

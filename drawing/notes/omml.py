@@ -98,7 +98,7 @@ class _Atom:
         return self.bare or self.shown
 
 
-def atoms_of(markup: str) -> list[_Atom]:
+def _atoms_of(markup: str) -> list[_Atom]:
     """Return the atoms of a line of markup."""
     return _told(_joined(_units(list(_atoms(whole(parse(markup)))))))
 
@@ -219,7 +219,7 @@ def built_up(markup: str) -> str:
     """
     found: list[_Atom] = []
     opened: list[int] = []
-    for atom in atoms_of(markup):  # what stands in brackets first
+    for atom in _atoms_of(markup):  # what stands in brackets first
         if atom.kind == "close" and opened and PAIRS[found[opened[-1]].text] == atom.text:
             start = opened.pop()
             inner = _line(found[start + 1 :])

@@ -26,7 +26,7 @@ DIGITS = 50
 OF_FIFTY = 9  # of a template: five reach 16 digits from where it lies about, two more fifty, two are to spare
 
 
-class FiftyDigits(PlainBoard):
+class _FiftyDigits(PlainBoard):
     """One position on numbers of mpmath, in whatever precision it works."""
 
     corrections = OF_FIFTY
@@ -66,7 +66,7 @@ def fifty_digits(program: Program, givens: Mapping[str, Any]) -> Mapping[str, An
     from mpmath import mp, mpf
 
     with mp.workdps(DIGITS):
-        board = FiftyDigits({name: mpf(value) for name, value in givens.items()})
+        board = _FiftyDigits({name: mpf(value) for name, value in givens.items()})
         program.run(board)
         return board.values
 

@@ -221,7 +221,7 @@ def number(value: float) -> str:
 
 
 @dataclass(frozen=True)
-class Loop(Plain):
+class _Loop(Plain):
     """The same for many positions: a loop over arrays `g...` of givens and `out...` of results that numba compiles."""
 
     shared: Collection[int]  # places of what is the same at all positions
@@ -344,7 +344,7 @@ class Chunked:
 
     def loop(self) -> str:
         """Return the source of `loop(codes, *given, *computed, *outputs)`, for the outputs that vary."""
-        loop = Loop(self.trace, self.each, [place for place, _ in self.outputs], self.computed)
+        loop = _Loop(self.trace, self.each, [place for place, _ in self.outputs], self.computed)
         kept = [(loop.value(place), negative) for place, negative in self.outputs if place in self.varying]
         return loop.loop([f"0.0 - {value}" if negative else f"{value} + 0.0" for value, negative in kept])
 

@@ -37,7 +37,7 @@ THIRD, ROUNDED = 1.0 / 3.0, 9  # of a section; decimals
 MU_L = 1e-3  # m/mm, of plans that the sizes do not depend on
 
 
-def exact_values(solved: SolvedCam) -> dict[str, float]:
+def _exact_values(solved: SolvedCam) -> dict[str, float]:
     """Return what the exact curves give for the quantities that the chords of a cam have."""
     found = {name: float(solved.values[of]) for name, of in EXACT.items()}
     if solved.layout.given != ACCELERATION:  # the velocity is given, not found
@@ -82,7 +82,7 @@ def equal_division(motion: Motion, count: int) -> Division:
 def drawn_on(solved: SolvedCam, division: Division, names: tuple[str, ...] = ()) -> Paper:
     """Return the construction of some values on a division of one's own, as it is drawn; of the nodes without names."""
     motion, given, sized = solved.motion, solved.layout.given, solved.roller is not None
-    layout = replace(solved.layout, division=division, plate=None, fastest=fastest_line(solved, division))
+    layout = replace(solved.layout, division=division, plate=None, fastest=_fastest_line(solved, division))
     program = construct(layout, (SIZES_PART,) if sized else (DIAGRAMS_PART,))
     givens = {**solved.givens, **diagram_givens(motion, division, given)}
     mus = {plan: EQUAL.get(mu, mu) for plan, mu in solved.scale_of_plan.items()}
@@ -90,7 +90,7 @@ def drawn_on(solved: SolvedCam, division: Division, names: tuple[str, ...] = ())
     return Paper(program.needed_for(names or nodes(solved, division)), givens, worth, solved.edges)
 
 
-def fastest_line(solved: SolvedCam, division: Division) -> int:
+def _fastest_line(solved: SolvedCam, division: Division) -> int:
     """Return the section line that is nearest to the greatest velocity."""
     return int(np.abs(division.angles - solved.motion.ds_max.phi).argmin())
 
@@ -117,23 +117,23 @@ def _travel_errors(solved: SolvedCam, division: Division, values: Mapping[str, A
     """
     x = division.angles * (1.0 / (solved.givens["mu_phi"] * MM_PER_M))
     travel = ordinates(values, TRAVEL, division, *shape)
-    closed = {AS_DRAWN: travel, STROKE: stroke_closed(travel, x)}
+    closed = {AS_DRAWN: travel, STROKE: _stroke_closed(travel, x)}
     if solved.layout.given == ACCELERATION:
         speed = ordinates(values, VELOCITY, division, *shape)
-        closed[SPEED] = travel - drift(speed, x, division, solved.givens["H_v"])
-        closed[BOTH] = stroke_closed(closed[SPEED], x)
+        closed[SPEED] = travel - _drift(speed, x, division, solved.givens["H_v"])
+        closed[BOTH] = _stroke_closed(closed[SPEED], x)
     exact = _column(solved.motion.at(division.angles, -1)[0] * (1.0 / solved.motion.h), travel)
     scaled = {way: closed[way] * (1.0 / closed[way][division.top]) for way in WAYS if way in closed}
     return {way: np.max(np.abs(travel - exact), axis=0) for way, travel in scaled.items()}
 
 
-def stroke_closed(travel: Array, x: Array) -> Array:
+def _stroke_closed(travel: Array, x: Array) -> Array:
     """Return ordinates of the travel, shape (lines, ...), with the error at the last line distributed over the turn."""
     closed: Array = travel - _column(x / x[-1], travel) * travel[-1]
     return closed
 
 
-def drift(speed: Array, x: Array, division: Division, pole_distance: float) -> Array:
+def _drift(speed: Array, x: Array, division: Division, pole_distance: float) -> Array:
     """Return by how much the travel falls when the velocity is brought back to zero at the ends of rise and fall.
 
     The ordinates of `speed` have the shape (lines, ...), the abscissas `x` the shape (lines,), both in m of paper.
@@ -207,7 +207,7 @@ def convergence(
     Raises InputError: with the key `chart-exact-chords`: chords make no error, because the velocity is constant.
     """
     chosen = tuple(name for name in compared(solved) if not quantities or name in quantities)
-    exact = {name: value for name, value in exact_values(solved).items() if name in chosen}
+    exact = {name: value for name, value in _exact_values(solved).items() if name in chosen}
     divided: dict[str, Callable[[int], Division]] = {NODES: solved.motion.division}
     if inner_jumps(solved.motion):
         divided[BETWEEN] = partial(between, solved.motion)
@@ -246,7 +246,7 @@ def _drawings(solved: SolvedCam, divisions: Iterable[Division], names: Iterable[
 
 def compared(solved: SolvedCam) -> tuple[str, ...]:
     """Return the names of what can be compared."""
-    return (*exact_values(solved), CLOSED)
+    return (*_exact_values(solved), CLOSED)
 
 
 def _error(solved: SolvedCam, drawing: Drawing, name: str, exact: Mapping[str, float]) -> float:
@@ -281,7 +281,7 @@ CLOSED_AT = 12  # sections that hands draw
 
 
 @dataclass(frozen=True, slots=True)
-class Closing:
+class _Closing:
     """How the drawings of a hand close: what 95 % of them keep."""
 
     # ordinates of the velocity at the end of the rise and of the fall, of the travel at the end of the fall, mm
@@ -301,12 +301,12 @@ class Robustness:
     # errors in parts of the exact values, by the number of sections and quantity
     missed: Mapping[tuple[int, str], Array]
     sections: int  # sections of the rise that hands draw
-    closings: Mapping[str, Closing]  # by hand
+    closings: Mapping[str, _Closing]  # by hand
 
 
 def robustness(solved: SolvedCam, hands: Mapping[str, Hand], sections: Iterable[int] = BESIDE_AT) -> Robustness:
     """Draw section lines beside jumps; let hands draw, and close what they have drawn."""
-    exact = exact_values(solved)
+    exact = _exact_values(solved)
     missed: dict[tuple[int, str], Array] = {}
     beside = BESIDE if inner_jumps(solved.motion) else ()
     for count in sections if beside else ():
@@ -324,7 +324,7 @@ def _drawn_late(
 ) -> dict[str, Array]:
     """Return values of diagrams whose lines at jumps are late by each of the parts, all of them at once."""
     divisions = [late(solved, division, part) for part in parts]
-    fastest = [fastest_line(solved, each) for each in divisions]
+    fastest = [_fastest_line(solved, each) for each in divisions]
     found = {name: np.empty(len(parts)) for name in names}
     for line in sorted(set(fastest)):  # the line of the greatest velocity belongs to the construction
         which = [i for i, own in enumerate(fastest) if own == line]
@@ -348,7 +348,7 @@ def late(solved: SolvedCam, division: Division, part: float) -> Division:
     return replace(division, angles=moved)
 
 
-def _closings(solved: SolvedCam, division: Division, hands: Collection[Hand]) -> list[Closing]:
+def _closings(solved: SolvedCam, division: Division, hands: Collection[Hand]) -> list[_Closing]:
     """Let hands draw, and look at how each closes."""
     if not hands:
         return []
@@ -363,6 +363,6 @@ def _closings(solved: SolvedCam, division: Division, hands: Collection[Hand]) ->
     top, last = (end(VELOCITY, line) if given else [None] * len(hands) for line in (division.top, division.last))
     errors = {way: kept(error, 0.0) for way, error in _travel_errors(solved, division, values, *shape).items()}
     return [
-        Closing(top[i], last[i], stroke, {way: float(error[i]) for way, error in errors.items()})
+        _Closing(top[i], last[i], stroke, {way: float(error[i]) for way, error in errors.items()})
         for i, stroke in enumerate(end(TRAVEL, division.last))
     ]

@@ -194,7 +194,7 @@ def law_of_motion(name: str, u: float = 0.5) -> Law:
     return (*first, *(piece.less_than_one() for piece in second))
 
 
-def law_of_pieces(at: Sequence[float], values: Sequence[float]) -> Law:
+def _law_of_pieces(at: Sequence[float], values: Sequence[float]) -> Law:
     """Return the law whose acceleration is made of straight pieces, in any scale, integrated exactly.
 
     `values` are the accelerations at the nodes `at`, from 0 to 1; twice the same place where the acceleration jumps.
@@ -244,7 +244,7 @@ def law_of_points(at: Sequence[float], values: Sequence[float]) -> Law:
 
 def law_of_curve(curve: Curve) -> Law:
     """Return the law that a table of one's own gives."""
-    return (law_of_pieces if curve.kind == PIECES else law_of_points)(curve.at, curve.values)
+    return (_law_of_pieces if curve.kind == PIECES else law_of_points)(curve.at, curve.values)
 
 
 def _spline(x: Array, s: Array) -> list[Smooth]:

@@ -230,7 +230,7 @@ def slacks(rocker: Rocker, limit: Limit, place: complex) -> list[Extreme]:
     return minima(slack, rocker.motion.phase(limit.phase).corners)
 
 
-def smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> Sizes | Names:
+def _smallest_rocker_at(rocker: Rocker, limits: Limits, l_OC: float) -> Sizes | Names:
     """Return the sizes with the least r_0 at a given distance of the pivot, or the limits that permit none."""
     lowest, highest = (0.0, LOWEST), (math.pi - rocker.motion.h, HIGHEST)
     for limit in limits.each:
@@ -326,7 +326,7 @@ def rocker_cam(cam: Cam, values: Values) -> RollerCam:
             raise InputError("cam-rocker-r-0")
         sizes = smallest_rocker(rocker, limits)
     else:
-        sizes = smallest_rocker_at(rocker, limits, distance)
+        sizes = _smallest_rocker_at(rocker, limits, distance)
         if r_0 is not None:
             permitted = (sizes.r_0, sizes.r_0_most) if isinstance(sizes, Sizes) else None
             l = rocker.l  # a triangle whose sides are given

@@ -86,7 +86,7 @@ def _zeros(function: Function, first: Places, last: Places) -> Places:
     return last
 
 
-def near_crossings(first: Iterable[Places], second: Iterable[Places]) -> Places:
+def _near_crossings(first: Iterable[Places], second: Iterable[Places]) -> Places:
     """Return the places where chords of two curves cross, those that only just miss each other among them."""
     ours, others = (
         shapely.linestrings(np.concatenate(chords or [np.zeros((0, 2), complex)]).view(float).reshape(-1, 2, 2))
@@ -128,7 +128,7 @@ LEAST_WINDOW = 1.5
 MARGIN = 0.08  # of the window, round the contour
 
 
-class Limit(NamedTuple):
+class _Limit(NamedTuple):
     """A curve: where a quantity is no `greater` than another one or a number; of lengths, in modules."""
 
     greater: str
@@ -138,12 +138,12 @@ class Limit(NamedTuple):
 
 LEAST_TIP = "tip"
 OF_CURVE = {
-    **{f"undercut_{i}": Limit(f"x_{i}", f"x_min{i}") for i in WHEELS},
-    **{f"interference_{i}": Limit(f"rho_p{i}", f"rho_l{i}", True) for i in WHEELS},
-    "contact_1": Limit("epsilon_alpha", 1.0),
-    **{f"pointed_{i}": Limit(f"s_a{i}", 0.0, True) for i in WHEELS},
-    "contact_1.2": Limit("epsilon_alpha", 1.2),
-    **{f"thin_{i}": Limit(f"s_a{i}", LEAST_TIP, True) for i in WHEELS},
+    **{f"undercut_{i}": _Limit(f"x_{i}", f"x_min{i}") for i in WHEELS},
+    **{f"interference_{i}": _Limit(f"rho_p{i}", f"rho_l{i}", True) for i in WHEELS},
+    "contact_1": _Limit("epsilon_alpha", 1.0),
+    **{f"pointed_{i}": _Limit(f"s_a{i}", 0.0, True) for i in WHEELS},
+    "contact_1.2": _Limit("epsilon_alpha", 1.2),
+    **{f"thin_{i}": _Limit(f"s_a{i}", LEAST_TIP, True) for i in WHEELS},
 }
 CURVES = tuple(OF_CURVE)
 BLOCKING = CURVES[:7]
@@ -202,7 +202,7 @@ class Plane:
         found, reach = [], 2.0 * abs(self.high - self.low) / CELLS
         for pair in combinations(BLOCKING, 2):
             first, second = pair
-            starts = near_crossings(self.curves[first], self.curves[second])
+            starts = _near_crossings(self.curves[first], self.curves[second])
             if starts.size:
                 places = crossings(partial(self.measures, wanted=pair), starts, reach)
                 found += [_Crossing(first, second, place) for place in places.tolist()]

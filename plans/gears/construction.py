@@ -59,17 +59,17 @@ NUMBERS = {
 
 
 @dataclass(frozen=True, slots=True)
-class Rolling:
+class _Rolling:
     """Into how many `parts` P N of a wheel is divided, and the `last` of these inside the tip circle."""
 
     parts: int
     last: int
 
 
-def rolling(rho_w: float, rho_a: float) -> Rolling:
+def rolling(rho_w: float, rho_a: float) -> _Rolling:
     """Return how the involute of a wheel is divided whose curvatures at the pole and at the tip have these radii."""
     parts = max(min(PARTS, int(MOST * rho_w / rho_a)), 1)
-    return Rolling(parts, min(int(parts * rho_a / rho_w), MOST))
+    return _Rolling(parts, min(int(parts * rho_a / rho_w), MOST))
 
 
 def mark(letters: str, i: int | str = "", number: int | str = "") -> str:
@@ -77,7 +77,7 @@ def mark(letters: str, i: int | str = "", number: int | str = "") -> str:
     return f"{MESHING}.{letters}{i}" + (f"_{number}" if number != "" else "")
 
 
-def _meshing(board: Board, rollings: tuple[Rolling, Rolling], sense: int) -> None:
+def _meshing(board: Board, rollings: tuple[_Rolling, _Rolling], sense: int) -> None:
     """Draw the meshing and measure it."""
     _centres(board)
     _line_of_action(board)
@@ -138,7 +138,7 @@ def _active_line(board: Board) -> None:
     board.distance("g_alpha_drawn", mark("A1"), mark("A2"))
 
 
-def _involute_by_rolling(board: Board, i: int, rolled: Rolling) -> None:
+def _involute_by_rolling(board: Board, i: int, rolled: _Rolling) -> None:
     """Divide P N, lay the parts off on the base circle, and from there along the tangents what has been unrolled."""
     n = f"_number{rolled.parts}"
     board.measure(f"_l_PN{i}", mark("P"), mark("N", i))
@@ -270,7 +270,7 @@ class Layout:
     `pole` the point of the table of sliding that stands in P.
     """
 
-    rollings: tuple[Rolling, Rolling]
+    rollings: tuple[_Rolling, _Rolling]
     sense: int
     pole: str
 

@@ -356,14 +356,14 @@ def sliding_at(board: Board, point: str, i: int) -> None:
 SIZES = (_main_sizes, _centre_again, _auxiliary_sizes, _quality, _action, _measures)
 
 
-def geometry_program() -> Program:
+def _geometry_program() -> Program:
     """Return all calculations, in order, recorded."""
     return recorded(*SIZES, sliding_places, _calculated_sliding)
 
 
 @cache
 def _needed(wanted: tuple[str, ...]) -> Program:
-    return geometry_program().needed_for(wanted)
+    return _geometry_program().needed_for(wanted)
 
 
 def geometry(values: Mapping[str, Any], wanted: Iterable[str] = ()) -> dict[str, Any]:
@@ -373,7 +373,7 @@ def geometry(values: Mapping[str, Any], wanted: Iterable[str] = ()) -> dict[str,
     default all, come with those that they need. NaN is what is undefined, such as the angle inside the base circle.
     """
     names = tuple(wanted)
-    program = _needed(names) if names else geometry_program()
+    program = _needed(names) if names else _geometry_program()
     board = ExactBoard({**PARTS, **NOTHING, **values})
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         board.follow(program)

@@ -96,7 +96,7 @@ class Tolerance:
 
 
 @dataclass(frozen=True, slots=True)
-class Preset:
+class _Preset:
     """A hand, the segment of the crank's velocity that goes with it (mm; None: any), and the tolerance."""
 
     hand: Hand
@@ -108,15 +108,15 @@ class Preset:
 # 0.2 mm, a protractor to half a degree, set squares keep a quarter to half a degree. What departments ask: 5 % is the
 # usual limit between a plan and a calculation, 3 % that of careful work, 10 % the upper one; plans drawn by a computer
 # agree with the calculation to 0.01 ... 0.1 %, and are held to 0.5 %.
-PRESETS: Mapping[str, Preset] = {
-    "cad": Preset(Hand(0.03, 0.01, 0.03), None, Tolerance(0.3, 0.005, 0.2)),
-    "careful": Preset(Hand(0.1, 0.25, 0.1), 100.0, Tolerance(1.0, 0.03, 0.5)),
-    "normal": Preset(Hand(0.25, 0.5, 0.25), 80.0, Tolerance(2.0, 0.05, 1.0)),
-    "lenient": Preset(Hand(0.5, 1.0, 0.5), 50.0, Tolerance(3.0, 0.1, 2.0)),
+PRESETS: Mapping[str, _Preset] = {
+    "cad": _Preset(Hand(0.03, 0.01, 0.03), None, Tolerance(0.3, 0.005, 0.2)),
+    "careful": _Preset(Hand(0.1, 0.25, 0.1), 100.0, Tolerance(1.0, 0.03, 0.5)),
+    "normal": _Preset(Hand(0.25, 0.5, 0.25), 80.0, Tolerance(2.0, 0.05, 1.0)),
+    "lenient": _Preset(Hand(0.5, 1.0, 0.5), 50.0, Tolerance(3.0, 0.1, 2.0)),
 }
 
 
-def preset(name: str) -> Preset:
+def preset(name: str) -> _Preset:
     """Return a preset by its name.
 
     Raises InputError: with the key `hand-unknown`.

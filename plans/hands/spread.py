@@ -27,7 +27,7 @@ ROUNDING = 1e-9  # part of a tolerance
 
 
 @dataclass(frozen=True, slots=True)
-class Spread:
+class _Spread:
     """What many drawings give for one quantity, SI."""
 
     undrawn: float  # part of the drawings in which it cannot be drawn
@@ -52,20 +52,20 @@ class Drawn:
         """Return what each drawing gives for a name, NaN where it cannot be drawn."""
         return np.broadcast_to(self.board.values[name], self.board.codes.shape)
 
-    def spreads(self, share: float = SHARE) -> dict[str, Spread]:
+    def spreads(self, share: float = SHARE) -> dict[str, _Spread]:
         """Return what the drawings give for every quantity; `share` of them lie in the intervals."""
         sizes = references(self.paper.program, self.exact)
         return {step.name: self._spread(step, sizes[step.name], share) for step in results(self.paper.program)}
 
-    def _spread(self, step: Step, size: float, share: float) -> Spread:
+    def _spread(self, step: Step, size: float, share: float) -> _Spread:
         exact, drawings = self.exact[step.name], self[step.name]
         values = drawings[~np.isnan(drawings)]
         undrawn = 1.0 - values.size / drawings.size
         if not values.size or not np.isfinite(exact):  # infinite is what a rigid beam has
-            return Spread(undrawn)
+            return _Spread(undrawn)
         miss, turned = float(kept(drawings, exact, share)), None
         if step.verb in POINTS:
-            return Spread(undrawn, float(np.sqrt(np.mean(np.abs(values - exact) ** 2))), miss)
+            return _Spread(undrawn, float(np.sqrt(np.mean(np.abs(values - exact) ** 2))), miss)
         if isinstance(exact, complex):
             if abs(exact) > NOTHING * size:
                 angles = np.arctan2(cross(exact, drawings), dot(exact, drawings))
@@ -73,7 +73,7 @@ class Drawn:
             values, exact = np.abs(values), abs(exact)
         low, high = map(float, np.quantile(values, (0.5 - share / 2.0, 0.5 + share / 2.0)))
         deviation = float(np.std(values)) if step.name in self.board.missed else 0.0
-        return Spread(undrawn, deviation, miss, float(exact), low, high, turned, size)
+        return _Spread(undrawn, deviation, miss, float(exact), low, high, turned, size)
 
     def failing(self, allowed: Mapping[str, float]) -> dict[str, float]:
         """Return for each quantity the part of the drawings that a tolerance would fail, undrawn ones among them.
@@ -138,7 +138,7 @@ class _OneByOne:
 
 
 @dataclass(frozen=True, slots=True)
-class Sensitivities:
+class _Sensitivities:
     """How far each quantity misses for each error of one standard deviation.
 
     `steps` are those at which the errors are made; `misses` arrays of shape (errors,), SI, complex for vectors and
@@ -172,7 +172,7 @@ class Sensitivities:
         return float(np.sqrt(np.sum(np.abs(misses) ** 2)))
 
 
-def sensitivities(paper: Paper, hand: Hand, names: Iterable[str] = ()) -> Sensitivities:
+def _sensitivities(paper: Paper, hand: Hand, names: Iterable[str] = ()) -> _Sensitivities:
     """Draw a construction once for each error of the hand alone.
 
     `names` are the quantities wanted, all when empty. Steps that they do not need are not done.
@@ -189,7 +189,7 @@ def sensitivities(paper: Paper, hand: Hand, names: Iterable[str] = ()) -> Sensit
         forth, back = np.broadcast_to(board.values[name], (2, len(steps)))
         slope, kink = (forth - back) * (0.5 / STEP), abs((forth + back) * 0.5 - exact[name]) * (1.0 / STEP)
         misses[name] = np.where(kink > abs(slope), kink, slope)  # a distance that should be none grows with either
-    return Sensitivities(steps, misses, exact)
+    return _Sensitivities(steps, misses, exact)
 
 
 MOST = 2.0  # standard deviations that nearly all honest hands keep
@@ -205,7 +205,7 @@ def added_up(paper: Paper, tolerance: Tolerance, names: Iterable[str]) -> dict[s
     wanted = tuple(names)
     of_preset = (one.hand for one in PRESETS.values() if one.tolerance == tolerance)
     mm, degrees = tolerance.mm / MARKS_IN, tolerance.degrees / DEGREES_IN
-    found = sensitivities(paper, next(of_preset, None) or Hand(mm, degrees, mm), wanted)
+    found = _sensitivities(paper, next(of_preset, None) or Hand(mm, degrees, mm), wanted)
     return {name: MOST * found.deviation(name) for name in wanted}
 
 
@@ -213,7 +213,7 @@ def added_up(paper: Paper, tolerance: Tolerance, names: Iterable[str]) -> dict[s
 class Expectation:
     """What a hand makes of one quantity."""
 
-    spread: Spread  # where the part `SHARE` of its drawings lie
+    spread: _Spread  # where the part `SHARE` of its drawings lie
     step: str | None  # whose errors come through most
     share: float | None  # of this step, in the variance; None where its least error breaks the construction
     allowed: float | None  # what to let pass, SI
@@ -273,7 +273,7 @@ def expectations(paper: Paper, hand: Hand, tolerance: Tolerance, limits: Mapping
     """
     found = drawn(paper, hand, np.random.default_rng(SEED), DRAWINGS)
     key = answer_key(paper, tolerance, limits)
-    parts, failed, plans = sensitivities(paper, hand), found.failing(key.allowed), plans_of(paper.program)
+    parts, failed, plans = _sensitivities(paper, hand), found.failing(key.allowed), plans_of(paper.program)
     made = {}
     for name, spread in found.spreads(SHARE).items():
         # errors that a quantity hangs on may cancel: those of two scale factors in their ratio

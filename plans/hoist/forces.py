@@ -136,7 +136,7 @@ def motion_givens(motion: OneSided) -> dict[str, float]:
     return {motion_given(name): value for name, value in found.items()}
 
 
-def forces_of_many(values: Numbers, wanted: Iterable[str]) -> dict[str, Any]:
+def _forces_of_many(values: Numbers, wanted: Iterable[str]) -> dict[str, Any]:
     """Return quantities of many hoists at once, each found as it is valid for it; `formulas`: whether these are.
 
     The `values` are complete and admissible givens, of any shapes that go together. Raises InputError of motions of too
@@ -340,7 +340,7 @@ class Choice:
 
 def spectrum(values: Numbers, beta_0: Array, beta_2: Array) -> _Spectrum:
     """Return the greatest forces at all pairs of places, of complete givens, whose own places do not count."""
-    found = forces_of_many(_placed(values, beta_0, beta_2), ("F_max",))
+    found = _forces_of_many(_placed(values, beta_0, beta_2), ("F_max",))
     F_max, formulas = (found[name].reshape(len(beta_0), len(beta_2)) for name in ("F_max", "formulas"))
     sigma_max = F_max * (1.0 / values["S"])
     safety = values["sigma"] / sigma_max

@@ -29,7 +29,7 @@ def sine_rest(x: Any) -> Any:
     return np.where(np.abs(x) < NEAR, _series(x, 3), x - np.sin(x))
 
 
-def cosine_rest(x: Any) -> Any:
+def _cosine_rest(x: Any) -> Any:
     """Return x^2 / 2 - 1 + cos x."""
     half = np.sin(0.5 * x)
     return np.where(np.abs(x) < NEAR, _series(x, 4), 0.5 * x * x - 2.0 * (half * half))
@@ -135,7 +135,7 @@ def time_to_wind(V: Any, a: Any, length: Any) -> Any:
 
 def lag(V: Any, u: Any, x: Any) -> Any:
     """Return k (y - osc) of (11), without cancellation: what is wound up less the oscillation, at x = k t, u = a/k."""
-    return V * sine_rest(x) + u * cosine_rest(x)
+    return V * sine_rest(x) + u * _cosine_rest(x)
 
 
 def lag_rate(V: Any, u: Any, x: Any) -> Any:

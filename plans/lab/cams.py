@@ -44,7 +44,7 @@ def _sections(motion: Motion, given: str, division: Division) -> tuple[Array, Ar
     return np.diff(angles), begin, middle, end
 
 
-def midpoint(motion: Motion, given: str, division: Division) -> Course:
+def _midpoint(motion: Motion, given: str, division: Division) -> Course:
     """Integrate by mean ordinates, as the chords do, without a board."""
     width, _, middle, _ = _sections(motion, given, division)
     speed = _summed(middle * width)
@@ -53,7 +53,7 @@ def midpoint(motion: Motion, given: str, division: Division) -> Course:
     return _summed(0.5 * (speed[1:] + speed[:-1]) * width), speed
 
 
-def simpson(motion: Motion, given: str, division: Division) -> Course:
+def _simpson(motion: Motion, given: str, division: Division) -> Course:
     """Integrate by parabolas through both ends and the middle of every section."""
     width, begin, middle, end = _sections(motion, given, division)
     speed = _summed((begin + 4.0 * middle + end) * width * (1.0 / 6.0))
@@ -68,7 +68,7 @@ def closed(motion: Motion, angles: Array) -> Course:
     return s, ds
 
 
-def in_extended(motion: Motion, angles: Array) -> Course:
+def _in_extended(motion: Motion, angles: Array) -> Course:
     """Take the closed forms with longer numbers than float64, where the machine has them."""
     s, ds = np.zeros(angles.shape, np.longdouble), np.zeros(angles.shape, np.longdouble)
     for piece in (piece for phase in motion.phases for piece in phase.pieces):
@@ -94,7 +94,7 @@ def _closed(solved: SolvedCam, clock: Clock, effort: Effort) -> Iterator[Result]
     """Go through closed forms for so many positions at once."""
     motion = solved.motion
     division = motion.division(max(ON_BOARD))
-    found = errors(motion, division, closed(motion, division.angles), in_extended(motion, division.angles))
+    found = errors(motion, division, closed(motion, division.angles), _in_extended(motion, division.angles))
     for size in effort.batches:
         places = TURN * ((np.arange(size) + 0.5) / size)
         yield Way(CLOSED, size, timed(partial(closed, motion, places), clock)[1] / size, size), division, found
@@ -118,11 +118,11 @@ def _numerical(solved: SolvedCam, clock: Clock) -> Iterator[Result]:
     """Go through sums of numbers, with jumps on section lines, and within sections where there are any."""
     motion, given = solved.motion, solved.layout.given
     ways: list[tuple[str, Callable[..., Course], Callable[[int], Division]]] = [
-        (MIDPOINT, midpoint, motion.division),
-        (SIMPSON, simpson, motion.division),
+        (MIDPOINT, _midpoint, motion.division),
+        (SIMPSON, _simpson, motion.division),
     ]
     if inner_jumps(motion):
-        ways.append((MISSED, midpoint, lambda sections: equal_division(motion, sections + 1)))
+        ways.append((MISSED, _midpoint, lambda sections: equal_division(motion, sections + 1)))
     for method, integrate, divided in ways:
         for division in map(divided, NUMERICAL):
             count = len(division.angles)

@@ -105,7 +105,7 @@ STEPPERS: Mapping[str, Stepper] = {
 }
 
 
-def one_step(method: str, z: Any) -> tuple[Any, Any, Any, Any]:
+def _one_step(method: str, z: Any) -> tuple[Any, Any, Any, Any]:
     """Return the matrix of a step h = z / w with no drive, found by taking it: of (u, v / w), row by row."""
     step = STEPPERS[method]
     motion = Motion(1.0, lambda t: 0.0 * t)
@@ -116,7 +116,7 @@ def one_step(method: str, z: Any) -> tuple[Any, Any, Any, Any]:
 
 def growth(method: str, z: Any) -> Array:
     """Return by what an oscillation grows in a step with w h = z in the long run: the spectral radius."""
-    uu, uv, vu, vv = one_step(method, z)
+    uu, uv, vu, vv = _one_step(method, z)
     determinant, half = uu * vv - uv * vu, 0.5 * (uu + vv)
     bend = half * half - determinant
     rounding = 8.0 * np.finfo(float).eps * np.maximum(half * half, np.abs(determinant))

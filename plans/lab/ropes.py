@@ -41,12 +41,12 @@ ROUNDS = 60
 NAMES = ("G_1", "G_2", "g", "C_01", "C_k", "C_2", "V_t", "a")
 
 
-class TremblingError(ArithmeticError):
+class _TremblingError(ArithmeticError):
     """A rope whose parts tremble so fast beside the swing of the load that nobody waits until it is followed."""
 
 
 @dataclass(frozen=True, slots=True)
-class Heavy:
+class _Heavy:
     """What a rope of n masses gives: the greatest forces at its lower end, on the load, and at the drum, SI."""
 
     n: int
@@ -57,7 +57,7 @@ class Heavy:
     F_drum_max: float  # at the drum, in both phases
 
 
-def rope_row(found: Numbers, n: int, lifted: bool) -> Row:
+def _rope_row(found: Numbers, n: int, lifted: bool) -> Row:
     """Return the row of the load and the rope's masses, from below upwards; `lifted` off its support."""
     G_1, G_2, g, C_01, C_k, C_2, _, a = (found[name] for name in NAMES)
     masses = np.array([G_1 / g] + [G_2 / (g * n)] * n)
@@ -66,25 +66,25 @@ def rope_row(found: Numbers, n: int, lifted: bool) -> Row:
     return Row(masses, links, -g * masses, np.array([0.0, a]))
 
 
-def rope_of(found: Numbers, n: int) -> Heavy:
+def _rope_of(found: Numbers, n: int) -> _Heavy:
     """Lift a load by a rope of n masses, with weight, on a support that yields.
 
     Needed are `G_1 G_2 g C_01 C_k C_2 V_t a k k_1 t_1`, SI. Raises TremblingError where that takes too long.
     """
     G_1, G_2, _, _, C_k, C_2, V_t, _ = (found[name] for name in NAMES)
-    row = rope_row(found, n, False)
+    row = _rope_row(found, n, False)
     hanging = np.concatenate(([G_1, 0.0], -G_2 / n * np.arange(1, n + 1)))
     stretched = np.concatenate(([0.0], np.full(n + 1, -V_t / (1.0 / C_k + 1.0 / C_2))))
     first = row.motion(hanging, stretched)
     t_1 = _lift_off(first, found)
     there = np.arange(n + 2) > 0  # what the support has is lost
-    after = rope_row(found, n, True).motion(first.forces(t_1) * there, first.rates_of_forces(t_1) * there)
+    after = _rope_row(found, n, True).motion(first.forces(t_1) * there, first.rates_of_forces(t_1) * there)
     F_12, F_drum = _greatest(first.of(1, n + 1), t_1)
     P_12, P_drum = _greatest(after.of(1, n + 1), ENOUGH * 2.0 * math.pi / found["k_1"])
-    return Heavy(n, t_1, F_12, P_12, max(F_drum, P_drum))
+    return _Heavy(n, t_1, F_12, P_12, max(F_drum, P_drum))
 
 
-def _lift_off(motion: RowMotion, found: Numbers) -> float:
+def _lift_off(motion: _RowMotion, found: Numbers) -> float:
     """Return when the support is free: the first time between two samples, then by halving."""
     support = motion.of(0)
     end = found["t_1"] + 2.0 * math.pi / found["k"]
@@ -102,18 +102,18 @@ def _lift_off(motion: RowMotion, found: Numbers) -> float:
     return high
 
 
-def _greatest(motion: RowMotion, end: float) -> tuple[float, float]:
+def _greatest(motion: _RowMotion, end: float) -> tuple[float, float]:
     """Return the greatest forces of two links, between samples by parabolas."""
     forces = -motion.forces(_samples(motion, end))
     lower, upper = (_top(forces[:, i]) for i in range(2))
     return lower, upper
 
 
-def _samples(motion: RowMotion, end: float) -> Array:
+def _samples(motion: _RowMotion, end: float) -> Array:
     fastest = float(motion.frequencies.max())
     count = end * fastest * SAMPLES / (2.0 * math.pi) + 2000.0
     if not count <= MOST_SAMPLES:
-        raise TremblingError
+        raise _TremblingError
     return np.linspace(0.0, end, int(count))
 
 
@@ -143,7 +143,7 @@ class Row:
         driven: Array = self.stiffnesses * (along[..., :-1] - along[..., 1:])
         return driven
 
-    def motion(self, start: ArrayLike, rates: ArrayLike) -> RowMotion:
+    def motion(self, start: ArrayLike, rates: ArrayLike) -> _RowMotion:
         """Solve (3) from the forces of the links, N, and their rates, N/s, at t = 0.
 
         The matrix is that of M^(-1/2) D c^(1/2), multiplied by its transpose, between square roots of stiffnesses: the
@@ -161,11 +161,11 @@ class Row:
         relaxed = np.where(present, 1.0 / np.where(present, c, 1.0), 0.0)
         driven = (np.asarray(value, float) * relaxed for value in (start, rates, self.drive))
         parts = ((modes * value[..., None, :]).sum(axis=-1) for value in driven)
-        return RowMotion(np.concatenate((frequencies, still), axis=-1), modes, c, *parts)
+        return _RowMotion(np.concatenate((frequencies, still), axis=-1), modes, c, *parts)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class RowMotion:
+class _RowMotion:
     """The forces of the links over time: oscillations of the modes, one of which may be still."""
 
     frequencies: Array  # shape (..., n + 1): of the modes, rad/s, falling; the last is zero
@@ -176,7 +176,7 @@ class RowMotion:
     rates: Array
     drive: Array
 
-    def of(self, *links: int) -> RowMotion:
+    def of(self, *links: int) -> _RowMotion:
         """Return the same motion, of which only some links are looked at."""
         chosen = list(links)
         return replace(self, modes=self.modes[..., chosen], scale=self.scale[..., chosen])
@@ -248,7 +248,7 @@ class HoistDepth:
     simpler: Mapping[str, Changes]  # in the order of `SIMPLER`, the article's formula last
     # ropes of more and more masses, as far as they can be followed; empty where the rope weighs nothing, the support is
     # rigid or formulas are not valid
-    ropes: tuple[Heavy, ...]
+    ropes: tuple[_Heavy, ...]
     ratio: float  # G_2 / G_1 of this hoist
     one_mass: tuple[_OneMass, ...]  # beside a rope of `MANY` masses, over the ratio of the weights
     tolerance: float  # in parts
@@ -309,15 +309,15 @@ def _at_ratio(values: Numbers, ratio: float) -> _OneMass | None:
     return None if rope is None else _beside(found, rope, ratio)
 
 
-def _followed(found: Numbers, n: int) -> Heavy | None:
+def _followed(found: Numbers, n: int) -> _Heavy | None:
     """Return what a rope of n masses gives; None where it trembles too fast to be followed."""
     try:
-        return rope_of(found, n)
-    except TremblingError:
+        return _rope_of(found, n)
+    except _TremblingError:
         return None
 
 
-def _beside(found: Numbers, rope: Heavy, ratio: float) -> _OneMass:
+def _beside(found: Numbers, rope: _Heavy, ratio: float) -> _OneMass:
     at_load = found["F_max"] / max(rope.F_12_max, rope.P_12_max) - 1.0
     return _OneMass(ratio, found["t_1"] / rope.t_1 - 1.0, at_load, found["F_max"] / rope.F_drum_max - 1.0)
 

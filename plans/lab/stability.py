@@ -170,7 +170,7 @@ class Depth:
     together: Cost
 
 
-def parts_of(program: Program) -> dict[str, str]:
+def _parts_of(program: Program) -> dict[str, str]:
     """Return the forces and moments of masses that a program lays down, each with its kind."""
     return {step.name: KINDS[step.law] for step in program if step.law in KINDS}
 
@@ -181,7 +181,7 @@ def without(program: Program, parts: Collection[str]) -> Program:
     return Program(tuple(nothing.get(step, step) for step in program))
 
 
-class Model:
+class _Model:
     """A mechanism's forces over its cycle, with all parts of the model or without some.
 
     Raises InputError: with the key `chart-no-forces`: the task has no plan of forces and no lever.
@@ -227,7 +227,7 @@ def depth(cycle: Cycle, tolerance: float) -> Depth:
 
     The `tolerance` is per cent of the largest balance and of the largest reaction that may be missed.
     """
-    model, kinds = Model(cycle), parts_of(cycle.program)
+    model, kinds = _Model(cycle), _parts_of(cycle.program)
     single = [model.cost(part, (part,)) for part in kinds]
     groups = {kind: tuple(part for part, of in kinds.items() if of == kind) for kind in (FORCES, MOMENTS, WEIGHTS)}
     groups |= {INERTIA: groups[FORCES] + groups[MOMENTS], ALL: tuple(kinds)}

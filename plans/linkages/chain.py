@@ -44,7 +44,7 @@ Ends = tuple[str, str, str, str]  # two points that turn together, the normal to
 CONSTRUCTIONS = {kind: ("dyads", kind) for kind in KINDS} | {TRIAD: ("triad", "Triad")}
 
 
-class Crank:
+class _Crank:
     """The crank OA between its pivot and its pin."""
 
     def __init__(self, mechanism: Mechanism, driver: Driver) -> None:
@@ -123,7 +123,7 @@ class Crank:
             board.calc(by_lever(M_BAL), "crank_moment", force, self.span.length)
 
 
-class SlidingBlock:
+class _SlidingBlock:
     """A slider on the frame: P is the point that runs in the guide, u the guide's direction."""
 
     spans: ClassVar[tuple[Span, ...]] = ()  # it has no two joints
@@ -215,7 +215,7 @@ def constructed(mechanism: Mechanism, plans: Iterable[str] = USUAL) -> tuple[Str
 def _statics(
     board: RecordingBoard,
     plans: Collection[str],
-    driver: Crank | SlidingBlock,
+    driver: _Crank | _SlidingBlock,
     groups: Sequence[AssurGroup],
     bodies: Bodies,
 ) -> None:
@@ -245,7 +245,7 @@ def moving_bodies(mechanism: Mechanism, structure: Structure) -> Bodies:
 
 def named(
     mechanism: Mechanism, structure: Structure
-) -> tuple[Crank | SlidingBlock, tuple[AssurGroup, ...], dict[int, Body]]:
+) -> tuple[_Crank | _SlidingBlock, tuple[AssurGroup, ...], dict[int, Body]]:
     """Name the parts of the driver and of all groups, each for those attached to it."""
     for group in structure.groups:
         if group.kind not in CONSTRUCTIONS:
@@ -263,21 +263,23 @@ def named(
     return driver, tuple(groups), bodies
 
 
-def _driver_of(mechanism: Mechanism) -> Crank | SlidingBlock:
+def _driver_of(mechanism: Mechanism) -> _Crank | _SlidingBlock:
     """Return the constructions of the mechanism's driver.
 
     Raises InputError: when a sliding driver has no pair with the frame, or the frame is said to be its slider.
     """
     driver = mechanism.driver
     if isinstance(driver, Driver):
-        return Crank(mechanism, driver)
+        return _Crank(mechanism, driver)
     for pair in mechanism.pairs:
         if isinstance(pair, Prismatic) and {*pair.links} == {FRAME, driver.link}:
-            return SlidingBlock(mechanism, driver, pair)
+            return _SlidingBlock(mechanism, driver, pair)
     raise InputError("driver-guide", link=driver.link)
 
 
-def _forces(board: RecordingBoard, driver: Crank | SlidingBlock, groups: Sequence[AssurGroup], bodies: Bodies) -> None:
+def _forces(
+    board: RecordingBoard, driver: _Crank | _SlidingBlock, groups: Sequence[AssurGroup], bodies: Bodies
+) -> None:
     """Solve the groups from the last to the first, pass each reaction on to the link it acts on, balance the driver."""
     forces, couples = hung(driver.mechanism, bodies)
     reactions: Forces = {link: {} for link in forces}

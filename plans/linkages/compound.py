@@ -27,7 +27,7 @@ TOTAL = "total"  # the whole as compound motion gives it
 COMPOUND = {"V": ("e", "r"), "a": ("rn", "en", "et", "k", "rt")}  # parts of a vector in the order of their polygon
 
 
-class Closing(NamedTuple):
+class _Closing(NamedTuple):
     """What is known of the absolute motion of the coupler's end: a straight guide, or a circle about a fixed pivot."""
 
     direction: str  # along which its velocity lies
@@ -41,7 +41,7 @@ class Coupler:
     is None where the other outer pair of its group moves.
     """
 
-    def __init__(self, span: Span, carrier: Body, letters: Mapping[str, str], closing: Closing | None) -> None:
+    def __init__(self, span: Span, carrier: Body, letters: Mapping[str, str], closing: _Closing | None) -> None:
         self.span, self.number, self.letters, self.closing = span, span.number, letters, closing
         self.hinge = span.start  # the joint about which it turns relative to the carrier
         self.carrier, self.pivot = carrier.link, carrier.pin  # and the joint about which the carrier turns
@@ -67,14 +67,14 @@ def couplers(mechanism: Mechanism, groups: Iterable[AssurGroup], bodies: Bodies)
     return tuple(found)
 
 
-def _closing(mechanism: Mechanism, group: AssurGroup, span: Span) -> Closing | None:
+def _closing(mechanism: Mechanism, group: AssurGroup, span: Span) -> _Closing | None:
     match group:
         case RRR(legs=(first, second)):
             other = second if span is first else first
             if other.start in mechanism.frame_points:
-                return Closing(other.n, vector("a", *other.about(group.B), "n"))
+                return _Closing(other.n, vector("a", *other.about(group.B), "n"))
         case RRP(legs=(_, slide)) if slide.known is None:
-            return Closing(slide.u, None)
+            return _Closing(slide.u, None)
     return None
 
 
@@ -152,7 +152,7 @@ def _accelerations(board: Board, c: Coupler) -> None:
         board.read(a(TOTAL).size, pole(plan), tip)
 
 
-def _close(board: Board, c: Coupler, closing: Closing, plan: str, letter: str) -> None:
+def _close(board: Board, c: Coupler, closing: _Closing, plan: str, letter: str) -> None:
     """Meet the normal to AB with the line on which the end of the absolute acceleration lies."""
     start = pole(plan)
     if closing.normal is not None:

@@ -301,7 +301,7 @@ class Diagrams:
     acceleration: Curve  # by chords of the velocity curve, at the ends of the sections
 
 
-def differentiate(s: Array, section: float, closed: bool) -> tuple[Array, Array]:
+def _differentiate(s: Array, section: float, closed: bool) -> tuple[Array, Array]:
     """Return velocities and accelerations by chords of travels `s` at the ends of n sections, shape (n + 1,).
 
     The velocities stand at the middles, shape (n,), the accelerations at the beginnings of the sections; on a closed
@@ -346,7 +346,7 @@ def diagrams(cycle: Cycle, of: str, sections: int = 12) -> Diagrams:
     s = unwound(inclination(s)) if turns else s
     duration = abs(way) / cycle.speed
     times = duration * parts
-    v_chords, a_chords = differentiate(s[::2], duration / sections, closed)
+    v_chords, a_chords = _differentiate(s[::2], duration / sections, closed)
     inner = slice(0, -1) if closed else slice(1, -1)
     curves = Curve(times[1::2], v[1::2], v_chords), Curve(times[::2][inner], a[::2][inner], a_chords)
     return Diagrams("rad" if turns else "m", times[::2], s[::2], v[::2], a[::2], *curves)

@@ -143,7 +143,7 @@ class Slide(_Held):
         self.lay_guide(board)
         start, pair = self._origin(board), self.pair
         if self.carries:
-            shift = _excess(board, f"_offset_{self.u}", across_guide(board, pair, self.link, self.pin), pair.offset)
+            shift = _excess(board, f"_offset_{self.u}", _across_guide(board, pair, self.link, self.pin), pair.offset)
         else:
             shift = _with_height(board, pair, self.link, self.pin, pair.offset)
         if shift == ZERO:
@@ -244,7 +244,7 @@ def slider_body(link: Link, pin: str, u: str, slope: str, rates: tuple[str | Non
     return Body(link, pin, u, None if simple else f"_g_{link.number}", *rates)
 
 
-def across_guide(board: Board, pair: Prismatic, link: Link, point: str) -> str:
+def _across_guide(board: Board, pair: Prismatic, link: Link, point: str) -> str:
     """Return the name of the distance of a point of the guide link to the left of its guide."""
     if link.points[point] == pair.through:
         return ZERO
@@ -270,7 +270,7 @@ def _with_height(board: Board, pair: Prismatic, slider: Link, point: str, size: 
 def pin_offset(board: Board, pair: Prismatic, slider: Link, pin: str, guide: Link, on_guide: str) -> str:
     """Return the name of the distance of the slider's pin's line to the left of a point of the guide link."""
     size = _with_height(board, pair, slider, pin, pair.offset)
-    return _excess(board, f"_offset_{slider.number}_{guide.number}", size, across_guide(board, pair, guide, on_guide))
+    return _excess(board, f"_offset_{slider.number}_{guide.number}", size, _across_guide(board, pair, guide, on_guide))
 
 
 def _excess(board: Board, name: str, whole: str, part: str) -> str:

@@ -134,7 +134,7 @@ def disagreement(solved: SolvedLinkage) -> float | None:
     return worst
 
 
-def moment_points(mechanism: Mechanism, structure: Structure) -> dict[str, str]:
+def _moment_points(mechanism: Mechanism, structure: Structure) -> dict[str, str]:
     """Return the points about which the moments of prismatic pairs are taken, by the moments' names."""
     pairs = [(pair, group.pin(pair)) for group in structure.groups for pair in (*group.inner, *group.outer)]
     if isinstance(mechanism.driver, SlidingDriver):
@@ -166,13 +166,13 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     structure, program = constructed(mechanism, plans)
     givens = board_givens(mechanism, values, program, follow=False)
     board = run(program, givens)
-    better = with_moment_centres(mechanism, structure, board.values) if "forces" in plans else mechanism
+    better = _with_moment_centres(mechanism, structure, board.values) if "forces" in plans else mechanism
     if better is not mechanism:
         mechanism, program = better, constructed(better, plans)[1]
         board = run(program, givens)
     lengths = {x: values[x] for x in mechanism.coordinates if x != ZERO and not role(x).hidden}
     items = quantities(program, board.values, lengths)
-    for name, point in moment_points(mechanism, structure).items():
+    for name, point in _moment_points(mechanism, structure).items():
         if name in items:
             items[name] = replace(items[name], about=point)
     return SolvedLinkage(
@@ -248,7 +248,7 @@ def _stroke_ends(mechanism: Mechanism, values: Mapping[str, Any], motion: Iterab
     return {BEGIN: [*begin], END: [*end]} if size else {BEGIN: begin[0], END: end[0]}
 
 
-def with_moment_centres(mechanism: Mechanism, structure: Structure, values: Mapping[str, Any]) -> Mechanism:
+def _with_moment_centres(mechanism: Mechanism, structure: Structure, values: Mapping[str, Any]) -> Mechanism:
     """Return the mechanism with joints chosen about which moments of whole RRR dyads are taken; itself where none is.
 
     The plan of forces is closed by the parallels to AB and CB, which meet at the angle of the links. Where A and C
@@ -261,13 +261,13 @@ def with_moment_centres(mechanism: Mechanism, structure: Structure, values: Mapp
     found = []
     for group in (group for group in structure.groups if group.kind == "RRR"):
         A, C = (pair.point for pair in group.outer)
-        at_a, at_b, at_c = sines_of(*(complex(values[point]) for point in (A, group.inner[0].point, C)))
+        at_a, at_b, at_c = _sines_of(*(complex(values[point]) for point in (A, group.inner[0].point, C)))
         if at_b < SMALL and max(at_a, at_c) >= TWICE * at_b:
             found.append((group.name, C if at_a >= at_c else A))
     return replace(mechanism, centres=tuple(found)) if found else mechanism
 
 
-def sines_of(a: complex, b: complex, c: complex) -> tuple[float, ...]:
+def _sines_of(a: complex, b: complex, c: complex) -> tuple[float, ...]:
     """Return the sines of the angles of a triangle in A, B and C; NaN where two corners coincide."""
     doubled = abs(cross(b - a, c - a))
     sides = [abs(c - b), abs(a - c), abs(b - a)]

@@ -59,7 +59,7 @@ class Output:
 
 
 @dataclass(frozen=True, slots=True)
-class Travel:
+class _Travel:
     """From where to where an output moves, metres or radians, and the places of the driver there."""
 
     low: float
@@ -74,7 +74,7 @@ class Travel:
 
 
 @dataclass(frozen=True, slots=True)
-class Dead:
+class _Dead:
     """A dead position: the driver's angle (travel of a sliding driver), the output's place, and which end it is."""
 
     angle: float
@@ -93,8 +93,8 @@ class OutputMotion:
     """
 
     output: Output
-    dead: tuple[Dead, ...]
-    travel: Travel | None
+    dead: tuple[_Dead, ...]
+    travel: _Travel | None
     ratio: float | None
 
 
@@ -139,7 +139,7 @@ def measured(program: Program, found: Sequence[Output]) -> Program:
     return Program((*program.steps, *steps))
 
 
-def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
+def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> _Travel:
     """Return from where to where the output of `mechanism.stroke` moves; without it, the first that has a stroke.
 
     Masses and loads are not needed. NaN all through where the mechanism cannot be assembled in any position: its plan
@@ -150,7 +150,7 @@ def stroke_of(mechanism: Mechanism, values: Mapping[str, float]) -> Travel:
     drive = swept(mechanism, values)
     found = reach_of(drive, values)
     if not found.stretches:
-        return Travel(math.nan, math.nan, math.nan, math.nan)
+        return _Travel(math.nan, math.nan, math.nan, math.nan)
     wanted = mechanism.stroke.link if mechanism.stroke else None
     travels = (motion.travel for motion in output_motions(drive, values, found, wanted) if motion.travel is not None)
     if travel := next(travels, None):
@@ -227,8 +227,8 @@ class _Ends:
         return OutputMotion(self.output, tuple(at), self._travel(spots, found), ratio)
 
     def _travel(
-        self, spots: Mapping[Stretch, tuple[list[Dead], list[tuple[float, float]]]], found: Reach
-    ) -> Travel | None:
+        self, spots: Mapping[Stretch, tuple[list[_Dead], list[tuple[float, float]]]], found: Reach
+    ) -> _Travel | None:
         """Return from where to where it moves as far as the driver can go from where it stands; None for no end."""
         if not spots or not (any(dead for dead, _ in spots.values()) or found.apart or not found.whole.closed):
             return None
@@ -238,12 +238,12 @@ class _Ends:
         if not places:
             return None
         (low, at_low), (high, at_high) = min(places), max(places)
-        return Travel(low, high, self._turned(at_low), self._turned(at_high))
+        return _Travel(low, high, self._turned(at_low), self._turned(at_high))
 
     def _turned(self, place: float) -> float:
         return place % TURN if self.drive.turns else place
 
-    def _on(self, stretch: Stretch) -> tuple[list[Dead], list[tuple[float, float]]]:
+    def _on(self, stretch: Stretch) -> tuple[list[_Dead], list[tuple[float, float]]]:
         """Return the dead positions on a stretch, and its two ends as (place, driver's place) unless it has none."""
         speeds = np.abs(self.velocity(stretch.place(stretch.grid())))
         usual = (self.size if self.output.slides else 1.0) / (1.0 if self.drive.turns else self.size)
@@ -263,10 +263,10 @@ class _Ends:
         before = roots[-1] - stretch.length if stretch.closed else stretch.low
         coming = self.velocity(0.5 * (roots + np.concatenate(([before], roots[:-1])))) > 0.0
         there = places[np.searchsorted(at, roots)]
-        return [Dead(*spot) for spot in zip(roots.tolist(), there.tolist(), coming.tolist(), strict=True)], found
+        return [_Dead(*spot) for spot in zip(roots.tolist(), there.tolist(), coming.tolist(), strict=True)], found
 
 
-def _ratio(output: Output, dead: Sequence[Dead], drive: Swept, values: Mapping[str, float]) -> float | None:
+def _ratio(output: Output, dead: Sequence[_Dead], drive: Swept, values: Mapping[str, float]) -> float | None:
     """Return the ratio of the crank's angle in the working stroke to that in the idle one."""
     if len(dead) < 2:
         return None

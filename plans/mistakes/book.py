@@ -58,7 +58,7 @@ class Book:
 
     key: Key
     signatures: tuple[Signature, ...]
-    turned: Turned
+    turned: _Turned
 
     @cached_property
     def table(self) -> Complex:
@@ -107,7 +107,7 @@ class Book:
 
 
 @dataclass(frozen=True)
-class Turned:
+class _Turned:
     """The construction of a key at other angles of its crank; none where a slider drives, or an angle is calculated."""
 
     key: Key
@@ -145,7 +145,7 @@ class Turned:
 
 def book(key: Key) -> Book:
     """Run every mistake that concerns a key; those that change nothing are left out."""
-    return Book(key, tuple(_moving(key, broken(key.paper, key.values))), Turned(key))
+    return Book(key, tuple(_moving(key, broken(key.paper, key.values))), _Turned(key))
 
 
 def _moving(key: Key, found: Iterable[Broken]) -> Iterator[Signature]:

@@ -58,7 +58,7 @@ class Candidate:
         return frozenset(one.mistake for found in (self.mistakes, *self.same) for one in found)
 
 
-class Explanation(NamedTuple):
+class _Explanation(NamedTuple):
     """The candidates, the simplest first, and the marking in which the first one is an earlier error."""
 
     candidates: tuple[Candidate, ...]
@@ -121,10 +121,10 @@ def _parts(off: Floats, most: Floats) -> Floats:
     return np.where(off == 0.0, 0.0, off / most)
 
 
-def explain(book: Book, marking: Marking) -> Explanation:
+def explain(book: Book, marking: Marking) -> _Explanation:
     """Find the mistakes that explain the answers of one student; none for answers without an error."""
     if marking.first_wrong is None:
-        return Explanation((), marking)
+        return _Explanation((), marking)
     return _Search(book.drawn_to(marking.key, _scales(marking)), marking).explanation()
 
 
@@ -151,7 +151,7 @@ class _Search:
         self.first = next(i for i, line in enumerate(marking.lines) if line.name == marking.first_wrong)
         self.without = _mean(self.said.misses(book, book.right[None, :], book.allowed[None, :]))[0]
 
-    def explanation(self) -> Explanation:
+    def explanation(self) -> _Explanation:
         """Return the candidates in order, and the marking with the first one as an earlier error."""
         off = self.said.misses(self.book, self.book.table, self.book.most)
         means = _mean(off)
@@ -172,7 +172,7 @@ class _Search:
         if not candidates or candidates[0].misses > 1.0:
             candidates = _simplest((*self._put_right(off), *candidates))
         candidates = tuple(filter(self._tells, candidates))
-        return Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
+        return _Explanation(candidates, self._carried(candidates[0]) if candidates else self.marking)
 
     def _tells(self, candidate: Candidate) -> bool:
         """Whether a candidate explains more than it leaves: some mistake gives nearly any one number by chance."""

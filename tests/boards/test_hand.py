@@ -16,7 +16,7 @@ from kulman.plans.hands.shaky import PRESETS, Hand, Paper, draw
 from kulman.plans.hands.spread import DRAWINGS, SEED
 from kulman.scales.choices import HANDS, SIZES
 from kulman.scales.errors import LANGUAGES, InputError
-from kulman.variants.hands import hand_of
+from kulman.variants.hands import _hand_of
 from kulman.variants.shelf import bundled
 
 KEYS = {"low", "high", "mm", "percent", "miss", "miss_mm", "step", "share", "tolerance", "tolerance_mm"}
@@ -124,7 +124,7 @@ def test_a_steadier_hand_draws_narrower_intervals_and_one_without_errors_what_is
     ],
 )
 def test_a_hand_of_ones_own_is_read(text: str) -> None:
-    name, hand, tolerance = hand_of(text)
+    name, hand, tolerance = _hand_of(text)
 
     assert name == "own"
     assert [hand.point, hand.direction, hand.reading] == pytest.approx([0.2, 0.5, 0.2], rel=1e-14)

@@ -21,7 +21,7 @@ from kulman import solve
 from kulman.plans.board import Program
 from kulman.plans.boards.exact import run
 from kulman.plans.boards.precision import DIGITS, batch_in, fifty_digits, run_in
-from kulman.plans.condition import conditions, derivatives, sizes_beside
+from kulman.plans.condition import _sizes_beside, conditions, derivatives
 from kulman.plans.laws import LAWS, TURN
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.limits import Reach, Swept, reach_of, swept
@@ -299,7 +299,7 @@ def ratios(task: Task, place: float) -> Iterator[tuple[float, str]]:
     board, right = run(task.program, givens), fifty_digits(task.program, givens)
     fixed = signs(task.drive.mechanism)
     slopes = derivatives(task.program, givens, [name for name, x in givens.items() if name not in fixed and x])
-    sizes = sizes_beside(task.program, board.values)
+    sizes = _sizes_beside(task.program, board.values)
     bounds: dict[str, float] = {}
     for step in results(task.program):
         value, name = board.values[step.name], step.name

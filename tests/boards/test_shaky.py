@@ -20,7 +20,7 @@ from kulman.plans.board import Program
 from kulman.plans.boards.batch import batch
 from kulman.plans.boards.exact import run
 from kulman.plans.hands.shaky import PRESETS, Hand, Paper, Tolerance, draw, paper_of, preset
-from kulman.plans.hands.spread import drawn, sensitivities
+from kulman.plans.hands.spread import _sensitivities, drawn
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.solved import board_givens
 from kulman.plans.marking.key import tolerances
@@ -240,7 +240,7 @@ def test_a_smaller_scale_is_worse_in_proportion_but_for_directions(plan: str, qu
 @pytest.mark.parametrize("task", [*SAMPLE, *MORE])
 def test_spread_of_small_errors_is_that_of_single_errors_together(task: str) -> None:
     hand, paper = preset("careful").hand.times(0.05), on_paper(solution_of(task))
-    alone, together = sensitivities(paper, hand), drawn(paper, hand, generator(), 4000)
+    alone, together = _sensitivities(paper, hand), drawn(paper, hand, generator(), 4000)
 
     compared = 0
     for name, spread in together.spreads().items():
@@ -262,7 +262,7 @@ def test_step_that_errs_alone_makes_its_part_of_the_error_of_what_hangs_on_it() 
     hand, names = preset("careful").hand, ("V_B", "omega_2", "a_B", "R_12", "M_bal")
     exact = run(example().program, example().givens).values
 
-    found = sensitivities(example(), hand, (*names, "B", "omega_1"))
+    found = _sensitivities(example(), hand, (*names, "B", "omega_1"))
 
     for name in names:
         parts = found.parts(name)

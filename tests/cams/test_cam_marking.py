@@ -23,7 +23,7 @@ from kulman.plans.marking.answers import Answer, Line, Verdict
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.verdicts import mark
 from kulman.plans.mistakes.book import book, broken
-from kulman.plans.mistakes.explaining import Explanation, explain
+from kulman.plans.mistakes.explaining import _Explanation, explain
 from kulman.tests.support.cams import MADI, ROCKER, Settings, asked, asked_key, cam_book, keyed_cam, random_cams
 from kulman.tests.support.cases import some
 from kulman.tests.support.marking_cases import HAND, moves, students
@@ -373,7 +373,7 @@ def test_a_mistake_among_formulas_is_named_though_chords_give_other_numbers() ->
     assert {line.name for line in explanation.marking.lines if line.verdict.faulty} == {"mu_ds"}
 
 
-def planted(settings: Settings, choose: random.Random, directions: bool) -> tuple[str, dict[str, float], Explanation]:
+def planted(settings: Settings, choose: random.Random, directions: bool) -> tuple[str, dict[str, float], _Explanation]:
     """Plant a mistake that shows among the answers of a shaky hand, chosen by its number, then its place.
 
     Return its number, by how much it moves the lines that are asked, and how the answers are explained.

@@ -19,12 +19,12 @@ from kulman.plans.cams.followers import Limits, PlateProfile, Rocker, RollerProf
 from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import Motion, motion_of
 from kulman.plans.cams.sizes import (
+    _smallest_rocker_at,
     apex,
     central,
     offsets,
     smallest_plate,
     smallest_rocker,
-    smallest_rocker_at,
     smallest_roller,
     wedge,
 )
@@ -267,13 +267,13 @@ def test_rocker_at_a_given_distance_reaches_its_limit_and_tells_when_it_cannot()
         rocker = Rocker(motion, 0.1, sense)
         best = smallest_rocker(rocker, limits)
         assert isinstance(best, Sizes)
-        same, wider = (smallest_rocker_at(rocker, limits, part * best.l_OC) for part in (1.0, 1.2))
+        same, wider = (_smallest_rocker_at(rocker, limits, part * best.l_OC) for part in (1.0, 1.2))
         assert isinstance(same, Sizes)
         assert isinstance(wider, Sizes)
         assert same.r_0 == pytest.approx(best.r_0, rel=1e-9)
         assert wider.r_0 > best.r_0
         assert dense_slack(rocker, limits, np.array([complex(wider.e, wider.s_0)]))[0] == pytest.approx(0.0, abs=1e-7)
-        assert not isinstance(smallest_rocker_at(rocker, limits, 0.05), Sizes)
+        assert not isinstance(_smallest_rocker_at(rocker, limits, 0.05), Sizes)
     wide = Rocker(Motion(math.radians(35.0), 1.9, 0.3, 1.9, law), 0.1)
     assert smallest_rocker(wide, Limits(math.radians(80.0), math.radians(75.0))) == ("rise", "fall")
 

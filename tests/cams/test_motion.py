@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.cams.cam import Cam, Curve
-from kulman.plans.cams.laws_of_motion import Law, law_of_curve, law_of_motion, law_of_pieces, law_of_points
+from kulman.plans.cams.laws_of_motion import Law, _law_of_pieces, law_of_curve, law_of_motion, law_of_points
 from kulman.plans.cams.motion import PHASES, Motion, motion_of
 from kulman.scales.errors import InputError
 from kulman.tests.support.cams import SEED, SMOOTH, dense, madi_motion, random_motion
@@ -198,14 +198,14 @@ def test_smooth_curve_runs_through_its_points_without_a_jump_inside() -> None:
     [
         *(("law-u", partial(law_of_motion, "sine", u)) for u in (0.0, 1.0, math.nan)),
         ("choice-unknown", partial(law_of_motion, "cycloid")),
-        ("law-open", partial(law_of_pieces, (0, 0.5, 0.5, 1), (1, 1, -1, -0.9))),
-        ("law-still", partial(law_of_pieces, (0, 1), (0, 0))),
-        ("law-still", partial(law_of_pieces, (0, 0.5, 0.5, 1), (-1, -1, 1, 1))),  # moves back
+        ("law-open", partial(_law_of_pieces, (0, 0.5, 0.5, 1), (1, 1, -1, -0.9))),
+        ("law-still", partial(_law_of_pieces, (0, 1), (0, 0))),
+        ("law-still", partial(_law_of_pieces, (0, 0.5, 0.5, 1), (-1, -1, 1, 1))),  # moves back
         ("law-still", partial(law_of_points, (0, 0.5, 1), (1, 2, 1))),  # returns
         ("law-places", partial(law_of_points, (0, 0.6, 0.5, 1), (0, 1, 2, 3))),
         ("law-places", partial(law_of_points, (0, 0.5, 0.5, 1), (0, 1, 2, 3))),  # the travel jumps
-        ("law-places", partial(law_of_pieces, (0.1, 1), (1, -1))),
-        ("law-places", partial(law_of_pieces, (0, 1), (1,))),
+        ("law-places", partial(_law_of_pieces, (0.1, 1), (1, -1))),
+        ("law-places", partial(_law_of_pieces, (0, 1), (1,))),
         ("law-leaves", partial(law_of_points, (0, 0.1, 0.2, 1), (0, 0, 3, 3))),
     ],
 )

@@ -17,20 +17,20 @@ from kulman.plans.cams.chords import (
     S_MAX,
     V_MAX,
     Convergence,
+    _drift,
+    _exact_values,
+    _stroke_closed,
     convergence,
     drawn_on,
-    drift,
-    exact_values,
     late,
     robustness,
-    stroke_closed,
 )
 from kulman.plans.cams.motion import Division, Motion
 from kulman.plans.cams.solve import SolvedCam
 from kulman.plans.hands.shaky import Hand, draw, preset
 from kulman.plans.lab import cams as races
 from kulman.plans.lab import race as contests
-from kulman.plans.lab.cams import errors, in_extended, midpoint, rivals, simpson
+from kulman.plans.lab.cams import _in_extended, _midpoint, _simpson, errors, rivals
 from kulman.plans.lab.race import Contest, Effort
 from kulman.scales.errors import InputError
 
@@ -127,7 +127,7 @@ def test_a_better_hand_errs_less_and_takes_more_sections() -> None:
 def test_a_drafting_machine_draws_along_the_edges_without_an_error_of_direction() -> None:
     solved, names = cam(), ("diagram_s.f12", "diagram_v.p1", "diagram_v.1")
     division = solved.motion.division(12)
-    paper, whole = drawn_on(solved, division, names), drawn_on(solved, division, tuple(exact_values(solved)))
+    paper, whole = drawn_on(solved, division, names), drawn_on(solved, division, tuple(_exact_values(solved)))
 
     machine, free = (
         draw(one, Hand(0.0, 1.0, 0.0), np.random.default_rng(1), 50).values for one in (paper, replace(paper, edges=()))
@@ -171,10 +171,10 @@ def test_closing_takes_out_a_drift_of_the_velocity_exactly() -> None:
     offs = np.interp(fine, [0.0, 0.1, 0.12, 0.2], [0.0, 0.004, 0.004, -0.002])
     areas = np.concatenate(([0.0], np.cumsum(0.5 * (offs[1:] + offs[:-1]) * np.diff(fine))))
 
-    found = drift(speed, x, division, 0.03)
+    found = _drift(speed, x, division, 0.03)
 
     assert found == pytest.approx(np.interp(x, fine, areas) / 0.03, abs=1e-9)
-    assert stroke_closed(np.outer(x, [1.0, 2.0]) + 0.0, x) == pytest.approx(np.zeros((26, 2)), abs=1e-15)
+    assert _stroke_closed(np.outer(x, [1.0, 2.0]) + 0.0, x) == pytest.approx(np.zeros((26, 2)), abs=1e-15)
 
 
 def test_closing_brings_more_than_care() -> None:
@@ -202,11 +202,11 @@ def motion_errors(motion: Motion, way: object, sections: int) -> dict[str, float
     course = way(motion, "diagram_a", division)  # type: ignore[operator]
     return {
         kind: float(e.max())
-        for kind, e in errors(motion, division, course, in_extended(motion, division.angles)).items()
+        for kind, e in errors(motion, division, course, _in_extended(motion, division.angles)).items()
     }
 
 
-@pytest.mark.parametrize(("way", "order"), [(midpoint, 2.0), (simpson, 4.0)])
+@pytest.mark.parametrize(("way", "order"), [(_midpoint, 2.0), (_simpson, 4.0)])
 def test_sums_have_their_orders_where_the_law_bends(way: object, order: float) -> None:
     motion = cam("polynomial-345", u="1/2").motion
     coarse, fine = (motion_errors(motion, way, n) for n in (12, 24))

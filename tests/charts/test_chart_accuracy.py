@@ -27,10 +27,10 @@ from kulman.plans.lab.stability import (
     LIMIT,
     MOMENTS,
     WEIGHTS,
-    Model,
     Stability,
+    _Model,
+    _parts_of,
     depth,
-    parts_of,
     spots,
     stability,
 )
@@ -277,9 +277,9 @@ def test_newton_takes_a_driver_that_slides_and_speeds_up() -> None:
 
 @pytest.mark.parametrize("name", TASKS)
 def test_leaving_out_nothing_costs_nothing_and_everything_costs_everything(name: str) -> None:
-    model, whole = Model(of_task(name)), of_task(name)
+    model, whole = _Model(of_task(name)), of_task(name)
     loads = [load.name for load in whole.mechanism.acting]
-    nothing, everything = model.cost("", ()), model.cost("", [*parts_of(whole.program), *loads])
+    nothing, everything = model.cost("", ()), model.cost("", [*_parts_of(whole.program), *loads])
     assert (nothing.balance, nothing.reaction, nothing.balance_rms, nothing.reaction_rms) == (0.0, 0.0, 0.0, 0.0)
     assert (everything.balance, everything.reaction) == pytest.approx((100.0, 100.0), rel=1e-9)
 
@@ -373,9 +373,9 @@ def crank(*values: float, positions: int = 12) -> Cycle:
 @pytest.mark.parametrize("name", TASKS)
 def test_costs_are_those_of_a_mechanism_without_that_mass(name: str) -> None:
     whole, task = of_task(name), load_task(name)
-    model = Model(whole)
+    model = _Model(whole)
     link = next(link for link in whole.mechanism.links[::-1] if link.mass in whole.givens)
-    parts = [part for part in parts_of(whole.program) if part in (f"F_i{link.number}", f"G_{link.number}")]
+    parts = [part for part in _parts_of(whole.program) if part in (f"F_i{link.number}", f"G_{link.number}")]
     lighter = cycle(task.mechanism, {**whole.givens, link.mass: 0.0}, task.plans, 12)
     change = np.nanmax(np.abs(lighter.values[model.balance] - whole.values[model.balance]))
     assert parts
@@ -398,9 +398,9 @@ def test_simplifications_are_those_of_each_part_and_of_all_of_a_kind() -> None:
 def test_what_may_go_costs_less_than_the_tolerance(tolerance: float) -> None:
     whole = of_task(SHAPER)
     found = depth(whole, tolerance)
-    assert {*found.needed, *found.spare} == set(parts_of(whole.program))
+    assert {*found.needed, *found.spare} == set(_parts_of(whole.program))
     assert not {*found.needed} & {*found.spare}
-    assert Model(whole).cost("", found.spare).worst <= tolerance
+    assert _Model(whole).cost("", found.spare).worst <= tolerance
     assert bool(found.needed) == (tolerance < 100.0)
 
 

@@ -20,7 +20,7 @@ import pytest
 
 from kulman import all_variants, batch, check, load_task, note, sheet
 from kulman.drawing.notes.blocks import letters
-from kulman.drawing.notes.omml import atoms_of
+from kulman.drawing.notes.omml import _atoms_of
 from kulman.drawing.text import escape, lay_out
 from kulman.drawing.titleblock import surname, with_initials
 from kulman.drawing.writers import slug
@@ -34,7 +34,7 @@ from kulman.tests.support import commands
 from kulman.tests.support.answer_files import ASKED, HEAD, ROW
 from kulman.tests.support.commands import Run, table
 from kulman.variants.checks.basics import Places
-from kulman.variants.hands import hand_of
+from kulman.variants.hands import _hand_of
 from kulman.variants.making.new_variants import _ranges_of, _with_variants
 from kulman.variants.making.questions import Question, gift_bytes, html, xml_bytes
 from kulman.variants.making.starter import _label
@@ -45,7 +45,7 @@ from kulman.variants.sheets import BLOCK, variant_of_id
 from kulman.variants.shelf import bundled_text
 from kulman.variants.spreadsheets import grid as headers
 from kulman.variants.spreadsheets.files import read_grid
-from kulman.variants.tables import csv_text, harmless, xlsx_bytes
+from kulman.variants.tables import _csv_text, _xlsx_bytes, harmless
 
 TASK = "nau-slider-crank"
 PATHS = (
@@ -145,7 +145,7 @@ def test_no_cell_of_a_list_begins_a_formula(place: Path, name: str) -> None:
 
 @pytest.mark.parametrize("language", ["en", "uk"])
 def test_no_cell_begins_a_formula_wherever_a_program_cuts(language: str) -> None:
-    text = csv_text([(name, "x", name, 1.5) for name in HOSTILE], language)
+    text = _csv_text([(name, "x", name, 1.5) for name in HOSTILE], language)
 
     assert cut_formulas(text) == []
     assert len(cut_formulas(text.replace("'", ""))) > 20  # without what keeps texts from being formulas
@@ -162,8 +162,8 @@ def cut_formulas(text: str) -> list[str]:
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_cell_comes_back_from_a_table_as_it_was(name: str, tmp_path: Path) -> None:
     rows = [("student", "variant"), (name, "x")]
-    (tmp_path / "t.csv").write_bytes(csv_text(rows, "uk").encode("utf-8-sig"))
-    (tmp_path / "t.xlsx").write_bytes(xlsx_bytes(rows, name * 31))
+    (tmp_path / "t.csv").write_bytes(_csv_text(rows, "uk").encode("utf-8-sig"))
+    (tmp_path / "t.xlsx").write_bytes(_xlsx_bytes(rows, name * 31))
 
     seen = openpyxl.load_workbook(tmp_path / "t.xlsx").worksheets[0]["A2"]
 
@@ -369,7 +369,7 @@ READERS: dict[str, Callable[[str], object]] = {
     "answer": lambda text: cells.value(text, "", "V_B", ASKED),
     "direction": cells.direction,
     "paper": cells.of_paper,
-    "hand": hand_of,
+    "hand": _hand_of,
     "range": lambda text: _ranges_of(SLIDER, {"l_OA": text}),
     "record book": lambda text: variant_of_book(SLIDER, text),
     "digits": lambda text: variant_of_book(SLIDER, "12", text),
@@ -384,7 +384,7 @@ READERS: dict[str, Callable[[str], object]] = {
     "escaped": escape,
     "markup": lambda text: letters(escape(text)),
     "laid out": lambda text: lay_out(escape(text), 3.5),
-    "atoms": lambda text: atoms_of(escape(text)),
+    "atoms": lambda text: _atoms_of(escape(text)),
     "wording": plain,
     "cell of CSV": harmless,
     "sheet": lambda text: variant_of_id(SLIDER, text),

@@ -22,7 +22,7 @@ from kulman.variants.case import Case, Kind, beside, kind_of
 from kulman.variants.kinds import KINDS, MODULES
 from kulman.variants.making.starter import start
 from kulman.variants.reader import check_file, read_text
-from kulman.variants.tables import csv_text
+from kulman.variants.tables import _csv_text
 
 FILE = "seesaw.toml"
 
@@ -141,8 +141,8 @@ def test_form_is_filled_in_and_marked(seesaw: str) -> None:
     form = asked.write_form("form.csv").read_text(encoding="utf-8-sig")
     rows = [("name", "value", "unit"), *((q.name, q.value, q.unit) for q in map(solution.__getitem__, solution))]
     wrong = [(name, 2.0 * value if name == "F_2" else value, unit) for name, value, unit in rows[1:]]
-    Path("right.csv").write_text(csv_text(rows, "en"), encoding="utf-8")
-    Path("wrong.csv").write_text(csv_text([rows[0], *wrong], "en"), encoding="utf-8")
+    Path("right.csv").write_text(_csv_text(rows, "en"), encoding="utf-8")
+    Path("wrong.csv").write_text(_csv_text([rows[0], *wrong], "en"), encoding="utf-8")
 
     assert all(f"{name}," in form for name in ("F_2", "Q_O", "l_AB", "mu_F"))
     marks = [asked.mark(asked.read(name)[0]).marked.mark for name in ("right.csv", "wrong.csv")]

@@ -21,7 +21,7 @@ from pypdfium2 import PdfDocument
 from kulman.drawing import writers
 from kulman.drawing.formats import FORMATS, pens_for
 from kulman.drawing.page import Page, _reach, extent
-from kulman.drawing.pdf import MARGIN, OVERLAP, tiles, write_tiles
+from kulman.drawing.pdf import MARGIN, OVERLAP, _tiles, write_tiles
 from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from kulman.drawing.svg import svg_text
@@ -202,10 +202,10 @@ def test_tiles_cover_the_page_and_overlap_on_small_paper_at_full_size(name: str,
     drawn, stream = sheet(name), BytesIO()
     width, height = sorted((FORMATS[paper].width, FORMATS[paper].height))
 
-    windows = [tile.window for tile in tiles(drawn, paper)]
+    windows = [tile.window for tile in _tiles(drawn, paper)]
     write_tiles([drawn], stream, paper)
 
-    assert len(windows) == len({tile.name for tile in tiles(drawn, paper)}) == count
+    assert len(windows) == len({tile.name for tile in _tiles(drawn, paper)}) == count
     for x0, y0, x1, y1 in windows:
         assert x1 - x0 <= width - 2 * MARGIN
         assert y1 - y0 <= height - 2 * MARGIN
@@ -225,7 +225,7 @@ def test_a_line_is_seen_on_its_tile_and_cut_off_elsewhere() -> None:
     place = (100 + MARGIN, 297 - MARGIN - (420 - 267) + 125)  # of the line's middle on tile A2, from the bottom left
 
     seen = []
-    for tile, small in zip(tiles(sheet()), document, strict=True):
+    for tile, small in zip(_tiles(sheet()), document, strict=True):
         image = small.render(scale=200 / 72).to_pil().convert("L")
         x, y = place[0] * 200 / 25.4, image.height - place[1] * 200 / 25.4
         dark = image.crop((int(x) - 3, int(y) - 3, int(x) + 3, int(y) + 3)).getextrema()[0] < 128

@@ -12,17 +12,17 @@ from kulman.plans.gears.blocking import (
     CELLS,
     CURVES,
     Plane,
+    _near_crossings,
     crossings,
-    near_crossings,
     plane_of,
     traced,
 )
 from kulman.plans.gears.gear import HARDENED, STANDARD, GearPair
 from kulman.plans.gears.geometry import (
     POINTS,
+    _geometry_program,
     angle_of_involute,
     geometry,
-    geometry_program,
     involute,
     tangent_of_involute,
 )
@@ -57,7 +57,7 @@ def pairs(request: pytest.FixtureRequest) -> dict[str, np.ndarray]:
 def test_every_quantity_is_found_by_a_second_route(pairs: dict[str, np.ndarray]) -> None:
     found, other = geometry(pairs), second_route(pairs)
 
-    named = {name for name in geometry_program().names if not name.startswith("_")}
+    named = {name for name in _geometry_program().names if not name.startswith("_")}
     assert named - MEASURED == set(other) & named
     for name in sorted(set(other) & named):
         error = found[name] - other[name]
@@ -400,7 +400,7 @@ def test_traced_curves_are_exact_cross_in_two_places_and_end_where_they_are_not_
     assert run[0] == run[-1]  # closed
     assert np.max(np.abs(np.abs(run) - 1.0)) < 1e-14
     assert abs(np.sum(np.angle(run[1:] / run[:-1]))) == pytest.approx(2.0 * np.pi)
-    starts = near_crossings(round_, straight)
+    starts = _near_crossings(round_, straight)
     found = crossings(lambda at: {"circle": circle(at), "slope": slope(at)}, starts, 0.2)
     assert np.sort_complex(found) == pytest.approx(np.array([-1 - 1j, 1 + 1j]) / np.sqrt(2.0), abs=1e-12)
     assert crossings(lambda at: {"circle": circle(at), "slope": slope(at) + 9.0}, starts, 0.2).size == 0

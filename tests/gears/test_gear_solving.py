@@ -18,7 +18,7 @@ import kulman
 from kulman import cli, solve, sweep
 from kulman.plans.gears.course import GearCourse
 from kulman.plans.gears.gear import CCW, CW, PLANS, STANDARD, GearPair
-from kulman.plans.gears.geometry import geometry_program
+from kulman.plans.gears.geometry import _geometry_program
 from kulman.plans.gears.solve import SECTIONS, WHOLE, SolvedGear, conditions_of, section_of, solve_gear
 from kulman.plans.hands.shaky import paper_of, preset
 from kulman.scales.errors import LANGUAGES, InputError
@@ -83,7 +83,7 @@ def solution() -> Solution:
 def test_every_calculated_quantity_is_there_in_si_with_its_unit(solution: Solution) -> None:
     others = {"mu_rho": "m/mm", "mu_theta": "1/mm"}
     begin = {"rad": "alpha_ tau_ nu_ phi_", "1": "x_ inv_ epsilon_ theta_ z_W u y delta_y"}
-    assert {name for name in geometry_program().names if not name.startswith("_")} <= set(solution)
+    assert {name for name in _geometry_program().names if not name.startswith("_")} <= set(solution)
     for name, quantity in solution.quantities.items():
         if quantity.unit in begin:
             assert name.startswith(tuple(begin[quantity.unit].split()))

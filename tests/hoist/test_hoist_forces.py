@@ -11,14 +11,14 @@ import pytest
 from mpmath import mp
 
 from kulman import solve
-from kulman.plans.hoist.forces import LEAST, MOST, Choice, Forces, choose, forces, forces_of_many, spectrum
+from kulman.plans.hoist.forces import LEAST, MOST, Choice, Forces, _forces_of_many, choose, forces, spectrum
 from kulman.plans.hoist.hoist import VALUES, Hoist
 from kulman.plans.hoist.model import model
 from kulman.plans.hoist.onesided import MOST as MOST_PIECES
 from kulman.plans.hoist.onesided import Curve, one_sided
-from kulman.plans.hoist.roots import cosine_rest, extremes, sine_rest
+from kulman.plans.hoist.roots import _cosine_rest, extremes, sine_rest
 from kulman.plans.hoist.solve import solve_hoist
-from kulman.plans.lab.ropes import TremblingError, rope_of
+from kulman.plans.lab.ropes import _rope_of, _TremblingError
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.cases import some
 from kulman.tests.support.hoists import LONGEST, SEED, VARIANTS, constants, random_hoists, together, two_sided
@@ -75,7 +75,7 @@ def test_many_hoists_are_each_the_same_to_the_last_bit() -> None:
     hoists["I_0"][0] = hoists["I_2"][1] = math.inf
 
     found = model(hoists)
-    valid = forces_of_many(hoists, ("F_max", "T_1", "t_1"))
+    valid = _forces_of_many(hoists, ("F_max", "T_1", "t_1"))
 
     for i in range(10):
         one = {name: float(column[i]) for name, column in hoists.items()}
@@ -134,7 +134,7 @@ def test_nearly_triple_roots_are_found_to_seven_digits(turns: int, off: float) -
 def test_rests_of_sine_and_cosine_keep_their_digits() -> None:
     x = np.concatenate((np.logspace(-12, 3, 400), [0.999999, 1.0, 1.000001]))
 
-    sines, cosines = sine_rest(x), cosine_rest(x)
+    sines, cosines = sine_rest(x), _cosine_rest(x)
 
     with mp.workdps(120):
         for i, value in enumerate(x.tolist()):
@@ -459,8 +459,8 @@ def test_many_swings_before_the_lift_off_are_no_trouble_where_the_formulas_are_v
     assert len([*solve_hoist(Hoist(), slow).program]) < 10_000  # the last swings are drawn, not a million
     with pytest.raises(InputError, match=r"more than \d+ times"):
         choose({**VARIANTS["V04"], "l_0": 300.0})
-    with pytest.raises(TremblingError):
-        rope_of(model({**VARIANTS["V06"], "G_2": 0.03}), 32)
+    with pytest.raises(_TremblingError):
+        _rope_of(model({**VARIANTS["V06"], "G_2": 0.03}), 32)
 
 
 def test_a_curve_turns_and_falls_through_zero_where_small_steps_say_so() -> None:

@@ -41,9 +41,9 @@ from kulman.plans.lab.integrators import (
     VERLET,
     Motion,
     Run,
+    _one_step,
     growth,
     integrate,
-    one_step,
     stability_limit,
 )
 from kulman.plans.lab.race import Contest, Effort
@@ -106,7 +106,7 @@ def test_stability_limits_are_those_of_theory(method: str) -> None:
 )
 def test_periods_are_longer_by_the_leading_term(method: str, square: float, fourth: float) -> None:
     z = 0.05
-    uu, uv, vu, vv = (float(value) for value in one_step(method, z))
+    uu, uv, vu, vv = (float(value) for value in _one_step(method, z))
 
     swing = 0.5 * (uu + vv) / np.sqrt(uu * vv - uv * vu)
 

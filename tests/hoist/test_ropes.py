@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from kulman.plans.hoist.forces import forces
 from kulman.plans.hoist.model import model
-from kulman.plans.lab.ropes import PRINTED, SIMPLER, Heavy, HoistDepth, Row, depth, rope_of, rope_row
+from kulman.plans.lab.ropes import PRINTED, SIMPLER, HoistDepth, Row, _Heavy, _rope_of, _rope_row, depth
 from kulman.tests.support.hoists import SEVERAL, VARIANTS, hoist_row
 
 Array = NDArray[np.float64]
@@ -107,8 +107,8 @@ LONG = VARIANTS["V09"]  # 3 t on a long rope
 
 
 @cache
-def rope(n: int) -> Heavy:
-    return rope_of(model(LONG), n)
+def rope(n: int) -> _Heavy:
+    return _rope_of(model(LONG), n)
 
 
 def by_steps(n: int) -> tuple[float, float, float]:
@@ -166,7 +166,7 @@ def test_slowest_swing_tends_to_that_of_a_continuous_rope() -> None:
 
     errors = []
     for n in (4, 8):
-        motion = rope_row(found, n, True).motion(np.zeros(n + 2), np.zeros(n + 2))
+        motion = _rope_row(found, n, True).motion(np.zeros(n + 2), np.zeros(n + 2))
         errors.append(float(np.sort(motion.frequencies)[-n - 1]) / right - 1.0)
 
     assert abs(errors[1]) < 5e-5
@@ -178,7 +178,7 @@ def test_lift_off_tends_to_its_limit_as_the_rope_is_cut_finer_and_to_one_mass_as
     assert steps[0] > 4.0 * steps[1]
 
     found = model(LONG | {"G_2": 0.1})
-    light = rope_of(found, 2)
+    light = _rope_of(found, 2)
     for name in ("t_1", "P_12_max", "F_12_max"):
         assert getattr(light, name) == pytest.approx(found[name], rel=1e-5)
 

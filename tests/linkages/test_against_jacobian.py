@@ -36,7 +36,7 @@ from kulman.plans.linkages.mechanism import (
     Revolute,
     Stroke,
 )
-from kulman.plans.linkages.solved import board_givens, moment_points
+from kulman.plans.linkages.solved import _moment_points, board_givens
 from kulman.plans.linkages.structure import analyse
 from kulman.tests.support.dyads import (
     CENTRAL,
@@ -286,7 +286,7 @@ def test_points_of_one_link_under_a_point_of_another_agree(both: Both) -> None:
 
 def test_reactions_of_guides_stand_where_their_moments_say(both: Both) -> None:
     """The moment is about the point that is named; the arm is the moment about the pin over the force."""
-    named = moment_points(both.mechanism, analyse(both.mechanism))
+    named = _moment_points(both.mechanism, analyse(both.mechanism))
     results, second, points = both.results, both.second, both.second.expected
     largest = np.max([np.abs(points[p]) for p in "ABC"], axis=0)
     guides = [pair for pair in both.mechanism.pairs if isinstance(pair, Prismatic)]

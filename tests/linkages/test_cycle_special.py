@@ -11,10 +11,10 @@ from mpmath import mp, mpc, mpf
 
 from kulman import solve
 from kulman.plans.linkages.cycle import (
+    _differentiate,
     chords,
     cycle,
     diagrams,
-    differentiate,
     pole_distance,
     slider_runs,
     velocities,
@@ -295,7 +295,7 @@ def test_chords_on_paper_give_the_same_values_and_of_a_parabola_are_exact() -> N
     mu_s, mu_t, mu_v = 0.001, 0.08 / 180.0, 0.075  # m/mm, s/mm, (m/s)/mm
 
     pole = pole_distance(mu_s, mu_t, mu_v)
-    v, a = differentiate(3.0 * t * t, 0.1, closed=False)
+    v, a = _differentiate(3.0 * t * t, 0.1, closed=False)
 
     cut = np.diff(s / mu_s) * (pole / (180.0 / 12))  # by rays from the pole, parallel to the chords
     assert pole == pytest.approx(30.0)

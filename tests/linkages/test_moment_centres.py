@@ -13,9 +13,9 @@ from kulman import sheet, solve
 from kulman.plans.board import Program, Step
 from kulman.plans.boards.exact import SMALL, run
 from kulman.plans.hands.shaky import Paper, preset
-from kulman.plans.hands.spread import sensitivities
+from kulman.plans.hands.spread import _sensitivities
 from kulman.plans.linkages.chain import construct
-from kulman.plans.linkages.solved import TWICE, SolvedLinkage, sines_of, solve_linkage, with_moment_centres
+from kulman.plans.linkages.solved import TWICE, SolvedLinkage, _sines_of, _with_moment_centres, solve_linkage
 from kulman.plans.quantities import references
 from kulman.tests.support.dyads import random_dyads
 from kulman.tests.support.linkage_cases import Linkage
@@ -40,7 +40,7 @@ def test_centre_is_the_joint_opposite_to_the_better_angle_and_gives_the_same_for
     solved = flat(data)
     usual = run(construct(replace(solved.mechanism, centres=()))[1], solved.givens).values
 
-    at_a, at_b, at_c = sines_of(*(solved.point(joint) for joint in "ABC"))
+    at_a, at_b, at_c = _sines_of(*(solved.point(joint) for joint in "ABC"))
 
     assert at_b < SMALL
     assert max(at_a, at_c) == (at_a if centre == "C" else at_c) > TWICE * at_b
@@ -58,10 +58,10 @@ def test_usual_plan_stays_where_lines_meet_well_or_nothing_is_better() -> None:
     short = flat(LONGER_CB)
     without_sides = {**short.values, "A": short.values["C"]}
 
-    assert sines_of(*(long.point(joint) for joint in "ABC"))[1] < SMALL
+    assert _sines_of(*(long.point(joint) for joint in "ABC"))[1] < SMALL
     assert long.mechanism.centres == ()
-    assert with_moment_centres(replace(short.mechanism, centres=()), short.structure, without_sides).centres == ()
-    assert all(math.isnan(sine) for sine in sines_of(1j, 0j, 1j))
+    assert _with_moment_centres(replace(short.mechanism, centres=()), short.structure, without_sides).centres == ()
+    assert all(math.isnan(sine) for sine in _sines_of(1j, 0j, 1j))
 
 
 def test_sheet_tells_the_moments_and_both_ways_to_the_reaction() -> None:
@@ -93,7 +93,7 @@ def own_error(program: Program, solved: SolvedLinkage) -> float:
     names = [f"R_{number}" for number in ("24", "35", "45")]
     largest = max(abs(values[name]) for name in names)
     mus = dict.fromkeys(program.plans, 1.0) | {"position": 0.01, "forces_45": largest / 100.0}
-    found = sensitivities(Paper(program, solved.givens, mus), CAREFUL, names)
+    found = _sensitivities(Paper(program, solved.givens, mus), CAREFUL, names)
     own = [step.startswith(("forces_45", "_M_", "R_")) or step.endswith(("PQ", "QP")) for step in found.steps]
     return max(float(np.linalg.norm(found.misses[name][own])) / largest for name in names)
 
@@ -147,7 +147,9 @@ def test_resistance_along_a_known_line_misses_less_beside_a_dead_position(
 
     new, old = (
         float(
-            np.linalg.norm(sensitivities(Paper(program, solved.givens, {**mus, **shown}), CAREFUL, [load]).misses[load])
+            np.linalg.norm(
+                _sensitivities(Paper(program, solved.givens, {**mus, **shown}), CAREFUL, [load]).misses[load]
+            )
         )
         for program in (solved.program, by_velocity(solved.program, load))
     )

@@ -26,7 +26,7 @@ from kulman.tests.support.hostile_workbooks import HOSTILE, SMALL, good, hostile
 from kulman.variants.marking.reading import read_answers
 from kulman.variants.spreadsheets.files import read_grid
 from kulman.variants.spreadsheets.grid import Grid, letters
-from kulman.variants.tables import csv_table, harmless, xlsx_bytes
+from kulman.variants.tables import _xlsx_bytes, csv_table, harmless
 from kulman.variants.task import LocatedError
 
 QUICK = ("blanks of 22 MB", "member twice", "password", "packed by LZMA", "size that is too small")
@@ -215,7 +215,7 @@ def test_a_class_is_a_row_for_each_student(tmp_path: Path) -> None:
 def test_nothing_written_starts_a_formula(rows: list[list[str]]) -> None:
     for row in csv.reader(io.StringIO(csv_table(rows, "uk").decode("utf-8-sig"), newline=""), delimiter=";"):
         assert not any(cell.lstrip(" ").startswith(("=", "+", "-", "@", "\t", "\r")) for cell in row)
-    book = openpyxl.load_workbook(io.BytesIO(xlsx_bytes(rows, "=x")))
+    book = openpyxl.load_workbook(io.BytesIO(_xlsx_bytes(rows, "=x")))
     assert book.active is not None
     assert all(cell.data_type != "f" for row in book.active.iter_rows() for cell in row)
 

@@ -16,7 +16,7 @@ from kulman.plans.marking.answers import Answer, Verdict
 from kulman.plans.marking.key import Key
 from kulman.plans.marking.verdicts import mark
 from kulman.plans.mistakes.book import Book, Signature, broken, signatures
-from kulman.plans.mistakes.explaining import Candidate, Explanation, explain
+from kulman.plans.mistakes.explaining import Candidate, _Explanation, explain
 from kulman.tests.support.cases import some
 from kulman.tests.support.marking_cases import LINKAGES, answer, key, mistakes, moves, planted, right_answers
 from kulman.tests.support.mechanisms import SEED
@@ -26,11 +26,11 @@ EXAMPLE = "nau-slider-crank"
 FEW = [EXAMPLE, "scheme-10-shaper-two-blocks"]
 
 
-def explained(task: str, answers: list[Answer]) -> Explanation:
+def explained(task: str, answers: list[Answer]) -> _Explanation:
     return explain(mistakes(task), mark(key(task), answers))
 
 
-def instead(directions: bool = True, **factors: float) -> Explanation:
+def instead(directions: bool = True, **factors: float) -> _Explanation:
     """Explain right answers of which some are so many times too large."""
     right = right_answers(key(EXAMPLE), directions)
     return explained(EXAMPLE, [replace(a, value=(a.value or 0.0) * factors.get(a.name, 1.0)) for a in right])

@@ -34,7 +34,7 @@ from kulman.drawing.notes.blocks import (
     displayed,
     letters,
 )
-from kulman.drawing.notes.docx import SPACES, blocks_in_word, docx_bytes, folded_in_word, line
+from kulman.drawing.notes.docx import SPACES, _folded_in_word, blocks_in_word, docx_bytes, line
 from kulman.drawing.notes.markdown import markdown
 from kulman.drawing.notes.omml import built_up
 from kulman.tests.support.cases import some
@@ -219,7 +219,7 @@ def sides(document: Document) -> Iterator[tuple[str, str]]:
 
 def assert_a_document_says_all(document: Document) -> None:
     pictures = [("rId1", "rId2")] * sum(isinstance(block, Figure) for block in document.blocks)
-    body = parsed(blocks_in_word(document, pictures) + folded_in_word(document, pictures))
+    body = parsed(blocks_in_word(document, pictures) + _folded_in_word(document, pictures))
     told = paragraphs(body)
 
     assert disordered(body) == []

@@ -29,7 +29,7 @@ from kulman.drawing.handouts import _done, begun_stages
 from kulman.drawing.linkages.asking import given_name
 from kulman.drawing.notes.blocks import Figure, Steps
 from kulman.drawing.page import extent
-from kulman.drawing.pdf import MARGIN, tiles, write_tiles
+from kulman.drawing.pdf import MARGIN, _tiles, write_tiles
 from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.shapes import Group, Line, Shape, Text, Vector
 from kulman.drawing.words import Words
@@ -599,7 +599,7 @@ def test_tiles_join_to_the_sheet(format: str) -> None:
     write_tiles(drawn.pages, stream)
 
     parts = prints(stream.getvalue())
-    windows = [tile.window for tile in tiles(drawn.pages[0])]
+    windows = [tile.window for tile in _tiles(drawn.pages[0])]
     assert len(parts) == len(windows) > 1
     for part, (x0, _, x1, y1) in zip(parts, windows, strict=True):
         assert (part.width, part.height) == pytest.approx((210.0, 297.0), abs=COINCIDES)

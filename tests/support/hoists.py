@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from kulman.plans.lab.ropes import Row, RowMotion
+from kulman.plans.lab.ropes import Row, _RowMotion
 
 Array = np.ndarray[Any, np.dtype[Any]]
 LONG = np.longdouble
@@ -238,8 +238,8 @@ SEVERAL = {
 class Exact:
     """What integrators are held against, of N hoists."""
 
-    first: RowMotion
-    second: RowMotion
+    first: _RowMotion
+    second: _RowMotion
     t_1: Array
     period: Array
     F_12_max: Array
@@ -252,7 +252,7 @@ class Exact:
         return later
 
 
-def hoist_row(values: Mapping[str, Any]) -> RowMotion:
+def hoist_row(values: Mapping[str, Any]) -> _RowMotion:
     """Return phase 1 of a hoist as the row with n = 1: the forces are -F_01 and -F_12.
 
     Parameters

@@ -23,7 +23,7 @@ from kulman.scales.choices import HANDS, SIZES
 from kulman.variants.kinds import KINDS
 from kulman.variants.making.starter import template
 from kulman.variants.shelf import bundled, bundled_text
-from kulman.variants.tables import xlsx_bytes
+from kulman.variants.tables import _xlsx_bytes
 
 # What stands in the place of a good value: extreme numbers and no numbers, right and wrong units, hostile texts, kinds.
 NUMBERS = (
@@ -430,7 +430,7 @@ def roster(luck: Luck, tree: Tree) -> list[list[str]]:
 def workbook(luck: Luck, rows: list[list[str]]) -> bytes:
     """Return cells as a workbook: as it is, with bytes that are others, or with a part of its XML that is another."""
     cells = [[_number(cell) if luck.random() < 0.5 else cell for cell in row] for row in ruined(luck, rows)]
-    data, what = xlsx_bytes(cells, luck.of(("1",), TEXTS)), luck.random()
+    data, what = _xlsx_bytes(cells, luck.of(("1",), TEXTS)), luck.random()
     if what < 0.5:
         return data
     if what < 0.7:

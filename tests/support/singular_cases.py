@@ -11,7 +11,7 @@ from typing import Any
 from mpmath import mp, mpf
 
 from kulman.plans.board import Program
-from kulman.plans.boards.precision import FiftyDigits
+from kulman.plans.boards.precision import _FiftyDigits
 from kulman.plans.linkages.mechanism import ZERO, Load, Mechanism, Pair, Prismatic
 from kulman.plans.linkages.solved import SolvedLinkage
 from kulman.tests.support.linkages import BENT, DEAD, PARALLELOGRAM, PRESS_VALUES
@@ -96,7 +96,7 @@ CLOSE = 1e-7  # part of a value within which two are one: towards a limit of rea
 NOTHING = 1e-12  # SI, in mechanisms of about a metre, what vanishes
 
 
-class NearBoard(FiftyDigits):
+class NearBoard(_FiftyDigits):
     """As many digits as one likes, without the thresholds of double precision: as near to a position as one likes."""
 
     parallel = folded = mpf(10) ** -60

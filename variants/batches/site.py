@@ -25,7 +25,7 @@ MOST = 1000  # pages of a site: at 150 kB each they are 150 MB at most
 INDEX = "index.html"
 
 
-class Item(NamedTuple):
+class _Item(NamedTuple):
     """A page of a site: its task, its variant, where it stands from the index."""
 
     task: Task
@@ -34,7 +34,7 @@ class Item(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Site:
+class _Site:
     """A site that has been written: its index, how many pages it has, and why some variants have none, a line each."""
 
     index: Path
@@ -49,7 +49,7 @@ def site(
     lang: str = "uk",
     jobs: int | None = None,
     advance: Advance = lambda done, whole: None,
-) -> Site:
+) -> _Site:
     """Write a page for every variant of some tasks into a folder, and an index that leads to them.
 
     Every page is written whole and at last the index, which lists what has been written; pages of the same name are
@@ -89,12 +89,12 @@ def site(
     made = [(item, problems.get(at, "")) for at, item in enumerate(items)]
     write_whole(root / INDEX, _index(made, lang).encode("utf-8"))
     said = tuple(f"{item.task.id} {item.variant}: {problem}" for item, problem in made if problem)
-    return Site(root / INDEX, len(items) - len(said), said)
+    return _Site(root / INDEX, len(items) - len(said), said)
 
 
-def _items(tasks: Sequence[Task]) -> list[Item]:
+def _items(tasks: Sequence[Task]) -> list[_Item]:
     """Return the pages of tasks; of names that would be one file each has a number."""
-    items, taken = list[Item](), set[str]()
+    items, taken = list[_Item](), set[str]()
 
     def free(name: str) -> str:
         found, number = name, 1
@@ -106,14 +106,14 @@ def _items(tasks: Sequence[Task]) -> list[Item]:
 
     for task in tasks:
         folder = free(slug(task.id))
-        items += [Item(task, name, free(f"{folder}/{slug(name)}") + ".html") for name in task.variants]
+        items += [_Item(task, name, free(f"{folder}/{slug(name)}") + ".html") for name in task.variants]
     return items
 
 
-def _begin(root: Path, lang: str) -> Callable[[Item], str]:
+def _begin(root: Path, lang: str) -> Callable[[_Item], str]:
     """Return what writes a page, and says why there is none."""
 
-    def make(item: Item) -> str:
+    def make(item: _Item) -> str:
         try:
             page = page_of(Request(item.task, item.variant, language=lang).case())
         except KulmanError as error:
@@ -124,7 +124,7 @@ def _begin(root: Path, lang: str) -> Callable[[Item], str]:
     return make
 
 
-def _index(made: Sequence[tuple[Item, str]], lang: str) -> str:
+def _index(made: Sequence[tuple[_Item, str]], lang: str) -> str:
     """Return the page that leads to all others."""
     words, parts = packaged(__package__, "texts", lang), list[str]()
     for task in dict.fromkeys(item.task.id for item, _ in made):

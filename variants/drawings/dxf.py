@@ -34,7 +34,7 @@ def read_dxf(data: bytes) -> Marks:
     if sum(1 for _ in _RECORD.finditer(data)) > 3 * MOST:  # before they cost anything
         raise FaultError("drawing-many")
     page = _CODEPAGE.search(data[:100_000])
-    text = decoded(data, f"cp{page[1].decode()}" if page else "cp1251").replace("\r\n", "\n")
+    text = _decoded(data, f"cp{page[1].decode()}" if page else "cp1251").replace("\r\n", "\n")
     unit = _INSUNITS.search(text[:1_000_000])
     hidden, blocks, spaces = set[str](), dict[str, tuple[complex, Entities]](), (Entities(), Entities())
     section, inside, ended = "", Entities(), False
@@ -67,7 +67,7 @@ def read_dxf(data: bytes) -> Marks:
     return found.marks
 
 
-def decoded(data: bytes, other: str) -> str:
+def _decoded(data: bytes, other: str) -> str:
     """Return a text in UTF-8 or in another encoding; none has a NUL."""
     if b"\0" in data:
         raise FaultError("drawing-binary")
