@@ -11,8 +11,7 @@ from ...plans.cams.motion import PHASES, RISE
 from ...plans.names import role
 from ...scales.scale import Scale, steps
 from ..areas import beside
-from ..diagram import AT_POLE, Axis, Field, Pole, axes, divisions, mark_pole, numbers, small
-from ..dimensions import linear
+from ..dimensions import AT_POLE, Axis, Field, Pole, axes, divisions, linear, mark_pole, numbers, small
 from ..figure import Figure, Stage, needing, stages
 from ..page import extent
 from ..printed import DEGREES

@@ -15,8 +15,7 @@ from ...plans.cams.followers import PHASE_OF
 from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.sizes import apex, wedge
 from ..areas import hatched
-from ..diagram import small
-from ..dimensions import angle, linear, turning
+from ..dimensions import angle, linear, small, turning
 from ..figure import Figure, Stage, needing, stages
 from ..shapes import Arc, Circle, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, arc_between, at_level, fixed_pivot, nearer, swept, unit

@@ -13,8 +13,7 @@ from ...plans.cams import course
 from ...plans.cams.cam import PLATE, VALUES
 from ...plans.cams.construction import ACCELERATION, CHORD_OF, EXACT, FACTORS, PLATE_SIZES, ROCKER_SIZES, SIZES
 from ...plans.cams.envelopes import Envelope
-from ...plans.cams.rules import rules_of
-from ...plans.cams.solve import SCALES, unit_of
+from ...plans.cams.solve import SCALES, rules_of, unit_of
 from ...scales.scale import Scale
 from ..handouts import Shown as Begun
 from ..notes.blocks import Story

@@ -12,8 +12,7 @@ from ...plans.gears.gear import WHEELS
 from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale
 from ..areas import strokes
-from ..diagram import Axis, Field, axes, curve, divisions, numbered, numbers
-from ..dimensions import linear
+from ..dimensions import Axis, Field, axes, curve, divisions, linear, numbered, numbers
 from ..figure import ANSWERS, Figure, needing, stages
 from ..printed import DEGREES, Input, calculation
 from ..shapes import Group, Line, Pen, Polyline, Text

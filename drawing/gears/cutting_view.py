@@ -13,8 +13,7 @@ from ...plans.gears.course import Rack
 from ...plans.gears.teeth import Wheel
 from ...scales.scale import Scale, steps
 from ..areas import freest, thinned
-from ..diagram import Axis, Field, divisions, numbered
-from ..dimensions import angle, linear
+from ..dimensions import Axis, Field, angle, divisions, linear, numbered
 from ..figure import ANSWERS, GIVEN, Figure, needing, stages
 from ..page import extent
 from ..shapes import Anchor, Arc, Circle, Group, Head, Line, Pen, Polyline, Text

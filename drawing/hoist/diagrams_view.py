@@ -11,8 +11,7 @@ from ...plans.hoist.model import CIRCLE
 from ...plans.hoist.solve import POINTS, equation, forces_over
 from ...plans.solved import PAPER_MM
 from ..areas import clipped
-from ..diagram import Axis, Field, divisions, drawn_through, numbered
-from ..dimensions import angle, linear
+from ..dimensions import Axis, Field, angle, divisions, drawn_through, linear, numbered
 from ..figure import Figure, Stage, needing, stages
 from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import arc_between

@@ -185,7 +185,7 @@ class Scene(SubjectScene[SolvedLinkage]):
         size = abs(self.solved.point(end) - self.solved.point(start))
         if not self.words.ruler:
             return size
-        from ...plans.hands.ruler import read_by_ruler  # few drawings are read so
+        from ...plans.hands.shaky import read_by_ruler
 
         mu = self.scales[plan].mu
         edge = self.reading.between(start, end) or self.reading.between(end, start)

@@ -192,8 +192,7 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
 
 def read_by_ruler(solved: SolvedLinkage, mus: Mapping[str, float]) -> SolvedLinkage:
     """Return a mechanism solved anew as it is drawn with scale factors by plan, SI per mm, and read with a ruler."""
-    from ..hands.ruler import RulerBoard  # few solutions are read so
-    from ..hands.shaky import drawing_of
+    from ..hands.shaky import RulerBoard, drawing_of
 
     board = RulerBoard(drawing_of(solved, mus))
     board.follow(solved.program)

@@ -14,7 +14,7 @@ from kulman import cli, load_task, sheet, solve
 from kulman.plans.cams.cam import GIVENS, Cam, Curve
 from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import Motion
-from kulman.plans.cams.rules import unusual
+from kulman.plans.cams.solve import unusual
 from kulman.scales.errors import InputError
 from kulman.tests.support.cams import ROCKER
 from kulman.tests.support.task_files import task_of, with_changes

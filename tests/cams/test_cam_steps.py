@@ -20,8 +20,7 @@ from kulman.drawing.page import Page
 from kulman.drawing.shapes import Group, Shape, Text
 from kulman.drawing.view import View
 from kulman.plans.cams.cam import PLANS
-from kulman.plans.cams.rules import rules_of
-from kulman.plans.cams.solve import SolvedCam
+from kulman.plans.cams.solve import SolvedCam, rules_of
 from kulman.scales.errors import LANGUAGES
 from kulman.scales.packaged import packaged
 from kulman.tests.support.cams import ROCKER, Settings

@@ -18,18 +18,25 @@ from kulman.plans.hoist.hoist import Hoist
 from kulman.plans.hoist.solve import solve_hoist
 from kulman.plans.lab import hoists as races
 from kulman.plans.lab import race as contests
-from kulman.plans.lab.finders import (
+from kulman.plans.lab.hoists import (
     BISECTION,
     BRENT,
+    COURSE,
     FINDERS,
+    FORMULAS,
     ILLINOIS,
+    LIFT_OFF,
     NEWTON,
+    PEAK,
     SECANT,
-    Equation,
-    find,
-    lift_off_equation,
+    _Equation,
+    _find,
+    _lift_off_equation,
+    by_board,
+    by_hand,
+    rivals,
+    step_limits,
 )
-from kulman.plans.lab.hoists import COURSE, FORMULAS, LIFT_OFF, PEAK, by_board, by_hand, rivals, step_limits
 from kulman.plans.lab.hoists import exact as digits
 from kulman.plans.lab.integrators import (
     EXPLICIT,
@@ -157,29 +164,29 @@ SAFE = (BISECTION, ILLINOIS, BRENT)
 OF_EQUATIONS = 7
 
 
-def random_equations(count: int) -> list[tuple[Equation, float]]:
+def random_equations(count: int) -> list[tuple[_Equation, float]]:
     """Equations of hoists that do not stand still when they lift off, with their roots."""
     random = np.random.default_rng(OF_EQUATIONS)
     V, a = 10.0 ** random.uniform(-2.5, 0.0, count), random.uniform(0.05, 1.0, count)
     k, height = 10.0 ** random.uniform(1.0, 2.2, count), 10.0 ** random.uniform(-2.5, -0.5, count)
     right = k * roots.lift_off(V, a, k, height)
     return [
-        (lift_off_equation(*one), x)
+        (_lift_off_equation(*one), x)
         for *one, x in zip(V.tolist(), a.tolist(), k.tolist(), height.tolist(), right.tolist(), strict=True)
     ]
 
 
-def near_triple(away: float) -> tuple[Equation, float]:
+def near_triple(away: float) -> tuple[_Equation, float]:
     """A hoist without acceleration that lifts off when k t is `away` from a whole turn."""
     V, k, x = 0.2, 50.0, 2.0 * math.pi + away
-    return lift_off_equation(V, 0.0, k, V / k * (x - math.sin(x))), x
+    return _lift_off_equation(V, 0.0, k, V / k * (x - math.sin(x))), x
 
 
 @pytest.mark.parametrize("count", [60, pytest.param(2000, marks=pytest.mark.soak)])
 @pytest.mark.parametrize("finder", SAFE)
 def test_brackets_lead_to_the_root_always(finder: str, count: int) -> None:
     for equation, right in random_equations(count):
-        found = find(finder, equation, 1e-14)
+        found = _find(finder, equation, 1e-14)
 
         assert found.root == pytest.approx(right, rel=3e-13)
         assert found.evaluations < 60
@@ -188,7 +195,7 @@ def test_brackets_lead_to_the_root_always(finder: str, count: int) -> None:
 @pytest.mark.parametrize("finder", FINDERS)
 def test_finders_stop_within_their_tolerance_or_say_that_they_failed(finder: str) -> None:
     for equation, right_root in random_equations(60):
-        found = find(finder, equation, 1e-8)
+        found = _find(finder, equation, 1e-8)
 
         assert math.isnan(found.root) or found.root == pytest.approx(right_root, rel=2e-7)
 
@@ -196,26 +203,26 @@ def test_finders_stop_within_their_tolerance_or_say_that_they_failed(finder: str
 def test_newton_and_the_secant_fail_where_brackets_do_not() -> None:
     equation, right = near_triple(1e-4)
 
-    failed = [finder for finder in FINDERS if math.isnan(find(finder, equation, 1e-14).root)]
+    failed = [finder for finder in FINDERS if math.isnan(_find(finder, equation, 1e-14).root)]
 
     assert failed == [NEWTON, SECANT]
     for finder in SAFE:
-        assert find(finder, equation, 1e-14).root == pytest.approx(right, abs=2e-6)
+        assert _find(finder, equation, 1e-14).root == pytest.approx(right, abs=2e-6)
 
 
 def test_newton_slows_down_to_thirds_at_a_triple_root() -> None:
     equation, right = near_triple(0.0)
-    equation = Equation(equation.value, equation.slope, equation.low, right + 0.1)
+    equation = _Equation(equation.value, equation.slope, equation.low, right + 0.1)
     start = 2.0 * right - equation.high  # the other side: tangents come down to the root
-    guesses = FINDERS[NEWTON](Equation(equation.value, equation.slope, start, start))
+    guesses = FINDERS[NEWTON](_Equation(equation.value, equation.slope, start, start))
 
     errors = np.abs(np.array([guess for guess, _ in islice(guesses, 17)][1::2]) - right)
 
     assert errors[1:6] / errors[:5] == pytest.approx(np.full(5, 2.0 / 3.0), abs=0.01)
 
 
-def cubic() -> Equation:
-    return Equation(lambda x: x * x * x + x - 3, lambda x: 3 * x * x + 1, mp.mpf(1), mp.mpf(2))
+def cubic() -> _Equation:
+    return _Equation(lambda x: x * x * x + x - 3, lambda x: 3 * x * x + 1, mp.mpf(1), mp.mpf(2))
 
 
 @pytest.mark.parametrize(
@@ -243,7 +250,7 @@ def test_bisection_halves_its_doubt() -> None:
 
 def test_closed_forms_need_few_evaluations() -> None:
     spent = {
-        finder: np.median([find(finder, equation, 1e-12).evaluations for equation, _ in random_equations(60)])
+        finder: np.median([_find(finder, equation, 1e-12).evaluations for equation, _ in random_equations(60)])
         for finder in FINDERS
     }
 

@@ -160,7 +160,7 @@ class Cams(Kind[cams.Cam, "SolvedCam"]):
 
     def as_drawn(self, solved: SolvedCam) -> tuple[SolvedCam, Mapping[str, str]]:
         """Return the cam with chords and tangents in the place of closed forms."""
-        from ...plans.cams.rules import as_drawn, stands_for
+        from ...plans.cams.solve import as_drawn, stands_for
 
         return as_drawn(solved), stands_for(solved)
 
@@ -232,8 +232,7 @@ def _outside(solved: SolvedCam) -> Iterator[InputError]:
 
 def _unusual(solved: SolvedCam) -> Iterator[InputError]:
     """Go through the numbers that hardly any cam has, each in the unit in which people read it."""
-    from ...plans.cams.rules import unusual
-    from ...plans.cams.solve import unit_of
+    from ...plans.cams.solve import unit_of, unusual
 
     for name, *numbers in unusual(solved):
         key, shown = UNUSUAL[unit_of(name)]

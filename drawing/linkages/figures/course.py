@@ -17,7 +17,7 @@ from ....plans.linkages.mechanism import FRAME
 from ....plans.names import role
 from ....plans.quantities import BALANCES, unit_of
 from ....scales.scale import Scale, rounded, steps
-from ...diagram import Axis, Field, axes, curve
+from ...dimensions import Axis, Field, axes, curve
 from ...printed import value_text
 from ...shapes import Circle, Pen
 from ...tables import table

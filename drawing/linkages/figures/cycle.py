@@ -18,7 +18,7 @@ from ....plans.linkages.solved import SolvedLinkage
 from ....plans.linkages.strokes import OutputMotion
 from ....plans.names import role
 from ....scales.scale import Scale, rounded, steps
-from ...diagram import Axis, Field, Pole, axes, curve, rays
+from ...dimensions import Axis, Field, Pole, axes, curve, rays
 from ...figure import ANSWERS, GIVEN
 from ...printed import value_text
 from ...shapes import Circle, HeadPlace, Line, Pen, Polyline, Vector
