@@ -147,7 +147,7 @@ class Cams(Kind[cams.Cam, "SolvedCam"]):
         `gamma_fall` the least transmission angles against the permitted ones; `undercut_...` tells how much travel a
         profile loses, `convex` how sharp the profile under a plate is.
         """
-        found: list[Check] = [*self._in("plans", "rules", "rules_of")(solved)]
+        found: list[Check] = [*self._in("plans", "solve", "rules_of")(solved)]
         for _, follower, profile in solved.profiles if solved.draws_profiles else ():
             lost = max((undercut.lost for undercut in profile.undercuts), default=0.0)
             ok, of_travel = not profile.undercuts, "rad" if follower == cams.ROCKER else "m"
