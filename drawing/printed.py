@@ -12,7 +12,6 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
 from itertools import combinations
 from operator import add, mul, sub, truediv
 from typing import Any, NamedTuple
@@ -204,16 +203,6 @@ class Symbol:
         """The factor that the expression is, where it is no more than one."""
         above, below, negative = self._term
         return above[0] if len(self.terms) == len(above) == 1 and not below and not negative else None
-
-
-@cache
-def prints(law: str, operands: int) -> bool:
-    """Whether a law of so many operands is an expression, not a procedure."""
-    try:
-        form_of(law)(*(Symbol.of("x") for _ in range(operands)))
-    except TypeError:
-        return False
-    return True
 
 
 def _symbol(value: Any) -> Symbol:

@@ -69,19 +69,6 @@ def seen(text: str) -> str:
     return "".join(sign for sign in text if unicodedata.category(sign) not in ("Cf", "Cc") or sign in "\n\t")
 
 
-def legible(name: str, text: str) -> str:
-    """Return a text of a title block or a title page, of a person or a group, as it is shown.
-
-    Raises
-    ------
-    InputError
-        What stands in it is no text: bytes of a command line in another encoding.
-    """
-    if any("\ud800" <= sign <= "\udfff" for sign in text):
-        raise InputError("text-bytes", name=name, text=quote(text))
-    return " ".join(seen(text).split())
-
-
 # What callers of the Python API hand over.
 
 

@@ -25,7 +25,7 @@ from ..drawing.titleblock import Stamp
 from ..drawing.view import View
 from ..drawing.writers import WRITERS, Files, page_files, save_all
 from ..scales.errors import InputError, KulmanError
-from ..scales.names import all_known, latin, legible, of_kind, unknown
+from ..scales.names import all_known, latin, of_kind, seen, unknown
 from ..scales.numbers import SHOWN, quote
 from ..scales.packaged import packaged
 from ..scales.scale import Fixed, Scale
@@ -251,7 +251,7 @@ def said_of(block: Mapping[str, str]) -> dict[str, str]:
     """Return what a title block or a title page says, all of it texts, without signs that nobody sees."""
     for name, text in block.items():
         of_kind(name, text, (str,), "str")
-    return {name: legible(name, text) for name, text in block.items()}
+    return {name: _legible(name, text) for name, text in block.items()}
 
 
 def stamp_of(case: Case) -> Stamp:
@@ -477,3 +477,16 @@ def scan_code(case: Case, number: int, page: Page) -> str:
     identity = sheet_id(case.task, case.variant, case.settings)
     how = case.language, format_named(case.format or PAPER).name
     return ":".join((CODED, case.task.id, case.variant, identity, str(number), *how, digest)).upper()
+
+
+def _legible(name: str, text: str) -> str:
+    """Return a text of a title block or a title page, of a person or a group, as it is shown.
+
+    Raises
+    ------
+    InputError
+        What stands in it is no text: bytes of a command line in another encoding.
+    """
+    if any("\ud800" <= sign <= "\udfff" for sign in text):
+        raise InputError("text-bytes", name=name, text=quote(text))
+    return " ".join(seen(text).split())

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from ...plans.cams.construction import PLATE_PROFILE, PROFILE
 from ...plans.cams.course import on_circle, rests, turning, up_at
 from ..dimensions import angle, linear
@@ -10,7 +12,7 @@ from ..shapes import Arc, Group, Line, Pen, Polyline
 from ..symbols import Rod, fixed_pivot, polar, revolute, swept, unit
 from ..text import lay_out
 from .inversion import NUMBERS, PHASES, RADIUS, Inversion, RollerInversion
-from .scene import CamScene, is_aside, is_sharp
+from .scene import CamScene, is_aside
 
 OUT = 1.5  # heights of letters from the roller to the dimension of the stroke
 ASIDE = 0.45  # rad between the rays of two radii
@@ -217,12 +219,18 @@ class _Plate(Inversion):
         return [*self.left, *scene.lettered("h", "R_plate"), greatest]
 
 
+def _is_sharp(scene: CamScene) -> bool:
+    """Whether a pitch curve is convex anywhere, so that it has a least radius of curvature."""
+    cam = scene.solved.rolling
+    return cam is not None and 0.0 < cam.profile.sharpest.value < math.inf
+
+
 def _central(scene: CamScene) -> str:
     """Return the ending of the key of a sentence that is another one where the follower's line has no offset."""
     return "" if is_aside(scene) else "_central"
 
 
-LAST = Stage("sharpest", when=is_sharp), Stage("follower")  # of cams for rollers
+LAST = Stage("sharpest", when=_is_sharp), Stage("follower")  # of cams for rollers
 _Roller.figure = Figure(
     PROFILE,
     lambda scene: _Roller(scene).view(),

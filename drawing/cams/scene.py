@@ -163,12 +163,6 @@ def is_aside(scene: CamScene) -> bool:
     return roller is not None and abs(roller.sizes.e) > CENTRAL * scene.mu_l
 
 
-def is_sharp(scene: CamScene) -> bool:
-    """Whether a pitch curve is convex anywhere, so that it has a least radius of curvature."""
-    cam = scene.solved.rolling
-    return cam is not None and 0.0 < cam.profile.sharpest.value < math.inf
-
-
 def lettered(words: Words) -> Words:
     """Return the words with the letters of a cam."""
     table = words.letters_of("cams")

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import cache
 
 from ...plans.gears.construction import MESHING, THETA
 from ...plans.gears.gear import SHIFTS, VALUES, WHEELS, unit_of
 from ...plans.gears.geometry import POINTS
 from ...plans.gears.solve import MARKS, SAME_CENTRES, rule_of
+from ...plans.laws import form_of
 from ...plans.names import role
 from ...plans.solved import AT_LEAST, AT_MOST, Check
 from ...scales.scale import Scale
 from ..handouts import Shown as Begun
 from ..notes.blocks import Story
-from ..printed import DEGREES, Input, Shown, prints, worked
+from ..printed import DEGREES, Input, Shown, Symbol, worked
 from ..tables import table, text_block
 from ..view import View
 from ..words import indexed
@@ -189,7 +191,7 @@ def _calculations(scene: GearScene, names: Iterable[str], symbol: str = "") -> L
     words, lines = scene.words, Lines()
     for step in (scene.solved.program.by_name[name] for name in names if math.isfinite(scene.size(name))):
         unit, times, decimals = _printed(step.name)
-        if not prints(step.law, len(step.operands)):
+        if not _prints(step.law, len(step.operands)):
             number = words.number(scene.size(step.name) * times, decimals or 0)
             lines.append((f"{words.symbol(symbol or step.name)} = {number}{words.unit(unit) if unit else ''}",))
             continue
@@ -261,3 +263,13 @@ def _compared(scene: GearScene, check: Check) -> str:
     value, limit = (_side(scene, check, side) for side in (check.value, check.limit))
     of = f"{scene.words.symbol(check.of)} = " if check.of else ""
     return f"{scene.words.symbol(check.quantity)} = {value} {sign} {of}{limit}"
+
+
+@cache
+def _prints(law: str, operands: int) -> bool:
+    """Whether a law of so many operands is an expression, not a procedure."""
+    try:
+        form_of(law)(*(Symbol.of("x") for _ in range(operands)))
+    except TypeError:
+        return False
+    return True

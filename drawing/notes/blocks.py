@@ -444,11 +444,6 @@ def tied(text: str) -> str:
     return _BEFORE_SIGN.sub(TIE, _AFTER_NUMBER.sub(TIE, text))
 
 
-def is_letter(text: str) -> bool:
-    """Whether a text is one letter, with its primes: a symbol, which is slanted."""
-    return len(bare := text.rstrip("′″")) == 1 and bare.isalpha()
-
-
 def joined(parts: Sequence[Node], place: int) -> bool:
     """Whether a part stands in one word with plain letters, which are upright: the d and the φ of d²s/dφ²."""
     before, after = (parts[near] if 0 <= near < len(parts) else None for near in (place - 1, place + 1))

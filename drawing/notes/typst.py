@@ -357,3 +357,8 @@ def _text(plain: str) -> str:
 
 def _quoted(text: str) -> str:
     return json.dumps(note.printable(text), ensure_ascii=False)
+
+
+def _is_letter(text: str) -> bool:
+    """Whether a text is one letter, with its primes: a symbol, which is slanted."""
+    return len(bare := text.rstrip("′″")) == 1 and bare.isalpha()

@@ -11,6 +11,7 @@ Source: Karpenko, Muzyka, Gudym, figure 3.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import astuple, dataclass, fields
 from typing import Any, NamedTuple
@@ -18,11 +19,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...scales.errors import InputError
 from ..board import Board, recorded
 from ..boards.exact import ExactBoard
 from ..laws import TURN
 from ..solved import AT, AT_LEAST, MORE, Check, Pieces
-from .hoist import VALUES, Numbers, complete, in_range
+from .hoist import FINITE, MOST_SWINGS, RIGID, VALUES, Numbers, complete
 from .model import model, motion_given, rope_force, swinging
 from .onesided import Curve, OneSided, one_sided
 
@@ -108,7 +110,7 @@ def forces(values: Numbers) -> Forces:
     """
     givens = complete(values)
     found = model(givens)
-    in_range(found)
+    _in_range(found)
     motion = None if valid(found) else one_sided(found)
     checks = _validity(found, motion)
     if motion is not None:
@@ -386,3 +388,19 @@ def _best(values: Numbers, found: _Spectrum, count: int) -> Trial:
         best = nearer if nearer.F_max < best.F_max else best
         width *= 3.0 / (count - 1)
     return best
+
+
+def _in_range(found: Numbers) -> None:
+    """Refuse givens so far apart that a result has no number; only what a rigid beam has may be infinite.
+
+    Raises InputError: `hoist-range`, `hoist-stiff` of a load that swings so often that its phase is not known.
+    """
+    for name, value in found.items():
+        of_rigid = math.isinf(value) and name in RIGID and math.isinf(found[RIGID[name]])
+        if not math.isfinite(value) and not of_rigid:
+            raise InputError("hoist-range", name=name)
+    if vanished := [name for name in FINITE if not found[name] > 0.0]:
+        raise InputError("hoist-range", name=vanished[0])
+    turns = found["k"] * found["t_1"] / TURN
+    if math.isfinite(found["k"]) and turns > MOST_SWINGS:
+        raise InputError("hoist-stiff", n=f"{turns:.3g}")

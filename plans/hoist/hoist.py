@@ -16,7 +16,6 @@ from typing import Any
 from ...scales.errors import InputError
 from ...scales.givens import Bound, Described, Givens, Parameter, units
 from ...scales.numbers import quote
-from ..laws import TURN
 
 Numbers = Mapping[str, Any]  # quantities by name, SI: of one hoist, or arrays of many
 LEFT, RIGHT = SIDES = ("left", "right")
@@ -87,22 +86,6 @@ def complete(values: Numbers) -> dict[str, float]:
     if found["V_0"] == 0.0 == found["a"]:
         raise InputError("hoist-still")
     return found
-
-
-def in_range(found: Numbers) -> None:
-    """Refuse givens so far apart that a result has no number; only what a rigid beam has may be infinite.
-
-    Raises InputError: `hoist-range`, `hoist-stiff` of a load that swings so often that its phase is not known.
-    """
-    for name, value in found.items():
-        of_rigid = math.isinf(value) and name in RIGID and math.isinf(found[RIGID[name]])
-        if not math.isfinite(value) and not of_rigid:
-            raise InputError("hoist-range", name=name)
-    if vanished := [name for name in FINITE if not found[name] > 0.0]:
-        raise InputError("hoist-range", name=vanished[0])
-    turns = found["k"] * found["t_1"] / TURN
-    if math.isfinite(found["k"]) and turns > MOST_SWINGS:
-        raise InputError("hoist-stiff", n=f"{turns:.3g}")
 
 
 # what is infinite where a beam is rigid, and what must not vanish

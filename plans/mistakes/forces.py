@@ -17,7 +17,6 @@ from .rules import (
     constant,
     each,
     each_and_all,
-    each_and_all_scaled,
     instead,
     length_of,
     mistake,
@@ -28,6 +27,7 @@ from .rules import (
     reversed_,
     scaled,
     then,
+    times,
     with_other,
     with_sign,
 )
@@ -119,7 +119,7 @@ def _mass_and_weight(scene: Scene) -> Changes:
     given = (step.operands[1] for step in scene.calculated("weight"))
     fall = float(next((scene.paper.givens[name] for name in given if scene.is_given(name)), G))
     for law, factor in (("inertia_force", fall), ("weight", 1.0 / fall)):
-        yield from each_and_all_scaled(factor, scene.calculated(law), law)
+        yield from _each_and_all_scaled(factor, scene.calculated(law), law)
 
 
 @mistake("M64")
@@ -183,8 +183,8 @@ def _inertia_moment_lost(scene: Scene) -> Changes:
 @mistake("M61")
 def _inertia_about_end(scene: Scene) -> Changes:
     """The moment of inertia is taken about the end of the link: m l^2 / 3 for m l^2 / 12."""
-    yield from each_and_all_scaled(4.0, scene.calculated("inertia_moment"), "M_i")
-    yield from each_and_all_scaled(4.0, scene.calculated("inertia_by_length"), "J")
+    yield from _each_and_all_scaled(4.0, scene.calculated("inertia_moment"), "M_i")
+    yield from _each_and_all_scaled(4.0, scene.calculated("inertia_by_length"), "J")
 
 
 @mistake("M118")
@@ -444,3 +444,8 @@ def _reactions_on_lever(scene: Scene) -> Changes:
 each("M80", _couples, opposed)
 # the balancing moment is the force, its arm being lost
 each("M82", "crank_moment", lambda step: otherwise(step, operands=step.operands[:1], law="given"))
+
+
+def _each_and_all_scaled(factor: float, steps: Iterable[Step], at: str) -> Iterator[Change]:
+    """Make so many times what each of some steps makes, and all of them."""
+    return each_and_all({step.name: times(step, factor) for step in steps}, at=at)

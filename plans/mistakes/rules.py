@@ -252,11 +252,6 @@ def each_and_all(changed: Steps, how: str = "", at: str = "") -> Iterator[Change
         yield Change(at or next(iter(changed)), changed, f"{how}, all".lstrip(", "))
 
 
-def each_and_all_scaled(factor: float, steps: Iterable[Step], at: str) -> Iterator[Change]:
-    """Make so many times what each of some steps makes, and all of them."""
-    return each_and_all({step.name: times(step, factor) for step in steps}, at=at)
-
-
 def with_sign(step: Step, size: tuple[Step, ...], value: Any, how: str = "") -> Change:
     """Make the scalar of a step anew, its size by other steps (the last one makes it), with the sign of `value`."""
     sense = constant(-1.0 if value < 0.0 else 1.0)

@@ -214,15 +214,6 @@ def record(checker: Checker, path: Path, raw: object, fields: Mapping[str, Field
     return {name: value for name, value in read.items() if value is not None}
 
 
-def record_of(
-    checker: Checker, path: Path, raw: object, fields: Mapping[str, Field], make: Callable[..., Made]
-) -> Made | None:
-    """Make something of a table with fixed keys; None when a part of it is at fault."""
-    before = len(checker.faults)
-    read = record(checker, path, raw, fields)
-    return make(**read) if len(checker.faults) == before else None
-
-
 def trying(read: Callable[[Any], Any]) -> Read:
     """Return a reader that notes why what it reads is refused."""
 

@@ -14,7 +14,7 @@ from ...scales.givens import Bound
 from ...scales.names import unknown
 from ...scales.numbers import quote
 from ...scales.units import ONE, unit
-from .basics import Checker, Field, Path, array_of, as_is, name, one_of, record, record_of, rows, whole_number
+from .basics import Checker, Field, Made, Path, array_of, as_is, name, one_of, record, rows, whole_number
 from .names import Names
 
 _RAD, _RAD_S, _RAD_S2 = unit("rad"), unit("rad/s"), unit("rad/s^2")
@@ -73,7 +73,7 @@ def read_mechanism(checker: Checker, raw: object, names: Names) -> model.Mechani
 
     def single(key: str) -> Callable[..., Any]:
         make, fields = made[key]
-        return lambda c, p, r, names=names: record_of(c, p, r, fields, make)
+        return lambda c, p, r, names=names: _record_of(c, p, r, fields, make)
 
     def each(read: Callable[..., Any]) -> Callable[..., Any]:
         """Read an array of tables, one at a time."""
@@ -147,7 +147,7 @@ def _pair(checker: Checker, path: Path, raw: object, names: Names) -> model.Pair
         return None
     pair, own = kinds[kind]
     fields = _must(kind=as_is, point=name, links=array_of(whole_number, 2)) | own | _may(branch=names.sign)
-    return record_of(checker, path, raw, fields, lambda kind, **read: pair(**read))
+    return _record_of(checker, path, raw, fields, lambda kind, **read: pair(**read))
 
 
 def _driver(checker: Checker, path: Path, raw: object, names: Names) -> model.Driver | model.SlidingDriver | None:
@@ -198,7 +198,7 @@ def _diagram(checker: Checker, path: Path, raw: object, names: Names) -> tuple[m
     wanted = _N_M if moment else _N
     sizes, places = array_of(names.value(wanted)), array_of(names.value(_RAD if over == model.ANGLE else ONE))
     fields = _must(name=name, over=_OVER, at=places, values=sizes) | _may(back=sizes)
-    diagram = record_of(checker, path, raw, fields, model.Diagram)
+    diagram = _record_of(checker, path, raw, fields, model.Diagram)
     if diagram is not None:
         for key, listed in (("values", diagram.values), ("back", diagram.back)):
             if listed is not None and len(listed) != len(diagram.at):
@@ -371,3 +371,12 @@ def branched(checker: Checker, mechanism: model.Mechanism, structure: Structure)
             triad = any(pair.point == other.point for other in joints[TRIAD])
             error = InputError("branch-triad" if triad else "branch-needless", point=pair.point)
             checker.fault(("mechanism", "pair", i, "branch"), error)
+
+
+def _record_of(
+    checker: Checker, path: Path, raw: object, fields: Mapping[str, Field], make: Callable[..., Made]
+) -> Made | None:
+    """Make something of a table with fixed keys; None when a part of it is at fault."""
+    before = len(checker.faults)
+    read = record(checker, path, raw, fields)
+    return make(**read) if len(checker.faults) == before else None
