@@ -185,7 +185,7 @@ class Course(ABC):
         """Return the columns at a place, by name, and points and directions that figures which move need.
 
         They follow from numbers that are `given` by name: the place, in the first column, and those of its piece. The
-        numbers may be written down (`boards.formulas`), or arrays.
+        numbers may be written down (`boards.batch`), or arrays.
         """
 
     def pieces(self) -> Pieces | None:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from ...plans.boards.formulas import script_of_formulas
+from ...plans.boards.batch import script_of_formulas
 from ...plans.solved import Course, Pieces
 from ...scales.scale import Scale
 from ...scales.units import SHOWN
