@@ -331,7 +331,7 @@ def _sentence(markup: str) -> str:
 def _formula(node: note.Node, upright: bool = False) -> str:
     """Return a node within a formula; a letter alone is slanted, unless it is `upright`."""
     if isinstance(node, note.Plain):
-        slanted = note.is_letter(node.text) and not upright
+        slanted = _is_letter(node.text) and not upright
         return f"italic({_quoted(node.text)})" if slanted else _quoted(node.text)
     if isinstance(node, note.Ruled):
         inner = " ".join(map(_formula, node.parts)) or '""'

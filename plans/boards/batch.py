@@ -16,6 +16,7 @@ from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
+from numpy.lib.mixins import NDArrayOperatorsMixin
 from numpy.typing import DTypeLike, NDArray
 
 from ...scales.errors import InputError
@@ -343,32 +344,32 @@ Part = Real | float
 Formulas = Callable[[Callable[[str], Any]], Mapping[str, Any]]
 
 
-class Written:
-    """A number, real or complex, that is written down; numpy's functions leave it to `FUNCTIONS`."""
+class _Written(NDArrayOperatorsMixin):
+    """A number, real or complex, that is written down; operators and numpy's functions do what `FUNCTIONS` say."""
 
-    __hash__ = None  # type: ignore[assignment]
+    __eq__, __hash__ = object.__eq__, None  # what changes from place to place equals no number everywhere
     __slots__ = ("x", "y")
 
     def __init__(self, x: Part, y: Part = 0.0) -> None:
         self.x, self.y = x, y
 
     @property
-    def real(self) -> Written:
+    def real(self) -> _Written:
         """The real part."""
-        return Written(self.x)
+        return _Written(self.x)
 
     @property
-    def imag(self) -> Written:
+    def imag(self) -> _Written:
         """The imaginary part."""
-        return Written(self.y)
+        return _Written(self.y)
 
-    def conj(self) -> Written:
+    def conj(self) -> _Written:
         """Return the conjugate number."""
-        return Written(self.x, -self.y)
+        return _Written(self.x, -self.y)
 
     def __array_ufunc__(self, function: Any, method: str, *numbers: Any, **how: Any) -> Any:
-        do = FUNCTIONS.get(function.__name__)
-        return NotImplemented if do is None or method != "__call__" or how else do(*map(_as_written, numbers))
+        do, elsewhere = FUNCTIONS.get(function.__name__), how.keys() - {"out"}  # no number is changed in its place
+        return NotImplemented if do is None or method != "__call__" or elsewhere else do(*map(_as_written, numbers))
 
     def __array_function__(self, function: Any, kinds: Any, numbers: Any, how: Any) -> Any:
         return _where(*numbers) if function is np.where and not how else NotImplemented
@@ -376,64 +377,12 @@ class Written:
     def __bool__(self) -> bool:
         raise TypeError("no value while formulas are written down")
 
-    def __neg__(self) -> Written:
-        return Written(-self.x, -self.y)
 
-    def __add__(self, other: Any) -> Written:
-        other = _as_written(other)
-        return Written(self.x + other.x, self.y + other.y)
-
-    __radd__ = __add__
-
-    def __sub__(self, other: Any) -> Written:
-        return self + -_as_written(other)
-
-    def __rsub__(self, other: Any) -> Written:
-        return -self + _as_written(other)
-
-    def __mul__(self, other: Any) -> Written:
-        other = _as_written(other)
-        return Written(
-            _times(self.x, other.x) + -_times(self.y, other.y), _times(self.x, other.y) + _times(self.y, other.x)
-        )
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Any) -> Written:
-        other = _as_written(other)
-        if not _is_zero(other.y):
-            raise TypeError("a quotient of complex numbers")
-        return Written(_over(self.x, other.x), _over(self.y, other.x))
-
-    def __rtruediv__(self, other: Any) -> Written:
-        return _as_written(other) / self
-
-    def __pow__(self, power: float) -> Written:
-        return _applied("power")(self, Written(float(power)))
-
-    def __abs__(self) -> Written:
-        if _is_zero(self.y):
-            return Written(abs(self.x))  # type: ignore[arg-type]
-        return SQRT(Written(_times(self.x, self.x) + _times(self.y, self.y)))
-
-    def __lt__(self, other: Any) -> Written:
-        return _applied("less")(self, _as_written(other))
-
-    def __le__(self, other: Any) -> Written:
-        return _applied("less_equal")(self, _as_written(other))
-
-    def __gt__(self, other: Any) -> Written:
-        return _as_written(other) < self
-
-    def __ge__(self, other: Any) -> Written:
-        return _as_written(other) <= self
-
-
-def _as_written(number: Any) -> Written:
-    if isinstance(number, Written):
+def _as_written(number: Any) -> _Written:
+    if isinstance(number, _Written):
         return number
     number = complex(number)
-    return Written(number.real, number.imag)
+    return _Written(number.real, number.imag)
 
 
 def _is_zero(part: Part) -> bool:
@@ -444,52 +393,67 @@ def _times(a: Part, b: Part) -> Part:
     return 0.0 if _is_zero(a) or _is_zero(b) else a * b
 
 
+def _product(a: _Written, b: _Written) -> _Written:
+    return _Written(_times(a.x, b.x) + -_times(a.y, b.y), _times(a.x, b.y) + _times(a.y, b.x))
+
+
 def _over(a: Part, b: Part) -> Part:
     if isinstance(a, Real) or isinstance(b, Real):
         return 0.0 if _is_zero(a) else a / b
     return float(np.divide(a, b))
 
 
-def _applied(operation: str) -> Callable[..., Written]:
+def _quotient(a: _Written, b: _Written) -> _Written:
+    if not _is_zero(b.y):
+        raise TypeError("a quotient of complex numbers")
+    return _Written(_over(a.x, b.x), _over(a.y, b.x))
+
+
+def _size(a: _Written) -> _Written:
+    if _is_zero(a.y):
+        return _Written(abs(a.x))  # type: ignore[arg-type]
+    return FUNCTIONS["sqrt"](_Written(_times(a.x, a.x) + _times(a.y, a.y)))
+
+
+def _applied(operation: str) -> Callable[..., _Written]:
     """Return an operation on real numbers that is noted, or done where all of them are known."""
 
-    def do(*numbers: Any) -> Written:
+    def do(*numbers: Any) -> _Written:
         if not all(_is_zero(number.y) for number in numbers):
             raise TypeError(f"{operation} of complex numbers")
         noted = next((number.x for number in numbers if isinstance(number.x, Real)), None)
         if noted is None:
-            return Written(float(getattr(np, operation)(*(number.x for number in numbers))))
-        return Written(noted.trace.apply(operation, *(number.x for number in numbers)))
+            return _Written(float(getattr(np, operation)(*(number.x for number in numbers))))
+        return _Written(noted.trace.apply(operation, *(number.x for number in numbers)))
 
     return do
 
 
-def _where(condition: Any, first: Any, second: Any) -> Written:
+def _where(condition: Any, first: Any, second: Any) -> _Written:
     yes, no = _as_written(first), _as_written(second)
-    if not isinstance(condition, Written):
+    if not isinstance(condition, _Written):
         return yes if condition else no
     if not isinstance(condition.x, Real):
         return yes if condition.x else no
     if _is_zero(yes.y) and _is_zero(no.y):
-        return Written(condition.x.trace.apply("where", condition.x, yes.x, no.x))
-    return Written(*(condition.x.trace.apply("where", condition.x, a, b) for a, b in ((yes.x, no.x), (yes.y, no.y))))
+        return _Written(condition.x.trace.apply("where", condition.x, yes.x, no.x))
+    return _Written(*(condition.x.trace.apply("where", condition.x, a, b) for a, b in ((yes.x, no.x), (yes.y, no.y))))
 
 
-SQRT = _applied("sqrt")
-FUNCTIONS: dict[str, Callable[..., Any]] = {
+FUNCTIONS: dict[str, Callable[..., _Written]] = {
     **{name: _applied(name) for name in ("sin", "cos", "arctan2", "sqrt", "less", "less_equal", "power")},
     "greater": lambda a, b: b < a,
     "greater_equal": lambda a, b: b <= a,
-    "add": lambda a, b: a + b,
-    "subtract": lambda a, b: a - b,
-    "multiply": lambda a, b: a * b,
-    "divide": lambda a, b: a / b,
-    "negative": lambda a: -a,
-    "absolute": abs,
-    "conjugate": Written.conj,
+    "add": lambda a, b: _Written(a.x + b.x, a.y + b.y),
+    "subtract": lambda a, b: a + -b,
+    "multiply": _product,
+    "divide": _quotient,
+    "negative": lambda a: _Written(-a.x, -a.y),
+    "absolute": _size,
+    "conjugate": _Written.conj,
     "hypot": lambda a, b: abs(a + b * 1j),
-    "floor": lambda a: _applied("floor_divide")(a, Written(1.0)),
-    "isinf": lambda a: Written(0.0),  # what changes from place to place is finite
+    "floor": lambda a: _applied("floor_divide")(a, _Written(1.0)),
+    "isinf": lambda a: _Written(0.0),  # what changes from place to place is finite
 }
 
 
@@ -501,7 +465,7 @@ def script_of_formulas(formulas: Formulas, function: str = "solve") -> tuple[str
     (`batch.script_of`): zero first, then each of the names, complex numbers as arrays of two.
     """
     trace = Trace()
-    found = {name: _as_written(number) for name, number in formulas(lambda name: Written(trace.given(name))).items()}
+    found = {name: _as_written(number) for name, number in formulas(lambda name: _Written(trace.given(name))).items()}
     values = [number.x if _is_zero(number.y) else Vector(number.x, number.y) for number in found.values()]
     places = [part.place for number in found.values() for part in (number.x, number.y) if isinstance(part, Real)]
     script = Script(trace, in_order(trace, places), places)
