@@ -1,21 +1,18 @@
-"""What every view of a gear pair needs: sizes on paper, letters, and scale factors with their ladders."""
+"""What every view of a gear pair needs: sizes on paper, letters, scale factors."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ...plans.gears.construction import MESHING, SLIDING, THETA
-from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
 from ...plans.gears.geometry import POINTS
 from ...plans.gears.solve import SAME, SCALES, SolvedGear
 from ...plans.gears.teeth import Meshing, Wheel, wheels
 from ...plans.solved import PAPER_MM
-from ...scales.scale import Choosers, From, Scale, steps
-from ..extents import not_a_point, smallest, visible
+from ...scales.scale import Scale, steps
+from ..extents import not_a_point
 from ..figure import SubjectScene
-from ..formats import STYLES, Format
 from ..words import Words
 
 TALL = 7.0  # heights of letters that a tooth must have for what is measured on it
@@ -23,10 +20,6 @@ OF_POINTS = {"y_1": "y_{1}", "y_2": "y_{2}", "theta_12": "θ_{12}", "theta_21": 
 # rho_1 of a place, its distance from N1: by the name of a quantity
 PLACES = {"A1": "rho_p1", "P": "rho_w1", "A2": "rho_a1"}
 TOOTH = 50.0  # mm, by which a drawn tooth should be high at least
-LONGEST = 230.0  # mm, that N1N2 may be where the involutes are constructed
-FOREIGN = 4e-5  # m/mm, 25:1
-# mm^2 of A1, of figures with their texts
-AREAS = {GEOMETRY_PART: 2.6e5, MESHING_PART: 3e5, SLIDING_PART: 9e4}
 # mm of the line of action and of the axis of specific sliding on the diagrams, by the height of letters
 ALONG, HIGH = {5.0: 250.0, 3.5: 140.0}, {5.0: 125.0, 3.5: 62.0}
 CURVES = {1: "theta_12", 2: "theta_21"}  # of specific sliding
@@ -34,7 +27,6 @@ ENDS = {"A1": "rho_p1", "A2": "rho_a1"}  # of the active line, and the quantitie
 CUTS = 2.0, 10.0  # the least and the greatest depth at which curves are cut off
 USUAL = 5.0  # where sliding has no limit on the active line
 ROOM = 1.25  # how far below the extremes
-PARTS = 1.0, 0.8, 0.6, 0.5  # of the usual size of the diagrams of sliding
 UNITS = {MESHING: "m", SLIDING: "m", THETA: "1"}
 
 
@@ -102,7 +94,7 @@ class GearScene(SubjectScene[SolvedGear]):
 
     def scale(self, plan: str) -> Scale:
         """Return the scale factor of a plan as it is drawn."""
-        mu = self.mu_l if plan == MESHING else _sliding_mu(self.solved, plan, self.style.label, self.part)
+        mu = self.mu_l if plan == MESHING else sliding_mu(self.solved, plan, self.style.label, self.part)
         return Scale(SCALES[plan], mu, UNITS[plan])
 
     def wheels(self, rho_1: float | None = None) -> tuple[Wheel, Wheel]:
@@ -133,50 +125,7 @@ def lettered(words: Words) -> Words:
     return words.lettered(words.letters_of("gears") | of_points)
 
 
-def mu_ladder(solved: SolvedGear, choosers: Choosers) -> tuple[float, ...]:
-    """Return the scale factors of the meshing, the one wanted first: where nothing is said, teeth of 50 mm."""
-    wanted = choosers.get("mu_l", From(_finest(solved)))
-    first, *others = wanted.ladder(lambda name: solved.sizes.get(name, solved.sizes["a_w"]))
-    if MESHING in solved.scale_of_plan:
-        visible(wanted, "mu_l", first, solved.sizes["a_w"], "m")
-    return first, *_standard(others)
-
-
-def near_ladder(solved: SolvedGear, least: float = 0.0) -> tuple[float, ...]:
-    """Return the scale factors, from a least one on, of the middle of a meshing that is drawn apart."""
-    return _standard(From(max(_finest(solved), least)).ladder(lambda _: solved.sizes["a_w"]))
-
-
-def rolled_ladder(solved: SolvedGear) -> tuple[float, ...]:
-    """Return the scale factors of the construction of the involutes and of the line of action straightened."""
-    return near_ladder(solved, _standard(steps(solved.sizes["l_N1N2"] / LONGEST))[0])
-
-
-def _finest(solved: SolvedGear) -> float:
-    most = solved.sizes["h"] / TOOTH
-    return max(mu for mu in _standard(steps(most / 10.0)) if mu <= most * (1.0 + 1e-9))
-
-
-def _standard(mus: Iterable[float]) -> tuple[float, ...]:
-    """Return the scale factors that GOST 2.302 has: 2,5:1 is one of its enlargements, 25:1 is not."""
-    return tuple(mu for mu in mus if not math.isclose(mu, FOREIGN))
-
-
-def first_scales(solved: SolvedGear, choosers: Choosers, plans: Sequence[str]) -> tuple[Format, dict[str, Scale]]:
-    """Return the format and the scale factors by plan: the given ones, or coarser ones where diagrams have no room."""
-    sheet, mus = smallest(AREAS[plan] for plan in plans), {MESHING: mu_ladder(solved, choosers)[0]}
-    if SLIDING in solved.scale_of_plan:
-        size = STYLES[sheet.letters].label, parts_of(plans)[0]
-        mus |= {plan: _sliding_mu(solved, plan, *size) for plan in (SLIDING, THETA)}
-    return sheet, {plan: Scale(symbol, mus[plan], UNITS[plan]) for plan, symbol in solved.scale_of_plan.items()}
-
-
-def parts_of(plans: Sequence[str]) -> tuple[float, ...]:
-    """Return what diagrams of sliding may have of their usual size, the wanted part first: beside the meshing less."""
-    return PARTS[1:] if {MESHING_PART, SLIDING_PART} <= {*plans} else PARTS
-
-
-def _sliding_mu(solved: SolvedGear, plan: str, letters: float, part: float) -> float:
+def sliding_mu(solved: SolvedGear, plan: str, letters: float, part: float) -> float:
     """Return the scale factor of a diagram of sliding, the given one or a coarser one of its series, SI per mm.
 
     `letters` are so high, mm; diagrams have `part` of their usual size. Raises InputError where the given one of

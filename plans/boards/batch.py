@@ -347,7 +347,8 @@ Formulas = Callable[[Callable[[str], Any]], Mapping[str, Any]]
 class _Written(NDArrayOperatorsMixin):
     """A number, real or complex, that is written down; operators and numpy's functions do what `FUNCTIONS` say."""
 
-    __eq__, __hash__ = object.__eq__, None  # what changes from place to place equals no number everywhere
+    __eq__ = object.__eq__  # what changes from place to place equals no number everywhere
+    __hash__ = None  # type: ignore[assignment]
     __slots__ = ("x", "y")
 
     def __init__(self, x: Part, y: Part = 0.0) -> None:

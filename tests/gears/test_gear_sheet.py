@@ -9,7 +9,7 @@ import shapely
 
 from kulman import sheet
 from kulman.drawing.gears.meshing_view import BREAKS
-from kulman.drawing.gears.scene import mu_ladder, near_ladder, rolled_ladder
+from kulman.drawing.gears.sheet import _mu_ladder, _near_ladder, _rolled_ladder
 from kulman.plans.gears.gear import GearPair
 from kulman.plans.gears.solve import solve_gear
 from kulman.plans.gears.teeth import meshing_of
@@ -157,10 +157,10 @@ def test_involutes_are_constructed_by_rolling() -> None:
 def test_meshings_are_drawn_to_scales_of_the_standard(m: float) -> None:
     enlargements = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0, 100.0, 200.0)  # GOST 2.302; from 100:1 on by hundreds
     solved = solve_gear(GearPair(), {"m": m, "z_1": 15.0, "z_2": 20.0, "x_1": 0.2, "x_2": 0.85})
-    for ladder in (mu_ladder(solved, {}), near_ladder(solved), rolled_ladder(solved)):
+    for ladder in (_mu_ladder(solved, {}), _near_ladder(solved), _rolled_ladder(solved)):
         ratios = [1e-3 / mu for mu in ladder if mu < 0.9e-3]
         assert all(any(math.isclose(ratio, known) for known in enlargements) for ratio in ratios)
-    assert solved.sizes["h"] / near_ladder(solved)[0] >= 50.0
+    assert solved.sizes["h"] / _near_ladder(solved)[0] >= 50.0
 
 
 @pytest.mark.parametrize(
