@@ -219,7 +219,7 @@ def _law_of_pieces(at: Sequence[float], values: Sequence[float]) -> Law:
     return tuple(piece.times(1.0 / whole) for piece in travel)
 
 
-def law_of_points(at: Sequence[float], values: Sequence[float]) -> Law:
+def _law_of_points(at: Sequence[float], values: Sequence[float]) -> Law:
     """Return the law whose travel runs smoothly through points, in any scale, and rests at both ends.
 
     The curve is the cubic spline with s' = 0 at the ends: of all smooth curves through the points that with the least
@@ -244,7 +244,7 @@ def law_of_points(at: Sequence[float], values: Sequence[float]) -> Law:
 
 def law_of_curve(curve: Curve) -> Law:
     """Return the law that a table of one's own gives."""
-    return (_law_of_pieces if curve.kind == PIECES else law_of_points)(curve.at, curve.values)
+    return (_law_of_pieces if curve.kind == PIECES else _law_of_points)(curve.at, curve.values)
 
 
 def _spline(x: Array, s: Array) -> list[Smooth]:

@@ -125,7 +125,7 @@ def wedge(motion: Motion, limits: Limits, sense: int = 1) -> tuple[HalfPlane, ..
     return tuple(planes)
 
 
-def smallest_roller(planes: Sequence[HalfPlane]) -> Sizes:
+def _smallest_roller(planes: Sequence[HalfPlane]) -> Sizes:
     """Return the sizes with the least r_0 that the half planes of `wedge` permit."""
     sizes = _nearest(planes)
     assert sizes is not None, "half planes that all open upwards have places in common"
@@ -169,7 +169,7 @@ def offsets(planes: Sequence[HalfPlane], r_0: float) -> Range | None:
     return r_0 * math.sin(lowest), r_0 * math.sin(highest)
 
 
-def smallest_plate(motion: Motion, rho_flat: float, margin: float) -> PlateSizes:
+def _smallest_plate(motion: Motion, rho_flat: float, margin: float) -> PlateSizes:
     """Return the sizes of a flat follower's cam with the least radius of curvature `rho_flat`.
 
     The radius of curvature is r_0 + s + s'', so that at r_0 = -(s + s'') the cam is just convex; the plate reaches
@@ -180,7 +180,7 @@ def smallest_plate(motion: Motion, rho_flat: float, margin: float) -> PlateSizes
     return PlateSizes(r_0_min, r_0_min + rho_flat, motion.ds_max.value + margin, phi)
 
 
-def smallest_rocker(rocker: Rocker, limits: Limits) -> Sizes | Names:
+def _smallest_rocker(rocker: Rocker, limits: Limits) -> Sizes | Names:
     """Return the sizes with the least r_0, the place of the cam's centre being free, or the limits that permit none.
 
     The half planes of a few positions are held; as long as another position is outside its limit, it joins them. A
@@ -283,13 +283,13 @@ def roller_cam(cam: Cam, motion: Motion, values: Values) -> RollerCam:
     planes = wedge(motion, limits, cam.sense)
     r_0, e, between, permitted = values.get("r_0"), values.get("e"), None, None
     if r_0 is None:
-        sizes = smallest_roller(planes) if e is None else central(planes, e)
+        sizes = _smallest_roller(planes) if e is None else central(planes, e)
     else:
         between = offsets(planes, r_0)
         if e is not None:
             permitted = central(planes, e).r_0, math.inf
         elif between is None:
-            raise InputError("cam-no-offset", r_0=_mm(r_0), least=six_digits(smallest_roller(planes).r_0))
+            raise InputError("cam-no-offset", r_0=_mm(r_0), least=six_digits(_smallest_roller(planes).r_0))
         else:
             e = 0.5 * (between[0] + between[1])
         sizes = Sizes(r_0, e, math.sqrt((r_0 - e) * (r_0 + e)))
@@ -302,7 +302,7 @@ def plate_cam(cam: Cam, motion: Motion, values: Values) -> PlateCam:
 
     Raises InputError: at the given r_0 the profile is curved with a smaller radius than is wanted.
     """
-    sizes = smallest_plate(motion, values["rho_flat"], values["margin"])
+    sizes = _smallest_plate(motion, values["rho_flat"], values["margin"])
     r_0 = values.get("r_0_flat")
     if r_0 is not None:
         if r_0 < sizes.r_0 * (1.0 - ROUNDING):
@@ -324,7 +324,7 @@ def rocker_cam(cam: Cam, values: Values) -> RollerCam:
     if distance is None:
         if r_0 is not None:
             raise InputError("cam-rocker-r-0")
-        sizes = smallest_rocker(rocker, limits)
+        sizes = _smallest_rocker(rocker, limits)
     else:
         sizes = _smallest_rocker_at(rocker, limits, distance)
         if r_0 is not None:
@@ -336,7 +336,7 @@ def rocker_cam(cam: Cam, values: Values) -> RollerCam:
             place = l - distance * complex(cosine, -math.sqrt(1.0 - cosine * cosine))
             sizes = Sizes(r_0, place.real, place.imag, l_OC=distance)
     if not isinstance(sizes, Sizes):
-        free = sizes if distance is None else smallest_rocker(rocker, limits)
+        free = sizes if distance is None else _smallest_rocker(rocker, limits)
         if distance is None or not isinstance(free, Sizes):
             raise InputError("cam-no-place", limits=_blamed(sizes if isinstance(free, Sizes) else free))
         raise InputError("cam-no-place-at", limits=_blamed(sizes), l_OC=_mm(distance), best=_mm(free.l_OC))

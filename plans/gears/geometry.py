@@ -53,7 +53,7 @@ def unrolled(t: Any) -> Array:
     return found
 
 
-def involute(alpha: Any) -> Any:
+def _involute(alpha: Any) -> Any:
     """Return inv(alpha) of angles, rad, between right angles."""
     return unrolled(np.tan(alpha))
 
@@ -73,12 +73,12 @@ def tangent_of_involute(inv: Any) -> Array:
     return found
 
 
-def angle_of_involute(inv: Any) -> Any:
+def _angle_of_involute(inv: Any) -> Any:
     """Return the angles, rad, with the given involute functions; NaN where these are negative."""
     return np.arctan(tangent_of_involute(inv))
 
 
-inv = named("inv", involute)
+inv = named("inv", _involute)
 IN_DEGREES = Sign(1.0, "180°/π")  # of radians
 
 
@@ -106,7 +106,7 @@ def _fillet(h_a: Any, h_l: Any, c: Any, alpha: Any) -> Any:
 def _spanned(z: Any, x: Any, alpha: Any) -> Any:
     """Return over how many teeth the common normal is measured, so that it touches near the circle d + 2 x m."""
     base, middle = z * np.cos(alpha), np.maximum(z + 2.0 * x, z * np.cos(alpha))
-    touched = np.tan(_angle_of(base, middle)) - 2.0 * x * np.tan(alpha) / z - involute(alpha)
+    touched = np.tan(_angle_of(base, middle)) - 2.0 * x * np.tan(alpha) / z - _involute(alpha)
     return np.maximum(np.floor(z / math.pi * touched + 1.0), 1.0)
 
 
@@ -135,9 +135,9 @@ def _define(**laws: Law | tuple[Law, Law]) -> None:
 
 _define(
     reference_centre=lambda m, z_1, z_2: 0.5 * m * (z_1 + z_2),
-    involute=(involute, lambda alpha: np.tan(alpha) - alpha * math.pi / HALF_TURN),
+    involute=(_involute, lambda alpha: np.tan(alpha) - alpha * math.pi / HALF_TURN),
     working_involute=lambda inv, x_sum, alpha, z_1, z_2: inv + 2.0 * x_sum * np.tan(alpha) / (z_1 + z_2),
-    angle_of_involute=angle_of_involute,
+    angle_of_involute=_angle_of_involute,
     # the angle and the sum of shifts follow from a given a_w
     working_centre=lambda a, alpha, alpha_w: a * np.cos(alpha) / np.cos(alpha_w),
     working_angle=lambda a, alpha, a_w: _angle_of(a * np.cos(alpha), a_w),

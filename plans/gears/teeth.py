@@ -44,7 +44,7 @@ NEEDED = ("d_1", "d_2", "s_1", "s_2", "inv_alpha", "d_b1", "d_b2", "d_a1", "d_a2
 
 
 @dataclass(frozen=True)
-class Tooth:
+class _Tooth:
     """One tooth of a wheel."""
 
     z: float  # number of teeth
@@ -174,14 +174,14 @@ class Tooth:
         return np.append((outline[:-1] * turn[:, np.newaxis]).ravel(), outline[-1] * turn[-1])
 
 
-def tooth_of(values: Mapping[str, Any], i: int) -> Tooth:
+def tooth_of(values: Mapping[str, Any], i: int) -> _Tooth:
     """Return the tooth of the wheel `i`, 1 or 2, of a pair with its givens by name."""
     found = geometry(values, NEEDED)
     m, alpha, rho_f = found["m"], found["alpha"], found["rho_f"]
     r, r_f = 0.5 * found[f"d_{i}"], 0.5 * found[f"d_f{i}"]
     straight = (found["h_a"] + found["c"]) * m - rho_f  # of the corner's centre from the rack's middle line
     beside = 0.25 * math.pi * m - straight * math.tan(alpha) - rho_f / math.cos(alpha)
-    return Tooth(
+    return _Tooth(
         z=found[f"z_{i}"],
         alpha=alpha,
         r=r,
@@ -206,7 +206,7 @@ WANTED = ("a_w", "alpha_w", "d_w1", "d_w2", "d_b1", "d_b2", "rho_p1", "rho_a1", 
 class Meshing:
     """A pair in mesh without backlash."""
 
-    teeth: tuple[Tooth, Tooth]  # of the pinion and of the wheel
+    teeth: tuple[_Tooth, _Tooth]  # of the pinion and of the wheel
     sizes: Mapping[str, float]  # the quantities of the pair
     sense: int = 1  # +1 when the pinion turns counter-clockwise, else -1
 
@@ -276,7 +276,7 @@ class Wheel:
     """One wheel on the paper."""
 
     number: int  # 1 for the pinion, 2 for the wheel
-    tooth: Tooth  # its tooth, m
+    tooth: _Tooth  # its tooth, m
     # its centre, mm; the unit direction from there to the pole
     centre: complex
     up: complex

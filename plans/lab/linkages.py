@@ -52,7 +52,7 @@ GRID = 72  # places round the cycle at which Newton's method knows where the lin
 ORDERS = {"V": 1, "omega": 1, "a": 2, "epsilon": 2}  # how many times a quantity is a derivative of a place
 
 
-def kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Discipline, ...]:
+def _kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Discipline, ...]:
     """Return the quantities of a cycle that are compared, kind by kind.
 
     Those are velocities and accelerations of points, angular ones of links, reactions and what balances the driver;
@@ -73,7 +73,7 @@ def kinds_of(cycle: Cycle, chosen: Iterable[str] = ()) -> tuple[Discipline, ...]
     return tuple(Discipline(kind, names) for kind, names in found.items() if names)
 
 
-class Rivals:
+class _Rivals:
     """A mechanism over its cycle, ready for all methods."""
 
     def __init__(self, cycle: Cycle) -> None:
@@ -87,7 +87,7 @@ class Rivals:
         self._whole = abs(cycle.range.high - cycle.range.low)
         # how the links lie at places round the cycle
         known = {mark for body in self._bodies.values() for mark in (body.direction, body.local)}
-        there = cycle.at(places_of(cycle, GRID), [name for name in cycle.program.names if name in known])
+        there = cycle.at(_places_of(cycle, GRID), [name for name in cycle.program.names if name in known])
         self._grid = self.contours.pose({
             number: there[body.direction] * (np.conj(there[body.local]) if body.local else 1.0)
             for number, body in self._bodies.items()
@@ -95,7 +95,7 @@ class Rivals:
 
     def time(self, method: Method, size: int, names: Sequence[str], clock: Clock) -> float:
         """Return what a method takes for a position of so many at once, seconds."""
-        return timed(partial(method, places_of(self.cycle, size), names), clock)[1] / size
+        return timed(partial(method, _places_of(self.cycle, size), names), clock)[1] / size
 
     def plan(self, places: Array, names: Sequence[str], precision: str = "double") -> Values:
         """Return quantities by plans in a precision, many positions at once."""
@@ -198,7 +198,7 @@ class _Truth:
         return {name: np.abs(gap).astype(float) * (1.0 / self.sizes[name]) for name, gap in off.items()}
 
 
-def places_of(cycle: Cycle, count: int) -> Array:
+def _places_of(cycle: Cycle, count: int) -> Array:
     """Return so many places of the driver, half a step off the ends of the cycle, where loads may jump."""
     low, high = cycle.range.low, cycle.range.high
     return low + (high - low) * ((np.arange(count) + 0.5) / count)
@@ -235,7 +235,7 @@ def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (
     Errors are looked at in so many `positions`, of the quantities `names`, of all that can be compared when empty;
     `clock` returns seconds, best those of the processor, and `effort` says on what times are measured.
     """
-    rivals, places, kinds = Rivals(cycle), places_of(cycle, positions), kinds_of(cycle, names)
+    rivals, places, kinds = _Rivals(cycle), _places_of(cycle, positions), _kinds_of(cycle, names)
     entries: list[Entry] = []
     exact = truth(cycle, places, tuple(dict.fromkeys(name for kind in kinds for name in kind.names)))  # once for all
     for kind in kinds:
@@ -246,7 +246,7 @@ def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (
 
 
 def _by_plans(
-    rivals: Rivals, names: Sequence[str], places: Array, effort: Effort, clock: Clock
+    rivals: _Rivals, names: Sequence[str], places: Array, effort: Effort, clock: Clock
 ) -> Iterator[tuple[Way, Values]]:
     """Go through plans: in batches of all sizes, then in other precisions."""
     cycle = rivals.cycle
@@ -271,7 +271,7 @@ def _by_plans(
 
 
 def _by_others(
-    rivals: Rivals, names: Sequence[str], places: Array, effort: Effort, clock: Clock
+    rivals: _Rivals, names: Sequence[str], places: Array, effort: Effort, clock: Clock
 ) -> Iterator[tuple[Way, Values]]:
     """Go through the methods that are no plans."""
     for name, method, settings in ((NEWTON, rivals.newton, TOLERANCES), (DIFFERENCES, rivals.differences, STEPS)):
@@ -302,7 +302,7 @@ def by_hand(cycle: Cycle, sheet: DrawnSheet, hand: Hand, kinds: Iterable[Discipl
 
     The plans of every position are drawn as long as a sheet draws those of one.
     """
-    places, kinds = places_of(cycle, DRAWN), tuple(kinds)
+    places, kinds = _places_of(cycle, DRAWN), tuple(kinds)
     near, off = NEAR_DEAD * abs(cycle.range.high - cycle.range.low), np.ones(len(places), bool)
     for dead in (dead for motion in cycle.motions for dead in motion.dead):
         away = places - dead.angle

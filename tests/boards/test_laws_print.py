@@ -17,7 +17,7 @@ import kulman.plans.gears.geometry
 import kulman.plans.hoist.model  # noqa: F401
 from kulman.drawing.gears.text import _prints
 from kulman.drawing.printed import Symbol
-from kulman.plans.gears.geometry import involute
+from kulman.plans.gears.geometry import _involute
 from kulman.plans.laws import FORMS, LAWS, Sign, bracketed, form_of
 
 # what is printed with millimetres of paper, or with degrees, is so many times what the law makes of SI
@@ -38,7 +38,7 @@ class Function:
         return self.function(argument)
 
 
-FUNCTIONS = {name: getattr(math, name) for name in ("sin", "cos", "tan")} | {"arccos": math.acos, "inv": involute}
+FUNCTIONS = {name: getattr(math, name) for name in ("sin", "cos", "tan")} | {"arccos": math.acos, "inv": _involute}
 NAMES = {
     **{name: Function(function) for name, function in FUNCTIONS.items()},
     **{f"{name}2": Function(lambda x, f=function: f(x) ** 2) for name, function in FUNCTIONS.items()},

@@ -16,7 +16,7 @@ from kulman.plans.cams.envelopes import Undercut, backward
 from kulman.plans.cams.followers import Limits, PlateProfile, RollerProfile, Sizes, Straight, turned_back
 from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
 from kulman.plans.cams.motion import Motion
-from kulman.plans.cams.sizes import smallest_plate, smallest_roller, wedge
+from kulman.plans.cams.sizes import _smallest_plate, _smallest_roller, wedge
 from kulman.tests.support.cams import (
     MADI_LIMITS,
     SEED,
@@ -65,7 +65,7 @@ def test_plate_traced_on_the_finished_profile_has_its_travel(count: int) -> None
 
     for _ in range(count):
         motion, sense = random_motion(random, SMOOTH), int(random.choice((-1, 1)))
-        profile = PlateProfile(motion, smallest_plate(motion, 0.01, 0.005).r_0, sense)
+        profile = PlateProfile(motion, _smallest_plate(motion, 0.01, 0.005).r_0, sense)
         for phi in np.linspace(0.05, 6.2, 13):
             assert traced(profile, phi) == pytest.approx(float(motion.at(phi)[0]), abs=1e-6 * MM)
 
@@ -141,7 +141,7 @@ NECKED = Straight(NECK), Sizes(math.hypot(5.0, 33.9) * MM, -5.0 * MM, 33.9 * MM)
 def undercut_cams() -> tuple[RollerProfile, ...]:
     """Return undercut cams: of the project at three radii of the roller, of laws that jump in velocity, random ones."""
     motion = madi_motion()
-    sizes = smallest_roller(wedge(motion, MADI_LIMITS))
+    sizes = _smallest_roller(wedge(motion, MADI_LIMITS))
     turned = Sizes(sizes.r_0, -sizes.e, sizes.s_0)
     uniform = Motion(0.01, 2.0, 0.5, 2.0, law_of_motion("uniform"))
     found = [RollerProfile(Straight(motion), sizes, R) for R in (0.0293, 0.032, 0.04)]
@@ -208,7 +208,7 @@ def test_undercuts_of_wide_cutters_are_those_of_the_cut_cam(name: str) -> None:
     (law, stroke, phases, gammas, R, sense), expected = WIDE_CUTTERS[name]
     rise, fall = np.radians(phases)
     motion, limits = Motion(stroke * MM, rise, 0.0, fall, law_of_motion(law)), Limits(*np.radians(gammas))
-    profile = RollerProfile(Straight(motion, sense), smallest_roller(wedge(motion, limits, sense)), R * MM)
+    profile = RollerProfile(Straight(motion, sense), _smallest_roller(wedge(motion, limits, sense)), R * MM)
 
     found = [
         (*np.degrees((cut.start, cut.end)), cut.lost / MM, math.degrees(cut.phi_lost)) for cut in profile.undercuts
@@ -285,7 +285,7 @@ def test_wide_cutters_leave_what_is_round_the_centre(count: int) -> None:
             law = law_of_motion(str(random.choice(LAWS)) if k % 4 == 1 else UNIFORM)
             phases = np.radians(random.uniform(30.0, 110.0, 2))
             motion = Motion(motion.h, phases[0], 0.0, phases[1], law)
-        sizes = smallest_roller(wedge(motion, limits, sense))
+        sizes = _smallest_roller(wedge(motion, limits, sense))
         profile = RollerProfile(Straight(motion, sense), sizes, sizes.r_0 * random.uniform(0.4, 0.97))
         if profile.undercuts:
             left_by_the_cutter(profile)
@@ -293,7 +293,7 @@ def test_wide_cutters_leave_what_is_round_the_centre(count: int) -> None:
 
 def test_roller_just_smaller_than_the_least_radius_undercuts_nothing() -> None:
     motion = madi_motion()
-    cam = Straight(motion), smallest_roller(wedge(motion, MADI_LIMITS))
+    cam = Straight(motion), _smallest_roller(wedge(motion, MADI_LIMITS))
     rho = RollerProfile(*cam, 0.0).rho_min
 
     below, above = (RollerProfile(*cam, rho * part) for part in (1.0 - 1e-9, 1.0 + 1e-3))
@@ -346,14 +346,14 @@ def test_cams_are_undercut_exactly_when_a_radius_is_too_small(count: int) -> Non
     for k in range(count):
         motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
         if k % 3:
-            sizes = smallest_roller(wedge(motion, limits, sense))
+            sizes = _smallest_roller(wedge(motion, limits, sense))
             rho = RollerProfile(Straight(motion, sense), sizes, 0.0).rho_min
             R = min(max(rho, 0.1 * sizes.r_0) * math.exp(random.uniform(-0.3, 0.7)), 0.97 * sizes.r_0)
             profile: RollerProfile | PlateProfile = RollerProfile(Straight(motion, sense), sizes, R)
             expected = rho < R
         else:
             motion = random_motion(random, SMOOTH)
-            profile = PlateProfile(motion, (r_0 := smallest_plate(motion, 0.0, 0.0).r_0_min) * 0.8 + 1e-3, sense)
+            profile = PlateProfile(motion, (r_0 := _smallest_plate(motion, 0.0, 0.0).r_0_min) * 0.8 + 1e-3, sense)
             expected = r_0 * 0.8 + 1e-3 < r_0
         cuts, points = profile.undercuts, profile.outline()
         assert bool(cuts) == expected

@@ -19,13 +19,13 @@ from kulman.plans.cams.followers import Limits, PlateProfile, Rocker, RollerProf
 from kulman.plans.cams.laws_of_motion import law_of_motion
 from kulman.plans.cams.motion import Motion, motion_of
 from kulman.plans.cams.sizes import (
+    _smallest_plate,
+    _smallest_rocker,
     _smallest_rocker_at,
+    _smallest_roller,
     apex,
     central,
     offsets,
-    smallest_plate,
-    smallest_rocker,
-    smallest_roller,
     wedge,
 )
 from kulman.plans.cams.solve import solve_cam
@@ -92,7 +92,7 @@ def test_smallest_roller_cam_is_that_of_brute_force_and_just_reaches_the_limits_
 
     for _ in range(count):
         motion, limits = random_motion(random), random_limits(random)
-        found = smallest_roller(wedge(motion, limits, sense))
+        found = _smallest_roller(wedge(motion, limits, sense))
         brute = Positions(motion, limits, sense).smallest(3.0 * found.r_0)
         assert found.r_0 == pytest.approx(brute, rel=1e-6)
         assert found.r_0 == pytest.approx(math.hypot(found.e, found.s_0), rel=1e-14)
@@ -123,7 +123,7 @@ def test_apex_is_not_always_the_smallest_cam_and_one_that_turns_the_other_way_is
     motion = Motion(0.03, 1.2, 0.2, 3.0, law_of_motion("sine"))
     limits = Limits(math.radians(60.0), math.radians(20.0))
 
-    one, other = (smallest_roller(wedge(motion, limits, sense)) for sense in (1, -1))
+    one, other = (_smallest_roller(wedge(motion, limits, sense)) for sense in (1, -1))
 
     corner = apex(wedge(motion, limits, 1))
     assert (one.on, corner.on) == (("rise",), ("rise", "fall"))
@@ -140,7 +140,7 @@ def test_permitted_offsets_are_those_of_brute_force(count: int) -> None:
     for _ in range(count):
         motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
         planes = wedge(motion, limits, sense)
-        r_0 = smallest_roller(planes).r_0 * random.uniform(1.0001, 1.8)
+        r_0 = _smallest_roller(planes).r_0 * random.uniform(1.0001, 1.8)
         found = offsets(planes, r_0)
         assert found is not None
         least, most = found
@@ -163,7 +163,7 @@ def test_offset_at_either_end_reaches_its_limit_and_too_small_a_cam_has_none() -
         least = Straight(madi_motion()).least_transmission(Sizes(r_0, e, math.sqrt(r_0**2 - e * e)), phase).value
         assert math.degrees(least) == pytest.approx(gamma, abs=1e-11)
     for part in (0.999999, 0.40):  # both limits together, that of the rise alone
-        assert offsets(planes, part * smallest_roller(planes).r_0) is None
+        assert offsets(planes, part * _smallest_roller(planes).r_0) is None
 
 
 def test_least_r_0_permits_exactly_its_offset_and_a_central_follower_needs_the_least_s_0() -> None:
@@ -172,7 +172,7 @@ def test_least_r_0_permits_exactly_its_offset_and_a_central_follower_needs_the_l
     for _ in range(20):
         motion, limits, sense = random_motion(random), random_limits(random), int(random.choice((-1, 1)))
         planes = wedge(motion, limits, sense)
-        sizes, e = smallest_roller(planes), random.uniform(-0.01, 0.01)
+        sizes, e = _smallest_roller(planes), random.uniform(-0.01, 0.01)
         assert offsets(planes, sizes.r_0) == pytest.approx((sizes.e, sizes.e), abs=1e-5 * sizes.r_0)
         assert central(planes, e).e == e
         assert central(planes, e).s_0 == pytest.approx(max(0.0, Positions(motion, limits, sense).s_0(e)), rel=1e-6)
@@ -184,7 +184,7 @@ def test_flat_followers_cam_is_just_convex(count: int) -> None:
 
     for _ in range(count):
         motion = random_motion(random, SMOOTH)
-        found = smallest_plate(motion, 0.01, 0.005)
+        found = _smallest_plate(motion, 0.01, 0.005)
         samples = [dense(motion, phase.name, 1500) for phase in motion.phases if phase.pieces]
         assert found.r_0_min == pytest.approx(max(0.0, *(np.max(-s - d2s) for _, s, _, d2s in samples)), rel=1e-5)
         assert found.r_0 == found.r_0_min + 0.01
@@ -196,7 +196,7 @@ def test_geronimus_counts_both_limits_of_a_jump_and_no_plate_stands_a_velocity_t
     amplitude = 9.0 * 13e-3 / math.radians(108.0) ** 2
 
     assert madi_motion().maximum(-1.0, 0.0, -1.0).value == pytest.approx(amplitude - 13e-3 / 3.0, rel=1e-13)
-    assert smallest_plate(Motion(0.01, 1.0, 0.5, 2.0, law_of_motion("uniform")), 0.01, 0.005).r_0_min == math.inf
+    assert _smallest_plate(Motion(0.01, 1.0, 0.5, 2.0, law_of_motion("uniform")), 0.01, 0.005).r_0_min == math.inf
 
 
 @pytest.mark.parametrize("count", FEW)
@@ -207,7 +207,7 @@ def test_smallest_rocker_cam_keeps_its_limits_and_no_smaller_one_does(count: int
         sense = int(random.choice((-1, 1)))
         motion, limits = random_motion(random, SMOOTH, random.uniform(0.1, 0.7)), random_limits(random)
         rocker = Rocker(motion, random.uniform(0.05, 0.2), sense)
-        found = smallest_rocker(rocker, limits)
+        found = _smallest_rocker(rocker, limits)
         if not isinstance(found, Sizes):
             places = rocker.l * (random.uniform(-5.0, 5.0, 800) + 1j * random.uniform(0.0, 8.0, 800))
             assert np.all(dense_slack(rocker, limits, places) < 0.0)
@@ -253,9 +253,9 @@ def test_very_long_rocker_is_a_follower_on_a_line() -> None:
     scale, law = 1e-6, law_of_motion("sawtooth", 0.3)
     swing, line = (Motion(h, *np.radians((108.0, 15.0, 108.0)), law) for h in (13e-3 * scale, 13e-3))
 
-    rocker = smallest_rocker(Rocker(swing, 1.0 / scale), MADI_LIMITS)
+    rocker = _smallest_rocker(Rocker(swing, 1.0 / scale), MADI_LIMITS)
 
-    straight = smallest_roller(wedge(line, MADI_LIMITS))
+    straight = _smallest_roller(wedge(line, MADI_LIMITS))
     assert (rocker.r_0, rocker.e, rocker.s_0) == pytest.approx((straight.r_0, straight.e, straight.s_0), rel=1e-5)
 
 
@@ -265,7 +265,7 @@ def test_rocker_at_a_given_distance_reaches_its_limit_and_tells_when_it_cannot()
 
     for sense in (1, -1):
         rocker = Rocker(motion, 0.1, sense)
-        best = smallest_rocker(rocker, limits)
+        best = _smallest_rocker(rocker, limits)
         assert isinstance(best, Sizes)
         same, wider = (_smallest_rocker_at(rocker, limits, part * best.l_OC) for part in (1.0, 1.2))
         assert isinstance(same, Sizes)
@@ -275,7 +275,7 @@ def test_rocker_at_a_given_distance_reaches_its_limit_and_tells_when_it_cannot()
         assert dense_slack(rocker, limits, np.array([complex(wider.e, wider.s_0)]))[0] == pytest.approx(0.0, abs=1e-7)
         assert not isinstance(_smallest_rocker_at(rocker, limits, 0.05), Sizes)
     wide = Rocker(Motion(math.radians(35.0), 1.9, 0.3, 1.9, law), 0.1)
-    assert smallest_rocker(wide, Limits(math.radians(80.0), math.radians(75.0))) == ("rise", "fall")
+    assert _smallest_rocker(wide, Limits(math.radians(80.0), math.radians(75.0))) == ("rise", "fall")
 
 
 PAPER = {"omega": 20.0, "mu_phi": math.radians(1.0), "l_A1": 0.1, "H_a": 0.03, "H_v": 0.03, "R_roller": 1e-4}
@@ -422,7 +422,7 @@ def test_no_law_fits_the_printed_sizes_as_well_as_the_sawtooth() -> None:
         for order in ORDERS:
             phases = np.radians((108.0, 15.0, 108.0))
             motion = Motion(13.0 * MM, *phases, law_of_motion(name, 1.0 / 3.0), order=order)
-            sizes = smallest_roller(wedge(motion, MADI_LIMITS))
+            sizes = _smallest_roller(wedge(motion, MADI_LIMITS))
             found = np.array((motion.ds_max.value / DS_MAX, sizes.r_0 / R_0, sizes.e / E))
             errors[name, order] = np.abs(found - 1.0)
 
@@ -431,12 +431,12 @@ def test_no_law_fits_the_printed_sizes_as_well_as_the_sawtooth() -> None:
     assert best == ("sawtooth", "mirror")
     assert np.all(errors[best] < (0.006, 0.01, 0.021))
     assert max(errors[following]) > 3.0 * max(errors[best])
-    assert smallest_roller(wedge(madi_motion(), MADI_LIMITS)).on == ("rise", "fall")
+    assert _smallest_roller(wedge(madi_motion(), MADI_LIMITS)).on == ("rise", "fall")
 
 
 def test_printed_least_radius_is_not_that_of_the_sharpest_place_and_that_under_the_plate_an_amplitude() -> None:
     motion = madi_motion()
-    sizes, plate = smallest_roller(wedge(motion, MADI_LIMITS)), smallest_plate(motion, 10.0 * MM, 5.0 * MM)
+    sizes, plate = _smallest_roller(wedge(motion, MADI_LIMITS)), _smallest_plate(motion, 10.0 * MM, 5.0 * MM)
 
     sharpest = RollerProfile(Straight(motion), sizes, 7.0 * MM).sharpest
 

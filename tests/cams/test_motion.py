@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from kulman.plans.cams.cam import Cam, Curve
-from kulman.plans.cams.laws_of_motion import Law, _law_of_pieces, law_of_curve, law_of_motion, law_of_points
+from kulman.plans.cams.laws_of_motion import Law, _law_of_pieces, _law_of_points, law_of_curve, law_of_motion
 from kulman.plans.cams.motion import PHASES, Motion, motion_of
 from kulman.scales.errors import InputError
 from kulman.tests.support.cams import SEED, SMOOTH, dense, madi_motion, random_motion
@@ -182,8 +182,8 @@ def test_smooth_curve_runs_through_its_points_without_a_jump_inside() -> None:
     at, values = (0.0, 0.2, 0.45, 0.6, 0.9, 1.0), (2.0, 3.0, 8.0, 11.0, 14.5, 15.0)
     places, x = np.linspace(0.0, 1.0, 7), np.linspace(0.0, 1.0, 50)
 
-    law = law_of_points(at, values)
-    cubic = law_of_points(places.tolist(), (3.0 * places**2 - 2.0 * places**3).tolist())
+    law = _law_of_points(at, values)
+    cubic = _law_of_points(places.tolist(), (3.0 * places**2 - 2.0 * places**3).tolist())
 
     assert along(law, at) == pytest.approx((np.array(values) - 2.0) / 13.0, abs=1e-14)
     assert along(law, [0.0, 1.0], 1) == pytest.approx([0.0, 0.0], abs=1e-14)
@@ -201,12 +201,12 @@ def test_smooth_curve_runs_through_its_points_without_a_jump_inside() -> None:
         ("law-open", partial(_law_of_pieces, (0, 0.5, 0.5, 1), (1, 1, -1, -0.9))),
         ("law-still", partial(_law_of_pieces, (0, 1), (0, 0))),
         ("law-still", partial(_law_of_pieces, (0, 0.5, 0.5, 1), (-1, -1, 1, 1))),  # moves back
-        ("law-still", partial(law_of_points, (0, 0.5, 1), (1, 2, 1))),  # returns
-        ("law-places", partial(law_of_points, (0, 0.6, 0.5, 1), (0, 1, 2, 3))),
-        ("law-places", partial(law_of_points, (0, 0.5, 0.5, 1), (0, 1, 2, 3))),  # the travel jumps
+        ("law-still", partial(_law_of_points, (0, 0.5, 1), (1, 2, 1))),  # returns
+        ("law-places", partial(_law_of_points, (0, 0.6, 0.5, 1), (0, 1, 2, 3))),
+        ("law-places", partial(_law_of_points, (0, 0.5, 0.5, 1), (0, 1, 2, 3))),  # the travel jumps
         ("law-places", partial(_law_of_pieces, (0.1, 1), (1, -1))),
         ("law-places", partial(_law_of_pieces, (0, 1), (1,))),
-        ("law-leaves", partial(law_of_points, (0, 0.1, 0.2, 1), (0, 0, 3, 3))),
+        ("law-leaves", partial(_law_of_points, (0, 0.1, 0.2, 1), (0, 0, 3, 3))),
     ],
 )
 def test_law_that_cannot_be_is_explained(key: str, make: Callable[[], Law]) -> None:

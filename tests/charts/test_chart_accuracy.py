@@ -16,7 +16,7 @@ from kulman.plans.boards.exact import run
 from kulman.plans.hands.shaky import preset
 from kulman.plans.lab import race as contests
 from kulman.plans.lab.contours import Contours
-from kulman.plans.lab.linkages import DrawnSheet, Rivals, by_hand, contest, kinds_of, places_of, truth
+from kulman.plans.lab.linkages import DrawnSheet, _kinds_of, _places_of, _Rivals, by_hand, contest, truth
 from kulman.plans.lab.race import Contest, Effort, Entry
 from kulman.plans.lab.stability import (
     ALL,
@@ -124,10 +124,10 @@ def test_the_front_is_beaten_by_nobody(race: Contest) -> None:
 
 
 def test_contours_are_no_more_than_loops_and_what_newton_does_not_find_is_not_a_number() -> None:
-    whole, contours = of_task("madi-four-bar"), Rivals(of_task("scheme-09-shaper")).contours
+    whole, contours = of_task("madi-four-bar"), _Rivals(of_task("scheme-09-shaper")).contours
     assert len(contours.closed) == 2
     assert contours.count == 4  # frame and slide, crank, lever and block, rod
-    assert np.isnan(Rivals(whole).newton(0.0, places_of(whole, 24), ("V_C",))["V_C"]).all()
+    assert np.isnan(_Rivals(whole).newton(0.0, _places_of(whole, 24), ("V_C",))["V_C"]).all()
 
 
 def drawn(hand: str, factor: float = 1.0) -> list[float]:
@@ -135,7 +135,7 @@ def drawn(hand: str, factor: float = 1.0) -> list[float]:
     task, whole = load_task("madi-four-bar"), of_task("madi-four-bar")
     solved = solve_linkage(task.mechanism, task.values(None, {}), task.plans)
     scales = {plan: MUS.get(plan, 50.0) * factor for plan in solved.scale_of_plan}
-    entries = by_hand(whole, DrawnSheet("A1", solved, scales), preset(hand).hand, kinds_of(whole))
+    entries = by_hand(whole, DrawnSheet("A1", solved, scales), preset(hand).hand, _kinds_of(whole))
     return [entry.error or math.inf for entry in entries]
 
 
@@ -148,7 +148,7 @@ def test_a_hand_errs_in_per_cents_and_a_computer_less() -> None:
 
 def test_a_hand_draws_the_plans_of_every_position_as_long() -> None:
     task, whole = load_task("scheme-09-shaper"), of_task("scheme-09-shaper")
-    places = places_of(whole, 12)
+    places = _places_of(whole, 12)
     found = []
     for changed in ({}, {"phi": float(places[7] % math.tau)}):
         solved = solve_linkage(task.mechanism, {**task.values(None, {}), **changed}, task.plans)
@@ -156,16 +156,16 @@ def test_a_hand_draws_the_plans_of_every_position_as_long() -> None:
         paper = dict.fromkeys(solved.scale_of_plan, 0.005)
         paper |= {"acceleration": sizes["a_A"] / 100.0, "velocity": sizes["V_A"] / 100.0}  # longest vectors 100 mm long
         drawing = DrawnSheet("A1", solved, paper)
-        found.append([e.error for e in by_hand(whole, drawing, preset("normal").hand, kinds_of(whole, ["a_E"]))])
+        found.append([e.error for e in by_hand(whole, drawing, preset("normal").hand, _kinds_of(whole, ["a_E"]))])
 
     assert found[0] == pytest.approx(found[1], rel=1e-6)
 
 
 def test_errors_are_found_to_extended_precision() -> None:
     whole = of_task("madi-four-bar")
-    places = places_of(whole, 3)
+    places = _places_of(whole, 3)
     exact = truth(whole, places, ["V_C"])
-    plan = Rivals(whole).plan(places, ["V_C"])
+    plan = _Rivals(whole).plan(places, ["V_C"])
     off = exact.errors({"V_C": plan["V_C"] + exact.sizes["V_C"] * 1e-6})
     assert exact.errors(plan)["V_C"].max() < 4.0 * EPS
     assert exact.errors({"V_C": exact.high["V_C"]})["V_C"].max() < EPS
@@ -177,11 +177,11 @@ def test_a_crank_that_speeds_up_is_differentiated_with_its_acceleration() -> Non
     driver = replace(task.mechanism.driver, acceleration="alpha")  # type: ignore[type-var]
     mechanism = replace(task.mechanism, driver=driver)
     values = {**task.values(None, {}), "alpha": 1e4}
-    rivals = Rivals(cycle(mechanism, values, ("acceleration",), 12))
-    places = places_of(rivals.cycle, 6)
+    rivals = _Rivals(cycle(mechanism, values, ("acceleration",), 12))
+    places = _places_of(rivals.cycle, 6)
 
     plan = rivals.plan(places, ["a_C", "epsilon_3"])
-    steady = Rivals(cycle(task.mechanism, values, ("acceleration",), 12)).plan(places, ["a_C"])
+    steady = _Rivals(cycle(task.mechanism, values, ("acceleration",), 12)).plan(places, ["a_C"])
 
     assert abs(plan["a_C"] - steady["a_C"]).max() > 0.1 * abs(plan["a_C"]).max()
     for way in (partial(rivals.differences, 1e-4), partial(rivals.chords, 4000)):
@@ -208,8 +208,8 @@ def differences(found: Any, exact: Any) -> float:
 
 def both(whole: Cycle, tolerance: float) -> tuple[Any, Any]:
     """Return motion by Newton's method and by plans, half a step off the ends of the cycle."""
-    rivals, places = Rivals(whole), places_of(whole, 24)
-    names = [name for kind in kinds_of(whole) if kind.name in MOTION for name in kind.names]
+    rivals, places = _Rivals(whole), _places_of(whole, 24)
+    names = [name for kind in _kinds_of(whole) if kind.name in MOTION for name in kind.names]
     return rivals.newton(tolerance, places, names), rivals.plan(places, names)
 
 

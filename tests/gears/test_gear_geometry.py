@@ -20,10 +20,10 @@ from kulman.plans.gears.blocking import (
 from kulman.plans.gears.gear import HARDENED, STANDARD, GearPair
 from kulman.plans.gears.geometry import (
     POINTS,
+    _angle_of_involute,
     _geometry_program,
-    angle_of_involute,
+    _involute,
     geometry,
-    involute,
     tangent_of_involute,
 )
 from kulman.plans.gears.solve import SAME_CENTRES, checks, complete, judged
@@ -111,11 +111,11 @@ def test_corner_of_the_rack_is_the_printed_one_and_fills_a_narrow_tip() -> None:
 def test_involute_and_its_inverse_are_exact_to_the_last_digits(alpha: float) -> None:
     with mp.workdps(50):
         exact = mp.tan(mp.mpf(alpha)) - mp.mpf(alpha)
-        value = float(involute(alpha))
+        value = float(_involute(alpha))
         angle = mp.findroot(lambda a: mp.tan(a) - a - mp.mpf(value), mp.mpf(alpha))
 
         assert abs(float(value / exact) - 1.0) < 2e-15
-        assert abs(float(mp.mpf(float(angle_of_involute(value))) / angle) - 1.0) < 1e-15
+        assert abs(float(mp.mpf(float(_angle_of_involute(value))) / angle) - 1.0) < 1e-15
 
 
 def test_inverse_of_the_involute_never_fails() -> None:

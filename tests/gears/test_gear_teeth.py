@@ -14,7 +14,7 @@ from kulman.plans.gears.construction import MOST, TEETH, TIP, mark, rolling
 from kulman.plans.gears.gear import CCW, CW, STANDARD, GearPair
 from kulman.plans.gears.geometry import POINTS, geometry
 from kulman.plans.gears.solve import SolvedGear, complete, solve_gear
-from kulman.plans.gears.teeth import RIGHT_ANGLE, Meshing, Tooth, meshing_of, tooth_of
+from kulman.plans.gears.teeth import RIGHT_ANGLE, Meshing, _Tooth, meshing_of, tooth_of
 from kulman.plans.hands.shaky import Hand, draw, paper_of, preset
 from kulman.tests.support.gears import (
     SEED,
@@ -119,7 +119,7 @@ def test_undercut_begins_at_the_least_shift_and_points_where_the_tip_has_no_thic
         assert tooth_of(values, 1).pointed == (geometry(values)["s_a1"] < 0.0)
 
 
-def kind(tooth: Tooth) -> str:
+def kind(tooth: _Tooth) -> str:
     return "undercut" if tooth.undercut else "pointed" if tooth.pointed else "plain"
 
 
@@ -139,7 +139,7 @@ def test_teeth_of_many_racks_have_the_area_that_is_left() -> None:
             assert sector_of(tooth) == pytest.approx(cut_by_rack(values, tooth, x, 2e-3), abs=1e-3), (z, x)
 
 
-def normal(tooth: Tooth, rho: float | np.ndarray) -> np.ndarray:
+def normal(tooth: _Tooth, rho: float | np.ndarray) -> np.ndarray:
     """Return unit normals of the upper involute, out of the tooth: each lies on a tangent of the base circle."""
     return 1j * np.exp(1j * (tooth.psi_b - np.asarray(rho) / tooth.r_b))
 

@@ -8,7 +8,7 @@ import math
 
 import pytest
 
-from kulman.plans.gears.geometry import POINTS, angle_of_involute, geometry
+from kulman.plans.gears.geometry import POINTS, _angle_of_involute, geometry
 from kulman.tests.support.gears import madi
 
 FOUND = geometry(madi())
@@ -98,7 +98,7 @@ def test_printed_contact_ratio_contradicts_the_numbers_from_which_it_is_said_to_
 def test_printed_angle_of_action_and_tangents_agree_where_the_pen_did_not_slip() -> None:
     assert math.tan(FOUND["alpha_a1"]) == pytest.approx(0.68683, abs=2e-5)  # and 0.68983 in the line of rho_p2
     assert math.tan(FOUND["alpha_a2"]) == pytest.approx(0.74177, abs=2e-5)
-    assert math.degrees(angle_of_involute(0.036742012)) == pytest.approx(26.654, abs=1e-5)
+    assert math.degrees(_angle_of_involute(0.036742012)) == pytest.approx(26.654, abs=1e-5)
     assert pytest.approx(17.06819, abs=1e-3) == 91.99949 * 0.4486 - 35.23838 * 0.68683
 
 

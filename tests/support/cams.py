@@ -15,7 +15,7 @@ from kulman.plans.cams.cam import LAWS, ORDERS
 from kulman.plans.cams.followers import Limits, Rocker, RollerProfile, Sizes, Straight
 from kulman.plans.cams.laws_of_motion import UNIFORM, law_of_motion
 from kulman.plans.cams.motion import Motion
-from kulman.plans.cams.sizes import smallest_rocker, smallest_roller, wedge
+from kulman.plans.cams.sizes import _smallest_rocker, _smallest_roller, wedge
 from kulman.plans.hands.shaky import preset
 from kulman.plans.marking.key import Key
 from kulman.plans.mistakes.book import Book, book
@@ -74,12 +74,12 @@ def random_profiles(count: int, seed: int, part: float) -> Iterator[RollerProfil
         if k % 3 == 2:
             motion = random_motion(random, SMOOTH, random.uniform(0.1, 0.4))
             follower = Rocker(motion, 0.1, sense)
-            sizes = smallest_rocker(follower, limits)
+            sizes = _smallest_rocker(follower, limits)
             if not isinstance(sizes, Sizes):
                 continue
         else:
             motion = random_motion(random, SMOOTH)
-            follower, sizes = Straight(motion, sense), smallest_roller(wedge(motion, limits, sense))
+            follower, sizes = Straight(motion, sense), _smallest_roller(wedge(motion, limits, sense))
         sharpest = RollerProfile(follower, sizes, 0.0).rho_min
         yield RollerProfile(follower, sizes, part * min(sharpest, 0.9 * sizes.r_0))
 

@@ -13,7 +13,7 @@ import shapely
 from shapely.geometry import LineString, Polygon
 
 from kulman.plans.gears.gear import STANDARD
-from kulman.plans.gears.teeth import Meshing, Tooth
+from kulman.plans.gears.teeth import Meshing, _Tooth
 
 SEED = 1765
 HALVINGS = 70
@@ -268,7 +268,7 @@ def line(points: np.ndarray) -> LineString:
     return LineString(np.column_stack((points.real, points.imag)) * MM)
 
 
-def wheel_of(tooth: Tooth, points: int) -> np.ndarray:
+def wheel_of(tooth: _Tooth, points: int) -> np.ndarray:
     """Return points of a whole wheel counter-clockwise, closed without a repeated point."""
     return tooth.teeth(round(tooth.z), points)[:-1]
 
@@ -296,7 +296,7 @@ def rack(values: Mapping[str, float], x: float, z: float) -> np.ndarray:
     return np.concatenate((upper, upper[::-1].conj()))
 
 
-def cut_by_rack(values: Mapping[str, float], tooth: Tooth, x: float, step: float) -> float:
+def cut_by_rack(values: Mapping[str, float], tooth: _Tooth, x: float, step: float) -> float:
     """Return the area of one tooth that a rack leaves of a blank, mm2, rolled in steps of an angle, rad.
 
     Both spaces beside the tooth are cut; the blank is the sector from the middle of one to the middle of the other.
@@ -318,7 +318,7 @@ def cut_by_rack(values: Mapping[str, float], tooth: Tooth, x: float, step: float
     return float(max(part.area for part in parts))
 
 
-def sector_of(tooth: Tooth) -> float:
+def sector_of(tooth: _Tooth) -> float:
     """Return the area of the tooth's own outline with the centre, mm2."""
     return float(polygon(np.append(tooth.outline(600, math.radians(0.02)), 0.0)).area)
 
