@@ -159,7 +159,9 @@ class _Walk(Walk):
 
     def insert(self, group: Group) -> None:
         """Insert a block, which is made where it is the first of its shape; its fields are attributes."""
-        at = _base(group)
+        # the point by which it is inserted: the centre of its first circle, else the corner of its box
+        centres = (part.centre for part in group.shapes if isinstance(part, Circle))
+        at = next(centres, complex(*extent(group.shapes)[:2]))
         fields = _fields(group, at, self.page.language)
         lines = tuple(shifted(part, -at) for part in group.shapes)
         key = _DIGITS.sub(lambda found: f"{round(float(found[0]), 6) + 0.0}", repr(lines))
@@ -301,9 +303,3 @@ def _fields(group: Group, at: complex, language: str) -> dict[str, Text]:
         for row, line in enumerate(lines or [replace(blank, at=blank.at + at, markup="")], start=1):
             found[name if row == 1 else f"{name}_{row}"] = line
     return found
-
-
-def _base(group: Group) -> complex:
-    """Return the point by which a block is inserted: the centre of its first circle, else the corner of its box."""
-    centres = (part.centre for part in group.shapes if isinstance(part, Circle))
-    return next(centres, complex(*extent(group.shapes)[:2]))

@@ -232,10 +232,11 @@ class Walk(ABC):
     def _text(self, text: Text) -> None:
         """Put down the runs of a text, and its rules as thin lines."""
         lines, place = lay_out(text.markup, text.height), placer(text)
-        alone = len(lines.runs) == 1 and not lines.rules and self.page.lettering != STROKES
+        strokes = self.page.lettering == STROKES
+        alone = len(lines.runs) == 1 and not lines.rules and not strokes
         if not alone:
             self.begin(text)
-        for as_lines, some in groupby(lines.runs, self._as_lines):
+        for as_lines, some in groupby(lines.runs, lambda run: strokes and run.face != SCREEN):
             runs = [(run, place(run.x, run.y)) for run in some]
             if as_lines:
                 for run, at in runs:
@@ -246,9 +247,6 @@ class Walk(ABC):
             self.draw(Line(place(x0, y0), place(x1, y1), Pen.THIN, "rule", "", text.colour))
         if not alone:
             self.end(text)
-
-    def _as_lines(self, run: Run) -> bool:
-        return self.page.lettering == STROKES and run.face != SCREEN
 
     def strokes(self, text: Text, run: Run, at: complex) -> None:
         """Put down letters of the drafting alphabet as lines."""

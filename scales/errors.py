@@ -122,11 +122,12 @@ class KulmanError(Exception):
         said, language = copy(self), of_environment()
         said.data = {name: getattr(value, "argument", value) for name, value in self.data.items()}
         line = said.text(language if language in LANGUAGES else "en")
-        return _OPTION.sub(lambda found: found[0] if found[1] is None else _argument(found[1]), line)
 
+        def spelled(found: re.Match[str]) -> str:
+            option: str | None = found[1]
+            return found[0] if option is None else ARGUMENTS.get(option, option.replace("-", "_"))
 
-def _argument(option: str) -> str:
-    return ARGUMENTS.get(option, option.replace("-", "_"))
+        return _OPTION.sub(spelled, line)
 
 
 def _shown(value: object, language: str) -> object:

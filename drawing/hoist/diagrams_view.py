@@ -329,7 +329,9 @@ def _jump(canvas: Canvas, scene: HoistScene, field: Field, curves: Mapping[str, 
         or corner.imag < field.at(0.0, field.y.low).imag
     ):
         corner = complex(field.at(field.x.high, 0.0).real + BESIDE, field.at(0.0, field.y.low).imag)
-    detail = _Detail(canvas, scene, FORCES, _middle(shown), corner, times)
+    heights = [place.imag for place in shown]
+    centre = complex(shown[0].real, 0.5 * (min(heights) + max(heights)))
+    detail = _Detail(canvas, scene, FORCES, centre, corner, times)
     detail.moment()
     for name in [*LEVELS][: 1 + (at["P_m"] != at["P_st"])]:
         detail.level(name, at[name], words.symbol(name))
@@ -351,12 +353,6 @@ def _times_as_large(places: Sequence[complex]) -> float:
     """Return how many times as large upright distances may be in a detail."""
     heights = [place.imag for place in places]
     return next((times for times in LARGER if times * (max(heights) - min(heights)) <= JUMP * 2.0 * HALF), 1.0)
-
-
-def _middle(places: Sequence[complex]) -> complex:
-    """Return the middle between the lowest and the highest of places over one another."""
-    heights = [place.imag for place in places]
-    return complex(places[0].real, 0.5 * (min(heights) + max(heights)))
 
 
 def _curves(canvas: Canvas, scene: HoistScene, field: Field) -> dict[str, list[complex]]:

@@ -217,11 +217,6 @@ def _roots(sizes: Mapping[str, float]) -> list[Check]:
     ]
 
 
-def _cut(found: Mapping[str, float]) -> bool:
-    """Tell whether teeth may lack a part of their active flanks: undercut, met at the fillet, or pointed."""
-    return not all(check.ok for check in _roots(found)) or any(found[f"s_a{i}"] < 0.0 for i in WHEELS)
-
-
 SCALES = {MESHING: "mu_l", SLIDING: "mu_rho", THETA: "mu_theta"}
 # the plan that shows a quantity as a segment, beside those that are read from one
 SHOWN_ON = dict.fromkeys(
@@ -254,7 +249,7 @@ class SolvedGear(Solved):
     def checks(self) -> tuple[Check, ...]:
         """What the pair is judged by; the teeth are made where they may have lost a part of their flanks."""
         found, sizes = checks(self.pair, self.sizes), self.sizes
-        if _cut(sizes):
+        if not all(check.ok for check in _roots(sizes)) or any(sizes[f"s_a{i}"] < 0.0 for i in WHEELS):
             first, last = self.meshing.touching
             length = max(last - first, 0.0)
             if length < sizes["g_alpha"] * (1.0 - SAME):  # the formula of the contact ratio counts what is cut away
