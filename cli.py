@@ -179,10 +179,7 @@ def _check(file: str, as_json: bool) -> int:
     "kulman solve nau-slider-crank -v 3 --hand normal --format A3",
 )
 @console.of_task
-@click.option(
-    "--condition",
-    is_flag=True,
-)
+@click.option("--condition", is_flag=True)
 @click.option("--hand", shell_complete=completing.completing(lambda ctx: HANDS))
 @console.sized()
 @console.output(".solution")
@@ -273,9 +270,7 @@ def note(task: str, settings: dict[str, str], files: tuple[Path, ...], lang: str
     "kulman sweep madi-cam -o profile.csv",
 )
 @console.of_task
-@console.counted(
-    "--positions",
-)
+@console.counted("--positions")
 @console.listed("--points", "POINT,...")
 @click.option("--from", "start", metavar="PLACE")
 @click.option("--to", "end", metavar="PLACE")
@@ -354,10 +349,7 @@ def show(task: str, lang: str | None) -> None:
     click.echo(text_of(task), nl=False)
 
 
-@console.command(
-    "kulman serve --open",
-    "kulman serve --host 0.0.0.0 --password-file passwords.txt --students sheets",
-)
+@console.command("kulman serve --open", "kulman serve --host 0.0.0.0 --password-file passwords.txt --students sheets")
 @console.counted("--port")
 @click.option("--host", default="127.0.0.1", show_default=True)
 @click.option("--name", "names", multiple=True)

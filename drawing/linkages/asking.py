@@ -11,17 +11,7 @@ from collections.abc import Collection, Iterator
 from typing import TypeAlias
 
 from ...plans.linkages.compound import found_here
-from ...plans.linkages.mechanism import (
-    FORCE,
-    FRAME,
-    ZERO,
-    Driver,
-    Link,
-    Mechanism,
-    Prismatic,
-    SlidingDriver,
-    positive,
-)
+from ...plans.linkages.mechanism import FORCE, FRAME, ZERO, Driver, Link, Mechanism, Prismatic, SlidingDriver, positive
 from ...plans.names import INERTIA, Name, role
 from ...plans.quantities import F_BAL, M_BAL
 from ...scales.units import unit

@@ -302,11 +302,7 @@ class Names:
 
 
 def check_numbers(
-    checker: Checker,
-    names: Names,
-    givens: Givens,
-    stranger: str,
-    unused: Mapping[str, InputError] | None = None,
+    checker: Checker, names: Names, givens: Givens, stranger: str, unused: Mapping[str, InputError] | None = None
 ) -> None:
     """Check that the numbers are there that are needed, and no others; bound them, and fill in the usual ones.
 

@@ -310,20 +310,8 @@ _named = completing.completing(completing.tasks, with_files=True)
 of_language = click.option("--lang", type=Word(*LANGUAGES))
 _about_task: tuple[Any, ...] = (
     click.option("-v", "--variant", shell_complete=completing.completing(completing.variants)),
-    click.option(
-        "--set",
-        "settings",
-        metavar="NAME=VALUE",
-        multiple=True,
-        callback=pairs,
-    ),
-    click.option(
-        "--scale",
-        "scales",
-        metavar="NAME=VALUE",
-        multiple=True,
-        callback=pairs,
-    ),
+    click.option("--set", "settings", metavar="NAME=VALUE", multiple=True, callback=pairs),
+    click.option("--scale", "scales", metavar="NAME=VALUE", multiple=True, callback=pairs),
     listed("--only", "PLAN,...", completing.plans),
     click.option("--notation", shell_complete=completing.completing(completing.notations)),
     of_language,

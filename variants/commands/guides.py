@@ -13,17 +13,7 @@ from ...scales.packaged import home
 
 FOLDER = home((__package__ or "").rpartition(".")[0]) / "guides"
 # in the order of reading
-TOPICS = (
-    "start",
-    "install",
-    "own-mechanism",
-    "task-file",
-    "subjects",
-    "marking",
-    "classes",
-    "settings",
-    "python",
-)
+TOPICS = ("start", "install", "own-mechanism", "task-file", "subjects", "marking", "classes", "settings", "python")
 _LINK = re.compile(r"!?\[([^\]]+)\]\(([^)\s]+)\)")
 _COMMENT = re.compile(r"^<!--.*?-->\n", re.MULTILINE | re.DOTALL)
 

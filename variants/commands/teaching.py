@@ -28,18 +28,9 @@ if TYPE_CHECKING:
 )
 @console.of_any_task
 @console.output("..drawing.writers", required=True)
-@click.option(
-    "--steps",
-    metavar="K",
-    default="0",
-    show_default=True,
-    callback=console.count,
-)
+@click.option("--steps", metavar="K", default="0", show_default=True, callback=console.count)
 @click.option("--key", is_flag=True)
-@click.option(
-    "--hidden-key",
-    is_flag=True,
-)
+@click.option("--hidden-key", is_flag=True)
 @click.option("--over", metavar="PLAN", shell_complete=completing.completing(completing.plans))
 @click.option("--grid", is_flag=True)
 @click.option("--scan", is_flag=True)
@@ -99,25 +90,12 @@ def _markers(files: tuple[Path, ...], tile: str | None, options: dict[str, Any])
 @console.of_task
 @console.listed("--quantities", "NAME,...", completing.quantities)
 @console.counted("--make")
-@click.option(
-    "--range",
-    "ranges",
-    metavar="NAME=RANGE",
-    multiple=True,
-    callback=console.pairs,
-)
+@click.option("--range", "ranges", metavar="NAME=RANGE", multiple=True, callback=console.pairs)
 @console.counted("--seed")
-@click.option(
-    "--from",
-    "table",
-    metavar="FILE",
-    shell_complete=completing.files,
-)
+@click.option("--from", "table", metavar="FILE", shell_complete=completing.files)
 @click.option("--preset", type=console.Word(*HANDS), default="normal", show_default=True)
 @click.option("--by", type=console.Word("variant", "quantity"), default="variant", show_default=True)
-@console.output(
-    ".making.all_variants",
-)
+@console.output(".making.all_variants")
 @console.as_json
 def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], as_json: bool, **options: Any) -> int:
     """Show the answers of all variants of TASK beside one another; make new variants, or read them."""
@@ -138,11 +116,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
     "kulman batch scheme-08-planer scheme-09-shaper --form schemes.xlsx",
 )
 @console.of_tasks
-@click.option(
-    "--roster",
-    metavar="FILE",
-    shell_complete=completing.files,
-)
+@click.option("--roster", metavar="FILE", shell_complete=completing.files)
 @click.option("--form", metavar="FILE", shell_complete=completing.files)
 @click.option("--out", "folder", metavar="FOLDER", shell_complete=completing.files)
 @click.option(
@@ -155,10 +129,7 @@ def all_variants(task: str, settings: dict[str, str], files: tuple[Path, ...], a
 )
 @click.option("--merge", is_flag=True)
 @click.option("--scan", is_flag=True)
-@click.option(
-    "--digits",
-    metavar="N|WORD,...",
-)
+@click.option("--digits", metavar="N|WORD,...")
 @console.sized()
 @console.of_norm
 @console.titled(*console.BLOCK)
@@ -212,23 +183,13 @@ def _draw_class(tasks: tuple[str, ...], roster: str, folder: str, jobs: int, **o
 @click.option("--verdict-only", "own", is_flag=True)
 @console.sized()
 @click.option("--rubric", metavar="FILE", shell_complete=completing.files)
-@click.option(
-    "--directions",
-    type=console.Word("required", "optional", "ignored"),
-)
+@click.option("--directions", type=console.Word("required", "optional", "ignored"))
 @click.option("--roster", metavar="FILE", shell_complete=completing.files)
-@click.option(
-    "--digits",
-    metavar="N|WORD,...",
-    default="1",
-    show_default=True,
-)
+@click.option("--digits", metavar="N|WORD,...", default="1", show_default=True)
 @click.option("--out", "folder", metavar="FOLDER", shell_complete=completing.files)
 @click.option("--moodle", metavar="FILE", shell_complete=completing.files, type=Path)
 @click.option("--jobs", metavar="N", callback=console.processes)
-@console.output(
-    ".marking.report",
-)
+@console.output(".marking.report")
 @click.option("--json", "as_json", is_flag=True)
 def check(task: str, answers: tuple[str, ...], lang: str | None, settings: dict[str, str], **options: Any) -> None:
     """Mark ANSWERS to TASK: files with one student's answers or a class's, a folder of them, or a pattern."""
