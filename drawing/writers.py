@@ -83,15 +83,6 @@ def save_all(
     return [path for path, _ in files]
 
 
-def write_pages(pages: Sequence[Page], *paths: str | os.PathLike[str], tile: str | None = None) -> list[Path]:
-    """Write pages to each of `paths`, or to one numbered file each where the format holds a single page.
-
-    The suffix of a path picks the writer; `tile` is the paper ("A4") over which a PDF is spread at full size. Errors
-    and result are those of `save_all`.
-    """
-    return save_all(paths, WRITERS, lambda path: page_files(pages, path, tile))
-
-
 def page_files(pages: Sequence[Page], path: Path, tile: str | None = None) -> Iterator[tuple[Path, bytes]]:
     """Make the files of pages that `path` stands for: their names and what they hold."""
     writer = WRITERS[path.suffix.lower()]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from ..scales.errors import PositionError
 from .board import Board, Program, RecordingBoard, recorded
-from .boards.exact import Status, Trouble
+from .boards.exact import ExactBoard, Status, Trouble
 from .names import role
 from .quantities import Quantity
 
@@ -237,6 +237,11 @@ class Course(ABC):
     def outlines(self) -> Mapping[str, NDArray[Any]]:
         """Return the closed outlines of parts to be cut, by name: points, m, about the axis, chords within `FINE`."""
         return {}
+
+
+def found_on(board: ExactBoard) -> dict[str, Any]:
+    """Return what a construction has given on a board, by fields of what is solved."""
+    return {name: getattr(board, name) for name in ("values", "sines", "status", "trouble")}
 
 
 def calculated(programs: Mapping[str, Iterable[Callable[[Board], None]]]) -> dict[str, str]:

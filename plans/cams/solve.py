@@ -31,7 +31,7 @@ from ..laws import LAWS
 from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, results, shown_on, worst_behind
-from ..solved import AT_LEAST, AT_MOST, Check, Solved
+from ..solved import AT_LEAST, AT_MOST, Check, Solved, found_on
 from .cam import (
     DIAGRAMS_PART,
     GIVENS,
@@ -316,14 +316,7 @@ def _found(program: Program, givens: Mapping[str, Any]) -> dict[str, Any]:
     stated = {"mu_phi": Quantity("mu_phi", float(givens["mu_phi"]), unit_of("mu_phi"))} if "mu_phi" in givens else {}
     lengths = {name: givens[name] for name in LENGTHS if name in givens}
     found = stated | quantities(program, board.values, lengths, unit_of)
-    return {
-        "givens": givens,
-        "values": board.values,
-        "quantities": found,
-        "sines": board.sines,
-        "status": board.status,
-        "trouble": board.trouble,
-    }
+    return {**found_on(board), "givens": givens, "quantities": found}
 
 
 # numbers that neither the motion nor the smallest sizes depend on

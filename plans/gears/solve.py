@@ -29,7 +29,7 @@ from ..laws import LAWS
 from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, shown_on, worst_behind
-from ..solved import AT_LEAST, AT_MOST, EQUAL, PAPER_MM, Check, Solved, calculated, in_sections
+from ..solved import AT_LEAST, AT_MOST, EQUAL, PAPER_MM, Check, Solved, calculated, found_on, in_sections
 from .construction import (
     CENTRES,
     DIAGRAMS,
@@ -287,15 +287,13 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     results = quantities(program, board.values, {"PW": givens["PW"]} if slides else {}, unit_of)
     if slides:
         results = _with_ends(results)
+        board.values |= dict.fromkeys(ENDLESS, -math.inf)
     return SolvedGear(
+        **found_on(board),
         program=program,
-        values={**board.values, **dict.fromkeys(ENDLESS if slides else (), -math.inf)},
-        quantities=in_sections(_stated(givens, drawn, values) | results, SECTIONS, section_of),
-        sines=board.sines,
-        status=board.status,
-        trouble=board.trouble,
-        shown_on=shown_on(program) | {name: plan for name, plan in SHOWN_ON.items() if plan in drawn},
         scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
+        quantities=in_sections(_stated(givens, drawn, values) | results, SECTIONS, section_of),
+        shown_on=shown_on(program) | {name: plan for name, plan in SHOWN_ON.items() if plan in drawn},
         givens=givens,
         pair=pair,
         sizes=sizes,

@@ -15,7 +15,7 @@ from ..boards.exact import SMALL, Trouble, run
 from ..laws import cross
 from ..names import Name, role, scale_factor, spelled, vector
 from ..quantities import extent, plans_of, point_of, quantities, shown_on
-from ..solved import Solved
+from ..solved import Solved, found_on
 from . import compound
 from .chain import USUAL, constructed, hinged
 from .legs import guide_letters
@@ -178,14 +178,11 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     return SolvedLinkage(
         mechanism=mechanism,
         structure=structure,
+        **found_on(board),
         program=program,
-        values=board.values,
-        quantities=items,
-        sines=board.sines,
-        status=board.status,
-        trouble=board.trouble,
-        shown_on=shown_on(program),
         scale_of_plan=_scale_of_plan(structure, program),
+        quantities=items,
+        shown_on=shown_on(program),
         givens=givens,
     )
 

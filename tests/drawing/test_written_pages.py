@@ -3,7 +3,7 @@
 import math
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from io import BytesIO
 from itertools import pairwise
@@ -26,7 +26,7 @@ from kulman.drawing.pdf import write as write_pdf
 from kulman.drawing.shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Shape, Text, Vector
 from kulman.drawing.svg import svg_text
 from kulman.drawing.text import lay_out
-from kulman.drawing.writers import WRITERS, write_pages
+from kulman.drawing.writers import WRITERS, page_files, save_all
 from kulman.scales.errors import InputError
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -51,6 +51,10 @@ BAD: tuple[Callable[[float], Shape], ...] = (
     lambda bad: Polyline((0j, complex(bad, 0))),
     lambda bad: Vector(0j, 1 + 1j, "V", bad, "m/s", 1.0),  # a PDF does not have its value
 )
+
+
+def write_pages(pages: Sequence[Page], *paths: str | Path, tile: str | None = None) -> list[Path]:
+    return save_all(paths, WRITERS, lambda path: page_files(pages, path, tile))
 
 
 def page(*shapes: Shape, size: tuple[float, float] = (210.0, 297.0)) -> Page:
