@@ -322,7 +322,7 @@ def _printed(
 ) -> tuple[Plain, list[str], int]:
     """Return the printer of a program, expressions of the wanted names, and the code of what depends on no given."""
     zeros = [name for name, value in givens.items() if value == 0.0]
-    board = TracingBoard(dict.fromkeys(zeros, 0.0), givens.keys() - zeros)
+    board = TracingBoard(dict.fromkeys(zeros, 0.0), [name for name in givens if name not in zeros])
     program.needed_for(wanted).run(board)
     values = [board.values[name] for name in wanted]
     places = [part.place for value in values for part in (value.real, value.imag) if isinstance(part, Real)]

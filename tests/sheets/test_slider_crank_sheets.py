@@ -281,8 +281,8 @@ def test_the_same_command_gives_the_same_bytes_later(tmp_path: Path) -> None:
     for seed in ("1", "2"):
         folder = tmp_path / seed
         folder.mkdir()
-        files = [folder / "sheet.svg", folder / "sheet.pdf"]
-        command = [sys.executable, "-m", "kulman", "sheet", TASK, "-v", "3", "--only", "velocity", "--lang", "ru"]
+        files = [folder / f"sheet.{suffix}" for suffix in ("svg", "pdf", "html")]
+        command = [sys.executable, "-m", "kulman", "sheet", TASK, "-v", "3", "--format", "A3", "--lang", "ru"]
         command += [part for file in files for part in ("-o", str(file))]
         environment = {**os.environ, "PYTHONHASHSEED": seed}
         subprocess.run(command, check=True, capture_output=True, env=environment)
