@@ -214,7 +214,7 @@ Standing = tuple[View, Placement]  # a view and where it stands
 
 
 @dataclass(frozen=True, slots=True)
-class Breaking:
+class _Breaking:
     """Breaks tables and texts of later pages for a page that were else too empty; what `goes_on` has its heading so."""
 
     sheet: Format
@@ -290,7 +290,7 @@ class Breaking:
         return None if placed is None else [*zip(views, placed, strict=True)]
 
 
-def as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
+def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
     """Return the views of a page at places in reading order, as many from the first one on as can be.
 
     The others come as on the only page: figures before tables, or high ones before low ones.
@@ -378,7 +378,7 @@ def compose(
     The heading of what `goes_on` from a page before has these words.
     """
     every, pages = range(last(places) + 1), [*zip(views, places, strict=True)]
-    parted = Breaking(sheet, norm, goes_on).filled([[own for own in pages if own[1].page == k] for k in every])
+    parted = _Breaking(sheet, norm, goes_on).filled([[own for own in pages if own[1].page == k] for k in every])
     sheets = [sheet] * len(parted)
     if smaller and len(parted) > 1:
         own = [view for view, _ in parted[-1]]
@@ -388,7 +388,7 @@ def compose(
             ) is not None:
                 sheets[-1], parted[-1] = less, [*zip(own, placed, strict=True)]
                 break
-    parted = [as_read(page, paper, norm, k == 0) for k, (page, paper) in enumerate(zip(parted, sheets, strict=True))]
+    parted = [_as_read(page, paper, norm, k == 0) for k, (page, paper) in enumerate(zip(parted, sheets, strict=True))]
     drawn = tuple(tuple(view.at(place.x, place.y) for view, place in page) for page in parted)
     parts = (view for page in parted for view, _ in page if view.of)
     return Drawn((*views, *parts), drawn, scales, tuple(sheets), norm, reduction)

@@ -82,7 +82,7 @@ class Figure(Generic[Scene]):
 
     def keys(self, scene: Any) -> dict[str, str]:
         """Return the stages that a scene has, in order, with the keys of their sentences."""
-        made = families(scene.solved.program)
+        made = _families(scene.solved.program)
         own = [s for s in self.stages if s.when(scene) and (not s.marks or (s.marks, s.verb) in made)]
         key = {stage.name: f"{self.key}.{stage.name}{stage.variant(scene)}" if self.key else "" for stage in own[1:]}
         return {own[0].name: "", **key}
@@ -97,15 +97,15 @@ class Figure(Generic[Scene]):
 
 
 @lru_cache(maxsize=8)
-def families(program: Program) -> frozenset[tuple[str, str]]:
+def _families(program: Program) -> frozenset[tuple[str, str]]:
     """Return the families of the steps of a program, each with the verbs of its steps and with none."""
-    return frozenset((family(step.name), verb) for step in program for verb in ("", step.verb))
+    return frozenset((_family(step.name), verb) for step in program for verb in ("", step.verb))
 
 
-def family(name: str) -> str:
+def _family(name: str) -> str:
     """Return the name of a step with `#` for its numbers; a quantity keeps its own.
 
-    >>> family("profile.E12"), family("r_0")
+    >>> _family("profile.E12"), _family("r_0")
     ('profile.E#', 'r_0')
     """
     return name if is_shown(name) else NUMBER.sub("#", name)

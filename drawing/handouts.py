@@ -42,7 +42,7 @@ def begun_pages(pages: Iterable[Page], views: Iterable[View], shown: Mapping[str
     Tables keep their heads and first columns. All of it is given to the student, and in that layer.
     """
     by_name = {view.name: view for view in views}
-    shown = {**shown, **{name: begun_stages(by_name[name], done) for name, done in _done(by_name, steps).items()}}
+    shown = {**shown, **{name: _begun_stages(by_name[name], done) for name, done in _done(by_name, steps).items()}}
     begun = []
     for page in pages:
         unit = packaged(__package__, "texts", page.language)["table.unit"]
@@ -72,7 +72,7 @@ def _done(views: Mapping[str, View], steps: int) -> dict[str, int]:
     return done
 
 
-def begun_stages(view: View, steps: int) -> Shown:
+def _begun_stages(view: View, steps: int) -> Shown:
     """Return what is drawn of a view in its first stages; what stands under its heading is known when all are done."""
     drawn = frozenset(list(view.stages)[: steps + 1])
     return Shown(drawn, notes=drawn.issuperset({*view.parts, *view.stages} - {""}))

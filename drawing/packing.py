@@ -35,26 +35,26 @@ class Placement:
 
 
 @dataclass(frozen=True, slots=True)
-class Cut:
+class _Cut:
     """Parts of a page side by side from the left (`beside`) or one under another; a view is a part by its number."""
 
-    parts: tuple[Cut | int, ...]
+    parts: tuple[_Cut | int, ...]
     beside: bool
 
     def size(self, sizes: Sequence[Size]) -> Size:
         """Return the width and the height that its views need."""
-        wide, high = zip(*(size_of(part, sizes) for part in self.parts), strict=True)
+        wide, high = zip(*(_size_of(part, sizes) for part in self.parts), strict=True)
         gaps = LEAST * (len(self.parts) - 1)
         return (sum(wide) + gaps, max(high)) if self.beside else (max(wide), sum(high) + gaps)
 
 
-def size_of(part: Cut | int, sizes: Sequence[Size]) -> Size:
+def _size_of(part: _Cut | int, sizes: Sequence[Size]) -> Size:
     """Return the width and the height of a part of a page."""
     return sizes[part] if isinstance(part, int) else part.size(sizes)
 
 
 def spread(
-    part: Cut | int, sizes: Sequence[Size], corner: Size, room: Size, last: int = -1, first: int = -1
+    part: _Cut | int, sizes: Sequence[Size], corner: Size, room: Size, last: int = -1, first: int = -1
 ) -> Iterator[tuple[int, float, float]]:
     """Go through the views of a part with their lower left corners; `corner` is the upper left one of its `room`.
 
@@ -66,7 +66,7 @@ def spread(
         own = sizes[part]
         yield (part, x + wide - own[0], y - high) if part == last else (part, x + 0.5 * (wide - own[0]), y - own[1])
         return
-    inner = [size_of(one, sizes) for one in part.parts]
+    inner = [_size_of(one, sizes) for one in part.parts]
     free = (wide if part.beside else high) - sum(size[not part.beside] for size in inner)
     between = free / (len(inner) - 1)
     if not part.beside and part.parts[0] == first and len(inner) == 2:
@@ -113,11 +113,11 @@ class Slicing:
         """Whether the room holds all views."""
         return bool(self.sizes) and bool(self._tables[-1][0, 0, STEPS] <= STEPS)
 
-    def cut(self) -> Cut | int:
+    def cut(self) -> _Cut | int:
         """Return one way to cut the room, where it holds all views."""
         return self._cut(0, len(self.sizes), STEPS, STEPS)
 
-    def _cut(self, i: int, j: int, wide: int, high: int) -> Cut | int:
+    def _cut(self, i: int, j: int, wide: int, high: int) -> _Cut | int:
         """Return how a part of the room is cut for a run of views: where bonds are least, then where room is left."""
         if j == i + 1:
             return i
@@ -134,8 +134,8 @@ class Slicing:
             parts = self._cut(i, k, wide, first + spare), self._cut(k, j, wide, high - first - spare)
         else:
             parts = self._cut(i, k, first + spare, high), self._cut(k, j, wide - first - spare, high)
-        flat = (p.parts if isinstance(p, Cut) and p.beside is not under else (p,) for p in parts)
-        return Cut(tuple(part for own in flat for part in own), not under)
+        flat = (p.parts if isinstance(p, _Cut) and p.beside is not under else (p,) for p in parts)
+        return _Cut(tuple(part for own in flat for part in own), not under)
 
 
 def _in_two(tables: Sequence[NDArray[np.int16]], count: int) -> NDArray[np.int16]:

@@ -205,7 +205,7 @@ class Wanted(NamedTuple):
         return at.ravel()[order], complex(e), cost.ravel()[order]
 
 
-class Grid(NamedTuple):
+class _Grid(NamedTuple):
     """Places that the labels may take, shape (L, K), and what each would cost; from COVER up it covers something."""
 
     x: Reals
@@ -271,7 +271,7 @@ class Surroundings:
         """The middles of all things."""
         return np.asarray(shapely.points(pairs(self.things.middle)))
 
-    def grid(self, wanted: Wanted, steps: Sequence[float]) -> Grid:
+    def grid(self, wanted: Wanted, steps: Sequence[float]) -> _Grid:
         """Weigh all places of labels beside their nodes and segments at the given steps."""
         centre, own, cost = wanted.candidates(np.asarray(steps))
         x, y = centre.real.copy(), centre.imag.copy()
@@ -305,7 +305,7 @@ class Surroundings:
             cost[crowded] += np.add.reduceat(price, starts, axis=0)
         if self.bounds is not None:
             cost += COVER * self._beyond(centre, hw + 1j * hh)
-        return Grid(x, y, cost)
+        return _Grid(x, y, cost)
 
     def _foreign(self, wanted: Wanted, i: Numbers, j: Numbers, belongs: Flags, distance: Reals, own: Reals) -> Flags:
         """Tell which places of labels i are nearer to things j in the place of their own, or to circles of others.

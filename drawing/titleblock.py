@@ -131,7 +131,7 @@ def _form_1(stamp: Stamp) -> list[Shape]:
     for key, y in ROLES:
         filled += _fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
     for key, plain, level in (("student", stamp.student, 25.0), ("teacher", stamp.teacher, 20.0)):
-        filled += named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
+        filled += _named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
     filled += _fitted(stamp.date, (55.0, 25.0, 65.0, 30.0), CAPTION, name="date_value")
     name_cell = (65.0, 22.0 if stamp.document_type else 15.0, 135.0, 40.0)
     owner = ", ".join(part for part in (stamp.organisation, stamp.group) if part)
@@ -172,7 +172,7 @@ def _form_2(stamp: Stamp) -> list[Shape]:
     for key, y in TEXT_ROLES:
         filled += _fitted(caption[key], (0.0, y, 17.0, y + 5.0), CAPTION, "left", key)
     for key, plain, level in (("student", stamp.student, 20.0), ("teacher", stamp.teacher, 15.0)):
-        filled += named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
+        filled += _named(plain, (17.0, level, 40.0, level + 5.0), CAPTION, "left", key)
     filled += _fitted(stamp.date, (55.0, 20.0, 65.0, 25.0), CAPTION, name="date_value")
     owner = ", ".join(part for part in (stamp.organisation, stamp.group) if part)
     for key, plain, cell, heights in (
@@ -380,15 +380,15 @@ def _placed(lines: list[str], cell: Box, height: float, anchor: Anchor, name: st
     ]
 
 
-def named(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor, name: str) -> list[Text]:
+def _named(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor, name: str) -> list[Text]:
     """Return the lines of a person's name in `cell`, in letters that one can read where that is possible.
 
     Where not even the surname has room an InputError says so.
     """
     found: list[list[Text]] = []
     refused: list[InputError] = []
-    full = {} if plain == with_initials(plain) else {plain: ROOMY}
-    for way, least in {surname(plain): LEGIBLE, with_initials(plain): LEGIBLE, **full}.items():
+    full = {} if plain == _with_initials(plain) else {plain: ROOMY}
+    for way, least in {_surname(plain): LEGIBLE, _with_initials(plain): LEGIBLE, **full}.items():
         try:
             texts = _fitted(way, cell, heights, anchor, name)
         except InputError as error:
@@ -400,20 +400,20 @@ def named(plain: str, cell: Box, heights: Sequence[float], anchor: Anchor, name:
     return found[0]
 
 
-def surname(plain: str) -> str:
+def _surname(plain: str) -> str:
     """Return the surname of a full name: before a patronymic's given name, or behind it; else first, in Latin last.
 
-    >>> surname("Коваль Іван Петрович"), surname("Іван Петрович Коваль"), surname("Ivan Koval")
+    >>> _surname("Коваль Іван Петрович"), _surname("Іван Петрович Коваль"), _surname("Ivan Koval")
     ('Коваль', 'Коваль', 'Koval')
     """
     words = plain.split()
     return words[_surname_at(words)] if words else ""
 
 
-def with_initials(plain: str) -> str:
+def _with_initials(plain: str) -> str:
     """Return a full name as surname and initials, in the order in which it is written.
 
-    >>> with_initials("Коваль Анна-Марія Петрівна"), with_initials("Ivan Koval"), with_initials("доц. Коваль Ольга")
+    >>> _with_initials("Коваль Анна-Марія Петрівна"), _with_initials("Ivan Koval"), _with_initials("доц. Коваль Ольга")
     ('Коваль А.-М. П.', 'I. Koval', 'доц. Коваль О.')
     """
     words = plain.split()

@@ -32,7 +32,7 @@ DOT = 1.2  # mm; what is left of a construction line beside a letter is no short
 BELOW, PARENTHESES, SQUARES = 0.42, 1.17, 1.35
 
 
-class Whole(NamedTuple):
+class _Whole(NamedTuple):
     """What a shape is a piece of, and the boxes of letters at which it may break off, with their stages."""
 
     shape: Shape
@@ -61,7 +61,7 @@ class View:
     parts: tuple[str, ...] = ()
     stages: Mapping[str, str] = field(default_factory=dict)
     needs: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-    whole: Mapping[int, Whole] = field(default_factory=dict)
+    whole: Mapping[int, _Whole] = field(default_factory=dict)
     style: Style | None = None
     width: float = 0.0
     of: str = ""
@@ -214,7 +214,7 @@ class Canvas:
         starts = [0, *(start for start, _ in self._begun), len(self.shapes)]
         names = ["", *(name for _, name in self._begun)]
         parts = [name for name, (a, b) in zip(names, pairwise(starts), strict=True) for _ in range(a, b)]
-        letters, whole = list[Text](), dict[int, Whole]()
+        letters, whole = list[Text](), dict[int, _Whole]()
         for label, letter in kept.items():
             angle, layout = placed.angles.get(label, 0.0), lay_out(letter.markup, letter.height)
             corner = complex(layout.left, layout.bottom) * rect(1.0, angle)
@@ -246,7 +246,7 @@ class Canvas:
 
     def _broken(
         self, letters: Sequence[tuple[Text, str]], parts: Sequence[str], scene: Scene
-    ) -> tuple[list[str], dict[int, Whole]]:
+    ) -> tuple[list[str], dict[int, _Whole]]:
         """Break thin lines at letters, which come with their stages: those of some roles at all, others where struck.
 
         Returned are the stages of all shapes, and by the numbers of the pieces what is whole without the letters.
@@ -259,12 +259,12 @@ class Canvas:
         through = {_grown(box, BROKEN): stage for (box, stage), bad in zip(level, struck, strict=True) if bad}
         if not (self.breaks or through):
             return [*parts], {}
-        shapes, stages, whole = list[Shape](), list[str](), dict[int, Whole]()
+        shapes, stages, whole = list[Shape](), list[str](), dict[int, _Whole]()
         for shape, part in zip(self.shapes, parts, strict=True):
             at = boxes if getattr(shape, "role", "") in self.breaks else through
             pieces = left_of(shape, tuple(at)) if at else [shape]
             if pieces != [shape]:
-                whole |= dict.fromkeys(range(len(shapes), len(shapes) + len(pieces)), Whole(shape, at))
+                whole |= dict.fromkeys(range(len(shapes), len(shapes) + len(pieces)), _Whole(shape, at))
             shapes += pieces
             stages += [part] * len(pieces)
         self.shapes = shapes

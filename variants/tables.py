@@ -457,7 +457,7 @@ def _texts(column: Sequence[Cell] | Array, comma: bool, between: str) -> list[st
     if kinds == {int}:
         return [*map(str, column)]
     if kinds == {str}:  # statuses
-        known = {text: _quoted(harmless(text), between) for text in {*map(str, column)}}
+        known = {text: _quoted(_harmless(text), between) for text in {*map(str, column)}}
         return [known[text] for text in map(str, column)]
     if kinds != {float}:
         return [_quoted(_text(cell, comma, exact), between) for cell in column]
@@ -484,17 +484,17 @@ def _text(cell: Cell, comma: bool, number: Callable[[float], str]) -> str:
     if cell is None or (isinstance(cell, float) and not math.isfinite(cell)):
         return ""
     if isinstance(cell, str):
-        return harmless(cell)
+        return _harmless(cell)
     text = number(cell)
     return text.replace(".", ",") if comma else text
 
 
-def harmless(text: str) -> str:
+def _harmless(text: str) -> str:
     """Return a text that no spreadsheet takes for a formula: an apostrophe is put before what might be one.
 
-    >>> harmless("=1+1"), harmless("V_B"), harmless("-5 mm")
+    >>> _harmless("=1+1"), _harmless("V_B"), _harmless("-5 mm")
     ("'=1+1", 'V_B', "'-5 mm")
-    >>> harmless("x,=1+1"), harmless("2, -5 mm")
+    >>> _harmless("x,=1+1"), _harmless("2, -5 mm")
     ("x,'=1+1", '2, -5 mm')
     """
     within = _INSIDE.sub(r"\1'", text)

@@ -104,10 +104,10 @@ def depth_verdict(found: Depth, words: Words, plain: bool = False) -> str:
 
 
 def _short(value: float, words: Words) -> str:
-    return equal(value, words) if value >= LEAST else "0" if value < 1e-12 else f"< {words.short(LEAST)}"
+    return _equal(value, words) if value >= LEAST else "0" if value < 1e-12 else f"< {words.short(LEAST)}"
 
 
-def equal(value: float, words: Words) -> str:
+def _equal(value: float, words: Words) -> str:
     """Return a number with all its significant digits, zeros at the end too: 2.60."""
     power = math.floor(math.log10(abs(float(f"{value:.{SHOWN - 1}e}")))) if value else 0
     return words.number(value, max(SHOWN - 1 - power, 0))

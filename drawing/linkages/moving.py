@@ -45,7 +45,7 @@ End = str | list[Any]
 
 
 @dataclass(frozen=True, slots=True)
-class Live(Teller):
+class _Live(Teller):
     """A teller in whose sentences the numbers are left open: what stands there is in `asked`, in order."""
 
     asked: list[list[str]] = field(default_factory=list, compare=False)
@@ -110,7 +110,7 @@ def moving_linkage(
     words = lettered(words, solved)
     scene = Scene(solved, words, STYLES["A4"], givens, _scales(solved))
     board = {name: float(value) for name, value in cycle.givens.items()}
-    teller = Live(scene.solved, words, scene.style, givens, scene.scales, texts=Teller.of(scene).texts)
+    teller = _Live(scene.solved, words, scene.style, givens, scene.scales, texts=Teller.of(scene).texts)
     views = [*_views(teller)]
     drive = cycle.drive
     span = cycle.range
@@ -233,7 +233,7 @@ def _first_shown(scene: Scene, cycle: Cycle) -> Iterator[str]:
         yield from [name for name in names if name in scene.quantities][:1]
 
 
-def _views(teller: Live) -> Iterator[Data]:
+def _views(teller: _Live) -> Iterator[Data]:
     """Go through the views: the mechanism, its plans, the lever; each with its shapes and its steps."""
     for view in drawn_views(teller):
         if view not in teller.scales:  # compound motion is told on the sheet

@@ -204,7 +204,7 @@ def _places_of(cycle: Cycle, count: int) -> Array:
     return low + (high - low) * ((np.arange(count) + 0.5) / count)
 
 
-def truth(cycle: Cycle, places: Array, names: Sequence[str]) -> _Truth:
+def _truth(cycle: Cycle, places: Array, names: Sequence[str]) -> _Truth:
     """Run a program with fifty digits at all places that have plans; elsewhere there are NaN."""
     program = cycle.program.needed_for(names)
     high, low, sizes = (
@@ -237,7 +237,7 @@ def contest(cycle: Cycle, positions: int, clock: Clock, names: Iterable[str] = (
     """
     rivals, places, kinds = _Rivals(cycle), _places_of(cycle, positions), _kinds_of(cycle, names)
     entries: list[Entry] = []
-    exact = truth(cycle, places, tuple(dict.fromkeys(name for kind in kinds for name in kind.names)))  # once for all
+    exact = _truth(cycle, places, tuple(dict.fromkeys(name for kind in kinds for name in kind.names)))  # once for all
     for kind in kinds:
         run_of = rivals, kind.names, places, effort, clock
         for way, values in (*_by_plans(*run_of), *(_by_others(*run_of) if kind.name != "forces" else ())):

@@ -102,7 +102,7 @@ class Fit:
         return [(int(min(pair)), int(max(pair))) for pair in ends]
 
 
-class Laid(NamedTuple):
+class _Laid(NamedTuple):
     """Ways to lay a shape: origins, factors, nodes of its marks; what each may be worth, what part of it be there."""
 
     origins: Complex
@@ -153,7 +153,7 @@ class Laying:
     given: Mapping[str, float]
     used: set[tuple[int, int]] = field(default_factory=set)
     times: float = 1.0
-    _laid: dict[tuple[Shape, float, float], Laid] = field(default_factory=dict)
+    _laid: dict[tuple[Shape, float, float], _Laid] = field(default_factory=dict)
 
     def expected(self, plan: str) -> float:
         """Return the scale factor that a plan should have, SI per mm; zero where nobody knows."""
@@ -173,7 +173,7 @@ class Laying:
         """Return where a shape fits best on a sheet turned so, radians, if such a part of it may be there."""
         return self.closest(shape, self.lay(shape, turn), part)
 
-    def lay(self, shape: Shape, turn: float) -> Laid:
+    def lay(self, shape: Shape, turn: float) -> _Laid:
         """Lay a shape in all ways that may be worth nearly as much as the best of them."""
         name = shape, turn, self.times
         if name not in self._laid:
@@ -188,7 +188,7 @@ class Laying:
         part: float = 0.0,
         least: float = -math.inf,
         usually: bool = False,
-    ) -> list[Laid]:
+    ) -> list[_Laid]:
         """Lay shapes of one plan in all ways that may be worth `least`, and nearly as much as the best of all.
 
         Only those of their usual size, or all.
@@ -216,7 +216,7 @@ class Laying:
             least = max(least, worth[:done].max() - within)
         found = [np.flatnonzero(rows[:done] == row) for row in range(len(shapes))]
         return [
-            Laid(origins[own], factors[own], nodes[own, : len(shape.marks)], worth[own], parts[own])
+            _Laid(origins[own], factors[own], nodes[own, : len(shape.marks)], worth[own], parts[own])
             for shape, own in zip(shapes, found, strict=True)
         ]
 
@@ -232,7 +232,7 @@ class Laying:
         worth = (1.0 + ABSENT) * there - ABSENT * whole + self._as_usual(stack.plan, per_unit)
         return worth, there / np.maximum(whole, SMALL)
 
-    def closest(self, shape: Shape, laid: Laid, part: float = 0.0) -> Fit | None:
+    def closest(self, shape: Shape, laid: _Laid, part: float = 0.0) -> Fit | None:
         """Return the best of the ways in which a shape is laid, looked at closely; of which a part may be there."""
         best, seen, worth = None, set[bytes](), laid.worth
         for at in np.argsort(-worth, kind="stable")[:MANY]:

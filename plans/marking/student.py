@@ -185,7 +185,7 @@ def settled_in(steps: Iterable[Step]) -> Mapping[str, int]:
     return found
 
 
-def half_digit(number: float) -> float:
+def _half_digit(number: float) -> float:
     """Return half of the last digit of a number, which is taken to have three digits if it has fewer."""
     if not number or not math.isfinite(number):
         return 0.0
@@ -243,7 +243,7 @@ class Allowance:
         if step is None or (right and any(map(self.faulty, self.inputs(step)))):
             return self.by_hand(name, value)
         answer = self.answers[name]
-        last = answer.rounded if answer.rounded is not None else half_digit(answer.value or 0.0)
+        last = answer.rounded if answer.rounded is not None else _half_digit(answer.value or 0.0)
         # a calculator's result may differ by half a per cent, or by what all roundings come to
         return self._marked(name, float(max(ROUNDED * abs(value), last + self._inherited(name, step))))
 
@@ -331,7 +331,7 @@ class Allowance:
     def _last(self, name: str) -> float:
         """Return half of the last digit of a number with which a student goes on, of few digits a part of it."""
         size, last = abs(self.drawn.values[name]), self.answers[name].rounded
-        return half_digit(size) if last is None else float(min(last, ROUNDED * size))
+        return _half_digit(size) if last is None else float(min(last, ROUNDED * size))
 
     def _of_answer(self, name: str) -> float:
         """Return by what a student's own number may differ: by its last digit, by what a segment can be read to.

@@ -99,20 +99,20 @@ def edges_of(program: Program, plan: str) -> Edges:
     for step in program.on(plan):
         if step.verb == "read":
             tail, tip = step.operands
-            found.append((quantity_shown(step.name), tail, tip))
+            found.append((_quantity_shown(step.name), tail, tip))
         elif step.verb == "chain":
-            found.append((quantity_shown(step.operands[1]), step.operands[0], step.name))
+            found.append((_quantity_shown(step.operands[1]), step.operands[0], step.name))
     return tuple(found)
 
 
-def changed_edges(right: Edges, program: Program, plan: str) -> Edges:
+def _changed_edges(right: Edges, program: Program, plan: str) -> Edges:
     """Return the vectors of a plan that is drawn with a mistake; one that is only misread is drawn all the same."""
     own = edges_of(program, plan)
     names, made = {name for name, *_ in own}, set(program.names)
     return (*own, *(edge for edge in right if edge[0] not in names and made.issuperset(edge[1:])))
 
 
-def quantity_shown(name: str) -> str:
+def _quantity_shown(name: str) -> str:
     """Return the quantity that a vector shows, which a mistake may have put aside before it is misread."""
     return role(name).shown.shown
 
@@ -139,12 +139,12 @@ def shapes_of(key: Key, book: Book | None, plan: str) -> tuple[Shape, ...]:
     right = shape_of(plan, right_edges, key.values)
     if right is None or not right.longest:
         return ()
-    found, looks = {look_of(right): right}, dict[tuple[Any, ...], tuple[Any, ...]]()
+    found, looks = {_look_of(right): right}, dict[tuple[Any, ...], tuple[Any, ...]]()
     for number, one in enumerate(book.signatures if book else ()):
         if one.broken.mistake in BY_SCALE:
             continue
         changed = any(step.plan == plan for steps in one.broken.change.steps.values() for step in steps)
-        edges = changed_edges(right_edges, one.broken.program, plan) if changed else right_edges
+        edges = _changed_edges(right_edges, one.broken.program, plan) if changed else right_edges
         drawn = edges, *(one.values.get(mark) for _, *ends in edges for mark in ends)
         if drawn in looks:  # most mistakes leave most plans as they are
             look = looks[drawn]
@@ -152,13 +152,13 @@ def shapes_of(key: Key, book: Book | None, plan: str) -> tuple[Shape, ...]:
             continue
         shape = shape_of(plan, edges, one.values, number)
         if shape is not None and shape.longest:
-            looks[drawn] = look = look_of(shape)
+            looks[drawn] = look = _look_of(shape)
             before = found.get(look)
             found[look] = shape if before is None else replace(before, broken=(*before.broken, number))
     return tuple(found.values())
 
 
-def look_of(shape: Shape) -> tuple[Any, ...]:
+def _look_of(shape: Shape) -> tuple[Any, ...]:
     """Return what shapes have in common that look alike on paper, and are of about the same size."""
     ends = np.round(np.stack((shape.places[shape.tails], shape.places[shape.tips])) / shape.longest, 3) + 0.0
     return (round(math.log(shape.longest) / SIZE), *sorted(zip(shape.names, *ends.tolist(), strict=True), key=repr))

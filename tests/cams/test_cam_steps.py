@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from kulman.drawing.cams.sheet import CamFitting
-from kulman.drawing.figure import Figure, SheetContents, family
+from kulman.drawing.figure import Figure, SheetContents, _family
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts import begun_pages
 from kulman.drawing.notes.blocks import Story
@@ -114,7 +114,7 @@ def test_every_mark_of_the_construction_has_its_stage(case: tuple[str, str, Sett
     found = {stage.marks for figure, _ in tables(solved(*case)).values() for stage in figure.stages}
 
     program = solved(*case).solved.program
-    marks = {family(step.name) for step in program if "." in step.name}
+    marks = {_family(step.name) for step in program if "." in step.name}
     assert len(marks) >= 15
     assert not [mark for mark in marks if mark not in found and not any(re.fullmatch(p, mark) for p, _ in BESIDE)]
     known = {part for parts in stages(solved(*case)).values() for part in parts}
@@ -126,7 +126,7 @@ def test_stages_stand_in_the_order_of_the_construction(case: tuple[str, str, Set
     firsts: dict[tuple[str, str], int] = {}
     for k, step in enumerate(solved(*case).solved.program):
         for verb in ("", step.verb):
-            firsts.setdefault((family(step.name), verb), k)
+            firsts.setdefault((_family(step.name), verb), k)
     for name, (figure, scene) in tables(solved(*case)).items():
         own = [stage for stage in figure.stages if stage.marks and stage.name in figure.keys(scene)]
         places = [firsts[stage.marks, stage.verb] for stage in own[1:]]  # the first is there before any step

@@ -16,7 +16,7 @@ from kulman.plans.boards.exact import run
 from kulman.plans.hands.shaky import preset
 from kulman.plans.lab import race as contests
 from kulman.plans.lab.contours import Contours
-from kulman.plans.lab.linkages import DrawnSheet, _kinds_of, _places_of, _Rivals, by_hand, contest, truth
+from kulman.plans.lab.linkages import DrawnSheet, _kinds_of, _places_of, _Rivals, _truth, by_hand, contest
 from kulman.plans.lab.race import Contest, Effort, Entry
 from kulman.plans.lab.stability import (
     ALL,
@@ -164,7 +164,7 @@ def test_a_hand_draws_the_plans_of_every_position_as_long() -> None:
 def test_errors_are_found_to_extended_precision() -> None:
     whole = of_task("madi-four-bar")
     places = _places_of(whole, 3)
-    exact = truth(whole, places, ["V_C"])
+    exact = _truth(whole, places, ["V_C"])
     plan = _Rivals(whole).plan(places, ["V_C"])
     off = exact.errors({"V_C": plan["V_C"] + exact.sizes["V_C"] * 1e-6})
     assert exact.errors(plan)["V_C"].max() < 4.0 * EPS

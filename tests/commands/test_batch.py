@@ -15,7 +15,7 @@ from pdfminer.layout import LTTextContainer
 from kulman import batch, check, load_task
 from kulman.scales.errors import InputError, speaking
 from kulman.tests.support.commands import Run, files, roster, table
-from kulman.variants.batches.batch import Making, Outcome, Student
+from kulman.variants.batches.batch import Outcome, Student, _Making
 from kulman.variants.case import Request
 from kulman.variants.roster import Digits, Entry, Schemes, Who, read_roster, variant_of_book
 from kulman.variants.sheets import card_of_case, drawing_for_print
@@ -30,13 +30,13 @@ BOOKS = "student;record book"
 def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """The numbers of the students for whom something is made."""
     numbers: list[int] = []
-    first = Making.make
+    first = _Making.make
 
-    def counting(making: Making, student: Student) -> Outcome:
+    def counting(making: _Making, student: Student) -> Outcome:
         numbers.append(student.number)
         return first(making, student)
 
-    monkeypatch.setattr(Making, "make", counting)
+    monkeypatch.setattr(_Making, "make", counting)
     return numbers
 
 

@@ -24,7 +24,7 @@ from kulman.drawing import writers
 from kulman.scales.errors import InputError
 from kulman.tests.support import commands
 from kulman.tests.support.commands import files
-from kulman.variants.batches.batch import JOURNAL, Making, Outcome, Student
+from kulman.variants.batches.batch import JOURNAL, Outcome, Student, _Making
 from kulman.variants.crew import Journal
 
 TASK = "nau-slider-crank"
@@ -50,12 +50,12 @@ def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """The numbers of the students for whom something is made: two small files each, as what they hold is no matter."""
     found: list[int] = []
 
-    def make(making: Making, student: Student) -> Outcome:
+    def make(making: _Making, student: Student) -> Outcome:
         found.append(student.number)
         stem, data = f"{student.number:03d}-{student.entry.who.student}", f"{student!r}\n" * 20
         return Outcome("1", "id", {f"{stem}.svg": data.encode(), f"{stem}.pdf": data.encode()}, {"V_B": 1.5})
 
-    monkeypatch.setattr(Making, "make", make)
+    monkeypatch.setattr(_Making, "make", make)
     return found
 
 
@@ -294,12 +294,12 @@ def divide() -> None:
 def test_a_row_that_crashes_is_named_and_the_others_are_done(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, poison: Callable[[], None], jobs: int | None, said: str
 ) -> None:
-    def make(making: Making, student: Student) -> Outcome:
+    def make(making: _Making, student: Student) -> Outcome:
         if student.number == 3:
             poison()
         return Outcome("1", "id", {f"{student.number:03d}.svg": b"<svg/>"})
 
-    monkeypatch.setattr(Making, "_made", make)
+    monkeypatch.setattr(_Making, "_made", make)
 
     done = batch(TASK, roster(tmp_path, 5), tmp_path / "out", kinds=["svg"], jobs=jobs, lang="en")
 

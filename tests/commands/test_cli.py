@@ -24,9 +24,9 @@ from kulman.tests.support.commands import Run
 from kulman.variants.case import kind_of
 from kulman.variants.kinds import MODULES
 from kulman.variants.making.new_variants import _with_variants
-from kulman.variants.making.starter import template
+from kulman.variants.making.starter import _template
 from kulman.variants.reader import check_text
-from kulman.variants.serving.app import listening
+from kulman.variants.serving.app import _listening
 from kulman.variants.shelf import bundled, bundled_text
 from kulman.variants.solution import Solution, solve
 
@@ -83,7 +83,7 @@ def test_the_help_of_every_command_shows_examples_that_run(
 
 
 def test_nobody_else_is_let_in_without_passwords(run: Run) -> None:
-    with listening("127.0.0.1", 0) as taken:
+    with _listening("127.0.0.1", 0) as taken:
         port = str(taken.getsockname()[1])
 
         assert run("serve", "--host", "0.0.0.0")[:2] == (2, "")
@@ -508,7 +508,7 @@ def test_a_copied_task_is_the_users_own(task: str, folder: Path, run: Run) -> No
     copied = Path("мій.toml").read_text(encoding="utf-8")
     comments = " ".join(re.findall(r"#(.*)", copied))
     own, source = tomllib.loads(copied), tomllib.loads(bundled_text(task))
-    assert own["source"] == tomllib.loads(template(language))["source"]
+    assert own["source"] == tomllib.loads(_template(language))["source"]
     assert own["id"] == "мій"
     assert "kulman solve мій.toml" in comments
     assert source["title"][language] in comments

@@ -29,7 +29,7 @@ from kulman.variants.checks import names as checks_names
 from kulman.variants.commands import guides
 from kulman.variants.commands.helping import told
 from kulman.variants.kinds import cam, gear, hoist
-from kulman.variants.making.starter import template
+from kulman.variants.making.starter import _template
 from kulman.variants.shelf import bundled_text
 from kulman.variants.solution import solve
 
@@ -46,7 +46,7 @@ EXAMPLES = sorted((DOCS / "examples").glob("*.toml"))
 def example_texts() -> list[str]:
     """Return the task files from which the documents quote."""
     bundled = (TASK, "scheme-20-press-automaton", "madi-cam", "madi-gear", "karpenko-hoist")
-    tasks = [*map(bundled_text, bundled), template("en", "cam")]
+    tasks = [*map(bundled_text, bundled), _template("en", "cam")]
     return [*tasks, *(path.read_text(encoding="utf-8") for path in EXAMPLES)]
 
 

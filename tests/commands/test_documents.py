@@ -17,7 +17,7 @@ from kulman.tests.support.cases import some
 from kulman.tests.support.documents import blocks, run_here
 from kulman.tests.support.sources import ROOT, files
 from kulman.variants.commands.guides import TOPICS
-from kulman.variants.making.starter import template
+from kulman.variants.making.starter import _template
 from kulman.variants.reader import read_text
 from kulman.variants.shelf import bundled_text
 
@@ -114,7 +114,7 @@ def test_steps_to_an_own_mechanism_quote_the_file_to_begin_with() -> None:
     quoted = TOML.findall(FIRST)
 
     assert len(quoted) >= 8
-    assert all(block in template("en") for block in quoted)
+    assert all(block in _template("en") for block in quoted)
     parts = {line for block in quoted for line in block.splitlines() if line.startswith("[")}
     assert parts >= {"[givens]", "[[mechanism.link]]", "[[mechanism.pair]]", "[mechanism.driver]", "[[variant]]"}
 
@@ -131,9 +131,9 @@ def test_lines_of_other_parts_stand_in_the_task_that_is_named_last_before_them()
 def test_fault_that_the_document_shows_is_the_one_of_the_program(language: str) -> None:
     (shown,) = re.findall(r"```text\n(my-mechanism.*?)\n```", TEXTS[f"own-mechanism.{language}"])
     pivot = '[[mechanism.pair]]\nkind = "revolute"\npoint = "C"\nlinks = [3, 0]\nat = ["280 mm", "0 mm"]\n'
-    assert pivot in template("en")
+    assert pivot in _template("en")
 
-    _, faults = read_text(template("en").replace(pivot, ""), "my-mechanism.toml")
+    _, faults = read_text(_template("en").replace(pivot, ""), "my-mechanism.toml")
 
     assert [fault.text(language) for fault in faults] == [shown]
 

@@ -11,7 +11,7 @@ import pytest
 from kulman import cli
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.commands import Run
-from kulman.variants.commands.helping import longest, texts, told
+from kulman.variants.commands.helping import _longest, texts, told
 
 NAMES = ("", *cli.commands.commands)
 CYRILLIC = re.compile("[а-яіїєґ]", re.IGNORECASE)
@@ -24,7 +24,7 @@ def keys(name: str) -> Iterator[str]:
     yield "about"
     for param in command.get_params(click.Context(command, help_option_names=["-h", "--help"])):
         if isinstance(param, click.Option):
-            yield longest(param)
+            yield _longest(param)
 
 
 def leaves(language: str) -> dict[tuple[str, str], str]:

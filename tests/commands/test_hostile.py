@@ -22,7 +22,7 @@ from kulman import all_variants, batch, check, load_task, note, sheet
 from kulman.drawing.notes.blocks import letters
 from kulman.drawing.notes.omml import _atoms_of
 from kulman.drawing.text import escape, lay_out
-from kulman.drawing.titleblock import surname, with_initials
+from kulman.drawing.titleblock import _surname, _with_initials
 from kulman.drawing.writers import slug
 from kulman.scales.errors import InputError, KulmanError
 from kulman.scales.names import unknown
@@ -45,7 +45,7 @@ from kulman.variants.sheets import BLOCK, variant_of_id
 from kulman.variants.shelf import bundled_text
 from kulman.variants.spreadsheets import grid as headers
 from kulman.variants.spreadsheets.files import read_grid
-from kulman.variants.tables import _csv_text, _xlsx_bytes, harmless
+from kulman.variants.tables import _csv_text, _harmless, _xlsx_bytes
 
 TASK = "nau-slider-crank"
 PATHS = (
@@ -169,7 +169,7 @@ def test_a_cell_comes_back_from_a_table_as_it_was(name: str, tmp_path: Path) -> 
 
     assert seen.data_type in ("s", "inlineStr", "n")  # a text, or nothing
     assert str(seen.value or "").strip() == "".join(c if c.isprintable() or c == "\n" else " " for c in name).strip()
-    assert formulas([harmless(name)]) == []
+    assert formulas([_harmless(name)]) == []
     for file in ("t.csv", "t.xlsx"):
         cell = read_grid(tmp_path / file).text(1, 0)
         assert _bare(cell) == _bare(name)
@@ -379,14 +379,14 @@ READERS: dict[str, Callable[[str], object]] = {
     "slug": slug,
     "label": _label,
     "folded": _folded,
-    "surname": surname,
-    "initials": with_initials,
+    "surname": _surname,
+    "initials": _with_initials,
     "escaped": escape,
     "markup": lambda text: letters(escape(text)),
     "laid out": lambda text: lay_out(escape(text), 3.5),
     "atoms": lambda text: _atoms_of(escape(text)),
     "wording": plain,
-    "cell of CSV": harmless,
+    "cell of CSV": _harmless,
     "sheet": lambda text: variant_of_id(SLIDER, text),
     "places of TOML": lambda text: Places(f"x = '{text.translate(_OF_LINE)}' # {text.translate(_OF_LINE)}"),
     "task file": lambda text: _with_variants(bundled_text(TASK) + text, ()),

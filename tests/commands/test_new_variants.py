@@ -25,9 +25,9 @@ from kulman.variants.kinds.linkage import _short_vectors
 from kulman.variants.making.new_variants import (
     _most_pages,
     _ranges_of,
+    _read_variants,
     _with_variants,
     import_variants,
-    read_variants,
 )
 from kulman.variants.reader import read_text
 from kulman.variants.sheets import draw_case
@@ -251,7 +251,7 @@ def table(folder: Path, text: str) -> str:
 
 
 def values(task: Task, file: str) -> dict[str, dict[str, float | str]]:
-    read = read_variants(file, task)
+    read = _read_variants(file, task)
     assert [str(problem) for one in read for problem in one.problems] == []
     return {one.id: {name: task.givens[name].read(text) for name, text in one.row.items()} for one in read}
 
@@ -338,7 +338,7 @@ def test_a_unit_of_a_header_is_never_passed_over(header: str, given: str, said: 
     task = load_task(TASK)
     file = table(tmp_path, f'Варіант;phi, град;"{header}"\n1;30;2,5\n')
 
-    [read] = read_variants(file, task)
+    [read] = _read_variants(file, task)
 
     if read.problems:
         assert re.search(rf"C2, {given}: .*{said}", str(read.problems[0]))
@@ -354,6 +354,6 @@ def test_numbers_without_ids_are_counted_and_data_that_are_missing_named(tmp_pat
 
 
 def test_two_symbols_of_one_name_are_not_taken_for_a_given(tmp_path: Path) -> None:
-    [read] = read_variants(table(tmp_path, "Варіант;phi;Відношення l_OA до l_AB\n1;30;0,2\n"), load_task(TASK))
+    [read] = _read_variants(table(tmp_path, "Варіант;phi;Відношення l_OA до l_AB\n1;30;0,2\n"), load_task(TASK))
 
     assert set(read.row) == {"phi"}

@@ -12,7 +12,7 @@ from kulman import cli
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.commands import Run
 from kulman.variants.commands.guides import guide
-from kulman.variants.commands.settings import PARAMETERS, PLACE, settings_file
+from kulman.variants.commands.settings import PARAMETERS, PLACE, _settings_file
 
 TASK = "nau-slider-crank"
 
@@ -95,11 +95,11 @@ def test_a_folder_is_no_file_of_settings(file: Path, run: Run) -> None:
 
 
 def test_the_environment_names_another_file_or_none(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert settings_file() == file
+    assert _settings_file() == file
     monkeypatch.setenv(PLACE, "other.toml")
-    assert settings_file() == Path("other.toml")
+    assert _settings_file() == Path("other.toml")
     monkeypatch.setenv(PLACE, "")
-    assert settings_file() is None
+    assert _settings_file() is None
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

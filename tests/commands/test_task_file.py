@@ -27,7 +27,7 @@ from kulman.tests.support.sheet_cases import ROWS, Case
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.checks.basics import Places
 from kulman.variants.kinds import KINDS, MODULES
-from kulman.variants.making.starter import start, template
+from kulman.variants.making.starter import _template, start
 from kulman.variants.reader import load_task, read_text
 from kulman.variants.shelf import bundled, bundled_text, summary
 from kulman.variants.solution import solve
@@ -230,17 +230,17 @@ def test_new_file_is_valid_at_once_in_every_language(language: str, kind: str, f
 @pytest.mark.parametrize("kind", KINDS)
 def test_templates_differ_in_words_alone(kind: str) -> None:
     def plain(language: str) -> str:
-        lines = (line.partition("#")[0].rstrip() for line in template(language, kind).splitlines())
+        lines = (line.partition("#")[0].rstrip() for line in _template(language, kind).splitlines())
         return re.sub('source = ".*"', "", "\n".join(line for line in lines if line))
 
     assert plain("uk") == plain("ru") == plain("en")
-    assert all(len(line) <= 120 for language in LANGUAGES for line in template(language, kind).splitlines())
+    assert all(len(line) <= 120 for language in LANGUAGES for line in _template(language, kind).splitlines())
 
 
 def test_new_file_is_easy_to_change() -> None:
     changes = ("l_OA = 100", "l_OA = 95"), ('at = ["280 mm"', 'at = ["300 mm"'), ("sense = 1\n", "sense = -1\n")
 
-    assert task_of(with_changes(template("en"), *changes)).values()["l_OA"] == 0.095
+    assert task_of(with_changes(_template("en"), *changes)).values()["l_OA"] == 0.095
 
 
 def test_command_writes_the_file_in_the_language_asked_for_and_shows_its_name(folder: Path, run: Run) -> None:
@@ -331,7 +331,7 @@ def test_what_list_shows_is_what_the_file_holds(task: str) -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_what_is_said_in_one_language_stands_for_the_others(language: str) -> None:
     said = f'[title]\n{language} = "Title"\n\n[note]\n{language} = "Note"\n'
-    text = re.sub(r"\[title\]\n(?:.+\n)+", said, template("en"))
+    text = re.sub(r"\[title\]\n(?:.+\n)+", said, _template("en"))
 
     task, faults = read_text(text, "t.toml")
 

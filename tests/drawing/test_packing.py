@@ -11,7 +11,7 @@ import shapely
 from kulman.drawing.compose import FIGURE, FULL, MANY, TOLD, Pages, arrange, compose, last, on_a_page
 from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
-from kulman.drawing.packing import LEAST, STEPS, UNDER, Placement, Slicing, size_of, spread
+from kulman.drawing.packing import LEAST, STEPS, UNDER, Placement, Slicing, _size_of, spread
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Line
 from kulman.drawing.tables import table, text_block
@@ -107,7 +107,7 @@ def test_what_straight_cuts_part_in_order_is_found_and_nothing_else(count):
         page = Slicing(views, room)
         if page.fits:
             assert straight(views, room)
-            wide, high = size_of(page.cut(), views)
+            wide, high = _size_of(page.cut(), views)
             assert wide <= room[0] + 1e-9
             assert high <= room[1] + 1e-9
         else:  # the grid may take a step of each view

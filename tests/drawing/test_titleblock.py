@@ -11,7 +11,7 @@ from kulman.drawing.formats import FORMATS, block_box, drawing_area, format_name
 from kulman.drawing.page import Page, extent
 from kulman.drawing.shapes import Line, Pen, Polyline, Text
 from kulman.drawing.svg import svg_text
-from kulman.drawing.titleblock import Stamp, frame_shapes, named, words
+from kulman.drawing.titleblock import Stamp, _named, frame_shapes, words
 from kulman.scales.errors import InputError
 from kulman.tests.support.shapes import leaves
 from kulman.variants.reader import load_task
@@ -191,11 +191,11 @@ def test_captions_are_words_of_their_language() -> None:
     ],
 )
 def test_a_long_name_is_shown_with_initials_before_it_is_refused(name: str, shown: str) -> None:
-    [text] = named(name, CELL, (2.5,), "left", "student")
+    [text] = _named(name, CELL, (2.5,), "left", "student")
     assert text.markup == shown
     assert extent((text,))[2] <= CELL[2]
     with pytest.raises(InputError, match="too long"):
-        named("щ" * 60, CELL, (2.5,), "left", "student")
+        _named("щ" * 60, CELL, (2.5,), "left", "student")
 
 
 def test_formats_are_the_trimmed_sheets_from_the_smallest_with_frames_as_large_as_the_standard_says() -> None:

@@ -9,7 +9,7 @@ from itertools import chain, pairwise
 import pytest
 
 from kulman import note
-from kulman.drawing.handouts import begun_pages, begun_stages
+from kulman.drawing.handouts import _begun_stages, begun_pages
 from kulman.drawing.hoist.text import BENT, BY_DRAWING, HANGING, REDUCED, SLACK, STARTED
 from kulman.drawing.notes.blocks import Equations, Steps, Story
 from kulman.drawing.page import Page
@@ -72,7 +72,7 @@ def test_steps_draw_all_parts_of_views_and_no_others(moved: bool) -> None:
         own = {part for part, shape in every if not (isinstance(shape, Text) and shape.role == "heading")}
         assert own <= {*view.stages}, name
         assert {*view.stages} - own <= idle.get(name, set()), name
-        assert begun_stages(view, 1000).stages == {*view.stages}
+        assert _begun_stages(view, 1000).stages == {*view.stages}
 
 
 @pytest.mark.parametrize("variant", ["V04", *(pytest.param(v, marks=pytest.mark.soak) for v in ("V01", "V03", "V10"))])
@@ -132,7 +132,7 @@ def test_the_note_tells_as_many_steps_as_a_handout_has(lang: str, moved: bool) -
         sentences = story.steps_of(view)
         assert len({*sentences}) == len(view.stages) - 1
         assert not any("{" in sentence.replace("_{", "").replace("^{", "") for sentence in sentences)
-        before, whole = (begun_stages(view, len(sentences) - more) for more in (1, 0))
+        before, whole = (_begun_stages(view, len(sentences) - more) for more in (1, 0))
         assert (before.notes, whole.notes) == (False, True)
         keys |= {*view.stages.values()} - {""}
     kept = {"hoist.forces.moved", "hoist.circle.ends"}  # one of a motion, one of formulas that are valid

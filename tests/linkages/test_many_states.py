@@ -21,7 +21,7 @@ from kulman import KulmanError, Quantity, Series, Status, load_task, solve, solv
 from kulman.plans.boards.exact import STATUSES
 from kulman.tests.support.cases import some
 from kulman.variants.shelf import bundled
-from kulman.variants.tables import Table, harmless
+from kulman.variants.tables import Table, _harmless
 
 LINKAGES = bundled("mechanism")
 TASK = "nau-slider-crank"
@@ -250,7 +250,7 @@ def test_a_row_of_csv_is_read_back_as_it_was_written(language: str) -> None:
     numbers = [text.replace(",", ".") for row in read for text in (row[1], row[2])]
     assert [float(text) for text in numbers] == [number for row in rows for number in row[1:3]]
     assert {str(row[2]) for row in read} <= {"0.0", "0,0"}
-    assert [row[4].lstrip("'") for row in read] == [said[0], *(harmless(text).lstrip("'") for text in said[1:])]
+    assert [row[4].lstrip("'") for row in read] == [said[0], *(_harmless(text).lstrip("'") for text in said[1:])]
     assert [(row[0], row[3], row[5].replace(",", ".")) for row in read[:2]] == [("0", "", "1.5"), ("1", "", "")]
 
 

@@ -23,10 +23,10 @@ from kulman.scales.packaged import packaged
 from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, read, table
 from kulman.tests.support.cases import some
 from kulman.tests.support.hostile_workbooks import HOSTILE, SMALL, good, hostile, zipped
-from kulman.variants.marking.reading import read_answers
+from kulman.variants.marking.reading import _read_answers
 from kulman.variants.spreadsheets.files import read_grid
 from kulman.variants.spreadsheets.grid import Grid, letters
-from kulman.variants.tables import _xlsx_bytes, csv_table, harmless
+from kulman.variants.tables import _harmless, _xlsx_bytes, csv_table
 from kulman.variants.task import LocatedError
 
 QUICK = ("blanks of 22 MB", "member twice", "password", "packed by LZMA", "size that is too small")
@@ -42,7 +42,7 @@ def refused(file: Path) -> str:
     """Return the one line with which a file is refused; nothing where it is read."""
     line = ""
     try:
-        read_answers(file, ASKED)
+        _read_answers(file, ASKED)
     except InputError as error:
         line = error.text("en")
     assert "\n" not in line
@@ -70,7 +70,7 @@ def test_a_form_can_be_read_in_the_language_it_is_written_in(tmp_path: Path, nam
     assert {*names} == {name for name in ASKED.names if "_couple_" not in name}
     assert form(tmp_path, f"b{file.suffix}", language).read_bytes() == file.read_bytes()
     with pytest.raises(InputError, match="the form is empty"):
-        read_answers(file, ASKED)
+        _read_answers(file, ASKED)
 
 
 @pytest.mark.parametrize(
@@ -109,7 +109,7 @@ def test_the_form_of_a_variant_says_the_sheets_scale_factors_and_answers_nothing
     assert factors == dict.fromkeys(scales, "")
     assert not any("mu_l = " in row[0] for row in blank.rows if row)
     with pytest.raises(InputError, match="the form is empty"):
-        read_answers(tmp_path / name, ASKED)
+        _read_answers(tmp_path / name, ASKED)
 
 
 def test_a_filled_workbook_comes_back(tmp_path: Path) -> None:
@@ -126,7 +126,7 @@ def test_a_filled_workbook_comes_back(tmp_path: Path) -> None:
             row[1].value = "Петренко"
     book.save(file)
 
-    answers = read_answers(file, ASKED)[0]
+    answers = _read_answers(file, ASKED)[0]
 
     line = answers.lines["V_B"]
     assert (answers.problems, answers.who.student) == ((), "Петренко")
@@ -225,7 +225,7 @@ def test_an_apostrophe_keeps_a_text_a_text_and_it_comes_back(tmp_path: Path) -> 
     file.write_bytes(csv_table([["x", "=1+1", "-5 mm", 1.5], ["V_B", "V_A", "V_BA", 2]], "uk"))
 
     assert read_grid(file).rows[0] == ("x", "=1+1", "-5 mm", "1,5")
-    assert [harmless(text) for text in ("=A1", "@x", "+1", "V_B", "")] == ["'=A1", "'@x", "'+1", "V_B", ""]
+    assert [_harmless(text) for text in ("=A1", "@x", "+1", "V_B", "")] == ["'=A1", "'@x", "'+1", "V_B", ""]
     assert [letters(column) for column in (0, 25, 26, 701, 702)] == ["A", "Z", "AA", "ZZ", "AAA"]
 
 
@@ -241,7 +241,7 @@ def test_a_formula_is_read_by_its_stored_result_and_a_date_is_told_of(tmp_path: 
         sheet.write_row(3, 0, ["a_B", None, None, 220])
         sheet.write("B4", 45789, book.add_format({"num_format": "dd.mm"}))
 
-    answers = read_answers(file, ASKED)[0]
+    answers = _read_answers(file, ASKED)[0]
 
     assert {name: line.value for name, line in answers.lines.items()} == {"V_B": 2.76, "V_A": None, "a_B": 220.0}
     formula, date = messages(answers)
@@ -372,7 +372,7 @@ def test_a_workbook_of_two_programs_is_read_alike_whatever_looks_it_has(tmp_path
         assert grid.rows[1] == ("VB",)
         assert [grid.shared(row, column) for row in (2, 3) for column in (1, 2, 3, 4)] == ["", "both", "both", ""] * 2
     (tmp_path / "answers.xlsx").write_bytes(zipped(good()))  # of which the hostile ones are made
-    assert read_answers(tmp_path / "answers.xlsx", ASKED)[0].lines["V_B"].value == pytest.approx(2.76)
+    assert _read_answers(tmp_path / "answers.xlsx", ASKED)[0].lines["V_B"].value == pytest.approx(2.76)
 
 
 @pytest.mark.parametrize(
@@ -394,7 +394,7 @@ def test_columns_of_a_class_are_known_however_they_are_abbreviated_and_what_stan
         f"{heads};V_B, мм;V_B, м/с\nСтароста Олег;3;45мм?;4,5 м/с?\nІваненко;4;46;4,6\n{below}", encoding="utf-8"
     )
 
-    first, second = read_answers(file, ASKED)
+    first, second = _read_answers(file, ASKED)
 
     assert (first.who.student, first.about["variant"], second.who.student) == ("Староста Олег", "3", "Іваненко")
     assert (first.lines["V_B"].mm, first.lines["V_B"].value, first.problems) == (45.0, 4.5, ())
@@ -418,7 +418,7 @@ def test_arms_on_the_lever_are_asked_and_read_in_millimetres_and_those_of_couple
 
     (file := tmp_path / "answers.csv").write_text(f"{HEAD}h_lever_F_i2;;;12,5;мм;\n", encoding="utf-8")
 
-    assert read_answers(file, ASKED)[0].lines["h_lever_F_i2"].mm == 12.5
+    assert _read_answers(file, ASKED)[0].lines["h_lever_F_i2"].mm == 12.5
 
 
 def test_greek_letters_that_a_code_page_has_not_are_known_by_what_is_left(tmp_path: Path) -> None:

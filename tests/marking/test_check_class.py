@@ -23,9 +23,9 @@ from kulman.plans.hands.shaky import draw, preset
 from kulman.tests.support.answer_files import write
 from kulman.tests.support.marking_cases import answer, key, students
 from kulman.variants.marking import checks
-from kulman.variants.marking.checks import Job, mark_class, slug
+from kulman.variants.marking.checks import Job, _mark_class, slug
 from kulman.variants.marking.reading import Answers, Reply
-from kulman.variants.marking.result import Measured, Result, measured, shared, too_exact
+from kulman.variants.marking.result import Result, _Measured, _too_exact, measured, shared
 from kulman.variants.roster import Entry, Roster, Who
 
 TASK = "nau-slider-crank"
@@ -64,14 +64,14 @@ def handed_in(tmp_path: Path, count: int, drawn: bool = True) -> list[Answers]:
 
 def marked(answers: Sequence[Answers], folder: Path | None = None, jobs: int = 1) -> list[Result]:
     job = Job(check(TASK), None if folder is None else str(folder))
-    return mark_class(job, answers, lambda done, whole: None, jobs)
+    return _mark_class(job, answers, lambda done, whole: None, jobs)
 
 
 class Stopped:
     """Marks students and notes them; stops before one of a number, as a run that is interrupted."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, at: int | None = None) -> None:
-        self.at, self.names, self._mark = at, list[str](), checks.mark_one
+        self.at, self.names, self._mark = at, list[str](), checks._mark_one
         monkeypatch.setattr(checks, "mark_one", self)
 
     def __call__(self, job: Job, desk: checks.Desk, number: int, one: Answers) -> Result:
@@ -139,7 +139,7 @@ def test_processes_and_one_process_give_the_same_and_a_result_survives_its_file(
     answers, done = handed_in(tmp_path, 20), list[int]()
 
     alone = marked(answers)
-    together = mark_class(Job(check(TASK)), answers, lambda more, whole: done.append(more), jobs=2)
+    together = _mark_class(Job(check(TASK)), answers, lambda more, whole: done.append(more), jobs=2)
 
     assert together == alone
     assert sum(done) == 20
@@ -214,8 +214,8 @@ def test_calculated_segments_are_too_exact_and_drawn_or_rounded_ones_are_not(tmp
     assert marked(handed_in(tmp_path, 1, drawn=False))[0].exact
     for decimals, step, exact in ((2, 0.01, True), (0, 1.0, False)):
         sizes = [30.0 + 1.37 * i for i in range(8)]
-        assert too_exact({f"q{x}": Measured(round(x, decimals), x, step, 0.7) for x in sizes}) is exact
-    assert not too_exact({})
+        assert _too_exact({f"q{x}": _Measured(round(x, decimals), x, step, 0.7) for x in sizes}) is exact
+    assert not _too_exact({})
 
 
 def test_students_who_share_their_errors_are_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -230,7 +230,7 @@ def test_students_who_share_their_errors_are_named(tmp_path: Path, capsys: pytes
     assert [line.startswith("Student 03") and "Student 08" in line for line in flagged] == [True, False]
 
 
-def drawn_segments(task: str, hand: str, count: int, step: float = 0.5) -> list[dict[str, Measured]]:
+def drawn_segments(task: str, hand: str, count: int, step: float = 0.5) -> list[dict[str, _Measured]]:
     """Return what students of one variant have measured on drawings of their own, read to `step` mm."""
     of = key(task)
     board = draw(of.paper, preset(hand).hand, np.random.default_rng(5), count)
@@ -241,7 +241,7 @@ def drawn_segments(task: str, hand: str, count: int, step: float = 0.5) -> list[
     return [measured(Answers("", Who(), {}, one, {}), of, of.paper.mus, {}) for one in lines]
 
 
-def copied(of: dict[str, Measured], dice: random.Random) -> dict[str, Measured]:
+def copied(of: dict[str, _Measured], dice: random.Random) -> dict[str, _Measured]:
     """Return segments of somebody who has copied, and changed a third of them by half a millimetre."""
     changed = {name: dice.choice([-0.5, 0.5]) for name in dice.sample(sorted(of), len(of) // 3)}
     return {name: replace(segment, mm=segment.mm + changed.get(name, 0.0)) for name, segment in of.items()}
@@ -263,7 +263,7 @@ def test_of_pairs_of_one_variant_only_those_are_told_that_copy(task: str, least:
 def test_who_goes_on_honestly_from_the_same_mistake_has_not_copied() -> None:
     """Two careful hands, both 30 % too large from the same mistake on: what follows from it is what should be there."""
     dice, sizes = random.Random(2), [1.3 * (20.0 + 7 * i) for i in range(16)]
-    one, other = ({f"q{x}": Measured(round(2 * dice.gauss(x, 0.2)) / 2, x, 0.5, 0.7) for x in sizes} for _ in range(2))
+    one, other = ({f"q{x}": _Measured(round(2 * dice.gauss(x, 0.2)) / 2, x, 0.5, 0.7) for x in sizes} for _ in range(2))
 
     assert list(shared([one, other])) == []
     assert sum(abs(one[name].mm - other[name].mm) < 1e-6 for name in one) > 6
@@ -276,7 +276,7 @@ def test_honest_hands_seldom_share_their_segments(step: float) -> None:
     for _ in range(50):
         sizes = [40.0 + 5 * i for i in range(12)]
         hands = [
-            {f"q{x}": Measured(round((x + dice.gauss(0.0, 0.5)) / step) * step, x, step, 0.5) for x in sizes}
+            {f"q{x}": _Measured(round((x + dice.gauss(0.0, 0.5)) / step) * step, x, step, 0.5) for x in sizes}
             for _ in range(30)
         ]
         pairs += len(list(shared(hands)))

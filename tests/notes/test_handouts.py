@@ -23,10 +23,10 @@ from kulman.drawing.cams.diagrams_view import DIAGRAMS_FIGURE
 from kulman.drawing.cams.profile_view import FIGURES as PROFILE_FIGURES
 from kulman.drawing.cams.sizes_view import FIGURES as SIZE_FIGURES
 from kulman.drawing.compose import Drawn
-from kulman.drawing.figure import family
+from kulman.drawing.figure import _family
 from kulman.drawing.formats import FORMATS
-from kulman.drawing.handouts import _done, begun_stages
-from kulman.drawing.linkages.asking import given_name
+from kulman.drawing.handouts import _begun_stages, _done
+from kulman.drawing.linkages.asking import _given_name
 from kulman.drawing.notes.blocks import Figure, Steps
 from kulman.drawing.page import extent
 from kulman.drawing.pdf import MARGIN, _tiles, write_tiles
@@ -231,7 +231,7 @@ def test_every_given_of_a_bundled_linkage_has_a_name(lang: str) -> None:
     tasks = [*map(load_task, bundled("mechanism"))]
 
     named = {
-        (task.id, name): given_name(task.mechanism, Words.of(lang, task.notation), name)
+        (task.id, name): _given_name(task.mechanism, Words.of(lang, task.notation), name)
         for task in tasks
         for name, given in task.givens.items()
         if not given.choices
@@ -290,7 +290,7 @@ def shown_after(case: Case, drawn: Drawn, steps: int) -> dict[str, set[str]]:
     staged = {view.name: view for view in drawn.views if view.stages}
     counts = _done(staged, steps)
     return {
-        **{name: set(begun_stages(view, counts[name]).stages) for name, view in staged.items()},
+        **{name: set(_begun_stages(view, counts[name]).stages) for name, view in staged.items()},
         **{name: set(one.stages) for name, one in shown.items() if name in {view.name for view in drawn.views}},
     }
 
@@ -307,7 +307,7 @@ def finders(case: Case, drawn: Drawn) -> dict[str, tuple[str, str]]:
         for stage in CAM_STAGES.get(view.name, ())[1:]:  # the first is there before any step
             if stage.name in view.stages and stage.marks:
                 for step in case.solved.program:
-                    if family(step.name) == stage.marks and stage.verb in ("", step.verb):
+                    if _family(step.name) == stage.marks and stage.verb in ("", step.verb):
                         found.setdefault(step.name, (view.name, stage.name))
     return found
 

@@ -41,7 +41,7 @@ from kulman.variants.marking.result import Result
 from kulman.variants.photos import pictures
 from kulman.variants.photos.matching import lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
-from kulman.variants.photos.reading import on_page, print_scale
+from kulman.variants.photos.reading import _print_scale, on_page
 from kulman.variants.photos.straight import PER_MM, framed, straightened
 from kulman.variants.photos.traced import Pencil, ends_at, senses, traced
 from kulman.variants.roster import Who
@@ -545,7 +545,7 @@ def test_a_sheet_printed_smaller_is_noticed() -> None:
         found = matched({number: lines_of(*ends)}, poles, sheet.mus, sheet.keyed)
         printed_so = SimpleNamespace(blank=SimpleNamespace(mus=sheet.mus))
 
-        assert print_scale(printed_so, sheet.keyed, found) == pytest.approx(times, abs=0.003)
+        assert _print_scale(printed_so, sheet.keyed, found) == pytest.approx(times, abs=0.003)
 
 
 def test_one_plan_that_a_mistake_makes_larger_is_no_smaller_print() -> None:
@@ -555,4 +555,4 @@ def test_one_plan_that_a_mistake_makes_larger_is_no_smaller_print() -> None:
         vectors[name] = Found(0j, complex(sheet.keyed.key[name]) / mu * times, "velocity", 1.0)
     found = Recognised({"velocity": FoundPlan(mu / 1.03, 0.0, 0j, 1.0)}, vectors, ())
 
-    assert print_scale(SimpleNamespace(blank=SimpleNamespace(mus=sheet.mus)), sheet.keyed, found) == 1.0
+    assert _print_scale(SimpleNamespace(blank=SimpleNamespace(mus=sheet.mus)), sheet.keyed, found) == 1.0

@@ -16,7 +16,7 @@ import kulman
 from kulman import sheet, solve
 from kulman.drawing.formats import STYLES, Style
 from kulman.drawing.linkages.figures.cycle import _Band
-from kulman.drawing.linkages.figures.group import STEP, Arm, staggered
+from kulman.drawing.linkages.figures.group import STEP, _Arm, _staggered
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.text import lay_out
@@ -358,8 +358,8 @@ def test_letters_of_guides_stand_at_the_ends_of_their_axes(task: str, variant: s
         assert not any(segment(a + (b - a) * 0.02, b - (b - a) * 0.02).distance(segment(at, at)) < 0.05 for a, b in on)
 
 
-def arm_to(foot: complex, along: complex = 1j) -> Arm:
-    return Arm(["F"], ["h_F"], foot, along, foot)
+def arm_to(foot: complex, along: complex = 1j) -> _Arm:
+    return _Arm(["F"], ["h_F"], foot, along, foot)
 
 
 def test_arms_side_by_side_are_staggered_away_from_the_figure() -> None:
@@ -367,10 +367,10 @@ def test_arms_side_by_side_are_staggered_away_from_the_figure() -> None:
 
     step = STEP * STYLE.text
 
-    shifts = staggered(0j, arms, 10 + 50j, STYLE)
+    shifts = _staggered(0j, arms, 10 + 50j, STYLE)
 
     assert shifts == {0: -1j * step, 2: -2j * step}
-    upon = staggered(0j, arms, 10 + 50j, STYLE, [1 + 0.05j])  # nor does the first stay on a line from the pole
+    upon = _staggered(0j, arms, 10 + 50j, STYLE, [1 + 0.05j])  # nor does the first stay on a line from the pole
     assert upon == {1: -1j * step, 0: -2j * step, 2: -3j * step}
 
 
@@ -381,7 +381,7 @@ def test_random_arms_that_make_small_angles_do_not_meet() -> None:
         ways = np.exp(1j * turns)
         arms = [arm_to(complex(w * r), complex(1j * w)) for w, r in zip(ways, random.uniform(10, 60, 5), strict=True)]
 
-        shifts = staggered(0j, arms, 40j, STYLE)
+        shifts = _staggered(0j, arms, 40j, STYLE)
 
         assert sorted(round(abs(shift), 9) for shift in shifts.values()) == [
             round(STEP * STYLE.text * k, 9) for k in (1, 2, 3, 4)

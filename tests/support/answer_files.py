@@ -11,7 +11,7 @@ import openpyxl
 
 from kulman.variants.marking.cells import Asked
 from kulman.variants.marking.keyed import asked_of
-from kulman.variants.marking.reading import Answers, read_answers
+from kulman.variants.marking.reading import Answers, _read_answers
 from kulman.variants.solution import solve
 
 ASKED = asked_of(solve("nau-slider-crank", "example"))
@@ -23,7 +23,7 @@ def read(tmp_path: Path, text: str | bytes, name: str = "answers.csv", asked: As
     """Return the answers of a file with this content."""
     file = tmp_path / name
     file.write_bytes(text.encode("utf-8") if isinstance(text, str) else text)
-    return read_answers(file, asked)
+    return _read_answers(file, asked)
 
 
 def one(tmp_path: Path, text: str | bytes, name: str = "answers.csv") -> Answers:

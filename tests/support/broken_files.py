@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from kulman.variants.making.starter import template
+from kulman.variants.making.starter import _template
 from kulman.variants.shelf import bundled_text
 
-GOOD = template("en")
+GOOD = _template("en")
 AT_C = 'point = "C"\nlinks = [3, 0]\nat = ["280 mm", "0 mm"]\n'
 AT_B = 'point = "B"\nlinks = [2, 3]\nbranch = 1\n'
 LINK_3 = 'points = { C = ["0 mm", "0 mm"], B = ["220 mm", "0 mm"], S3 = ["110 mm", "0 mm"] }\n'

@@ -16,7 +16,7 @@ from kulman.drawing.shapes import Arc, Arrow, Group, Line, Polyline, Shape, Vect
 from kulman.plans.hands.shaky import paper_of, preset
 from kulman.plans.marking.key import Key, answer_key
 from kulman.plans.marking.lines import Drawn, Letter
-from kulman.plans.marking.ways import changed_edges, edges_of
+from kulman.plans.marking.ways import _changed_edges, edges_of
 from kulman.plans.mistakes.book import Book, Signature, book
 from kulman.plans.names import POINT, role
 
@@ -153,7 +153,7 @@ def lettered(sheet: Bare, wrong: Signature, vectors: Mapping[str, tuple[str, Pla
     """Go through the letters at the points of velocity and acceleration plans drawn with a rule broken."""
     seen = set[str]()
     for plan in ("velocity", "acceleration"):
-        for name, tail, tip in changed_edges(edges_of(sheet.key.paper.program, plan), wrong.broken.program, plan):
+        for name, tail, tip in _changed_edges(edges_of(sheet.key.paper.program, plan), wrong.broken.program, plan):
             if name in vectors and vectors[name][0] == plan:
                 for mark, at in zip((tail, tip), vectors[name][1], strict=True):
                     if mark not in seen and role(mark).kind == POINT:

@@ -21,7 +21,7 @@ from typing import Any
 
 from kulman.scales.choices import HANDS, SIZES
 from kulman.variants.kinds import KINDS
-from kulman.variants.making.starter import template
+from kulman.variants.making.starter import _template
 from kulman.variants.shelf import bundled, bundled_text
 from kulman.variants.tables import _xlsx_bytes
 
@@ -80,7 +80,7 @@ class Case:
 @cache
 def sources() -> tuple[str, ...]:
     """The texts of all bundled tasks, and of the templates of each kind, which have more of its keys."""
-    return (*map(bundled_text, sorted(bundled())), *(template("en", kind) for kind in KINDS))
+    return (*map(bundled_text, sorted(bundled())), *(_template("en", kind) for kind in KINDS))
 
 
 @cache

@@ -12,7 +12,7 @@ from typing import Any
 
 from starlette.testclient import TestClient
 
-from kulman.variants.serving.app import application
+from kulman.variants.serving.app import _application
 from kulman.variants.serving.desk import Desk
 from kulman.variants.serving.safety import Doors
 
@@ -21,7 +21,7 @@ from kulman.variants.serving.safety import Doors
 def asked(doors: Doors, **how: Any) -> Iterator[TestClient]:
     desk = Desk(doors, how.pop("allowed", "forms"), how.pop("language", "en"), seats=1)
     root = f"http://127.0.0.1{doors.root}"
-    with TestClient(application(desk), base_url=root, follow_redirects=False, **how) as client:
+    with TestClient(_application(desk), base_url=root, follow_redirects=False, **how) as client:
         client.app_state = {"desk": desk}
         yield client
 

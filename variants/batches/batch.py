@@ -188,7 +188,7 @@ class _Work:
 
 
 @dataclass(frozen=True, slots=True)
-class Making:
+class _Making:
     """What is made for every student of a class: what is asked of each task, by its id; values of a row go before."""
 
     asked: Mapping[str, Request]
@@ -285,7 +285,9 @@ class Making:
 Crew = Callable[[Begin[Student, Outcome], list[Student]], Iterator[list[Done[Outcome]]]]
 
 
-def run(making: Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance) -> tuple[Outcome, ...]:
+def run(
+    making: _Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance
+) -> tuple[Outcome, ...]:
     """Make what is not there yet; write it, and note it, as it comes."""
     for of_kinds in (folder, folder / SOLUTIONS):
         sweep_parts(of_kinds, lambda name: _OWN.match(name) is not None)
@@ -404,7 +406,7 @@ def batch(
     wanted, block = only if only is None or isinstance(only, str) else tuple(only), dict(titled(block))
     how = by_name("set", set), wanted, by_name("scales", scales), notation, lang, format, norm, block, lettering
     once = _once(tasks)
-    making = Making(
+    making = _Making(
         {one.id: _asked_of(Request(one, None, *how)) for one in once}, tuple(dict.fromkeys(kinds)), scan=scan
     )
     usual = VARIANT if len(tasks) == 1 else f"{VARIANT},{SCHEME}"

@@ -80,7 +80,7 @@ def _accuracy(scene: Scene) -> AccuracyChart:
 def _stability(scene: Scene) -> _StabilityChart:
     """Look at what is lost over the cycle."""
     whole = _cycle_of(scene)
-    mus = scales_of_cycle(scene, whole)
+    mus = _scales_of_cycle(scene, whole)
     found = stability(whole, scene.quantities or usual(whole), mus, charts.HANDS[scene.hand])
     return _StabilityChart(scene, found, whole, _places(whole), mus)
 
@@ -259,7 +259,7 @@ def usual(cycle: Cycle) -> tuple[str, ...]:
     return (*found, *[name for name in BALANCES if name in known][:1]) or known[:1]
 
 
-def scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
+def _scales_of_cycle(scene: Scene, cycle: Cycle) -> dict[str, float]:
     """Return scale factors, by plan, at which plans of all positions find room where lines do not meet flatly.
 
     They are the coarsest that the task's own choice gives at some positions of the cycle. Refused are a choice that

@@ -46,7 +46,7 @@ def _usage(param: click.Parameter) -> str:
     return (name if param.required else f"[{name}]") + ("..." if param.nargs != 1 else "")
 
 
-def longest(option: click.Option) -> str:
+def _longest(option: click.Option) -> str:
     """Return the name of an option by which its text is found."""
     return max(option.opts, key=len)
 
@@ -55,7 +55,7 @@ def _row(ctx: click.Context, command: str, option: click.Option) -> tuple[str, s
     """Return an option as a row of the help: its names with the place of its value, its text."""
     language = system_language()
     words, names = texts(language)["words"], ", ".join(sorted(option.opts, key=len))
-    text = told(command, longest(option), language)
+    text = told(command, _longest(option), language)
     if option.multiple and not (option.metavar or "").endswith(",..."):
         text += f" {words['repeatable']}"
     extra = []

@@ -43,7 +43,7 @@ _CHOICES: dict[str, Callable[[], tuple[str, ...]]] = {
 }
 
 
-def settings_file() -> Path | None:
+def _settings_file() -> Path | None:
     """Return where the settings are looked for: `KULMAN_CONFIG`, else `kulman.toml` in the system's folder for them."""
     named = os.environ.get(PLACE)
     if named is not None:
@@ -64,7 +64,7 @@ def settings() -> dict[str, str]:
         The file cannot be read, or keys of it, which are all named, are none of `PARAMETERS` or have no value that they
         can have.
     """
-    file = settings_file()
+    file = _settings_file()
     if file is None or not file.exists():
         return {}
     shown, text = quote(file, SHOWN), ""

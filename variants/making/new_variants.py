@@ -106,7 +106,7 @@ def import_variants(task: AnyTask, file: str | os.PathLike[str]) -> NewVariants:
     pages = _most_pages(found)
     left_out: list[KulmanError] = []
     remarks: list[KulmanError] = []
-    for read in read_variants(os.fspath(file), found):
+    for read in _read_variants(os.fspath(file), found):
         reasons, remark = _judged(found, read, pages)
         if not reasons and read.id in rows:
             reasons = (LocatedError(read.place, InputError("variant-twice")),)
@@ -356,7 +356,7 @@ class _Table:
         return next(said, next(apart, max(min(self.names) - 1, 0)))
 
 
-def read_variants(file: str, task: Task) -> list[_Read]:
+def _read_variants(file: str, task: Task) -> list[_Read]:
     """Read the variants of a task from a spreadsheet, .csv or .xlsx.
 
     A row, or a column, names the givens, `l_OA [mm]`; beside the names units may stand.

@@ -26,7 +26,7 @@ _KEYS = [re.compile(rf"^{key} = .*\n", re.MULTILINE) for key in ("id", "source")
 _FOREIGN = re.compile(r"^#.*\n|(?<=\]\])  #.*|^number = .*\n(?=source)|^\[note\]\n(?:.+\n)+\n", re.MULTILINE)
 
 
-def template(language: str, kind: str = KINDS[0]) -> str:
+def _template(language: str, kind: str = KINDS[0]) -> str:
     """Return the task file of a kind that `start` writes, with its comments in `language`.
 
     For a kind that has none it is made of the table of givens, in the middle of their usual ranges.
@@ -60,7 +60,7 @@ def _drafted(name: str) -> str:
 def _copied(source: str, language: str) -> str:
     """Return a bundled task as one's own: comments in a language, no number, source or note of another's."""
     whole = text_of(source)
-    usual = template(language, MODULES[table_in(HEADS.findall(whole))].rpartition(".")[2])
+    usual = _template(language, MODULES[table_in(HEADS.findall(whole))].rpartition(".")[2])
     about = summary(source)
     said = messages(language)["task-copied"].format(task=source, title=about["title"][language])
     head = [f"# {line}\n" for line in textwrap.wrap(said, 118)]
@@ -88,7 +88,7 @@ def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0], sou
     if not path.parent.is_dir():
         raise InputError("output-folder-missing", file=shown, folder=quote(path.parent, SHOWN))
     called = f'"{path}"' if " " in str(path) else str(path)
-    text = template(language, kind) if source is None else _copied(source, language)
+    text = _template(language, kind) if source is None else _copied(source, language)
     own = _OWN.findall(text)[0]
     text = text.replace(f'"{own}"', f'"{_label(path.stem) or own}"').replace(f"{own}{SUFFIX}", called)
     try:

@@ -291,7 +291,7 @@ def direction(text: str, vector: bool = False) -> tuple[float | None, int | None
 # is passed over. A text is never run: only numbers, signs and a few functions are understood, of a bounded length.
 
 
-class Slip(NamedTuple):
+class _Slip(NamedTuple):
     """A calculation that does not make what stands behind it."""
 
     text: str
@@ -380,7 +380,7 @@ class _Reader:
         return _Value(float(token.replace(",", ".")) * times, 0.0 if exact else 0.5 * _last_digit(token) * times)
 
 
-def slip_in(text: str) -> Slip | None:
+def slip_in(text: str) -> _Slip | None:
     """Return the first place of a calculation where two sides are not equal; None where all are, or none is one.
 
     >>> slip_in("d = 75 · 0,93969 = 70,747675")
@@ -401,7 +401,7 @@ def slip_in(text: str) -> Slip | None:
         # equal but for rounding, and for the sign: it may stand for a sense
         apart = ((abs(abs(a.number) - abs(b.number)), a.off + b.off, abs(a.number)) for a in ways for b in others)
         if not any(off <= rounded + ROUNDING * size for off, rounded, size in apart):
-            return Slip(quote(side, LONGEST), ways[-1].number, quote(written))
+            return _Slip(quote(side, LONGEST), ways[-1].number, quote(written))
     return None
 
 

@@ -208,7 +208,7 @@ class Check(Terms):
             A report cannot be written.
         """
         place = None if folder is None else str(folder_for(folder))
-        return mark_class(Job(self, place), answers, advance or (lambda done, whole: None), jobs)
+        return _mark_class(Job(self, place), answers, advance or (lambda done, whole: None), jobs)
 
 
 def reported(desk: Desk, answers: Answers) -> tuple[Report, Result]:
@@ -300,7 +300,7 @@ class Job:
     def begin(self) -> Callable[[Item], Result]:
         """Set up, and return what marks a student, who comes with a number."""
         desk = Desk(self.terms)
-        return lambda item: mark_one(self, desk, *item)
+        return lambda item: _mark_one(self, desk, *item)
 
     def names(self, answers: Iterable[Answers]) -> list[str]:
         """Return for each student what tells this job from any that would mark or say something else."""
@@ -313,7 +313,7 @@ class Job:
         return [digest_of(f"{whole} {number} {one.digest} {entry!r}") for number, (one, entry) in enumerate(told)]
 
 
-def mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int | None = None) -> list[Result]:
+def _mark_class(job: Job, answers: Sequence[Answers], advance: Advance, jobs: int | None = None) -> list[Result]:
     """Mark all students of a class, in their order, as `Check.mark_all` says.
 
     Of photographs, a plan that was read of one student is asked of all: who has not handed in its page is marked anew.
@@ -372,7 +372,7 @@ def _variant(terms: Terms, answers: Answers) -> str:
         return ""
 
 
-def mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
+def _mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     """Mark a student and write the reports; answers that cannot be marked are a result, too."""
     if not (answers.lines or answers.problems or answers.unread or answers.drawn or answers.photos):
         entry = job.terms.roster.find(answers.who) if job.terms.roster else None

@@ -96,7 +96,7 @@ class Rubric:
         """Return the mark, to a tenth."""
 
         def earned(line: Line) -> float:
-            less = self.directions == "required" and wants_direction(line)
+            less = self.directions == "required" and _wants_direction(line)
             return parts[line.name] * (self.worth.get(line.verdict, 1.0) * (SIZE_ALONE if less else 1.0))
 
         return round(self.out_of * sum(map(earned, lines)), 1)
@@ -110,17 +110,17 @@ class Rubric:
         return replace(answer, value=value, direction=None, sense=None, plus=False)
 
 
-def wants_direction(line: Line) -> bool:
+def _wants_direction(line: Line) -> bool:
     """Whether an answer leaves out the direction of a vector, or the sense of a scalar that has one."""
     answer = line.answer
     if answer is None or answer.empty or not line.right:
         return False
     if isinstance(line.right, complex):
         return answer.direction is None
-    return has_sense(line.name) and answer.sense is None and not answer.plus and not (answer.value or 0.0) < 0.0
+    return _has_sense(line.name) and answer.sense is None and not answer.plus and not (answer.value or 0.0) < 0.0
 
 
-def has_sense(name: str) -> bool:
+def _has_sense(name: str) -> bool:
     """Whether a scalar turns one way or the other: an angular velocity or acceleration, a moment."""
     of_link = role(name).of[:1].isdigit()  # the contact ratio of gears is no acceleration
     return unit_of(name) in SIGNED and (of_link or role(name).kind not in RATES)
@@ -219,7 +219,7 @@ def _fields(asked: Asked) -> dict[str, Field]:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class _Section:
     """The questions of one plan: its heading, its scale factors, all that may be answered, what a form asks of it."""
 
     heading: str
@@ -228,7 +228,7 @@ class Section:
     asked: tuple[Question, ...]
 
 
-def sections(solution: Solution, questions: Iterable[Question], words: Words) -> list[Section]:
+def _sections(solution: Solution, questions: Iterable[Question], words: Words) -> list[_Section]:
     """Return the questions plan by plan, in order of construction."""
     kind, solved = solution.kind, solution.solved
     by_key: dict[str, list[Question]] = {}
@@ -246,7 +246,7 @@ def sections(solution: Solution, questions: Iterable[Question], words: Words) ->
         fresh = tuple(symbol for symbol in dict.fromkeys(symbols) if symbol not in taken and symbol not in solution)
         taken.update(fresh)
         asked = tuple(question for question in own if kind.asks(solved, question))
-        found.append(Section(kind.plan_heading(solved, key, words), fresh, tuple(own), asked))
+        found.append(_Section(kind.plan_heading(solved, key, words), fresh, tuple(own), asked))
     return found
 
 
@@ -257,7 +257,7 @@ def drawn(question: Question) -> bool:
 
 def columns_of(question: Question) -> tuple[str, ...]:
     """Return what an answer to a question has: a segment that is measured, a value, a direction or sense."""
-    arm, turns = is_arm_of_lever(question.name), question.vector or has_sense(question.name)
+    arm, turns = is_arm_of_lever(question.name), question.vector or _has_sense(question.name)
     return tuple(compress(("mm", "value", "direction"), (drawn(question), not arm, turns)))
 
 
@@ -339,7 +339,7 @@ class Keyed:
     solution: Solution
     key: Key
     asked: Asked
-    parts: tuple[Section, ...]
+    parts: tuple[_Section, ...]
     words: Words
     sheet: str
 
@@ -416,10 +416,10 @@ def asked_of(solution: Solution, names: Mapping[str, object] | None = None) -> A
         name: q for name, q in solution.quantities.items() if name in made and q.kind != "point" and q.unit != "%"
     }
     scales = {s.symbol: s.unit for s in solution.scales.values() if s.symbol not in solution}  # chosen, not found
-    return Asked(quantities, scales, display_of(solution))
+    return Asked(quantities, scales, _display_of(solution))
 
 
-def display_of(solution: Solution) -> Display:
+def _display_of(solution: Solution) -> Display:
     """Return the units in which a solution is asked for and marked: those of the task, stresses as people know them."""
     return replace(solution.words.display, stress=USUAL["Pa"])
 
@@ -457,8 +457,8 @@ def keyed(request: Request, variant: str, settings: Settings, rubric: Rubric) ->
     unit_of = {name: quantity.unit for name, quantity in solution.quantities.items()}
     key = answer_key(paper, rubric.tolerance, firm, units=unit_of.__getitem__, drawn=limits)
     key = key.or_else(solution.solved.values)
-    words = kind.lettered(replace(solution.words, display=display_of(solution)), solution.solved)
-    parts = tuple(sections(solution, key.questions.values(), words))
+    words = kind.lettered(replace(solution.words, display=_display_of(solution)), solution.solved)
+    parts = tuple(_sections(solution, key.questions.values(), words))
     asked = asked_of(solution, key.questions)
     own = sheet_id(request.task, solution.variant, request.settings)
     return Keyed(solution, key, asked, parts, words, own)

@@ -44,16 +44,16 @@ def marked_files(marked: Marked, language: str, own: bool, path: Path) -> Iterat
     InputError
         A package for this kind of file is missing.
     """
-    yield from page_files([marked_page(marked, language, own)], path)
+    yield from page_files([_marked_page(marked, language, own)], path)
 
 
 def picture(marked: Marked, language: str, own: bool) -> str:
     """Return a marked drawing as the address of a picture in a page."""
-    ((_, data),) = page_files([marked_page(marked, language, own)], Path("drawing.svg"))
+    ((_, data),) = page_files([_marked_page(marked, language, own)], Path("drawing.svg"))
     return f"data:image/svg+xml;base64,{b64encode(data).decode()}"
 
 
-def marked_page(marked: Marked, language: str, own: bool) -> Page:
+def _marked_page(marked: Marked, language: str, own: bool) -> Page:
     """Return the drawing of a student with verdicts over it, as a page of its own size."""
     drawn, found = marked.answers.drawn, list(vectors(marked))
     assert drawn is not None

@@ -93,7 +93,7 @@ class Answers:
 Warn = Callable[[KulmanError], None]
 
 
-def read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn | None = None) -> list[Answers]:
+def _read_answers(file: str | Path, asked: Asked, called: str = "", warn: Warn | None = None) -> list[Answers]:
     """Return the answers that a file holds: of one student, or of a class; `called` is its name in messages.
 
     Whoever is there to `warn` is told of columns of a class that nobody knows; else they are a problem of the first
@@ -503,7 +503,7 @@ def read_all(names: Sequence[str], task: str, asked: Asked, warn: Warn | None) -
     for file in inside:
         try:
             of_source = file == _printed(task)
-            answers = read_answers(file, asked, PRINTED if of_source else "", warn)
+            answers = _read_answers(file, asked, PRINTED if of_source else "", warn)
         except InputError as error:
             if warn is None or len(inside) == 1:
                 raise

@@ -40,7 +40,7 @@ LIKE = {
 AGAIN = {verb: kind for kind, verbs in LIKE.items() for verb in verbs}  # what is told of a verb; of others their own
 
 
-class Row(NamedTuple):
+class _Row(NamedTuple):
     """One line of the report, in words; what only a teacher sees is empty for a student."""
 
     line: Line
@@ -206,14 +206,14 @@ class Report:
         return self.said["report.and"].join(texts)
 
     @cached_property
-    def parts(self) -> list[tuple[str, list[Row]]]:
+    def parts(self) -> list[tuple[str, list[_Row]]]:
         """The lines that count, plan by plan."""
         lines = {line.name: line for line in self.marked.lines}
         parts = self.marked.keyed.parts
         rows = ([self._row(lines[q.name]) for q in part.questions if q.name in lines] for part in parts)
         return [(plain(part.heading), own) for part, own in zip(parts, rows, strict=True) if own]
 
-    def _row(self, line: Line) -> Row:
+    def _row(self, line: Line) -> _Row:
         """Put a line into words."""
         right = tolerance = weight = ""
         if not self.own:
@@ -223,7 +223,7 @@ class Report:
             weight = self.words.short(round(self.rubric.out_of * self.marked.parts[line.name], 1), DIGITS)
             tolerance = f"± {self._shown(line, line.allowed)}" if line.allowed else ""
         verdict = self.said[f"verdict.{line.verdict}"]
-        return Row(line, self.symbol(line.name), self._answer(line), right, tolerance, verdict, weight)
+        return _Row(line, self.symbol(line.name), self._answer(line), right, tolerance, verdict, weight)
 
     def _answer(self, line: Line) -> str:
         """Return what the student has written."""
@@ -384,7 +384,7 @@ def to_json(report: Report) -> dict[str, Any]:
     return found
 
 
-def _line(row: Row, own: bool) -> dict[str, Any]:
+def _line(row: _Row, own: bool) -> dict[str, Any]:
     """Return one line as plain data, answer and right value also as they are shown."""
     line, right = row.line, row.line.right
     found = {"quantity": line.name, "verdict": str(line.verdict), "about": line.about, "answer": row.answer}
@@ -400,7 +400,7 @@ PHOTOS = (".png", ".pdf")  # of photographs that are returned with verdicts
 SUFFIXES = (*REPORTS, *TABLES, *DRAWINGS, ".png")  # of all that marks can be written to
 
 
-def report_bytes(report: Report, suffix: str) -> bytes:
+def _report_bytes(report: Report, suffix: str) -> bytes:
     """Return what a file of a report holds."""
     return REPORTS[suffix.lower()](report).encode("utf-8", "replace")  # bytes in a name of a file
 
@@ -415,4 +415,4 @@ def report_files(report: Report, path: Path) -> Files:
         from .overlay import marked_files
 
         return marked_files(report.marked, report.language, report.own, path)
-    return [(path, report_bytes(report, path.suffix))]
+    return [(path, _report_bytes(report, path.suffix))]

@@ -40,7 +40,7 @@ ROUNDING = 1e-6  # mm
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class _Measured:
     """A segment of one student, mm on his own scale: as written, as it should be, what it is read to, its spread.
 
     It should be what follows from the student's earlier errors: who goes on honestly from the same mistake is no copy.
@@ -54,7 +54,9 @@ class Measured:
     said: bool = True
 
 
-def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapping[str, float]) -> dict[str, Measured]:
+def measured(
+    answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapping[str, float]
+) -> dict[str, _Measured]:
     """Return the segments that can only have been measured, at the student's scale factors by plan, SI per mm.
 
     `follows` has what follows for each quantity from the student's earlier errors, SI, if that is not the right size.
@@ -73,18 +75,18 @@ def measured(answers: Answers, key: Key, mus: Mapping[str, float], follows: Mapp
     # halves of a millimetre are written with one decimal, too; what is laid off may be written to more digits
     decimals = min(max((line.decimals for line, _ in found.values()), default=0), 3)
     halves = all((2.0 * (line.mm or 0.0)).is_integer() for line, _ in found.values())
-    step, segments = 0.5 if decimals == 1 and halves else 10.0**-decimals, dict[str, Measured]()
+    step, segments = 0.5 if decimals == 1 and halves else 10.0**-decimals, dict[str, _Measured]()
     values = {name: (abs(line.value or 0.0) / mu, (line.rounded or 0.0) / mu) for name, (line, mu) in found.items()}
     coarse = all(abs(2.0 * mm - round(2.0 * mm)) <= 2.0 * last for mm, last in values.values())
     for name, (line, mu) in found.items():
         right, spread = follows.get(name, abs(key[name])) / mu, max(HAND, key.allowed[name] / mu / 3.0)
         mm, last = (values[name][0], max(0.5 if coarse else READ_TO, 2.0 * values[name][1]))
         said = line.mm is not None
-        segments[name] = Measured(line.mm or mm, right, step if said else last, spread, said)
+        segments[name] = _Measured(line.mm or mm, right, step if said else last, spread, said)
     return segments
 
 
-def too_exact(segments: Mapping[str, Measured]) -> bool:
+def _too_exact(segments: Mapping[str, _Measured]) -> bool:
     """Whether all segments are so near to the calculated ones that no hand has measured them."""
     read = [segment for segment in segments.values() if segment.said]
     off = max((max(abs(s.mm - s.right), s.step / 2.0) for s in read), default=0.0)
@@ -106,7 +108,7 @@ class Pair:
     of: int
 
 
-def shared(students: Sequence[Mapping[str, Measured]]) -> Iterator[Pair]:
+def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[Pair]:
     """Go through the pairs of students whose measured segments agree as those of somebody who has copied.
 
     Who copies leaves most millimetres as they are and changes some of them a little; two honest drawings miss by
@@ -138,7 +140,7 @@ def shared(students: Sequence[Mapping[str, Measured]]) -> Iterator[Pair]:
                 yield Pair(i, other, alike, int(near[k]), int(both[k]))
 
 
-def _likelihood(one: Mapping[str, Measured], other: Mapping[str, Measured]) -> float:
+def _likelihood(one: Mapping[str, _Measured], other: Mapping[str, _Measured]) -> float:
     """Return the logarithm of how much likelier two drawings agree as they do if both are honest than if one is copied.
 
     That an honest hand reads the same step as another has the chance of step / (2 sqrt(pi) spread); of a segment that
@@ -162,7 +164,7 @@ def _likelihood(one: Mapping[str, Measured], other: Mapping[str, Measured]) -> f
     return total
 
 
-def _most(segment: Measured) -> float:
+def _most(segment: _Measured) -> float:
     """Return the largest chance that a hand, be it good or bad, reads what was read."""
     off = abs(segment.mm - segment.right)
     return BEST * segment.step / off if off > segment.step / 2.0 else 1.0
@@ -185,7 +187,7 @@ class Result:
     mistakes: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     exact: bool = False
-    segments: Mapping[str, Measured] = field(default_factory=dict)
+    segments: Mapping[str, _Measured] = field(default_factory=dict)
     reports: tuple[str, ...] = ()
     fits: str = ""
     plans: tuple[str, ...] = ()
@@ -210,7 +212,7 @@ class Result:
         KeyError, TypeError
             The data are none of a result.
         """
-        segments = {name: Measured(**of) for name, of in data["segments"].items()}
+        segments = {name: _Measured(**of) for name, of in data["segments"].items()}
         lists = {name: tuple(data[name]) for name in ("mistakes", "notes", "reports", "plans", "absent")}
         return cls(**{**data, "who": Who(**data["who"]), "segments": segments, **lists})
 
@@ -241,7 +243,7 @@ def result_of(marked: Marked, language: str) -> Result:
         "" if first is None else key.symbol(first),
         tuple(dict.fromkeys(broken.mistake for broken in best)),
         tuple(note.text(language) for note in marked.notes),
-        too_exact(segments),
+        _too_exact(segments),
         segments,
         (),
         marked.fits,

@@ -44,7 +44,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Free:
+class _Free:
     """A sheet laid flat: its picture, what no pencil has drawn there, its pencil, and the lines that are found."""
 
     picture: NDArray[np.uint8]
@@ -53,7 +53,7 @@ class Free:
     error: float
 
 
-def laid_flat(photo: Photo, ways: Floats) -> Free:
+def laid_flat(photo: Photo, ways: Floats) -> _Free:
     """Lay a sheet flat, turned so that most lines go as vectors should: `ways` are their directions, radians.
 
     Raises
@@ -73,7 +73,7 @@ def laid_flat(photo: Photo, ways: Floats) -> Free:
         by = cmath.rect(1.0, askew)  # the sheet is turned back
         picture, hidden = _laid(grey, replace(way, size=way.size / by), corners / by, shown)
         ink = Ink(picture, hidden)
-    return Free(picture, ink, strokes(ink), way.error)
+    return _Free(picture, ink, strokes(ink), way.error)
 
 
 def _laid(grey: Any, way: Straight, corners: Complex, shown: str) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:
@@ -131,15 +131,15 @@ def ways_of(keyed: Keyed) -> Floats:
     return np.asarray(np.angle(np.concatenate(spans or [np.zeros(0, complex)])))
 
 
-def turned(sheet: Free, quarters: int) -> Free:
+def turned(sheet: _Free, quarters: int) -> _Free:
     """Return a sheet turned against the clock, so many quarters of a turn."""
     picture = np.ascontiguousarray(np.rot90(sheet.picture, quarters))
     hidden = np.ascontiguousarray(np.rot90(sheet.ink.printed > 0, quarters))
     ink = Ink(picture, hidden)
-    return Free(picture, ink, strokes(ink), sheet.error)
+    return _Free(picture, ink, strokes(ink), sheet.error)
 
 
-def plans_on(sheets: Sequence[Free], keyed: Keyed, apart: float) -> dict[str, FoundPlan]:
+def plans_on(sheets: Sequence[_Free], keyed: Keyed, apart: float) -> dict[str, FoundPlan]:
     """Return where plans are found on sheets, `apart` from one another: right ones, else those with a mistake."""
     lines = [(line.tail + by, line.tip + by) for by, line in _lines(sheets, apart)]
     ends = np.array(lines, complex).reshape(-1, 2)
@@ -169,7 +169,7 @@ def _within(plan: str, found: Mapping[str, FoundPlan], right: Mapping[str, Shape
     return False
 
 
-def _lines(sheets: Sequence[Free], apart: float) -> Iterator[tuple[float, Stroke]]:
+def _lines(sheets: Sequence[_Free], apart: float) -> Iterator[tuple[float, Stroke]]:
     for number, sheet in enumerate(sheets, start=1):
         yield from ((number * apart, line) for line in sheet.lines if line.size >= LETTER)
 

@@ -41,7 +41,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Lines:
+class _Lines:
     """Lines on a page, mm, complex of shape (N,), and the ends and arrows of all, shape (M,)."""
 
     tails: Complex
@@ -51,7 +51,7 @@ class Lines:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Fit:
+class _Fit:
     """A way to draw a plan, laid on a page: points, their errors, mm; how large it is, how much of it is there.
 
     `worth` are the mm of lines that are there, less half of those that are not.
@@ -67,14 +67,14 @@ class Fit:
     lines: Mapping[int, Traced] = field(default_factory=dict)
 
 
-def lines_of(tails: Complex, tips: Complex, pencil: Pencil | None = None) -> Lines:
+def lines_of(tails: Complex, tips: Complex, pencil: Pencil | None = None) -> _Lines:
     """Return lines of a page; short ones are wings of arrows, which begin at a spot."""
     long = np.abs(tips - tails) >= LONG
-    return Lines(tails[long], tips[long], np.concatenate((tails, tips[long])), pencil)
+    return _Lines(tails[long], tips[long], np.concatenate((tails, tips[long])), pencil)
 
 
 def matched(
-    pages: Mapping[int, Lines], poles: Mapping[str, tuple[int, complex]], mus: Mapping[str, float], keyed: Keyed
+    pages: Mapping[int, _Lines], poles: Mapping[str, tuple[int, complex]], mus: Mapping[str, float], keyed: Keyed
 ) -> Recognised:
     """Find the vectors of all plans whose pages are there; places are those of the pages, see `poles`."""
     plans, vectors, missing = dict[str, FoundPlan](), dict[str, Found](), list[str]()
@@ -101,7 +101,7 @@ def matched(
     return Recognised(plans, vectors, tuple(missing))
 
 
-def _best(lines: Lines, pole: complex, mu: float, plan: str, keyed: Keyed) -> Fit | None:
+def _best(lines: _Lines, pole: complex, mu: float, plan: str, keyed: Keyed) -> _Fit | None:
     """Return how a plan is drawn: the right one, or one with a mistake of which clearly more is there."""
     if not len(lines.tails):
         return None
@@ -118,7 +118,7 @@ def _best(lines: Lines, pole: complex, mu: float, plan: str, keyed: Keyed) -> Fi
     return best if best.quality >= ENOUGH else None
 
 
-def _laid(lines: Lines, pole: complex, mu: float, way: Way) -> Fit:
+def _laid(lines: _Lines, pole: complex, mu: float, way: Way) -> _Fit:
     """Lay a way to draw a plan on a page, closer the second time."""
     times, shift = 1.0, 0j
     places = way.places / mu
@@ -133,7 +133,7 @@ def _laid(lines: Lines, pole: complex, mu: float, way: Way) -> Fit:
     return _fitted(way, mu, points, errors, times, good)
 
 
-def _traced(lines: Lines, fit: Fit, pole: complex, mu: float) -> Fit:
+def _traced(lines: _Lines, fit: _Fit, pole: complex, mu: float) -> _Fit:
     """Return a fit whose points are measured along where its lines should be, if there is a picture."""
     if lines.pencil is None:
         return fit
@@ -152,14 +152,14 @@ def _traced(lines: Lines, fit: Fit, pole: complex, mu: float) -> Fit:
     return best
 
 
-def _fitted(way: Way, mu: float, points: Complex, errors: Floats, times: float, good: Floats) -> Fit:
+def _fitted(way: Way, mu: float, points: Complex, errors: Floats, times: float, good: Floats) -> _Fit:
     """Return a fit of which lines are there as `good` says, from 0 to 1."""
     sought = np.abs(way.spans) / mu >= LONG
     weights = np.where(sought, way.weights, 0.0)
     sizes = np.where(sought, np.abs(way.spans) / mu / way.like, 0.0)
     whole = float(weights.sum())
     ends = zip(way.tails[way.lines].tolist(), way.tips[way.lines].tolist(), good > 0, sought, strict=True)
-    return Fit(
+    return _Fit(
         way,
         points,
         errors,
@@ -170,7 +170,7 @@ def _fitted(way: Way, mu: float, points: Complex, errors: Floats, times: float, 
     )
 
 
-def _lines(lines: Lines, way: Way, wanted: Complex, within: float) -> tuple[NDArray[np.intp], Floats]:
+def _lines(lines: _Lines, way: Way, wanted: Complex, within: float) -> tuple[NDArray[np.intp], Floats]:
     """Return for each vector of a plan the number of its line or -1, and how well that fits, 0 to 1."""
     sizes = np.abs(lines.tips - lines.tails)
     units = (lines.tips - lines.tails) / sizes
@@ -194,7 +194,7 @@ def _lines(lines: Lines, way: Way, wanted: Complex, within: float) -> tuple[NDAr
     return np.where(found, own, -1), good
 
 
-def _points(lines: Lines, way: Way, wanted: Complex, own: NDArray[np.intp], pole: complex) -> tuple[Complex, Floats]:
+def _points(lines: _Lines, way: Way, wanted: Complex, own: NDArray[np.intp], pole: complex) -> tuple[Complex, Floats]:
     """Return the points of a plan and their errors: crossings of lines, with ends and arrows where those are flat."""
     points, errors = wanted.copy(), np.full(len(wanted), LOST)
     tails, tips = way.tails[way.lines], way.tips[way.lines]
@@ -235,7 +235,7 @@ def _more(rows: Floats, right: Floats, place: complex, error: float) -> tuple[Fl
     return np.concatenate((rows, np.eye(2) / error)), np.concatenate((right, own))
 
 
-def _spot(lines: Lines, point: complex, units: Complex) -> tuple[complex, float] | None:
+def _spot(lines: _Lines, point: complex, units: Complex) -> tuple[complex, float] | None:
     """Return the end or arrow on its lines that is nearest to a point, and its error: others make it doubtful."""
     near = np.abs(lines.spots - point)
     aside = np.abs(cross(units[:, None], lines.spots[None, :] - point)).max(axis=0)

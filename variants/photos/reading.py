@@ -87,7 +87,7 @@ class Flat:
 
 
 @dataclass(frozen=True, eq=False)
-class Blank:
+class _Blank:
     """A handout as it was printed: its pages; on which of them plans have their poles, and where; SI per mm of each."""
 
     case: Case
@@ -131,7 +131,7 @@ class Blank:
 class Sheets:
     """What photographs of a student show: the pages, the drawing on them, and what is to be said of it."""
 
-    blank: Blank
+    blank: _Blank
     pages: tuple[Flat, ...]
     drawn: Drawn
     notes: tuple[KulmanError, ...]
@@ -161,7 +161,7 @@ def _added(shape: Shape) -> bool:
     return isinstance(shape, Group) and shape.role in ("marker", "qr")
 
 
-def blank_of(request: Request, keyed: Keyed, language: str, paper: str) -> Blank:
+def _blank_of(request: Request, keyed: Keyed, language: str, paper: str) -> _Blank:
     """Make the handout anew that a student was given, in a language and on a format of paper."""
     solution = keyed.solution
     settings = solution.case.settings
@@ -170,7 +170,7 @@ def blank_of(request: Request, keyed: Keyed, language: str, paper: str) -> Blank
     pages = scannable_of_case(case, drawing).pages
     mus = {plan: scale.mu for plan, scale in drawing.scales.items()}
     poles = dict(_poles(plans_of(keyed), drawing.placed, mus))
-    return Blank(case, pages, drawing.sheets, poles, mus)
+    return _Blank(case, pages, drawing.sheets, poles, mus)
 
 
 def plans_of(keyed: Keyed) -> dict[str, Way]:
@@ -215,40 +215,40 @@ def _vectors(shapes: Sequence[Shape]) -> Iterator[Vector]:
             yield from _vectors(shape.shapes)
 
 
-def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: Kept[Blank]) -> tuple[Sheets, Seen]:
+def photographed(photos: Sequence[Photo], request: Request, keyed: Keyed, kept: Kept[_Blank]) -> tuple[Sheets, Seen]:
     """Read the sheets of a student, and recognise what they show, as far as it is sure.
 
     Handouts that were made anew are `kept`.
     """
     name = keyed.solution.variant, *sorted(keyed.solution.case.settings.items())
 
-    def blank(language: str, paper: str) -> Blank:
-        return kept.get((*name, language, paper), lambda: blank_of(request, keyed, language, paper))
+    def blank(language: str, paper: str) -> _Blank:
+        return kept.get((*name, language, paper), lambda: _blank_of(request, keyed, language, paper))
 
-    own = of_ones_own(photos)
-    sheets = _own_sheets(photos, keyed) if own else read_sheets(photos, _fitting(photos, request, blank))
+    own = _of_ones_own(photos)
+    sheets = _own_sheets(photos, keyed) if own else _read_sheets(photos, _fitting(photos, request, blank))
     found = _recognised(sheets, keyed)
-    times = 1.0 if own else print_scale(sheets, keyed, found)
+    times = 1.0 if own else _print_scale(sheets, keyed, found)
     if times != 1.0:
-        sheets = shrunk(sheets, times)
+        sheets = _shrunk(sheets, times)
         found = _recognised(sheets, keyed)
     sheets, found = replace(sheets, believed=found.vectors), sure(sheets, keyed, found)
     mus = {plan: sheets.blank.mus[plan] for plan in found.plans}
     return sheets, Seen(found, mus, _printed(sheets.blank))
 
 
-def of_ones_own(photos: Sequence[Photo]) -> bool:
+def _of_ones_own(photos: Sequence[Photo]) -> bool:
     """Return whether all these are sheets of one's own, with markers stuck on them."""
     return all(photo.number == FREE for photo in photos)
 
 
 def numbered(photos: Sequence[Photo]) -> Iterator[tuple[int, Photo]]:
     """Go through photographs and the numbers of their pages: sheets of one's own are counted."""
-    own = of_ones_own(photos)
+    own = _of_ones_own(photos)
     return ((number if own else photo.number, photo) for number, photo in enumerate(photos, start=1))
 
 
-def _printed(blank: Blank) -> frozenset[str]:
+def _printed(blank: _Blank) -> frozenset[str]:
     """Return the plans whose scale factors are printed: none on sheets of one's own."""
     return frozenset(blank.mus if blank.pages else ())
 
@@ -267,7 +267,7 @@ def _own_sheets(photos: Sequence[Photo], keyed: Keyed) -> Sheets:
         plans = plans_on(sheets, keyed, APART)
     on = {plan: math.floor(one.pole.real / APART) for plan, one in plans.items()}
     poles = {plan: (on[plan], one.pole - APART * on[plan]) for plan, one in plans.items()}
-    blank = Blank(keyed.solution.case, (), (), poles, {plan: one.mu for plan, one in plans.items()})
+    blank = _Blank(keyed.solution.case, (), (), poles, {plan: one.mu for plan, one in plans.items()})
     pages, ends = list[Flat](), list[tuple[complex, complex]]()
     for number, sheet in enumerate(sheets, start=1):
         pages.append(Flat(number, sheet.picture, _dark(sheet.ink), len(sheet.lines), sheet.error))
@@ -304,7 +304,7 @@ def _on(places: NDArray[np.complex128], page: int) -> NDArray[np.bool_]:
     return np.asarray(np.floor(places.real / APART) == page)
 
 
-def _fitting(photos: Sequence[Photo], request: Request, blank: Callable[[str, str], Blank]) -> Blank:
+def _fitting(photos: Sequence[Photo], request: Request, blank: Callable[[str, str], _Blank]) -> _Blank:
     """Return the handout that was photographed: its QR code tells how it was printed, else where its markers are."""
     told = next((photo.code for photo in photos if photo.code), ())
     if told and told[5].lower() in LANGUAGES and told[6] in FORMATS:
@@ -317,14 +317,14 @@ def _fitting(photos: Sequence[Photo], request: Request, blank: Callable[[str, st
     return max(ways, key=lambda way: sum(_fits(photo, way) for photo in photos))
 
 
-def _fits(photo: Photo, blank: Blank) -> bool:
+def _fits(photo: Photo, blank: _Blank) -> bool:
     """Whether the markers on a photograph stand where they do on a handout."""
     if photo.number > len(blank.pages):
         return False
     return straightened(photo.markers, blank.stands(photo.number), photo.centre).error <= ASTRAY
 
 
-def read_sheets(photos: Sequence[Photo], blank: Blank) -> Sheets:
+def _read_sheets(photos: Sequence[Photo], blank: _Blank) -> Sheets:
     """Read the pencil lines on the photographs of a student's sheets.
 
     Pages whose markers do not lie as they were printed, or that were printed from other data, are not read: a note says
@@ -366,7 +366,7 @@ def _read(photo: Photo, blank: Blank) -> tuple[Flat, list[Stroke]]:
     return Flat(photo.number, picture, _dark(ink), len(found), way.error), found
 
 
-def print_scale(sheets: Sheets, keyed: Keyed, found: Recognised) -> float:
+def _print_scale(sheets: Sheets, keyed: Keyed, found: Recognised) -> float:
     """Return how many times as large as they should be lengths on the sheets are, 1 where nothing tells.
 
     A sheet that was printed smaller has its markers smaller, too; the student's ruler is as it was.
@@ -383,7 +383,7 @@ def print_scale(sheets: Sheets, keyed: Keyed, found: Recognised) -> float:
     return middle if alike and PRINTED < abs(middle - 1.0) < MOST else 1.0
 
 
-def shrunk(sheets: Sheets, by: float) -> Sheets:
+def _shrunk(sheets: Sheets, by: float) -> Sheets:
     """Return sheets whose lengths are as the student's ruler shows them, with a note that says so."""
     drawn = sheets.drawn
     note = InputError("photo-printed", percent=Written(f"{100.0 / by:.1f}"))

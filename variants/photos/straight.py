@@ -64,7 +64,7 @@ REACH = 2000.0  # pixels at which the radial term is what it says
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Edges:
+class _Edges:
     """Places of straight printed lines: mm of the sheet, where they are seen, pixels, and across which direction."""
 
     places: Complex
@@ -72,7 +72,7 @@ class Edges:
     across: Complex
 
 
-def framed(picture: Any, way: Straight, box: Box) -> Edges:
+def framed(picture: Any, way: Straight, box: Box) -> _Edges:
     """Look where the printed frame is seen, near to where a map says: it reaches where no markers stand."""
     import cv2
 
@@ -92,11 +92,11 @@ def framed(picture: Any, way: Straight, box: Box) -> Edges:
     good = (dark.max(axis=1) > CONTRAST) & (np.abs(top[:, 0] - len(off) // 2) < len(off) // 2 - WIDE)
     middles = (own * off).sum(axis=1) / np.maximum(own.sum(axis=1), 1e-9)
     z, n = places[good], normals[good]
-    return Edges(z, way.at(z + middles[good] * n), way.at(z + n) - way.at(z))
+    return _Edges(z, way.at(z + middles[good] * n), way.at(z + n) - way.at(z))
 
 
 def straightened(
-    markers: Mapping[int, tuple[complex, ...]], places: Sequence[Place], centre: complex, edges: Edges | None = None
+    markers: Mapping[int, tuple[complex, ...]], places: Sequence[Place], centre: complex, edges: _Edges | None = None
 ) -> Straight:
     """Fit the map of a page to the corners of its markers on a picture, of which `centre` is the middle of the lens.
 

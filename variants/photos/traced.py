@@ -85,7 +85,7 @@ class Traced:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Spot:
+class _Spot:
     """Where a line ends, or an `arrow` points to, along its line."""
 
     place: complex
@@ -174,10 +174,10 @@ def _centred(pencil: Pencil, start: complex, stop: complex, along: Floats, level
     return Traced(start, (stop - start) / abs(stop - start), dark, part)
 
 
-def _spots(pencil: Pencil, way: Way, points: Complex, found: dict[int, Traced]) -> dict[int, list[Spot]]:
+def _spots(pencil: Pencil, way: Way, points: Complex, found: dict[int, Traced]) -> dict[int, list[_Spot]]:
     """Return where lines end and arrowheads point to, by the points of the plan that they may be."""
     arrows = set(zip(way.tails.tolist(), way.tips.tolist(), strict=True))
-    spots: dict[int, list[Spot]] = {}
+    spots: dict[int, list[_Spot]] = {}
     for number, line in found.items():
         ends = int(way.tails[way.lines[number]]), int(way.tips[way.lines[number]])
         for tail, tip in (ends, ends[::-1]):
@@ -272,7 +272,7 @@ def _winged(pencil: Pencil, tail: complex, tip: complex, line: float, others: It
     return Wings(max(pairs, default=math.nan), min(seen), max(seen))
 
 
-def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[Spot]:
+def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[_Spot]:
     """Go through where a line ends near to its tip: there its darkness falls."""
     unit = line.unit if dot(line.unit, tip - tail) > 0 else -line.unit
     foot = line.through + dot(line.unit, tip - line.through) * line.unit
@@ -290,11 +290,11 @@ def _ended(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterato
         beyond = slice(at + 1, at + 1 + clear)
         if at + clear < len(along) and not on[beyond].any():
             if not hid[beyond].any():
-                yield Spot(complex(foot + (along[at] - ROUND) * unit), unit)
+                yield _Spot(complex(foot + (along[at] - ROUND) * unit), unit)
             return
 
 
-def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[Spot]:
+def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Iterator[_Spot]:
     """Go through where an arrowhead on a line points to: its two wings are found, then where they meet the line."""
     unit = line.unit if dot(line.unit, tip - tail) > 0 else -line.unit
     foot = line.through + dot(line.unit, tip - line.through) * line.unit
@@ -315,7 +315,7 @@ def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Itera
     if best > POINTED and at[0] < place < at[-1]:
         ends = [_wing(pencil, foot + place * unit, -unit * np.exp(1j * side), unit, size) for side in (angle, -angle)]
         if abs(ends[0] - ends[1]) < ALIKE:
-            yield Spot(complex(foot + (place + sum(ends) / 2) * unit), unit, arrow=True)
+            yield _Spot(complex(foot + (place + sum(ends) / 2) * unit), unit, arrow=True)
 
 
 def _behind(wing: float, size: float) -> Floats:
@@ -339,7 +339,7 @@ def _solved(
     wanted: Complex,
     points: Complex,
     found: dict[int, Traced],
-    spots: dict[int, list[Spot]],
+    spots: dict[int, list[_Spot]],
     pole: complex,
 ) -> tuple[Complex, Floats]:
     """Return where points of a plan are, and their errors: where lines cross, and with ends where that is flat.
@@ -367,7 +367,7 @@ def _solved(
     return rows.solved()
 
 
-def _telling(spots: list[Spot], crossing: complex, error: float) -> list[Spot]:
+def _telling(spots: list[_Spot], crossing: complex, error: float) -> list[_Spot]:
     """Return the ends and arrowheads that tell of a point: of a flat crossing an arrowhead, or ends that are one.
 
     Where a line ends and its arrowhead points elsewhere, nothing tells: a letter may touch either.

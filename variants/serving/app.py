@@ -61,7 +61,7 @@ _INLINE = re.compile(r"<(style|script)>(.*?)</\1>", re.DOTALL)
 Answer = Callable[[Request], Awaitable[Response]]
 
 
-def policy(document: str) -> str:
+def _policy(document: str) -> str:
     """Return what a page that is not the server's own may do: run its own scripts, take its own styles."""
     hashes: dict[str, list[str]] = {"style": [], "script": []}
     for kind, text in _INLINE.findall(document):
@@ -363,13 +363,13 @@ def _file(served: Served, as_name: str = "", kept: bool = False) -> Response:
     if suffix == ".svg":
         headers["Content-Security-Policy"] = PICTURE
     elif suffix == ".html":
-        headers["Content-Security-Policy"] = policy(served.data.decode("utf-8"))
+        headers["Content-Security-Policy"] = _policy(served.data.decode("utf-8"))
     if as_name and suffix != ".html":
         headers["Content-Disposition"] = f'attachment; filename="{re.sub(r"[^A-Za-z0-9._-]", "-", as_name)}"'
     return Response(served.data, media_type=TYPES.get(suffix, "application/octet-stream"), headers=headers)
 
 
-def application(desk: Desk) -> Gate:
+def _application(desk: Desk) -> Gate:
     """Return the server as an ASGI application."""
 
     def told(
@@ -414,7 +414,7 @@ def application(desk: Desk) -> Gate:
     return Gate(Starlette(routes=_Answers(desk).routes(), exception_handlers=handlers, lifespan=open_desk), desk.doors)
 
 
-def listening(host: str, port: int | None) -> socket.socket:
+def _listening(host: str, port: int | None) -> socket.socket:
     """Return a socket that listens at a port; where none is said at the usual one, or any that is free.
 
     Raises InputError: it cannot be had.
@@ -456,7 +456,7 @@ def serve(
         Passwords cannot be read, or are missing where others could ask, or nothing can listen there.
     """
     doors = doors_for(host, names, None if passwords is None else read_passwords(passwords))
-    listens = listening(host, port)
+    listens = _listening(host, port)
     number = listens.getsockname()[1]
     shown = f"[{host}]" if ":" in host else "127.0.0.1" if host == "0.0.0.0" else host
     address = f"http://{shown}:{number}{doors.root}/"
@@ -465,7 +465,7 @@ def serve(
     bounds: Any = {"limit_concurrency": CONNECTIONS, "timeout_graceful_shutdown": 3, "timeout_keep_alive": 5}
     quiet: Any = {"log_level": "warning", "access_log": False, "server_header": False}
     with listens, contextlib.closing(Desk(doors, allowed, language)) as desk:
-        config = Config(application(desk), http=Patient, ws="none", lifespan="on", **quiet, **bounds)
+        config = Config(_application(desk), http=Patient, ws="none", lifespan="on", **quiet, **bounds)
         tell(address)
         if opened:
             webbrowser.open(address)

@@ -28,7 +28,7 @@ LARGEST = 200_000_000  # bytes of results kept
 EXTRAS = {".png": "pypdfium2", ".dxf": "ezdxf", ".docx": "docx", "note.pdf": "typst", "scan": "zxingcpp"}
 
 
-def writable() -> dict[str, tuple[str, ...]]:
+def _writable() -> dict[str, tuple[str, ...]]:
     """Return the kinds of files that can be written here, by stem: some need packages that may be missing."""
     there = {key: find_spec(package) is not None for key, package in EXTRAS.items()}
     return {
@@ -52,7 +52,7 @@ class Desk:
         """Open it; the language is that of pages whose addresses say none."""
         self.doors, self.allowed, self.language = doors, allowed, language
         self.cores = seats or max(os.cpu_count() or 1, 2)
-        self.kinds = writable()
+        self.kinds = _writable()
         self.home = Home()
         self.crew = Crew(self.cores, WAITING, SECONDS, self.home.path, "seat")
         self.photos = Crew(max(self.cores // 2, 1), WAITING, PHOTO_SECONDS, self.home.path, "photo")

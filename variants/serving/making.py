@@ -346,7 +346,7 @@ class Handed:
     rubric: Upload | None = None
     alone: bool = False
 
-    def read(self, told: Told) -> Read:
+    def read(self, told: Told) -> _Read:
         """Read it, in the folder of the process, with what has been answered to questions."""
         asked, notes = self.asked, list[KulmanError]()
         listed = None if self.roster is None else self.roster.put("roster", TABLES)
@@ -358,11 +358,11 @@ class Handed:
         known = (*DRAWINGS, *PICTURES) if self.alone else ANSWERS
         names = [one.put(f"forms/{n:03d}-{slug(Path(one.name).stem)}", known) for n, one in enumerate(self.files, 1)]
         found, asks = gathered(ready.read(*names, warn=notes.append), ready.roster, told, self.alone)
-        return Read(ready, ready.ordered(found), asks, notes)
+        return _Read(ready, ready.ordered(found), asks, notes)
 
 
 @dataclass(frozen=True, slots=True)
-class Read:
+class _Read:
     """What has been handed in, read: whose it is as far as that is known, and what is asked of pages."""
 
     ready: Check
@@ -456,7 +456,7 @@ class _Asker:
         return looked
 
 
-def _asked_of_class(read: Read, advance: Advance, jobs: int) -> Asking:
+def _asked_of_class(read: _Read, advance: Advance, jobs: int) -> Asking:
     photographed = [one for one in read.found if one.photos]
     ends, pictures = dict[int, list[EndAsk]](), dict[str, bytes]()
     for done in shared_out(_Asker(read.ready).begin, photographed, jobs, lambda one: one.about.get("variant", "")):

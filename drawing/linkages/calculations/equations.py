@@ -276,11 +276,11 @@ def _segment_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, str, str]:
     mu = 1.0 / number if words.per_unit else number
     if known:
         return laid_off(words, value, mu, known), words.short(number), known
-    if words.ruler and is_laid(scene, q.name):  # it is as long as a ruler can lay it off
+    if words.ruler and _is_laid(scene, q.name):  # it is as long as a ruler can lay it off
         return segment_text(words, abs(value) / mu), words.short(number), value_text(words, abs(value))
     # of an arm nothing is known but its segment; what was laid off has its value all the same
     readable = 0.0 if role(q.name).kind == "h" else READABLE
-    mm, value_read = read_off(words, value, mu, readable, DIGITS - 1 if is_laid(scene, q.name) else FEWEST)
+    mm, value_read = read_off(words, value, mu, readable, DIGITS - 1 if _is_laid(scene, q.name) else FEWEST)
     five = float(f"{abs(value):.{DIGITS + 1}g}")
     if (
         words.ruler
@@ -294,7 +294,7 @@ def _segment_on(scene: Scene, q: Quantity, plan: str) -> tuple[str, str, str]:
     return mm, words.short(number), value_read
 
 
-def is_laid(scene: Scene, name: str) -> bool:
+def _is_laid(scene: Scene, name: str) -> bool:
     """Whether a vector is laid off on its plan by a number that has been calculated, perhaps under another name."""
     step = scene.made.get(role(name).size) or scene.made.get(name)
     if scene.words.ruler and step is not None and step.verb == "read":
@@ -306,7 +306,7 @@ def is_laid(scene: Scene, name: str) -> bool:
 def reading_of(scene: Scene, name: str) -> float | None:
     """Return what the printed millimetres of a vector give that is laid off by its number; None if none are printed."""
     item = scene.quantities.get(role(name).shown)
-    if item is None or drawn_on(scene, item) not in scene.scales or (scene.words.ruler and is_laid(scene, name)):
+    if item is None or drawn_on(scene, item) not in scene.scales or (scene.words.ruler and _is_laid(scene, name)):
         return None
     mm, mu, _ = printed_segment(scene, item)
     if not mm:

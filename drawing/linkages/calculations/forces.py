@@ -468,7 +468,7 @@ def _balance(scene: Scene) -> dict[str, float]:
     return found
 
 
-class OnLever(NamedTuple):
+class _OnLever(NamedTuple):
     """A row of the lever's table: what acts, its arm, its moment from the printed numbers, counter-clockwise positive.
 
     A couple of which only the power is known has no arm; `name` is the quantity by which it is looked up.
@@ -481,7 +481,7 @@ class OnLever(NamedTuple):
     moment: float
 
 
-def on_lever(scene: Scene) -> Iterator[OnLever]:
+def on_lever(scene: Scene) -> Iterator[_OnLever]:
     """Go through what acts on the lever, with what balances it."""
     scene = replace(scene, words=scene.words.showing(replace(AS_INSIDE, paper=scene.words.display.paper)))
     words, found = scene.words, balance(scene)
@@ -492,12 +492,12 @@ def on_lever(scene: Scene) -> Iterator[OnLever]:
         moment = math.prod(factor.printed**factor.power for factor in factors)
         if moment != moment or min(factor.value for factor in factors) < POINT:
             moment = 0.0
-        yield OnLever(arms[0] if arms else balanced.name, *_named(words, factors), turn * moment)
+        yield _OnLever(arms[0] if arms else balanced.name, *_named(words, factors), turn * moment)
     force = Factor(words.symbol(balanced.name), found[balanced.name], exact=True)
     arm = _own_arm(scene, balanced)
     sign = -math.copysign(1.0, scene.values[balanced.name] * scene.values[balanced.operands[0]])
     size = value_text(words, force.value, DIGITS + 1)
-    yield OnLever(balanced.name, force.symbol, size, arm, sign * force.value * arm.printed)
+    yield _OnLever(balanced.name, force.symbol, size, arm, sign * force.value * arm.printed)
 
 
 def _named(words: Words, factors: Sequence[Factor]) -> tuple[str, str, Factor | None]:

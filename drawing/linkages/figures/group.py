@@ -49,7 +49,7 @@ MANY = 3  # arms of a figure; of more the drawing has letters alone, and their m
 SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88)  # places on a link where a couple may stand
 
 
-class Arm(NamedTuple):
+class _Arm(NamedTuple):
     """An arm: the forces on one line, the names of their arms, where they hang, their direction, the line's foot."""
 
     forces: list[str]
@@ -85,9 +85,9 @@ class Arm(NamedTuple):
 Moment = tuple[str, str, complex, complex]  # a force, the name of its arm, where it acts, about which point, mm
 
 
-def arms_of(scene: Scene, moments: Iterable[Moment]) -> list[tuple[complex, Arm]]:
+def arms_of(scene: Scene, moments: Iterable[Moment]) -> list[tuple[complex, _Arm]]:
     """Return the arms, each with the point from which it is drawn; forces on one line share theirs."""
-    arms: list[tuple[complex, Arm]] = []
+    arms: list[tuple[complex, _Arm]] = []
     for force, name, at, about in moments:
         e = scene.direction(force)
         if e == 0 or not scene.defined(name):
@@ -98,12 +98,12 @@ def arms_of(scene: Scene, moments: Iterable[Moment]) -> list[tuple[complex, Arm]
             same[0].forces.append(force)
             same[0].names.append(name)
         else:
-            arms.append((about, Arm([force], [name], at, e, foot)))
+            arms.append((about, _Arm([force], [name], at, e, foot)))
     return arms
 
 
-def staggered(
-    pole: complex, arms: Sequence[Arm], middle: complex, style: Style, rays: Sequence[complex] = (), past: int = 1
+def _staggered(
+    pole: complex, arms: Sequence[_Arm], middle: complex, style: Style, rays: Sequence[complex] = (), past: int = 1
 ) -> Mapping[int, complex]:
     """Return by how much arms are moved along the lines of their forces; the shortest of those side by side stays.
 
@@ -122,7 +122,7 @@ def staggered(
     return shifts
 
 
-def outward(arm: Arm, pole: complex, middle: complex) -> complex:
+def outward(arm: _Arm, pole: complex, middle: complex) -> complex:
     """Return the direction along the line of a force in which its arm is moved: away from the middle of the figure."""
     return arm.along * (-1.0 if (arm.along.conjugate() * (middle - pole)).real > 0 else 1.0)
 
@@ -160,10 +160,10 @@ class Sketch:
         """Let no arrow leave a place in these directions."""
         self._barred.setdefault(_place(at), []).extend(directions)
 
-    def shifts(self, pole: complex, arms: Sequence[Arm], middle: complex, past: int = 1) -> Mapping[int, complex]:
+    def shifts(self, pole: complex, arms: Sequence[_Arm], middle: complex, past: int = 1) -> Mapping[int, complex]:
         """Return by how much arms about a point are moved along the lines of their forces: as far as no force lies."""
         style, rays = self.scene.style, [*self._barred.get(_place(pole), ()), *rays_of(pole, self.strokes)]
-        shifts = dict(staggered(pole, arms, middle, style, rays, past))
+        shifts = dict(_staggered(pole, arms, middle, style, rays, past))
         for i, arm in enumerate(arms):
             if abs(arm.foot - pole) < LEAST:
                 continue

@@ -125,7 +125,7 @@ class Plan:
     def lines(self) -> Iterable[ConstructionLine]:
         """Go through the construction lines."""
         for step, _, start, along in self.scene.reading.meetings(self.plan):
-            yield (*construction_line(self.scene, step, start, along), line_of(self.scene, along))
+            yield (*_construction_line(self.scene, step, start, along), line_of(self.scene, along))
 
     def marks(self) -> Mapping[str, complex]:
         """Return the places of the pole and of all ends of vectors."""
@@ -169,7 +169,7 @@ class Plan:
         """Go through the quantities whose vectors, too short for an arrowhead on the plan, can be read in a window."""
         for vector in self.vectors():
             long = length_of(vector) * window.times >= self.scene.style.arrow
-            if long and in_inset(self.scene, [window], (vector.tail, vector.tip)):
+            if long and _in_inset(self.scene, [window], (vector.tail, vector.tip)):
                 yield vector.quantity
 
 
@@ -185,7 +185,7 @@ def magnified(scene: Scene) -> dict[str, float]:
     return {quantity: window.times for plan, window in windows for quantity in plan.read_in(window)}
 
 
-def in_inset(scene: Scene, shown: Iterable[Window], ends: tuple[complex, complex]) -> bool:
+def _in_inset(scene: Scene, shown: Iterable[Window], ends: tuple[complex, complex]) -> bool:
     """Whether a vector is too short to be read in its figure and stands in an inset."""
     return abs(ends[1] - ends[0]) < scene.style.arrow and any(window.shows(*ends) for window in shown)
 
@@ -211,7 +211,7 @@ def _together(first: list[Vector], clusters: Sequence[list[Vector]], widest: flo
     return shown
 
 
-def details(plans: Iterable[Plan]) -> int:
+def _details(plans: Iterable[Plan]) -> int:
     """Count the insets of plans."""
     return sum(len(plan.windows()) for plan in plans)
 
@@ -319,7 +319,7 @@ def _inset(plan: Plan, window: Window, figure: str, numeral: str) -> View:
     return canvas.finish(name, (scene.words["heading.detail"].format(numeral=numeral), scene.words.scale(own)))
 
 
-def construction_line(scene: Scene, step: Step, start: str, direction: str) -> tuple[complex, complex, complex]:
+def _construction_line(scene: Scene, step: Step, start: str, direction: str) -> tuple[complex, complex, complex]:
     """Return whence a line of a meeting runs, the point that it finds, and its end past it."""
     e, tail, point = scene.solved.point(direction), scene.mm(start), scene.mm(step.name)
     along = ((point - tail) / e).real
@@ -374,9 +374,9 @@ def plan_view(scene: Scene, plan: str) -> View:
     canvas, words = scene.canvas(), scene.words
     vectors, forces = scene.reading.on(plan), Plan(scene, plan)
     shown = forces.windows()
-    left = [edge for edge in vectors if not in_inset(scene, shown, scene.ends(edge))]
+    left = [edge for edge in vectors if not _in_inset(scene, shown, scene.ends(edge))]
     for step, number, start, direction in scene.reading.meetings(plan):
-        begin, point, end = construction_line(scene, step, start, direction)
+        begin, point, end = _construction_line(scene, step, start, direction)
         canvas.part(step.name, Line(begin, end, Pen.THIN, role="construction", name=f"{step.name}_{number}"))
         name_line(canvas, line_of(scene, direction), point, end)
     draw_sides(canvas, scene, plan, map(scene.ends, vectors))
@@ -394,7 +394,7 @@ def plan_view(scene: Scene, plan: str) -> View:
             short = words["said.zero" if length < 1e-6 else "said.short"]
             notes.append(short.format(vector=scene.letter(vector.quantity), mm=words.number(length, 2)))
     kin = [p for p in scene.solved.program.plans if role(p).kind == FORCES]  # a sheet has each numeral once
-    numeral = NUMERALS[details(Plan(scene, other) for other in kin[: kin.index(plan)])] if shown else ""
+    numeral = NUMERALS[_details(Plan(scene, other) for other in kin[: kin.index(plan)])] if shown else ""
     for window in shown:
         if symbols := dict.fromkeys(map(scene.letter, forces.read_in(window))):
             notes.append(words["said.inset"].format(vectors=", ".join(symbols), inset=numeral))
