@@ -384,7 +384,7 @@ def slip_in(text: str) -> _Slip | None:
     """Return the first place of a calculation where two sides are not equal; None where all are, or none is one.
 
     >>> slip_in("d = 75 · 0,93969 = 70,747675")
-    Slip(text='75 · 0,93969', makes=70.47675, written='70,747675')
+    _Slip(text='75 · 0,93969', makes=70.47675, written='70,747675')
     >>> slip_in("15 · 5/2 = 37,5") is None
     True
     """
