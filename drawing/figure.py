@@ -178,9 +178,10 @@ class Fitting(ABC, Generic[Subject, Scene]):
     def figures(self, scene: Scene, width: float) -> Iterable[Figure[Scene]]:
         """Go through the figures of a sheet in the order of the work; lines of text are at most `width` mm long."""
 
-    @abstractmethod
     def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
         """Return the scale factors of the plans as they are drawn."""
+        scene: Any = self.scene(sheet, rungs)
+        return {plan: scene.scale(plan) for plan in self.contents.solved.scale_of_plan}
 
     def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Place everything on one page; on the `last` format what may give way may be smaller where that helps."""
@@ -246,11 +247,15 @@ class Fitting(ABC, Generic[Subject, Scene]):
         """Take several pages in reading order, from these rungs on."""
         for first in (False, True):  # where nothing stands on the first page as it is, all becomes small enough for it
             rungs = self.enlarged(sheet, self.fitted(sheet, wanted, first), first)
-            views = self.views(sheet, rungs)
-            places = arrange([view.size for view in views], sheet, self.contents.norm)
-            if places is not None:
-                return rungs, views, places
+            if found := self.arranged(sheet, rungs):
+                return found
         raise InputError("sheet-too-small", format=sheet.name)
+
+    def arranged(self, sheet: Format, rungs: Rungs) -> Found | None:
+        """Place views on as many pages as they need."""
+        views = self.views(sheet, rungs)
+        places = arrange([view.size for view in views], sheet, self.contents.norm)
+        return None if places is None else (rungs, views, places)
 
     def fitted(self, sheet: Format, rungs: Rungs, first: bool = False) -> Rungs:
         """Return the first rungs, from these on, at which every view has room on a page of its own.

@@ -127,11 +127,6 @@ class CamFitting(Fitting[SolvedCam, CamScene]):
         if drawn:
             yield Figure("equations_scales", partial(text.scales_block, width=width), ("reduction",))
 
-    def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
-        """Return the scale factors of the plans as they are drawn."""
-        scene = self.scene(sheet, rungs)
-        return {plan: scene.scale(plan) for plan in self.contents.solved.scale_of_plan}
-
     def part(self, rungs: Rungs) -> float:
         """Return what a millimetre of the task's diagrams is on the sheet."""
         return REDUCTIONS[rungs["reduction"]]

@@ -13,7 +13,7 @@ from ...plans.gears.gear import GEOMETRY_PART, MESHING_PART, SLIDING_PART
 from ...plans.gears.solve import SolvedGear
 from ...scales.errors import InputError
 from ...scales.scale import Choosers, Fixed, From, Scale, steps
-from ..compose import arrange, last
+from ..compose import last
 from ..extents import Rungs, smallest, visible
 from ..figure import Figure, Fitting, Found, SheetContents
 from ..formats import FORMATS, STYLES, Format, room
@@ -117,11 +117,6 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
             for name in text.CALCULATED:
                 yield Figure(f"equations_{name}", partial(text.calculations_block, name=name, width=width))
 
-    def scales(self, sheet: Format, rungs: Rungs) -> dict[str, Scale]:
-        """Return the scale factors of the plans as they are drawn."""
-        scene = self.scene(sheet, rungs)
-        return {plan: scene.scale(plan) for plan in self.contents.solved.scale_of_plan}
-
     def on_a_page(self, sheet: Format, last: bool) -> Found | None:
         """Place everything on one page as large as wanted; on the `last` format it is tried with several pages."""
         return None if last else self.placed(sheet, self.wanted)
@@ -137,9 +132,9 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
             first[name] = next((k for k, mu in enumerate(self.ladders[name]) if length / mu < most), 0)
         first = self._as_wanted(self.fitted(sheet, self._as_wanted(first, sheet)), sheet)
         while True:
-            ways = [own for more in SMALLER if (own := self._in_order(usual, self._lowered(first, more)))]
+            ways = [own for more in SMALLER if (own := self.arranged(usual, self._lowered(first, more)))]
             rungs = min(ways, key=lambda found: last(found[2]))[0] if ways else first
-            if ways and (found := self._in_order(sheet, rungs)):
+            if ways and (found := self.arranged(sheet, rungs)):
                 return found
             if not self.has_next(first, "mu_l"):
                 raise InputError("sheet-too-small", format=sheet.name)
@@ -154,9 +149,3 @@ class GearFitting(Fitting[SolvedGear, GearScene]):
     def _lowered(self, rungs: Rungs, further: Mapping[str, int]) -> Rungs:
         """Return rungs so many steps further, as far as there are any."""
         return rungs | {name: min(rungs[name] + step, len(self.ladders[name]) - 1) for name, step in further.items()}
-
-    def _in_order(self, sheet: Format, rungs: Rungs) -> Found | None:
-        """Place views on as many pages as they need."""
-        views = self.views(sheet, rungs)
-        places = arrange([view.size for view in views], sheet, self.contents.norm)
-        return None if places is None else (rungs, views, places)

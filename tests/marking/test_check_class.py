@@ -72,7 +72,7 @@ class Stopped:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, at: int | None = None) -> None:
         self.at, self.names, self._mark = at, list[str](), checks._mark_one
-        monkeypatch.setattr(checks, "mark_one", self)
+        monkeypatch.setattr(checks, "_mark_one", self)
 
     def __call__(self, job: Job, desk: checks.Desk, number: int, one: Answers) -> Result:
         if number == self.at:
