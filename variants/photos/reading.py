@@ -345,7 +345,7 @@ def _read_sheets(photos: Sequence[Photo], blank: _Blank) -> Sheets:
     return Sheets(blank, tuple(pages), Drawn(both[:, 0], both[:, 1]), tuple(notes))
 
 
-def _read(photo: Photo, blank: Blank) -> tuple[Flat, list[Stroke]]:
+def _read(photo: Photo, blank: _Blank) -> tuple[Flat, list[Stroke]]:
     """Lay a page of a handout flat, and read the lines on it."""
     place = {"file": quote(photo.source, SHOWN), "page": photo.number}
     if photo.number > len(blank.pages) or (photo.code and ":".join(photo.code) != blank.codes[photo.number - 1]):
