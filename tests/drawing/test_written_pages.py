@@ -135,15 +135,16 @@ def test_runs_of_a_text_stand_where_its_layout_says_and_a_squeezed_text_keeps_it
     assert (a, b, c, d) == pytest.approx((0.5, 0, 0, 1), abs=1e-6)
 
 
-def test_letters_as_lines_are_squeezed_as_their_text_is() -> None:
-    def width(squeeze: float) -> float:
-        root = read(replace(page(Text(60 + 200j, "Затв.", 5.0, squeeze=squeeze)), lettering="strokes"))
-        xs = [
-            float(pair.partition(",")[0]) for line in root.iter(f"{SVG}polyline") for pair in line.get("points").split()
-        ]
-        return max(xs) - min(xs)
+def test_letters_as_lines_are_squeezed_and_turned_as_their_text_is() -> None:
+    def points(**how: float) -> list[complex]:
+        root = read(replace(page(Text(60 + 200j, "Затв.", 5.0, **how)), lettering="strokes"))
+        pairs = (pair for line in root.iter(f"{SVG}polyline") for pair in line.get("points").split())
+        return [up(*pair.split(",")) - (60 + 200j) for pair in pairs]
 
-    assert width(0.5) == pytest.approx(0.5 * width(1.0), abs=1e-4)
+    level = points()
+
+    assert points(angle=math.pi / 2) == pytest.approx([1j * at for at in level], abs=1e-5)
+    assert points(squeeze=0.5) == pytest.approx([complex(0.5 * at.real, at.imag) for at in level], abs=1e-5)
 
 
 def test_pens_are_of_two_widths_and_dashed_lines_start_and_end_with_a_dash() -> None:

@@ -16,7 +16,7 @@ from pypdfium2 import PdfDocument
 
 import kulman
 from kulman.drawing.page import Page, extent
-from kulman.drawing.shapes import Group, Head, Line, Text
+from kulman.drawing.shapes import Group, Text
 from kulman.drawing.words import Words
 from kulman.plans.board import POINTS
 from kulman.plans.hands.shaky import preset
@@ -26,7 +26,6 @@ from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.cases import as_drawn, mus, other_lengths, same_scales, some, vectors
 from kulman.tests.support.printed_numbers import decimal
 from kulman.tests.support.readback import read
-from kulman.tests.support.shapes import leaves
 from kulman.tests.support.task_files import task_of, with_changes
 from kulman.variants.case import Request
 from kulman.variants.marking.keyed import Rubric, keyed
@@ -395,14 +394,3 @@ def test_letters_of_a_pdf_can_be_selected_and_faces_of_an_svg_are_whole_fonts(
             font = TTFont(BytesIO(b64decode(face)), lazy=False, checkChecksums=2)
             font.ensureDecompiled()
             assert {"OS/2", "cmap", "glyf", "head", "hhea", "hmtx", "loca", "maxp", "name", "post"} <= {*font.keys()}
-
-
-@pytest.mark.parametrize("task", some(["karpenko-hoist", "madi-cam", "madi-gear"], 0))
-def test_axes_of_diagrams_run_to_the_tips_of_their_heads_which_point_along_them(task: str) -> None:
-    shapes = [shape for page in kulman.sheet(task).pages for shape in leaves(page.shapes)]
-    heads = {shape.tip: shape.direction for shape in shapes if isinstance(shape, Head)}
-    axes = [shape for shape in shapes if isinstance(shape, Line) and shape.role == "axis" and shape.b in heads]
-
-    turns = [heads[axis.b] / (axis.b - axis.a) for axis in axes]
-    assert len(turns) >= 4
-    assert all(abs(turn.imag) < 1e-9 < turn.real for turn in turns)
