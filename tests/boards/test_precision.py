@@ -21,7 +21,7 @@ from kulman import solve
 from kulman.plans.board import Program
 from kulman.plans.boards.exact import run
 from kulman.plans.boards.precision import DIGITS, batch_in, fifty_digits, run_in
-from kulman.plans.condition import _sizes_beside, conditions, derivatives
+from kulman.plans.condition import _Dual, _sizes_beside, conditions, derivatives, root
 from kulman.plans.laws import LAWS, TURN
 from kulman.plans.linkages.chain import construct
 from kulman.plans.linkages.limits import Reach, Swept, reach_of, swept
@@ -124,6 +124,12 @@ def test_slopes_are_of_the_degrees_of_mechanics_and_signs_do_not_err() -> None:
     assert by_speed == pytest.approx(abs(solved.values["V_B"]) / abs(solved.values["V_A"]), rel=1e-12)
     assert signs(solved.mechanism) & set(solved.givens) != set()
     assert signs(solved.mechanism).isdisjoint(names)
+
+
+def test_a_root_that_is_zero_has_infinite_slopes_or_none() -> None:
+    found = root(_Dual(0.0, np.array([0.0, 2.0])))
+
+    assert (found.value, *found.slopes) == (0.0, 0.0, math.inf)
 
 
 def test_worst_sine_behind_a_quantity_is_that_of_the_intersections_it_needs() -> None:

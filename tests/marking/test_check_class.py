@@ -24,6 +24,7 @@ from kulman.tests.support.answer_files import write
 from kulman.tests.support.marking_cases import answer, key, students
 from kulman.variants.marking import checks
 from kulman.variants.marking.checks import Job, _mark_class, slug
+from kulman.variants.marking.class_page import BAR, ClassPage
 from kulman.variants.marking.reading import Answers, Reply
 from kulman.variants.marking.result import Result, _Measured, _too_exact, measured, shared
 from kulman.variants.roster import Entry, Roster, Who
@@ -427,3 +428,14 @@ def test_who_has_answered_nothing_has_no_mark_and_who_copies_a_short_work_of_val
     assert lines["Student 5"] == "Student 5 – nothing handed in"
     assert ["the same millimetres" in lines[f"Student {n}"] for n in range(1, 5)] == [True, False, False, True]
     assert "students: 5, marked: 4" in out
+
+
+def test_a_bar_counts_the_marks_of_its_tenth(tmp_path: Path) -> None:
+    asked = check(TASK)
+    (one,) = marked(handed_in(tmp_path, 1))
+    lines = [replace(one, mark=mark) for mark in (0.0, 9.9, 10.0, 55.0, 95.0, 100.0)]
+
+    page = ClassPage(asked.request, asked.rubric, lines, lambda one: pytest.fail(one.source)).html()
+
+    bars = re.findall(r'<rect x="([\d.]+)".*?/><text[^>]*>(\d+)<', page)
+    assert [(int(float(x) // BAR), int(count)) for x, count in bars] == [(0, 2), (1, 1), (5, 1), (9, 2)]
