@@ -35,6 +35,10 @@ class Kept(Generic[Made]):
         self.most = most
         self._made: dict[Hashable, Made] = {}
 
+    def __contains__(self, key: Hashable) -> bool:
+        """Return whether something is kept under a key."""
+        return key in self._made
+
     def get(self, key: Hashable, make: Callable[[], Made]) -> Made:
         """Return what is kept under a key, or what `make` makes."""
         made = self._made.get(key)

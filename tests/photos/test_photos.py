@@ -470,6 +470,18 @@ def test_an_end_and_an_arrowhead_that_differ_tell_nothing() -> None:
     assert errors[1] > 5.0
 
 
+@pytest.mark.parametrize(("end", "head", "sure"), [(62, 62, False), (60, 60, True), (80, 60, True), (80, 80, True)])
+def test_a_crossing_is_not_sure_where_its_line_ends_in_an_arrowhead_beside_it(end: int, head: int, sure: bool) -> None:
+    pole, a, b = 20 + 20j, 60 + 20j, 60 + 45j
+    way = plan_of([0j, 40 + 0j, 40 + 25j], (0, 1), (1, 2))
+    pencil = pencil_of([(pole, end + 20j), (a, b)], [(pole, head + 20j), (a, b)])
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert abs(points[1] - a) < 0.3
+    assert bool(errors[1] < 0.5) is sure
+
+
 A, B, C = 20 + 20j, 80 + 20j, 60 + 45j
 NEARLY = B + 4j  # beside B, as a reaction and its normal part end
 ASLANT = B + 40 * np.exp(1j * np.radians(162))  # from there a line hides a wing of the arrowhead at B

@@ -231,6 +231,8 @@ class Desk:
         """
         from ..photos.reading import photographed
 
+        if (answers.photos, key) not in self._sheets:
+            self._sheets = Kept(1)  # those of another student are large, and go before these come
         found: tuple[Sheets, Seen] = self._sheets.get(
             (answers.photos, key), lambda: photographed(answers.photos, self.terms.request, key, self._blanks)
         )

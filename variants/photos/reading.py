@@ -282,10 +282,7 @@ def _own_sheets(photos: Sequence[Photo], keyed: Keyed) -> Sheets:
 
 def _dark(ink: Ink) -> NDArray[np.uint8]:
     """Return how dark the pencil is, 0 to 254, and where print hides it."""
-    soft = ink.soft * np.float32(254.0)
-    dark = np.clip(soft, 0.0, 254.0, out=soft).astype(np.uint8)
-    dark[ink.printed > 0] = HIDES
-    return dark
+    return np.where(ink.printed > 0, np.uint8(HIDES), ink.soft)
 
 
 def _recognised(sheets: Sheets, keyed: Keyed) -> Recognised:

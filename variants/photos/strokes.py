@@ -20,7 +20,7 @@ from .straight import PER_MM
 
 PAPER = 4.0  # mm, wider than any stroke: what is dark on this width is paper
 COARSE = 4  # times smaller, where the paper is looked for
-WHITE = 255  # what says of a pixel that it is hidden by print
+DARKEST, STEEP = 254, 420  # of a page that is kept as bytes: what 1 becomes, and where edges are looked for
 GROWN = 0.45  # mm by which print is grown before it is left out
 FAINT = 0.06  # darkness below which nothing is a line
 SEEN = 0.4  # of how dark a line is in the middle, what still is a part of it
@@ -65,7 +65,7 @@ class Stroke(NamedTuple):
 
 
 class Ink:
-    """How dark a straightened page is against its paper, 0 to 1; what is printed is left out."""
+    """How dark a straightened page is against its paper, `DARKEST` at the most; what is printed is left out."""
 
     def __init__(self, page: NDArray[np.uint8], printed: NDArray[np.bool_]) -> None:
         """Measure a page, `PER_MM` pixels per mm; `printed` is what is left out of it, as large."""
@@ -81,34 +81,38 @@ class Ink:
         np.maximum(np.subtract(1.0, dark, out=dark), 0.0, out=dark)
         dark -= np.float32(np.median(dark[::8, ::8]))
         grown = round(2 * GROWN * PER_MM) | 1
-        self.printed = cv2.dilate(np.where(printed, WHITE, 0).astype(np.uint8), np.ones((grown, grown), np.uint8))
-        self.dark = np.clip(dark, 0.0, 1.0, out=dark)
-        self.dark[self.printed > 0] = 0.0
-        self.soft = cv2.GaussianBlur(self.dark, (0, 0), 1.0)
+        self.printed = cv2.dilate(np.where(printed, DARKEST, 0).astype(np.uint8), np.ones((grown, grown), np.uint8))
+        np.clip(dark, 0.0, 1.0, out=dark)
+        dark[self.printed > 0] = 0.0
+        soft = cv2.GaussianBlur(dark, (0, 0), 1.0)
+        self.dark, self.soft, self.edges = (_bytes(dark, DARKEST), _bytes(soft, DARKEST), _bytes(soft, STEEP))
         self.height = rows / PER_MM
 
-    def sampled(self, layer: Any, places: NDArray[Any]) -> Floats:
-        """Return a layer at places of the page, mm."""
+    def sampled(self, layer: NDArray[np.uint8], places: NDArray[Any]) -> Floats:
+        """Return a layer, where `DARKEST` is 1, at places of the page, mm."""
         import cv2
 
         x = (places.real * PER_MM - 0.5).astype(np.float32)
         y = ((self.height - places.imag) * PER_MM - 0.5).astype(np.float32)
         found = cv2.remap(layer, x, y, cv2.INTER_LINEAR, borderValue=0)
-        return np.asarray(found, float).reshape(places.shape)
+        return np.asarray(found, float).reshape(places.shape) / DARKEST
 
     def segments(self) -> tuple[Complex, Complex]:
         """Return where edges of lines may be, mm: both ends of each."""
         import cv2
 
-        bright = self.soft * np.float32(420.0)
-        picture = np.clip(bright, 0.0, 255.0, out=bright).astype(np.uint8)
-        found = cv2.createLineSegmentDetector(cv2.LSD_REFINE_STD, scale=0.6).detect(picture)[0]
+        found = cv2.createLineSegmentDetector(cv2.LSD_REFINE_STD, scale=0.6).detect(self.edges)[0]
         if found is None:
             return np.zeros(0, complex), np.zeros(0, complex)
         x0, y0, x1, y1 = ((found.reshape(-1, 4).T + 0.5) / PER_MM).astype(float)
         ends = x0 + 1j * (self.height - y0), x1 + 1j * (self.height - y1)
         long = np.abs(ends[1] - ends[0]) >= SMALL
         return ends[0][long], ends[1][long]
+
+
+def _bytes(layer: NDArray[np.float32], times: int) -> NDArray[np.uint8]:
+    """Return a layer of a page in a quarter of its memory."""
+    return np.minimum(layer * np.float32(times), np.float32(255.0)).astype(np.uint8)
 
 
 def strokes(ink: Ink, poles: Sequence[complex] = ()) -> list[Stroke]:
@@ -210,7 +214,7 @@ def _covered(ink: Ink, start: complex, stop: complex, dark: float) -> list[tuple
     along = np.arange(-2 * GAP, size + 2 * GAP, 1.0 / PER_MM)
     places = start + along * unit
     near = np.max([ink.sampled(ink.soft, places + 1j * unit * off) for off in (-0.12, 0.0, 0.12)], axis=0)
-    hidden = ink.sampled(ink.printed, places) > WHITE // 2
+    hidden = ink.sampled(ink.printed, places) > 0.5
     on = near > max(FAINT, SEEN * dark)
     found: list[tuple[complex, complex, float]] = []
     at = np.flatnonzero(on)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -41,6 +42,7 @@ TOUCHED, BESIDE, FEWEST = 0.95, 0.5, 5  # cosine, mm from which others may have 
 POLE, ENDING, POINTING = 0.15, 0.35, 0.3  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
 NEAR = 1.0  # mm that a point may be from where it should be, as far as nothing tells
 LIKELY = 2.5  # errors between a crossing and an end that is that of the point
+BESIDES = 1.4  # mm between a point and where the end of a line with its arrowhead has it
 ALIKE = 0.8  # mm within which ends and arrowheads are those of one point
 FLAT, TOLD = 0.6, 1.5  # mm, error of a crossing that ends must tell; from which a single end does not
 TIE = 0.1, 0.35  # mm, error of a short vector; part of it
@@ -114,8 +116,23 @@ def traced(
             for tail, tip in zip(*ends, strict=True)
         ]
         found = {n: line for n, line in enumerate(lines) if line is not None and sizes[n] >= SHORTEST}
-        points, errors = _solved(way, wanted, points, found, _spots(pencil, way, points, found), pole)
+        spots = _spots(pencil, way, points, found)
+        points, errors = _solved(way, wanted, points, found, spots, pole)
+    for mark, some in spots.items():
+        if _contradicted(some, complex(points[mark])):
+            errors[mark] = LOST
     return points, np.where(np.abs(points - wanted) > FAR, LOST, errors), found
+
+
+def _contradicted(spots: list[Spot], point: complex) -> bool:
+    """Whether a line ends, and its arrowhead points, clearly beside where a point has been found."""
+    ends = [(s.unit, s.place) for s in spots if not s.arrow]
+    heads = [(s.unit, s.place) for s in spots if s.arrow]
+    return any(
+        abs(dot(unit, end - head)) < ALIKE and abs(dot(unit, (end + head) / 2.0 - point)) > BESIDES
+        for (unit, end), (of, head) in product(ends, heads)
+        if unit == of
+    )
 
 
 def between(way: Way, mark: int) -> NDArray[np.bool_]:
