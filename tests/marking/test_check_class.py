@@ -302,6 +302,23 @@ def test_the_form_of_a_class_has_its_students_and_reports_their_names(
         assert slug(name) == stem
 
 
+@pytest.mark.parametrize(("language", "head"), [("en", "l_CA, segment, mm"), ("uk", "l_CA, відрізок, мм")])
+def test_a_segment_of_a_length_stands_under_words(tmp_path: Path, language: str, head: str) -> None:
+    roster = write(tmp_path, [["student", "variant"], ["A", "2"]], name="roster")
+    form = check("scheme-09-shaper", only="velocity", roster=roster, lang=language).write_form(tmp_path / "form.csv")
+    names, row = csv.reader(
+        form.read_text(encoding="utf-8-sig").splitlines(), delimiter="," if language == "en" else ";"
+    )
+
+    at = names.index(head)
+    filled = [*row, *[""] * (len(names) - len(row))]
+    filled[at : at + 2] = "41,5", "0,083"
+    (answers,) = check("scheme-09-shaper").read(str(write(tmp_path, [names, filled])))
+
+    assert (answers.lines["l_CA"].mm, answers.lines["l_CA"].value, answers.problems) == (41.5, 0.083, ())
+    assert not [name for name in names if "." in name]
+
+
 def test_a_class_is_told_who_is_missing_and_where_notes_are(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     roster = write(tmp_path, [["student", "variant"], ["Student 01", "3"], ["Student 02", "4"]], name="roster")
     rows = [["student", "V_B", "omega_2", "a_B", "V_A", "V_Q"], ["Student 02"], ["Student 01", "5,6", "-15,7", "", "x"]]

@@ -296,6 +296,7 @@ def class_header(keyed: Keyed, directions: bool, only: Collection[str] = ()) -> 
     """
     words, paper = keyed.words, keyed.asked.display.paper
     said = texts(words.language)
+    segment = said["column.mm"].partition(" ")[0] + " "  # the word before its unit
     columns = [said[f"about.{key}"] for key in ("student", "group", "book", "number", "variant", "sheet")]
     for part in keyed.parts:
         asked = [question for question in part.asked if not only or question.name in only]
@@ -305,7 +306,7 @@ def class_header(keyed: Keyed, directions: bool, only: Collection[str] = ()) -> 
             name, unit = _shown(question.name), words.spelled(keyed.asked.unit(question.name))
             length = keyed.asked.quantities[question.name].unit == "m"  # of which mm alone would be the value
             heads = {
-                "mm": f"{name}.mm" if length else f"{name}, {words.spelled(paper)}",
+                "mm": f"{name}, {segment if length else ''}{words.spelled(paper)}",
                 "value": f"{name}, {unit}" if unit else name,
                 "direction": f"{name}, {said['class.direction']}",
             }

@@ -242,6 +242,8 @@ def quantity_part(text: str) -> tuple[str, str, str] | None:
 
     >>> quantity_part("V_B.mm"), quantity_part("ω_2, рад/с"), quantity_part("V_B, напрям"), quantity_part("прізвище")
     (('V_B', 'mm', ''), ('omega_2', '', 'рад/с'), ('V_B', 'dir', ''), None)
+    >>> quantity_part("l_CA, відрізок, мм"), quantity_part("l_CA, мм")
+    (('l_CA', 'mm', 'мм'), ('l_CA', '', 'мм'))
     """
     head, unit = split_unit(text)
     found = _QUANTITY.fullmatch(latin(head).translate(_LETTERS))
@@ -249,6 +251,9 @@ def quantity_part(text: str) -> tuple[str, str, str] | None:
         return None
     if not found["part"] and column_kind(unit) == "direction":
         return found["name"], "dir", ""
+    word, of_paper = split_unit(unit)
+    if not found["part"] and of_paper and column_kind(word) == "mm":
+        return found["name"], "mm", of_paper
     return found["name"], found["part"] or "", unit
 
 
