@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...scales.names import latin
-from .lines import Complex, Drawn, Floats, Indices, Lines
+from .lines import WAYS, Complex, Drawn, Floats, Indices, Lines, length_of
 from .ways import Shape
 
 SHORT = 1.5  # mm below which a vector shows nothing
@@ -28,11 +28,13 @@ DEGREES = 0.4  # by which lines may miss their direction besides
 NEAR = 0.8  # mm from where a point should be to where it is, once the plan lies where it fits best
 WIDEST = 4.0  # degrees by which lines are sought
 LAID, FEW = 2, 4  # vectors by which a plan is laid; of so many those that few lines may be
+CROWD = 3000  # lines that a vector may be by which no plan is laid that others tell
 MANY = 200  # places of a plan, the best ones, of which those that differ are sought
 KEPT, CLOSE = 12, 1.5  # of which so many are looked at closely, worth no less than the best by more than so much
 PROMISING, AT_ONCE = 1500, 500  # ways to lay a plan that are looked at, the most promising ones first; at once
-MANY_SHAPES = 20  # shapes of which so many ways are looked at
-SMALL = 1e-9  # of a plan of which nothing can be seen
+BLOCK = 30_000  # ways to lay a plan of which it is found out at once what they may be worth
+MANY_SHAPES = 7  # shapes of which so many ways are looked at
+SMALL = 1e-99  # of a plan of which nothing can be seen
 UNSEEN = 0.15  # part of a plan by which lines that go out may tell less of it than there is
 SURELY = 7.0  # mm from which a vector surely has a direction
 ABSENT = 0.5  # what a vector that is not there costs, of what one is worth that is
@@ -204,17 +206,16 @@ class Laying:
             return []
         stack = _Stack(shapes)
         rows, origins, factors, most = self._ways(stack, turn, part, least, usually)
-        order = np.argsort(-most, kind="stable")[: PROMISING * min(len(shapes), MANY_SHAPES)]
-        rows, origins, factors, most = rows[order], origins[order], factors[order], most[order]
-        nodes, done = np.zeros((len(order), stack.places.shape[1]), np.intp), 0
-        worth, parts = np.zeros(len(order)), np.zeros(len(order))
-        while done < len(order) and most[done] >= least:
+        nodes, done = np.zeros((len(most), stack.places.shape[1]), np.intp), 0
+        worth, parts = np.zeros(len(most)), np.zeros(len(most))
+        while done < len(most) and most[done] >= least:
             some = slice(done, done + AT_ONCE)
             nodes[some] = self.lines.near(origins[some, None] + factors[some, None] * stack.places[rows[some]])
             worth[some], parts[some] = self._worth(stack, rows[some], nodes[some], np.abs(factors[some]))
-            done = min(done + AT_ONCE, len(order))
+            done = min(done + AT_ONCE, len(most))
             least = max(least, worth[:done].max() - within)
-        found = [np.flatnonzero(rows[:done] == row) for row in range(len(shapes))]
+        rows = np.where(parts[:done] >= part - UNSEEN, rows[:done], -1)
+        found = [np.flatnonzero(rows == row) for row in range(len(shapes))]
         return [
             _Laid(origins[own], factors[own], nodes[own, : len(shape.marks)], worth[own], parts[own])
             for shape, own in zip(shapes, found, strict=True)
@@ -234,19 +235,16 @@ class Laying:
 
     def closest(self, shape: Shape, laid: _Laid, part: float = 0.0) -> Fit | None:
         """Return the best of the ways in which a shape is laid, looked at closely; of which a part may be there."""
-        best, seen, worth = None, set[bytes](), laid.worth
-        for at in np.argsort(-worth, kind="stable")[:MANY]:
-            if worth[at] < laid.most - CLOSE or len(seen) == KEPT:
+        looks, worth = dict[bytes, int](), laid.worth
+        for at in np.argsort(-worth, kind="stable")[:MANY].tolist():
+            if worth[at] < laid.most - CLOSE or len(looks) == KEPT:
                 break
             nodes = laid.nodes[at]
-            if laid.parts[at] < part - UNSEEN:
-                continue
-            if (look := np.where(nodes < 0, nodes, self.lines.hubs[nodes]).tobytes()) not in seen:
-                seen.add(look)
-                fit = self._settled(shape, complex(laid.origins[at]), complex(laid.factors[at]))
-                if best is None or fit.worth > best.worth:
-                    best = fit
-        return best
+            if laid.parts[at] >= part - UNSEEN:
+                looks.setdefault(np.where(nodes < 0, nodes, self.lines.hubs[nodes]).tobytes(), at)
+        some = [*looks.values()]
+        fits = self._settled(shape, laid.origins[some], laid.factors[some])
+        return max(fits, key=lambda fit: fit.worth, default=None)
 
     def _ways(
         self, stack: _Stack, turn: float, part: float, least: float, usually: bool
@@ -254,11 +252,44 @@ class Laying:
         """Return ways to lay shapes so that one of their long vectors lies on a line; few by those that say most.
 
         Their rows in the stack, origins, factors, and what each may be worth at the most, which is `least` at the
-        least.
+        least: the most promising ones first, and no more than are looked at.
         """
+        rows, ats, angles, (begin, end) = self._generators(stack, turn, usually)
+        sizes, counts, expected = stack.sizes[rows, ats], (end - begin).sum(axis=1), self.expected(stack.plan)
+        found = [(np.zeros(0, np.intp), np.zeros(0, np.intp), np.zeros(0))]
+        for some in np.split(np.arange(len(rows)), np.flatnonzero(np.diff(np.cumsum(counts) // BLOCK)) + 1):
+            own, pairs = self.lines.within((begin[some], end[some]))
+            drawn, of = self.lines.sizes[pairs], some[own]
+            off = np.abs(self.lines.angles[pairs] - angles[of])
+            good = np.minimum(off, math.tau - off) < math.radians(DEGREES) + ASTRAY / drawn
+            if expected and not usually and stack.plan not in self.given:
+                off = np.abs(drawn * (expected / sizes)[of] - 1.0)
+                longest = drawn * (stack.longest[rows] / sizes)[of]
+                good &= (longest > LEAST) | (off * drawn < SAME_MU * drawn + ASTRAY)
+            own, pairs = own[good], pairs[good]
+            likely, most = self._at_most(stack, turn, (rows[some], ats[some]), own, pairs, part, least)
+            found.append((some[own[likely]], pairs[likely], most))
+        own, pairs, most = (np.concatenate(side) for side in zip(*found, strict=True))
+        count = PROMISING * min(len(stack.flat), MANY_SHAPES)
+        promise = most - stack.weights.sum(axis=1)[rows[own]]  # of large shapes and small ones alike
+        if len(most) > count:
+            likely = np.flatnonzero(promise >= np.partition(promise, -count)[-count])
+            likely = likely[np.argsort(-promise[likely], kind="stable")[:count]]
+            own, pairs, most = own[likely], pairs[likely], most[likely]
+        order = np.argsort(-most, kind="stable")
+        own, pairs, rows, ats = own[order], pairs[order], rows[own[order]], ats[own[order]]
+        factors = cmath.rect(1.0, turn) * (self.lines.sizes[pairs] / sizes[own])
+        marks = stack.places[rows, stack.tails[rows, ats]] + stack.places[rows, stack.tips[rows, ats]]
+        nodes = self.lines.nodes[self.lines.first[pairs]] + self.lines.nodes[self.lines.second[pairs]]
+        return rows, np.asarray((nodes - factors * marks) / 2.0), np.asarray(factors), most[order]
+
+    def _generators(
+        self, stack: _Stack, turn: float, usually: bool
+    ) -> tuple[Indices, Indices, Floats, tuple[Indices, Indices]]:
+        """Return the lines by which to lay shapes: rows of a stack and places there; directions, ranges of pairs."""
         given, expected = self.given.get(stack.plan), self.expected(stack.plan)
         rows, ats = np.nonzero(stack.sizes >= GENERATOR * stack.longest[:, None])
-        sizes, angles = stack.sizes[rows, ats], stack.angles[rows, ats] + turn
+        sizes, angles = stack.sizes[rows, ats], (stack.angles[rows, ats] + turn) % math.tau
         per_mm = sizes / stack.longest[rows]
         low, high = np.full(len(rows), -1.0), np.full(len(rows), -1.0)
         if expected:  # a vector of its usual size
@@ -269,28 +300,13 @@ class Laying:
             high = np.where(free, LARGEST * per_mm, high)
             low = np.where(free, np.minimum(np.where(low > 0.0, low, np.inf), LEAST * per_mm), low)
         within = np.minimum(math.radians(DEGREES) + ASTRAY / np.maximum(low, ASTRAY), math.radians(WIDEST))
-        found = self.lines.ranges(angles, within, low, high)
-        counts = (found[1] - found[0]).sum(axis=1)
+        begin, end = self.lines.ranges(angles, within, low, high)
+        counts = (end - begin).sum(axis=1)
         some = np.flatnonzero(counts)
         some = some[np.lexsort((counts[some], rows[some]))]
         place = np.arange(len(some)) - np.searchsorted(rows[some], rows[some])
-        some = some[place < (FEW if usually else LAID)]
-        own, pairs = self.lines.within((found[0][some], found[1][some]))
-        own = some[own]
-        drawn = self.lines.sizes[pairs]
-        if given is None and not usually and expected:
-            per = drawn * (expected / sizes[own])
-            good = (drawn > LEAST * per_mm[own]) | (np.abs(per - 1.0) * drawn < SAME_MU * drawn + ASTRAY)
-            own, pairs, drawn = own[good], pairs[good], drawn[good]
-        off = np.abs((self.lines.angles[pairs] - angles[own] + math.pi) % math.tau - math.pi)
-        good = off < math.radians(DEGREES) + ASTRAY / drawn
-        own, pairs = own[good], pairs[good]
-        good, most = self._at_most(stack, turn, (rows, ats), own, pairs, part, least)
-        own, pairs, rows, ats = own[good], pairs[good], rows[own[good]], ats[own[good]]
-        factors = cmath.rect(1.0, turn) * (self.lines.sizes[pairs] / sizes[own])
-        marks = stack.places[rows, stack.tails[rows, ats]] + stack.places[rows, stack.tips[rows, ats]]
-        nodes = self.lines.nodes[self.lines.first[pairs]] + self.lines.nodes[self.lines.second[pairs]]
-        return rows, np.asarray((nodes - factors * marks) / 2.0), np.asarray(factors), most
+        some = some[(place < (FEW if usually else LAID)) & ((place == 0) | (counts[some] < CROWD))]
+        return rows[some], ats[some], angles[some], (begin[some], end[some])
 
     def _at_most(
         self,
@@ -305,37 +321,36 @@ class Laying:
         """Return which ways may be worth `least`, and have such a `part`, and what each may be worth at the most.
 
         They lay a shape, the row of a stack, by one of its lines, both as given by generators, on a pair of nodes: what
-        does not go out there is not there.
+        does not go out there is not there. The numbers of their generators ascend.
         """
-        (rows, ats), lines = generators, self.lines
-        tail, tip = stack.tails[rows, ats], stack.tips[rows, ats]
-        per_unit = lines.sizes[pairs] / stack.sizes[rows, ats][own]
-        usual, lacks = self._as_usual(stack.plan, per_unit), np.zeros(len(own))
-        all_of = stack.weights.sum(axis=1)[rows]
-        good = np.arange(len(own))
-
-        def may(whole: Floats) -> Indices:
-            worth = usual[good] + whole - (1.0 + ABSENT) * lacks[good]
-            return np.flatnonzero((worth >= least) & (lacks[good] <= (1.0 - part + UNSEEN) * whole))
-
-        good = good[may(all_of[own])]
-        for line in range(stack.sizes.shape[1]):
-            size, weight = stack.sizes[rows, line], stack.weights[rows, line]
-            for marks, away in ((stack.tails, turn), (stack.tips, turn + math.pi)):
-                at_tip = marks[rows, line] == tip
-                meets = (at_tip | (marks[rows, line] == tail)) & (ats != line) & (weight > 0.0)
-                if meets.any():
-                    here = good[meets[own[good]]]
-                    here = here[size[own[here]] * per_unit[here] > SURELY]
-                    end = np.where(at_tip[own[here]], lines.second[pairs[here]], lines.first[pairs[here]])
-                    gone = here[~lines.goes_out(end, (stack.angles[rows, line] + away)[own[here]])]
-                    lacks[gone] += weight[own[gone]]
-                    good = good[may(all_of[own[good]])]
-        shown = stack.sizes[rows[own[good]]] * per_unit[good, None] >= SHORT
-        whole = (stack.weights[rows[own[good]]] * shown).sum(axis=1)
-        some = may(whole)
-        good, whole = good[some], whole[some]
-        return good, usual[good] + whole - (1.0 + ABSENT) * lacks[good]
+        rows, ats = generators
+        each, counts = np.arange(len(rows)), np.bincount(own, minlength=len(rows))
+        sizes, weights = stack.sizes[rows] / stack.sizes[rows, ats][:, None], stack.weights[rows]
+        drawn = self.lines.sizes[pairs]
+        usual = self._as_usual(stack.plan, drawn / np.repeat(stack.sizes[rows, ats], counts))
+        whole, lacks = np.repeat(weights.sum(axis=1), counts), np.zeros(len(own))
+        for line in np.argsort(sizes, axis=1).T:
+            if not len(drawn) or sizes[each, line].min() * drawn.min() >= SHORT:
+                break
+            shown = drawn * np.repeat(sizes[each, line], counts) >= SHORT
+            whole -= np.where(shown, 0.0, np.repeat(weights[each, line], counts))
+        sizes, weights = np.tile(sizes, 2), np.tile(weights, 2)
+        angles = np.concatenate((stack.angles[rows] + turn, stack.angles[rows] + turn + math.pi), axis=1)
+        ways = (np.floor(angles * (WAYS / math.tau)) % WAYS).astype(np.intp)
+        marks = np.concatenate((stack.tails[rows], stack.tips[rows]), axis=1)
+        others = (np.arange(len(weights.T)) % len(stack.sizes.T) != ats[:, None]) & (weights > 0.0)
+        log_drawn, log_sizes = np.log(drawn), np.log(np.maximum(sizes, SMALL))
+        ends = stack.tails[rows, ats], stack.tips[rows, ats]
+        for end, side in zip(ends, (self.lines.first, self.lines.second), strict=True):
+            meets, hubs = others & (marks == end[:, None]), self.lines.hubs[side[pairs]] * WAYS
+            for line in np.argsort(~meets, axis=1, kind="stable").T[: meets.sum(axis=1).max(initial=0)]:
+                logarithms = log_drawn + np.repeat(log_sizes[each, line], counts)
+                lengths = self.lines.outward[hubs + np.repeat(ways[each, line], counts)]
+                gone = (lengths >> length_of(logarithms) & 1 == 0) & (logarithms > math.log(SURELY))
+                lacks += gone * np.repeat(np.where(meets, weights, 0.0)[each, line], counts)
+        most = usual + whole - (1.0 + ABSENT) * lacks
+        good = np.flatnonzero((most >= least) & (lacks <= (1.0 - part + UNSEEN) * whole))
+        return good, most[good]
 
     def _as_usual(self, plan: str, per_unit: Floats) -> Floats:
         """Return what it is worth that plans are drawn to their usual scale, by mm per unit."""
@@ -344,41 +359,40 @@ class Laying:
             return np.zeros(len(per_unit))
         return USUAL * np.maximum(0.0, 1.0 - (np.abs(per_unit * expected - 1.0) / SAME_MU) ** 2)
 
-    def _settled(self, shape: Shape, origin: complex, factor: complex) -> Fit:
-        """Return a fit, moved to where it fits best: the squares of what its points miss are least."""
-        square, sizes = factor / abs(factor), np.abs(shape.spans)
+    def _settled(self, shape: Shape, origins: Complex, factors: Complex) -> Iterator[Fit]:
+        """Go through fits, moved to where they fit best: the squares of what their points miss are least."""
+        squares, sizes = factors / np.abs(factors), np.abs(shape.spans)
         tails, tips = shape.tails[shape.lines], shape.tips[shape.lines]
+        ends_of = (tails[:, None] == np.arange(len(shape.marks))) | (tips[:, None] == np.arange(len(shape.marks)))
         for _ in range(3):
-            nodes = self._nodes(origin + factor * shape.places)
-            there = self.lines.joined(nodes[tails], nodes[tips])
-            weights, usual = np.where(sizes * abs(factor) < SHORT, 0.0, shape.weights), abs(factor)
-            ends = np.zeros(len(shape.marks), bool)
-            ends[tails[there]] = ends[tips[there]] = True
-            if ends.sum() < 2:
-                break
-            at, drawn = shape.places[ends], self.lines.nodes[nodes[ends]]
-            about, middle = at - at.mean(), drawn - drawn.mean()
-            found = complex((middle * about.conj()).sum() / (np.abs(about) ** 2).sum())
-            if not found or abs(cmath.phase(found / factor)) > SKEW:
-                break
-            factor, origin = found, complex(drawn.mean() - found * at.mean())
-        for line in np.flatnonzero(~there & (weights > 0.0) & (nodes[tails] >= 0) & (nodes[tips] >= 0)).tolist():
-            one, other = nodes[tails[line]], nodes[tips[line]]
-            there[line] = one != other and self.lines.covers(self.lines.nodes[one], self.lines.nodes[other])
-        worth = float(np.where(there, weights, -ABSENT * weights).sum())
-        worth += float(self._as_usual(shape.plan, np.array([usual]))[0])
-        senses, letters = self._senses(shape, nodes) * there, self._lettered(shape, nodes)
-        fit = Fit(shape, origin, factor, nodes, there, worth, weights, senses, letters)
-        again = sum(
-            AGAIN * weight
-            for pair, weight in zip(fit.pairs, fit.weights[there].tolist(), strict=True)
-            if self.used and self._hubs(pair) in self.used
-        )
-        one, other = np.array([pair for pair in fit.pairs if pair[0] != pair[1]], np.intp).reshape(-1, 2).T
-        on = self.lines.go_on(np.concatenate((one, other)), np.concatenate((other, one)))
-        free = 1.0 - float(on.mean()) if len(on) else 0.0
-        skew = min(1.0, (cmath.phase(fit.factor / square) / ASKEW) ** 2)
-        return replace(fit, worth=fit.worth - again + fit.told + FREE * (free - skew))
+            nodes, usual = self._nodes(origins[:, None] + factors[:, None] * shape.places), np.abs(factors)
+            there = self.lines.joined(nodes[:, tails], nodes[:, tips])
+            ends = (there[:, :, None] & ends_of).any(axis=1)
+            count = np.maximum(ends.sum(axis=1, keepdims=True), 1)
+            drawn = np.where(ends, self.lines.nodes[nodes], 0.0)
+            about, middle = (x.sum(axis=1, keepdims=True) / count for x in (ends * shape.places, drawn))
+            off = ends * (shape.places - about)
+            found = ((drawn - middle) * off.conj()).sum(axis=1) / np.maximum((np.abs(off) ** 2).sum(axis=1), SMALL)
+            moved = (found != 0.0) & (np.abs(np.angle(found / factors)) <= SKEW)
+            origins = np.where(moved, (middle - found[:, None] * about)[:, 0], origins)
+            factors = np.where(moved, found, factors)
+        weights = np.where(sizes * usual[:, None] < SHORT, 0.0, shape.weights)
+        one, other = nodes[:, tails], nodes[:, tips]
+        for way, line in np.argwhere(~there & (weights > 0.0) & (one >= 0) & (other >= 0) & (one != other)).tolist():
+            start, stop = self.lines.nodes[[one[way, line], other[way, line]]].tolist()
+            there[way, line] = self.lines.covers(start, stop)
+        worth = np.where(there, weights, -ABSENT * weights).sum(axis=1) + self._as_usual(shape.plan, usual)
+        for at, square in enumerate(squares.tolist()):
+            senses, letters = self._senses(shape, nodes[at]) * there[at], self._lettered(shape, nodes[at])
+            place = complex(origins[at]), complex(factors[at])
+            fit = Fit(shape, *place, nodes[at], there[at], float(worth[at]), weights[at], senses, letters)
+            drawn_by = zip(fit.pairs, fit.weights[fit.there].tolist(), strict=True)
+            again = AGAIN * sum(weight for pair, weight in drawn_by if self.used and self._hubs(pair) in self.used)
+            pairs = np.array([pair for pair in fit.pairs if pair[0] != pair[1]], np.intp).reshape(-1, 2)
+            on = self.lines.go_on(pairs.T.ravel(), pairs[:, ::-1].T.ravel())
+            free = 1.0 - float(on.mean()) if len(on) else 0.0
+            skew = min(1.0, (cmath.phase(fit.factor / square) / ASKEW) ** 2)
+            yield replace(fit, worth=fit.worth - again + fit.told + FREE * (free - skew))
 
     def _senses(self, shape: Shape, nodes: Indices) -> Floats:
         """Return for each line of a shape laid on nodes whether arrowheads on it point as they should: 1, -1 or 0."""

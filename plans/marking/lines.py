@@ -29,7 +29,7 @@ FLAT = 0.05  # sine of two lines that cross too flatly to make a node
 MANY = 48  # nodes on one line, of which all pairs are looked at; of one with more those nearest to each other
 AT_ONCE = 1000  # lines about which others are looked for
 CELL = 0.5  # mm, side of the squares in which nodes are looked up
-WAYS = 64  # directions of lines that are told apart where they go out
+WAYS, LENGTHS, LONGEST = 64, 32, 1500.0  # of lines that go out: directions, and lengths up to mm that are told apart
 BINS, FAR = 1440, 10_000.0  # directions of lines by which they are looked up; mm, beyond all sizes
 REACH = 3  # squares around a node from which it is found
 SQUARES = 16_000_000  # the most squares
@@ -68,7 +68,8 @@ class Lines:
 
     nodes   places, complex of shape (N,); the first `ends` of them are ends of segments, the others crossings
     first, second   indices of the nodes of each pair that a line joins, in both orders, of shape (P,)
-    angles  directions from first to second, radians from 0 to 2 pi, ascending, of shape (P,)
+    places  where they are found, ascending: by direction, of which `BINS` are told apart, and then by size
+    angles  directions from first to second, radians from 0 to 2 pi, of shape (P,)
     sizes   their distances, of shape (P,)
     codes   first * N + second, ascending: to be searched
     hubs    number of the hub of each node, of shape (N,): nodes that may be taken for one another are one hub
@@ -81,6 +82,7 @@ class Lines:
     ends: int
     first: Indices
     second: Indices
+    places: Floats
     angles: Floats
     sizes: Floats
     codes: Indices
@@ -93,12 +95,11 @@ class Lines:
 
     def near(self, places: Complex) -> Indices:
         """Return for each place the index of the nearest node within about 1.5 mm, or -1."""
-        at = (places - self.corner) / CELL
-        across, up = np.floor(at.real).astype(np.intp), np.floor(at.imag).astype(np.intp)
         rows, columns = self.squares.shape
+        across = np.floor((places.real - self.corner.real) / CELL).astype(np.intp)
+        up = np.floor((places.imag - self.corner.imag) / CELL).astype(np.intp)
         inside = (across >= 0) & (up >= 0) & (across < columns) & (up < rows)
-        found = self.squares[np.where(inside, up, 0), np.where(inside, across, 0)]
-        return np.where(inside, found, -1).astype(np.intp)
+        return np.where(inside, self.squares.ravel().take(up * columns + across, mode="clip"), -1).astype(np.intp)
 
     def joined(self, first: Indices, second: Indices, loosely: bool = False) -> NDArray[np.bool_]:
         """Return which pairs of nodes a line joins; -1 stands for no node. Loosely: nodes beside them count as well."""
@@ -113,22 +114,22 @@ class Lines:
         return both
 
     @cached_property
-    def outward(self) -> NDArray[np.bool_]:
-        """Whether a line goes out from each hub about each of `WAYS` directions, of shape (directions, hubs)."""
-        found = np.zeros((WAYS, int(self.hubs.max(initial=-1)) + 1), bool)
+    def outward(self) -> NDArray[np.uint32]:
+        """How long lines are that go out from each hub in about each of `WAYS` directions: bits by `length_of`.
+
+        Of shape (hubs * WAYS,).
+        """
+        found = np.zeros((int(self.hubs.max(initial=-1)) + 1) * WAYS, np.uint32)
         long = self.sizes > SEED
-        hubs, angles = self.hubs[self.first[long]], self.angles[long]
-        off = TILT + 2.0 * CLOSE / self.sizes[long]
+        hubs, angles, sizes = self.hubs[self.first[long]], self.angles[long], self.sizes[long]
+        off = TILT + 2.0 * CLOSE / sizes
         low, high = (np.floor((angles + side) * (WAYS / math.tau)).astype(np.intp) for side in (-off, off))
+        least, most = (length_of(np.log(sizes * (1.0 + side))) for side in (-off, off))
+        bits = ((2 << most) - (1 << least)).astype(np.uint32)
         for step in range(int((high - low).max(initial=-1)) + 1):
             here = low + step <= high
-            found[(low + step)[here] % WAYS, hubs[here]] = True
+            np.bitwise_or.at(found, hubs[here] * WAYS + (low + step)[here] % WAYS, bits[here])
         return found
-
-    def goes_out(self, nodes: Indices, angles: Floats) -> NDArray[np.bool_]:
-        """Return from which nodes a line of some length goes out about directions, radians, one for each."""
-        ways = np.floor(angles * (WAYS / math.tau)).astype(np.intp) % WAYS
-        return np.asarray(self.outward[ways, self.hubs[nodes]])
 
     def covers(self, start: complex, stop: complex) -> bool:
         """Whether segments cover the whole way between two places, whatever else runs beside it."""
@@ -170,13 +171,6 @@ class Lines:
         on = own[off < TILT + ASTRAY / np.abs(beyond)]
         return np.bincount(on, minlength=len(first)) > 0
 
-    @cached_property
-    def _sorted(self) -> tuple[Indices, Floats]:
-        """The pairs by direction, of which `BINS` are told apart, and then by size; what they are found by there."""
-        found = np.floor(self.angles * (BINS / math.tau)) * FAR + np.minimum(self.sizes, FAR / 2.0)
-        order = np.argsort(found, kind="stable")
-        return order, found[order]
-
     def ranges(self, angles: Floats, within: Floats, low: Floats, high: Floats) -> tuple[Indices, Indices]:
         """Return where pairs begin and stop that have about some directions, and sizes between two; see `within`.
 
@@ -186,16 +180,21 @@ class Lines:
         count = np.floor((angles + within) * (BINS / math.tau)) - first + 1
         steps = np.arange(int(count.max(initial=0)))
         bins = (first[:, None] + steps) % BINS * FAR
-        begin = np.searchsorted(self._sorted[1], bins + np.maximum(low, 0.0)[:, None])
-        end = np.searchsorted(self._sorted[1], bins + np.clip(high, 0.0, FAR / 2.0)[:, None])
+        begin = np.searchsorted(self.places, bins + np.maximum(low, 0.0)[:, None])
+        end = np.searchsorted(self.places, bins + np.clip(high, 0.0, FAR / 2.0)[:, None])
         return begin, np.where(steps < count[:, None], np.maximum(begin, end), begin)
 
     def within(self, found: tuple[Indices, Indices]) -> tuple[Indices, Indices]:
         """Return for ranges of pairs, of shape (N, bins), the numbers of the row of each pair, and the pairs."""
         begin, counts = found[0].ravel(), (found[1] - found[0]).ravel()
-        own = np.repeat(np.arange(len(begin)), counts)
-        at = np.arange(len(own)) + (begin - np.cumsum(counts) + counts)[own]
-        return own // max(found[0].shape[1], 1), self._sorted[0][at]
+        own = np.repeat(np.arange(len(found[0])), counts.reshape(found[0].shape).sum(axis=1))
+        return own, np.arange(len(own)) + np.repeat(begin - np.cumsum(counts) + counts, counts)
+
+
+def length_of(logarithms: Floats) -> Indices:
+    """Return of which of `LENGTHS` lines are, from the logarithms of their sizes, mm."""
+    found = (logarithms - math.log(SEED)) * (LENGTHS / math.log(LONGEST / SEED))
+    return np.clip(found, 0.0, LENGTHS - 1.0).astype(np.intp)
 
 
 def lines_of(tails: Complex, tips: Complex) -> Lines:
@@ -216,14 +215,15 @@ def lines_of(tails: Complex, tips: Complex) -> Lines:
     )
     first, second = _pairs(runs, every, len(nodes), number.reshape(2, -1))
     ways = every[second] - every[first]
-    angles = np.angle(ways) % (2.0 * math.pi)
-    order = np.argsort(angles, kind="stable")
-    first, second = first[order], second[order]
+    angles, sizes = np.angle(ways) % (2.0 * math.pi), np.abs(ways)
+    places = np.floor(angles * (BINS / math.tau)) * FAR + np.minimum(sizes, FAR / 2.0)
+    order = np.lexsort((angles, places))
+    first, second, places, angles, sizes = first[order], second[order], places[order], angles[order], sizes[order]
     hubs = _hubs(every)
     codes, hub_codes = _distinct(first * len(every) + second), _distinct(hubs[first] * len(every) + hubs[second])
-    sizes, (squares, corner) = np.abs(ways)[order], _squares(every)
+    squares, corner = _squares(every)
     return Lines(
-        every, len(nodes), first, second, angles[order], sizes, codes, hubs, hub_codes, squares, corner, tails, tips
+        every, len(nodes), first, second, places, angles, sizes, codes, hubs, hub_codes, squares, corner, tails, tips
     )
 
 
