@@ -19,7 +19,7 @@ from ..mistakes.book import Book
 from ..names import LEVER, role
 from .answers import Answer
 from .key import Key
-from .laying import FREE, SAME_MU, SHORT, Fit, Laying
+from .laying import FREE, SAME_MU, SHORT, USUAL, Fit, Laying
 from .lines import Drawn, Lines, lines_of
 from .ways import RIGHT, Shape, edges_of, shape_of, shapes_of
 
@@ -29,8 +29,8 @@ DOUBT = 4.0  # by how much less than others a wrong plan may seem to be worth be
 LIKELY = 6  # mistakes of which all plans are laid
 SHAPES = 12  # wrong plans of which so many are looked at closely
 UNTOLD = 3.0  # vectors of right plans that are too few to tell how the sheet is turned
-TELLING = 3.0  # lines of a plan that tells how the sheet is turned
-RESIZED = 8.0  # of plans that tell that a drawing is larger than the sheet
+TELLING = 0.5  # part of the lines of all plans that tells it where they are right
+RESIZED = 8.0  # lines of plans that tell that a drawing is larger than the sheet
 MANY_LINES = 5.0  # of a plan that is not found by chance, of whatever size
 EVIDENT = 0.3  # vectors that a mistake must explain beyond those that the right plans do
 ALL = 0.02  # part of a plan that may lack where it counts as the right one
@@ -127,6 +127,7 @@ class _Search:
     book: Book | None
     laying: Laying
     common: int = RIGHT
+    usually: bool = False  # whether wrong plans are looked for at their usual size alone
     shapes: dict[str, tuple[Shape, ...]] = field(default_factory=dict)
     most: dict[str, float] = field(default_factory=dict)  # what each plan is worth at the most, however turned
 
@@ -185,7 +186,7 @@ class _Search:
     def _fits(self) -> dict[str, Fit]:
         """Return where each plan lies that is drawn: the right one, or one with a mistake that explains more of it.
 
-        By how much the sheet is turned, a multiple of a right angle, the right plans tell as far as they are there.
+        By how much the sheet is turned, a multiple of a right angle, the right plans tell where they are most of it.
         """
         laid = {t: [self.laying.best(shape, t, ENOUGH) for shape in self.plans.values()] for t in TURNS}
         right = {turn: [fit for fit in fits if fit is not None] for turn, fits in laid.items()}
@@ -194,22 +195,34 @@ class _Search:
         told = {turn: [fit for fit in right[turn] if self._told(fit)] for turn in TURNS}
         likely = max(sum(fit.worth for fit in fits) for fits in told.values()) - UNTOLD
         turns = [turn for turn in TURNS if sum(fit.worth for fit in told[turn]) >= likely]
-        if len(turns) == 1 and max(fit.lines for fit in told[turns[0]]) >= TELLING:
+        whole = sum(float(shape.weights.sum()) for shape in self.plans.values() if not shape.flat)
+        if len(turns) == 1 and sum(fit.lines for fit in told[turns[0]]) >= TELLING * whole:
             return self._at(turns[0])[0]
-        turns = turns if 1 < len(turns) < len(TURNS) else self._turns(right)
-        fits, _, self.common = max(map(self._at, turns), key=lambda found: found[1])
+        fits, _, self.common = max(map(self._at, self._turns(right, turns)), key=lambda found: found[1])
         return fits
 
-    def _turns(self, right: Mapping[float, list[Fit]]) -> list[float]:
-        """Return how a sheet may be turned on which no plan is right: a plan that is all there may tell, if wrong."""
-        turns = sorted(TURNS, key=lambda turn: -sum(fit.worth for fit in right[turn]))  # those after it take less long
-        plan = next((plan for plan, shape in self.plans.items() if not shape.flat), None)
-        if plan is None:
-            return [*TURNS]
-        whole = {turn: [fit.lines for fit in self._ways(plan, turn, 1.0 - ALL) if self._told(fit)] for turn in turns}
-        lines = {turn: max(found, default=0.0) for turn, found in whole.items()}
-        likely = max(lines.values()) - UNTOLD if max(lines.values()) >= MANY_LINES else 0.0
-        return [turn for turn in TURNS if lines[turn] >= likely]
+    def _turns(self, right: Mapping[float, list[Fit]], likely: list[float]) -> list[float]:
+        """Return how a sheet may be turned: as most of all plans of their usual size tell, with mistakes or without.
+
+        Where that is little it is turned as right ones say is likely, or as one tells that is all there, of any size.
+        Where none is, those of other sizes than the usual one would be found by chance.
+        """
+        plans = [plan for plan, shape in self.plans.items() if not shape.flat]
+        whole = sum(float(self.plans[plan].weights.sum()) + USUAL for plan in plans)
+        worth = dict.fromkeys(TURNS, 0.0)
+        for turn, fits in right.items():
+            most = dict.fromkeys(plans, 0.0) | {fit.shape.plan: fit.worth - fit.told for fit in fits}
+            for plan in plans:
+                laid = self.laying.lay_all(self._shapes(plan)[1:], turn, 0.0, ENOUGH, usually=True)
+                worth[turn] += max([most[plan], *(way.most for way in laid)])
+        if max(worth.values()) < ENOUGH * whole:
+            if len(likely) < len(TURNS) or not plans:
+                return likely
+            ways = {turn: self._ways(plans[0], turn, 1.0 - ALL) for turn in TURNS}
+            lines = {t: max((fit.lines for fit in fits if self._told(fit)), default=0.0) for t, fits in ways.items()}
+            self.usually = max(lines.values()) < MANY_LINES
+            worth = worth if self.usually else lines
+        return [turn for turn in TURNS if worth[turn] >= max(worth.values()) - UNTOLD]
 
     def _resized(self, right: list[Fit]) -> None:
         """See whether several plans are drawn so many times as large as on the sheet: then all may be."""
@@ -286,7 +299,8 @@ class _Search:
         first = max(range(len(others)), key=lambda at: laid[at].most, default=None)
         fit = None if first is None else self.laying.closest(others[first], laid[first])
         whole = max((float(shape.weights.sum()) for shape in others), default=0.0)
-        if fit is None or fit.quality < ENOUGH or fit.worth - fit.told < whole:  # at another size more may be there
+        partly = fit is None or fit.quality < ENOUGH or fit.worth - fit.told < whole
+        if partly and not self.usually:  # at another size more may be there
             least = least if fit is None else max(least, fit.worth - fit.told - OTHER - FREE)
             laid = self.laying.lay_all(others, turn, DOUBT, part, least)
         for way, shape in sorted(zip(laid, others, strict=True), key=lambda one: -one[0].most):
@@ -316,8 +330,8 @@ class _Search:
         for plan, ways in doubtful.items():
             laid = [fit.shape for fit in ways]
             others = [s for s in self._shapes(plan) if s not in laid and any(map(s.explained, likely))]
-            fits = map(self.laying.closest, others, self.laying.lay_all(others, turn, math.inf, ENOUGH))
-            ways.extend(fit for fit in fits if fit is not None)
+            laid_of = self.laying.lay_all(others, turn, math.inf, ENOUGH, usually=self.usually)
+            ways.extend(fit for fit in map(self.laying.closest, others, laid_of) if fit is not None)
         best = max(likely, key=worth, default=RIGHT)
         return best if best != RIGHT and worth(best) > worth(RIGHT) + EVIDENT else RIGHT
 

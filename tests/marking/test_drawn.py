@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 import random
+import time
 from itertools import islice
 
 import numpy as np
@@ -91,6 +92,38 @@ def test_drawing_of_another_variant_fits_its_own_better() -> None:
 
     assert theirs.quality > 0.98
     assert own.quality < 0.8 * theirs.quality or len(own.plans) < len(theirs.plans)
+
+
+def test_all_plans_tell_how_a_sheet_is_turned_among_thousands_of_lines() -> None:
+    sheet = bare("scheme-10-shaper-two-blocks")  # its force plan of a few lines is there by chance, otherwise turned
+    wrong = next(one for one in sheet.book.signatures if one.broken.mistake == "M24")
+    segments, vectors = with_mistake(sheet, wrong, np.random.default_rng(4))
+    texts = lettered(sheet, wrong, vectors, np.random.default_rng(4))
+    drawing = distorted(segments, np.random.default_rng(3), stray=2534, arrowheads=False, letters=texts)
+
+    found = recognise(drawing.drawn, sheet.key, sheet.book)
+
+    for plan in ("velocity", "acceleration", "forces_45", "forces_23"):
+        assert found.plans[plan].turn == pytest.approx(cmath.phase(drawing.turn), abs=0.01)
+    for name in ("V_A", "a_A", "a_D"):
+        plan, (tail, tip) = vectors[name]
+        assert abs(found.vectors[name].tail - drawing.place(tail, plan)) <= NEAR
+        assert abs(found.vectors[name].tip - drawing.place(tip, plan)) <= NEAR
+    assert not accepted("M24").isdisjoint(names(sheet.book, sheet.key, list(found.answers())))
+
+
+@pytest.mark.soak
+def test_among_3000_lines_of_another_variant_nothing_is_sought_for_seconds() -> None:
+    sheet, own = bare("scheme-12-shaking-conveyor"), bare("scheme-12-shaking-conveyor", "3")
+    wrong = next(one for one in sheet.book.signatures if one.broken.mistake == "M24")
+    segments, _ = with_mistake(sheet, wrong, np.random.default_rng(4))
+    drawing = distorted(segments, np.random.default_rng(3), stray=2600, arrowheads=False)
+
+    begin = time.process_time()
+    recognise(drawing.drawn, own.key, own.book)
+
+    assert len(drawing.drawn.tails) > 2900
+    assert time.process_time() - begin < 3.0
 
 
 def names(found: Book, key: Key, answers: list[Answer]) -> frozenset[str]:
