@@ -197,13 +197,19 @@ def test_a_vector_too_short_to_be_seen_costs_nothing(tmp_path: Path) -> None:
     assert "G_2" in note
 
 
-def test_a_drawing_of_another_variant_is_recognised_and_measured_as_it_is_drawn(tmp_path: Path) -> None:
-    ready, _ = asked("nau-slider-crank", variant="3")
-    _, other = asked("nau-slider-crank", variant="7")
+@pytest.mark.parametrize(("task", "theirs"), [
+    ("nau-slider-crank", "7"),
+    pytest.param("scheme-14-jaw-crusher", "5", id="a fifth of its vectors too short to be seen"),
+])  # fmt: skip
+def test_a_drawing_of_another_variant_is_recognised_and_measured_as_it_is_drawn(
+    tmp_path: Path, task: str, theirs: str
+) -> None:
+    ready, _ = asked(task, variant="3")
+    _, other = asked(task, variant=theirs)
 
     found = marked(ready, handed_in(tmp_path, other, other.key.paper.program, other.key.values))
 
-    assert found.fits == "7"
+    assert found.fits == theirs
     measured = {line.name: line.answer.mm for line in found.lines if line.answer is not None}
     assert len(measured) >= 0.9 * len(found.lines) > 3
     mus = {name: other.key.paper.mus[question.plan] for name, question in other.key.questions.items()}
