@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import chain, pairwise, takewhile
+from functools import cache
+from itertools import chain, pairwise, product, takewhile
 
 from ..scales.scale import Scale
 from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
-from .packing import LEAST, Placement, Size, Slicing, spread
+from .packing import LEAST, Placement, Size, Slicing, inset, spread
 from .page import Page
 from .shapes import Group
-from .tables import part_of
+from .tables import after, larger, part_of
 from .titleblock import Stamp, frame_shapes
 from .view import View
 
@@ -21,8 +22,11 @@ SOON = 5  # views from which one may stand on a page before its turn
 ALONE = 0.95  # part of the width of a page that leaves no room for a view beside
 FULL = 0.69  # part of a page that views should take at least before the next one begins
 TOLD, TEXT, FIGURE, GROUP, PART = range(-2, 3)  # what may begin with a view
+TABLE, LEAD = range(2)  # kinds of texts that may have larger letters, beside what tells of the work
 MANY = 3  # pages on which views may come in another order
 ENOUGH = {"A4": 0.51, "A3": 0.66, "A2": 0.66, "A1": 0.66}  # part of a page below which tables and texts break for it
+ROOMY = ENOUGH | {"A3": 0.69, "A2": 0.69, "A1": 0.69}  # part of a page below which its letters are larger
+GROWN, CROWDED = 2.0, 0.85  # times as large as before texts are then; part of a page that such views never fill
 KEPT = 8  # parts of the views of a page that are tried in reading order
 PIECES = 2  # rows or lines at least on each page
 
@@ -51,8 +55,10 @@ def on_a_page(
     page = Slicing(own, room, joined)
     if not page.fits:
         return None
-    corners = len(sizes) + begun, 0 if begun else -1
-    places = {i: (x, y) for i, x, y in spread(page.cut(), own, (0.0, room[1]), room, *corners)}
+    cut, corners = page.cut(), (len(sizes) + begun, 0 if begun else -1)
+    edge = inset(cut, own, room[0])
+    spots = spread(cut, own, (edge, room[1]), (room[0] - 2.0 * edge, room[1]), *corners)
+    places = {i: (x, y) for i, x, y in spots}
     return [Placement(0, x0 + places[i + begun][0], y0 + places[i + begun][1]) for i in range(len(sizes))]
 
 
@@ -235,7 +241,21 @@ class _Breaking:
                 if (found := next(ways, None)) is None:
                     break
                 pages[number], pages[found[0]] = found[1:]
-        return pages[: 1 + max(k for k, page in enumerate(pages) if page)]
+        return self._without_rest(pages[: 1 + max(k for k, page in enumerate(pages) if page)])
+
+    def _without_rest(self, pages: list[list[Standing]]) -> list[list[Standing]]:
+        """Return pages without the last one where it has but the rest of a table or text that has room before it."""
+        *before, end = pages
+        if not before or len(end) > 1 or not end[0][0].of:
+            return pages
+        rest = end[0][0]
+        for number in reversed(range(len(before))):
+            own = [view for view, _ in before[number]]
+            joined = [after(view, rest) if view.of == rest.of else view for view in own]
+            whole = [*own, rest] if joined == own else joined
+            if (placed := self._placed(whole, number)) is not None:
+                return [*before[:number], placed, *before[number + 1 :]]
+        return pages
 
     def _is_empty(self, page: Sequence[Standing], number: int) -> bool:
         pages = Pages([view.size for view, _ in page], self.sheet, self.norm)
@@ -388,7 +408,39 @@ def compose(
             ) is not None:
                 sheets[-1], parted[-1] = less, [*zip(own, placed, strict=True)]
                 break
-    parted = [_as_read(page, paper, norm, k == 0) for k, (page, paper) in enumerate(zip(parted, sheets, strict=True))]
+    for k, paper in enumerate(sheets):
+        on = paper, norm, k == 0
+        parted[k] = _as_read(_legible(parted[k], *on, end=0 < k == len(sheets) - 1), *on)
     drawn = tuple(tuple(view.at(place.x, place.y) for view, place in page) for page in parted)
-    parts = (view for page in parted for view, _ in page if view.of)
-    return Drawn((*views, *parts), drawn, scales, tuple(sheets), norm, reduction)
+    shown = [view for page in parted for view, _ in page]
+    whole = {view.name: view for view in shown if not view.of}
+    every_one = (*(whole.get(view.name, view) for view in views), *(view for view in shown if view.of))
+    return Drawn(every_one, drawn, scales, tuple(sheets), norm, reduction)
+
+
+def _legible(page: list[Standing], sheet: Format, norm: Norm, first: bool, end: bool) -> list[Standing]:
+    """Return a page with larger letters where figures leave it too empty else, and where they have room.
+
+    All its tables and texts have them, or all texts, or all but those with which it begins, as the structure: as one
+    reads them, or else in another order, but not on the last of several pages, at its `end`, which may be empty. Parts
+    of what stands on another page, too, stay as they are.
+    """
+    views = [view for view, _ in page]
+    begins, paper = begins_of(views), (sheet, norm)
+    full = Pages([view.size for view in views], *paper).fill(range(len(views)), 0 if first else 1)
+    if full >= ROOMY[sheet.letters] or any(view.of for view in views):
+        return page
+    lead = len([*takewhile(lambda kind: kind == TEXT, begins)])
+    of = [TABLE if view.rows else LEAD if i < lead else TOLD for i, view in enumerate(views)]
+    (x0, y0, x1, y1), enlarged = usable(*paper), cache(lambda i, wide: larger(views[i], wide))
+    for kinds in ({TABLE, LEAD, TOLD}, {LEAD, TOLD}, {TOLD}):
+        areas = (
+            math.prod(view.size) * (GROWN if view.style and of[i] in kinds else 1.0) for i, view in enumerate(views)
+        )
+        if sum(areas) > CROWDED * (x1 - x0) * (y1 - y0):  # surely without room
+            continue
+        for wide, place in product((True, False), (on_a_page,) if end else (on_a_page, on_one_page)):
+            again = [enlarged(i, wide) if kind in kinds else views[i] for i, kind in enumerate(of)]
+            if (placed := place([view.size for view in again], *paper, begins, first)) is not None:
+                return [*zip(again, placed, strict=True)]
+    return page

@@ -22,6 +22,7 @@ STEPS = 300  # of the grid on the width and on the height of a page
 NEVER = 9999  # more steps than any page has
 LEAST = 3.0  # mm between views; what the grid adds to it is shared out
 UNDER = 10.0  # mm at most between column 26 and what stands under it
+APART = 50.0, 120.0  # mm between columns of a page at which its edges share in what is left
 SLACK = 1e-9  # mm, for rounding
 
 
@@ -51,6 +52,17 @@ class _Cut:
 def _size_of(part: _Cut | int, sizes: Sequence[Size]) -> Size:
     """Return the width and the height of a part of a page."""
     return sizes[part] if isinstance(part, int) else part.size(sizes)
+
+
+def inset(part: _Cut | int, sizes: Sequence[Size], wide: float) -> float:
+    """Return how far columns on a page that is so wide keep from its edges, mm: where much is left between them.
+
+    Where yet more is left, a text under a figure must not come nearer to that of the next column.
+    """
+    if isinstance(part, int) or not part.beside:
+        return 0.0
+    free, count = wide - sum(_size_of(one, sizes)[0] for one in part.parts), len(part.parts)
+    return 0.5 * free / count if APART[0] < free / (count - 1) < APART[1] else 0.0
 
 
 def spread(

@@ -21,6 +21,7 @@ NUMBER = re.compile(r"([−±]?\d+)(?:[.,]\d+)?(?:·10\^\{−?\d+\})?")  # and w
 SENTENCE = re.compile(r"[^\W\d_]{3,} +[^\W\d_]{2,}(?![\w.])")  # two words, none cut short
 WORD, SCRIPTS = re.compile(r"[^\W\d_]{3,}"), re.compile(r"[_^]\{[^}]*\}")  # in words; in symbols what is no letter
 BREAKS = re.compile(r" +(?![^{]*\})")
+LARGER = {2.5: 3.5, 3.5: 5.0}  # heights of letters where a page has room, by the usual ones
 PITCH = 1.7  # heights of letters from line to line (GOST 2.304)
 CELL = 1.75  # mm at least on both sides of what stands in a cell
 BETWEEN, UNDERLINED = 0.45, 0.9  # heights of letters between lines of text, and below one that is underlined
@@ -168,14 +169,36 @@ def text_block(name: str, heading: str, lines: Sequence[Sequence[str]], style: S
 
 def part_of(view: View, begin: int, end: int, heading: str) -> View:
     """Return these rows of a table, under its head, or lines of a text; the first part has its name."""
-    name, style = view.name if begin == 0 else f"{view.name}_continued", view.style
+    rows = view.rows[:1] + view.rows[1 + begin : 1 + end]
+    part = replace(view, heading=(heading,), rows=rows, lines=view.lines[begin:end], of=view.of or view.name)
+    return _again(replace(part, name=view.name if begin == 0 else f"{view.name}_continued"), view.style)
+
+
+def after(view: View, rest: View) -> View:
+    """Return a part of a table or of a text with the rows or lines of the part that follows it."""
+    rows = (*view.rows, *rest.rows[1:])
+    return _again(replace(view, rows=rows, lines=(*view.lines, *rest.lines)), view.style)
+
+
+def larger(view: View, wide: bool) -> View:
+    """Return a table or a text with letters of the next height; a figure stays, and what is to be written in."""
+    style = view.style
+    if style is None or style.row or style.text not in LARGER:
+        return view
+    width = view.width * (LARGER[style.text] / style.text if wide else 1.0)
+    return _again(replace(view, width=width), replace(style, text=LARGER[style.text]))
+
+
+def _again(view: View, style: Style | None) -> View:
+    """Return a table or a text with its own rows or lines, in this style."""
     if style is None:
         raise ValueError(f"{view.name} has no parts")
+    heading = "".join(view.heading)
     if view.rows:
-        part = table(name, heading, [view.rows[0], *view.rows[1 + begin : 1 + end]], style)
+        again = table(view.name, heading, view.rows, style)
     else:
-        part = text_block(name, heading, view.lines[begin:end], style, view.width)
-    return replace(part, of=view.of or view.name)
+        again = text_block(view.name, heading, view.lines, style, view.width)
+    return replace(again, of=view.of)
 
 
 def words_of(sentence: str) -> tuple[str, ...]:

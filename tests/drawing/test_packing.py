@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 import shapely
 
-from kulman.drawing.compose import FIGURE, FULL, MANY, TOLD, Pages, arrange, compose, last, on_a_page
+from kulman.drawing.compose import FIGURE, FULL, MANY, TOLD, Pages, arrange, compose, last, on_a_page, on_one_page
 from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
 from kulman.drawing.packing import LEAST, STEPS, UNDER, Placement, Slicing, _size_of, spread
@@ -255,6 +255,61 @@ def test_what_fits_nowhere_has_no_place():
     assert arrange([(50, 50), (900, 50)], FORMATS["A1"], "gost") is None
     assert on_a_page([(400, 300)] * 4, FORMATS["A1"], "gost") is None
     assert arrange([], FORMATS["A1"], "gost") == []
+
+
+def test_edges_of_a_page_share_in_what_is_left_between_few_columns():
+    columns = [(250, 500), (200, 500), (185, 480)]  # the title block stands below the last one
+
+    apart = [place.x for place in on_a_page(columns, FORMATS["A1"], "gost")]
+
+    (left, _, right, _), wide = drawing_area(FORMATS["A1"]), [w for w, _ in columns]
+    gaps = [b - a - w for a, b, w in zip(apart, apart[1:], wide, strict=False)]
+    edges = apart[0] - left - MARGINS["A1"], right - MARGINS["A1"] - apart[-1] - wide[-1]
+    assert gaps == pytest.approx([2.0 * edges[0]] * 2)
+    assert edges[0] == pytest.approx(edges[1])
+    assert gaps[0] > 50.0
+
+
+def test_letters_are_larger_where_figures_leave_a_page_too_empty():
+    style, paper = STYLES["A1"], FORMATS["A1"]
+    cells = [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(12))]
+    told = text_block("sums", "Sums", [["ω = " + " + ".join(f"a_{{{k}}}" for k in range(20))]] * 9, style, 235.0)
+    texts = table("values", "Values", cells, style), told
+
+    def letters(*figures: tuple[float, float]) -> dict[str, float]:
+        plans = [View(f"plan {k}", (Line(0j, complex(*size)),), (0.0, 0.0, *size)) for k, size in enumerate(figures)]
+        views = (*plans, *texts)
+        places = on_one_page([view.size for view in views], paper, "gost", [*len(plans) * [FIGURE], TOLD, TOLD])
+        drawn = compose(views, places, {}, paper, "gost", "{heading} (continued)")
+        judge(
+            [view.size for view in drawn.views], [Placement(0, *extent_of(drawn, view)) for view in drawn.views], "A1"
+        )
+        return {view.name: view.style.text for view in drawn.views if view.style}
+
+    def extent_of(drawn, view):
+        [group] = [group for group in drawn.placed[0] if group.name == view.name]
+        x0, y0, _, _ = extent(group.shapes)
+        own = extent(view.shapes)
+        return x0 - own[0] + view.box[0], y0 - own[1] + view.box[1]
+
+    assert letters((300, 200)) == {"values": 5.0, "sums": 5.0}
+    assert letters((560, 330), (200, 330), (400, 120)) == {"values": 3.5, "sums": 3.5}
+
+
+def test_the_rest_of_a_table_has_no_page_of_its_own_where_one_has_room_for_it():
+    style, paper = STYLES["A4"], FORMATS["A4"]
+    long = table("values", "Values", [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(34))], style)
+    figures = [View(name, (), (0.0, 0.0, 170.0, high)) for name, high in (("plan", 80.0), ("lever", 150.0))]
+    alone = Placement(0, 25.0, 150.0), Placement(1, 25.0, 30.0), Placement(2, 25.0, 30.0)
+
+    drawn = compose((*figures, long), alone, {}, paper, "gost", "{heading} (continued)")
+
+    assert [[group.name for group in page] for page in drawn.placed] == [
+        ["plan", "values"],
+        ["lever", "values_continued"],
+    ]
+    first, rest = (part for part in drawn.views if part.of)
+    assert (*first.rows, *rest.rows[1:]) == long.rows
 
 
 def test_tables_and_texts_break_for_a_page_that_were_too_empty() -> None:

@@ -124,7 +124,7 @@ def traced(
     return points, np.where(np.abs(points - wanted) > FAR, LOST, errors), found
 
 
-def _contradicted(spots: list[Spot], point: complex) -> bool:
+def _contradicted(spots: list[_Spot], point: complex) -> bool:
     """Whether a line ends, and its arrowhead points, clearly beside where a point has been found."""
     ends = [(s.unit, s.place) for s in spots if not s.arrow]
     heads = [(s.unit, s.place) for s in spots if s.arrow]
