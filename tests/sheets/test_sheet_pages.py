@@ -58,6 +58,13 @@ def test_segments_solved_are_those_of_sheet_note_form_and_handout(task: str) -> 
     assert other_lengths(on_a4, blank) == {}
 
 
+@pytest.mark.parametrize("variant", load_task("nau-slider-crank").variants)
+def test_a_lever_is_in_proportion_to_a_velocity_plan_whose_length_the_task_fixes(variant: str) -> None:
+    scales = mus(kulman.solve("nau-slider-crank", variant))
+
+    assert 2.0 <= scales["mu_V"] / scales["mu_h"] < 2.501
+
+
 @pytest.mark.parametrize("format", ["A3", pytest.param("A4", marks=pytest.mark.soak)])
 def test_a_sheet_with_other_scale_factors_names_them_and_solve_shows_its_numbers(format: str) -> None:
     usual, small = (kulman.solve("nau-slider-crank", "7", format=name) for name in (None, format))
