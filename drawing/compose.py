@@ -244,14 +244,14 @@ class _Breaking:
         return self._without_rest(pages[: 1 + max(k for k, page in enumerate(pages) if page)])
 
     def _without_rest(self, pages: list[list[Standing]]) -> list[list[Standing]]:
-        """Return pages without the last one where it has but the rest of a table or text that has room before it."""
+        """Return pages without the last one where it has but a table, or the rest of one, that has room before it."""
         *before, end = pages
-        if not before or len(end) > 1 or not end[0][0].of:
-            return pages
         rest = end[0][0]
+        if len(end) > 1 or not rest.pieces:
+            return pages
         for number in reversed(range(len(before))):
             own = [view for view, _ in before[number]]
-            joined = [after(view, rest) if view.of == rest.of else view for view in own]
+            joined = [after(view, rest) if rest.of and view.of == rest.of else view for view in own]
             whole = [*own, rest] if joined == own else joined
             if (placed := self._placed(whole, number)) is not None:
                 return [*before[:number], placed, *before[number + 1 :]]

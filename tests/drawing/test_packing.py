@@ -312,6 +312,17 @@ def test_the_rest_of_a_table_has_no_page_of_its_own_where_one_has_room_for_it():
     assert (*first.rows, *rest.rows[1:]) == long.rows
 
 
+def test_a_table_has_no_page_of_its_own_where_a_full_one_has_room_for_it():
+    style, paper = STYLES["A4"], FORMATS["A4"]
+    small = table("values", "Values", [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(4))], style)
+    figures = [View(name, (), (0.0, 0.0, 170.0, high)) for name, high in (("plan", 130.0), ("lever", 230.0))]
+    alone = Placement(0, 25.0, 100.0), Placement(1, 25.0, 30.0), Placement(2, 25.0, 30.0)
+
+    drawn = compose((*figures, small), alone, {}, paper, "gost", "{heading} (continued)")
+
+    assert [[group.name for group in page] for page in drawn.placed] == [["plan", "values"], ["lever"]]
+
+
 def test_tables_and_texts_break_for_a_page_that_were_too_empty() -> None:
     style, paper = STYLES["A4"], FORMATS["A4"]
     cells = [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(36))]
