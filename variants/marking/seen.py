@@ -26,7 +26,7 @@ from .wording import plain
 
 LIKE = 0.02  # part by which a scale factor that is written may differ from the one that fits
 SURE = 0.75  # part of one plan at the least that must be there, or the drawing is of something else
-MUCH, ALL = 0.8, 0.98  # parts of the vectors of a variant that a drawing of it has, and that no other one can have
+MUCH = 0.8  # part of the vectors of a variant that a drawing of it has
 LIKELY = 3  # other variants that are looked at closely
 QUARTER = math.pi / 2.0
 DIGITS = 3
@@ -74,22 +74,26 @@ def seen(drawn: Drawn, key: Keyed, others: Iterable[str], other_key: Callable[[s
 
 
 def _right(found: Recognised, key: Keyed) -> float:
-    """Return what part of the vectors of a variant that have a line to be seen stands on a drawing as it should."""
-    mus = {plan: one.mu for plan, one in found.plans.items()}
+    """Return what part of the vectors of a variant stands on a drawing as it should.
+
+    Without those of plans of their usual size that are too short to be seen: at any size plans are found by chance.
+    """
     right = [name for name, one in found.vectors.items() if not found.plans[one.plan].mistake]
-    missing = [name for name in _of_own_lines(key, found.missing) if not _tiny(key, mus, name)]
+    usual, plans = key.key.paper.mus, found.plans.items()
+    mus = {plan: one.mu for plan, one in plans if abs(one.mu - usual.get(plan, 0.0)) < LIKE * one.mu}
+    missing = [name for name in found.missing if not _tiny(key, mus, name)]
     return len(right) / max(len(found.vectors) + len(missing), 1)
 
 
 def _another(drawn: Drawn, key: Keyed, others: Iterable[str], other_key: Callable[[str], Keyed]) -> str:
     """Return the variant that a drawing shows, if it is another one: of this one little is there, of that much."""
     most, fits, looks = part_there(drawn, key.key, MUCH), "", list[tuple[float, str]]()
-    if most >= ALL:
+    if most >= MUCH:
         return fits
     for other in others:
         with suppress(KulmanError):  # this variant has no plan with the student's data
             looks.append((part_there(drawn, other_key(other).key, MUCH), other))
-    looks = sorted((look for look in looks if look[0] >= max(MUCH, most)), reverse=True)[:LIKELY]
+    looks = sorted((look for look in looks if look[0] >= MUCH), reverse=True)[:LIKELY]
     for _, other in looks:
         part = _right(_look(drawn, other_key(other), False)[0], other_key(other))
         if part >= max(MUCH, most):
@@ -194,7 +198,8 @@ def measured(
         )
     asked = {question.name for part in key.parts for question in part.asked}
     columns = tuple(name for name in lines if name in asked)
-    gone = [name for name in _of_own_lines(key, recognised.missing) if name in asked]
+    # a force that is another one turned round has no line of its own
+    gone = [n for n in recognised.missing if n in asked and key.key.questions[n].step.law != "opposite"]
     tiny = [name for name in gone if _tiny(key, found.mus, name)]
     columns += tuple(name for name in gone if name not in tiny)
     notes: list[KulmanError] = []
@@ -214,11 +219,6 @@ def _unknown(answers: Answers) -> InputError:
     if longest > LARGEST or longest < LEAST:
         return InputError("drawing-size", file=file, n=round(longest))
     return InputError("drawing-unknown", file=file)
-
-
-def _of_own_lines(key: Keyed, names: Iterable[str]) -> list[str]:
-    """Return which of these vectors have lines of their own: a force that is another one turned round has none."""
-    return [name for name in names if key.key.questions[name].step.law != "opposite"]
 
 
 def _tiny(key: Keyed, mus: Mapping[str, float], name: str) -> bool:
