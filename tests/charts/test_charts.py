@@ -11,6 +11,7 @@ from dataclasses import replace
 from functools import cache, partial
 from itertools import combinations, pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -118,6 +119,18 @@ def test_pictures_and_tables_speak_every_language(task: str, language: str) -> N
     assert [word for word in SAID[task, language] if word not in said + made(task).table(language)] == []
     assert [words for words in TOLD[task].split("|") if not re.search(words, made(task).table(), re.MULTILINE)] == []
     assert "normal" not in said or language == "en"
+
+
+def test_data_mark_what_no_other_beats_in_both_speed_and_accuracy() -> None:
+    entries = [one for one in made(TASK).to_json()["accuracy"]["entries"] if None not in (one["seconds"], one["error"])]
+
+    def beaten(one: dict[str, Any]) -> bool:
+        like = [other for other in entries if other["kind"] == one["kind"]]
+        return any(other["seconds"] < one["seconds"] and other["error"] < one["error"] for other in like)
+
+    front = [one for one in entries if one["front"]]
+    assert {one["kind"] for one in front} == {one["kind"] for one in entries}
+    assert not any(map(beaten, front))
 
 
 def test_a_hand_stands_above_the_times_of_the_others() -> None:
