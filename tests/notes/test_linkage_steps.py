@@ -63,6 +63,7 @@ def test_no_step_of_a_drawn_plan_is_left_out(task: str) -> None:
     intermediate = re.compile(r"_.*|.*\.[p0]")  # or where a drawing begins
     steps = [step for step in program if step.plan in teller.scales and not intermediate.fullmatch(step.name)]
     made = {step.name for step in steps if step.verb in DRAWING}
+    made |= {step.name for step in program.on("lever") if step.verb == "normal"}  # vectors that are turned
     # a vector between two marks is measured once, under the first of its names
     read = (step.operands for step in steps if step.verb == "read" and "." in step.operands[0])
     first = {teller.reading.between(*ends).name for ends in read}
