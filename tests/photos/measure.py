@@ -76,8 +76,14 @@ def chosen_ways(sheet: Sheet, mistake: int) -> dict[str, Shape]:
     return {plan: next((way for way in some if way.explained(mistake)), some[0]) for plan, some in ways.items()}
 
 
+def drawn_ways(way: Shape) -> set[tuple[complex, complex]]:
+    """Return the vectors of a plan without their names, which are not read: where each begins and ends."""
+    places = np.round(way.places / way.longest, 4)
+    return {(complex(places[tail]), complex(places[tip])) for tail, tip in zip(way.tails, way.tips, strict=True)}
+
+
 def visible(sheet: Sheet, mistake: int) -> bool:
-    """Whether a mistake changes some plan, and leaves all on their pages."""
+    """Whether a mistake changes what is drawn of some plan, and leaves all on their pages."""
     ways = chosen_ways(sheet, mistake)
     changed = False
     for plan, way in ways.items():
@@ -86,7 +92,10 @@ def visible(sheet: Sheet, mistake: int) -> bool:
         size = sheet.pages[page].width, sheet.pages[page].height
         if not ((ends.real > 22) & (ends.real < size[0] - 10) & (ends.imag > 32) & (ends.imag < size[1] - 10)).all():
             return False
-        changed |= not way.right
+        changed |= not way.right and (
+            way.longest != sheet.ways(plan, False)[0].longest
+            or drawn_ways(way) != drawn_ways(sheet.ways(plan, False)[0])
+        )
     return changed
 
 

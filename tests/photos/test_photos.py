@@ -459,6 +459,16 @@ def test_a_point_between_lines_in_one_direction_is_where_its_arrowhead_is() -> N
     assert errors.max() < 0.5
 
 
+def test_an_arrowhead_alone_tells_nothing_far_from_where_it_should_be() -> None:
+    pole, drawn_at, end = 20 + 20j, 53.5 + 20j, 90.3 + 20j  # it may be a letter, and no crossing says which
+    pencil = pencil_of([(pole, end)], [(pole, drawn_at), (drawn_at, end)])
+    way = plan_of([0j, 31.5 + 0j, 70 + 0j], (0, 1), (1, 2))
+
+    _, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert errors[1] > 5.0
+
+
 def test_an_end_and_an_arrowhead_that_differ_tell_nothing() -> None:
     pole, end = 20 + 20j, 90 + 20j
     way = plan_of([0j, 70 + 0j], (0, 1))

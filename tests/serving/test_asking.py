@@ -85,9 +85,11 @@ def test_a_student_hands_in_photographs_and_answers_what_is_not_sure(
     assert "a<sup>n</sup><sub>BA</sub>" not in report.partition("<table>")[2]
     (picture,) = links(client, question, ".png")
     assert client.get(picture).content.startswith(b"\x89PNG")
-    ends = dict(re.findall(r'name="(tail|tip)" value="([^"]+)"', question))
-    told = client.post(f"{questions}/1", data={**ends, "say": "yes"})
-    assert told.headers["location"].endswith("#done")
+    at = f"{questions}/1"
+    while not at.endswith("#done"):
+        ends = dict(re.findall(r'name="(tail|tip)" value="([^"]+)"', client.get(path_of(client, at)).text))
+        told = client.post(path_of(client, at), data={**ends, "say": "yes" if len(ends) == 2 else "?"})
+        at = told.headers["location"]
 
     marked = followed(client, client.post(questions))
 

@@ -81,10 +81,11 @@ class Ink:
         np.maximum(np.subtract(1.0, dark, out=dark), 0.0, out=dark)
         dark -= np.float32(np.median(dark[::8, ::8]))
         grown = round(2 * GROWN * PER_MM) | 1
-        self.printed = cv2.dilate(np.where(printed, DARKEST, 0).astype(np.uint8), np.ones((grown, grown), np.uint8))
+        hidden = np.where(printed, DARKEST, 0).astype(np.uint8)
+        self.printed = np.asarray(cv2.dilate(hidden, np.ones((grown, grown), np.uint8)), np.uint8)
         np.clip(dark, 0.0, 1.0, out=dark)
         dark[self.printed > 0] = 0.0
-        soft = cv2.GaussianBlur(dark, (0, 0), 1.0)
+        soft = np.asarray(cv2.GaussianBlur(dark, (0, 0), 1.0), np.float32)
         self.dark, self.soft, self.edges = (_bytes(dark, DARKEST), _bytes(soft, DARKEST), _bytes(soft, STEEP))
         self.height = rows / PER_MM
 
@@ -112,7 +113,7 @@ class Ink:
 
 def _bytes(layer: NDArray[np.float32], times: int) -> NDArray[np.uint8]:
     """Return a layer of a page in a quarter of its memory."""
-    return np.minimum(layer * np.float32(times), np.float32(255.0)).astype(np.uint8)
+    return np.asarray(np.minimum(layer * np.float32(times), np.float32(255.0)), np.uint8)
 
 
 def strokes(ink: Ink, poles: Sequence[complex] = ()) -> list[Stroke]:

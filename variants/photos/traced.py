@@ -42,6 +42,7 @@ TOUCHED, BESIDE, FEWEST = 0.95, 0.5, 5  # cosine, mm from which others may have 
 POLE, ENDING, POINTING = 0.15, 0.35, 0.3  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
 NEAR = 1.0  # mm that a point may be from where it should be, as far as nothing tells
 LIKELY = 2.5  # errors between a crossing and an end that is that of the point
+STRAYED = 1.2  # mm from where a point should be that an end or an arrowhead alone tells of it
 BESIDES = 1.4  # mm between a point and where the end of a line with its arrowhead has it
 ALIKE = 0.8  # mm within which ends and arrowheads are those of one point
 FLAT, TOLD = 0.6, 1.5  # mm, error of a crossing that ends must tell; from which a single end does not
@@ -379,22 +380,24 @@ def _solved(
                 rows.tie(tail, tip, unit, span, TIE[0] + TIE[1] * abs(span))
     crossings, errors = rows.solved()
     for mark, some in spots.items():
-        for spot in _telling(some, complex(crossings[mark]), float(errors[mark])):
+        for spot in _telling(some, complex(crossings[mark]), float(errors[mark]), complex(wanted[mark])):
             rows.add(mark, spot.unit, spot.place, spot.error)
     return rows.solved()
 
 
-def _telling(spots: list[_Spot], crossing: complex, error: float) -> list[_Spot]:
+def _telling(spots: list[_Spot], crossing: complex, error: float, wanted: complex) -> list[_Spot]:
     """Return the ends and arrowheads that tell of a point: of a flat crossing an arrowhead, or ends that are one.
 
-    Where a line ends and its arrowhead points elsewhere, nothing tells: a letter may touch either.
+    Where a line ends and its arrowhead points elsewhere, nothing tells: a letter may touch either. Nor does what is far
+    from where a point should be: letters look like arrowheads, too, and no crossing says which it is.
     """
     near = [s for s in spots if abs(dot(s.unit, s.place - crossing)) < LIKELY * math.hypot(min(error, NEAR), s.error)]
     if error <= FLAT:
         return near
     apart = max((abs(dot(one.unit, one.place - other.place)) for one in near for other in near), default=LOST)
     alone = len(near) < 2 and not any(spot.arrow for spot in near) and error > TOLD
-    return [] if apart > ALIKE or alone else near
+    strayed = any(abs(dot(spot.unit, spot.place - wanted)) > STRAYED for spot in near)
+    return [] if apart > ALIKE or alone or strayed else near
 
 
 class _Rows:
