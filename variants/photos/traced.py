@@ -225,7 +225,7 @@ def senses(pencil: Pencil, way: Way, points: Complex, found: Mapping[int, Traced
         alone = not (at_tip or at_tail or shared)
         if forth.faint <= BARE:  # no arrowhead where it should be
             if back.dark >= POINTED:
-                told[number] = -1 if alone and back.both >= POINTED else 0
+                told[number] = -1 if alone and back.both >= POINTED and forth.dark <= BARE else 0
         elif at_tip and not at_tail and back.both >= CLEARLY:
             told[number] = 0
         elif alone and forth.both >= POINTED and back.both <= BARE:
