@@ -13,8 +13,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
+from ...drawing.areas import lines, pairs
 from ...drawing.markers import STUCK
 from ...plans.marking.drawn import FoundPlan, recognise
 from ...plans.marking.lines import Drawn
@@ -141,8 +143,7 @@ def turned(sheet: _Free, quarters: int) -> _Free:
 
 def plans_on(sheets: Sequence[_Free], keyed: Keyed, apart: float) -> dict[str, FoundPlan]:
     """Return where plans are found on sheets, `apart` from one another: right ones, else those with a mistake."""
-    lines = [(line.tail + by, line.tip + by) for by, line in _lines(sheets, apart)]
-    ends = np.array(lines, complex).reshape(-1, 2)
+    ends = np.array([(line.tail + by, line.tip + by) for by, line in _lines(sheets, apart)], complex).reshape(-1, 2)
     drawn = Drawn(ends[:, 0], ends[:, 1])
     right = {plan: shape[0] for plan in keyed.key.paper.mus if (shape := shapes_of(keyed.key, None, plan))}
     found = {plan: one for plan, one in recognise(drawn, keyed.key, None, {}).plans.items() if one.quality >= SURE}
@@ -153,7 +154,7 @@ def plans_on(sheets: Sequence[_Free], keyed: Keyed, apart: float) -> dict[str, F
 
 
 def _within(plan: str, found: Mapping[str, FoundPlan], right: Mapping[str, Shape]) -> bool:
-    """Whether what is found may be a part of another plan: all but one of its forces lie there, too."""
+    """Whether what is found may be a part of another plan: all but one of its forces lie there, too, on its lines."""
 
     def laid(name: str) -> Complex:
         at, shape = found[name], right[name]
@@ -161,10 +162,13 @@ def _within(plan: str, found: Mapping[str, FoundPlan], right: Mapping[str, Shape
 
     own = set(right[plan].names)
     for other in right.keys() - {plan}:
-        common = own & set(right[other].names)
+        common, shape = own & set(right[other].names), right[other]
         if len(common) < max(COMMON, len(own) - 1):
             continue
-        if other not in found or np.abs(laid(plan)[:, None] - laid(other)).min(axis=1).max() <= LETTER:
+        if other not in found:
+            return True
+        whole = shapely.union_all(lines(laid(other)[shape.tails], laid(other)[shape.tips]))
+        if shapely.distance(shapely.points(pairs(laid(plan))), whole).max() <= LETTER:
             return True
     return False
 
