@@ -34,7 +34,8 @@ LARGER = {"l": 2.8, "V": 1.4, "a": 1.4, "F": 0.9, "h": 2.6}
 # mm of A1 below which a plan becomes shorter only after the others
 KEPT = {"l": 200.0, "V": 80.0, "a": 80.0, "F": 70.0}
 HUNG = 13.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
-PROPORTION = 2.5001  # times as fine as the velocity plan that a task fixes its lever may be
+PROPORTION = 2.5  # times as fine as the velocity plan that a task fixes its lever may be
+ROUNDING = 1e-9  # part of a scale factor by which two that are one may differ
 ALIKE = 3.0  # times as long as the longest force of another plan, at most, where both are drawn to one scale factor
 CRANK = 45.0  # mm, the least length of a crank drawn apart
 ZERO_LINE, ARC = 1.1, 0.45  # of the crank: how long the line is from which phi is measured, the radius of its arc
@@ -125,7 +126,8 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
         else:
             values = chooser.ladder(value)
         if symbol == ARMS:  # where the task fixes the velocity plan, its lever is not out of all proportion
-            values = tuple(mu for mu in values if mu * PROPORTION >= ladders["mu_V"].values[0]) or values[-1:]
+            finest = ladders["mu_V"].values[0] / PROPORTION * (1.0 - ROUNDING)
+            values = tuple(mu for mu in values if mu >= finest) or values[-1:]
         visible(chooser, symbol, values[0], size, UNITS[kind])
         ladders[symbol] = Ladder(
             values,

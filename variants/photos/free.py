@@ -167,7 +167,8 @@ def _within(plan: str, found: Mapping[str, FoundPlan], right: Mapping[str, Shape
             continue
         if other not in found:
             return True
-        whole = shapely.union_all(lines(laid(other)[shape.tails], laid(other)[shape.tips]))
+        places = laid(other)
+        whole = shapely.union_all(lines(places[shape.tails], places[shape.tips]))
         if shapely.distance(shapely.points(pairs(laid(plan))), whole).max() <= LETTER:
             return True
     return False
