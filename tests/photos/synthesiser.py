@@ -8,7 +8,7 @@ through a lens, in uneven light, blurred, noisy, compressed. What was drawn, in 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
@@ -34,6 +34,7 @@ from kulman.variants.sheets import drawing_for_print, scannable_of_case
 
 PX = 12.0  # pixels per mm of the sheet that is drawn on
 SCANNER, PHONE, MESSENGER = QUALITIES = ("scanner", "phone", "messenger")
+FAINT = 0.16  # of how dark other plans are
 POINT = 0.15  # mm, standard error of a point on paper
 Random = np.random.Generator
 
@@ -157,20 +158,22 @@ class Paper:
         np.maximum(self.ink, layer.astype(np.float32) / 255 * dark * self.grain, out=self.ink)
 
 
-def drawn(sheet: Sheet, number: int, random: Random, chosen: Mapping[str, Way]) -> tuple[np.ndarray, dict[str, Truth]]:
-    """Draw the plans of a page by hand; return ink from 0 to 1, and the vectors by name."""
+def drawn(
+    sheet: Sheet, number: int, random: Random, chosen: Mapping[str, Way], faint: Collection[str] = ()
+) -> tuple[np.ndarray, dict[str, Truth]]:
+    """Draw the chosen plans of a page by hand, some faintly; return ink from 0 to 1, and the vectors by name."""
     paper, truth = Paper(printed(sheet, number), random), dict[str, Truth]()
     dark = random.uniform(0.45, 0.8)
     wide = random.uniform(0.3, 0.5)
     for plan, (page, pole) in sheet.poles.items():
-        if page == number:
+        if page == number and plan in chosen:
             way, mu = chosen[plan], sheet.mus[plan]
             places = pole + way.places / mu
             places = places + random.normal(0, POINT, len(places)) + 1j * random.normal(0, POINT, len(places))
             spot = int(np.abs(way.places).argmin())
             if abs(way.places[spot]) < 1e-12:
                 places[spot] = pole + complex(*random.normal(0, 0.06, 2))
-            own_lines(paper, way, places, dark, wide)
+            own_lines(paper, way, places, dark * (FAINT if plan in faint else 1.0), wide)
             for name, tail, tip in zip(way.names, way.tails.tolist(), way.tips.tolist(), strict=True):
                 if sheet.keyed.key.questions.get(name) is None or sheet.keyed.key.questions[name].plan == plan:
                     truth[name] = Truth(plan, number, complex(places[tail]), complex(places[tip]))

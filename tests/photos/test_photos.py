@@ -29,7 +29,17 @@ from kulman.plans.marking.lines import Drawn
 from kulman.plans.marking.ways import RIGHT, Shape
 from kulman.scales.errors import InputError
 from kulman.tests.photos.measure import Figures, chosen_ways, compared, linkages, measured, mistakes_of
-from kulman.tests.photos.synthesiser import PHONE, PX, Truth, drawn, photographed, printed, sheet_for
+from kulman.tests.photos.synthesiser import (
+    MESSENGER,
+    PHONE,
+    PX,
+    SCANNER,
+    Truth,
+    drawn,
+    photographed,
+    printed,
+    sheet_for,
+)
 from kulman.variants.case import Request
 from kulman.variants.drawings import apart, pdf
 from kulman.variants.drawings.files import read_drawing
@@ -37,7 +47,7 @@ from kulman.variants.marking.checks import Check
 from kulman.variants.marking.marked import surely
 from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import Report, report_files
-from kulman.variants.marking.result import Result
+from kulman.variants.marking.result import Result, result_of
 from kulman.variants.photos import pictures
 from kulman.variants.photos.matching import lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
@@ -172,6 +182,28 @@ def test_a_page_that_is_not_handed_in_is_missing_as_empty_cells_of_a_form_are(on
     assert ready.mark(answers).marked.mark < 70.0
     assert missing(unread, ready) == set()  # the page may be the one that could not be read
     assert missing(replace(answers, plans=frozenset()), ready) == (set() if only is None else FORCES)
+
+
+@pytest.mark.parametrize("quality", [SCANNER, PHONE, MESSENGER])
+def test_a_plan_is_missing_where_it_begins_nothing_is_drawn_and_not_judged_where_it_is_faint(
+    quality: str, tmp_path: Path
+) -> None:
+    sheet, ready = sheet_for(TASK), check(TASK, "0", lang="en")
+    ways, (number, _) = chosen_ways(sheet, RIGHT), sheet.poles["velocity"]
+    both = {plan for plan, (page, _) in sheet.poles.items() if page == number}
+    found = dict[str, tuple[set[str], str]]()
+    for how, plans in (("blank", both - {"velocity"}), ("faint", both)):
+        random = np.random.default_rng(7)
+        ink, _ = drawn(sheet, number, random, {plan: ways[plan] for plan in plans}, faint={"velocity"})
+        (tmp_path / f"{how}.jpg").write_bytes(photographed(ink, random, quality))
+        (answers,) = ready.read(str(tmp_path / f"{how}.jpg"))
+        found[how] = missing(answers, ready), notes_of(result_of(ready.mark(answers).marked, "en"))
+
+    assert len(both) > 1
+    assert found["blank"][0] & both == {"velocity"}
+    assert "where it begins nothing is drawn, so it is missing" in found["blank"][1]
+    assert not found["faint"][0] & both
+    assert "nothing is drawn" not in found["faint"][1]
 
 
 def test_what_somebody_of_a_class_has_drawn_is_asked_of_all(tmp_path: Path) -> None:

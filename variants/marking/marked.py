@@ -130,7 +130,7 @@ class Marked:
     `lines` are those that count, `parts` what part of the full mark each is; `notes` say what was odd: cells that could
     not be read, another variant, another id; `misfits` are scale factors written wrongly, each by the line at which it
     counts; `fits` is another variant that the answers fit, if any; `seen` is what was recognised on a drawing,
-    `sheets` the photographs that it was read from, `absent` plans whose pages are not there, which costs nothing.
+    `sheets` the photographs that it was read from, `absent` plans that were not handed in, which costs nothing.
     """
 
     answers: Answers
@@ -272,18 +272,19 @@ class Desk:
             sheets, on_drawing = self.photographed(answers, key)
             notes += sheets.notes
             on_drawing = surely(answers, key, sheets, on_drawing, rubric)
+            gone = dict.fromkeys(sheets.bare(), "photo-bare")
             if not any(one.key.startswith("photo-") for one in answers.problems):  # or the page may be the unread one
-                absent = sheets.absent({photo.number for photo in answers.photos})
+                gone |= dict.fromkeys(sheets.absent({photo.number for photo in answers.photos}), "photo-no-page")
             said = terms.request.only or rubric.asked or answers.plans is None  # what is asked for
-            lost = absent if said else absent & (answers.plans or frozenset())
-            absent -= lost
-            answers, told = measured(replace(answers, drawn=sheets.drawn), key, on_drawing, lost, absent)
+            absent = frozenset() if said else frozenset(gone) - (answers.plans or frozenset())
+            gone |= dict.fromkeys(absent, "photo-not-asked")
+            answers, told = measured(replace(answers, drawn=sheets.drawn), key, on_drawing, gone)
             # what was not read is looked at by eye, and costs nothing; plans that are asked for must be handed in
             read = directed(answers.lines, key, rubric.tolerance.degrees)
             kept = tuple(
                 name
                 for name in answers.columns
-                if name in read or name in answers.told or key.key.questions[name].plan in lost
+                if name in read or name in answers.told or key.key.questions[name].plan in gone.keys() - absent
             )
             answers = replace(answers, columns=kept, lines=read)
             notes += told

@@ -174,7 +174,7 @@ def _most(segment: _Measured) -> float:
 class Result:
     """One student: who, which variant, the mark (None where the answers could not be marked), verdicts, mistakes.
 
-    `plans` are those that were read on photographs, `absent` those whose pages are not there, which has cost nothing.
+    `plans` are those that were read on photographs, `absent` those not handed in, which has cost nothing.
     """
 
     source: str

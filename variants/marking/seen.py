@@ -175,11 +175,11 @@ def _factor(text: str, units: tuple[str, str]) -> Mu | None:
 
 
 def measured(
-    answers: Answers, key: Keyed, found: Seen, lost: Collection[str] = (), absent: Collection[str] = ()
+    answers: Answers, key: Keyed, found: Seen, absent: Mapping[str, str] | None = None
 ) -> tuple[Answers, list[KulmanError]]:
     """Return answers with what was measured on their drawing, and what is to be said of it.
 
-    Plans that are `lost` or `absent` are on pages of a handout that have not been handed in; those are asked for.
+    Plans that are `absent` have not been handed in; each has the message that says so.
 
     Raises
     ------
@@ -206,7 +206,7 @@ def measured(
     if not found.fits:
         notes += [
             *_scales(key, found),
-            *_missing(answers, key, found, columns, lost, absent),
+            *_missing(answers, key, found, columns, absent or {}),
             *_told_of(key, tiny, lambda plan: "drawing-tiny"),
         ]
     return replace(answers, lines=lines, columns=columns), notes
@@ -246,16 +246,14 @@ def _scales(key: Keyed, found: Seen) -> Iterator[InputError]:
 
 
 def _missing(
-    answers: Answers, key: Keyed, found: Seen, columns: Iterable[str], lost: Collection[str], absent: Collection[str]
+    answers: Answers, key: Keyed, found: Seen, columns: Iterable[str], absent: Mapping[str, str]
 ) -> Iterator[InputError]:
     """Go through what was not found, plan by plan."""
 
     def said(plan: str) -> str:
         if plan in found.recognised.plans:
             return "drawing-missing"
-        if plan in lost or plan in absent:
-            return "photo-no-page" if plan in lost else "photo-not-asked"
-        return "photo-no-plan" if answers.photos else "drawing-no-plan"
+        return absent.get(plan, "photo-no-plan" if answers.photos else "drawing-no-plan")
 
     yield from _told_of(key, (name for name in columns if name in found.recognised.missing), said)
 

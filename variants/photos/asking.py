@@ -247,7 +247,7 @@ def ends_asked(desk: Desk, answers: Answers) -> tuple[list[EndAsk], dict[str, by
     wanted = desk.terms.rubric.asked or {question.name for part in key.parts for question in part.asked}
     asks, pictures, ways = list[EndAsk](), dict[str, bytes](), plans_of(key)
     digests = {number: page_of(photo) for number, photo in numbered(answers.photos)}
-    flats = {page.number: page for page in sheets.pages}
+    flats, bare = {page.number: page for page in sheets.pages}, sheets.bare()
     for plan, (number, pole) in sheets.blank.poles.items():
         way, mu = ways[plan], sheets.blank.mus[plan] / sheets.printed
         names = [
@@ -257,7 +257,7 @@ def ends_asked(desk: Desk, answers: Answers) -> tuple[list[EndAsk], dict[str, by
             if name not in sure.vectors and name not in answers.told and name in way.names
             if abs(key.key[name]) >= MEASURED * mu
         ]
-        if not names or number not in flats:
+        if not names or number not in flats or plan in bare:
             continue
         ends = {name: _on_page(sheets, one.tail, one.tip) for name, one in sheets.believed.items() if one.plan == plan}
         mistaken = plan not in sure.plans or bool(sure.plans[plan].mistake)

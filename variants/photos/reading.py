@@ -55,6 +55,8 @@ QUALITY = 0.8  # part of a plan with a mistake that must be there
 LONG, FEWEST = 15.0, 4  # mm of vectors that tell how large the sheet is printed; how many
 LIKE, MISSED, ALIKE = 0.01, 0.6, 0.8  # part of each, and mm, by which they may differ; part of them that is alike
 PRINTED, MOST = 0.012, 0.1  # parts by which a print that is told is smaller or larger
+NEAR, AROUND = 3.0, 20.0  # mm from a pole, between which a plan that is drawn has lines
+CLEAN, SPECKS = 12, 0.0005  # darkness below which paper is clean, part of it that may be darker where nothing is drawn
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -82,8 +84,19 @@ class Flat:
             here = self.dark[y, x]
             hidden |= here == HIDES
             best = np.maximum(best, np.where(here == HIDES, 0, here))
-        seen = (best > 12) | hidden
+        seen = (best > CLEAN) | hidden
         return float(seen.mean()) if not hidden.all() else 0.0
+
+    def bare(self, pole: complex) -> bool:
+        """Return whether nothing at all is drawn around a pole, where print leaves enough to see of the paper."""
+        rows, columns = self.dark.shape
+        x = (np.arange(columns) + 0.5) / PER_MM - pole.real
+        y = (rows - np.arange(rows) - 0.5) / PER_MM - pole.imag
+        across, up = np.abs(x) <= AROUND, np.abs(y) <= AROUND
+        away = np.hypot(x[None, across], y[up, None])
+        dark = self.dark[np.ix_(up, across)][(away >= NEAR) & (away <= AROUND)]
+        paper = dark[dark != HIDES]
+        return paper.size > dark.size / 2 and bool(np.mean(paper > CLEAN) <= SPECKS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,6 +150,13 @@ class Sheets:
     notes: tuple[KulmanError, ...]
     printed: float = 1.0  # how many times as large as they are printed lengths on the sheet are
     believed: Mapping[str, Found] = field(default_factory=dict)  # vectors by name, also those that are not sure
+
+    def bare(self) -> frozenset[str]:
+        """Return the plans of a handout at whose poles nothing is drawn, though their pages are there."""
+        pages = {page.number: page for page in self.pages if self.blank.pages}
+        drawn = {one.plan for one in self.believed.values()}
+        poles = ((plan, pages.get(number), at) for plan, (number, at) in self.blank.poles.items() if plan not in drawn)
+        return frozenset(plan for plan, page, at in poles if page is not None and page.bare(at))
 
     def absent(self, handed_in: Collection[int]) -> frozenset[str]:
         """Return the plans that are on other pages of the handout than those of these numbers."""
