@@ -17,6 +17,7 @@ from datetime import datetime
 from functools import cache
 from html import escape
 from importlib import import_module
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, TypeVar, cast
 
@@ -431,9 +432,20 @@ def csv_encoded(text: str, plain: bool) -> bytes:
 def _csv_of(heads: Sequence[Cell], columns: Sequence[Sequence[Cell] | Array], comma: bool) -> str:
     """Return columns under their heads as CSV, in full precision: a tenth of the time that it takes row by row."""
     between = ";" if comma else ","
-    cells = [_texts(column, comma, between) for column in _watched(columns, len(columns[0]))]
+    cells: list[Sequence[str]] = []
+    for numbers, together in groupby(_watched(columns, len(columns[0])), key=_are_floats):
+        if numbers:
+            from ..scales.series import rows_of  # which needs numpy
+
+            cells.append(rows_of(cast("Sequence[Array]", [*together]), between, comma))
+        else:
+            cells += (_texts(column, comma, between) for column in together)
     head = between.join(_quoted(_text(cell, comma, exact), between) for cell in heads)
     return "\r\n".join((head, *map(between.join, zip(*cells, strict=True)), ""))
+
+
+def _are_floats(column: Sequence[Cell] | Array) -> bool:
+    return not isinstance(column, Sequence) and column.dtype.kind == "f"
 
 
 def _watched(parts: Sequence[Item], rows: int) -> Iterator[Item]:
@@ -447,30 +459,16 @@ def _watched(parts: Sequence[Item], rows: int) -> Iterator[Item]:
 
 def _texts(column: Sequence[Cell] | Array, comma: bool, between: str) -> list[str]:
     """Return the cells of a column as a spreadsheet reads them, in full precision, and with quotes as CSV has them."""
-    if not isinstance(column, Sequence):  # an array: what is to be left out is found at once
-        import numpy as np
-
-        if column.dtype.kind == "f" and np.isfinite(column).all():
-            return _commas([*map(repr, (column + 0.0).tolist())], comma)
-        column = column.tolist()
-    kinds = {*map(type, column)}
+    column = column if isinstance(column, Sequence) else column.tolist()
+    kinds = {int} if isinstance(column, range) else {*map(type, column)}
     if kinds == {int}:
         return [*map(str, column)]
     if kinds == {str}:  # statuses
-        known = {text: _quoted(_harmless(text), between) for text in {*map(str, column)}}
-        return [known[text] for text in map(str, column)]
+        known = {text: _quoted(_harmless(cast("str", text)), between) for text in {*column}}
+        return [*map(known.__getitem__, column)]
     if kinds != {float}:
         return [_quoted(_text(cell, comma, exact), between) for cell in column]
-    numbers = cast("Sequence[float]", column)
-    if all(map(math.isfinite, numbers)) and 0.0 not in numbers:  # nothing to be left out, and no zero below zero
-        texts = [*map(repr, numbers)]
-    else:
-        texts = [repr(x + 0.0) if -math.inf < x < math.inf else "" for x in numbers]
-    return _commas(texts, comma)
-
-
-def _commas(texts: list[str], comma: bool) -> list[str]:
-    """Return numbers with decimal commas, if those are wanted."""
+    texts = [repr(x + 0.0) if -math.inf < x < math.inf else "" for x in cast("Sequence[float]", column)]
     return [text.replace(".", ",") for text in texts] if comma else texts
 
 

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 import kulman
 from kulman import KulmanError, Quantity, Series, Status, load_task, solve, solve_many, sweep
 from kulman.plans.boards.exact import STATUSES
+from kulman.scales.series import rows_of
 from kulman.tests.support.cases import some
 from kulman.variants.shelf import bundled
 from kulman.variants.tables import Table, _harmless
@@ -252,6 +253,21 @@ def test_a_row_of_csv_is_read_back_as_it_was_written(language: str) -> None:
     assert {str(row[2]) for row in read} <= {"0.0", "0,0"}
     assert [row[4].lstrip("'") for row in read] == [said[0], *(_harmless(text).lstrip("'") for text in said[1:])]
     assert [(row[0], row[3], row[5].replace(",", ".")) for row in read[:2]] == [("0", "", "1.5"), ("1", "", "")]
+
+
+def test_many_numbers_are_written_as_repr_writes_each() -> None:
+    random, tens = np.random.default_rng(5), 10.0 ** np.arange(-7, 19)
+    sizes = random.normal(size=40_000) * random.choice(tens, 40_000)
+    beside = [np.nextafter(size, to) for size in (*tens, *(0.5 * tens), *(0.7 * tens)) for to in (0.0, math.inf)]
+    short = [np.round(sizes, decimals) for decimals in range(-2, 9)]
+    odd = [0.0, -0.0, math.nan, math.inf, -math.inf, sys.float_info.max, -sys.float_info.min, 5e-324, *beside]
+    odd += [*(2.0 ** np.arange(-60, 80)), *(2.0**53 + np.arange(-9, 9)), *(np.arange(5000) / 8), 123456789012345.6]
+    numbers = np.concatenate([sizes, *short, odd])
+
+    rows = rows_of([numbers, numbers[::-1]], ";", comma=False)
+
+    told = [repr(number + 0.0) if math.isfinite(number) else "" for number in numbers.tolist()]
+    assert rows == [f"{one};{other}" for one, other in zip(told, reversed(told), strict=True)]
 
 
 def test_states_are_saved_as_tables_and_as_json(tmp_path: Any) -> None:
