@@ -32,6 +32,7 @@ from kulman.variants.marking.report import report_html
 from kulman.variants.marking.result import result_of
 from kulman.variants.roster import Digits, Schemes, read_roster, variant_of_book
 from kulman.variants.sheets import drawing_of, same_id, sheet_id, variant_of_id
+from kulman.variants.spreadsheets.files import read_grid
 
 TASK = "nau-slider-crank"
 HEAD = "task;nau-slider-crank\nvariant;example\n{about}quantity;mm;mu;value;unit;direction\n"
@@ -529,3 +530,27 @@ def test_a_force_that_is_read_in_a_detail_is_judged_by_its_scale_factor(
     told = {row.line.name: (str(row.line.verdict), row.answer) for _, rows in report.parts for row in rows}
     assert told["R_12_t"] == ("right", f"{size / mu * times:.1f} mm; {size:.1f} N")
     assert told["R_12"][0] == "right"
+
+
+@pytest.mark.parametrize("language", ["uk", "ru", "en"])
+@pytest.mark.parametrize("suffix", [".csv", ".xlsx"])
+def test_a_form_of_some_plans_tells_so_itself(tmp_path: Path, language: str, suffix: str) -> None:
+    form = check(TASK, "3", only="velocity", lang=language).write_form(tmp_path / f"form{suffix}")
+    grid = read_grid(form)
+    head = next(at for at, row in enumerate(grid.rows) if len(row) > 2 and row[2])
+    right = solve(TASK, "3")
+    rows = [
+        (*row[:5], f"{right[row[0]].value:.6g}", *row[6:]) if at > head and row[0] in right else row
+        for at, row in enumerate(grid.rows)
+    ]
+    file = tmp_path / "filled.csv"
+    file.write_text("\n".join(";".join(row) for row in rows), encoding="utf-8")
+
+    whole, other, same = (check(TASK, only=only, lang=language) for only in (None, "acceleration", "velocity"))
+    found, elsewhere, asked = (one.mark(one.read(str(file))[0]) for one in (whole, other, same))
+
+    assert found.marked.mark == asked.marked.mark == 100.0
+    assert [note.key for note in found.marked.notes if note.key != "marked-directions"] == ["marked-plans"]
+    assert "marked-plans" not in {note.key for note in asked.marked.notes}
+    assert "marked-plans-other" in {note.key for note in elsewhere.marked.notes}
+    assert "velocity" in report_html(found)

@@ -30,7 +30,7 @@ from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, table_bytes
 from ..task import LocatedError, Task
 from .class_page import PAGE, ClassPage
-from .keyed import asked_of, class_header, columns_of, form_rows, fullest, read_rubric, solved
+from .keyed import PLANS, asked_of, class_header, columns_of, form_rows, fullest, read_rubric, solved
 from .marked import Desk, Terms, variant_of
 from .reading import Answers, answers_of, read_all, stem_of
 from .report import REPORTS, Report, report_files
@@ -57,6 +57,8 @@ class Check(Terms):
         """Return the rows of the empty form of one student, and which columns each answer has (scale factors: mu)."""
         key = Desk(self).keyed(fullest(self.request), {})
         about = {"task": self.request.task.id, "variant": self.request.variant or ""}
+        if self.request.only is not None:
+            about[PLANS] = ", ".join(self.request.only)
         scales = dict.fromkeys((name for part in key.parts for name in part.scales), ("mu",))
         answers = {question.name: columns_of(question) for part in key.parts for question in part.asked}
         return [*form_rows(key, about, self.rubric.asked)], scales | answers

@@ -50,6 +50,7 @@ RATES = ("omega", "epsilon")  # kinds of quantities of links
 SIGNED = ("rad/s", "rad/s^2", "N*m")  # units of scalars that have a sense
 LARGEST = 100_000  # bytes
 ASKED_ABOUT = ("task", "variant", "sheet", "student", "group", "book")
+PLANS = "plans"  # which of them a form asks for, if not all
 COLUMNS = ("name", "symbol", "vector", "mm", "mu", "value", "unit", "direction")
 
 
@@ -265,7 +266,7 @@ def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()
     """Go through the rows of an empty form; `about` is what is known of the sheet already, `only` what is asked."""
     asked, words = keyed.asked, keyed.words
     said = texts(words.language)
-    for key in ASKED_ABOUT:
+    for key in (*ASKED_ABOUT, *(PLANS,) * (PLANS in about)):
         yield (said[f"about.{key}"], about.get(key, ""))
     vectors = any(question.vector for part in keyed.parts for question in part.asked)
     kind, plans = keyed.solution.kind, ("", *keyed.solution.solved.program.plans)

@@ -16,11 +16,11 @@ from ...plans.mistakes.explaining import Candidate, explain
 from ...scales.errors import InputError, KulmanError
 from ...scales.kept import Kept
 from ...scales.numbers import quote
-from ..case import Request, Settings
+from ..case import Request, Settings, plans_wanted
 from ..roster import Entry, Roster, variant_of_book
 from ..sheets import same_id, variant_of_id
 from .cells import Asked
-from .keyed import Keyed, Rubric, keyed
+from .keyed import PLANS, Keyed, Rubric, keyed
 from .reading import Answers, Reply, apart
 from .seen import Seen, measured, seen
 
@@ -211,14 +211,15 @@ class Desk:
         self._keys = Kept[Keyed](KEPT)
         self._blanks, self._sheets = Kept[Any](BLANKS), Kept[Any](1)
 
-    def keyed(self, variant: str, settings: Settings, own: bool = True) -> Keyed:
-        """Return the key of a variant; the last few are kept.
+    def keyed(self, variant: str, settings: Settings, own: bool = True, only: tuple[str, ...] | None = None) -> Keyed:
+        """Return the key of a variant, or of `only` some of its plans; the last few are kept.
 
         One that is not the student's `own` has the scale factors of the rule: no sheet is drawn for it, whatever format
         is asked for, and answers are compared at the scale factors to which they were drawn.
         """
         request = self.terms.request if own else replace(self.terms.request, format=None)
-        name = (variant, request.format, *sorted(settings.items()))
+        request = request if only is None else replace(request, only=only)
+        name = (variant, request.format, only, *sorted(settings.items()))
         return self._keys.get(name, lambda: keyed(request, variant, settings, self.terms.rubric))
 
     def photographed(self, answers: Answers, key: Keyed) -> tuple[Sheets, Seen]:
@@ -248,7 +249,8 @@ class Desk:
         """
         entry = self.terms.roster.find(answers.who) if self.terms.roster else None
         variant, notes = variant_of(self.terms, answers, entry)
-        key = self.keyed(variant, entry.settings if entry else {})
+        only, told = _plans_of(self.terms, answers)
+        key, notes = self.keyed(variant, entry.settings if entry else {}, only=only), notes + told
         return entry, key, notes + _other_sheet(self.terms, answers.about.get("sheet", ""), key)
 
     def mark(self, answers: Answers) -> Marked:
@@ -349,6 +351,19 @@ def _without_doubt(answers: Answers, key: Keyed, found: Seen, rubric: Rubric) ->
     }
     sure = {name: one for name, one in read.vectors.items() if name not in doubtful}
     return replace(found, recognised=Recognised(read.plans, sure, (*read.missing, *sorted(doubtful))))
+
+
+def _plans_of(terms: Terms, answers: Answers) -> tuple[tuple[str, ...] | None, list[KulmanError]]:
+    """Return the plans that a form of some asks for, where none are named that are marked; and what is told of it."""
+    written, marked = answers.about.get(PLANS, ""), terms.request.only
+    try:
+        plans = plans_wanted(written, terms.request.task) if written else None
+    except InputError as error:
+        return None, [error]
+    if plans is None or set(plans) == {*(marked or ())}:
+        return None, []
+    said = {"plans": ", ".join(plans), "marked": ", ".join(marked or ())}
+    return None if marked else plans, [InputError("marked-plans-other" if marked else "marked-plans", **said)]
 
 
 def _other_sheet(terms: Terms, written: str, key: Keyed) -> list[KulmanError]:

@@ -11,7 +11,7 @@ from ...scales.choices import HANDS, SHEETS, SIZES
 from ...scales.errors import LANGUAGES, KulmanError
 from ...scales.packaged import packaged
 from ..batches.batch import FORMS
-from ..marking.keyed import ASKED_ABOUT, COLUMNS
+from ..marking.keyed import COLUMNS
 from ..marking.report import scripts
 from ..sheets import BLOCK
 from .making import GivenField, Job, Judged, Rows, Shown
@@ -317,7 +317,7 @@ def form(
     said, parts = door.said, list[Html]()
     head = next(number for number, row in enumerate(rows) if len([text for text in row if text]) == len(COLUMNS))
     heads = dict(zip(COLUMNS, rows[head], strict=False))
-    hints = [row[0] for row in rows[len(ASKED_ABOUT) : head] if row[0]]
+    hints = [row[0] for row in rows[:head] if row[0] and not any(row[1:])]
     body = list[Html]()
     for number, row in enumerate(rows[head + 1 :], head + 1):
         cells = dict(zip(COLUMNS, (*row, *[""] * len(COLUMNS)), strict=False))
