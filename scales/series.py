@@ -114,7 +114,7 @@ def _characters(values: Floats) -> NDArray[np.uint8]:
 
 
 def _shortest(sizes: Floats) -> tuple[NDArray[np.int64], NDArray[np.intp], NDArray[np.bool_]]:
-    """Return 17 digits of each number, with most zeros at their end, how many are behind the point, and whether it is sure.
+    """Return 17 digits of each number, with most zeros at their end; how many are behind the point; if all is sure.
 
     Multiplied by the power of ten that leaves 17 digits before the point, a number is the sum of two floats, exactly
     (T. J. Dekker, A floating-point technique for extending the available precision, Numer. Math. 18, 1971). What is
