@@ -23,10 +23,12 @@ from kulman.plans.hands.shaky import draw, preset
 from kulman.tests.support.answer_files import write
 from kulman.tests.support.marking_cases import answer, key, students
 from kulman.variants.marking import checks
-from kulman.variants.marking.checks import Job, _mark_class, slug
+from kulman.variants.marking.checks import Job, _mark_class, reported, slug
 from kulman.variants.marking.class_page import BAR, ClassPage
-from kulman.variants.marking.reading import Answers, Reply
+from kulman.variants.marking.marked import Desk
+from kulman.variants.marking.reading import Answers, Reply, answers_of
 from kulman.variants.marking.result import Result, _Measured, _too_exact, measured, shared
+from kulman.variants.marking.wording import mistake_texts, texts
 from kulman.variants.roster import Entry, Roster, Who
 
 TASK = "nau-slider-crank"
@@ -456,3 +458,23 @@ def test_a_bar_counts_the_marks_of_its_tenth(tmp_path: Path) -> None:
 
     bars = re.findall(r'<rect x="([\d.]+)".*?/><text[^>]*>(\d+)<', page)
     assert [(int(float(x) // BAR), int(count)) for x, count in bars] == [(0, 2), (1, 1), (5, 1), (9, 2)]
+
+
+@pytest.mark.parametrize("language", ["uk", "ru", "en"])
+def test_a_class_is_told_in_words_what_may_have_gone_wrong(language: str) -> None:
+    desk = Desk(check(TASK, "3", lang=language))
+    key, words, said = desk.keyed("3", {}), mistake_texts(language), texts(language)
+
+    def explained(mistake: str, asked: int) -> list[list[str]]:
+        found = []
+        for broken in (one for one in key.book.signatures if one.broken.mistake == mistake):
+            names = [name for name in broken.values if name in desk.terms.asked.quantities]
+            values = {name: broken.values[name] for name in sorted(names, key=[*key.key.questions].index)[:asked]}
+            values = {name: abs(value) if isinstance(value, complex) else value for name, value in values.items()}
+            found.append(reported(desk, answers_of(values, desk.terms.asked))[1].explained(language))
+        return found
+
+    assert [f"M01: {words['M01']}"] in explained("M01", 3)
+    assert [f"M08: {words['M08']}{said['class.or']}M10: {words['M10']}"] in explained("M08", 3)
+    assert [said["class.untold"].format(n=3)] in explained("M09", 8)
+    assert [said["class.slips"]] in explained("M22", 40)

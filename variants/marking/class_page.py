@@ -104,7 +104,7 @@ class ClassPage:
             else:
                 mark = "–" if line.mark is None else self._number(line.mark)
                 notes = () if line.mark is not None else line.notes  # why there is none
-                told = "; ".join(mistake_texts(language)[one] for one in line.mistakes)
+                told = "; ".join(line.explained(language, numbered=False))
                 cells = *about, mark, scripts(line.first), scripts(told), escape("; ".join((*flags, *notes)))
                 kind = "flag" if flags or notes else ""
                 kind = (

@@ -17,7 +17,7 @@ from ...plans.marking.key import Key
 from ...scales.errors import KulmanError, spoken
 from ..roster import WHO, Entry, Who
 from ..tables import Cell
-from .marked import Marked
+from .marked import TOLD_APART, Marked
 from .reading import Answers, Reply
 from .wording import mistake_texts, texts
 
@@ -174,7 +174,8 @@ def _most(segment: _Measured) -> float:
 class Result:
     """One student: who, which variant, the mark (None where the answers could not be marked), verdicts, mistakes.
 
-    `plans` are those that were read on photographs, `absent` those not handed in, which has cost nothing.
+    `plans` are those that were read on photographs, `absent` those not handed in, which has cost nothing; `perhaps` are
+    mistakes that these answers do not tell from the others, `slips` that only the hand may have slipped.
     """
 
     source: str
@@ -192,6 +193,8 @@ class Result:
     fits: str = ""
     plans: tuple[str, ...] = ()
     absent: tuple[str, ...] = ()
+    perhaps: tuple[str, ...] = ()
+    slips: bool = False
 
     def flags(self, language: str) -> list[str]:
         """Return what a teacher should check of this student alone."""
@@ -199,9 +202,15 @@ class Result:
         found = [said["flag.exact"]] if self.exact else []
         return [*found, said["flag.variant"].format(variant=self.fits)] if self.fits else found
 
-    def explained(self, language: str) -> list[str]:
-        """Return the mistakes that explain the answers, each in words after its number."""
-        return [f"{name}: {mistake_texts(language)[name]}" for name in self.mistakes]
+    def explained(self, language: str, numbered: bool = True) -> list[str]:
+        """Return what explains the answers: mistakes in words, after their numbers, or how many it may be."""
+        said, words = texts(language), mistake_texts(language)
+        if self.slips or len(self.perhaps) > TOLD_APART:
+            return [said["class.slips" if self.slips else "class.untold"].format(n=len(self.perhaps))]
+        known, doubtful = (
+            [f"{name}: " * numbered + words[name] for name in names] for names in (self.mistakes, self.perhaps)
+        )
+        return [said["class.or"].join((*known, *doubtful))] if doubtful else known
 
     @classmethod
     def from_json(cls, data: Mapping[str, Any]) -> Result:
@@ -213,7 +222,7 @@ class Result:
             The data are none of a result.
         """
         segments = {name: _Measured(**of) for name, of in data["segments"].items()}
-        lists = {name: tuple(data[name]) for name in ("mistakes", "notes", "reports", "plans", "absent")}
+        lists = {name: tuple(data[name]) for name in ("mistakes", "notes", "reports", "plans", "absent", "perhaps")}
         return cls(**{**data, "who": Who(**data["who"]), "segments": segments, **lists})
 
 
@@ -233,6 +242,7 @@ def result_of(marked: Marked, language: str) -> Result:
     exact = marked.seen is not None  # as drawings of a computer are: that tells nothing of them
     segments = {} if exact else measured(answers, marked.marking.key, mus, follows)
     best = marked.candidates[0].mistakes if marked.candidates and not (marked.slips or marked.untold) else ()
+    ids = marked.candidates[0].ids if marked.candidates and not marked.slips else frozenset[str]()
     return Result(
         answers.source,
         marked.entry.who if marked.entry else answers.who,
@@ -249,6 +259,8 @@ def result_of(marked: Marked, language: str) -> Result:
         marked.fits,
         tuple(sorted({one.plan for one in marked.seen.recognised.vectors.values()})) if marked.seen else (),
         tuple(sorted(marked.absent)),
+        tuple(sorted(ids - {broken.mistake for broken in best})),
+        marked.slips,
     )
 
 
