@@ -346,6 +346,7 @@ def said_under(figure: Figure, said: dict[str, str]) -> tuple[str, ...]:
 
 
 _WORD = re.compile(r"[^\W\d_]$|(?:^|\d |, )\(?[^\W\d_]+/$")  # a letter at the end, or a unit: 2 m/s²
+_UNITS = re.compile(r"(?:\b(?:kg|N|rad|mm|cm|m)[/·]|\bm)$")  # before a unit with its power
 TIE, JOINER = "\u00a0", "\u2060"  # a space at which no line ends, what keeps one from ending behind a sign
 _BEFORE_SIGN, _AFTER_NUMBER = re.compile(r" (?=[=≤≥<>] )"), re.compile(r"(?<=\d) (?=\w)")
 
@@ -444,8 +445,20 @@ def tied(text: str) -> str:
     return _BEFORE_SIGN.sub(TIE, _AFTER_NUMBER.sub(TIE, text))
 
 
+def is_unit(parts: Sequence[Node], place: int) -> bool:
+    """Whether a part of a line is a unit with its power, behind another one or alone: the m² of kg·m²."""
+    part, before = parts[place], parts[place - 1] if place else None
+    if not isinstance(part, Scripted) or not isinstance(part.base, Plain) or part.below:
+        return False
+    cyrillic = "а" <= part.base.text[:1].lower() <= "ґ"
+    behind = len(parts) == 1 if before is None else isinstance(before, Plain) and _UNITS.search(before.text) is not None
+    return all(isinstance(up, Plain) for up in part.above) and (cyrillic or (behind and part.base.text in ("m", "s")))
+
+
 def joined(parts: Sequence[Node], place: int) -> bool:
-    """Whether a part stands in one word with plain letters, which are upright: the d and the φ of d²s/dφ²."""
+    """Whether a part stands in one word with plain letters, which are upright: the d and the φ of d²s/dφ², a unit."""
+    if is_unit(parts, place):
+        return True
     before, after = (parts[near] if 0 <= near < len(parts) else None for near in (place - 1, place + 1))
     if isinstance(before, Plain) and _WORD.search(before.text):
         return True

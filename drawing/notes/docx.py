@@ -5,7 +5,6 @@ What is written in WordprocessingML is put into a document of the library with s
 
 from __future__ import annotations
 
-import re
 import zipfile
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache, lru_cache
@@ -65,7 +64,6 @@ PAD = 4.0  # mm in a cell beside its text
 SERIF = 1.35  # times as wide as on the sheet a word is in the bold roman of a table's head
 _PICTURES = "http://schemas.openxmlformats.org/drawingml/2006"
 _SVG = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
-_UNITS = re.compile(r"(?:\b(?:kg|N|rad|mm|cm|m)[/·]|\bm)$")
 
 
 class Drawing(NamedTuple):
@@ -315,22 +313,12 @@ def words(text: str, properties: str = "") -> str:
 def line(markup: str, properties: str = "") -> str:
     """Return a line of markup: words as text with `properties`, symbols with scripts and bars as formulas."""
     parts = whole(note.parse(markup))
-    before = "m/" if len(parts) == 1 else ""  # a power of m alone is a unit
     told: list[tuple[bool, str]] = []
     for place, part in enumerate(parts):
-        formula = not isinstance(part, note.Plain) and not _is_unit(part, before)
+        formula = not isinstance(part, note.Plain) and not note.is_unit(parts, place)
         told.append((formula, node(part, note.joined(parts, place)) if formula else _text(part, properties)))
-        before = part.text if isinstance(part, note.Plain) else ""
     shown = ((formula, "".join(text for _, text in some)) for formula, some in groupby(told, lambda pair: pair[0]))
     return "".join(f"<m:oMath>{text}</m:oMath>" if formula else text for formula, text in shown)
-
-
-def _is_unit(part: note.Node, before: str) -> bool:
-    if not isinstance(part, note.Scripted) or not isinstance(part.base, note.Plain) or part.below:
-        return False
-    cyrillic = "а" <= part.base.text[:1].lower() <= "ґ"
-    powers = all(isinstance(up, note.Plain) for up in part.above)
-    return powers and (cyrillic or (part.base.text in ("m", "s") and _UNITS.search(before) is not None))
 
 
 def _text(part: note.Node, properties: str) -> str:

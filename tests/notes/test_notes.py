@@ -464,6 +464,13 @@ def test_no_line_ends_between_a_letter_its_number_and_the_unit_but_before_a_sign
         *(("d^{2}s/dφ^{2}", "", "dφ"), ("μ_{d^{2}s/dφ^{2}}", "μ", "dφ"), ("ω^{2}·r_{0}", "ωr", "")),
         *(("P_{1}B_{1}", "PB", ""), ("OP_{1} = 2", "", "P"), ("a_{B} = 2 m/s^{2}", "a", "s")),
         *(("V_{A}^{2}/l_{OA}", "Vl", ""), ("μ_{s} = h/S_{max}", "μS", ""), ("m/s^{2}", "", "s")),
+        *(
+            ("кг·м^{2}", "", "м"),
+            ("kg·m^{2}", "", "m"),
+            ("м^{2}", "", "м"),
+            ("m^{2}", "", "m"),
+            ("J = m·l^{2}", "l", ""),
+        ),
     ],
 )
 def test_letters_of_one_word_are_all_upright(markup: str, slanted: str, upright: str) -> None:
