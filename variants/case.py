@@ -28,6 +28,7 @@ from .checks.names import Names, check_numbers, word_or_choice
 from .kinds import MODULES
 from .task import WITH_FORCES, Instead, LocatedError, Task
 from .task import Given as Stated
+from .task import Settings as Settings
 
 FAR = 100.0  # times more, or less, than any variant has
 if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
@@ -41,7 +42,6 @@ if TYPE_CHECKING:  # what a list of tasks, or their reader, does without
     from ..plans.hands.shaky import Paper, Tolerance
     from ..plans.marking.key import Question
 
-Settings = Mapping[str, str | float]
 Wanted = str | Iterable[str] | None  # names, each alone or several with commas between; all for none
 Numbers = Mapping[str, float]  # of a variant, SI
 Choices = Mapping[str, str]  # of a variant: its word of each choice
@@ -487,7 +487,7 @@ def _by_symbol(scales: Settings, known: Sequence[str], solved: Solved) -> Settin
     return found
 
 
-def _choosable(task: Task, name: str, text: str | float, solved: Solved) -> None:
+def _choosable(task: Task, name: str, text: object, solved: Solved) -> None:
     """Refuse a scale factor that a task has not or that is found, and a segment where none chooses a scale factor."""
     kind = kind_of(task.kind)
     known = kind.scale_symbols(solved)

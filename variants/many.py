@@ -22,11 +22,11 @@ from ..plans.linkages.solved import board_givens
 from ..plans.quantities import results, unit_of
 from ..plans.solved import Columned
 from ..scales.errors import InputError, Written
-from ..scales.names import all_known, names_of, unknown
+from ..scales.names import all_known, by_name, names_of, unknown
 from ..scales.numbers import quote
 from ..scales.series import Series
 from ..scales.units import UnitName, converted, parse, unit
-from .case import Case, Request, Settings, Wanted
+from .case import Case, Request, Wanted
 from .kinds.linkage import Linkages
 from .reader import load_task
 from .tables import Arrays, html_table
@@ -137,7 +137,7 @@ def solve_many(
     task: AnyTask,
     variant: str | None = None,
     *,
-    set: Settings | None = None,
+    set: Mapping[str, Many] | None = None,
     only: Wanted = None,
     names: Wanted = None,
     lang: str | None = None,
@@ -147,14 +147,15 @@ def solve_many(
 
     Parameters
     ----------
-    task, variant, set, only, lang
+    task, variant, only, lang
         As for `solve`.
+    set : mapping, optional
+        As for `solve`, `{"l_OA": "55 mm"}`; also numbers and their unit, `{"phi": ([0, 45, 90], "deg")}`.
     names : str or iterable of str, optional
         The quantities and points wanted, `"V_B,M_bal"`; all of the plans without it. Fewer are found sooner.
     **givens : str, number, array, or a pair of these and a unit
-        Givens by name: a text with a unit, `"190 mm"`; numbers are in SI, `phi=numpy.linspace(0, 6.28, 361)`, with a
-        unit behind them in that, `l_AB=([100, 110], "mm")`. They broadcast. In `set` numbers would be in the unit of
-        the task, as on the command line: here they have to say theirs, `set={"phi": "75 deg"}`.
+        The same by keyword, where numbers alone are in SI: `phi=numpy.linspace(0, 6.28, 361)`. They broadcast. In
+        `set` numbers alone would be in the unit of the task, as on the command line: they have to say theirs.
 
     Returns
     -------
@@ -176,25 +177,26 @@ def solve_many(
     >>> states = solve_many("nau-slider-crank", "example", phi=([0, 45, 90], "deg"), names="V_B")
     >>> states["V_B"].round(3).tolist()
     [0.0, 2.032, 4.006]
+    >>> solve_many("nau-slider-crank", "example", set={"phi": ([0, 45, 90], "deg")}, names="V_B").shape
+    (3,)
     """
-    asked, first, read = load_task(task), dict[str, Any](set or {}), dict[str, Array]()
-    for name, value in first.items():
-        of = asked.givens[name].unit if name in asked.givens else None
-        if of is not None and of.name and not isinstance(value, str):  # 75 degrees here, 75 radians a word further
-            raise LocatedError(name, InputError("number-of-what", text=quote(value), unit=of.name))
-    for name, value in givens.items():
+    asked, first, read = load_task(task), by_name("set", set), dict[str, Array]()
+    for name, value in {**first, **givens}.items():
         if name not in asked.givens:
             raise unknown("given-unknown", name, asked.givens, task=asked.id)
         of = asked.givens[name].unit
-        if of is None:  # a word
+        if of is None or (name not in givens and isinstance(value, str)):  # a word, or read with the data
             first[name] = value
             continue
+        if name not in givens and of.name and not isinstance(value, (tuple, Series)):  # degrees here, radians there
+            raise LocatedError(name, InputError("number-of-what", text=quote(value), unit=of.name))
         try:
             read[name] = _in_si(asked.givens[name], value)
         except InputError as error:
             raise LocatedError(name, error) from error
         first[name] = of.from_si(float(read[name].flat[0]))
-    for said in (said for name, array in read.items() for said in _of_another_unit(asked, name, array, givens[name])):
+    bare = ((name, read[name], value) for name, value in givens.items() if name in read)
+    for said in (said for name, array, value in bare for said in _of_another_unit(asked, name, array, value)):
         warnings.warn(str(said), stacklevel=2)
     case = Request(asked, variant, first, only, language="en" if lang is None else lang).case()
     if not isinstance(case.kind, Linkages):

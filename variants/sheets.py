@@ -310,7 +310,7 @@ def sheet_of(case: Case, drawn: Drawn, stamp: Stamp) -> Sheet:
     return Sheet(pages, drawn.scales, drawn.format, tuple(warnings), drawn.views)
 
 
-def sheet_id(task: Task, variant: str, settings: Mapping[str, str | float] | None = None) -> str:
+def sheet_id(task: Task, variant: str, settings: Settings | None = None) -> str:
     """Return the id of the sheet of a variant with its data, such as `3F7-K2M`; the same data give the same id."""
     data = {
         name: value if isinstance(value, str) else f"{value:.9e}"

@@ -253,7 +253,7 @@ def solve(
     variant : str, optional
         Without it the first variant.
     set : mapping, optional
-        Other values for givens: `{"l_OA": "55 mm", "n_1": 765}`.
+        Other values for givens: `{"l_OA": "55 mm", "n_1": 765, "phi": (75, "deg")}`.
     only : str or iterable of str, optional
         The plans wanted, `"velocity"` or `["velocity", "forces"]`; only they and what they need are built.
     scales : mapping, optional

@@ -32,6 +32,7 @@ _OF_VARIANT = ("", "v", "в")  # letters before its number that only say what it
 ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written, with a unit or without
 
 AnyTask: TypeAlias = "str | os.PathLike[str] | Task"  # an id or a file, or one that is read already
+Settings = Mapping[str, str | float | tuple[float, str]]  # values by name: text, number, or number and unit
 Instead = tuple[tuple[frozenset[str], tuple[str, ...]], ...]  # givens, and those in whose place they stand
 WITH_FORCES = frozenset(("forces", "lever"))  # plans whose units hang together in SI alone
 
@@ -63,12 +64,14 @@ class Given:
     def read(self, value: object) -> float | str:
         """Return what was written for this given: a chosen word, or a number in SI.
 
-        A quantity may be a text (`"55,5 мм"`), or a number in the given's own unit.
+        A quantity may be a text (`"55,5 мм"`), a number and its unit (`(55.5, "mm")`), or one in the given's own unit.
         """
         if self.unit is None:
             if value not in self.choices or not isinstance(value, str):
                 raise InputError("choice-unknown", text=quote(value), known=", ".join(self.choices))
             return value
+        if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], Real) and isinstance(value[1], str):
+            value = f"{float(value[0])!r} {value[1]}"
         written = value.strip().lower().partition(" ")[0] if isinstance(value, str) else value
         if self.bound is Bound.RIGID and written in (*ENDLESS, math.inf):
             return math.inf
@@ -191,12 +194,10 @@ class Task:
                 names.setdefault(int(own[2]), name)
         return names
 
-    def resolve(
-        self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None
-    ) -> dict[str, float | str]:
+    def resolve(self, variant_id: str | None = None, settings: Settings | None = None) -> dict[str, float | str]:
         """Return every given of a variant, the first without an id: numbers in SI, choices as words.
 
-        `settings` replace givens of the variant: quantities as text, or numbers in the given's own unit.
+        `settings` replace givens of the variant: quantities as `Given.read` takes them.
         """
         row = self.variant(variant_id).values
         resolved = {name: row.get(name, given.default) for name, given in self.givens.items()}
@@ -215,9 +216,7 @@ class Task:
                 raise LocatedError(name, error) from error
         return {name: value for name, value in resolved.items() if value is not None}
 
-    def values(
-        self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None
-    ) -> dict[str, float]:
+    def values(self, variant_id: str | None = None, settings: Settings | None = None) -> dict[str, float]:
         """Return every number that the subject names, in SI: givens, what the choices set, and constants."""
         values = {ZERO: 0.0, **self.constants}
         for name, value in self.resolve(variant_id, settings).items():
@@ -227,7 +226,7 @@ class Task:
                 values[name] = value
         return values
 
-    def words(self, variant_id: str | None = None, settings: Mapping[str, str | float] | None = None) -> dict[str, str]:
+    def words(self, variant_id: str | None = None, settings: Settings | None = None) -> dict[str, str]:
         """Return the words of all choices of a variant."""
         resolved = self.resolve(variant_id, settings).items()
         return {name: value for name, value in resolved if isinstance(value, str)}

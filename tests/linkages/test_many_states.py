@@ -146,6 +146,20 @@ def test_numbers_in_set_say_their_unit_where_others_are_in_si() -> None:
         solve_many(TASK, set={"phi": 75})
 
 
+def test_one_and_many_are_set_in_the_same_way() -> None:
+    given: dict[str, Any] = {"l_OA": "30 mm", "phi": (75, "deg"), "n_1": (np.float64(20.0), "1/s")}
+
+    many, one = solve_many(TASK, set=given, names="V_B"), solve(TASK, set=given)
+    several = solve_many(TASK, set={**given, "phi": ([0, 75], "deg")}, names="V_B")
+    named = solve_many(TASK, set=given, phi=([0, 75], "deg"), names="V_B")  # a keyword goes before
+
+    assert float(many["V_B"]) == pytest.approx(one["V_B"].value)
+    assert one["V_B"].value == solve(TASK, set={"l_OA": "30 mm", "phi": "75 deg", "n_1": "20 1/s"})["V_B"].value
+    assert several["V_B"].tolist() == named["V_B"].tolist() == [pytest.approx(0.0, abs=1e-9), float(many["V_B"])]
+    with pytest.raises(KulmanError, match="unit"):
+        solve(TASK, set={"phi": (75, "mm")})
+
+
 @pytest.mark.parametrize(
     ("givens", "meant"),
     [
