@@ -1,4 +1,4 @@
-"""Arithmetic of a program written down once: for many positions in chunks that fit a cache, for one, or for a page.
+"""Arithmetic of a program written down once: for many positions in chunks that fit a cache, or for a page.
 
 Formulas on arrays are written down likewise: what a course calculates for many places at once it calculates with
 numbers that note what numpy does with them for none: the sums, products and functions are noted (`trace`), complex
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ctypes
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache, cached_property
@@ -23,7 +23,7 @@ from ...scales.errors import InputError
 from ...scales.kept import Kept
 from ..board import Program
 from .arrays import CODES, ArrayBoard
-from .exact import MARKS, ORDERS, ROUND, STATUSES, Status, graduation, run
+from .exact import MARKS, ORDERS, ROUND, graduation, run
 from .printers import ARRAYS, PYTHON, Chunked, Output, Plain, compiled, in_order, number, plain_names
 from .trace import Real, Trace, TracingBoard, Vector
 
@@ -223,11 +223,10 @@ JAVASCRIPT = {
     "sin": "Math.sin({0})",
     "mark": f"({{0}} === {{0}} ? (({{0}} - {ROUND!r}) % {MARKS} + {MARKS}) % {MARKS} : {MARKS})",
 }
-_ALONE = Kept[Callable[..., Any]](64)
 
 
 @dataclass(frozen=True)
-class Script(Plain):
+class _Script(Plain):
     """The program of a trace for one position, as source of JavaScript.
 
     The function it defines takes the givens as an object by name and returns an array, the code of the status first.
@@ -241,9 +240,9 @@ class Script(Plain):
     unless, worse, end = "if (!({0})) {{", "if ({0} && code < {1}) code = {1};", ("}",)
     both, never = " && ", "false"
 
-    def source(self, function: str, result: str, code: int = 0, lines: Sequence[str] = ()) -> str:
+    def source(self, function: str, result: str, code: int = 0) -> str:
         """Return the source of the function; it calls what `script_names` defines."""
-        lines = [*self.lines(code), *lines, f"return [code, {result}];"]
+        lines = [*self.lines(code), f"return [code, {result}];"]
         return "\n".join([f"function {function}(given) {{", *(f"  {line}" for line in lines), "}", ""])
 
 
@@ -277,25 +276,10 @@ const [cosines, sines] = (function () {{
 """
 
 
-def values_of(
-    program: Program, givens: Mapping[str, float], wanted: tuple[str, ...] | None = None
-) -> tuple[dict[str, Any], Status]:
-    """Return all values of a program at one position by name, or the `wanted` ones, and the status of the position.
-
-    They are those of the exact board to the last bit, in a quarter of the time from the second position on; which lines
-    meet flatly, and which step fails, it does not say. Steps that the wanted names do not need are not done.
-
-    Raises TypeError: the program has steps that are more than arithmetic.
-    """
-    key = program, tuple([name for name, value in givens.items() if value == 0.0]), len(givens), wanted
-    code, values = _ALONE.get(key, lambda: _write_one(program, givens, wanted))(givens)
-    return values, STATUSES[code]
-
-
 def script_of(program: Program, givens: Mapping[str, float], wanted: Sequence[str]) -> str:
     """Return a program as source of JavaScript, the function `solve(given)`, which calls what `script_names` defines.
 
-    It is what a page that moves will calculate with; nothing of the package itself asks for it.
+    It is what a page that moves calculates with.
 
     It takes an object of numbers in SI by name and returns an array: the index of the status in `STATUSES`, then each
     of the `wanted` names, vectors as arrays of two numbers; equal to Python to the last bit, but for the last one of an
@@ -303,39 +287,26 @@ def script_of(program: Program, givens: Mapping[str, float], wanted: Sequence[st
 
     Raises TypeError: the program has steps that are more than arithmetic.
     """
-    script, results, code = _printed(Script, program, givens, wanted, "[{}, {}]")
-    return script.source("solve", ", ".join(results), code)
-
-
-def _write_one(program: Program, givens: Mapping[str, float], wanted: tuple[str, ...] | None) -> Callable[..., Any]:
-    names = wanted or program.names
-    plain, results, code = _printed(Plain, program, givens, names, "complex({}, {})")
-    alike: dict[str, list[str]] = {}
-    for name, result in zip(names, results, strict=True):
-        alike.setdefault(result, []).append(f"values[{name!r}] = ")
-    lines = ["values = blank.copy()", *("".join(into) + result for result, into in alike.items())]
-    return compiled(plain.source("one", "values", code, lines), "one", {**plain_names(), "blank": dict.fromkeys(names)})
-
-
-def _printed(
-    printer: type[Plain], program: Program, givens: Mapping[str, float], wanted: Sequence[str], vector: str
-) -> tuple[Plain, list[str], int]:
-    """Return the printer of a program, expressions of the wanted names, and the code of what depends on no given."""
     zeros = [name for name, value in givens.items() if value == 0.0]
     board = TracingBoard(dict.fromkeys(zeros, 0.0), [name for name in givens if name not in zeros])
     program.needed_for(wanted).run(board)
-    values = [board.values[name] for name in wanted]
+    return _script_of(board.trace, "solve", [board.values[name] for name in wanted], CODES[board.status])
+
+
+def _script_of(trace: Trace, function: str, values: Iterable[Any], code: int = 0) -> str:
+    """Return a function of JavaScript that gives back values of a trace; `code` is of what depends on no given."""
+    values = [*values]
     places = [part.place for value in values for part in (value.real, value.imag) if isinstance(part, Real)]
-    plain = printer(board.trace, in_order(board.trace, places), places)
-    return plain, [result_of(plain, value, vector) for value in values], CODES[board.status]
+    script = _Script(trace, in_order(trace, places), places)
+    return script.source(function, ", ".join(_result_of(script, value) for value in values), code)
 
 
-def result_of(plain: Plain, value: Any, vector: str) -> str:
-    """Return what gives a value back, its zeros without a sign."""
+def _result_of(script: _Script, value: Any) -> str:
+    """Return what gives a value back, its zeros without a sign; vectors as arrays."""
     if isinstance(value, Vector | complex):
-        return vector.format(result_of(plain, value.real, vector), result_of(plain, value.imag, vector))
+        return f"[{_result_of(script, value.real)}, {_result_of(script, value.imag)}]"
     if isinstance(value, Real):
-        shown = plain.value(value.place)
+        shown = script.value(value.place)
         return f"0.0 - {shown}" if value.negative else f"{shown} + 0.0"
     return number(value + 0.0)
 
@@ -468,6 +439,4 @@ def script_of_formulas(formulas: Formulas, function: str = "solve") -> tuple[str
     trace = Trace()
     found = {name: _as_written(number) for name, number in formulas(lambda name: _Written(trace.given(name))).items()}
     values = [number.x if _is_zero(number.y) else Vector(number.x, number.y) for number in found.values()]
-    places = [part.place for number in found.values() for part in (number.x, number.y) if isinstance(part, Real)]
-    script = Script(trace, in_order(trace, places), places)
-    return script.source(function, ", ".join(result_of(script, value, "[{}, {}]") for value in values)), [*found]
+    return _script_of(trace, function, values), [*found]

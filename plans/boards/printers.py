@@ -116,9 +116,9 @@ class Plain:
     both: ClassVar[str] = " and "
     never: ClassVar[str] = "False"
 
-    def source(self, function: str, result: str, code: int = 0, lines: Sequence[str] = ()) -> str:
-        """Return the source of a function of the givens by name that returns a code and, after more lines, a result."""
-        return defined(function, ("given",), [*self.lines(code), *lines, f"return code, {result}"])
+    def source(self, function: str, result: str, code: int = 0) -> str:
+        """Return the source of a function of the givens by name that returns a code and a result."""
+        return _defined(function, ("given",), [*self.lines(code), f"return code, {result}"])
 
     def lines(self, code: int = 0) -> Iterator[str]:
         """Print what makes the outputs, without indent."""
@@ -190,7 +190,7 @@ class Plain:
         return entry.operation == "multiply" and entry.operands[0] == entry.operands[1]
 
 
-def defined(name: str, parameters: Iterable[str], lines: Iterable[str]) -> str:
+def _defined(name: str, parameters: Iterable[str], lines: Iterable[str]) -> str:
     """Return the source of a function of Python."""
     return "\n".join([f"def {name}({', '.join(parameters)}):", *(f"    {line}" for line in lines), ""])
 
@@ -235,7 +235,7 @@ class _Loop(Plain):
         lines = [*self.lines(), *(f"{out}[i] = {result}" for out, result in zip(outputs, results, strict=True))]
         lines += ["if code > codes[i]: codes[i] = code"]
         parameters = ["codes", *arrays, *(f"v{place}" for place in self.shared), *outputs]
-        return defined("loop", parameters, ["for i in range(codes.size):", *("    " + line for line in lines)])
+        return _defined("loop", parameters, ["for i in range(codes.size):", *("    " + line for line in lines)])
 
     @cached_property
     def _named(self) -> frozenset[int]:
@@ -340,7 +340,7 @@ class Chunked:
         }
         lines = [f"{', '.join(names)}, = {what}" for what, names in unpacked.items() if names]
         lines += [line for place in self.each for line in self._lines(place)]
-        return defined("chunk", ("codes", "given", "shared", "buffers", "outputs"), lines or ["pass"])
+        return _defined("chunk", ("codes", "given", "shared", "buffers", "outputs"), lines or ["pass"])
 
     def loop(self) -> str:
         """Return the source of `loop(codes, *given, *computed, *outputs)`, for the outputs that vary."""

@@ -25,7 +25,7 @@ NOISE = 2.0**-36  # part of the size below which a correction is no measure of c
 
 
 @dataclass(frozen=True, slots=True)
-class Path:
+class _Path:
     """What a leg leaves to its joint: the arc of `radius` about `start`, or the line through `start` along `direction`.
 
     `joint` is the joint on the template, counted from the first one.
@@ -101,7 +101,7 @@ def lay(
     place, turn = point(where[0], where[1]), point(where[2], where[3])
     joint = where[ASTRAY + 1]
     first, second, third = (
-        Path(where[i] - joint, where[i + 1], where[i + 2], where[i + 3], names[i + 2] == "zero")
+        _Path(where[i] - joint, where[i + 1], where[i + 2], where[i + 3], names[i + 2] == "zero")
         for i in range(ASTRAY + 1, len(names), 4)
     )
     paths = first, second, third
@@ -128,7 +128,7 @@ def lay(
     return Laid(place, turn, determinant, apart, doubt, missing, (move, twist / size))
 
 
-def _size(paths: tuple[Path, Path, Path], root: Callable[[Any], Any]) -> Any:
+def _size(paths: tuple[_Path, _Path, _Path], root: Callable[[Any], Any]) -> Any:
     """Return the size of a template: of an equal-sided one 1.22 sides, of a flat one its length."""
     first, second = paths[1].joint, paths[2].joint
     third = second - first

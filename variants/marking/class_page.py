@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from html import escape
@@ -113,13 +112,6 @@ class ClassPage:
             shown = "".join(f"<td{' class=m' if at == 3 else ''}>{cell}</td>" for at, cell in enumerate(cells))
             rows.append(f'<tr class="{kind}"><td>{len(rows) + 1}</td>{shown}</tr>')
         return f"<table><tr><th>№</th>{heads}</tr>{''.join(rows)}</table>"
-
-    def _first_steps(self) -> str:
-        """Return at which steps students go wrong first, and how many at each."""
-        often = Counter(result.first for result in marked_of(self.lines) if result.first)
-        told = ", ".join(f"{scripts(symbol)} – {count}" for symbol, count in often.most_common())
-        first = self.said["class.first"]
-        return f"<p>{escape(first[:1].upper() + first[1:])}: {told}</p>" if told else ""
 
     def _mistake(self, name: str, students: list[Result], at: int) -> str:
         """Return what was done, by how many and whom, and the plan of one of them over the right one."""
