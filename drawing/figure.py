@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, Generic, TypeVar
 
@@ -55,15 +55,10 @@ class Stage:
     needs: tuple[str, ...] = ()
 
 
-def needing(stages: Iterable[Stage], **needs: str | tuple[str, ...]) -> tuple[Stage, ...]:
-    """Return stages of which some, by name, need those of other figures."""
-    wanted = {name: (need,) if isinstance(need, str) else need for name, need in needs.items()}
-    return tuple(replace(stage, needs=wanted.get(stage.name, stage.needs)) for stage in stages)
-
-
-def stages(*names: str, **marks: str) -> tuple[Stage, ...]:
-    """Return stages that every scene has, by name, then those in which `marks` are made."""
-    return (*map(Stage, names), *(Stage(name, made) for name, made in marks.items()))
+def stages(*names: str, **made: str | tuple[str, ...]) -> tuple[Stage, ...]:
+    """Return stages that every scene has, by name, then others with their marks, or with marks and what they need."""
+    others = ((name, (one,) if isinstance(one, str) else one) for name, one in made.items())
+    return (*map(Stage, names), *(Stage(name, marks, needs=tuple(needs)) for name, (marks, *needs) in others))
 
 
 @dataclass(frozen=True, slots=True)

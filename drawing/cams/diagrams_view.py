@@ -12,7 +12,7 @@ from ...plans.names import role
 from ...scales.scale import Scale, steps
 from ..areas import beside
 from ..dimensions import AT_POLE, Axis, Field, Pole, axes, divisions, linear, mark_pole, numbers, small
-from ..figure import Figure, Stage, needing, stages
+from ..figure import Figure, Stage, stages
 from ..page import extent
 from ..printed import DEGREES
 from ..shapes import Group, Line, Pen, Polyline, Text
@@ -376,6 +376,6 @@ PRESSURE_FIGURE = Figure(
     "pressure",
     _pressure_view,
     ("reduction",),
-    needing(stages("axes", "curve", "limits"), curve=("sizes.centre", "rocker_sizes.centre")),
+    stages("axes", curve=("", "sizes.centre", "rocker_sizes.centre"), limits=""),
     "cam.pressure",
 )

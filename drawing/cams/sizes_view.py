@@ -16,7 +16,7 @@ from ...plans.cams.motion import FALL, RISE
 from ...plans.cams.sizes import apex, wedge
 from ..areas import hatched
 from ..dimensions import angle, linear, small, turning
-from ..figure import Figure, Stage, needing, stages
+from ..figure import Figure, Stage, stages
 from ..shapes import Arc, Circle, Head, Line, Pen, Polyline
 from ..symbols import HALF_TURN, arc_between, at_level, fixed_pivot, nearer, swept, unit
 from ..text import lay_out
@@ -319,7 +319,7 @@ FIGURES = {
         _sizes_view,
         ("mu_s_ds", "reduction"),
         (
-            *needing(stages(axes="sizes.#", points="sizes.#_rise"), points="diagrams.scales"),
+            *stages(axes="sizes.#", points=("sizes.#_rise", "diagrams.scales")),
             *(Stage(f"tangent_{limit}", f"sizes.T_{limit}") for limit in PHASE_OF),
             Stage("permitted", "sizes.A"),
             Stage("centre", "sizes.C", variant=given("r_0", "e")),
@@ -332,10 +332,8 @@ FIGURES = {
         _plate_sizes_view,
         ("mu_s_d2s", "reduction"),
         (
-            *needing(
-                stages(axes="plate_sizes.#", points="plate_sizes.#_before", tangent="plate_sizes.T"),
-                points="diagrams.scales",
-            ),
+            Stage("axes", "plate_sizes.#"),
+            *stages(points=("plate_sizes.#_before", "diagrams.scales"), tangent="plate_sizes.T"),
             Stage("centre", variant=given("r_0_flat")),
         ),
         "cam.plate_sizes",
@@ -345,12 +343,8 @@ FIGURES = {
         _rocker_sizes_view,
         ("mu_l",),
         (
-            *needing(
-                stages(
-                    pivot="rocker_sizes.#", positions="rocker_sizes.B#", analogues="rocker_sizes.D#", limits="_limit#"
-                ),
-                positions="diagrams.scales",
-            ),
+            *stages(pivot="rocker_sizes.#", positions=("rocker_sizes.B#", "diagrams.scales")),
+            *stages(analogues="rocker_sizes.D#", limits="_limit#"),
             Stage("centre", "rocker_sizes.C", variant=given("l_OC", "r_0")),
             Stage("pressure"),
         ),

@@ -13,7 +13,7 @@ from ...plans.gears.geometry import POINTS
 from ...scales.scale import Scale
 from ..areas import strokes
 from ..dimensions import Axis, Field, axes, curve, divisions, linear, numbered, numbers
-from ..figure import ANSWERS, Figure, needing, stages
+from ..figure import ANSWERS, Figure, stages
 from ..printed import DEGREES, Input, calculation
 from ..shapes import Group, Line, Pen, Polyline, Text
 from ..symbols import unit
@@ -128,11 +128,7 @@ ACTION_FIGURE = Figure(
     "action",
     _action_view,
     ("rolled",),
-    needing(
-        stages("start", "line_of_action", "active_line", "pitches"),
-        line_of_action="meshing.line_of_action",
-        active_line="meshing.active_line",
-    ),
+    stages("start", line_of_action=("", "meshing.line_of_action"), active_line=("", "meshing.active_line"), pitches=""),
     "gear.action",
 )
 
@@ -293,10 +289,8 @@ SLIDING_FIGURE = Figure(
     "sliding",
     _sliding_view,
     ("part",),
-    needing(
-        stages("axes", "pole", "velocities", "active_line", "sliding"),
-        pole="meshing.line_of_action",
-        active_line="meshing.active_line",
+    stages(
+        "axes", pole=("", "meshing.line_of_action"), velocities="", active_line=("", "meshing.active_line"), sliding=""
     ),
     "gear.sliding",
 )

@@ -14,7 +14,7 @@ from ...plans.gears.teeth import Wheel
 from ...scales.scale import Scale, steps
 from ..areas import freest, thinned
 from ..dimensions import Axis, Field, angle, divisions, linear, numbered
-from ..figure import ANSWERS, GIVEN, Figure, needing, stages
+from ..figure import ANSWERS, GIVEN, Figure, stages
 from ..page import extent
 from ..shapes import Anchor, Arc, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import HALF_TURN, right_angle, unit
@@ -114,10 +114,7 @@ FIGURE = Figure(
     "rolling",
     _rolling_view,
     ("rolled",),
-    needing(
-        stages("start", "line_of_action", "parts", "arcs", "tangents", "involutes"),
-        line_of_action="meshing.line_of_action",
-    ),
+    stages("start", line_of_action=("", "meshing.line_of_action"), parts="", arcs="", tangents="", involutes=""),
     "gear.rolling",
 )
 

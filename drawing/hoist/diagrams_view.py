@@ -12,7 +12,7 @@ from ...plans.hoist.solve import POINTS, equation, forces_over
 from ...plans.solved import PAPER_MM
 from ..areas import clipped
 from ..dimensions import Axis, Field, angle, divisions, drawn_through, linear, numbered
-from ..figure import Figure, Stage, needing, stages
+from ..figure import Figure, Stage, stages
 from ..shapes import Group, Head, Line, Pen, Polyline, Shape, Text
 from ..symbols import arc_between
 from ..text import Box
@@ -106,7 +106,7 @@ EXTREMES_FIGURE = Figure(
     "extremes",
     _extremes_view,
     ("part",),
-    needing(stages("axes", "curves", "crossing"), crossing="lift_off.crossing"),
+    stages("axes", "curves", crossing=("", "lift_off.crossing")),
     "hoist.extremes",
 )
 
@@ -412,9 +412,10 @@ FORCES_FIGURE = Figure(
     "forces",
     _forces_view,
     ("part",),
-    needing(
-        (Stage("axes"), MOVED, *stages("levels", RESTING, HANGING, "article")),
-        **{RESTING: "lift_off.crossing", HANGING: "circle.ends"},
+    (
+        Stage("axes"),
+        MOVED,
+        *stages("levels", **{RESTING: ("", "lift_off.crossing"), HANGING: ("", "circle.ends")}, article=""),
     ),
     "hoist.forces",
 )
@@ -473,6 +474,6 @@ CIRCLE_FIGURE = Figure(
     "circle",
     _circle_view,
     ("mu_F_circle",),
-    needing((*stages("axes", "start", "circle"), ENDS), start="lift_off.crossing"),
+    (*stages("axes", start=("", "lift_off.crossing"), circle=""), ENDS),
     "hoist.circle",
 )

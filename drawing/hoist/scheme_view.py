@@ -11,7 +11,7 @@ from ...plans.hoist.construction import BENT, FORCE, LETTERS, SCHEME, SECTIONS
 from ...plans.hoist.forces import STRENGTH
 from ...plans.hoist.solve import OF_BEAM, bent
 from ..dimensions import linear
-from ..figure import Figure, needing, stages
+from ..figure import Figure, stages
 from ..page import Layer
 from ..shapes import Arc, Arrow, Circle, Group, Head, Line, Pen, Polyline, Text
 from ..symbols import COILS, HALF_TURN, coils, fixed_pivot, hatching, revolute, unit
@@ -220,7 +220,7 @@ def _beam(canvas: Canvas, scene: HoistScene, i: int, top: float) -> float:
 
 
 BEAMS_FIGURE = Figure(
-    "beams", _beams_view, ("part",), needing(stages("axes", "bent", "greatest"), bent="circle.ends"), "hoist.beams"
+    "beams", _beams_view, ("part",), stages("axes", bent=("", "circle.ends"), greatest=""), "hoist.beams"
 )
 
 
