@@ -8,7 +8,7 @@ from typing import Any
 from ...plans.cams.construction import PLATE_PROFILE, PROFILE
 from ...plans.cams.course import TABLED
 from ..moving import Data
-from ..moving.courses import Moving, outline
+from ..moving.courses import Moving, driven, outline
 from .scene import CamScene
 
 ROD = 0.9  # of the greatest radius, the length of a rod beyond the follower's place
@@ -55,21 +55,8 @@ def moving(scene: CamScene) -> Moving:
             }
         )
         over[about] = _about(follower, place, scene, reach)
-    drive = {
-        "name": "phi",
-        "symbol": "<i>φ</i>",
-        "turns": True,
-        "sense": 1,
-        "start": 0.0,
-        "low": 0.0,
-        "high": math.tau,
-        "speed": float(solved.givens["omega"]),
-        "rate": "omega",
-        "crank": ["O", marks[0]],
-        "by": 1.0,
-        "unit": "°",
-        "digits": 1,
-    }
+    more: Data = {"turns": True, "rate": "omega", "crank": ["O", marks[0]], "by": 1.0, "unit": "°", "digits": 1}
+    drive = driven("phi", "φ", (0.0, math.tau), float(solved.givens["omega"]), **more)
     shown = tuple(name for name in TABLED if name != "phi")
     symbols = {f"{name}_rocker": words.symbol(name) for name in ("theta", "gamma")}
     points, opens = {"O": 0j, "right": 1.0 + 0j, "upright": 1j}, PROFILE if PROFILE in over else PLATE_PROFILE

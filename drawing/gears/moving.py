@@ -6,7 +6,7 @@ import math
 
 from ...plans.gears.course import GearCourse
 from ..moving import Data, html
-from ..moving.courses import Moving, outline
+from ..moving.courses import Moving, driven, outline
 from ..words import indexed
 from .scene import GearScene
 
@@ -50,21 +50,8 @@ def moving(scene: GearScene) -> Moving:
     ]
     for view in views:
         view |= {"symbol": "", "shapes": [{**shape} for shape in (*shapes, *own, *touches)]}
-    drive = {
-        "name": "rho_1",
-        "symbol": "<i>ρ</i><sub>1</sub>",
-        "turns": False,
-        "sense": 1,
-        "start": first,
-        "low": first,
-        "high": last,
-        "speed": (last - first) / SECONDS,
-        "again": course.pitch,
-        "crank": ["P", "action.K0"],
-        "by": 1e3,
-        "unit": words.unit("mm"),
-        "digits": 2,
-    }
+    shown = {"crank": ["P", "action.K0"], "by": 1e3, "unit": words.unit("mm"), "digits": 2}
+    drive = driven("rho_1", "ρ_{1}", (first, last), (last - first) / SECONDS, again=course.pitch, **shown)
     return Moving(drive, views, points, SHOWN, FIRST, symbols={"pairs": words["moving.pairs"]}, opens="meshing")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ...plans.hoist.construction import ENDS
 from ...plans.hoist.course import HoistCourse
 from ..moving import Data, html, number
-from ..moving.courses import Moving
+from ..moving.courses import Moving, driven
 from .diagrams_view import forces_field
 from .scene import HoistScene
 
@@ -44,23 +44,8 @@ def moving(scene: HoistScene) -> Moving:
         "extent": [min(xs) - margin, -2.5 * tall, max(xs) + margin, rope + 2.0 * tall],
         "shapes": shapes,
     }
-    drive = {
-        "name": "t",
-        "symbol": "<i>t</i>",
-        "turns": False,
-        "sense": 1,
-        "start": 0.0,
-        "low": 0.0,
-        "high": end,
-        "speed": 1.0,
-        "again": end,
-        "end": "end" if course.changeable else "",
-        "grows": True,
-        "crank": None,
-        "by": 1.0,
-        "unit": words.unit("s"),
-        "digits": 4,
-    }
+    more: Data = {"again": end, "end": "end" if course.changeable else "", "grows": True, "crank": None}
+    drive = driven("t", "t", (0.0, end), 1.0, **more, by=1.0, unit=words.unit("s"), digits=4)
     over, symbols = {"forces": [_moment(scene)]}, {"s": "s", "sigma": "σ"}
     return Moving(drive, [view], points, SHOWN, FIRST, over, symbols, "forces", {"times": times})
 
