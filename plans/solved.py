@@ -12,7 +12,7 @@ from ..scales.errors import PositionError
 from .board import Board, Program, RecordingBoard, recorded
 from .boards.exact import ExactBoard, Status, Trouble
 from .names import role
-from .quantities import Quantity
+from .quantities import Quantity, shown_on
 
 if TYPE_CHECKING:
     import numpy as np
@@ -239,9 +239,17 @@ class Course(ABC):
         return {}
 
 
-def found_on(board: ExactBoard) -> dict[str, Any]:
-    """Return what a construction has given on a board, by fields of what is solved."""
-    return {name: getattr(board, name) for name in ("values", "sines", "status", "trouble")}
+def found_on(
+    board: ExactBoard, program: Program, scales: Mapping[str, str], shown: Mapping[str, str] = {}
+) -> dict[str, Any]:
+    """Return what a program has given on a board, by fields of what is solved.
+
+    The `scales` are symbols of scale factors by plan; `shown` are plans that show quantities which none is read from.
+    """
+    found = {name: getattr(board, name) for name in ("values", "sines", "status", "trouble")}
+    drawn = {name: plan for name, plan in shown.items() if plan in program.plans}
+    of_plan = {plan: scales[plan] for plan in program.plans if plan in scales}
+    return {**found, "program": program, "scale_of_plan": of_plan, "shown_on": shown_on(program) | drawn}
 
 
 def calculated(programs: Mapping[str, Iterable[Callable[[Board], None]]]) -> dict[str, str]:

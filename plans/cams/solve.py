@@ -30,7 +30,7 @@ from ..hands.spread import added_up
 from ..laws import LAWS
 from ..marking.key import rounded
 from ..names import role
-from ..quantities import Quantity, quantities, results, shown_on, worst_behind
+from ..quantities import Quantity, quantities, results, worst_behind
 from ..solved import AT_LEAST, AT_MOST, Check, Solved, found_on
 from .cam import (
     DIAGRAMS_PART,
@@ -247,17 +247,8 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
         ROCKER in cam.followers,
         *(_cams(cam, motion, values) if SIZES_PART in wanted else ()),
     )
-    program = construct(layout, wanted)
-    shown = SHOWN_ON | dict.fromkeys(("r_0", "l_OC") if ROCKER_SIZES in program.plans else (), ROCKER_SIZES)
-    return SolvedCam(
-        **_found(program, {**values, **_givens(cam, motion, layout)}),
-        program=program,
-        shown_on=shown_on(program) | {name: plan for name, plan in shown.items() if plan in program.plans},
-        scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
-        cam=cam,
-        motion=motion,
-        layout=layout,
-    )
+    found = _found(construct(layout, wanted), {**values, **_givens(cam, motion, layout)})
+    return SolvedCam(**found, cam=cam, motion=motion, layout=layout)
 
 
 def reduced(solved: SolvedCam, part: float) -> SolvedCam:
@@ -315,8 +306,9 @@ def _found(program: Program, givens: Mapping[str, Any]) -> dict[str, Any]:
     board = run(program, givens)
     stated = {"mu_phi": Quantity("mu_phi", float(givens["mu_phi"]), unit_of("mu_phi"))} if "mu_phi" in givens else {}
     lengths = {name: givens[name] for name in LENGTHS if name in givens}
+    shown = SHOWN_ON | dict.fromkeys(("r_0", "l_OC") if ROCKER_SIZES in program.plans else (), ROCKER_SIZES)
     found = stated | quantities(program, board.values, lengths, unit_of)
-    return {**found_on(board), "givens": givens, "quantities": found}
+    return {**found_on(board, program, SCALES, shown), "givens": givens, "quantities": found}
 
 
 # numbers that neither the motion nor the smallest sizes depend on

@@ -28,7 +28,7 @@ from ..hands.spread import added_up, kept
 from ..laws import LAWS
 from ..marking.key import rounded
 from ..names import role
-from ..quantities import Quantity, quantities, shown_on, worst_behind
+from ..quantities import Quantity, quantities, worst_behind
 from ..solved import AT_LEAST, AT_MOST, EQUAL, PAPER_MM, Check, Solved, calculated, found_on, in_sections
 from .construction import (
     CENTRES,
@@ -282,18 +282,14 @@ def solve_gear(pair: GearPair, values: Mapping[str, float], plans: Iterable[str]
     sense, mu_rho = float(pair.sense), steps(sizes["l_N1N2"] / LONGEST)[0] / PAPER_MM
     givens = {**found, **PARTS, **NOTHING, **NUMBERS, "_sense": sense, "_against": -sense, "mu_rho": mu_rho}
     board = run(program, givens)
-    drawn = {*program.plans}
-    slides = SLIDING in drawn
+    slides = SLIDING in program.plans
     results = quantities(program, board.values, {"PW": givens["PW"]} if slides else {}, unit_of)
     if slides:
         results = _with_ends(results)
         board.values |= dict.fromkeys(ENDLESS, -math.inf)
     return SolvedGear(
-        **found_on(board),
-        program=program,
-        scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
-        quantities=in_sections(_stated(givens, drawn, values) | results, SECTIONS, section_of),
-        shown_on=shown_on(program) | {name: plan for name, plan in SHOWN_ON.items() if plan in drawn},
+        **found_on(board, program, SCALES, SHOWN_ON),
+        quantities=in_sections(_stated(givens, {*program.plans}, values) | results, SECTIONS, section_of),
         givens=givens,
         pair=pair,
         sizes=sizes,

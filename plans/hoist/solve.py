@@ -24,7 +24,7 @@ from ..hands.shaky import Paper, Tolerance
 from ..laws import LAWS, TURN
 from ..marking.key import rounded
 from ..names import role
-from ..quantities import Quantity, quantities, shown_on
+from ..quantities import Quantity, quantities
 from ..solved import PAPER_MM, Solved, found_on, in_sections
 from .construction import (
     BENT,
@@ -193,11 +193,8 @@ def solve_hoist(hoist: Hoist, values: Numbers, plans: Iterable[str] = PLANS, par
     results = _scales(given, drawn)  # marks of plans are no results
     results |= {name: q for name, q in quantities(program, board.values, {}, unit_of).items() if q.kind == "scalar"}
     return SolvedHoist(
-        **found_on(board),
-        program=program,
-        scale_of_plan={plan: SCALES[plan] for plan in program.plans if plan in SCALES},
+        **found_on(board, program, SCALES, shown),
         quantities=in_sections(results, SECTIONS, section_of),
-        shown_on=shown_on(program) | {name: plan for name, plan in shown.items() if plan},
         givens=given,
         hoist=hoist,
         forces=found,

@@ -14,7 +14,7 @@ from ..board import POSITION, Program
 from ..boards.exact import SMALL, Trouble, run
 from ..laws import cross
 from ..names import Name, role, scale_factor, spelled, vector
-from ..quantities import extent, plans_of, point_of, quantities, shown_on
+from ..quantities import extent, plans_of, point_of, quantities
 from ..solved import Solved, found_on
 from . import compound
 from .chain import USUAL, constructed, hinged
@@ -178,11 +178,8 @@ def solve_linkage(mechanism: Mechanism, values: Mapping[str, float], plans: Iter
     return SolvedLinkage(
         mechanism=mechanism,
         structure=structure,
-        **found_on(board),
-        program=program,
-        scale_of_plan=_scale_of_plan(structure, program),
+        **{**found_on(board, program, {}), "scale_of_plan": _scale_of_plan(structure, program)},
         quantities=items,
-        shown_on=shown_on(program),
         givens=givens,
     )
 
