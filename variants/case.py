@@ -345,7 +345,7 @@ class Kind(Generic[Subject, Answer]):
 
     def lettered(self, words: Words, solved: Answer) -> Words:
         """Return the words with the letters of the subject's quantities."""
-        return cast("Words", self._in("drawing", "sheet", "lettered")(words))
+        return cast("Words", self._in("drawing", "sheet", "lettered")(words, solved))
 
     def pictured(self, case: Case, words: Words, part: float = 1.0) -> View | None:
         """Return a figure of what is given, to stand beside a question, so large; None where words tell it."""

@@ -163,7 +163,7 @@ def is_aside(scene: CamScene) -> bool:
     return roller is not None and abs(roller.sizes.e) > CENTRAL * scene.mu_l
 
 
-def lettered(words: Words) -> Words:
+def lettered(words: Words, solved: object = None) -> Words:
     """Return the words with the letters of a cam."""
     table = words.letters_of("cams")
     mark = table.pop(CHORD)

@@ -119,7 +119,7 @@ class GearScene(SubjectScene[SolvedGear]):
         return f"{self.words.symbol(name)} = {self.degrees(self.size(name))}"
 
 
-def lettered(words: Words) -> Words:
+def lettered(words: Words, solved: object = None) -> Words:
     """Return the words with the letters of a gear pair; what is of a point of the sliding table has its number."""
     of_points = {f"{name}_{n}": f"{letter}({int(n)})" for name, letter in OF_POINTS.items() for n in POINTS}
     return words.lettered(words.letters_of("gears") | of_points)

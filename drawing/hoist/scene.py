@@ -59,11 +59,11 @@ class HoistScene(SubjectScene[SolvedHoist]):
         return ";  ".join(self.words.scale(self.scale(symbol)) for symbol in symbols)
 
 
-def lettered(words: Words, roots: int = 0) -> Words:
-    """Return the words with the letters of a hoist that has so many roots of (12)."""
+def lettered(words: Words, solved: SolvedHoist) -> Words:
+    """Return the words with the letters of a hoist's quantities, with as many roots of (12) as it has."""
     table = words.letters_of("hoist")
     drawn = table.pop("drawn")
-    for n in range(1, roots + 1):
+    for n in range(1, len(solved.layout.roots.times if solved.layout.roots else ()) + 1):
         table |= {f"t_2_{n}": f"t_{{2}}({n})", f"t_2_{n}_drawn": f"t^{{{drawn}}}_{{2}}({n})"}
     return words.lettered(table)
 

@@ -67,11 +67,9 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
     first_scales = staticmethod(first_scales)
 
     def __init__(self, contents: SheetContents[SolvedHoist]) -> None:
-        roots = contents.solved.layout.roots
         chosen = {symbol: ladder(contents.solved, contents.choosers, symbol) for symbol in UNITS}
-        words = lettered(contents.words, len(roots.times) if roots else 0)
         self._solved = {1.0: contents.solved}
-        super().__init__(contents, words, {**chosen, "part": PARTS})
+        super().__init__(contents, lettered(contents.words, contents.solved), {**chosen, "part": PARTS})
 
     def scene(self, sheet: Format, rungs: Rungs) -> HoistScene:
         """Return the scene of a sheet on a format: of the hoist with diagrams as large as they are drawn."""

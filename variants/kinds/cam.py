@@ -45,7 +45,7 @@ SHORTEST = math.radians(0.01)  # of a phase in which a follower moves
 MOST_SECTIONS = 90  # of a phase: finer than a degree nobody divides one
 
 
-class Cams(Kind[cams.Cam, "SolvedCam"]):
+class _Cams(Kind[cams.Cam, "SolvedCam"]):
     """Disk cams with translating roller and flat-faced followers, or with a rocker."""
 
     table, plans = "cam", cams.PLANS
@@ -210,7 +210,7 @@ class Cams(Kind[cams.Cam, "SolvedCam"]):
         return law_view(self.scene(case, scales, words), part)
 
 
-KIND = Cams()
+KIND = _Cams()
 
 
 def _outside(solved: SolvedCam) -> Iterator[InputError]:

@@ -32,7 +32,7 @@ BROKEN = {"contact_ratio": "gear-rule-broken", "contact_flanks": "gear-rule-flan
 IN_LENGTHS = ("interference", "tip")
 
 
-class Gears(Kind[GearPair, "SolvedGear"]):
+class _Gears(Kind[GearPair, "SolvedGear"]):
     """External pairs of involute spur gears cut by a standard rack."""
 
     table, plans = "gear", PLANS
@@ -92,4 +92,4 @@ class Gears(Kind[GearPair, "SolvedGear"]):
         return pair_view(replace(scene, mu_l=scene.size("a_w") / (part * SCHEME)))
 
 
-KIND = Gears()
+KIND = _Gears()

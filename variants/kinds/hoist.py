@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ...plans.marking.key import Question
 
 
-class Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
+class _Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
     """Loads that a rope takes off a beam, wound up on another beam."""
 
     table, plans = "hoist", hoists.PLANS
@@ -54,12 +54,6 @@ class Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
         """Ask for what is calculated rather than for what a drawing gives in its place, and for no check."""
         return super().asks(solved, question) and role(question.name).part != hoists.DRAWN
 
-    def lettered(self, words: Words, solved: SolvedHoist) -> Words:
-        """Return the words with the letters of a hoist's quantities."""
-        from ...drawing.hoist.scene import lettered
-
-        return lettered(words, len(solved.layout.roots.times) if solved.layout.roots else 0)
-
     def pictured(self, case: Case, words: Words, part: float = 1.0) -> View:
         """Draw the scheme."""
         from ...drawing.hoist.scheme_view import picture
@@ -76,4 +70,4 @@ class Hoists(Kind[hoists.Hoist, "SolvedHoist"]):
         return data_table(self.scene(case, {}, words), stated=True).rows[1:]
 
 
-KIND = Hoists()
+KIND = _Hoists()

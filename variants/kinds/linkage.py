@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from ...drawing.view import View
     from ...drawing.words import Words
     from ...plans.hands.shaky import Paper, Tolerance
+    from ...plans.linkages.cycle import Cycle
     from ...plans.marking.key import Question
     from ..checks.basics import Checker
     from ..checks.names import Names
@@ -52,7 +53,11 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
     """Linkages of any structure that the plans know."""
 
     table, room, plans, moves = "mechanism", "linkages", PLANS, False
-    elsewhere: ClassVar[Mapping[str, str]] = {"first_scales": "ladders", "conditions_of": "solved"}
+    elsewhere: ClassVar[Mapping[str, str]] = {
+        "first_scales": "ladders",
+        "conditions_of": "solved",
+        "lettered": "reading",
+    }
     form_notes: ClassVar[Mapping[str, str]] = {"lever": "arms"}  # how arms on the lever are written
 
     def read(self, checker: Checker, raw: object, names: Names, givens: Mapping[str, Given]) -> Mechanism | None:
@@ -162,40 +167,26 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         """Draw the plans of one position, and the cycle where the task wants it."""
         from ...drawing.linkages.sheet import Contents, draw
 
-        whole = None
-        if "cycle" in case.plans or case.positions is not None:  # drawing a single position does not import it
-            from ...plans.linkages.cycle import cycle
-
-            if case.positions is not None:
-                whole = cycle(case.task.mechanism, case.values, (*case.plans, POSITION), case.positions)
-                all_of = placed(case), ("cycle",), case.choosers, case.givens, words, norm, whole
-                return draw(Contents(*all_of, courses=True), paper)
-            whole = cycle(case.task.mechanism, case.values, ("position", "velocity", "acceleration"))
-        solved = placed(case)
-        plans = case.plans if solved is case.solved else (*case.plans, POSITION)
-        of = solved, plans, case.choosers, case.givens, words, norm, whole, _dead(case)
-        contents = Contents(*of, variant=case.variant)
+        how = case.choosers, case.givens, words, norm
+        if case.positions is not None:
+            whole = _turn(case, (*case.plans, POSITION), case.positions)
+            return draw(Contents(placed(case), ("cycle",), *how, whole, courses=True), paper)
+        turn = _turn(case, ("position", "velocity", "acceleration")) if "cycle" in case.plans else None
+        contents = Contents(placed(case), _drawn_plans(case), *how, turn, _dead(case), variant=case.variant)
         return draw(contents, paper)
 
     def moving(self, case: Case, words: Words) -> dict[str, Any]:
         """Return the solver, the views and the steps of a page that moves."""
         from ...drawing.linkages.moving import moving_linkage
-        from ...plans.linkages.cycle import cycle
 
-        solved = placed(case)
-        plans = case.plans if solved is case.solved else (*case.plans, POSITION)
         bounds = {name: given.bound.value for name, given in case.task.givens.items()}
-        return moving_linkage(solved, cycle(case.task.mechanism, case.values, plans), case.givens, words, bounds)
+        return moving_linkage(placed(case), _turn(case), case.givens, words, bounds)
 
     def construction(self, case: Case, scales: Scales, words: Words, titles: tuple[str, str]) -> bytes:
         """Return the recorded construction with its plans as a file of GeoGebra."""
         from ...drawing.linkages.geogebra import Construction
-        from ...plans.linkages.cycle import cycle
 
-        solved = placed(case)
-        plans = case.plans if solved is case.solved else (*case.plans, POSITION)
-        turn = cycle(case.task.mechanism, case.values, plans)
-        return Construction(self.scene(case, scales, words), turn).packed(titles)
+        return Construction(self.scene(case, scales, words), _turn(case)).packed(titles)
 
     def story(self, case: Case, scales: Scales, words: Words, texts: Mapping[str, str]) -> Story:
         """Tell what is given and what is to be found, then every plan step by step, its equations before it."""
@@ -235,12 +226,6 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
     def read_by_ruler(self, case: Case, scales: Scales) -> SolvedLinkage:
         """Read every segment to half a millimetre."""
         return read_by_ruler(placed(case), {plan: scale.mu for plan, scale in scales.items()})
-
-    def lettered(self, words: Words, solved: SolvedLinkage) -> Words:
-        """Return the words with the letters of guides, ends and couples."""
-        from ...drawing.linkages.reading import lettered
-
-        return lettered(words, solved)
 
     def headings(self, solved: SolvedLinkage, words: Words) -> dict[str, str]:
         """Leave the list of quantities whole."""
@@ -367,6 +352,19 @@ def _hindered(mechanism: Mechanism, values: Mapping[str, float], lined: bool = F
     for key, places in (("variant-change", found.changes), ("variant-pole", found.poles)) if lined else ():
         if places:
             yield InputError(key, angles=", ".join(f"{_degrees(place)}°" for place in places))
+
+
+def _drawn_plans(case: Case) -> Plans:
+    """Return the plans of what is drawn, in its position."""
+    return case.plans if POSITION in case.solved.program.plans else (*case.plans, POSITION)
+
+
+def _turn(case: Case, plans: Plans = (), positions: int | None = None) -> Cycle:
+    """Return the mechanism over its cycle, with the plans of what is drawn where none are said."""
+    from ...plans.linkages.cycle import cycle  # drawing a single position does not import it
+
+    count = () if positions is None else (positions,)
+    return cycle(case.task.mechanism, case.values, plans or _drawn_plans(case), *count)
 
 
 def _short(value: float) -> str:
