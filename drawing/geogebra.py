@@ -100,7 +100,7 @@ def tex(markup: str) -> str:
     return inner(read(markup))
 
 
-def written(item: Item, look: Look) -> str:
+def _written(item: Item, look: Look) -> str:
     """Return an object as XML: what makes it, then how it is seen."""
     made = ""
     if item.command:
@@ -200,7 +200,7 @@ def packed(objects: Iterable[tuple[Item, Look]], title: str, box: Box) -> bytes:
         *_section("euclidianView", view),
         *_section("kernel", kernel),
         f'<construction title={quoteattr(title)} author="" date="">',
-        *(written(item, look) for item, look in objects),
+        *(_written(item, look) for item, look in objects),
         "</construction>\n</geogebra>\n",
     ]
     stream = BytesIO()

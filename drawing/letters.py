@@ -94,7 +94,7 @@ def drawn(string: str, height: float, slanted: bool = False) -> Iterator[tuple[c
         x += glyph.width + GAP
 
 
-def outline(glyph: _Glyph, slant: float = 0.0) -> BaseGeometry:
+def _outline(glyph: _Glyph, slant: float = 0.0) -> BaseGeometry:
     """Return the area that the strokes of a letter cover, h/10, leaning by `slant` to a height of one."""
     from shapely import affinity
     from shapely.geometry import LineString, Point
@@ -187,7 +187,7 @@ def built(slanted: bool = False) -> bytes:
         pen = TTGlyphPen(None)
         glyph = glyphs()[letter]
         if glyph.strokes:
-            for ring in _contours(outline(glyph, slant)):
+            for ring in _contours(_outline(glyph, slant)):
                 pieces = list(_pieces(ring))
                 pen.moveTo(_whole(pieces[0][0]))
                 for piece in pieces:

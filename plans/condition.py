@@ -39,12 +39,12 @@ SLOPES: dict[str, Callable[[Any, Any], Any]] = {
     "cos": lambda x, found: -np.sin(x),
     "tan": lambda x, found: 1.0 + found * found,
     "arctan": lambda x, found: 1.0 / (1.0 + x * x),
-    "sqrt": lambda x, found: divided(0.5, found),
+    "sqrt": lambda x, found: _divided(0.5, found),
     **dict.fromkeys(("floor", "ceil"), lambda x, found: 0.0),
 }
 SLOPES_OF_TWO: dict[str, Callable[[Any, Any], tuple[Any, Any]]] = {
-    "arctan2": lambda y, x: (divided(x, x * x + y * y), divided(-y, x * x + y * y)),
-    "hypot": lambda x, y: (divided(x, math.hypot(x, y)), divided(y, math.hypot(x, y))),
+    "arctan2": lambda y, x: (_divided(x, x * x + y * y), _divided(-y, x * x + y * y)),
+    "hypot": lambda x, y: (_divided(x, math.hypot(x, y)), _divided(y, math.hypot(x, y))),
     "maximum": lambda x, y: (float(not x < y), float(x < y)),
     "minimum": lambda x, y: (float(not x > y), float(x > y)),
 }
@@ -132,13 +132,13 @@ class _Dual:
 
     def __truediv__(self, other: Any) -> _Dual:
         if isinstance(other, _Dual):
-            quotient = divided(self.value, other.value)
-            return _Dual(quotient, (self.slopes - other.slopes * quotient) * divided(1.0, other.value))
-        return _Dual(divided(self.value, other), self.slopes * divided(1.0, other))
+            quotient = _divided(self.value, other.value)
+            return _Dual(quotient, (self.slopes - other.slopes * quotient) * _divided(1.0, other.value))
+        return _Dual(_divided(self.value, other), self.slopes * _divided(1.0, other))
 
     def __rtruediv__(self, other: Any) -> _Dual:
-        quotient = divided(other, self.value)
-        return _Dual(quotient, self.slopes * -divided(quotient, self.value))
+        quotient = _divided(other, self.value)
+        return _Dual(quotient, self.slopes * -_divided(quotient, self.value))
 
     def __rfloordiv__(self, other: Any) -> Any:
         return other // self.value
@@ -176,7 +176,7 @@ def _slopes_of(number: Any) -> Any:
     return number.slopes if isinstance(number, _Dual) else 0.0
 
 
-def divided(number: Any, divisor: Any) -> Any:
+def _divided(number: Any, divisor: Any) -> Any:
     """Divide, NaN by zero."""
     return number / divisor if divisor else math.nan
 

@@ -30,7 +30,7 @@ class Dimension(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Symbol:
+class _Symbol:
     """One symbol of a unit: `num / den` makes it SI; kept apart, so that 55 mm is 55/1000 and not 55*0.001."""
 
     dimension: Dimension
@@ -46,37 +46,37 @@ _LENGTH, _MASS, _TIME, _ANGLE = Dimension(1), Dimension(0, 1), Dimension(0, 0, 1
 _FORCE, _PRESSURE = Dimension(1, 1, -2), Dimension(-1, 1, -2)
 _ENERGY, _POWER = Dimension(2, 1, -2), Dimension(2, 1, -3)
 
-SYMBOLS: dict[str, Symbol] = {
-    "m": Symbol(_LENGTH, 1, 1, "m", "м", "м"),
-    "dm": Symbol(_LENGTH, 1, 10, "dm", "дм", "дм"),
-    "cm": Symbol(_LENGTH, 1, 100, "cm", "см", "см"),
-    "mm": Symbol(_LENGTH, 1, 1000, "mm", "мм", "мм"),
-    "um": Symbol(_LENGTH, 1, 1_000_000, "μm", "мкм", "мкм", ("um", "µm", "мк")),
-    "km": Symbol(_LENGTH, 1000, 1, "km", "км", "км"),
-    "kg": Symbol(_MASS, 1, 1, "kg", "кг", "кг"),
-    "g": Symbol(_MASS, 1, 1000, "g", "г", "г"),
-    "t": Symbol(_MASS, 1000, 1, "t", "т", "т"),
-    "s": Symbol(_TIME, 1, 1, "s", "с", "с", ("sec", "сек")),
-    "ms": Symbol(_TIME, 1, 1000, "ms", "мс", "мс"),
-    "min": Symbol(_TIME, 60, 1, "min", "хв", "мин"),
-    "h": Symbol(_TIME, 3600, 1, "h", "год", "ч"),
-    "rad": Symbol(_ANGLE, 1, 1, "rad", "рад", "рад"),
-    "deg": Symbol(_ANGLE, math.pi, 180, "°", "°", "°", ("deg", "град", "º", "˚")),
-    "arcmin": Symbol(_ANGLE, math.pi, 10_800, "′", "′", "′", ("arcmin", "'", "’")),
-    "rev": Symbol(_ANGLE, 2 * math.pi, 1, "rev", "об", "об", ("r",)),
-    "rpm": Symbol(Dimension(time=-1, angle=1), math.pi, 30, "rpm", "об/хв", "об/мин", ("RPM",)),
-    "N": Symbol(_FORCE, 1, 1, "N", "Н", "Н"),
-    "kN": Symbol(_FORCE, 1000, 1, "kN", "кН", "кН"),
-    "MN": Symbol(_FORCE, 1_000_000, 1, "MN", "МН", "МН"),
-    "Pa": Symbol(_PRESSURE, 1, 1, "Pa", "Па", "Па"),
-    "kPa": Symbol(_PRESSURE, 1000, 1, "kPa", "кПа", "кПа"),
-    "MPa": Symbol(_PRESSURE, 1_000_000, 1, "MPa", "МПа", "МПа"),
-    "GPa": Symbol(_PRESSURE, 1_000_000_000, 1, "GPa", "ГПа", "ГПа"),
-    "J": Symbol(_ENERGY, 1, 1, "J", "Дж", "Дж"),
-    "kJ": Symbol(_ENERGY, 1000, 1, "kJ", "кДж", "кДж"),
-    "W": Symbol(_POWER, 1, 1, "W", "Вт", "Вт"),
-    "kW": Symbol(_POWER, 1000, 1, "kW", "кВт", "кВт"),
-    "%": Symbol(Dimension(), 1, 100, "%", "%", "%"),
+SYMBOLS: dict[str, _Symbol] = {
+    "m": _Symbol(_LENGTH, 1, 1, "m", "м", "м"),
+    "dm": _Symbol(_LENGTH, 1, 10, "dm", "дм", "дм"),
+    "cm": _Symbol(_LENGTH, 1, 100, "cm", "см", "см"),
+    "mm": _Symbol(_LENGTH, 1, 1000, "mm", "мм", "мм"),
+    "um": _Symbol(_LENGTH, 1, 1_000_000, "μm", "мкм", "мкм", ("um", "µm", "мк")),
+    "km": _Symbol(_LENGTH, 1000, 1, "km", "км", "км"),
+    "kg": _Symbol(_MASS, 1, 1, "kg", "кг", "кг"),
+    "g": _Symbol(_MASS, 1, 1000, "g", "г", "г"),
+    "t": _Symbol(_MASS, 1000, 1, "t", "т", "т"),
+    "s": _Symbol(_TIME, 1, 1, "s", "с", "с", ("sec", "сек")),
+    "ms": _Symbol(_TIME, 1, 1000, "ms", "мс", "мс"),
+    "min": _Symbol(_TIME, 60, 1, "min", "хв", "мин"),
+    "h": _Symbol(_TIME, 3600, 1, "h", "год", "ч"),
+    "rad": _Symbol(_ANGLE, 1, 1, "rad", "рад", "рад"),
+    "deg": _Symbol(_ANGLE, math.pi, 180, "°", "°", "°", ("deg", "град", "º", "˚")),
+    "arcmin": _Symbol(_ANGLE, math.pi, 10_800, "′", "′", "′", ("arcmin", "'", "’")),
+    "rev": _Symbol(_ANGLE, 2 * math.pi, 1, "rev", "об", "об", ("r",)),
+    "rpm": _Symbol(Dimension(time=-1, angle=1), math.pi, 30, "rpm", "об/хв", "об/мин", ("RPM",)),
+    "N": _Symbol(_FORCE, 1, 1, "N", "Н", "Н"),
+    "kN": _Symbol(_FORCE, 1000, 1, "kN", "кН", "кН"),
+    "MN": _Symbol(_FORCE, 1_000_000, 1, "MN", "МН", "МН"),
+    "Pa": _Symbol(_PRESSURE, 1, 1, "Pa", "Па", "Па"),
+    "kPa": _Symbol(_PRESSURE, 1000, 1, "kPa", "кПа", "кПа"),
+    "MPa": _Symbol(_PRESSURE, 1_000_000, 1, "MPa", "МПа", "МПа"),
+    "GPa": _Symbol(_PRESSURE, 1_000_000_000, 1, "GPa", "ГПа", "ГПа"),
+    "J": _Symbol(_ENERGY, 1, 1, "J", "Дж", "Дж"),
+    "kJ": _Symbol(_ENERGY, 1000, 1, "kJ", "кДж", "кДж"),
+    "W": _Symbol(_POWER, 1, 1, "W", "Вт", "Вт"),
+    "kW": _Symbol(_POWER, 1000, 1, "kW", "кВт", "кВт"),
+    "%": _Symbol(Dimension(), 1, 100, "%", "%", "%"),
 }
 
 # the symbols that stand for 1 in SI; per cents are plain numbers

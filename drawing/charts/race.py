@@ -161,7 +161,7 @@ def _letter(axes: Axes, contest: Contest, kind: str, words: Words) -> None:
                 side = UP if powers < 0.0 else DOWN
             elif method == "plan":  # large batches cost about the same: their labels stand on either side
                 side = (1, 0) if round(math.log10(float(entry.setting))) % 2 else (-1, 0)
-            text = words[NAMED[method]] if method in NAMED else words.decimal(setting(entry))
+            text = words[NAMED[method]] if method in NAMED else words.decimal(_setting(entry))
             if round(powers) % 2 == 0:
                 labels.append(Label(entry.error or 0.0, entry.seconds or 0.0, text, side, method in NAMED))
     taken = [(x - RING, y - RING, x + RING, y + RING) for x, y in rings]
@@ -169,7 +169,7 @@ def _letter(axes: Axes, contest: Contest, kind: str, words: Words) -> None:
     put(axes, labels, points, taken)
 
 
-def setting(entry: Entry) -> str:
+def _setting(entry: Entry) -> str:
     """Return the setting of a method as its point has it.
 
     >>> setting(Entry("plan", 1000, "velocity", None, None, "", 0.0, None, 1, 0.0))

@@ -157,7 +157,7 @@ def story(scene: HoistScene, scales: Mapping[str, Scale], texts: Mapping[str, st
         "beams": _lines(scene, BENT),
     }
     said = _said(scene, scales)
-    head, told = (data_table(scene, stated=True),), tuple(conclusions(scene, texts))
+    head, told = (data_table(scene, stated=True),), tuple(_conclusions(scene, texts))
     return Story(equations=equations, conclusions=told, texts=texts, said=said, head=head)
 
 
@@ -170,10 +170,10 @@ def formula(scene: HoistScene, told: str) -> tuple[str, ...]:
         chunks.append(f"= {form_of(law)(*(Symbol.of(_number(scene, scene.size(name))) for name in names))}")
     unit = f" {words.unit(unit_of(told))}" if unit_of(told) != "1" else ""
     chunks.append(f"= {_number(scene, scene.size(told))}{unit}")
-    return (*chunks, cited(NUMBERS[told])) if told in NUMBERS else tuple(chunks)
+    return (*chunks, _cited(NUMBERS[told])) if told in NUMBERS else tuple(chunks)
 
 
-def cited(number: str) -> str:
+def _cited(number: str) -> str:
     """Return what refers to an equation of the article, the first of the sources of a note."""
     return f"[1, ({number})]"
 
@@ -201,7 +201,7 @@ def _lift_off(scene: HoistScene) -> tuple[tuple[str, ...], ...]:
     return (
         (f"y(t) = {wound}",),
         (f"δ(t) = (a/k^{{2}})·(1 − cos kt) + ({V}/k)·sin kt",),
-        ("y(t) − δ(t) = mg/C", height, cited("11")),
+        ("y(t) − δ(t) = mg/C", height, _cited("11")),
         (scene.stated("t_1", unit="s"),),
     )
 
@@ -211,8 +211,8 @@ def _resting(scene: HoistScene) -> tuple[tuple[str, ...], ...]:
     V, ratio = words.symbol("V_t"), f"({words.symbol('C_01')}/{words.symbol('C_12')})"
     force = f"F_{{12}}(t) = C·[({words.symbol('C_12')}/{words.symbol('C_01')})·δ(t) + y(t)]"
     return (
-        (f"(a/k)·sin kt + {V}·cos kt = −{ratio}·({V} + a·t)", cited("12")),
-        (force, cited("10")),
+        (f"(a/k)·sin kt + {V}·cos kt = −{ratio}·({V} + a·t)", _cited("12")),
+        (force, _cited("10")),
         (scene.stated("F_12_t1"),),
         (scene.stated("F_12_max"),),
     )
@@ -231,7 +231,7 @@ def _said(scene: HoistScene, scales: Mapping[str, Scale]) -> dict[str, str]:
     return found | {name: f"{words.number(size, PAPER)} {words.unit('mm')}" for name, size in drawn.items()}
 
 
-def conclusions(scene: HoistScene, texts: Texts) -> Iterator[str]:
+def _conclusions(scene: HoistScene, texts: Texts) -> Iterator[str]:
     """Go through the sentences for the end of the note."""
     yield texts["hoist.conclusion.lift_off"].format(t_1=scene.stated("t_1", unit="s"), F_12_t1=scene.stated("F_12_t1"))
     # the greatest force of the rope, compared with that of the load at rest

@@ -51,7 +51,7 @@ def story(scene: Scene, texts: Mapping[str, str]) -> Story:
         views |= {"equations_forces", *(f"equations_forces_{part}" for part in force_parts(scene.solved))}
         loads = Heading(scene.words["heading.equations_loads"]), Equations(tuple(map(tuple, force_lines(scene, LOADS))))
         before[f"group_{groups[-1].name}"] = loads
-    ends = tuple(conclusions(teller))
+    ends = tuple(_conclusions(teller))
     return Story(steps, equations, frozenset(views), ends, before, meanings=meanings(scene))
 
 
@@ -136,7 +136,7 @@ def _shown(drawn: set[str], whole: bool) -> Shown:
     return Shown(frozenset(drawn | ({GIVEN, ENLARGED} if whole else {GIVEN})), notes=whole)
 
 
-def conclusions(teller: Teller) -> Iterator[str]:
+def _conclusions(teller: Teller) -> Iterator[str]:
     """Go through the sentences for the end of the note: what the plans that are drawn have shown."""
     for plan, (kind, rate) in PLANS.items():
         if plan in teller.scales:

@@ -259,7 +259,7 @@ class _Writing:
             yield self.refer("built" if steps else "shown", self.counts[Figure], leads=bool(steps))
             if steps:
                 yield Steps(tuple(_REFERRING.sub(self._referring, step) for step in steps))
-            yield figure_of(view)
+            yield _figure_of(view)
 
     def _referring(self, found: re.Match[str]) -> str:
         number = self.given.get(found[1], 0)
@@ -273,7 +273,7 @@ class _Writing:
         yield from (Table(view.rows, view.heading[0] if view.heading else "") for view in views)
 
 
-def figure_of(view: View) -> Figure:
+def _figure_of(view: View) -> Figure:
     """Return a view as a figure, without its heading."""
     bare = tuple(shape for shape in view.shapes if not (isinstance(shape, Text) and shape.role == "heading"))
     x0, y0, x1, y1 = extent(bare)

@@ -178,7 +178,7 @@ def _pages(word: Word, profile: Profile) -> None:
 
 
 def _field(code: str) -> str:
-    return f'<w:fldSimple w:instr=" {code} ">{words("2")}</w:fldSimple>'
+    return f'<w:fldSimple w:instr=" {code} ">{_words("2")}</w:fldSimple>'
 
 
 def _frame(word: Word, document: Document) -> None:
@@ -304,7 +304,7 @@ def _paragraph(style: str, inside: str, properties: str = "") -> str:
     return f"<w:p>{told}{inside}</w:p>"
 
 
-def words(text: str, properties: str = "") -> str:
+def _words(text: str, properties: str = "") -> str:
     """Return characters of a paragraph."""
     looks = f"<w:rPr>{properties}</w:rPr>" if properties else ""
     return f'<w:r>{looks}<w:t xml:space="preserve">{quoted(text)}</w:t></w:r>' if text else ""
@@ -324,12 +324,12 @@ def line(markup: str, properties: str = "") -> str:
 def _text(part: note.Node, properties: str) -> str:
     """Return words, or a unit with its power."""
     if isinstance(part, note.Plain):
-        return words(note.tied(part.text), properties)
+        return _words(note.tied(part.text), properties)
     assert isinstance(part, note.Scripted)
     assert isinstance(part.base, note.Plain)
     power = "".join(up.text for up in part.above if isinstance(up, note.Plain))
-    raised = words(power, f'{properties}<w:vertAlign w:val="superscript"/>')
-    return words(part.base.text, properties) + raised
+    raised = _words(power, f'{properties}<w:vertAlign w:val="superscript"/>')
+    return _words(part.base.text, properties) + raised
 
 
 def _begun(order: str) -> str:
@@ -340,7 +340,7 @@ def _begun(order: str) -> str:
 
 def _number_field(order: str, number: int) -> str:
     """Return a field that shows a number: of a caption, or of what it refers to."""
-    return _begun(order) + words(str(number)) + _END
+    return _begun(order) + _words(str(number)) + _END
 
 
 def _bookmark(inside: str, mark: str, number: int) -> str:
@@ -354,31 +354,31 @@ def _mark(number: int) -> str:
 
 def _title(document: Document) -> Iterator[str]:
     said, page = packaged(__package__, "texts", document.language), document.title
-    yield _paragraph("TitleLine", words(page.department))
-    yield _paragraph("Title", words(said["title.note"]))
-    yield _paragraph("Subtitle", words(page.title))
-    yield _paragraph("TitleLine", words(said["title.variant"].format(variant=page.variant)))
+    yield _paragraph("TitleLine", _words(page.department))
+    yield _paragraph("Title", _words(said["title.note"]))
+    yield _paragraph("Subtitle", _words(page.title))
+    yield _paragraph("TitleLine", _words(said["title.variant"].format(variant=page.variant)))
     usual, looks = note.Profile(), document.profile
     share = usual.size * usual.lines / (looks.size * looks.lines)
     names, date = (f'<w:spacing w:before="{round(mm * share * TWIPS)}"/>' for mm in _BEFORE)
     for name in ("student", "group", "teacher"):
-        value = words(getattr(page, name) or "_" * 24)
-        yield _paragraph("TitleName", f"{words(said[f'title.{name}'])}<w:r><w:tab/></w:r>{value}", names)
+        value = _words(getattr(page, name) or "_" * 24)
+        yield _paragraph("TitleName", f"{_words(said[f'title.{name}'])}<w:r><w:tab/></w:r>{value}", names)
         names = ""
-    yield _paragraph("TitleLine", words(page.date), date)
-    yield _paragraph("TitleLine", words(page.identity, '<w:sz w:val="18"/><w:szCs w:val="18"/>'))
+    yield _paragraph("TitleLine", _words(page.date), date)
+    yield _paragraph("TitleLine", _words(page.identity, '<w:sz w:val="18"/><w:szCs w:val="18"/>'))
 
 
 def _contents(document: Document) -> Iterator[str]:
     """Go through the contents, a field with its entries; their pages are known when it is updated."""
-    yield _paragraph("TOCHeading", words(packaged(__package__, "texts", document.language)["contents"].upper()))
+    yield _paragraph("TOCHeading", _words(packaged(__package__, "texts", document.language)["contents"].upper()))
     before = _begun(r'TOC \o "1-2" \h \z \u')
     entries = [block for block in document.blocks if isinstance(block, Heading)]
     counted = accumulate(block.numbered for block in entries)
     for number, (block, place) in enumerate(zip(entries, counted, strict=True), 1):
         entry = f"{f'{place} ' if block.numbered else ''}{note.letters(block.text)}"
         page = _begun(rf"PAGEREF {_mark(number)} \h") + _END
-        shown = f"{words(entry)}<w:r><w:tab/></w:r>{page}"
+        shown = f"{_words(entry)}<w:r><w:tab/></w:r>{page}"
         linked = f'<w:hyperlink w:anchor="{_mark(number)}" w:history="1">{shown}</w:hyperlink>'
         yield _paragraph("TOC1", before + linked)
         before = ""
@@ -412,7 +412,7 @@ def _block(
             marked = _bookmark(line(text), _mark(number), number)  # the contents lead there
             yield _paragraph("Heading1", marked, "" if numbered else UNNUMBERED)
         case Sentences(texts=texts, leads=leads):
-            yield _paragraph("", words(" ").join(map(line, texts)), KEPT if leads else "")
+            yield _paragraph("", _words(" ").join(map(line, texts)), KEPT if leads else "")
         case Steps(texts=texts):
             one = f'<w:numPr><w:ilvl w:val="0"/><w:numId w:val="{LISTS + number - 1}"/></w:numPr>'
             yield from (_paragraph("ListNumber", line(text), one) for text in texts)
@@ -422,7 +422,7 @@ def _block(
         case Table(rows=rows, caption=caption):
             if caption:
                 here = _number_field(rf"SEQ {said['table']} \* ARABIC", number)
-                yield _paragraph("TableCaption", f"{words(said['table'] + ' ')}{here}{words(' – ')}{line(caption)}")
+                yield _paragraph("TableCaption", f"{_words(said['table'] + ' ')}{here}{_words(' – ')}{line(caption)}")
             yield _table(rows, profile)
             yield _paragraph("Cell", "")
         case Figure():
@@ -430,7 +430,7 @@ def _block(
             if block.folded:
                 before, _, after = said["figure.folded"].format(number="\0", format=note.FOLDED).partition("\0")
                 marked = _bookmark(here, f"_Figure{number}", FIGURES + number)
-                yield _paragraph("", words(before) + marked + words(after))
+                yield _paragraph("", _words(before) + marked + _words(after))
                 return
             yield _paragraph("Figure", _drawing(block, pictures[number - 1], number))
             yield _paragraph("Caption", _caption(block, said, here))
@@ -439,7 +439,7 @@ def _block(
 def _numbered(equation: str, number: int) -> str:
     """Return an equation with its number at the end of the line: two cells that nothing shows."""
     widths = [round(PERCENT * mm / WIDE) for mm in (WIDE - OF_NUMBER, OF_NUMBER)]  # of a line, however wide it is
-    of = _paragraph("EquationNumber", words(f"({number})"))
+    of = _paragraph("EquationNumber", _words(f"({number})"))
     cells = "".join(
         f'<w:tc><w:tcPr><w:tcW w:w="{wide}" w:type="pct"/><w:vAlign w:val="bottom"/></w:tcPr>{inside}</w:tc>'
         for wide, inside in zip(widths, (equation, of), strict=True)
@@ -529,7 +529,7 @@ def _row(row: tuple[str | None, ...], number: int, kept: bool) -> str:
 
 def _caption(figure: Figure, said: dict[str, str], number: str) -> str:
     lines = [line(text) for text in (figure.caption, *note.said_under(figure, said))]
-    return f"{words(said['figure'] + ' ')}{number}{words(' – ')}" + "<w:r><w:br/></w:r>".join(lines)
+    return f"{_words(said['figure'] + ' ')}{number}{_words(' – ')}" + "<w:r><w:br/></w:r>".join(lines)
 
 
 def _drawing(figure: Figure, picture: Picture, number: int) -> str:

@@ -45,7 +45,7 @@ def quoted(text: str) -> str:
     return printable(text).translate(_ENTITIES)
 
 
-def run(text: str, style: str = "") -> str:
+def _run(text: str, style: str = "") -> str:
     """Return characters within a formula: in italics, or plain (`p`), or as words outside mathematics (`nor`)."""
     looks = {"": "", "p": '<m:rPr><m:sty m:val="p"/></m:rPr>', "nor": "<m:rPr><m:nor/></m:rPr>"}[style]
     return f'<m:r>{looks}<m:t xml:space="preserve">{quoted(text)}</m:t></m:r>'
@@ -55,16 +55,16 @@ def node(found: Node, upright: bool = False) -> str:
     """Return a part of a formula; a letter alone is slanted, unless it is `upright`."""
     if isinstance(found, Plain):
         if upright or not found.text:
-            return run(found.text or _EMPTY, "p")
-        return run(found.text) if len(found.text) == 1 else _script(found)
+            return _run(found.text or _EMPTY, "p")
+        return _run(found.text) if len(found.text) == 1 else _script(found)
     if isinstance(found, Ruled):
-        inner = "".join(map(node, found.parts)) or run(_EMPTY, "p")
+        inner = "".join(map(node, found.parts)) or _run(_EMPTY, "p")
         once = _BAR.format(place="top" if found.kind == "bar" else "bot", inner=inner)
         return _BAR.format(place="bot", inner=once) if found.kind == "uu" else once
-    return _scripted(node(found.base, upright), *scripts(found))
+    return _scripted(node(found.base, upright), *_scripts(found))
 
 
-def scripts(found: Scripted) -> tuple[str, str]:
+def _scripts(found: Scripted) -> tuple[str, str]:
     """Return what stands above and below behind a letter."""
     above, below = ("".join(map(_script, parts)) for parts in (found.above, found.below))
     return above, below
@@ -73,7 +73,7 @@ def scripts(found: Scripted) -> tuple[str, str]:
 def _script(found: Node) -> str:
     """Return a part of a script, whose letters are names, not quantities: plain, or words as words."""
     if isinstance(found, Plain):
-        return run(found.text, "nor" if any(c.isspace() for c in found.text) else "p")
+        return _run(found.text, "nor" if any(c.isspace() for c in found.text) else "p")
     return node(found)
 
 
@@ -128,13 +128,13 @@ def _atoms(parts: Iterable[Node]) -> Iterator[_Atom]:
                     _Atom(str(found.lastgroup), found.group(), _plain(found)) for found in _TOKENS.finditer(text)
                 )
             case Scripted(base=Plain(text=text)) if text in PAIRS.values():
-                yield _Atom("close", text, node(part), "", scripts(part))
+                yield _Atom("close", text, node(part), "", _scripts(part))
             case Scripted(base=Plain(text=text)) if text in _FUNCTIONS:
-                yield _Atom("function", text, _scripted(run(text, "p"), *scripts(part)))
+                yield _Atom("function", text, _scripted(_run(text, "p"), *_scripts(part)))
             case Scripted(base=Plain(text=text)) if text[:1].isdigit():
                 yield _Atom("number", text, node(part))
             case Scripted(base=Plain(text=text)):
-                yield _Atom("name", text, node(part), "", scripts(part))
+                yield _Atom("name", text, node(part), "", _scripts(part))
             case _:
                 yield _Atom("name", "", node(part))
 
@@ -142,9 +142,9 @@ def _atoms(parts: Iterable[Node]) -> Iterator[_Atom]:
 def _plain(found: re.Match[str]) -> str:
     kind, text = found.lastgroup, found.group()
     if kind == "space":
-        return run(" ", "nor")
+        return _run(" ", "nor")
     letter = kind == "word" and len(text.rstrip("′″")) == 1 and text not in _NAMED
-    return run(text, "" if letter or kind == "sign" else "p")
+    return _run(text, "" if letter or kind == "sign" else "p")
 
 
 def _units(atoms: list[_Atom]) -> list[_Atom]:
@@ -173,7 +173,7 @@ def _unit_end(atoms: list[_Atom], at: int) -> int:
 
 
 def _upright(atom: _Atom) -> str:
-    return _scripted(run(atom.text, "nor"), *atom.scripts) if atom.kind in ("word", "name") else atom.shown
+    return _scripted(_run(atom.text, "nor"), *atom.scripts) if atom.kind in ("word", "name") else atom.shown
 
 
 def _joined(atoms: list[_Atom]) -> list[_Atom]:
@@ -183,7 +183,7 @@ def _joined(atoms: list[_Atom]) -> list[_Atom]:
         both = (one, other)
         if {one.kind, other.kind} == {"word", "name"} and not any(atom.text in ("", *_NAMED) for atom in both):
             found[place : place + 2] = [
-                replace(atom, shown=_scripted(run(atom.text, "p"), *atom.scripts)) for atom in both
+                replace(atom, shown=_scripted(_run(atom.text, "p"), *atom.scripts)) for atom in both
             ]
     return found
 
@@ -208,7 +208,7 @@ def _spoken(text: str) -> bool:
 def _named(atom: _Atom, speech: bool) -> _Atom:
     if atom.text in _FUNCTIONS:
         return replace(atom, kind="function")
-    return replace(atom, kind="prose", shown=run(atom.text, "nor")) if speech else replace(atom, kind="name")
+    return replace(atom, kind="prose", shown=_run(atom.text, "nor")) if speech else replace(atom, kind="name")
 
 
 def built_up(markup: str) -> str:

@@ -47,7 +47,7 @@ def _exact_values(solved: SolvedCam) -> dict[str, float]:
     return found
 
 
-def between(motion: Motion, sections: int) -> Division:
+def _between(motion: Motion, sections: int) -> Division:
     """Return about so many equal sections of a phase, jumps about a third of a section beside lines.
 
     The first jump lies behind the line: so errors of all numbers of sections have the same sign.
@@ -210,7 +210,7 @@ def convergence(
     exact = {name: value for name, value in _exact_values(solved).items() if name in chosen}
     divided: dict[str, Callable[[int], Division]] = {NODES: solved.motion.division}
     if inner_jumps(solved.motion):
-        divided[BETWEEN] = partial(between, solved.motion)
+        divided[BETWEEN] = partial(_between, solved.motion)
     wanted = tuple(sections)
     found = {where: _drawings(solved, map(divide, wanted), exact) for where, divide in divided.items()}
     errors = {

@@ -154,7 +154,7 @@ def _foot(plan: str, line: int) -> str:
     return f"{plan}.f{line}" if line else f"{plan}.0"
 
 
-def ray(plan: str, section: int) -> str:
+def _ray(plan: str, section: int) -> str:
     """Return the name of the direction of a section's ray on the diagram that is integrated."""
     return f"_{plan}_ray{section}"
 
@@ -172,8 +172,8 @@ def _integrate(board: Board, plan: str, onto: str, pole_distance: str, sections:
         projection, length = f"{plan}.p{i}", f"_{plan}_l{i}"
         board.meet(projection, f"{plan}.m{i}", RIGHT, origin, UP)
         board.measure(length, pole, projection)
-        board.direction(ray(plan, i), pole, projection, length)
-        board.meet(f"{onto}.{i}", f"{onto}.{i - 1}", ray(plan, i), _foot(onto, i), UP)
+        board.direction(_ray(plan, i), pole, projection, length)
+        board.meet(f"{onto}.{i}", f"{onto}.{i - 1}", _ray(plan, i), _foot(onto, i), UP)
 
 
 def _diagrams(board: Board, sections: range, given: str = ACCELERATION) -> None:

@@ -197,7 +197,7 @@ class Motion:
         starts, origins, rates, tables = self._tables
         which = np.maximum(np.searchsorted(starts, phi + side * NEAR) - 1, 0)
         rows = [(powers[:, which], waves[which] if waves.any() else None) for powers, waves in tables]
-        return along(phi - origins[which], rates[which], rows)
+        return _along(phi - origins[which], rates[which], rows)
 
     @property
     def written(self) -> tuple[Array, list[str], Array]:
@@ -219,7 +219,7 @@ class Motion:
             )
             for order, (powers, waves) in enumerate(self._tables[3])
         ]
-        return along(phi - given("origin"), given("rate"), rows)
+        return _along(phi - given("origin"), given("rate"), rows)
 
     def maximum(self, s: float, ds: float, d2s: float, phases: Iterable[str] = PHASES) -> Extreme:
         """Return the exact maximum of s * travel + ds * first + d2s * second derivative over some of the phases.
@@ -337,7 +337,7 @@ class Motion:
         return np.append(np.concatenate(parts), TURN)
 
 
-def along(t: Any, rate: Any, rows: Iterable[tuple[Any, Any]]) -> tuple[Any, Any, Any]:
+def _along(t: Any, rate: Any, rows: Iterable[tuple[Any, Any]]) -> tuple[Any, Any, Any]:
     """Return the travel and its derivatives so far along a piece: of each powers, the highest first, and a wave.
 
     A wave is complex, or the pair of its cosine and its sine; without one it is None.

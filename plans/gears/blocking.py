@@ -36,7 +36,7 @@ STEP = 1e-6  # of a difference quotient
 ZERO = 1e-11  # what is left of both functions where two curves cross
 
 
-def grid(low: complex, high: complex, cells: int) -> Places:
+def _grid(low: complex, high: complex, cells: int) -> Places:
     """Return the places of a grid of `cells` times `cells`, shape (cells + 1, cells + 1): rows along the abscissa."""
     x, y = np.linspace(low.real, high.real, cells + 1), np.linspace(low.imag, high.imag, cells + 1)
     places: Places = x[:, np.newaxis] + 1j * y
@@ -48,7 +48,7 @@ def traced(function: Function, low: complex, high: complex, cells: int, known: A
 
     Every place is on an edge of the grid, put to the last digits there. `known` are the function's values on the grid.
     """
-    places, nodes = grid(low, high, cells), np.arange(cells + 1)
+    places, nodes = _grid(low, high, cells), np.arange(cells + 1)
     values = function(places) if known is None else known
     above = np.ma.masked_invalid(np.where(values == 0.0, np.finfo(float).tiny, values).T)  # a zero is permitted
     runs = []
@@ -189,7 +189,7 @@ class Plane:
     @cached_property
     def curves(self) -> dict[str, list[Places]]:
         """All curves inside the window, by name: their pieces, each a run of places on it."""
-        known = self.measures(grid(self.low, self.high, CELLS))  # of all at once: they share most of it
+        known = self.measures(_grid(self.low, self.high, CELLS))  # of all at once: they share most of it
 
         def measure(places: Any, name: str) -> Array:
             return self.measures(places, (name,))[name]
@@ -266,7 +266,7 @@ def plane_of(values: Mapping[str, float], least_tip: float = 0.3) -> Plane:
     least = geometry(values, ("x_min1", "x_min2"))
     low, chosen = complex(least["x_min1"], least["x_min2"]), complex(values["x_1"], values["x_2"])
     wide = Plane(values, least_tip, low, complex(HIGHEST, HIGHEST))
-    places = grid(wide.low, wide.high, CELLS)
+    places = _grid(wide.low, wide.high, CELLS)
     inside = places[_connected(wide.permits(places), np.abs(places - chosen))]
     seen = np.append(inside if inside.size else np.array([low, low + complex(LEAST_WINDOW, LEAST_WINDOW)]), chosen)
     size = wide.high - wide.low

@@ -41,7 +41,7 @@ class _Spread:
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class _Drawn:
     """Many drawings of one construction, beside the exact one."""
 
     paper: Paper
@@ -103,7 +103,7 @@ def kept(drawings: Array, exact: Any, share: float = SHARE) -> Array:
     return found
 
 
-def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = 1000) -> Drawn:
+def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = 1000) -> _Drawn:
     """Draw a construction many times with a shaky hand.
 
     >>> import numpy as np
@@ -117,7 +117,7 @@ def drawn(paper: Paper, hand: Hand, random: Generator, drawings: int = 1000) -> 
     True
     """
     exact = run(paper.program, paper.givens).values
-    return Drawn(paper, exact, draw(paper, hand, random, drawings))
+    return _Drawn(paper, exact, draw(paper, hand, random, drawings))
 
 
 STEP = 1e-3  # standard deviations; the error of a central difference is its square

@@ -53,10 +53,10 @@ def points(board: Board, plan: str, foot: str, at: str, **values: str) -> None:
     board.calc(abscissa, "ratio", at, along)
     board.place(f"{plan}.{foot}", abscissa, "zero")
     for mark, value in values.items():
-        point(board, f"{plan}.{mark}", abscissa, value, upwards)
+        _point(board, f"{plan}.{mark}", abscissa, value, upwards)
 
 
-def point(board: Board, mark: str, abscissa: str, value: str, mu: str) -> None:
+def _point(board: Board, mark: str, abscissa: str, value: str, mu: str) -> None:
     """Mark on a section line, whose abscissa on paper is known, a value to its scale."""
     ordinate = f"_paper_{mark}".replace(".", "_")
     board.calc(ordinate, "ratio", value, mu)
@@ -169,7 +169,7 @@ def _extremes_plan(board: Board, sections: int, crossed: Iterable[int]) -> None:
         board.calc(f"_winding{k}", "winding_speed", "V_t", "a", f"_t_{i}_{LIFT_OFF}")
         board.calc(f"_share{k}", "product", "_ratio", f"_winding{k}")
         board.calc(f"_line{k}", "opposite", f"_share{k}")
-        point(board, f"{EXTREMES}.L{k}", f"_abscissa_{EXTREMES}_f{i}", f"_line{k}", "mu_v")
+        _point(board, f"{EXTREMES}.L{k}", f"_abscissa_{EXTREMES}_f{i}", f"_line{k}", "mu_v")
     _chord(board, EXTREMES, "L", 0)
     for n, i in enumerate(crossed, 1):
         _chord(board, EXTREMES, "W", i)

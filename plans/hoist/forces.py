@@ -165,7 +165,7 @@ BOTH, ROPE, BEAM, NEITHER = ("both", "rope", "support", "neither")  # what bears
 BEARS = {(True, True): BOTH, (True, False): ROPE, (False, True): BEAM, (False, False): NEITHER}  # rope, support
 
 
-class Course(NamedTuple):
+class _Course(NamedTuple):
     """A hoist at times of shape (N,): columns in SI by name, and what bears at each."""
 
     columns: dict[str, Array]
@@ -206,7 +206,7 @@ def rope_forces(found: Numbers, t: Any) -> tuple[Any, Any]:
     return np.where(resting, values["_support_1"], 0.0), np.where(resting, values["_rope_1"], values["_rope_2"])
 
 
-def course(forces: Forces, t: Array) -> Course:
+def course(forces: Forces, t: Array) -> _Course:
     """Look at a hoist at times from its beginning on, s, of shape (N,), none after the end of its motion."""
     motion = forces.motion
     if motion is None:
@@ -217,7 +217,7 @@ def course(forces: Forces, t: Array) -> Course:
         pieces = [motion.at(time) for time in t.tolist()]
         states = tuple(BEARS[piece.rope, piece.support] for piece in pieces)
         borne = _pressed(forces, height, np.array([piece.support for piece in pieces])), F_12
-    return Course(
+    return _Course(
         {name: np.asarray(value, float) for name, value in _columns(forces.found, t, borne, height).items()}, states
     )
 

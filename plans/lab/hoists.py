@@ -62,7 +62,7 @@ class _Equation:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class _Found:
     """The root that a finder stopped at, NaN where it failed, and how often it evaluated f or f'."""
 
     root: float
@@ -181,7 +181,7 @@ FINDERS: Mapping[str, Callable[[_Equation], Iterator[Guess]]] = {
 }
 
 
-def _find(finder: str, equation: _Equation, tolerance: float) -> Found:
+def _find(finder: str, equation: _Equation, tolerance: float) -> _Found:
     """Return the root in the bracket, believed to be right to a part `tolerance` of itself.
 
     A method that finds another root, or none in `MOST` evaluations, has failed.
@@ -191,8 +191,8 @@ def _find(finder: str, equation: _Equation, tolerance: float) -> Found:
             break
         if away <= max(tolerance, STILL) * abs(x):
             inside = equation.low * (1.0 - BEYOND) <= x <= equation.high * (1.0 + BEYOND)
-            return Found(x if inside else math.nan, count)
-    return Found(math.nan, count)
+            return _Found(x if inside else math.nan, count)
+    return _Found(math.nan, count)
 
 
 Array = NDArray[np.float64]
@@ -334,7 +334,7 @@ class Ways:
     root: float  # x = k t_1, rad
     # shape (N,): by method: of the approximation after each evaluation, in parts of the root; NaN where there is none
     errors: Mapping[str, Array]
-    found: Mapping[str, Found]  # where each method stops; the root is NaN where it fails
+    found: Mapping[str, _Found]  # where each method stops; the root is NaN where it fails
 
     def error(self, method: str) -> float:
         """Return the error where a method stops, in parts of the root."""

@@ -175,7 +175,7 @@ def _parts_of(program: Program) -> dict[str, str]:
     return {step.name: KINDS[step.law] for step in program if step.law in KINDS}
 
 
-def without(program: Program, parts: Collection[str]) -> Program:
+def _without(program: Program, parts: Collection[str]) -> Program:
     """Return a program that lays down these forces and moments with a size of zero; loads may be among them."""
     nothing = {step: step.but(operands=(ZERO, *step.operands[1:])) for step in program if step.name in parts}
     return Program(tuple(nothing.get(step, step) for step in program))
@@ -202,7 +202,7 @@ class _Model:
 
     def _values(self, parts: Collection[str]) -> dict[str, Array]:
         cycle, wanted = self._cycle, (self.balance, *self.reactions)
-        program = without(cycle.program, parts)
+        program = _without(cycle.program, parts)
         lost = cycle.codes >= STATUSES.index("singular")  # or apart: no plan to compare
         found = cycle.drive.along(program, cycle.givens, wanted)(cycle.angles)
         return {name: np.where(lost, np.nan, value) for name, value in found.items()}

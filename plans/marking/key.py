@@ -306,13 +306,13 @@ def inherited(law: str, operands: list[Any], exact: Any, missed: Iterable[float]
     found = []
     for i, miss in enumerate(missed):
         if miss:
-            changed = ([*operands[:i], x, *operands[i + 1 :]] for x in longer(operands[i], miss))
+            changed = ([*operands[:i], x, *operands[i + 1 :]] for x in _longer(operands[i], miss))
             changes = [abs(LAWS[law](*others) - exact) for others in changed]  # a load diagram may be steep one way
             found.append(max((change for change in changes if change == change), default=0.0))
     return found
 
 
-def longer(value: Any, miss: float) -> tuple[Any, ...]:
+def _longer(value: Any, miss: float) -> tuple[Any, ...]:
     """Return values that miss, more and less: a vector along itself, one that is zero along both axes."""
     if not isinstance(value, complex):
         return value + miss, value - miss

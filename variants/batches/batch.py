@@ -285,7 +285,7 @@ class _Making:
 Crew = Callable[[Begin[Student, Outcome], list[Student]], Iterator[list[Done[Outcome]]]]
 
 
-def run(
+def _run(
     making: _Making, students: Sequence[Student], folder: Path, crew: Crew, advance: Advance
 ) -> tuple[Outcome, ...]:
     """Make what is not there yet; write it, and note it, as it comes."""
@@ -320,11 +320,11 @@ def _kept(made: Outcome | None, student: Student, folder: Path, language: str) -
         reason = InputError("process-died").text(language)
         return Outcome(student.entry.variant, problem=f"{spoken(student.entry.place, language)}: {reason}")
     for name, data in made.files.items():
-        put(folder / name, data)
+        _put(folder / name, data)
     return replace(made, files={name: digest_of(data) for name, data in made.files.items()})
 
 
-def put(path: Path, data: bytes) -> None:
+def _put(path: Path, data: bytes) -> None:
     """Write a file whole, in a folder that may have to be made, unless it is there as it should be."""
     folder_for(path.parent)
     with suppress(OSError):
@@ -420,7 +420,7 @@ def batch(
     else:  # an item may kill its process, which is not this one unless that is asked for
         alone = 0 if jobs != 1 else None
         crew = partial(shared_out, jobs=jobs or os.cpu_count() or 1, alike=alike, alone=alone, afresh=making.afresh)
-    outcomes = run(making, students, place, crew, advance or (lambda done, whole: None))
+    outcomes = _run(making, students, place, crew, advance or (lambda done, whole: None))
     unread = Written(", ".join(quote(head, SHOWN) for head in listed.unread))
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
@@ -429,10 +429,10 @@ def batch(
     twice = (InputError("batch-twice"),) if {*kinds} >= FOR_STUDENTS else ()
     done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *twice))
     for name, rows in _tables(done, once, lang):
-        put(place / (name if name == MANIFEST else f"{making.folder()}{name}"), csv_table(rows, lang))
+        _put(place / (name if name == MANIFEST else f"{making.folder()}{name}"), csv_table(rows, lang))
     for kind in making.kinds if merge else ():
         if kind in MERGED and (files := [place / name for name in _of_kind(outcomes, kind)]):
-            put(
+            _put(
                 place / f"{making.folder(kind)}{MERGED[kind]}", joined(on_leaves([file.read_bytes() for file in files]))
             )
     return done

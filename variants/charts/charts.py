@@ -226,7 +226,7 @@ class AccuracyChart(Chart[Contest]):
     def note(self, words: Words) -> str:
         """Return how and on what it was measured."""
         batch = words.number(self.found.effort.at_once, 0)
-        return f"{words[self.compared].format(positions=len(self.found.places), batch=batch)}\n{machine(words)}"
+        return f"{words[self.compared].format(positions=len(self.found.places), batch=batch)}\n{_machine(words)}"
 
     def _rows(self) -> Iterator[tuple[Cell, ...]]:
         yield (*HEAD, self.places.column, *TIMES)
@@ -238,7 +238,7 @@ class AccuracyChart(Chart[Contest]):
     def _data(self) -> dict[str, Any]:
         """Return all entries as data."""
         return {
-            "machine": machine(Words.of("en", self.scene.case.task.notation)),
+            "machine": _machine(Words.of("en", self.scene.case.task.notation)),
             "hand": self.scene.hand,
             "places": [self.places.si(at) for at in self.found.places],
             "entries": [self._item(entry) for entry in self.found.entries],
@@ -254,7 +254,7 @@ class AccuracyChart(Chart[Contest]):
         return self.scene.hand, self.places.unit
 
 
-def machine(words: Words) -> str:
+def _machine(words: Words) -> str:
     """Return the machine and the versions on which times were measured."""
     return words["chart.machine"].format(
         machine=f"{platform.system()} {platform.machine()}",

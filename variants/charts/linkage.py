@@ -81,7 +81,7 @@ def _stability(scene: Scene) -> _StabilityChart:
     """Look at what is lost over the cycle."""
     whole = _cycle_of(scene)
     mus = _scales_of_cycle(scene, whole)
-    found = stability(whole, scene.quantities or usual(whole), mus, charts.HANDS[scene.hand])
+    found = stability(whole, scene.quantities or _usual(whole), mus, charts.HANDS[scene.hand])
     return _StabilityChart(scene, found, whole, _places(whole), mus)
 
 
@@ -250,7 +250,7 @@ class _StabilityChart(charts.Chart[Stability]):
         return (Abscissa(f"{GREEK.get(kind, kind)}, {unit}", self.cycle.drive.turns, self.cycle.reach.apart),)
 
 
-def usual(cycle: Cycle) -> tuple[str, ...]:
+def _usual(cycle: Cycle) -> tuple[str, ...]:
     """Return velocity and acceleration of a point of the last output, and what balances the driver."""
     known = cycle.quantities
     links = [cycle.mechanism.link(output.link) for output in cycle.outputs[::-1]] or [cycle.mechanism.links[-1]]

@@ -262,7 +262,7 @@ def pairs(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -
     return found
 
 
-def given(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:
+def _given(ctx: click.Context, param: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:
     """Tell an option that was not given at all from an empty one."""
     return values or None
 
@@ -302,7 +302,7 @@ def _stacked(*options: Any) -> Callable[[Function], Function]:
 def listed(name: str, metavar: str, source: completing.Source | None = None) -> Callable[[Function], Function]:
     """Return an option for names, each alone or several with commas between; a shell completes those of a source."""
     complete = completing.completing(source) if source is not None else None
-    return click.option(name, metavar=metavar, multiple=True, callback=given, shell_complete=complete)
+    return click.option(name, metavar=metavar, multiple=True, callback=_given, shell_complete=complete)
 
 
 _named = completing.completing(completing.tasks, with_files=True)

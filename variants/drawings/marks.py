@@ -82,7 +82,7 @@ class Affine(NamedTuple):
         return math.sqrt(abs(abs(self.p) ** 2 - abs(self.q) ** 2))
 
 
-class Piece(NamedTuple):
+class _Piece(NamedTuple):
     """A run of letters: where it begins and ends, about, the height of its capitals."""
 
     text: str
@@ -97,7 +97,7 @@ class Marks:
 
     lines: list[tuple[complex, complex]] = field(default_factory=list)
     heads: list[tuple[complex, complex, complex]] = field(default_factory=list)  # filled triangles
-    pieces: list[Piece] = field(default_factory=list)
+    pieces: list[_Piece] = field(default_factory=list)
     left: int = STEPS * MOST
 
     def count(self, pieces: int = 1) -> None:
@@ -116,7 +116,7 @@ class Marks:
         self.count()
         text = " ".join(text.split())
         if text and len(text) <= LONGEST:
-            self.pieces.append(Piece(text, start, end, height))
+            self.pieces.append(_Piece(text, start, end, height))
 
     def drawn(self) -> Drawn:
         """Return the drawing: arrows from tail to tip, as long as they look, runs of letters joined to texts."""
@@ -169,11 +169,11 @@ def _pointed(ends: np.ndarray, heads: np.ndarray) -> tuple[np.ndarray, np.ndarra
     return found, pointed[heads_of == 1]
 
 
-def _letters(pieces: Sequence[Piece]) -> Iterator[Letter]:
+def _letters(pieces: Sequence[_Piece]) -> Iterator[Letter]:
     """Go through the texts of a drawing: runs that follow one another on a line, with scripts, are one."""
     from ...plans.marking.lines import Letter
 
-    run: list[Piece] = []
+    run: list[_Piece] = []
     for piece in (*pieces, None):
         if run and (piece is None or not _goes_on(run, piece)):
             largest = max(one.height for one in run)
@@ -182,7 +182,7 @@ def _letters(pieces: Sequence[Piece]) -> Iterator[Letter]:
         run += [piece] if piece is not None else []
 
 
-def _goes_on(run: Sequence[Piece], piece: Piece) -> bool:
+def _goes_on(run: Sequence[_Piece], piece: _Piece) -> bool:
     """Whether a run of letters begins where those before it end, up or down by no more than a script is."""
     last, height = run[-1], max(one.height for one in run)
     along = last.end - last.start
@@ -194,7 +194,7 @@ def _goes_on(run: Sequence[Piece], piece: Piece) -> bool:
     )  # fmt: skip
 
 
-def _spelled(run: Sequence[Piece]) -> str:
+def _spelled(run: Sequence[_Piece]) -> str:
     """Return runs as one text, with spaces where there is room for them."""
     text = run[0].text
     for before, piece in pairwise(run):

@@ -102,7 +102,7 @@ class Asked:
         return self.display.unit(self.quantities[name].unit)
 
 
-def known(written: str, wanted: Unit) -> Unit:
+def _known(written: str, wanted: Unit) -> Unit:
     """Return the unit that stands in a file; cp1251 has no ², which comes back as a question mark.
 
     Where only the unit without it is of the dimension `wanted`, it is that of somebody who doubts: `45мм?`.
@@ -153,7 +153,7 @@ def segment(text: str, written: str) -> tuple[float, int]:
     What is no number is refused, and another unit than of length, or a negative one.
     """
     number, rest = split_number(text)
-    own = known(rest or written, MM) if rest or written else MM
+    own = _known(rest or written, MM) if rest or written else MM
     millimetres = converted(number, own, MM, NOTHING) * 1e3
     if number < 0.0:
         raise InputError("answer-negative", text=quote(text))
@@ -172,7 +172,7 @@ def scale_factor(text: str, written: str, per_mm: str, display_per_mm: str) -> M
     if number <= 0.0:
         raise InputError("scale-not-positive", text=quote(text))
     name, si = rest or written, unit(per_mm)
-    own = known(name, si) if name else unit(display_per_mm)
+    own = _known(name, si) if name else unit(display_per_mm)
     on_paper = {("mm", 1), ("cm", 1)}
     if own.powers and own.powers[0] in on_paper and (own.powers[-1][0], -own.powers[-1][1]) not in on_paper:
         reciprocal = Unit(tuple((symbol, -power) for symbol, power in si.powers))
@@ -187,7 +187,7 @@ def value(text: str, written: str, name: str, asked: Asked) -> float:
     """
     number, rest = split_number(text)
     own = unit(asked.quantities[name].unit)  # SI, but of a scale factor SI per millimetre
-    return own.from_si(converted(number, known(rest or written or asked.unit(name), own), own, NOTHING))
+    return own.from_si(converted(number, _known(rest or written or asked.unit(name), own), own, NOTHING))
 
 
 def rounded(text: str, value: float | None) -> float | None:

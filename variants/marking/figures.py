@@ -75,7 +75,7 @@ SMALL = 2.5  # mm, size of scripts
 
 
 @dataclass(frozen=True, slots=True)
-class Vector:
+class _Vector:
     """A vector of a plan: the student's, or the right one where `line` is None."""
 
     symbol: str
@@ -106,12 +106,12 @@ def plan_figures(marked: Marked, language: str) -> Iterator[tuple[str, str]]:
             yield plain(heading), _svg(vectors, texts(language)["report.figure"])
 
 
-def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[Vector]:
+def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[_Vector]:
     """Go through the right vectors of a plan, then the student's, each from where the one before it ends."""
     solved = marked.keyed.solution.solved
     edges = read(solved.program).on(plan)
     for edge in edges:
-        yield Vector("", solved.point(edge.tail), solved.point(edge.tip), None)
+        yield _Vector("", solved.point(edge.tail), solved.point(edge.tip), None)
     marks: dict[str, complex] = {}
     for edge in edges:
         line = lines.get(role(edge.name).shown)
@@ -125,10 +125,10 @@ def _vectors(marked: Marked, plan: str, lines: Mapping[str, Line]) -> Iterator[V
             said = right * (math.hypot(said.real, said.imag) / math.hypot(right.real, right.imag))
         tip = tail + said
         marks.setdefault(edge.tip, tip)
-        yield Vector(marked.keyed.symbol(line.name), tail, tip, line)
+        yield _Vector(marked.keyed.symbol(line.name), tail, tip, line)
 
 
-def _svg(vectors: list[Vector], caption: str) -> str:
+def _svg(vectors: list[_Vector], caption: str) -> str:
     """Return the vectors as SVG, the right ones below."""
     places = [place for vector in vectors for place in (vector.tail, vector.tip)]
     left, right = min(p.real for p in places), max(p.real for p in places)

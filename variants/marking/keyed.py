@@ -239,7 +239,7 @@ def _sections(solution: Solution, questions: Iterable[Question], words: Words) -
         by_key.setdefault(current, []).append(question)
     found, taken = [], set[str]()
     for key, own in by_key.items():
-        measured = [question for question in own if drawn(question)]
+        measured = [question for question in own if _drawn(question)]
         symbols = [solved.scale_of_plan[q.plan] for q in measured if q.plan in solved.scale_of_plan]
         # the sheet may show them larger, at another one
         shown = (solution.quantities[question.name].scale for question in measured)
@@ -251,7 +251,7 @@ def _sections(solution: Solution, questions: Iterable[Question], words: Words) -
     return found
 
 
-def drawn(question: Question) -> bool:
+def _drawn(question: Question) -> bool:
     """Whether a quantity can be measured on a plan."""
     return question.vector or question.step.verb in ("read", "arm", "measure", "distance")
 
@@ -259,7 +259,7 @@ def drawn(question: Question) -> bool:
 def columns_of(question: Question) -> tuple[str, ...]:
     """Return what an answer to a question has: a segment that is measured, a value, a direction or sense."""
     arm, turns = is_arm_of_lever(question.name), question.vector or _has_sense(question.name)
-    return tuple(compress(("mm", "value", "direction"), (drawn(question), not arm, turns)))
+    return tuple(compress(("mm", "value", "direction"), (_drawn(question), not arm, turns)))
 
 
 def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()) -> Iterator[tuple[str, ...]]:
@@ -281,7 +281,7 @@ def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()
         if not questions:
             continue
         yield (plain(part.heading),)
-        for name in part.scales if any(map(drawn, questions)) else ():
+        for name in part.scales if any(map(_drawn, questions)) else ():
             unit = f"({asked.display.of_scales.unit(asked.scales[name])})/{asked.display.paper}"
             yield (name, keyed.symbol(name), "", "", "", "", words.spelled(unit))
         for name in (question.name for question in questions):
@@ -301,7 +301,7 @@ def class_header(keyed: Keyed, directions: bool, only: Collection[str] = ()) -> 
     columns = [said[f"about.{key}"] for key in ("student", "group", "book", "number", "variant", "sheet")]
     for part in keyed.parts:
         asked = [question for question in part.asked if not only or question.name in only]
-        if any(map(drawn, asked)):
+        if any(map(_drawn, asked)):
             columns += map(_shown, part.scales)
         for question in asked:
             name, unit = _shown(question.name), words.spelled(keyed.asked.unit(question.name))

@@ -95,7 +95,7 @@ def _too_exact(segments: Mapping[str, _Measured]) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class _Pair:
     """Two students, by their numbers in the list, whose segments agree.
 
     `names` are those that are the same, `near` is how many are so at least nearly, `of` how many both have.
@@ -108,7 +108,7 @@ class Pair:
     of: int
 
 
-def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[Pair]:
+def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[_Pair]:
     """Go through the pairs of students whose measured segments agree as those of somebody who has copied.
 
     Who copies leaves most millimetres as they are and changes some of them a little; two honest drawings miss by
@@ -137,7 +137,7 @@ def shared(students: Sequence[Mapping[str, _Measured]]) -> Iterator[Pair]:
             other = int(i + 1 + k)
             if _likelihood(students[i], students[other]) < least:
                 alike = tuple(name for j, name in enumerate(names) if apart[k, j] < ROUNDING)
-                yield Pair(i, other, alike, int(near[k]), int(both[k]))
+                yield _Pair(i, other, alike, int(near[k]), int(both[k]))
 
 
 def _likelihood(one: Mapping[str, _Measured], other: Mapping[str, _Measured]) -> float:

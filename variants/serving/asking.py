@@ -227,7 +227,7 @@ class Chosen:
         return (tail if self.tail is None else self.tail), (tip if self.tip is None else self.tip)
 
 
-def written(place: complex | None) -> str:
+def _written(place: complex | None) -> str:
     """Return a place as an address has it."""
     return "" if place is None else f"{place.real:.2f},{place.imag:.2f}"
 
@@ -247,7 +247,7 @@ def _end_body(door: Door, sitting: Sitting, ask: EndAsk, path: str, chosen: Chos
     said = door.said
     tail, tip = chosen.over(*sitting.believed(ask))
     moved = chosen.move or ("tail" if tail is None else "tip")
-    now = {"tail": written(tail), "tip": written(tip), "move": chosen.move, "whole": "1" if chosen.whole else ""}
+    now = {"tail": _written(tail), "tip": _written(tip), "move": chosen.move, "whole": "1" if chosen.whole else ""}
 
     def link(fragment: str, **more: str) -> str:
         query = [(key, value) for key, value in {**now, **more}.items() if value]
@@ -338,7 +338,7 @@ def _plan(
             "a",
             circle(spot, REACH * dot, "reach"),
             circle(spot, dot, "spot"),
-            href=link("yes" if both else "plan", move="", **{moved: written(spot)}),
+            href=link("yes" if both else "plan", move="", **{moved: _written(spot)}),
             aria_label=said["ask.spot"].format(n=n),
         )
         for n, spot in enumerate(inside, 1)

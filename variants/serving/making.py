@@ -135,7 +135,7 @@ class Upload:
         return stem + suffix
 
 
-def settled(asked: Asked, task: Task) -> tuple[tuple[str, str], ...]:
+def _settled(asked: Asked, task: Task) -> tuple[tuple[str, str], ...]:
     """Return what is set otherwise than the variant has it whose givens the form showed."""
     usual = _written(task, asked.of or None, asked.language)
     return tuple((name, text) for name, text in asked.settings if text and text != usual.get(name))
@@ -151,10 +151,10 @@ def _written(task: Task, variant: str | None, language: str) -> dict[str, str]:
     return written
 
 
-def request(asked: Asked, task: Task, *names: str) -> dict[str, Any]:
+def _request(asked: Asked, task: Task, *names: str) -> dict[str, Any]:
     """Return the arguments that all calls have in common, and what is said of those that some have."""
     said = {name: text for name, text in (*asked.how, *asked.block) if name in names}
-    return {"variant": asked.variant or None, "set": dict(settled(asked, task)), "lang": asked.language, **said}
+    return {"variant": asked.variant or None, "set": dict(_settled(asked, task)), "lang": asked.language, **said}
 
 
 _SHEETS: Kept[Sheet] = Kept(LAST)
@@ -162,22 +162,22 @@ _SHEETS: Kept[Sheet] = Kept(LAST)
 
 def _sheet(asked: Asked) -> Sheet:
     task = asked.load()
-    return _SHEETS.get(asked, lambda: sheet(task, **request(asked, task, *HOW, *BLOCK)))
+    return _SHEETS.get(asked, lambda: sheet(task, **_request(asked, task, *HOW, *BLOCK)))
 
 
 def _handout(asked: Asked, **how: Any) -> Sheet:
     task = asked.load()
-    return handout(task, **request(asked, task, *HOW, *BLOCK), **how)
+    return handout(task, **_request(asked, task, *HOW, *BLOCK), **how)
 
 
 def _note(asked: Asked) -> Note:
     task = asked.load()
-    return note(task, **request(asked, task, *LETTERS, "student", "group", "teacher", "department", "date"))
+    return note(task, **_request(asked, task, *LETTERS, "student", "group", "teacher", "department", "date"))
 
 
 def _solution(asked: Asked) -> Solution:
     task = asked.load()
-    return solve(task, **request(asked, task, *LETTERS))
+    return solve(task, **_request(asked, task, *LETTERS))
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,7 +199,7 @@ class _Roster:
 
 def _check(asked: Asked, **more: Any) -> Check:
     task = asked.load()
-    return check(task, **request(asked, task, *LETTERS), **more)
+    return check(task, **_request(asked, task, *LETTERS), **more)
 
 
 # what can be downloaded, by the stem of its name
@@ -248,7 +248,7 @@ def shown(advance: Advance, asked: Asked, answers: bool) -> Shown:
     task = asked.load()
     variant = task.variant(asked.variant or None).id
     asked = replace(asked, variant=variant)
-    own, language = settled(asked, task), asked.language
+    own, language = _settled(asked, task), asked.language
     usual, words = _written(task, variant, language), Words.of(language, task.notation)
     fields = tuple(
         GivenField(
@@ -352,7 +352,7 @@ class Handed:
         listed = None if self.roster is None else self.roster.put("roster", TABLES)
         weights = None if self.rubric is None else self.rubric.put("rubric", (".toml",))
         task = asked.load()
-        usual = request(asked, task, *LETTERS) if self.alone else {"variant": asked.variant or None}
+        usual = _request(asked, task, *LETTERS) if self.alone else {"variant": asked.variant or None}
         ready = check(task, **{**usual, "lang": asked.language}, roster=listed, rubric=weights, **self.how)
         Path("forms").mkdir()
         known = (*DRAWINGS, *PICTURES) if self.alone else ANSWERS
@@ -395,7 +395,7 @@ def answered_by_files(advance: Advance, handed: Handed, told: Told) -> tuple[str
 
 
 @dataclass(frozen=True, slots=True)
-class Done:
+class _Done:
     """What has come of a class: an archive among what is kept, a page about it, lines that tell of it; or questions."""
 
     archive: str
@@ -412,7 +412,7 @@ class Job:
     title: str
     done: int = 0
     whole: int = 0
-    outcome: Done | None = None
+    outcome: _Done | None = None
     problem: str = ""
 
     @property
@@ -427,7 +427,7 @@ class Job:
 
 def drawn_class(
     advance: Advance, tasks: Sequence[Asked], roster: Upload, how: Mapping[str, Any], archive: str, jobs: int
-) -> Done:
+) -> _Done:
     """Draw the sheets of a class as `batch` does, into an archive of what it writes."""
     language, folder = tasks[0].language, Path("class")
     file = roster.put("roster", TABLES)
@@ -435,7 +435,7 @@ def drawn_class(
     files = sorted(path for path in folder.rglob("[!.]*") if path.is_file())
     _zipped(files, Path("..") / KEEP / archive, folder)
     told = (*(warning.text(language) for warning in found.warnings), *found.told)
-    return Done(archive, told)
+    return _Done(archive, told)
 
 
 @dataclass(frozen=True, slots=True)
@@ -466,7 +466,7 @@ def _asked_of_class(read: _Read, advance: Advance, jobs: int) -> Asking:
     return Asking(tuple(read.asks), tuple(ask for place in sorted(ends) for ask in ends[place]), pictures)
 
 
-def marked_class(advance: Advance, handed: Handed, told: Told | None, archive: str, jobs: int) -> Done:
+def marked_class(advance: Advance, handed: Handed, told: Told | None, archive: str, jobs: int) -> _Done:
     """Mark what a class has handed in as `check` does: reports, the page about the class, tables of marks.
 
     Where nobody has been asked yet, nothing `told`, and something is not sure, that is what comes of it.
@@ -476,7 +476,7 @@ def marked_class(advance: Advance, handed: Handed, told: Told | None, archive: s
     ready, found = read.ready, read.found
     asking = Asking(tuple(read.asks)) if told is not None else _asked_of_class(read, advance, jobs)
     if asking.pages or asking.ends:
-        return Done("", (), asking=asking)
+        return _Done("", (), asking=asking)
     lines = [warning.text(language) for warning in (*ready.warnings, *read.notes)]
     results = ready.mark_all(found, out, advance, jobs)
     page, moodle, name = out / f"class{PAGE}", out / "moodle.csv", f"sheets{RETURNED}"
@@ -487,7 +487,7 @@ def marked_class(advance: Advance, handed: Handed, told: Told | None, archive: s
         (out / name).write_bytes(stacked(returned))
     files = sorted(out.glob("[!.]*"))
     _zipped(files, Path("..") / KEEP / archive, out)
-    return Done(archive, tuple(lines), page.read_bytes())
+    return _Done(archive, tuple(lines), page.read_bytes())
 
 
 def students(advance: Advance, handed: Handed) -> list[str]:

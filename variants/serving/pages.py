@@ -44,10 +44,10 @@ def tag(name: str, /, *inside: object, **attributes: object) -> Html:
         for key, value in attributes.items()
         if value is not None and value is not False
     )
-    return Html(f"<{name}{said}>" if name in VOID else f"<{name}{said}>{joined(inside)}</{name}>")
+    return Html(f"<{name}{said}>" if name in VOID else f"<{name}{said}>{_joined(inside)}</{name}>")
 
 
-def joined(parts: Iterable[object]) -> Html:
+def _joined(parts: Iterable[object]) -> Html:
     """Return parts one after the other, texts escaped."""
     return Html("".join(part if isinstance(part, Html) else escape(str(part)) for part in parts if part is not None))
 
@@ -136,7 +136,7 @@ def field(label: object, control: Html, of: str, hint: object = None) -> Html:
     return tag("p", tag("label", label, for_=of), control, tag("small", hint) if hint else None, class_="field")
 
 
-def chosen(name: str, options: Iterable[tuple[str, str]], now: str, /, **attributes: object) -> Html:
+def _chosen(name: str, options: Iterable[tuple[str, str]], now: str, /, **attributes: object) -> Html:
     """Return a list to choose one from."""
     made = (tag("option", text, value=value, selected=value == now) for value, text in options)
     return tag("select", *made, name=name, id=attributes.pop("id", name), **attributes)
@@ -217,7 +217,7 @@ def _asking(door: Door, place: Place, shown: Shown) -> Html:
     block = (field(said[f"block.{name}"], typed(name, place.get(name)), name) for name in BLOCK)
     return tag(
         "form",
-        field(said["task.variant"], chosen("v", variants, shown.variant), "v"),
+        field(said["task.variant"], _chosen("v", variants, shown.variant), "v"),
         tag("input", type="hidden", name="of", value=shown.variant),
         tag("input", type="hidden", name="lang", value=door.language) if door.chosen else None,
         tag("input", type="hidden", name="view", value="handout") if place.handout else None,
@@ -225,8 +225,8 @@ def _asking(door: Door, place: Place, shown: Shown) -> Html:
         tag(
             "details",
             tag("summary", said["task.block"]),
-            field(said["task.format"], chosen("format", formats, place.get("format")), "format"),
-            field(said["task.norm"], chosen("norm", norms, place.get("norm") or NORMS[0]), "norm"),
+            field(said["task.format"], _chosen("format", formats, place.get("format")), "format"),
+            field(said["task.norm"], _chosen("norm", norms, place.get("norm") or NORMS[0]), "norm"),
             *block,
             open=any(place.get(name) for name in (*BLOCK, "format")),
         ),
@@ -239,8 +239,8 @@ def _asking(door: Door, place: Place, shown: Shown) -> Html:
 
 def _given(one: GivenField, own: Mapping[str, str]) -> Html:
     name = f"g.{one.name}"
-    control = chosen(name, one.choices, one.value) if one.choices else typed(name, one.value, inputmode="text")
-    label = joined((tag("span", Html(one.symbol), title=one.name), tag("span", one.unit, class_="unit")))
+    control = _chosen(name, one.choices, one.value) if one.choices else typed(name, one.value, inputmode="text")
+    label = _joined((tag("span", Html(one.symbol), title=one.name), tag("span", one.unit, class_="unit")))
     return field(label, control, name) if one.name not in own else tag("div", field(label, control, name), class_="own")
 
 
@@ -294,7 +294,7 @@ def _downloads(door: Door, place: Place, shown: Shown) -> Html:
     if door.sees("sheets"):
         to, key = ([], "task.sheet") if place.handout else ([("view", "handout")], "task.blank")
         views = [tag("a", said[key], href=door.link(place.path, [*place.query, *to]), class_="button")]
-    return joined((
+    return _joined((
         tag("p", checked, *views, class_="buttons"),
         tag("h2", said["task.files"]),
         tag("ul", *rows, class_="files"),
@@ -443,7 +443,7 @@ def _tick(name: str, value: str, label: str, checked: bool = False) -> Html:
 def _hand(door: Door, now: str = "normal", place: str = "preset") -> Html:
     """Return the choice of how exactly is drawn."""
     hands = [(name, door.said[f"hand.{name}"]) for name in HANDS]
-    return field(door.said["form.preset"], chosen("preset", hands, now, id=place), place)
+    return field(door.said["form.preset"], _chosen("preset", hands, now, id=place), place)
 
 
 def _of_class(door: Door, at: str, problem: str, button: str, *fields: Html | None) -> str:
@@ -478,7 +478,7 @@ def class_(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> s
         tag("fieldset", tag("legend", said["class.kinds"]), *ticks, class_="ticks"),
         tag("p", _tick("merge", "1", said["class.merge"]), class_="tick"),
         tag("p", _tick("scan", "1", said["class.scan"]), class_="tick") if "scan" in door.kinds else None,
-        field(said["task.format"], chosen("format", sizes, ""), "format"),
+        field(said["task.format"], _chosen("format", sizes, ""), "format"),
         *(field(said[f"block.{name}"], typed(name), name) for name in BLOCK if name not in ("student", "group")),
     )
 
@@ -491,7 +491,7 @@ def marks(door: Door, tasks: Sequence[tuple[str, str]], problem: str = "") -> st
         "marks",
         problem,
         "marks.mark",
-        field(said["class.task"], chosen("tasks", [(id_, f"{title} ({id_})") for id_, title in tasks], ""), "tasks"),
+        field(said["class.task"], _chosen("tasks", [(id_, f"{title} ({id_})") for id_, title in tasks], ""), "tasks"),
         _file(door, "own_task", "class.own"),
         _file(door, "forms", "marks.forms", known, several=True, required=True, hint="marks.several"),
         _file(door, "roster", "marks.roster", TABLES),
@@ -532,6 +532,6 @@ def refusal(door: Door, title: str, text: str) -> str:
 
 def framed(document: str, *links: tuple[str, str]) -> str:
     """Return a page that is not the server's own, a report, as the main part of one with links before it."""
-    words = (joined((tag("a", text, href=href), " · " * (n < len(links)))) for n, (href, text) in enumerate(links, 1))
+    words = (_joined((tag("a", text, href=href), " · " * (n < len(links)))) for n, (href, text) in enumerate(links, 1))
     back = tag("nav", *words, aria_label=links[0][1])
     return document.replace("<body>", f"<body>{back}<main>", 1).replace("</body>", "</main></body>", 1)

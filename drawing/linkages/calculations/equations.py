@@ -177,7 +177,7 @@ def operand(scene: Scene, name: str) -> Product:
     if made is not None and made.verb in DIRECTIONS:
         return Product(())
     if made is not None and made.verb == "read" and made.plan == POSITION:
-        return distance(scene, made)
+        return _distance(scene, made)
     return Product((factor(scene, name),))
 
 
@@ -194,7 +194,7 @@ def size_by_law(
     return _by_law(scene.words, head, size, operands, unit, read=reading_of(scene, step.name))
 
 
-def distance(scene: Scene, made: Step) -> Product:
+def _distance(scene: Scene, made: Step) -> Product:
     """Return a distance read on the plan of the mechanism as its millimetres and the scale factor."""
     words, size = scene.words, abs(scene.values[made.name])
     own = segment(scene, "".join(map(words.mark, made.operands)), POSITION, size)
@@ -482,7 +482,7 @@ def _lengths(scene: Scene, step: Step, told: set[str]) -> Iterator[tuple[str, ..
         if role(made.operands[0]).hidden:
             yield (stated(scene.words, symbol, size_of(scene, name), "m"),)
         else:
-            yield worked(scene.words, symbol, [distance(scene, made)], "m")
+            yield worked(scene.words, symbol, [_distance(scene, made)], "m")
 
 
 def _formula(scene: Scene, step: Step) -> tuple[str, ...]:
