@@ -15,6 +15,11 @@ import pytest
 import shapely
 
 from kulman import sheet, solve
+from kulman.drawing.cams import profile_view
+from kulman.drawing.cams.inversion import PARTS
+from kulman.drawing.formats import STYLES
+from kulman.drawing.shapes import Arc, Text
+from kulman.drawing.view import Canvas
 from kulman.plans.cams.cam import LAWS
 from kulman.plans.laws import LAWS as LAWS_OF_BOARD
 from kulman.scales.errors import LANGUAGES
@@ -616,3 +621,24 @@ def test_a_given_offset_that_is_not_permitted_is_shown_so(e: str, said: str) -> 
     case = CamCase((("r_0", "50 mm"), ("e", e)), "A3", "en", only="sizes")
 
     assert any(text.string == said for text in case.sheet.texts)
+
+
+@pytest.mark.parametrize("covered", [0, 1, 2])
+def test_an_angle_whose_letter_has_no_place_beside_it_is_drawn_where_its_arc_is_clear(
+    covered: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    style, far, rays = STYLES["A1"], 40.0, (1.0 + 0j, cmath.rect(1.0, 0.8))
+    inversion = object.__new__(profile_view._Roller)
+    inversion.canvas, inversion.style = Canvas(style), style
+    for part in PARTS[:covered]:  # numbers upon the arcs that are wanted first
+        inversion.canvas.add(Text(cmath.rect(far * part, 0.4) - 0.5j * 2.0, "8", 2.0, "middle"))
+    before = len(inversion.canvas.shapes)
+    monkeypatch.setattr(Canvas, "write", lambda *place: False)
+
+    radius = inversion._angle("theta", "theta_3", 0j, rays, far)
+
+    dimensions = inversion.canvas.shapes[before:]
+    assert radius == far * PARTS[covered]
+    assert [dimension.name for dimension in dimensions] == ["theta_3"]
+    assert {shape.radius for shape in dimensions[0].shapes if isinstance(shape, Arc)} == {radius}
+    assert [letter.markup for letter in inversion.canvas._letters.values()] == ["theta"]

@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from kulman.drawing.compose import FIGURE, FULL, MANY, TOLD, Pages, arrange, compose, last, on_a_page, on_one_page
-from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _page, ways
+from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _begun, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
 from kulman.drawing.packing import LEAST, STEPS, UNDER, Placement, Slicing, _size_of, spread
 from kulman.drawing.page import extent
@@ -377,3 +377,14 @@ def test_a_text_whose_longer_heading_is_wider_covers_nothing():
         boxes = [shapely.box(*extent(group.shapes)) for group in page]
         assert all(a.intersection(b).area == 0.0 for a, b in itertools.combinations(boxes, 2))
         assert all(corners[2] <= paper.width - 5.0 for corners in (one.bounds for one in boxes))
+
+
+@pytest.mark.parametrize("longest", [0.05, 0.3, 0.301, 0.9, 1.5, 1.6, 40.0])
+def test_a_plan_begins_on_the_first_rung_that_is_short_enough_or_else_on_its_last(longest: float) -> None:
+    mus, most = (1e-3, 2e-3, 5e-3), 300.0  # m/mm, mm
+    ladders = {"mu_l": Ladder(mus, longest), "mu_V": Ladder((1e-3,), 40.0)}
+
+    rungs = _begun(Extents([], 0.0, ladders), FORMATS["A1"], most)
+
+    short = [rung for rung, mu in enumerate(mus) if longest / mu <= 1.0001 * most]
+    assert rungs == {"mu_l": next(iter(short), len(mus) - 1), "mu_V": 0}

@@ -19,7 +19,7 @@ from kulman import cli, solve, sweep
 from kulman.plans.gears.course import GearCourse
 from kulman.plans.gears.gear import CCW, CW, PLANS, STANDARD, GearPair
 from kulman.plans.gears.geometry import _geometry_program
-from kulman.plans.gears.solve import SECTIONS, WHOLE, SolvedGear, conditions_of, section_of, solve_gear
+from kulman.plans.gears.solve import SECTIONS, WHOLE, SolvedGear, conditions_of, scale_errors, section_of, solve_gear
 from kulman.plans.hands.shaky import paper_of, preset
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.gears import SEED, contacts, counted_ratio, madi, random_pairs
@@ -415,3 +415,36 @@ def test_new_variants_have_standard_modules_unless_a_step_is_said(
 ) -> None:
     span, luck = _ranges_of(load_task(TASK), asked)["m"], random.Random(5)
     assert {span.pick(luck) for _ in range(2000)} == {f"{m:g} mm" for m in modules}
+
+
+@pytest.mark.parametrize(
+    "given", [{"x_sum": 0.6}, {"x_sum": 0.0}, {"a_w": 0.0975}, {"x_1": 0.25, "x_2": 0.25}], ids=str
+)
+def test_a_pair_of_like_wheels_is_its_own_mirror_image(given: dict[str, float]) -> None:
+    values = {"m": 3e-3, "z_1": 32.0, "z_2": 32.0, **given}
+
+    solved = solve_gear(GearPair(), values)
+
+    sizes, conditions = solved.sizes, conditions_of(solved)
+    assert sizes["x_1"] == pytest.approx(sizes["x_2"], abs=1e-12)
+    assert sizes["u"] == 1.0
+    assert sizes["rho_w1"] == pytest.approx(0.5 * sizes["l_N1N2"], rel=1e-12)  # the pole halves the line of action
+    mirrored = {"theta_12_A1": "theta_21_A2", "rho_p1": "rho_p2", "d_a1": "d_a2", "s_a1": "s_a2", "x_min1": "x_min2"}
+    for one, other in mirrored.items():
+        assert sizes[one] == pytest.approx(sizes[other], rel=1e-9), one
+        assert conditions[one].value == pytest.approx(conditions[other].value, rel=1e-6), one
+    checks = {check.name: check for check in solved.checks}
+    for rule in ("undercut", "interference", "tip"):
+        assert checks[f"{rule}_1"].value == pytest.approx(checks[f"{rule}_2"].value, rel=1e-9)
+
+
+def test_scales_of_the_meshing_go_from_natural_size_up_the_series_of_gost_2_302() -> None:
+    solved = SolvedGear.of(solve(TASK, only="meshing").solved)
+
+    found = scale_errors(solved, {"careful": preset("careful").hand}, ("c_1",))
+
+    assert found.ratios[0] == 1.0  # a millimetre of paper for one of the wheels
+    assert {*found.ratios[1:]} <= {2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0, 100.0}
+    assert found.ratios == tuple(sorted(found.ratios))
+    # a segment is missed by so many millimetres of paper, however long it is
+    assert found.errors["careful", "c_1"] * found.ratios == pytest.approx(found.errors["careful", "c_1"][0], rel=0.05)

@@ -52,7 +52,7 @@ from kulman.variants.photos import pictures
 from kulman.variants.photos.matching import lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import _print_scale, on_page
-from kulman.variants.photos.straight import PER_MM, framed, straightened
+from kulman.variants.photos.straight import PER_MM, _fitted, framed, straightened
 from kulman.variants.photos.traced import Pencil, ends_at, senses, traced
 from kulman.variants.roster import Who
 from kulman.variants.sheets import drawing_for_print, scan_code
@@ -610,3 +610,19 @@ def test_one_plan_that_a_mistake_makes_larger_is_no_smaller_print() -> None:
     found = Recognised({"velocity": FoundPlan(mu / 1.03, 0.0, 0j, 1.0)}, vectors, ())
 
     assert _print_scale(SimpleNamespace(blank=SimpleNamespace(mus=sheet.mus)), sheet.keyed, found) == 1.0
+
+
+def test_one_mark_that_lies_far_off_moves_what_is_fitted_to_the_others_hardly_at_all() -> None:
+    at = np.arange(12.0)
+    seen = 2.0 + 3.0 * at
+    seen[4] += 500.0  # a mark that something else was taken for
+    held, begun = np.zeros(8), np.array([0.5, 1.0, *np.zeros(6)])
+
+    def missed(values: np.ndarray) -> np.ndarray:
+        return values[0] + values[1] * at - seen + 0.0 * values[2:].sum()
+
+    found = _fitted(begun, [missed], held)
+
+    assert found[:2] == pytest.approx([2.0, 3.0], abs=0.02)
+    assert np.polyfit(at, seen, 1)[1] > 50.0  # where every miss counts alike, the line is carried off
+    assert _fitted(begun, [missed], np.full(8, 1e6))[:2] == pytest.approx(begun[:2], abs=1e-3)  # what is held stays

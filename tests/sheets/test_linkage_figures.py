@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from itertools import combinations, pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,7 +19,9 @@ import kulman
 from kulman import sheet, solve
 from kulman.drawing.formats import STYLES, Style
 from kulman.drawing.linkages.figures.cycle import _Band
-from kulman.drawing.linkages.figures.group import STEP, _Arm, _staggered
+from kulman.drawing.linkages.figures.group import STEP, Sketch, _Arm, _staggered
+from kulman.drawing.linkages.figures.links import Skeleton, _Block
+from kulman.drawing.linkages.figures.plan import letter_marks
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Line, Pen, Text
 from kulman.drawing.text import lay_out
@@ -646,3 +651,43 @@ def test_no_link_stands_between_the_hatching_of_the_driver_and_the_zero_of_the_f
 
     near = min(hatching, key=zero.area.distance)
     assert zero.area.distance(near) < min(zero.area.distance(link) for link in links)
+
+
+@pytest.mark.parametrize(
+    ("said", "last"),
+    [
+        ({"b": "b in p", "c": "b in p"}, "b in p"),  # one text tells both
+        ({"b": "b in p", "c": "c in p"}, ""),
+        ({"b": "b in p"}, ""),  # nothing would tell of c
+        ({}, ""),
+    ],
+)
+def test_notes_tell_of_marks_in_one_place_only_what_holds_for_all_of_them(said: dict[str, str], last: str) -> None:
+    asked = list[tuple[str, str]]()
+    canvas = SimpleNamespace(
+        part=lambda *shapes: "", parts={}, label=lambda text, at, last, **how: asked.append((text, last))
+    )
+    scene = SimpleNamespace(last=max, point=lambda at, mark: mark)
+    letters = {"b": "b", "c": "c", "d": "d"}
+
+    letter_marks(canvas, scene, letters, {"b": 1 + 1j, "c": 1 + 1j, "d": 9j}, (), said | {"d": "d on the sheet"})
+
+    assert asked == [("b, c", last), ("d", "d on the sheet")]
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.5, 1.2, 2.5, -2.0], ids="turned by {} rad".format)
+def test_an_arrow_leaves_a_block_where_its_side_is_however_the_guide_lies(turn: float) -> None:
+    length, height = STYLE.slider
+    u = cmath.rect(1.0, turn)
+    block = _Block(30.0 + 20.0j, u, (length, height))
+    figure = Skeleton(3, (), (block,), (), (), ())
+    scene = SimpleNamespace(style=replace(STYLE, force=100.0 * STYLE.force))
+    sketch = Sketch(SimpleNamespace(), scene, (), (figure,))
+    at = block.at + 0.3 * length * u  # beside the centre, on the axis of the block
+
+    along, back, across, slanted = (sketch._gap(at, u * e) for e in (1.0, -1.0, 1j, cmath.rect(1.0, 0.7)))
+
+    assert along == back == pytest.approx(0.8 * length)  # as if it were the farther end on both sides
+    assert across == pytest.approx(0.5 * height)
+    out = at - block.at + slanted * u * cmath.rect(1.0, 0.7)
+    assert abs((out / u).real) >= 0.5 * length - 1e-9 or abs((out / u).imag) >= 0.5 * height - 1e-9
