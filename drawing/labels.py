@@ -410,12 +410,12 @@ class _Board:
     def _in_the_way(self, i: int, leads: Points) -> Reals:
         """Return what it costs that label i on a leader touches others, or the leader runs through or along them."""
         (at, head, start, way), w = leads, self.wanted
-        touched = self._beside(i, at.real, at.imag)[0].any(axis=1)
+        touched, close = self._beside(i, at.real, at.imag, APART)
         laid, _, radius = self._laid_down()
         on = laid.distance(at.real[:, None], at.imag[:, None], w.hw[i], w.hh[i]) < np.where(radius, self.gap, BAR)
-        cost = np.where(touched | on.any(axis=1), spots.COVER, 0.0)
-        left = (cost == 0).nonzero()[0]  # the others are lost already
-        cost[left] = self._on_the_way(i, (start + spots.TOUCH * way)[left], head[left])
+        cost = np.where(touched.any(axis=1) | on.any(axis=1), spots.COVER, spots.CLOSE * close.sum(axis=1))
+        left = (cost < spots.COVER).nonzero()[0]  # the others are lost already
+        cost[left] += self._on_the_way(i, (start + spots.TOUCH * way)[left], head[left])
         return cost
 
     def _on_the_way(self, i: int, start: Points, head: Points) -> Reals:

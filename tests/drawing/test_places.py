@@ -266,6 +266,20 @@ def test_leaders_cross_no_label_and_end_at_their_anchor(scenes):
     assert leaders > scenes / 6
 
 
+def test_a_label_on_a_leader_does_not_read_as_one_word_with_another() -> None:
+    leads, close = 0, 0
+    for seed in range(40):
+        requests, obstacles = random_scene(seed, labels=30, strokes=30)
+        labels = place(requests, obstacles, GAP)
+        boxes = dict(zip((r.name for r in requests), shapely.bounds(boxes_of(requests, labels)), strict=True))
+        for name in labels.leaders:
+            (x0, y0, x1, y1), leads = boxes[name], leads + 1
+            others = (box for other, box in boxes.items() if other != name and other not in labels.angles)
+            close += any(min(b[2], x1) - max(b[0], x0) > -1.9 and b[1] < y1 and y0 < b[3] for b in others)
+    assert leads > 50
+    assert close <= leads / 20
+
+
 def velocity_plan(seed: int) -> tuple[list[Request], Obstacles]:
     """A pole, four absolute velocities and the relative ones between neighbours, as on a sheet."""
     r = random.Random(seed)
