@@ -172,6 +172,8 @@ def offset(view: View, arrow: Arrow, style: Style) -> list[object]:
         faults.append((arrow.name, "stands far beside its line"))
     if abs(end - node) < 0.7 * style.label or gap < 0.25 * style.label:
         faults.append((arrow.name, "has no leader that is seen"))
+    if any(segment(*ends).crosses(line) for line in main):
+        faults.append((arrow.name, "crosses a main line"))
     for ray in (arrow.unit, -arrow.unit):
         first = segment(node + ray * 0.1 * style.force, node + ray * 0.35 * style.force)
         if any(first.distance(line) < 0.2 * style.label for line in main):
@@ -185,6 +187,10 @@ def offset(view: View, arrow: Arrow, style: Style) -> list[object]:
 @pytest.mark.soak
 def test_forces_within_a_large_block_lie_side_by_side() -> None:
     assert misplaced(motion_and_forces("scheme-10-shaper-two-blocks", "0")) == []
+
+
+def test_a_force_beside_its_line_stands_across_no_side_of_the_lever() -> None:
+    assert misplaced(Linkage("scheme-07-two-stage-compressor", "5")) == []
 
 
 @pytest.mark.soak

@@ -243,7 +243,7 @@ class Sketch:
     def _rooms(self, ways: Sequence[Stroke], around: Shapes, forces: Shapes, led: Shapes, aside: bool) -> list[float]:
         """Return the heights of a letter free around the outer part of arrows; less if one lies on another.
 
-        One that stands aside begins on no other force, nor where a line has `led` to an arrow beside its own one.
+        One that stands aside crosses no line; it begins on no other force, nor where a line has `led` to an arrow.
         """
         letter = self.scene.style.label
         near, far = np.array(ways).T
@@ -255,6 +255,7 @@ class Sketch:
         lies |= shapely.distance(led[:, None], whole).min(axis=0, initial=letter) < 0.3 * letter
         if aside:
             lies |= shapely.distance(forces[:, None], whole).min(axis=0, initial=letter) < 0.45 * letter
+            lies |= shapely.crosses(around[:, None], whole).any(axis=0)
         return [room - float(on) for room, on in zip(rooms.tolist(), lies.tolist(), strict=True)]
 
     def _edges(self, at: complex) -> list[Stroke]:
