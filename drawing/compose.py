@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
-from itertools import chain, pairwise, product, takewhile
+from itertools import chain, combinations, cycle, islice, pairwise, product, takewhile
 
 from ..scales.scale import Scale
 from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
-from .packing import LEAST, Placement, Size, Slicing, inset, spread
+from .packing import LEAST, STEPS, Placement, Size, Slicing, inset, spread
 from .page import Page
 from .shapes import Group
 from .tables import after, larger, part_of
@@ -19,6 +19,7 @@ from .view import View
 
 HELD, BESIDE = 9, 1  # bonds of the corners to the views beside them, of a text to the figure before it
 SOON = 5  # views from which one may stand on a page before its turn
+TRIES, NEARLY = 600, 1.2  # orders that are tried for the only page; how much more height than it has all may need
 ALONE = 0.95  # part of the width of a page that leaves no room for a view beside
 FULL = 0.69  # part of a page that views should take at least before the next one begins
 TOLD, TEXT, FIGURE, GROUP, PART = range(-2, 3)  # what may begin with a view
@@ -39,6 +40,20 @@ def on_a_page(
     The title block stands in the lower right corner and, on the `first` page, column 26 in an upper one. A text stands
     beside the figure before it where that can be; `begins` are as of `Pages`.
     """
+    page, (x0, y0), begun = _cuts(sizes, sheet, norm, begins, first)
+    if not page.fits:
+        return None
+    cut, room, corners = page.cut(), page.room, (len(sizes) + begun, 0 if begun else -1)
+    edge = inset(cut, page.sizes, room[0])
+    spots = spread(cut, page.sizes, (edge, room[1]), (room[0] - 2.0 * edge, room[1]), *corners)
+    places = {i: (x, y) for i, x, y in spots}
+    return [Placement(0, x0 + places[i + begun][0], y0 + places[i + begun][1]) for i in range(len(sizes))]
+
+
+def _cuts(
+    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int], first: bool
+) -> tuple[Slicing, Size, int]:
+    """Return all ways to cut a page for views and its corners, where it begins, how many corners come before them."""
     (x0, y0, x1, y1), (block, *turned) = usable(sheet, norm), reserved_boxes(sheet, norm, first=first)
     own, joined, begun = list(sizes), [BESIDE * (kind == TOLD) for kind in begins] or [0 for _ in sizes], 0
     for box in turned:
@@ -51,15 +66,7 @@ def on_a_page(
         own, joined = [*own, (wide, high)], [*joined, HELD]
     else:
         y0 += high + LEAST
-    room = x1 - x0, y1 - y0
-    page = Slicing(own, room, joined)
-    if not page.fits:
-        return None
-    cut, corners = page.cut(), (len(sizes) + begun, 0 if begun else -1)
-    edge = inset(cut, own, room[0])
-    spots = spread(cut, own, (edge, room[1]), (room[0] - 2.0 * edge, room[1]), *corners)
-    places = {i: (x, y) for i, x, y in spots}
-    return [Placement(0, x0 + places[i + begun][0], y0 + places[i + begun][1]) for i in range(len(sizes))]
+    return Slicing(own, (x1 - x0, y1 - y0), joined), (x0, y0), begun
 
 
 def on_one_page(
@@ -71,8 +78,7 @@ def on_one_page(
     tables alone, behind the figures, then figures with what tells of them, texts alone, in the end all. Texts with
     which the page begins, as what is given, stay first. `begins` are as of `Pages`.
     """
-    every = range(len(sizes))
-    lead = [*takewhile(lambda i: bool(begins) and begins[i] == TEXT, every)]
+    every, lead = range(len(sizes)), _lead(begins)
     rest = every[len(lead) :]
 
     def low(i: int) -> float:
@@ -90,6 +96,60 @@ def on_one_page(
         if (placed := on_a_page([sizes[i] for i in order], sheet, norm, kinds, first)) is not None:
             return [placed[order.index(i)] for i in every]
     return None
+
+
+def in_any_order(
+    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = ()
+) -> list[Placement] | None:
+    """Place views of these sizes on the only page where no usual order has room; return None if none is found.
+
+    Views in the order of the work change places in pairs, those from wide to narrow move one at a time, as long as all
+    need less height then, and once there is room as long as fewer stand before what comes before them. Texts with which
+    the page begins stay first; `begins` are as of `Pages`.
+    """
+    lead = _lead(begins)
+    rest = [*range(len(lead), len(sizes))]
+
+    def high(order: Sequence[int]) -> int:
+        return _cuts([sizes[i] for i in order], sheet, norm, (), True)[0].high
+
+    by_width, pairs = sorted(rest, key=lambda i: -sizes[i][0]), [*combinations(rest, 2)]
+    moves = [move for i, j in pairs for move in ((i, j), (j, i))]
+    for begun, change, every in ((rest, _exchanged, pairs), (by_width, _moved, moves)):
+        order = [*lead, *begun]
+        least, idle = high(order), 0
+        for i, j in islice(cycle(every), TRIES if least < NEARLY * STEPS else 0):
+            other = change(order, i, j)
+            back = _turned(other) < _turned(order)
+            now = high(other) if least > STEPS or back else least
+            if now < least or (now <= STEPS and back):
+                order, least, idle = other, now, 0
+            elif (idle := idle + 1) == len(every):
+                break
+        if least <= STEPS:
+            kinds = [begins[i] for i in order] if begins else ()
+            placed = on_a_page([sizes[i] for i in order], sheet, norm, kinds)
+            return None if placed is None else [placed[order.index(i)] for i in range(len(sizes))]
+    return None
+
+
+def _turned(order: Sequence[int]) -> int:
+    """Return how many pairs do not stand in the order of the work."""
+    return sum(a > b for a, b in combinations(order, 2))
+
+
+def _lead(begins: Sequence[int]) -> list[int]:
+    """Return the texts with which a page begins."""
+    return [*takewhile(lambda i: begins[i] == TEXT, range(len(begins)))]
+
+
+def _exchanged(order: Sequence[int], i: int, j: int) -> list[int]:
+    return [order[{i: j, j: i}.get(k, k)] for k in range(len(order))]
+
+
+def _moved(order: Sequence[int], i: int, j: int) -> list[int]:
+    others = [*order[:i], *order[i + 1 :]]
+    return [*others[:j], order[i], *others[j:]]
 
 
 def arrange(

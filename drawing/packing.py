@@ -121,9 +121,14 @@ class Slicing:
             self._tables.append(np.minimum(least, _turned(least)[::-1]))
 
     @property
+    def high(self) -> int:
+        """How many steps of its height all views need at its whole width, `STEPS` being all of them."""
+        return int(self._tables[-1][0, 0, STEPS])
+
+    @property
     def fits(self) -> bool:
         """Whether the room holds all views."""
-        return bool(self.sizes) and bool(self._tables[-1][0, 0, STEPS] <= STEPS)
+        return bool(self.sizes) and self.high <= STEPS
 
     def cut(self) -> _Cut | int:
         """Return one way to cut the room, where it holds all views."""

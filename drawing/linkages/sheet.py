@@ -19,7 +19,7 @@ from ...plans.names import role, scale_factor
 from ...scales.choices import SIZES
 from ...scales.errors import InputError
 from ...scales.scale import UNITS, Fixed, Scale, Segment, steps
-from ..compose import GROUP, PART, TEXT, Drawn, Pages, arrange, begins_of, compose, last, on_one_page
+from ..compose import GROUP, PART, TEXT, Drawn, Pages, arrange, begins_of, compose, in_any_order, last, on_one_page
 from ..extents import Rungs
 from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, printable, room
@@ -288,7 +288,8 @@ def _as_blank(contents: Contents, sheet: Format) -> tuple[Fitting, Found] | None
 def _on_a_page(fitting: Fitting, sheet: Format, rungs: Rungs) -> Found | None:
     """Try one page."""
     views, taken = fitting.fitted(sheet, rungs)
-    places = on_one_page([view.size for view in views], sheet, fitting.contents.norm, begins_of(views))
+    page = [view.size for view in views], sheet, fitting.contents.norm, begins_of(views)
+    places = on_one_page(*page) or in_any_order(*page)
     return None if places is None else (views, taken, places)
 
 

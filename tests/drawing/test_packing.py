@@ -8,7 +8,19 @@ from dataclasses import replace
 import pytest
 import shapely
 
-from kulman.drawing.compose import FIGURE, FULL, MANY, TOLD, Pages, arrange, compose, last, on_a_page, on_one_page
+from kulman.drawing.compose import (
+    FIGURE,
+    FULL,
+    MANY,
+    TOLD,
+    Pages,
+    arrange,
+    compose,
+    in_any_order,
+    last,
+    on_a_page,
+    on_one_page,
+)
 from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _begun, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
 from kulman.drawing.packing import LEAST, STEPS, UNDER, Placement, Slicing, _size_of, spread
@@ -201,6 +213,22 @@ def test_high_views_stand_before_low_ones_on_a_page_that_would_be_left_too_empty
     of_figures = [place.page for place, begin in zip(places, begins, strict=True) if begin >= 0]
     assert of_figures == sorted(of_figures)
     assert strict.least(strict.runs(0, 0, 1)) < FULL <= strict.least(places)
+
+
+@pytest.mark.parametrize("high", [192, 200, 440])
+def test_views_of_the_only_page_stand_in_any_order_where_no_usual_one_has_room(high):
+    drawn = [(62, 148), (135, 47), (179, high), (90, 76), (195, 100), (158, 148), (160, 238), (92, 304), (225, 174)]
+    views = [*drawn, (71, 102), (101, 127), (141, 261), (228, 59), (153, 78), (153, 106), (158, 226), (139, 93)]
+    begins = [-1, -1, 0, 0, 0, -2, 0, 0, -2, 0, 0, 0, -2, -1, -1, -1, -1]
+    page = views, FORMATS["A1"], "gost", begins
+
+    places = in_any_order(*page)
+
+    assert on_one_page(*page) is None
+    assert (places is not None) is (high < 400)  # more than the page holds
+    if places:
+        judge(views, places, "A1")
+        assert all(places[0].x <= place.x for place in places)  # what is given stays first
 
 
 def test_what_is_kept_long_becomes_smaller_after_the_others_and_nothing_could_be_larger():

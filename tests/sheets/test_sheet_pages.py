@@ -204,10 +204,19 @@ def test_no_plan_is_small_beside_mechanism_and_lever(task: str, variant: str) ->
     assert min(longest.values()) >= 100.0, longest
 
 
-@pytest.mark.soak
-def test_scale_factors_leave_room_for_a_special_point_far_from_all_joints() -> None:
-    task, variant = "scheme-20-press-automaton", "2"
-
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    some(
+        [
+            *(("scheme-18-hydraulic-drive", variant) for variant in "058"),
+            *(("scheme-10-shaper-two-blocks", variant) for variant in "257"),
+            ("scheme-02-forging-press", "1"),
+            ("scheme-20-press-automaton", "2"),  # a special point is far from all joints
+        ],
+        1,
+    ),
+)
+def test_a_sheet_has_the_scale_factors_that_are_solved_for(task: str, variant: str) -> None:
     assert same_scales(kulman.solve(task, variant), kulman.sheet(task, variant))
 
 
