@@ -32,7 +32,7 @@ SEGMENTS = {
 WEIGHTS = {"l": 2.0, "V": 1.0, "a": 1.25, "F": 1.0, "h": 1.5}
 LARGER = {"l": 2.8, "V": 1.4, "a": 1.4, "F": 0.9, "h": 2.6}
 # mm of A1 below which a plan becomes shorter only after the others
-KEPT = {"l": 200.0, "V": 80.0, "a": 80.0, "F": 70.0}
+KEPT = {"l": 200.0, "V": 100.0, "a": 100.0, "F": 80.0}
 HUNG = 13.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
 PROPORTION = 2.5  # times as fine as the velocity plan that a task fixes its lever may be
 ROUNDING = 1e-9  # part of a scale factor by which two that are one may differ

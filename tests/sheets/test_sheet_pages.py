@@ -194,7 +194,10 @@ def test_plans_are_drawn_larger_where_pages_have_room() -> None:
     assert all(80.0 < millimetres < 300.0 for millimetres in longest.values())
 
 
-@pytest.mark.parametrize(("task", "variant"), [("scheme-14-jaw-crusher", "2"), ("scheme-15-lever-shears", "3")])
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    [("scheme-14-jaw-crusher", "2"), ("scheme-15-lever-shears", "3"), ("scheme-20-press-automaton", "2")],
+)
 def test_no_plan_is_small_beside_mechanism_and_lever(task: str, variant: str) -> None:
     longest = Counter[str]()
     for q in kulman.solve(task, variant).quantities.values():
