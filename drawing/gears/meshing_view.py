@@ -13,7 +13,7 @@ from ..dimensions import angle, linear, turning
 from ..figure import ANSWERS, Figure, stages
 from ..page import extent
 from ..shapes import Anchor, Arc, Circle, Group, Line, Pen, Polyline, Text
-from ..symbols import HALF_TURN, arc_between, fixed_pivot, right_angle, turning_arrow, unit
+from ..symbols import HALF_TURN, arc_between, fixed_pivot, right_angle, unit
 from ..view import Canvas, View
 from ..words import indexed
 from .scene import TOOTH, GearScene
@@ -46,14 +46,14 @@ def pair_view(scene: GearScene) -> View:
     canvas, style, (pinion, wheel) = Canvas(scene.style), scene.style, scene.wheels()
     for one in (pinion, wheel):
         letter, radius = indexed(f"O{one.number}"), one.radius("w")
-        canvas.group("wheel", str(one.number), Circle(one.centre, radius, Pen.MAIN))
+        canvas.group("circle", str(one.number), Circle(one.centre, radius, Pen.MAIN))  # letters may stand inside
         canvas.add(fixed_pivot(one.centre, f"O{one.number}", style))
-        canvas.small(letter, one.centre, 1.0 + 0.6j, 2.0)
-        canvas.small(str(one.number), one.on(radius, 0.5 * HALF_TURN), 1j * one.up, 1.2)
+        canvas.label(letter, one.centre, prefer=1.0 + 0.6j, clear=2.0)
+        canvas.label(str(one.number), one.on(radius, 0.5 * HALF_TURN), prefer=1j * one.up, clear=1.2)
     canvas.add(Line(pinion.centre, wheel.centre, Pen.AXIS, role="axis"))
-    canvas.small("W", 0j, 1.0 + 0j, 2.0)
-    sense = scene.solved.pair.sense
-    canvas.add(turning_arrow(pinion.centre, 0.6 * pinion.radius("w"), 0.0, 0.5 * HALF_TURN, sense, "omega_1"))
+    canvas.label("W", 0j, prefer=1.0 + 0j, clear=2.0)
+    radius, letter = 0.6 * pinion.radius("w"), scene.words.symbol("omega_1")
+    turning(canvas, pinion.centre, radius, 0.0, 0.5 * HALF_TURN, scene.solved.pair.sense, "omega_1", letter)
     return canvas.finish("kinematic", (scene.words["heading.kinematic"],))
 
 

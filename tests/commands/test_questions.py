@@ -13,13 +13,15 @@ import numpy as np
 import pytest
 
 from kulman import all_variants, load_task, solve
+from kulman.drawing.shapes import Circle, Text
 from kulman.drawing.words import Words
 from kulman.plans.hands.shaky import preset
 from kulman.plans.hands.spread import drawn
 from kulman.plans.names import role
 from kulman.scales.units import format_unit
-from kulman.tests.support.cases import some
+from kulman.tests.support.cases import solve_case, some
 from kulman.tests.support.commands import Run
+from kulman.tests.support.shapes import leaves
 from kulman.variants.making.questions import html, questions_of
 from kulman.variants.task import Task
 
@@ -160,6 +162,28 @@ def test_what_is_given_is_not_asked_for() -> None:
     names = {one.name for key in found.keys.values() for one in questions_of(key, found.quantities, False, found.hand)}
     assert "0-V_A" not in names
     assert "0-V_D" in names
+
+
+@pytest.mark.parametrize(("settings", "asked"), [({}, True), ({"r_0": "60 mm"}, False)])
+def test_the_offset_of_a_cam_is_asked_for_where_the_smallest_cam_has_it(
+    settings: dict[str, str], asked: bool, tmp_path: Path
+) -> None:
+    (file,) = all_variants("madi-cam", set=settings, lang="en").save(tmp_path / "q.xml")
+
+    assert any("with which the cam is smallest" in one.text for one in questions_in(file)) == asked
+
+
+def test_centres_of_a_gear_pair_have_their_letters_beside_them() -> None:
+    case = solve_case("madi-gear")
+    view = case.kind.pictured(case, case.words())
+    assert view is not None
+    shown = [*leaves(view.shapes)]
+
+    letters = {one.markup: one.at for one in shown if isinstance(one, Text)}
+    pitch = sorted((one for one in shown if isinstance(one, Circle)), key=lambda one: one.radius)[-2:]
+    for name, circle in zip(("O_{1}", "O_{2}"), pitch, strict=True):
+        assert abs(letters[name] - circle.centre) < 0.5 * circle.radius
+    assert "ω_{1}" in letters
 
 
 def test_a_velocity_about_a_pivot_is_asked_for_as_that_of_the_point() -> None:

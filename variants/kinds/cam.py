@@ -202,6 +202,10 @@ class _Cams(Kind[cams.Cam, "SolvedCam"]):
         mus = {scale.symbol: scale.mu for scale in scales.values() if scale.symbol in SYMBOLS}
         return CamScene(reduced(solved, part), self.lettered(words, solved), STYLES["A4"], case.givens, mus, part)
 
+    def sought(self, solved: SolvedCam, words: Words, name: str) -> str:
+        """Return what a quantity is; a larger cam than the smallest has many offsets, and none is asked for."""
+        return "" if name == "e" and "r_0" in solved.givens else super().sought(solved, words, name)
+
     def pictured(self, case: Case, words: Words, part: float = 1.0) -> View:
         """Draw the law of motion."""
         from ...drawing.cams.diagrams_view import law_view
