@@ -84,13 +84,12 @@ def _rates_in_degrees(scene: Scene) -> Changes:
         yield scaled(180.0 / math.pi, *steps, how="degrees", at="")
 
 
-@mistake("M07")
-def _diameter_for_radius(scene: Scene) -> Changes:
+@mistake("M07", of="circular_speed")
+def _diameter_for_radius(scene: Scene, step: Step) -> Changes:
     """The stroke, or the diameter of the crank circle, is taken for the crank, or half the crank."""
-    for step in scene.calculated("circular_speed"):
-        if scene.is_given(step.operands[1]):
-            yield _given_times(scene, step.operands[1], 2.0, "x2")
-            yield _given_times(scene, step.operands[1], 0.5, "x1/2")
+    if scene.is_given(step.operands[1]):
+        yield _given_times(scene, step.operands[1], 2.0, "x2")
+        yield _given_times(scene, step.operands[1], 0.5, "x1/2")
 
 
 def angle_of_driver(scene: Scene) -> str:
@@ -117,12 +116,11 @@ for _number in (1, -1, 2, -2, 4, -4, 5, -5):
 mistake("M10", "180-", lambda angle: math.pi - angle)(_turned)  # laid off from the other end of the axis
 
 
-@mistake("M09")
-def _turning_the_other_way(scene: Scene) -> Changes:
+@mistake("M09", of="signed")
+def _turning_the_other_way(scene: Scene, step: Step) -> Changes:
     """The crank turns the other way."""
-    for step in scene.calculated("signed"):
-        if role(step.name).kind == "omega":
-            yield instead(step, *then(step, "signed", aside(step.name), constant(-1.0)), how="sense")
+    if role(step.name).kind == "omega":
+        yield instead(step, *then(step, "signed", aside(step.name), constant(-1.0)), how="sense")
 
 
 @mistake("M12")

@@ -76,16 +76,15 @@ def _force_left_out(scene: Scene) -> Changes:
         yield Change("G", {step.name: nothing(step) for step in weights}, "all")
 
 
-@mistake("M59")
-def _force_reversed(scene: Scene) -> Changes:
+@mistake("M59", of=_loads)
+def _force_reversed(scene: Scene, force: str, steps: list[Step]) -> Changes:
     """A known force acts the other way: in the polygon, or everywhere."""
-    for force, steps in _loads(scene):
-        against = f"_against_{force}"
-        opposite = Step("calc", against, (force,), "opposite")
-        turned = {step.name: (opposite, operand(step, 1, against)) for step in steps}
-        yield Change(force, turned, "polygon")
-        if scene.steps[force].law in ("along", "weight"):
-            yield opposed(scene.steps[force], "everywhere")
+    against = f"_against_{force}"
+    opposite = Step("calc", against, (force,), "opposite")
+    turned = {step.name: (opposite, operand(step, 1, against)) for step in steps}
+    yield Change(force, turned, "polygon")
+    if scene.steps[force].law in ("along", "weight"):
+        yield opposed(scene.steps[force], "everywhere")
 
 
 @mistake("M122")
@@ -122,14 +121,13 @@ def _mass_and_weight(scene: Scene) -> Changes:
         yield from _each_and_all_scaled(factor, scene.calculated(law), law)
 
 
-@mistake("M64")
-def _load_from_pressure(scene: Scene) -> Changes:
+@mistake("M64", of=lambda scene: scene.calculated("along", "resisting_force", "resisting_along"))
+def _load_from_pressure(scene: Scene, step: Step) -> Changes:
     """The force on a piston from its diameter in the place of the radius, without pi / 4, or in kilonewtons."""
-    for step in scene.calculated("along", "resisting_force", "resisting_along"):
-        size = role(step.operands[0])
-        if role(step.name).kind in ("F", "P") and (size.kind == MAGNITUDE or size.hidden):
-            for factor in (4.0, 4.0 / math.pi, 1e3, 1e-3, 1e6, 1e-6):
-                yield scaled(factor, step, how=f"{factor:.4g}")
+    size = role(step.operands[0])
+    if role(step.name).kind in ("F", "P") and (size.kind == MAGNITUDE or size.hidden):
+        for factor in (4.0, 4.0 / math.pi, 1e3, 1e-3, 1e6, 1e-6):
+            yield scaled(factor, step, how=f"{factor:.4g}")
 
 
 @mistake("M65")
@@ -187,20 +185,18 @@ def _inertia_about_end(scene: Scene) -> Changes:
     yield from _each_and_all_scaled(4.0, scene.calculated("inertia_by_length"), "J")
 
 
-@mistake("M118")
-def _sign_of_moment(scene: Scene) -> Changes:
+@mistake("M118", of=lambda scene: scene.calculated(*EQUATIONS))
+def _sign_of_moment(scene: Scene, step: Step) -> Changes:
     """The moment of one force has the wrong sign in an equation of moments."""
-    for step in scene.calculated(*EQUATIONS):
-        taken = [scene.steps[name] for name in step.operands if name in scene.steps and scene.values[name]]
-        if len(taken) > 1:
-            yield from (opposed(one, step.name) for one in taken if one.verb == "moment")
+    taken = [scene.steps[name] for name in step.operands if name in scene.steps and scene.values[name]]
+    if len(taken) > 1:
+        yield from (opposed(one, step.name) for one in taken if one.verb == "moment")
 
 
-@mistake("M119")
-def _moment_left_out(scene: Scene) -> Changes:
+@mistake("M119", of=_sums)
+def _moment_left_out(scene: Scene, step: Step, name: str) -> Changes:
     """A moment is left out of an equation or a sum of moments."""
-    for step, name in _sums(scene):
-        yield otherwise(_in_place_of(step, name, "zero"), name)
+    yield otherwise(_in_place_of(step, name, "zero"), name)
 
 
 def _to_point(scene: Scene, step: Step) -> Change:
@@ -216,35 +212,33 @@ def _equations(scene: Scene) -> Iterator[Step]:
     return (step for step in scene.calculated("moment_equation") if role(step.name).kind == "R")
 
 
-@mistake("M67")
-def _arms_from_another_hinge(scene: Scene) -> Changes:
+@mistake("M67", of=_equations)
+def _arms_from_another_hinge(scene: Scene, equation: Step) -> Changes:
     """Moments are taken about one hinge with arms measured from another."""
-    for equation in _equations(scene):
-        laid = next((s for s in scene.made_by("lay", "back") if equation.name in s.operands), None)
-        link = scene.steps.get(scene.along(laid.operands[1])) if laid else None
-        ends = link.operands[:2] if link is not None and link.verb == "direction" else ()
-        new = {
-            step.name: (operand(step, 2, ends[1 - ends.index(step.operands[2])]),)
-            for step in _moments(scene, POSITION)
-            if step.name in equation.operands[1:] and step.operands[2] in ends
-        }
-        if new:
-            yield Change(equation.name, new)
+    laid = next((s for s in scene.made_by("lay", "back") if equation.name in s.operands), None)
+    link = scene.steps.get(scene.along(laid.operands[1])) if laid else None
+    ends = link.operands[:2] if link is not None and link.verb == "direction" else ()
+    new = {
+        step.name: (operand(step, 2, ends[1 - ends.index(step.operands[2])]),)
+        for step in _moments(scene, POSITION)
+        if step.name in equation.operands[1:] and step.operands[2] in ends
+    }
+    if new:
+        yield Change(equation.name, new)
 
 
-@mistake("M68", by_scale=True)
-def _arms_in_millimetres(scene: Scene) -> Changes:
+@mistake("M68", of=_equations, by_scale=True)
+def _arms_in_millimetres(scene: Scene, equation: Step) -> Changes:
     """Arms in millimetres beside a moment in newton metres, or the other way round."""
-    for equation in _equations(scene):
-        taken = equation.operands[1:]
-        couples = [name for name in taken if scene.values[name] and (_is_couple(name) or role(name).kind != "M")]
-        for factor, how in ((scene.mu("position"), "mu"), (1e3, "mm"), (1e-3, "m")):
-            new, weighted = list[Step](), equation
-            for name in couples:
-                new.append(Step("calc", f"_weighted_{name}", (constant(factor), name), "along"))
-                weighted = operand(weighted, weighted.operands.index(name), new[-1].name)
-            if new:
-                yield instead(equation, *new, weighted, how=how)
+    taken = equation.operands[1:]
+    couples = [name for name in taken if scene.values[name] and (_is_couple(name) or role(name).kind != "M")]
+    for factor, how in ((scene.mu("position"), "mu"), (1e3, "mm"), (1e-3, "m")):
+        new, weighted = list[Step](), equation
+        for name in couples:
+            new.append(Step("calc", f"_weighted_{name}", (constant(factor), name), "along"))
+            weighted = operand(weighted, weighted.operands.index(name), new[-1].name)
+        if new:
+            yield instead(equation, *new, weighted, how=how)
 
 
 @mistake("M124")
@@ -266,15 +260,14 @@ each("M69", _equations, opposed)
 # Reactions.
 
 
-@mistake("M70")
-def _component_for_whole(scene: Scene) -> Changes:
+@mistake("M70", of=lambda scene: scene.made_by("read", plan=FORCES))
+def _component_for_whole(scene: Scene, step: Step) -> Changes:
     """A component is taken for the full reaction; in all that follows, or in the inner reaction the right one."""
-    for step in scene.made_by("read", plan=FORCES):
-        for part in ("_n", "_t"):
-            other = scene.steps.get(step.name + part)
-            if other is not None and other.verb == "read":
-                yield otherwise(step, part, operands=other.operands)
-                yield from _here_alone(scene, step, other.operands, f"alone {part}")
+    for part in ("_n", "_t"):
+        other = scene.steps.get(step.name + part)
+        if other is not None and other.verb == "read":
+            yield otherwise(step, part, operands=other.operands)
+            yield from _here_alone(scene, step, other.operands, f"alone {part}")
 
 
 def _passed(scene: Scene) -> list[Step]:
@@ -320,12 +313,11 @@ def _closing(scene: Scene) -> Iterator[Step]:
     return (s for s in scene.made_by("read", plan=FORCES) if s.name not in scene.laid_off and role(s.name).kind == "R")
 
 
-@mistake("M75")
-def _arrow_reversed(scene: Scene) -> Changes:
+@mistake("M75", of=_closing)
+def _arrow_reversed(scene: Scene, step: Step) -> Changes:
     """The polygon is closed with the arrow the wrong way round; all that follows too, or the inner reaction not."""
-    for step in _closing(scene):
-        yield otherwise(step, operands=step.operands[::-1])
-        yield from _here_alone(scene, step, step.operands[::-1], "alone")
+    yield otherwise(step, operands=step.operands[::-1])
+    yield from _here_alone(scene, step, step.operands[::-1], "alone")
 
 
 def _here_alone(scene: Scene, step: Step, operands: tuple[str, ...], how: str) -> Changes:
@@ -390,14 +382,13 @@ def _not_turned(scene: Scene) -> Changes:
         yield Change(next(iter(marks)), {name: (step.but(verb="same"),) for name, step in marks.items()})
 
 
-@mistake("M78")
-def _force_on_wrong_point(scene: Scene) -> Changes:
+@mistake("M78", of=lambda scene: _moments(scene, "lever"))
+def _force_on_wrong_point(scene: Scene, step: Step) -> Changes:
     """A force hangs on another point of its link."""
-    for step in _moments(scene, "lever"):
-        force, at, _ = step.operands
-        for other in _beside(scene, role(at).of):
-            if f"lever.{other}" in _turned(scene) and role(force).part != COUPLE:
-                yield with_other(step, 1, f"lever.{other}", other)
+    force, at, _ = step.operands
+    for other in _beside(scene, role(at).of):
+        if f"lever.{other}" in _turned(scene) and role(force).part != COUPLE:
+            yield with_other(step, 1, f"lever.{other}", other)
 
 
 def _beside(scene: Scene, letter: str) -> list[str]:
@@ -415,18 +406,17 @@ def _couples(scene: Scene) -> tuple[Step, ...]:
     return scene.calculated("couple", "couple_on_lever")
 
 
-@mistake("M79", by_scale=True)
-def _moment_missing(scene: Scene) -> Changes:
+@mistake("M79", of=_couples, by_scale=True)
+def _moment_missing(scene: Scene, step: Step) -> Changes:
     """A moment is missing on the lever, or hangs there as it is, without ab / AB."""
-    for step in _couples(scene):
-        yield instead(step, *nothing(step), how="none")
-        if step.law == "couple":
-            yield otherwise(step, "F = M", operands=step.operands[:1], law="given")
-            length = scene.values.get(step.operands[1], 0.0)
-            omega = next((rate("omega", link) for link in role(step.operands[0]).links), "")
-            speed = float(abs(scene.values.get(omega, 0.0)) * abs(length))  # of one end of the link about the other
-            if speed:
-                yield scaled((length / scene.mu(POSITION)) / (speed / scene.mu("velocity")), step, how="M")
+    yield instead(step, *nothing(step), how="none")
+    if step.law == "couple":
+        yield otherwise(step, "F = M", operands=step.operands[:1], law="given")
+        length = scene.values.get(step.operands[1], 0.0)
+        omega = next((rate("omega", link) for link in role(step.operands[0]).links), "")
+        speed = float(abs(scene.values.get(omega, 0.0)) * abs(length))  # of one end of the link about the other
+        if speed:
+            yield scaled((length / scene.mu(POSITION)) / (speed / scene.mu("velocity")), step, how="M")
 
 
 @mistake("M81")

@@ -91,17 +91,16 @@ def _ordinates_of_the_wrong_line(scene: Scene) -> Changes:
             yield Change(scene.made_by("distance")[0].name, steps, how)
 
 
-@mistake("M88")
-def _second_amplitude(scene: Scene) -> Changes:
+@mistake("M88", of="second_amplitude")
+def _second_amplitude(scene: Scene, step: Step) -> Changes:
     """The ratio of the amplitudes is the wrong way round, or A_2 = A_1 u; in the calculation, or drawn so, too."""
-    for step in scene.calculated("second_amplitude"):
-        u = float(scene.values[step.operands[1]])
-        right = u / (1.0 - u)
-        for how, ratio in (("inverse", 1.0 / right), ("u", u), ("equal", 1.0)):
-            if abs(ratio - right) > 1e-3 * right:
-                alone = scaled(ratio / right, step, how=f"{how}, calculated")
-                yield alone
-                yield replace(alone, data=_second_lobes(scene, right, ratio / right), how=how)
+    u = float(scene.values[step.operands[1]])
+    right = u / (1.0 - u)
+    for how, ratio in (("inverse", 1.0 / right), ("u", u), ("equal", 1.0)):
+        if abs(ratio - right) > 1e-3 * right:
+            alone = scaled(ratio / right, step, how=f"{how}, calculated")
+            yield alone
+            yield replace(alone, data=_second_lobes(scene, right, ratio / right), how=how)
 
 
 def _second_lobes(scene: Scene, ratio: float, times: float) -> dict[str, float]:
@@ -132,13 +131,12 @@ def _paper_for_size(scene: Scene) -> Changes:
     yield from each_and_all({s.name: (s.but(operands=s.operands[1:], law="given"),) for s in steps}, "paper")
 
 
-@mistake("M20")
-def _ordinates_in_centimetres(scene: Scene) -> Changes:
+@mistake("M20", of=lambda scene: scene.made_by("distance"))
+def _ordinates_in_centimetres(scene: Scene, step: Step) -> Changes:
     """An ordinate of a diagram is measured in centimetres."""
-    for step in scene.made_by("distance"):
-        if step.plan in scene.paper.unscaled or role(step.operands[0]).plan in scene.paper.unscaled:
-            for factor in CENTIMETRES:
-                yield scaled(factor, step, how=f"{factor} paper")
+    if step.plan in scene.paper.unscaled or role(step.operands[0]).plan in scene.paper.unscaled:
+        for factor in CENTIMETRES:
+            yield scaled(factor, step, how=f"{factor} paper")
 
 
 def _sizes_scaled(scene: Scene, plan: str, factor: float, how: str) -> Change:
@@ -270,14 +268,13 @@ def _curvature_of_a_dwell(scene: Scene) -> Changes:
         yield instead(scene.steps["rho_min"], highest, far, how="upper")
 
 
-@mistake("M15", by_scale=True)
-def _another_scale_of_sizes(scene: Scene) -> Changes:
+@mistake("M15", of=_plans_of_sizes, by_scale=True)
+def _another_scale_of_sizes(scene: Scene, plan: str) -> Changes:
     """Sizes are read with the scale factor of a diagram."""
-    for plan in _plans_of_sizes(scene):
-        for other in DIAGRAM_SCALES:
-            if other in scene.steps:
-                factor = float(scene.values[other]) / scene.mu(plan)
-                yield _sizes_scaled(scene, plan, factor, other)
+    for other in DIAGRAM_SCALES:
+        if other in scene.steps:
+            factor = float(scene.values[other]) / scene.mu(plan)
+            yield _sizes_scaled(scene, plan, factor, other)
 
 
 # sizes are given in millimetres of paper
@@ -315,13 +312,12 @@ def _halved_sum(step: Step) -> tuple[Step, ...]:
     return after(step, total, Step("calc", step.name, (total.name,), "half_of"))
 
 
-@mistake("M100")
-def _involute_in_degrees(scene: Scene) -> Changes:
+@mistake("M100", of="involute")
+def _involute_in_degrees(scene: Scene, step: Step) -> Changes:
     """In tan(alpha) - alpha the angle is subtracted in degrees."""
-    for step in scene.calculated("involute"):
-        if not role(step.name).hidden:
-            degrees = Step("calc", f"_more_{step.name}", (constant(IN_DEGREES), *step.operands), "along")
-            yield instead(step, degrees, *then(step, "excess", aside(step.name), degrees.name))
+    if not role(step.name).hidden:
+        degrees = Step("calc", f"_more_{step.name}", (constant(IN_DEGREES), *step.operands), "along")
+        yield instead(step, degrees, *then(step, "excess", aside(step.name), degrees.name))
 
 
 # the profile angle is taken for the angle of action; the shifts count once in its involute

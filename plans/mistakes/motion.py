@@ -44,14 +44,13 @@ def _drive(scene: Scene, plan: str) -> tuple[Step, ...]:
     return scene.made_by("lay", "back", plan=plan)[:1]
 
 
-@mistake("M24")
-def _along_crank(scene: Scene) -> Changes:
+@mistake("M24", of=lambda scene: _drive(scene, VELOCITY))
+def _along_crank(scene: Scene, step: Step) -> Changes:
     """The vector pa is drawn along the crank: away from its pivot, or towards it."""
-    for step in _drive(scene, VELOCITY):
-        if link := scene.along(step.operands[1]):
-            along = operand(step, 1, link)
-            yield otherwise(along)
-            yield otherwise(along, "other way", verb="back")
+    if link := scene.along(step.operands[1]):
+        along = operand(step, 1, link)
+        yield otherwise(along)
+        yield otherwise(along, "other way", verb="back")
 
 
 # Lines that meet.
@@ -62,17 +61,16 @@ def _lines(scene: Scene, plan: str) -> Iterator[tuple[Step, int, str]]:
     return ((step, place, step.operands[place]) for step in scene.made_by("meet", plan=plan) for place in (1, 3))
 
 
-@mistake("M25", VELOCITY)
-@mistake("M42", ACCELERATION)
-def _along_links(scene: Scene, plan: str) -> Changes:
+@mistake("M25", of=lambda scene: _lines(scene, VELOCITY))
+@mistake("M42", of=lambda scene: _lines(scene, ACCELERATION))
+def _along_links(scene: Scene, step: Step, place: int, direction: str) -> Changes:
     """Draw the line of a relative vector along the link instead of normal to it.
 
     Then the vector has no sense about the link: whoever goes on takes either.
     """
-    for step, place, direction in _lines(scene, plan):
-        along = scene.along(direction)
-        if along and not role(direction).across_guide:
-            yield from _of_either_sense(scene, with_other(step, place, along, direction), direction)
+    along = scene.along(direction)
+    if along and not role(direction).across_guide:
+        yield from _of_either_sense(scene, with_other(step, place, along, direction), direction)
 
 
 def _slotted(scene: Scene, plan: str = VELOCITY, wanted: bool = True) -> list[Step]:
@@ -123,41 +121,37 @@ def _of_either_sense(scene: Scene, change: Change, normal: str) -> tuple[Change,
     return replace(_by_size(scene, change), how=f"with {normal}"), other
 
 
-@mistake("M27")
-def _across_guide(scene: Scene) -> Changes:
+@mistake("M27", of=lambda scene: _lines(scene, VELOCITY))
+def _across_guide(scene: Scene, step: Step, place: int, direction: str) -> Changes:
     """The line of the guide is drawn normal to it."""
-    for step, place, direction in _lines(scene, VELOCITY):
-        normal = normal_of(direction)
-        if role(direction).kind == "u" and normal in scene.steps:
-            yield with_other(step, place, normal, direction)
+    normal = normal_of(direction)
+    if role(direction).kind == "u" and normal in scene.steps:
+        yield with_other(step, place, normal, direction)
 
 
-@mistake("M33")
-def _slide_and_rotation_exchanged(scene: Scene) -> Changes:
+@mistake("M33", of=_slotted)
+def _slide_and_rotation_exchanged(scene: Scene, step: Step) -> Changes:
     """In a slotted pair the directions of sliding and of rotation are exchanged."""
-    for step in _slotted(scene):
-        normal = next(u for u in step.operands[1::2] if role(u).kind == "n")
-        yield from _of_either_sense(scene, _exchanged(scene, step), normal)
+    normal = next(u for u in step.operands[1::2] if role(u).kind == "n")
+    yield from _of_either_sense(scene, _exchanged(scene, step), normal)
 
 
-@mistake("M34")
-def _over_cosine(scene: Scene) -> Changes:
+@mistake("M34", of=_slotted)
+def _over_cosine(scene: Scene, step: Step) -> Changes:
     """The velocity is divided by the cosine instead of multiplied: the right angle stands at the wrong vertex."""
-    for step in _slotted(scene):
-        place = 1 if role(step.operands[1]).kind == "u" else 3
-        start, pole = step.operands[place - 1], f"{step.plan}.p"
-        size, along, across = (f"_{kind}_at_{step.name}" for kind in ("size", "along", "across"))
-        direction = Step("direction", along, (pole, start, size))
-        normal = Step("normal", across, (along,))
-        yield instead(step, Step("measure", size, (pole, start)), direction, normal, operand(step, place, across))
+    place = 1 if role(step.operands[1]).kind == "u" else 3
+    start, pole = step.operands[place - 1], f"{step.plan}.p"
+    size, along, across = (f"_{kind}_at_{step.name}" for kind in ("size", "along", "across"))
+    direction = Step("direction", along, (pole, start, size))
+    normal = Step("normal", across, (along,))
+    yield instead(step, Step("measure", size, (pole, start)), direction, normal, operand(step, place, across))
 
 
-@mistake("M35")
-def _points_not_distinguished(scene: Scene) -> Changes:
+@mistake("M35", of=_slotted)
+def _points_not_distinguished(scene: Scene, step: Step) -> Changes:
     """The point of the slotted link is taken for that of the slider."""
-    for step in _slotted(scene):
-        start = step.operands[0 if role(step.operands[1]).kind == "u" else 2]
-        yield _by_size(scene, instead(step, Step("same", step.name, (start,))))
+    start = step.operands[0 if role(step.operands[1]).kind == "u" else 2]
+    yield _by_size(scene, instead(step, Step("same", step.name, (start,))))
 
 
 # Points of links.
@@ -229,33 +223,30 @@ def rate_from(scene: Scene, rate: Step, vector: str, how: str = "") -> Change:
     return with_sign(rate, (*size, over), scene.values[rate.name], how)
 
 
-@mistake("M28")
-def _rate_from_absolute(scene: Scene) -> Changes:
+@mistake("M28", of=lambda scene: rates(scene, VELOCITY))
+def _rate_from_absolute(scene: Scene, step: Step, reading: Step) -> Changes:
     """The angular velocity is calculated from the absolute velocity."""
-    for step, reading in rates(scene, VELOCITY):
-        absolute = _absolute_reading(scene, reading)
-        if absolute is not None:
-            yield rate_from(scene, step, absolute.name)
-        elif f"V_{scene.pin}" in scene.steps:
-            yield rate_from(scene, step, f"V_{scene.pin}", "of the driver")
+    absolute = _absolute_reading(scene, reading)
+    if absolute is not None:
+        yield rate_from(scene, step, absolute.name)
+    elif f"V_{scene.pin}" in scene.steps:
+        yield rate_from(scene, step, f"V_{scene.pin}", "of the driver")
 
 
-@mistake("M43")
-def _rate_from_full(scene: Scene) -> Changes:
+@mistake("M43", of=lambda scene: rates(scene, ACCELERATION))
+def _rate_from_full(scene: Scene, step: Step, reading: Step) -> Changes:
     """The angular acceleration is calculated from the full relative acceleration."""
-    for step, reading in rates(scene, ACCELERATION):
-        full = role(reading.name).whole
-        if full != reading.name and full in scene.steps:
-            yield rate_from(scene, step, full)
+    full = role(reading.name).whole
+    if full != reading.name and full in scene.steps:
+        yield rate_from(scene, step, full)
 
 
-@mistake("M44")
-def _rate_from_absolute_acceleration(scene: Scene) -> Changes:
+@mistake("M44", of=lambda scene: rates(scene, ACCELERATION))
+def _rate_from_absolute_acceleration(scene: Scene, step: Step, reading: Step) -> Changes:
     """The angular acceleration is calculated from the absolute acceleration."""
-    for step, reading in rates(scene, ACCELERATION):
-        absolute = _absolute_reading(scene, reading)
-        if absolute is not None and absolute.name != role(reading.name).whole:
-            yield rate_from(scene, step, absolute.name)
+    absolute = _absolute_reading(scene, reading)
+    if absolute is not None and absolute.name != role(reading.name).whole:
+        yield rate_from(scene, step, absolute.name)
 
 
 @mistake("M29", VELOCITY)
@@ -291,26 +282,24 @@ def _forgotten(step: Step) -> Change:
     return with_other(step, 2, "zero", "none")
 
 
-@mistake("M40")
-def _normal_from_another(scene: Scene) -> Changes:
+@mistake("M40", of=lambda scene: rates(scene, law="normal_part"))
+def _normal_from_another(scene: Scene, step: Step, reading: Step) -> Changes:
     """The normal part is calculated from the absolute velocity, or from the angular velocity of the crank."""
-    for step, reading in rates(scene, law="normal_part"):
-        for other in scene.made_by("read", plan=reading.plan):
-            start, end = other.operands
-            if end == reading.operands[1] and start != reading.operands[0]:
-                yield with_other(step, 0, other.name, "v" if role(start).kind == POLE else other.name)
-        if "omega_1" in scene.steps:
-            yield otherwise(operand(step, 0, "omega_1"), "omega_1", law="centripetal")
+    for other in scene.made_by("read", plan=reading.plan):
+        start, end = other.operands
+        if end == reading.operands[1] and start != reading.operands[0]:
+            yield with_other(step, 0, other.name, "v" if role(start).kind == POLE else other.name)
+    if "omega_1" in scene.steps:
+        yield otherwise(operand(step, 0, "omega_1"), "omega_1", law="centripetal")
 
 
-@mistake("M41")
-def _square_lost(scene: Scene) -> Changes:
+@mistake("M41", of=lambda scene: rates(scene, law="normal_part"))
+def _square_lost(scene: Scene, step: Step, reading: Step) -> Changes:
     """The normal part is v / l, or omega l^2: a square is lost, or is in the wrong place."""
-    for step, reading in rates(scene, law="normal_part"):
-        size = length_of(reading.name)
-        for how, law in (("v/l", "rate_over"), ("omega l^2", "circular_speed")):
-            last = step.but(operands=(size[-1].name, step.operands[1]), law=law)
-            yield instead(step, *size, last, how=how)
+    size = length_of(reading.name)
+    for how, law in (("v/l", "rate_over"), ("omega l^2", "circular_speed")):
+        last = step.but(operands=(size[-1].name, step.operands[1]), law=law)
+        yield instead(step, *size, last, how=how)
 
 
 def _normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...]]]:
@@ -326,12 +315,11 @@ def _normal_sizes(scene: Scene) -> Iterator[tuple[Step, tuple[Step, ...]]]:
         yield step, (Step("calc", f"_omega_of_{step.name}", (sense, step.operands[0]), "along"),)
 
 
-@mistake("M115", "circular_speed")  # omega l
-@mistake("M116", "centripetal", constant(1.0))  # omega^2
-def _normal_by(scene: Scene, law: str, length: str = "") -> Changes:
+@mistake("M115", "circular_speed", of=_normal_sizes)  # omega l
+@mistake("M116", "centripetal", constant(1.0), of=_normal_sizes)  # omega^2
+def _normal_by(scene: Scene, step: Step, omega: tuple[Step, ...], law: str, length: str = "") -> Changes:
     """Calculate normal parts from omega and the length, or another number, by another law."""
-    for step, omega in _normal_sizes(scene):
-        yield instead(step, *omega, Step("calc", step.name, (omega[-1].name, length or step.operands[1]), law))
+    yield instead(step, *omega, Step("calc", step.name, (omega[-1].name, length or step.operands[1]), law))
 
 
 @mistake("M125")
@@ -347,12 +335,11 @@ def _parts_exchanged(scene: Scene) -> Changes:
             yield Change(tangential.name, {normal.name: (), tangential.name: both, **found.steps})
 
 
-@mistake("M46")
-def _crank_tangential_lost(scene: Scene) -> Changes:
+@mistake("M46", of="circular_acceleration")
+def _crank_tangential_lost(scene: Scene, step: Step) -> Changes:
     """The tangential part of the crank pin is lost though the crank speeds up."""
-    for step in scene.calculated("circular_acceleration"):
-        laid = (s for s in scene.made_by("lay", plan=ACCELERATION) if step.name in s.operands)
-        yield from (with_other(s, 2, "zero") for s in list(laid)[:1])
+    laid = (s for s in scene.made_by("lay", plan=ACCELERATION) if step.name in s.operands)
+    yield from (with_other(s, 2, "zero") for s in list(laid)[:1])
 
 
 # the acceleration of the crank pin is drawn away from the pivot
@@ -368,56 +355,52 @@ each("M54", lambda scene: _normals(scene, "slotted"), _forgotten, partial(otherw
 # The acceleration of Coriolis, and what is read.
 
 
-@mistake("M51")
-def _coriolis_of_crank(scene: Scene) -> Changes:
+@mistake("M51", of="coriolis")
+def _coriolis_of_crank(scene: Scene, step: Step) -> Changes:
     """The acceleration of Coriolis with the angular velocity of the crank, or with the velocity of its pin."""
-    for step in scene.calculated("coriolis"):
-        if "omega_1" in scene.steps and step.operands[0] != "omega_1":
-            yield with_other(step, 0, "omega_1", "omega_1")
-            driver, own = scene.values["omega_1"], scene.values[step.operands[0]]
-            if driver * own < 0.0:
-                yield scaled(-driver / own, step, how="omega_1, own sense")
-        pin, slide = abs(scene.values.get(f"V_{scene.pin}", 0.0)), abs(scene.values[step.operands[1]])
-        if pin and slide:
-            yield scaled(pin / slide, step, how="v")
+    if "omega_1" in scene.steps and step.operands[0] != "omega_1":
+        yield with_other(step, 0, "omega_1", "omega_1")
+        driver, own = scene.values["omega_1"], scene.values[step.operands[0]]
+        if driver * own < 0.0:
+            yield scaled(-driver / own, step, how="omega_1, own sense")
+    pin, slide = abs(scene.values.get(f"V_{scene.pin}", 0.0)), abs(scene.values[step.operands[1]])
+    if pin and slide:
+        yield scaled(pin / slide, step, how="v")
 
 
-@mistake("M52")
-def _coriolis_along_guide(scene: Scene) -> Changes:
+@mistake("M52", of="coriolis")
+def _coriolis_along_guide(scene: Scene, step: Step) -> Changes:
     """The acceleration of Coriolis is drawn along the guide."""
-    for step in scene.calculated("coriolis"):
-        twice = f"_twice_{step.name}"
-        for how, factor in (("with", 2.0), ("against", -2.0)):
-            double = Step("calc", twice, (constant(factor), step.operands[0]), "along")
-            along = Step("calc", step.name, (twice, step.operands[1]), "along")
-            yield instead(step, double, along, how=how)
+    twice = f"_twice_{step.name}"
+    for how, factor in (("with", 2.0), ("against", -2.0)):
+        double = Step("calc", twice, (constant(factor), step.operands[0]), "along")
+        along = Step("calc", step.name, (twice, step.operands[1]), "along")
+        yield instead(step, double, along, how=how)
 
 
-@mistake("M53")
-def _coriolis_without_rotation(scene: Scene) -> Changes:
+@mistake("M53", of=lambda scene: _lines(scene, ACCELERATION))
+def _coriolis_without_rotation(scene: Scene, step: Step, place: int, direction: str) -> Changes:
     """An acceleration of Coriolis is added where the guide does not turn."""
-    for step, place, direction in _lines(scene, ACCELERATION):
-        speed = f"V_{role(step.name).of}"
-        own = next((u for u in step.operands[1::2] if role(u).kind == "n" and not role(u).across_guide), None)
-        rate = next((s.name for s, _ in rates(scene, VELOCITY) if s.operands[1] == own), None)
-        still = role(direction).kind == "u" and step.operands[place - 1] == START
-        if still and rate is not None and speed in scene.steps:
-            for omega in dict.fromkeys((rate, "omega_1" if "omega_1" in scene.steps else rate)):
-                vector, end = f"_k_at_{step.name}", mark(ACCELERATION, role(step.name).of, CORIOLIS)
-                chain = Step("chain", end, (step.operands[place - 1], vector))
-                added = Step("calc", vector, (omega, speed), "coriolis")
-                yield instead(step, added, chain, operand(step, place - 1, end), how=omega)
+    speed = f"V_{role(step.name).of}"
+    own = next((u for u in step.operands[1::2] if role(u).kind == "n" and not role(u).across_guide), None)
+    rate = next((s.name for s, _ in rates(scene, VELOCITY) if s.operands[1] == own), None)
+    still = role(direction).kind == "u" and step.operands[place - 1] == START
+    if still and rate is not None and speed in scene.steps:
+        for omega in dict.fromkeys((rate, "omega_1" if "omega_1" in scene.steps else rate)):
+            vector, end = f"_k_at_{step.name}", mark(ACCELERATION, role(step.name).of, CORIOLIS)
+            chain = Step("chain", end, (step.operands[place - 1], vector))
+            added = Step("calc", vector, (omega, speed), "coriolis")
+            yield instead(step, added, chain, operand(step, place - 1, end), how=omega)
 
 
-@mistake("M56", by_scale=True)
-def _read_from_velocity_plan(scene: Scene) -> Changes:
+@mistake("M56", of=lambda scene: scene.made_by("read", plan=ACCELERATION), by_scale=True)
+def _read_from_velocity_plan(scene: Scene, step: Step) -> Changes:
     """An acceleration is read from the letter of the velocity plan."""
-    for step in scene.made_by("read", plan=ACCELERATION):
-        read = role(step.name)
-        speed = spelled("V", read.of, read.about, read.part)
-        if step.plan == ACCELERATION and speed in scene.steps and step.name not in scene.laid_off:
-            other = Step("calc", step.name, (speed,), "given")
-            yield scaled(scene.mu(ACCELERATION) / scene.mu(VELOCITY), other)
+    read = role(step.name)
+    speed = spelled("V", read.of, read.about, read.part)
+    if step.plan == ACCELERATION and speed in scene.steps and step.name not in scene.laid_off:
+        other = Step("calc", step.name, (speed,), "given")
+        yield scaled(scene.mu(ACCELERATION) / scene.mu(VELOCITY), other)
 
 
 # the acceleration of Coriolis is forgotten, turned against the rotation, has no factor two

@@ -65,16 +65,16 @@ class Scene:
         return frozenset(size.shown for size in sizes if size.hidden)
 
 
-class Number(Name):
+class _Number(Name):
     """The name of a number that a mistake brings in, with its value."""
 
     __slots__ = ("value",)
     value: Any
 
 
-def constant(value: Any) -> Number:
+def constant(value: Any) -> _Number:
     """Return a number as an operand."""
-    number = Number(f"_times_{value!r}", "times")
+    number = _Number(f"_times_{value!r}", "times")
     number.value = value
     return number
 
@@ -98,11 +98,12 @@ class Change:
     def givens(self) -> dict[str, Any]:
         """The data that are other ones, and the numbers in the steps."""
         operands = (name for steps in self.steps.values() for step in steps for name in step.operands)
-        return {**{name: name.value for name in operands if isinstance(name, Number)}, **self.data}
+        return {**{name: name.value for name in operands if isinstance(name, _Number)}, **self.data}
 
 
 Changes = Iterable[Change]
 Rule = Callable[..., Changes]  # of a scene, and of what else the mistake gives
+Where = str | Callable[[Scene], Iterable[Any]]  # a law, or what finds steps, each perhaps with what goes with it
 MISTAKES: dict[str, list[Rule]] = {}  # by number: a drawing of another kind has rules of its own under the same one
 BY_SCALE: set[str] = set()  # those that hang on the scale factors of the student
 
@@ -137,25 +138,28 @@ class Broken:
         return {**self.paper.givens, **self.change.givens}
 
 
-def mistake(id: str, *given: Any, by_scale: bool = False) -> Callable[[Rule], Rule]:
-    """Enter the function that follows, with what it is given besides the scene; several may break one rule."""
+def mistake(id: str, *given: Any, of: Where = "", by_scale: bool = False) -> Callable[[Rule], Rule]:
+    """Enter the function that follows, with what it is given besides the scene; several may break one rule.
+
+    One `of` the steps of a law, or of what is found in a scene, breaks it at each of these, which it is given first.
+    """
 
     def entered(rule: Rule) -> Rule:
-        MISTAKES.setdefault(id, []).append(lambda scene: rule(scene, *given))
+        def everywhere(scene: Scene) -> Changes:
+            places = scene.calculated(of) if isinstance(of, str) else of(scene)
+            for place in places if of else ((),):
+                yield from rule(scene, *((place,) if isinstance(place, Step | str) else place), *given)
+
+        MISTAKES.setdefault(id, []).append(everywhere)
         BY_SCALE.update([id] * by_scale)
         return rule
 
     return entered
 
 
-def each(id: str, where: str | Callable[[Scene], Iterable[Step]], *changes: Callable[[Step], Change]) -> None:
+def each(id: str, of: Where, *changes: Callable[[Step], Change]) -> None:
     """Enter a rule that is broken at each step of a law, or of some others, in one way after the other."""
-
-    def rule(scene: Scene) -> Changes:
-        steps = scene.calculated(where) if isinstance(where, str) else where(scene)
-        return (change(step) for step in steps for change in changes)
-
-    mistake(id)(rule)
+    mistake(id, of=of)(lambda scene, step: (change(step) for change in changes))
 
 
 def broken(paper: Paper, values: Mapping[str, Any], ids: Iterable[str] = ()) -> Iterator[Broken]:
