@@ -16,17 +16,7 @@ from ...scales.packaged import packaged
 from .. import notes
 from ..notes.blocks import REFERS
 from ..printed import POINT, Input, Symbol, calculation, ruler_decimals, segment_text
-from .calculations.equations import (
-    Product,
-    factor,
-    is_given,
-    paper,
-    printed_segment,
-    rate_of,
-    sensed,
-    size_of,
-    triangles,
-)
+from .calculations import equations
 from .calculations.forces import found_by
 from .figures.lever import Couple, couples_on_lever, hung_on_lever, letter_of, moments_on_lever
 from .reading import ends_of
@@ -81,9 +71,9 @@ class Teller(Scene):
         """Return how long a quantity is drawn on a plan: by its scale factor, with the numbers put in."""
         words, scale = self.words, self.scales[plan]
         if role(name).hidden and role(name).shown not in self.quantities:
-            return self.on_paper(size_of(self, name) / scale.mu)
-        value, mu = factor(self, name), paper(words, scale)
-        length = Product((value, replace(mu, power=-mu.power)))
+            return self.on_paper(equations.size_of(self, name) / scale.mu)
+        value, mu = equations.factor(self, name), equations.paper(words, scale)
+        length = equations.Product((value, replace(mu, power=-mu.power)))
         inputs = [Input(value.value, value.exact), Input(mu.value, exact=True)]
         places = ruler_decimals(words, length.of([value.value, mu.value]))
         texts, result = calculation(words, lambda *x: length.of(x), inputs, places)
@@ -102,7 +92,7 @@ class Teller(Scene):
 
     def across(self, arm: str) -> str:
         """Return how long an arm of the lever is drawn, 0 where there is none."""
-        if not self.defined(arm) or size_of(self, arm) == 0.0:
+        if not self.defined(arm) or equations.size_of(self, arm) == 0.0:
             return "0"
         return f"{self.segment(arm)} {self.words.unit(self.words.display.paper)}"
 
@@ -122,7 +112,7 @@ class Teller(Scene):
         Of one that is too short to be read there are no mm.
         """
         words = self.words
-        mm, number, value = printed_segment(self, item)
+        mm, number, value = equations.printed_segment(self, item)
         parts = {
             "mm": f"{mm} {words.unit(words.display.paper)}" if mm else "",
             "sum": f"{mm}{'/' if words.per_unit else '·'}{number}",
@@ -131,7 +121,7 @@ class Teller(Scene):
 
     def sense(self, rate: str) -> str:
         """Return in which sense a link turns, or turns ever faster."""
-        return sensed(self.words, rate_of(self, rate))
+        return equations.sensed(self.words, equations.rate_of(self, rate))
 
     def line(self, direction: str, back: bool = False) -> str:
         """Return how a line lies, in words, with the sense in which a normal part is laid off."""
@@ -158,7 +148,7 @@ class Teller(Scene):
         """Return the angle of the driver as the task gives it; nothing for other lines."""
         made = self.made.get(direction)
         name, words = made.operands[0] if made is not None and made.verb == "turn" else "", self.words
-        given = self.givens.get(name) if is_given(self, name) else None
+        given = self.givens.get(name) if equations.is_given(self, name) else None
         if given is None or isinstance(given.value, str):
             return ""
         value = f"{words.short(given.value)}{'°' if given.unit == 'deg' else words.unit(given.unit)}"
@@ -249,7 +239,7 @@ def _similar(teller: Teller, step: Step) -> str:
     if step.plan == POSITION:
         one, other = (teller.apart(mark, step.name) for mark in (start, end))
         return teller.say("corner", point=s, segment=f"{a}{b}", first=f"{a}{s}", one=one, second=f"{b}{s}", other=other)
-    plan, link = triangles(teller, step)
+    plan, link = equations.triangles(teller, step)
     return teller.say("similar", point=s, segment=f"{a}{b}", plan=plan, link=link)
 
 
@@ -263,7 +253,7 @@ def _read(teller: Teller, step: Step) -> str:
     if item is None:
         return ""
     start, end, symbol = teller.mark(tail), teller.mark(tip), teller.words.symbol(name)
-    if size_of(teller, name) == 0.0:
+    if equations.size_of(teller, name) == 0.0:
         return teller.say("point", start=start, end=end, symbol=symbol)
     read = teller.read_off(item)
     told = teller.say("read" if read["mm"] else "read_short", segment=f"{start}{end}", symbol=symbol, **read)
@@ -273,7 +263,7 @@ def _read(teller: Teller, step: Step) -> str:
 def _turns(teller: Teller, step: Step, user: Step) -> str:
     """Return how the sense of a rate follows from the vector that it is read from."""
     vector, rate = role(step.name), role(user.name)
-    if user.law != "turning" or not vector.about or not rate.of.isdigit() or not rate_of(teller, user.name):
+    if user.law != "turning" or not vector.about or not rate.of.isdigit() or not equations.rate_of(teller, user.name):
         return ""
     ends = {"point": teller.mark(vector.of), "centre": teller.mark(vector.about), "link": rate.of}
     symbol, sense = teller.words.symbol(user.name), teller.sense(user.name)
@@ -291,7 +281,7 @@ def _template(teller: Teller, step: Step) -> str:
     paths = []
     for i in range(FIRST_PATH, len(step.operands), OF_PATH):
         own, start, radius, direction = step.operands[i : i + OF_PATH]
-        if (size := size_of(teller, radius)) == 0.0:
+        if (size := equations.size_of(teller, radius)) == 0.0:
             paths.append(teller.say("path_line", point=names[own], line=teller.plain_line(direction)))
         else:
             mm = teller.on_paper(size / teller.scales[POSITION].mu)
@@ -345,7 +335,7 @@ def tell(teller: Teller, step: Step) -> str:
             return say("same", point=mark(point), other=mark(other))
         case "tangent", centre, end, offset, *_:
             a, b = mark(centre), mark(end)
-            if size_of(teller, offset) == 0.0:
+            if equations.size_of(teller, offset) == 0.0:
                 return say("joined", line=f"{a}{b}", start=a, end=b)
             return say("tangent", line=teller.line(point), centre=a, mm=drawn(offset), point=b)
     return ""

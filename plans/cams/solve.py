@@ -32,6 +32,7 @@ from ..marking.key import rounded
 from ..names import role
 from ..quantities import Quantity, quantities, results, worst_behind
 from ..solved import AT_LEAST, AT_MOST, Check, Solved, found_on
+from . import construction
 from .cam import (
     DIAGRAMS_PART,
     GIVENS,
@@ -45,27 +46,6 @@ from .cam import (
     VALUES,
     Cam,
 )
-from .construction import (
-    ACCELERATION,
-    ARC,
-    CHORD_OF,
-    DIAGRAMS,
-    EXACT,
-    EXACT_OF,
-    NEEDS,
-    PLATE_PROFILE,
-    PLATE_SIZES,
-    PROFILE,
-    RIGHT,
-    ROCKER_SIZES,
-    SHARPEST,
-    SIZES,
-    TRAVEL,
-    UP,
-    VELOCITY,
-    Layout,
-    construct,
-)
 from .followers import OF_R_0, OF_RHO_MIN, RIGHT_ANGLE, PlateCam, PlateProfile, RollerCam, RollerProfile
 from .motion import RISE, Array, Division, Motion, motion_of
 from .sizes import plate_cam, rocker_cam, roller_cam
@@ -73,7 +53,7 @@ from .sizes import plate_cam, rocker_cam, roller_cam
 
 def diagram_givens(motion: Motion, division: Division, given: str) -> dict[str, Any]:
     """Return what the diagrams begin with: angles of section lines, and parts of the amplitude that is given."""
-    order, angles, top = 2 if given == ACCELERATION else 1, division.angles, motion.rise.length
+    order, angles, top = 2 if given == construction.ACCELERATION else 1, division.angles, motion.rise.length
     # the greatest ordinate of the given diagram in the rise, SI: A_1, or the greatest ds/dphi
     amplitude = motion.maximum(0.0, float(order == 1), float(order == 2), (RISE,)).value
     numbers: dict[str, Any] = {"_two": 2.0, "_minus_one": -1.0}
@@ -85,7 +65,7 @@ def diagram_givens(motion: Motion, division: Division, given: str) -> dict[str, 
     for word, side in (("before", -1), ("after", 1)):
         values = motion.at(angles, side)[order]
         numbers |= {f"_part{i}_{word}": float(values[i]) / amplitude for i in division.lines}
-    if given == VELOCITY:
+    if given == construction.VELOCITY:
         for i, phase in division.on_lines:  # of two values at a jump that inside
             word = "after" if i == division.of(phase)[0] else "before"
             numbers[f"_node{i}_{phase}"] = numbers[f"_part{i}_{word}"]
@@ -96,7 +76,7 @@ def diagram_givens(motion: Motion, division: Division, given: str) -> dict[str, 
 
 
 CHORDS = "chords"
-SECTIONS = (DIAGRAMS_PART, CHORDS, ROLLER, PLATE, PROFILE)
+SECTIONS = (DIAGRAMS_PART, CHORDS, ROLLER, PLATE, construction.PROFILE)
 PRESSURES = ("gamma_rise_min", "gamma_fall_min")  # also what the plan of pressure angles shows
 NAMES = {
     CHORDS: ("s_close", "v_close"),
@@ -105,12 +85,12 @@ NAMES = {
         *("l_rocker", "l_OC", "psi_0", *PRESSURES),
     ),
     PLATE: ("mu_s_d2s", "r_0_flat_tangent", "r_0_flat_min", "r_0_flat", "rho_flat_min", "R_plate"),
-    PROFILE: ("mu_l", "R_roller", "rho_min"),
+    construction.PROFILE: ("mu_l", "R_roller", "rho_min"),
 }
 OF_PLAN = {
     DIAGRAMS_PART: (DIAGRAMS_PART, CHORDS),
     SIZES_PART: (ROLLER, PLATE),
-    PROFILE_PART: (PROFILE,),
+    PROFILE_PART: (construction.PROFILE,),
     PRESSURE_PART: (),
 }
 _SECTION = {name: section for section, names in NAMES.items() for name in names}
@@ -118,7 +98,7 @@ _SECTION = {name: section for section, names in NAMES.items() for name in names}
 
 def section_of(name: str) -> str:
     """Return the section of a quantity or a scale factor: what belongs to nothing else belongs to the diagrams."""
-    return _SECTION.get(name, CHORDS if name in EXACT_OF else DIAGRAMS_PART)
+    return _SECTION.get(name, CHORDS if name in construction.EXACT_OF else DIAGRAMS_PART)
 
 
 def listed(names: Iterable[str], plans: Iterable[str]) -> tuple[str, ...]:
@@ -131,27 +111,27 @@ def listed(names: Iterable[str], plans: Iterable[str]) -> tuple[str, ...]:
 
 # the scale factor in which each plan shows values; on the diagrams that of the axis of ordinates
 SCALES = {
-    ACCELERATION: "mu_d2s",
-    VELOCITY: "mu_ds",
-    TRAVEL: "mu_s",
-    SIZES: "mu_s_ds",
-    PLATE_SIZES: "mu_s_d2s",
-    ROCKER_SIZES: "mu_l",
-    PROFILE: "mu_l",
-    PLATE_PROFILE: "mu_l",
+    construction.ACCELERATION: "mu_d2s",
+    construction.VELOCITY: "mu_ds",
+    construction.TRAVEL: "mu_s",
+    construction.SIZES: "mu_s_ds",
+    construction.PLATE_SIZES: "mu_s_d2s",
+    construction.ROCKER_SIZES: "mu_l",
+    construction.PROFILE: "mu_l",
+    construction.PLATE_PROFILE: "mu_l",
 }
 # the plans with equal scale factors on both axes, and the factor of a diagram that is the finest for each
 EQUAL = {"mu_s_ds": "mu_s", "mu_s_d2s": "mu_d2s"}
 # the plan that shows a quantity as a segment, beside those that are read from one
 SHOWN_ON = {
-    "A_1": ACCELERATION,
-    "A_2": ACCELERATION,
-    "ds_max": VELOCITY,
-    "s_max": TRAVEL,
-    **dict.fromkeys(("r_0", "e", "s_0", "r_0_tangents", "e_tangents"), SIZES),
-    **dict.fromkeys(("r_0_flat_min", "r_0_flat_tangent", "rho_flat_min"), PLATE_SIZES),
-    **dict.fromkeys(("rho_min", "R_roller"), PROFILE),
-    **dict.fromkeys(("r_0_flat", "R_plate"), PLATE_PROFILE),
+    "A_1": construction.ACCELERATION,
+    "A_2": construction.ACCELERATION,
+    "ds_max": construction.VELOCITY,
+    "s_max": construction.TRAVEL,
+    **dict.fromkeys(("r_0", "e", "s_0", "r_0_tangents", "e_tangents"), construction.SIZES),
+    **dict.fromkeys(("r_0_flat_min", "r_0_flat_tangent", "rho_flat_min"), construction.PLATE_SIZES),
+    **dict.fromkeys(("rho_min", "R_roller"), construction.PROFILE),
+    **dict.fromkeys(("r_0_flat", "R_plate"), construction.PLATE_PROFILE),
 }
 LENGTHS = ("H_a", "H_v", "R_roller", "l_rocker", "r_0_flat")  # given ones that are results, too
 # how the numbers that a task has on the paper of the diagrams change with the size of the drawing
@@ -166,7 +146,7 @@ UNITS = {
 
 def unit_of(name: str) -> str:
     """Return the SI unit of a cam's number or quantity by its name; analogues have that of the travel."""
-    return UNITS.get(EXACT_OF.get(name, name), "m")
+    return UNITS.get(construction.EXACT_OF.get(name, name), "m")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -175,7 +155,7 @@ class SolvedCam(Solved):
 
     cam: Cam
     motion: Motion
-    layout: Layout
+    layout: construction.Layout
 
     @property
     def rolling(self) -> RollerCam | None:
@@ -212,17 +192,17 @@ class SolvedCam(Solved):
     @property
     def edges(self) -> tuple[str, ...]:
         """The directions of axes and section lines."""
-        return RIGHT, UP
+        return construction.RIGHT, construction.UP
 
     @property
     def on_paper(self) -> tuple[str, ...]:
         """The diagrams, whose scale factors come from what is measured on them."""
-        return DIAGRAMS
+        return construction.DIAGRAMS
 
     @property
     def draws_profiles(self) -> bool:
         """Whether the profiles are constructed, not only the sizes."""
-        return any(plan in (PROFILE, PLATE_PROFILE) for plan in self.program.plans)
+        return any(plan in (construction.PROFILE, construction.PLATE_PROFILE) for plan in self.program.plans)
 
 
 def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLANS) -> SolvedCam:
@@ -237,17 +217,19 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
         if "r_0_flat" in values:
             raise InputError("cam-r-0-twice")
         values = {"r_0_flat" if name == "r_0" else name: value for name, value in values.items()}
-    wanted = with_needs(plans, NEEDS)
+    wanted = with_needs(plans, construction.NEEDS)
     motion = _motion(cam, values)
     division = motion.division(cam.sections)
-    layout = Layout(
+    layout = construction.Layout(
         division,
-        VELOCITY if motion.velocity_jumps else ACCELERATION,  # a velocity that jumps is given: no acceleration has it
+        construction.VELOCITY
+        if motion.velocity_jumps
+        else construction.ACCELERATION,  # a velocity that jumps is given: no acceleration has it
         int(abs(division.angles - motion.ds_max.phi).argmin()),
         ROCKER in cam.followers,
         *(_cams(cam, motion, values) if SIZES_PART in wanted else ()),
     )
-    found = _found(construct(layout, wanted), {**values, **_givens(cam, motion, layout)})
+    found = _found(construction.construct(layout, wanted), {**values, **_givens(cam, motion, layout)})
     return SolvedCam(**found, cam=cam, motion=motion, layout=layout)
 
 
@@ -275,7 +257,7 @@ def _again(solved: SolvedCam, values: Mapping[str, float]) -> Mapping[str, Any]:
 
 def _motion(cam: Cam, values: Mapping[str, float]) -> Motion:
     """Return the motion of the follower; the stroke of a rocker is that of its roller."""
-    h = LAWS[ARC](values["psi"], values["l_rocker"]) if ROCKER in cam.followers else values["h"]
+    h = LAWS[construction.ARC](values["psi"], values["l_rocker"]) if ROCKER in cam.followers else values["h"]
     return motion_of(cam, {**values, "h": h})
 
 
@@ -288,7 +270,7 @@ def _cams(cam: Cam, motion: Motion, values: Mapping[str, float]) -> tuple[Roller
     return rolling, plate_cam(cam, motion, values) if follows else None
 
 
-def _givens(cam: Cam, motion: Motion, layout: Layout) -> dict[str, Any]:
+def _givens(cam: Cam, motion: Motion, layout: construction.Layout) -> dict[str, Any]:
     """Return what the board begins with beside the numbers of the cam."""
     division, sense = layout.division, cam.sense
     numbers = diagram_givens(motion, division, layout.given) | {"_sense": float(sense)}
@@ -306,7 +288,9 @@ def _found(program: Program, givens: Mapping[str, Any]) -> dict[str, Any]:
     board = run(program, givens)
     stated = {"mu_phi": Quantity("mu_phi", float(givens["mu_phi"]), unit_of("mu_phi"))} if "mu_phi" in givens else {}
     lengths = {name: givens[name] for name in LENGTHS if name in givens}
-    shown = SHOWN_ON | dict.fromkeys(("r_0", "l_OC") if ROCKER_SIZES in program.plans else (), ROCKER_SIZES)
+    shown = SHOWN_ON | dict.fromkeys(
+        ("r_0", "l_OC") if construction.ROCKER_SIZES in program.plans else (), construction.ROCKER_SIZES
+    )
     found = stated | quantities(program, board.values, lengths, unit_of)
     return {**found_on(board, program, SCALES, shown), "givens": givens, "quantities": found}
 
@@ -421,7 +405,9 @@ def _beyond(values: Mapping[str, Any], usual: Mapping[str, tuple[float, float]])
             yield name, float(value), least, most
 
 
-HEIGHTS = {EXACT[name]: CHORD_OF[name] for name in EXACT}  # ordinates that only a drawing shows keep its name
+HEIGHTS = {
+    construction.EXACT[name]: construction.CHORD_OF[name] for name in construction.EXACT
+}  # ordinates that only a drawing shows keep its name
 TANGENTS = {"r_0": "r_0_tangents", "e": "e_tangents", "r_0_flat_min": "r_0_flat_tangent"}
 GIVEN = ("r_0", "e")  # of a cam whose sizes are given none are drawn
 
@@ -429,7 +415,7 @@ GIVEN = ("r_0", "e")  # of a cam whose sizes are given none are drawn
 def stands_for(solved: SolvedCam) -> dict[str, str]:
     """Return for every size that is drawn, and found by a formula, too, what it is called there."""
     names = {*solved.program.names}
-    found = {drawn: exact for drawn, exact in EXACT_OF.items() if {drawn, exact} <= names}
+    found = {drawn: exact for drawn, exact in construction.EXACT_OF.items() if {drawn, exact} <= names}
     sized = any(name in solved.givens for name in GIVEN)
     for exact, drawn in TANGENTS.items():
         if {exact, drawn} <= names and not (sized and exact in GIVEN):
@@ -451,7 +437,7 @@ def as_drawn(solved: SolvedCam) -> SolvedCam:
         if drawn.name == "s_0" and "e_tangents" in named:  # it goes with r_0 and e
             drawn = drawn.but(law="other_leg", operands=("r_0", "e"))
         elif drawn.name == "rho_min" and numbers:  # the curvature is that of the drawn cam
-            drawn = drawn.but(law=SHARPEST, operands=("h", "e", "s_0", *numbers))
+            drawn = drawn.but(law=construction.SHARPEST, operands=("h", "e", "s_0", *numbers))
         steps.append(drawn)
     program, numbers = Program(tuple(_in_order(steps))), {**numbers, **solved.givens}
     board = run(program, numbers)
