@@ -13,7 +13,7 @@ import shapely
 
 from . import spots
 from .areas import Shapes, lines
-from .raster import Convex, Flags, Points, Reals
+from .raster import Convex, Flags, Numbers, Points, Reals
 from .spots import Obstacles, Request, Segment, Surroundings, Wanted
 from .text import Box
 
@@ -139,9 +139,9 @@ class Scene:
         if key not in self._leads:
             leads, cost = self.wanted.leads(i, np.append(spots.FAR, spots.AFIELD) if afield else spots.FAR)
             half = float(self.wanted.hw[i]), float(self.wanted.hh[i])
-            cost = cost + spots.THIN * ~self.around.fine.free(leads[0], complex(*half), self.gap / 2)
-            few = self.around.free(leads[0], *half, afield).nonzero()[0]
-            few = few[np.argsort(cost[few], kind="stable")]
+            few = _cheapest(cost, self.around.free(leads[0], *half, afield).nonzero()[0])
+            cost[few] += spots.THIN * ~self.around.fine.free(leads[0, few], complex(*half), self.gap / 2)
+            few = _cheapest(cost, few)
             clear = slice(None, None, -(-len(few) // SOME) or 1)
             few = few[clear if cross else self.around.barring.clear(leads[:, few], SOME)]
             leads, cost = leads[:, few], cost[few]
@@ -159,12 +159,11 @@ class Scene:
         if i not in self._bent:
             around, half = self.around, (float(self.wanted.hw[i]), float(self.wanted.hh[i]))
             (_, knee, start, way), cost = self.wanted.leads(i, spots.KNEES, spots.ROUND_ABOUT)
-            few = (~around.barring.barred(start, knee)).nonzero()[0]
+            few = _cheapest(cost, (~around.barring.barred(start, knee)).nonzero()[0])
             few = few[:: -(-len(few) // SOME) or 1]  # not only the shortest
             few = few[around.crossed(knee[few], start[few] + spots.TOUCH * way[few]) == 0]
             leads, costs, k = self.wanted.bent(i, knee[few], way[few], cost[few])
-            left = around.free(leads[0], *half, True).nonzero()[0]
-            left = left[np.argsort(costs[left], kind="stable")]
+            left = _cheapest(costs, around.free(leads[0], *half, True).nonzero()[0])
             left = left[around.barring.clear(leads[:, left], SOME)]
             left = left[around.crossed(leads[1, left], leads[2, left]) == 0]
             self._bent[i] = leads[:, left], costs[left], start[few][k[left]]
@@ -180,6 +179,11 @@ class Scene:
             at, e, _ = self.wanted.turned(i)
             self._along[i] = at[self.around.along(self.wanted, i, at, e)], e
         return self._along[i]
+
+
+def _cheapest(costs: Reals, few: Numbers) -> Numbers:
+    """Return a few, by number, the cheapest first; of two that cost the same the first one stays before the other."""
+    return few[np.argsort(costs[few], kind="stable")]
 
 
 class _Board:

@@ -153,7 +153,7 @@ class Wanted(NamedTuple):
         return centre.reshape(shape), own, (taste[:, :, None] + STEP * steps).reshape(shape)
 
     def leads(self, i: int, lengths: Reals, ways: Points = STEEP) -> tuple[Points, Reals]:
-        """Return leaders of label i, shape (4, K), the cheapest first, and what each costs for its own sake.
+        """Return leaders of label i, shape (4, K), and what each costs for its own sake.
 
         The four are the middle of the label, head and start of the leader, and the way from the start to the head.
         """
@@ -168,9 +168,7 @@ class Wanted(NamedTuple):
         at = head + self.beside_head(i, way)[:, None]
         shape = len(share), len(way), len(length)
         leads = np.array([np.broadcast_to(part, shape).ravel() for part in (at, head, start, way[:, None])])
-        costs = np.broadcast_to(cost + STEP * length, shape).ravel()
-        order = np.argsort(costs, kind="stable")
-        return leads[:, order], costs[order]
+        return leads, np.broadcast_to(cost + STEP * length, shape).flatten()
 
     def beside_head(self, i: int, way: Points) -> Points:
         """Return where the middle of label i is from the heads of leaders that come in these directions."""
