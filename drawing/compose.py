@@ -391,10 +391,14 @@ def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> li
 
 
 def begins_of(views: Iterable[View]) -> list[int]:
-    """Return what begins with each view: a figure, or nothing, since it is a table or a text, perhaps of a figure."""
-    found: list[int] = []
+    """Return what begins with each view: a figure, or nothing, since it is a table or a text, perhaps of a figure.
+
+    A further part of a text belongs to the part before it as a text does to its figure.
+    """
+    found, before = list[int](), ""
     for view in views:
-        told = view.lines and found[-1:] == [FIGURE]
+        told = view.lines and (found[-1:] == [FIGURE] or view.of == before != "")
+        before = view.of
         found.append(TOLD if told else TEXT if view.rows or view.lines else FIGURE)
     return found
 
@@ -474,7 +478,10 @@ def compose(
     drawn = tuple(tuple(view.at(place.x, place.y) for view, place in page) for page in parted)
     shown = [view for page in parted for view, _ in page]
     whole = {view.name: view for view in shown if not view.of}
-    every_one = (*(whole.get(view.name, view) for view in views), *(view for view in shown if view.of))
+    for view in (view for view in views if view.of):  # what came in parts
+        whole[view.of] = after(whole[view.of], view) if view.of in whole else replace(view, of="")
+    begun = (view for view in views if view.of in ("", view.name))
+    every_one = (*(whole.get(view.name, view) for view in begun), *(view for view in shown if view.of))
     return Drawn(every_one, drawn, scales, tuple(sheets), norm, reduction)
 
 

@@ -174,6 +174,23 @@ def part_of(view: View, begin: int, end: int, heading: str) -> View:
     return _again(replace(part, name=view.name if begin == 0 else f"{view.name}_continued"), view.style)
 
 
+def paged(view: View, high: float, goes_on: str) -> Iterator[View]:
+    """Go through the parts, at most `high` mm each and nearly equal, of a table or a text that is higher than that.
+
+    Any other view comes as it is. Headings of the parts after the first one are worded by `goes_on`.
+    """
+    heading = "".join(view.heading)
+    while view.size[1] > high and view.pieces > 1:
+        most = view.pieces // math.ceil(view.size[1] / high)
+        parts = ((count, part_of(view, 0, count, "".join(view.heading))) for count in range(most, 0, -1))
+        found = next(((count, part) for count, part in parts if part.size[1] <= high), None)
+        if found is None:
+            break
+        yield found[1]
+        view = part_of(view, found[0], view.pieces, goes_on.format(heading=heading))
+    yield view
+
+
 def after(view: View, rest: View) -> View:
     """Return a part of a table or of a text with the rows or lines of the part that follows it."""
     rows = (*view.rows, *rest.rows[1:])

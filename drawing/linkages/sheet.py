@@ -25,7 +25,7 @@ from ..figure import Figure, SheetContents
 from ..formats import FORMATS, STYLES, Format, printable, room
 from ..packing import Placement
 from ..page import DATA, STATEMENT
-from ..tables import text_block
+from ..tables import paged, text_block
 from ..view import View, numbered
 from .calculations.equations import PLANS, kinematics_text
 from .calculations.forces import LOADS, WHOLE, equations_heading, force_lines, force_parts, lever_lines
@@ -388,11 +388,24 @@ class Fitting:
             sized = [(s, view, max(view.size[0] / rooms[s][0], view.size[1] / rooms[s][1])) for view, s in built if s]
             too_large = {symbol: (view, excess) for symbol, view, excess in sized if excess > 1.0}
             if not too_large:
-                return numbered(view for view, _ in built), rungs
+                return self._paged([view for view, _ in built], sheet), rungs
             for symbol, (view, excess) in too_large.items():
                 rungs[symbol] = self._next(symbol, rungs[symbol], excess)
                 if rungs[symbol] >= len(self.extents.ladders[symbol].values):
                     raise self._does_not_fit(sheet, symbol, view.size)
+
+    def _paged(self, views: Sequence[View], sheet: Format) -> list[View]:
+        """Return views with their numbers, texts that are higher than a page in parts.
+
+        Raises InputError: what no scale factor makes smaller has no room on a page.
+        """
+        wide, high = room(sheet, self.contents.norm)
+        least = min(high, room(printable(sheet), self.contents.norm)[1])
+        goes_on = self.contents.words["heading.continued"]
+        parts = [part for view in views for part in paged(view, least, goes_on)]
+        if any(part.size[0] > wide or part.size[1] > high for part in parts):
+            raise InputError("sheet-too-small", format=sheet.name)
+        return numbered(parts)
 
     def _next(self, symbol: str, rung: int, excess: float) -> int:
         """Return the next rung worth drawing for a view that is `excess` times as large as its room.

@@ -24,6 +24,7 @@ from kulman.plans.linkages.solved import conditions_of, worst_condition
 from kulman.plans.quantities import plans_of
 from kulman.scales.errors import LANGUAGES, InputError
 from kulman.tests.support.cases import as_drawn, mus, other_lengths, same_scales, some, vectors
+from kulman.tests.support.chains import chain
 from kulman.tests.support.printed_numbers import decimal
 from kulman.tests.support.readback import read
 from kulman.tests.support.task_files import task_of, with_changes
@@ -413,3 +414,15 @@ def test_letters_of_a_pdf_can_be_selected_and_faces_of_an_svg_are_whole_fonts(
             font = TTFont(BytesIO(b64decode(face)), lazy=False, checkChecksums=2)
             font.ensureDecompiled()
             assert {"OS/2", "cmap", "glyf", "head", "hhea", "hmtx", "loca", "maxp", "name", "post"} <= {*font.keys()}
+
+
+def test_a_text_that_is_higher_than_a_page_stands_in_parts_one_after_the_other() -> None:
+    sheet = kulman.sheet(task_of(chain(6)), only=["acceleration"], format="A4")
+    name = "equations_acceleration"
+    drawn = [group.name for page in sheet.pages for group in page.shapes if isinstance(group, Group)]
+    whole, first, rest = (view for view in sheet.views if name in (view.name, view.of))
+
+    assert drawn.index("acceleration") < drawn.index(name) < drawn.index(f"{name}_continued")
+    assert (whole.of, whole.lines) == ("", first.lines + rest.lines)
+    assert min(len(first.lines), len(rest.lines)) > 10
+    assert all(first.heading[0] in part.heading[0] for part in (whole, first, rest))
