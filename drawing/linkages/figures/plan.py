@@ -29,11 +29,8 @@ READABLE = 1.4  # arrowheads: the least length of a vector in an inset
 TIMES = tuple(m * 10.0**e for e in range(4) for m in (1, 2, 2.5, 4, 5) if m * 10.0**e > 1)
 WIDEST, NARROWEST = 85.0, 45.0  # mm, the largest side of what an inset shows, the least side of an inset of forces
 MARGIN, GAP = 10.0, 8.0  # mm around what it shows, and between figure and inset
-OFF = 1.0 + 1.0j  # mm between its letters and its frame
-FARTHER, EMPTIER = (
-    (0.0, 4.0, 8.0, 12.0),
-    0.15,
-)  # mm by which its frame may stand farther out, what that costs in letters
+OFF = 1.0  # mm between its letters and its frame
+NARROW, WIDER = 4.0, 8.0  # mm by which its frame stands farther out where they leave it, at least and at most
 LEAST_PLACE = 3.0  # mm, the least radius of the circle around what an inset shows
 TOGETHER = 0.7  # mm within which marks share their letters: side by side they would cover one another
 EMPTY: Mapping[str, str] = {}
@@ -58,12 +55,10 @@ class Window(NamedTuple):
         wide, high = (max(MARGIN, (narrowest - size * times) / 2) / times for size in size_of(ends))
         return cls((x0 - wide, y0 - high, x1 + wide, y1 + high), times)
 
-    def grown(self, by: float) -> Window:
-        """Return a window whose inset has its frame so many mm farther out."""
-        x0, y0, x1, y1 = self.box
-        return self._replace(
-            box=(x0 - by / self.times, y0 - by / self.times, x1 + by / self.times, y1 + by / self.times)
-        )
+    def grown(self, by: Box) -> Window:
+        """Return a window whose inset has its frame so many mm farther out, by sides."""
+        (x0, y0, x1, y1), (left, low, right, high) = self.box, (side / self.times for side in by)
+        return self._replace(box=(x0 - left, y0 - low, x1 + right, y1 + high))
 
     def shows(self, *ends: complex) -> bool:
         """Whether points stand in it."""
@@ -261,20 +256,22 @@ def _corners(box: Box) -> tuple[complex, complex, complex, complex]:
 
 
 def _roomy(plan: Plan, window: Window, figure: str, numeral: str) -> tuple[View, Window]:
-    """Return an inset and what it shows: as little around the vectors as leaves its letters inside of its frame."""
-    tries: list[tuple[float, View, Window]] = []
-    for by in FARTHER:
-        if tries and by * EMPTIER >= min(tries, key=lambda one: one[0])[0]:
-            break  # even with all letters inside it would be no better
-        wider = window.grown(by)
-        view, (x0, y0, x1, y1) = _inset(plan, wider, figure, numeral), (side * window.times for side in wider.box)
-        letters = (extent((shape,)) for shape in view.shapes if isinstance(shape, Text) and shape.role == "label")
-        free = _box((complex(x0, y0) + OFF, complex(x1, y1) - OFF))
-        out = [box for box in letters if _box((*_corners(box), *_corners(free))) != free]
-        tries.append((len(out) + by * EMPTIER, view, wider))
-        if not out:
-            break
-    return min(tries, key=lambda one: one[0])[1:]
+    """Return an inset and what it shows: more, above all where its letters leave its frame, if fewer leave it then."""
+    view = _inset(plan, window, figure, numeral)
+    if not (out := _outside(view, window)):
+        return view, window
+    x0, y0, x1, y1 = (min(WIDER, max(NARROW, *by)) for by in zip(*out, strict=True))
+    wider = window.grown((x0, y0, x1, y1))
+    again = _inset(plan, wider, figure, numeral)
+    return (again, wider) if len(_outside(again, wider)) < len(out) else (view, window)
+
+
+def _outside(view: View, window: Window) -> list[Box]:
+    """Return by how many mm on each side the letters of an inset, those that do, leave its frame."""
+    left, low, right, high = (side * window.times for side in window.box)
+    letters = (extent((shape,)) for shape in view.shapes if isinstance(shape, Text) and shape.role == "label")
+    past = ((left + OFF - x0, low + OFF - y0, x1 + OFF - right, y1 + OFF - high) for x0, y0, x1, y1 in letters)
+    return [by for by in past if max(by) > NEAR]
 
 
 def _inset(plan: Plan, window: Window, figure: str, numeral: str) -> View:
