@@ -30,6 +30,7 @@ UNBROKEN = ("leader", "shelf", "right-angle", "arrow")  # roles of thin lines th
 DOT = 1.2  # mm; what is left of a construction line beside a letter is no shorter
 # heights of its letters that a line of a heading has below it for scripts, and above for parentheses, for squares
 BELOW, PARENTHESES, SQUARES = 0.42, 1.17, 1.35
+BESIDE = 0.5  # heights of its letters on both sides of a heading, which else reads as one line with the next one
 
 
 class _Whole(NamedTuple):
@@ -390,7 +391,7 @@ def _numbered(view: View, number: int) -> View:
     for i, shape in enumerate(shapes):
         if isinstance(shape, Text) and shape.role == "heading" and shape.markup == view.heading[0]:
             text = replace(shape, markup=f"{number}. {shape.markup}")
-            half = 0.5 * lay_out(text.markup, text.height).width
+            half = 0.5 * lay_out(text.markup, text.height).width + BESIDE * text.height
             shapes[i], x0, x1 = text, min(x0, text.at.real - half), max(x1, text.at.real + half)
     return replace(view, shapes=tuple(shapes), box=(x0, y0, x1, y1))
 

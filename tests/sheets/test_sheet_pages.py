@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterator
 from functools import lru_cache
 from io import BytesIO
+from itertools import combinations
 from pathlib import Path
 
 import pytest
@@ -222,6 +223,21 @@ def test_no_plan_is_small_beside_mechanism_and_lever(task: str, variant: str) ->
 )
 def test_a_sheet_has_the_scale_factors_that_are_solved_for(task: str, variant: str) -> None:
     assert same_scales(kulman.solve(task, variant), kulman.sheet(task, variant))
+
+
+@pytest.mark.parametrize(("task", "variant"), [("scheme-01-compressor", "3"), ("scheme-02-forging-press", "1")])
+def test_headings_side_by_side_do_not_read_as_one_line(task: str, variant: str) -> None:
+    drawn = kulman.sheet(task, variant)
+    (page,) = read(drawn.svg()).pages
+    headings = [(text.area.bounds, text) for view in page.views for text in view.of("heading")]
+    gaps = [
+        max(a, b)[0] - min(a, b)[2]
+        for (a, one), (b, other) in combinations(headings, 2)
+        if abs(one.baseline - other.baseline) < 1.0
+    ]
+
+    assert len(gaps) > 3
+    assert min(gaps) > 7.5
 
 
 @pytest.mark.parametrize(
