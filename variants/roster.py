@@ -40,8 +40,8 @@ class Who:
     @classmethod
     def of(cls, about: Mapping[str, str]) -> Who:
         """Return the student of whom a file says so."""
-        said = {key: about.get(key, "") for key in WHO}
-        said["student"] = " ".join(part for key in ("student", "first") if (part := about.get(key, "")))
+        said = {key: " ".join(about.get(key, "").split()) for key in (*WHO, "first")}
+        said["student"] = f"{said['student']} {said.pop('first')}".strip()
         return cls(**said)
 
 

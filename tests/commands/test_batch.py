@@ -118,6 +118,20 @@ def test_a_student_whose_name_begins_like_a_group_stays_one(tmp_path: Path) -> N
     assert [entry.who.student for entry in read_roster(file, load_task(TASK)).entries] == ["Група Олена", "Группа"]
 
 
+def test_a_name_is_read_without_spaces_that_say_nothing_and_a_group_without_what_is_behind_it(folder: Path) -> None:
+    lines = [
+        "Список студентів групи АТ-301, осінній семестр (денна форма)",
+        "студент;варіант",
+        "Іваненко\u00a0 Іван ;3",
+    ]
+    file = folder / "list.csv"
+    file.write_text("\n".join(lines), encoding="utf-8")
+
+    (entry,) = read_roster(file, load_task(TASK)).entries
+
+    assert (entry.who.student, entry.who.group) == ("Іваненко Іван", "АТ-301")
+
+
 @pytest.mark.parametrize("said", ["1", "01", "V01", "В01", "v1", "№1", "№ 01", "Варіант 1", "вар. 01", " 1 "])
 @pytest.mark.parametrize("ids", [("1", "2"), ("V01", "V02"), ("v1", "v2"), ("01", "02")])
 def test_a_variant_is_meant_by_its_number_however_it_is_written(said: str, ids: tuple[str, ...]) -> None:
