@@ -19,7 +19,7 @@ from ..plans.boards.batch import batch
 from ..plans.boards.exact import STATUSES
 from ..plans.linkages.chain import constructed
 from ..plans.linkages.solved import board_givens
-from ..plans.quantities import results, unit_of
+from ..plans.quantities import Quantity, results, unit_of
 from ..plans.solved import Columned
 from ..scales.errors import InputError, Written
 from ..scales.names import all_known, by_name, names_of, unknown
@@ -185,11 +185,14 @@ def solve_many(
         if name not in asked.givens:
             raise unknown("given-unknown", name, asked.givens, task=asked.id)
         of = asked.givens[name].unit
+        if isinstance(value, Quantity):
+            value = float(value), value.unit
         if of is None or (name not in givens and isinstance(value, str)):  # a word, or read with the data
             first[name] = value
             continue
         if name not in givens and of.name and not isinstance(value, (tuple, Series)):  # degrees here, radians there
-            raise LocatedError(name, InputError("number-of-what", text=quote(value), unit=of.name))
+            way = f'"{value:g} {of.name}"' if isinstance(value, (int, float)) else f'(..., "{of.name}")'
+            raise LocatedError(name, InputError("number-of-what", text=quote(value), way=Written(way)))
         try:
             read[name] = _in_si(asked.givens[name], value)
         except InputError as error:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sized
 from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, SupportsFloat, TypeAlias
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
+from ..plans.quantities import Quantity
 from ..scales.errors import InputError, KulmanError, spoken
 from ..scales.givens import Bound, Described
 from ..scales.names import latin, unknown
@@ -32,7 +33,7 @@ _OF_VARIANT = ("", "v", "в")  # letters before its number that only say what it
 ENDLESS = ("inf", "+inf", "∞")  # what is infinite, as it is written, with a unit or without
 
 AnyTask: TypeAlias = "str | os.PathLike[str] | Task"  # an id or a file, or one that is read already
-Settings = Mapping[str, str | float | tuple[float, str]]  # values by name: text, number, or number and unit
+Settings = Mapping[str, str | float | tuple[float, str] | Quantity]  # values by name: text, number, or number and unit
 Instead = tuple[tuple[frozenset[str], tuple[str, ...]], ...]  # givens, and those in whose place they stand
 WITH_FORCES = frozenset(("forces", "lever"))  # plans whose units hang together in SI alone
 
@@ -64,12 +65,15 @@ class Given:
     def read(self, value: object) -> float | str:
         """Return what was written for this given: a chosen word, or a number in SI.
 
-        A quantity may be a text (`"55,5 мм"`), a number and its unit (`(55.5, "mm")`), or one in the given's own unit.
+        A quantity may be a text (`"55,5 мм"`), a number and its unit (`(55.5, "mm")`), one in the given's own unit, or
+        what `solve` has found.
         """
         if self.unit is None:
             if value not in self.choices or not isinstance(value, str):
                 raise InputError("choice-unknown", text=quote(value), known=", ".join(self.choices))
             return value
+        if isinstance(value, Quantity):
+            value = float(value), value.unit
         if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], Real) and isinstance(value[1], str):
             value = f"{float(value[0])!r} {value[1]}"
         written = value.strip().lower().partition(" ")[0] if isinstance(value, str) else value
@@ -80,7 +84,8 @@ class Given:
         elif isinstance(value, Real) and not isinstance(value, bool):
             number = plain_number(value, self.unit)
         else:
-            raise InputError("type-quantity", expected=self.unit.name)
+            several = isinstance(value, Sized)
+            raise InputError("type-quantities") if several else InputError("type-quantity", expected=self.unit.name)
         if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))
         return number

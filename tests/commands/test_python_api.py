@@ -40,7 +40,7 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "set of an unknown given": ({"set": {"l_XX": 3}}, "given-unknown"),
     "set to nan": ({"set": {"l_OA": float("nan")}}, "number-bad"),
     "set to None": ({"set": {"l_OA": None}}, "type-quantity"),
-    "set to an array": ({"set": {"l_OA": np.array([40.0, 50.0])}}, "type-quantity"),
+    "set to an array": ({"set": {"l_OA": np.array([40.0, 50.0])}}, "type-quantities"),
     "set to no choice": ({"set": {"rotation": 3}}, "choice-unknown"),
     "scale of a text": ({"scales": {"pa": "abc"}}, "number-bad"),
     "scale below zero": ({"scales": {"mu_V": -1}}, "scale-not-positive"),

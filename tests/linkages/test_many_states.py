@@ -142,8 +142,10 @@ def test_a_bad_value_of_an_array_is_named_with_its_index_and_unit(value: Any, sa
 
 
 def test_numbers_in_set_say_their_unit_where_others_are_in_si() -> None:
-    with pytest.raises(KulmanError, match='phi: 75 is a number without its unit; write "75 deg"'):
+    with pytest.raises(KulmanError, match='phi: 75 is without its unit; write "75 deg"'):
         solve_many(TASK, set={"phi": 75})
+    with pytest.raises(KulmanError, match=r'phi: \[0, 75\] is without its unit; write \(\.\.\., "deg"\)'):
+        solve_many(TASK, set={"phi": [0, 75]})
 
 
 def test_one_and_many_are_set_in_the_same_way() -> None:
@@ -158,6 +160,18 @@ def test_one_and_many_are_set_in_the_same_way() -> None:
     assert several["V_B"].tolist() == named["V_B"].tolist() == [pytest.approx(0.0, abs=1e-9), float(many["V_B"])]
     with pytest.raises(KulmanError, match="unit"):
         solve(TASK, set={"phi": (75, "mm")})
+    for several in ([0, 75], ([0, 75], "deg"), np.zeros(3)):
+        with pytest.raises(KulmanError, match="phi: several values at once are solved by"):
+            solve(TASK, set={"phi": several})  # type: ignore[dict-item]
+
+
+def test_what_has_been_found_may_be_set() -> None:
+    found = solve(TASK, "3")["l_OA"]
+
+    assert solve(TASK, set={"l_OA": found})["l_OA"].value == found.value
+    assert float(solve_many(TASK, set={"l_OA": found}, names="V_A", phi=1.0)["V_A"]) == pytest.approx(
+        solve(TASK, set={"l_OA": "40 mm", "phi": (1.0, "rad")})["V_A"].value
+    )
 
 
 @pytest.mark.parametrize(
