@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from string import ascii_lowercase
 from typing import Any
 
@@ -28,6 +29,7 @@ OF_LINK = ("omega", "epsilon", "P")  # quantities of one link: rates, instant ce
 PER_UNIT_DIGITS = 6
 
 
+@cache
 def notations() -> tuple[str, ...]:
     """Return the names of the notation profiles."""
     return tuple(sorted(path.stem for path in (home(__package__) / "notations").iterdir()))

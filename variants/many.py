@@ -228,7 +228,9 @@ def _in_si(given: Given, value: Any) -> Array:
         raise InputError("type-quantity", expected=given.unit.si.name) from None
     if not array.size:
         raise InputError("arrays-shapes", text=f"{array.shape}")
-    for worst in {int(np.argmin(array)), int(np.argmax(array)), int(np.argmin(np.abs(array)))}:
+    least, most = int(np.argmin(array)), int(np.argmax(array))
+    across = [int(np.argmin(np.abs(array)))] if array.flat[least] < 0.0 < array.flat[most] else []  # nearest to zero
+    for worst in {least, most, *across}:
         try:
             given.read(given.unit.from_si(float(array.flat[worst])))  # refuses what is none, or out of bounds
         except InputError as refused:
@@ -246,7 +248,7 @@ def _of_another_unit(task: Task, name: str, array: Array, value: Any) -> Iterato
     if given.unit is None or given.unit == given.unit.si or isinstance(value, (str, tuple, Series)) or not sizes:
         return
     least, most = min(sizes) / USUAL, max(sizes) * USUAL
-    worst = float(np.max(np.abs(array)))
+    worst = float(max(-array.min(), array.max()))
     if not least <= worst <= most and least <= converted(worst, given.unit, given.unit.si) <= most:
         own, si = UnitName(given.unit.name), UnitName(given.unit.si.name)
         example = f'{name}="{worst:g} {given.unit.name}"', f'{name}=(..., "{given.unit.name}")'
