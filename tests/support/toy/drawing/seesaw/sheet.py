@@ -26,7 +26,7 @@ class SeesawScene(SubjectScene[SolvedSeesaw]):
     mus: Mapping[str, float] = field(default_factory=dict)
 
 
-def lettered(words: Words) -> Words:
+def lettered(words: Words, solved: object = None) -> Words:
     """Return the words: letters of a seesaw are those of their names."""
     return words
 
