@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping
+from functools import partialmethod
 from itertools import chain, count
 from typing import Any, NamedTuple
 
@@ -197,7 +198,7 @@ class GeoGebraBoard(TracingBoard):
 
     def _on_drawing(self, name: str) -> Vector:
         """Return a point as it is drawn, in mm."""
-        return Vector(*(self.trace.given(f"{axis}({self._marks[name].label})") for axis in "xy"))
+        return self._vector(self._marks[name].label)
 
     def _vector(self, label: str, mu: Any = 1.0) -> Vector:
         return Vector(*(self.trace.given(f"{axis}({label})") * mu for axis in "xy"))
@@ -260,15 +261,11 @@ class GeoGebraBoard(TracingBoard):
         self.values[name] = before * 1j if isinstance(before, complex) else self._vector(label)
         return None
 
-    def _draw_lay(self, name: str, start: str, direction: str, length: str) -> None:
-        self._lay_off(name, start, direction, self.values[length])
-
-    def _draw_back(self, name: str, start: str, direction: str, length: str) -> None:
-        self._lay_off(name, start, direction, -self.values[length])
-
-    def _lay_off(self, name: str, start: str, direction: str, length: Any) -> None:
-        part = self._told_part(length / self._marks[start].mu)
+    def _draw_lay(self, name: str, start: str, direction: str, length: str, sense: float = 1.0) -> None:
+        part = self._told_part(self.values[length] * sense / self._marks[start].mu)
         self._point(name, f"{self._marks[start].label} + {part} * {self.labels[direction]}")
+
+    _draw_back = partialmethod(_draw_lay, sense=-1.0)
 
     def _draw_chain(self, name: str, start: str, vector: str) -> None:
         a, laid = self._marks[start], self._drawn.get(vector)
@@ -326,15 +323,14 @@ class GeoGebraBoard(TracingBoard):
     def _draw_arc(self, name: str, centre: str, radius: str, q: str, w: str, side: str) -> None:
         crossed = self._circle(centre, radius), self._line(q, w)
         first, second = self._crossings(crossed)
-        way = Vector(*(self.trace.given(f"{axis}({first})") - self.trace.given(f"{axis}({second})") for axis in "xy"))
+        way = self._vector(first) - self._vector(second)
         ahead = self.values[w].real * way.real + self.values[w].imag * way.imag
         self._choose_crossing(name, ahead * self.values[side], first, second)
 
     def _draw_arcs(self, name: str, first: str, radius: str, second: str, other: str, side: str) -> None:
         one, two = self._crossings((self._circle(first, radius), self._circle(second, other)))
         a, b = self._on_drawing(first), self._on_drawing(second)
-        at = Vector(*(self.trace.given(f"{axis}({one})") for axis in "xy"))
-        base, way = b - a, at - a
+        base, way = b - a, self._vector(one) - a
         aside = base.real * way.imag - base.imag * way.real
         self._choose_crossing(name, aside * self.values[side], one, two)
 

@@ -206,25 +206,25 @@ class Real:
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, complex):
             return Vector(self * other.real, self * other.imag)
-        if not isinstance(other, Real | float | int):
-            return NotImplemented
-        if isinstance(other, float | int) and abs(other) == 1.0:
-            return Real(self.trace, self.place, self.negative != (other < 0.0))
-        other = self.trace.real(other)
-        first, second = sorted((self.place, other.place))
-        return Real(self.trace, self.trace.note("multiply", (first, second)), self.negative != other.negative)
+        return self._scaled("multiply", other)
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Real | float) -> Real:
+    def __truediv__(self, other: Real | float) -> Any:
+        return self._scaled("divide", other)
+
+    def _scaled(self, operation: str, other: Any) -> Any:
+        """Return a product, whose factors may be exchanged, or a quotient; signs are not written down."""
         if not isinstance(other, Real | float | int):
             return NotImplemented
         if isinstance(other, float | int) and abs(other) == 1.0:
             return Real(self.trace, self.place, self.negative != (other < 0.0))
         other = self.trace.real(other)
-        return Real(self.trace, self.trace.note("divide", (self.place, other.place)), self.negative != other.negative)
+        places = self.place, other.place
+        noted = self.trace.note(operation, places if operation == "divide" else (min(places), max(places)))
+        return Real(self.trace, noted, self.negative != other.negative)
 
-    def __rtruediv__(self, other: float) -> Real:
+    def __rtruediv__(self, other: float) -> Any:
         return self.trace.real(other) / self
 
 
