@@ -116,6 +116,17 @@ class Check:
     quantity: str = ""  # the quantity that is compared, where it is one
     of: str = ""  # the quantity that the limit is, or is a part of, if one
 
+    @classmethod
+    def of_value(
+        cls, name: str, value: float, relation: str, limit: float, unit: str, room: float = 0.0, **more: Any
+    ) -> Self:
+        """Return the check of a value against its limit, SI, which rounding may pass by `room`; `more` are fields."""
+        if relation in (AT_LEAST, AT_MOST):
+            ok = value >= limit - room if relation == AT_LEAST else value <= limit + room
+        else:
+            ok = {MORE: value > limit, EQUAL: abs(value - limit) <= room, WITHIN: abs(value) < limit}[relation]
+        return cls(name=name, ok=bool(ok), value=value, limit=limit, relation=relation, unit=unit, **more)
+
     @property
     def sign(self) -> str:
         """The relation as a sign."""

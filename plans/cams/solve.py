@@ -372,16 +372,12 @@ def rules_of(solved: SolvedCam) -> tuple[_Rule, ...]:
     for name, (part, of, size) in sizes.items():
         limit = part * size
         if math.isfinite(size):
-            rules.append(_Rule(
-                name=f"roller_of_{name}", ok=limit * (1.0 + ROUNDING) >= R, value=R, unit="m", limit=limit,
-                relation=AT_MOST, quantity="R_roller", of=of, part=part, size=size,
-            ))  # fmt: skip
+            about = {"quantity": "R_roller", "of": of, "part": part, "size": size}
+            rules.append(_Rule.of_value(f"roller_of_{name}", R, AT_MOST, limit, "m", limit * ROUNDING, **about))
     for phase in ("gamma_rise", "gamma_fall"):
         least, permitted = float(solved.values[f"{phase}_min"]), float(solved.givens[phase])
-        rules.append(_Rule(
-            name=phase, ok=least >= permitted * (1.0 - ROUNDING), value=least, unit="rad", limit=permitted,
-            relation=AT_LEAST, quantity=f"{phase}_min",
-        ))  # fmt: skip
+        room, quantity = permitted * ROUNDING, f"{phase}_min"
+        rules.append(_Rule.of_value(phase, least, AT_LEAST, permitted, "rad", room, quantity=quantity))
     return tuple(rules)
 
 

@@ -180,13 +180,7 @@ def judged(name: str, quantity: str, sizes: Mapping[str, float], limit: float | 
     of = limit if isinstance(limit, str) else ""
     value, bound = sizes[quantity], sizes[limit] if isinstance(limit, str) else limit
     room = ROUNDING * max(abs(value), abs(bound))
-    if relation == EQUAL:
-        ok = math.isclose(value, bound, rel_tol=ROUNDING)
-    else:
-        ok = value >= bound - room if relation == AT_LEAST else value <= bound + room
-    return Check(
-        name=name, ok=ok, value=value, unit=unit_of(quantity), limit=bound, relation=relation, quantity=quantity, of=of
-    )
+    return Check.of_value(name, value, relation, bound, unit_of(quantity), room, quantity=quantity, of=of)
 
 
 def rule_of(check: Check) -> tuple[str, str]:

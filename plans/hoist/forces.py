@@ -62,9 +62,7 @@ def _validity(found: Numbers, motion: OneSided | None) -> list[Check]:
 
 def strength(values: Numbers) -> Check:
     """Return whether the rope is as safe as is required."""
-    value, limit = values["safety"], values["K"]
-    judged = {"name": STRENGTH, "quantity": "safety", "of": "K", "unit": "1", "relation": AT_LEAST}
-    return Check(ok=bool(value >= limit), value=value, limit=limit, **judged)
+    return Check.of_value(STRENGTH, values["safety"], AT_LEAST, values["K"], "1", quantity="safety", of="K")
 
 
 MOST_OF_MANY = 10_000.0  # pieces and swings of the motions of many hoists together

@@ -154,8 +154,7 @@ class _Cams(Kind[cams.Cam, "SolvedCam"]):
             name = f"undercut_{follower}"
             found.append(Check(name=name, ok=ok, value=lost, unit=of_travel, limit=0.0, relation=AT_MOST))
         if solved.plate is not None and solved.draws_profiles:
-            rho, name = float(solved.plate.profile.rho_min), "convex"
-            found.append(Check(name=name, ok=rho >= 0.0, value=rho, unit="m", limit=0.0, relation=AT_LEAST))
+            found.append(Check.of_value("convex", float(solved.plate.profile.rho_min), AT_LEAST, 0.0, "m"))
         return tuple(found)
 
     def as_drawn(self, solved: SolvedCam) -> tuple[SolvedCam, Mapping[str, str]]:

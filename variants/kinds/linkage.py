@@ -158,7 +158,7 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
             ("compound", disagreement(solved), COMPOUND_AGREES, "", ""),
         )
         return tuple(
-            Check(name=name, ok=abs(gap) < limit, value=gap, limit=limit, relation=WITHIN, unit=of, quantity=quantity)
+            Check.of_value(name, gap, WITHIN, limit, of, quantity=quantity)
             for name, gap, limit, of, quantity in routes
             if gap is not None
         )
