@@ -9,7 +9,7 @@ import cmath
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 from ..scales.scale import Display, Scale
 from ..scales.units import converted, parse, unit
@@ -34,8 +34,19 @@ UNITS = {
 }
 M_BAL, F_BAL = spelled("M", "bal"), spelled("F", "bal")
 BALANCES = (M_BAL, by_lever(M_BAL), F_BAL, by_lever(F_BAL))  # what balances the driver: by plans, by the lever
+Of = TypeVar("Of")
 RESULTS = ("read", "calc", "arm", "distance", "measure")  # verbs that make quantities
 MEETING = ("meet", "arc", "arcs", "tangent")
+
+
+def _beside(operate: Callable[[float, float], Of]) -> Callable[[Quantity, Any], Of]:
+    """Return an operator on numbers in the unit of the first quantity."""
+    return lambda own, other: operate(float(own), own._number(other))
+
+
+def _times(operate: Callable[[float, float], float]) -> Callable[[Quantity, Any], float]:
+    """Return an operator on bare numbers."""
+    return lambda own, other: operate(float(own), float(other))
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -83,46 +94,11 @@ class Quantity:
             raise TypeError(f"{self.name} is a point: it has coordinates x and y")
         return math.nan if self.value is None else self.value
 
-    def __lt__(self, other: Any) -> bool:
-        """Compare with a quantity, a text with its unit, or a number in its own unit."""
-        return float(self) < self._number(other)
-
-    def __gt__(self, other: Any) -> bool:
-        """Compare as `<` does."""
-        return float(self) > self._number(other)
-
-    def __le__(self, other: Any) -> bool:
-        """Compare as `<` does."""
-        return float(self) <= self._number(other)
-
-    def __ge__(self, other: Any) -> bool:
-        """Compare as `<` does."""
-        return float(self) >= self._number(other)
-
-    def __add__(self, other: Any) -> float:
-        """Return a number in its unit; what is added is a quantity, a text with its unit, or a number in it."""
-        return float(self) + self._number(other)
-
-    def __sub__(self, other: Any) -> float:
-        """Return a number in its unit, as `+` does."""
-        return float(self) - self._number(other)
-
-    def __mul__(self, other: Any) -> float:
-        """Return a number: units of products are not kept."""
-        return float(self) * float(other)
-
-    def __truediv__(self, other: Any) -> float:
-        """Return a number: units of ratios are not kept."""
-        return float(self) / float(other)
-
-    def __rtruediv__(self, other: Any) -> float:
-        """Return a number, as `/` does."""
-        return float(other) / float(self)
-
-    def __rsub__(self, other: Any) -> float:
-        """Return a number in its unit, as `-` does."""
-        return self._number(other) - float(self)
-
+    # compared with, and added to, a quantity, a text with its unit, or a number in the unit of this one
+    __lt__, __gt__, __le__, __ge__ = map(_beside, (float.__lt__, float.__gt__, float.__le__, float.__ge__))
+    __add__, __sub__, __rsub__ = map(_beside, (float.__add__, float.__sub__, float.__rsub__))
+    # units of products and ratios are not kept
+    __mul__, __truediv__, __rtruediv__ = map(_times, (float.__mul__, float.__truediv__, float.__rtruediv__))
     __radd__, __rmul__ = __add__, __mul__
 
     def __neg__(self) -> float:
