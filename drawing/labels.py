@@ -169,6 +169,11 @@ class Scene:
             self._bent[i] = leads[:, left], costs[left], start[few][k[left]]
         return self._bent[i]
 
+    @property
+    def shut_in(self) -> int:
+        """How many labels have no place beside their own things that covers nothing, whatever the others do."""
+        return int((self.grid.cost.min(axis=1) >= spots.COVER).sum()) if self.requests else 0
+
     def struck(self, boxes: Sequence[Box]) -> list[bool]:
         """Tell which boxes thin strokes run through."""
         return self.around.struck(boxes) if self.requests else [False] * len(boxes)

@@ -22,6 +22,7 @@ WIDE = "circle"  # the role of a circle that goes round other things
 ROUND = 48  # pieces of it, for the letters that keep clear of it
 EACH = 4  # letters left out that stand in one line of the notes
 NEAREST = (1, 4, 1000)  # letters that make room for one without a place; next time these, where it found none
+SHUT_IN = 8  # letters without a free place of their own: where they are more, not every one has ever found a place
 ELSEWHERE = " "  # of a letter that is left out: another figure has it
 NUMERAL = 2.5  # mm that letters keep away from the numeral of a detail
 BROKEN = 0.5  # mm between a letter and a line broken at it
@@ -280,8 +281,8 @@ class Canvas:
         shapes = [shape for shape in self.shapes if not (isinstance(shape, thin) and self.breaks.get(shape.role))]
         shapes = [coarser(shape, self.coarse) for shape in shapes] if self.coarse else shapes
         scene = self._scene(_obstacles(shapes, self._boxes, self.style))
-        placed, last = self._settled(scene), False
-        if placed.failed:
+        placed, last = (self._settled(scene) if scene.shut_in <= SHUT_IN else None), False
+        if placed is None or placed.failed:
             self._letters = {name: self._small(letter) for name, letter in self._letters.items()}
             scene = self._scene(scene)
             placed = self._settled(scene)
