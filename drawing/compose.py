@@ -10,7 +10,7 @@ from itertools import chain, combinations, cycle, islice, pairwise, product, tak
 
 from ..scales.scale import Scale
 from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
-from .packing import LEAST, STEPS, Placement, Size, Slicing, inset, spread
+from .packing import LEAST, STEPS, Placement, Size, Slicing, bare, inset, spread
 from .page import Page
 from .shapes import Group
 from .tables import after, larger, part_of
@@ -29,23 +29,29 @@ ENOUGH = {"A4": 0.51, "A3": 0.66, "A2": 0.66, "A1": 0.66}  # part of a page belo
 ROOMY = ENOUGH | {"A3": 0.69, "A2": 0.69, "A1": 0.69}  # part of a page below which its letters are larger
 GROWN, CROWDED = 2.0, 0.85  # times as large as before texts are then; part of a page that such views never fill
 KEPT = 8  # parts of the views of a page that are tried in reading order
+BARE = 0.105  # part of a page that may be one bare rectangle
 PIECES = 2  # rows or lines at least on each page
 
 
 def on_a_page(
-    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = (), first: bool = True
+    sizes: Sequence[Size],
+    sheet: Format,
+    norm: Norm,
+    begins: Sequence[int] = (),
+    first: bool = True,
+    loose: bool = False,
 ) -> list[Placement] | None:
     """Place views of these sizes on one page of `sheet` in reading order; return None if they do not fit.
 
     The title block stands in the lower right corner and, on the `first` page, column 26 in an upper one. A text stands
-    beside the figure before it where that can be; `begins` are as of `Pages`.
+    beside the figure before it where that can be; `begins` are as of `Pages`, and `loose` as of `spread`.
     """
     page, (x0, y0), begun = _cuts(sizes, sheet, norm, begins, first)
     if not page.fits:
         return None
     cut, room, corners = page.cut(), page.room, (len(sizes) + begun, 0 if begun else -1)
     edge = inset(cut, page.sizes, room[0])
-    spots = spread(cut, page.sizes, (edge, room[1]), (room[0] - 2.0 * edge, room[1]), *corners)
+    spots = spread(cut, page.sizes, (edge, room[1]), (room[0] - 2.0 * edge, room[1]), *corners, loose)
     places = {i: (x, y) for i, x, y in spots}
     return [Placement(0, x0 + places[i + begun][0], y0 + places[i + begun][1]) for i in range(len(sizes))]
 
@@ -390,6 +396,25 @@ def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> li
     return page
 
 
+def _without_holes(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
+    """Return a page with its views in the middle of their parts where that spares it a large bare rectangle.
+
+    They come from the upper left on in the order in which they stand.
+    """
+    room, blocks = drawing_area(sheet, norm), reserved_boxes(sheet, norm, first=first)
+
+    def hole(page: list[Standing]) -> float:
+        boxes = [(at.x, at.y, at.x + view.size[0], at.y + view.size[1]) for view, at in page]
+        return bare(room, [*boxes, *blocks]) / ((room[2] - room[0]) * (room[3] - room[1]))
+
+    if (least := hole(page)) <= BARE:
+        return page
+    views = [view for view, _ in page]
+    placed = on_a_page([view.size for view in views], sheet, norm, begins_of(views), first, loose=True)
+    other = page if placed is None else [*zip(views, placed, strict=True)]
+    return other if hole(other) < least else page
+
+
 def begins_of(views: Iterable[View]) -> list[int]:
     """Return what begins with each view: a figure, or nothing, since it is a table or a text, perhaps of a figure.
 
@@ -474,7 +499,9 @@ def compose(
                 break
     for k, paper in enumerate(sheets):
         on = paper, norm, k == 0
-        parted[k] = _as_read(_legible(parted[k], *on, end=0 < k == len(sheets) - 1), *on)
+        end = 0 < k == len(sheets) - 1
+        read = _as_read(_legible(parted[k], *on, end=end), *on)
+        parted[k] = read if end else _without_holes(read, *on)
     drawn = tuple(tuple(view.at(place.x, place.y) for view, place in page) for page in parted)
     shown = [view for page in parted for view, _ in page]
     whole = {view.name: view for view in shown if not view.of}

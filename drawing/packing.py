@@ -11,7 +11,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import product
 from typing import TYPE_CHECKING, TypeAlias
+
+from .text import Box
 
 if TYPE_CHECKING:
     import numpy as np
@@ -66,29 +69,55 @@ def inset(part: _Cut | int, sizes: Sequence[Size], wide: float) -> float:
 
 
 def spread(
-    part: _Cut | int, sizes: Sequence[Size], corner: Size, room: Size, last: int = -1, first: int = -1
+    part: _Cut | int,
+    sizes: Sequence[Size],
+    corner: Size,
+    room: Size,
+    last: int = -1,
+    first: int = -1,
+    loose: bool = False,
 ) -> Iterator[tuple[int, float, float]]:
     """Go through the views of a part with their lower left corners; `corner` is the upper left one of its `room`.
 
     What is left empty is shared out evenly between parts; a view hangs from the top of its room, in the middle of its
-    width; the `last` one stands in the lower right corner, and what alone is under the `first` one close to it.
+    width; the `last` one stands in the lower right corner, and what alone is under the `first` one close to it. In a
+    `loose` layout what is left is shared out among the parts themselves, and a view hangs in the middle of its room.
     """
     (x, y), (wide, high) = corner, room
     if isinstance(part, int):
         own = sizes[part]
-        yield (part, x + wide - own[0], y - high) if part == last else (part, x + 0.5 * (wide - own[0]), y - own[1])
+        if part == last:
+            yield part, x + wide - own[0], y - high
+        else:
+            yield part, x + 0.5 * (wide - own[0]), y - (0.5 * (high + own[1]) if loose and part != first else own[1])
         return
     inner = [_size_of(one, sizes) for one in part.parts]
     free = (wide if part.beside else high) - sum(size[not part.beside] for size in inner)
-    between = free / (len(inner) - 1)
+    between, more = free / (len(inner) - 1), 0.0
+    if loose:
+        grown = sum(one != first for one in part.parts)
+        between, more = LEAST, (free - LEAST * (len(inner) - 1)) / grown
     if not part.beside and part.parts[0] == first and len(inner) == 2:
         between = min(between, UNDER)
     for one, size in zip(part.parts, inner, strict=True):
-        yield from spread(one, sizes, (x, y), (size[0], high) if part.beside else (wide, size[1]), last, first)
+        own_wide, own_high = size[0] + more * (one != first), size[1] + more * (one != first)
+        yield from spread(one, sizes, (x, y), (own_wide, high) if part.beside else (wide, own_high), last, first, loose)
         if part.beside:
-            x += size[0] + between
+            x += own_wide + between
         else:
-            y -= size[1] + between
+            y -= own_high + between
+
+
+def bare(room: Box, taken: Sequence[Box]) -> float:
+    """Return the area of the largest rectangle in a room that none of the boxes touches, mm^2."""
+    x0, y0, x1, y1 = room
+    best, low = 0.0, sorted(taken, key=lambda box: box[1])
+    for left, right in product({x0, *(box[2] for box in taken)}, {x1, *(box[0] for box in taken)}):
+        if (right - left) * (y1 - y0) > best:
+            top = y0
+            for box in (*(box for box in low if box[0] < right and box[2] > left), (x0, y1, x1, y1)):
+                best, top = max(best, (right - left) * (box[1] - top)), max(top, box[3])
+    return best
 
 
 @dataclass(slots=True)

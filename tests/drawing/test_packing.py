@@ -23,7 +23,7 @@ from kulman.drawing.compose import (
 )
 from kulman.drawing.extents import FILL, Extent, Extents, Ladder, _area, _begun, _page, ways
 from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reserved_boxes
-from kulman.drawing.packing import LEAST, STEPS, UNDER, Placement, Slicing, _size_of, spread
+from kulman.drawing.packing import LEAST, STEPS, UNDER, Placement, Slicing, _size_of, bare, spread
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Line
 from kulman.drawing.tables import table, text_block
@@ -102,8 +102,11 @@ def test_random_views_stand_clear_in_reading_order(paper, norm, count):
         one, many = on_a_page(views, FORMATS[paper], norm), arrange(views, FORMATS[paper], norm)
         pages = judge(views, many, paper, norm)
         assert all(map(in_order, pages))
-        if one is not None:
+        loose = on_a_page(views, FORMATS[paper], norm, loose=True)
+        assert (loose is None) is (one is None)
+        if one is not None and loose is not None:
             assert one == many
+            assert all(map(in_order, judge(views, loose, paper, norm)))
             placed += 1
     assert placed > count / 10
     assert many == arrange(views, FORMATS[paper], norm)
@@ -134,6 +137,32 @@ def test_views_in_a_row_hang_from_one_line_and_slack_is_spread_evenly():
     places = {i: (x, y) for i, x, y in spread(row.cut(), row.sizes, (0.0, 200.0), row.room)}
     assert {y + row.sizes[i][1] for i, (_, y) in places.items()} == {200.0}
     assert [places[i][0] for i in range(3)] == pytest.approx([0.0, 272.5, 410.0])
+
+
+def test_in_a_loose_layout_views_hang_in_the_middle_of_equal_parts_of_what_is_left():
+    row = Slicing([(250, 120), (115, 100), (230, 200)], (640, 200))
+
+    places = {i: (x, y) for i, x, y in spread(row.cut(), row.sizes, (0.0, 200.0), row.room, loose=True)}
+
+    more = (640 - 595 - 2 * LEAST) / 3
+    assert [places[i][1] for i in range(3)] == pytest.approx([40.0, 50.0, 0.0])
+    assert [places[i][0] for i in range(3)] == pytest.approx([more / 2, 250 + LEAST + 1.5 * more, 410.0 - more / 2])
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_largest_bare_rectangle_touches_no_box(seed):
+    r = random.Random(seed)
+    cells = [(x, y) for x in range(6) for y in range(5) if r.random() < 0.3]  # boxes of a grid
+
+    area = bare((0.0, 0.0, 6.0, 5.0), [(float(x), float(y), x + 1.0, y + 1.0) for x, y in cells])
+
+    free = [
+        (c - a) * (d - b)
+        for a, c in itertools.combinations(range(7), 2)
+        for b, d in itertools.combinations(range(6), 2)
+        if not any(a <= x < c and b <= y < d for x, y in cells)
+    ]
+    assert area == max(free)
 
 
 def test_what_alone_stands_under_the_corner_hangs_close_to_it():
