@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import rect
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import count, pairwise
 from math import pi
@@ -20,6 +20,7 @@ from .text import Box, lay_out
 
 WIDE = "circle"  # the role of a circle that goes round other things
 ROUND = 48  # pieces of it, for the letters that keep clear of it
+SEVERAL, WORTH = 4, 2  # letters that notes would tell of; of these, how many must find room where letters are smaller
 EACH = 4  # letters left out that stand in one line of the notes
 NEAREST = (1, 4, 1000)  # letters that make room for one without a place; next time these, where it found none
 SHUT_IN = 8  # letters without a free place of their own: where they are more, not every one has ever found a place
@@ -239,7 +240,7 @@ class Canvas:
         drawn = name, tuple(self.shapes), box, heading, tuple(notes)
         return View(*drawn, parts=every, stages=self.stages, needs=self.needs, whole=whole)
 
-    def _left_out(self, kept: Mapping[str, _Letter]) -> list[str]:
+    def _left_out(self, kept: Collection[str]) -> list[str]:
         """Return what the notes say of letters left out: each text once, bare where no letter has what it speaks of."""
         gone = [letter for name, letter in self._letters.items() if name not in kept and letter.spare.strip()]
         each = Counter(letter.spare for letter in gone)
@@ -275,17 +276,23 @@ class Canvas:
     def _placed(self) -> tuple[dict[str, _Letter], Labels, Scene]:
         """Place the letters, all as small as texts where not every one has a place; then some are left out.
 
-        Where that does not help, either, leaders cross lines.
+        They are so, too, where `SEVERAL` would be left out else and `WORTH` fewer are then. Where that does not help,
+        either, leaders cross lines.
         """
         thin = (Line, Arc, Group)
         shapes = [shape for shape in self.shapes if not (isinstance(shape, thin) and self.breaks.get(shape.role))]
         shapes = [coarser(shape, self.coarse) for shape in shapes] if self.coarse else shapes
         scene = self._scene(_obstacles(shapes, self._boxes, self.style))
-        placed, last = (self._settled(scene) if scene.shut_in <= SHUT_IN else None), False
-        if placed is None or placed.failed:
+        letters, drawn, last = self._letters, scene, False
+        large = self._settled(scene) if scene.shut_in <= SHUT_IN else None
+        placed = large = None if large is None or large.failed else large
+        gone = 0 if large is None else len(self._left_out(large.corners))
+        if placed is None or gone >= SEVERAL:
             self._letters = {name: self._small(letter) for name, letter in self._letters.items()}
             scene = self._scene(scene)
             placed = self._settled(scene)
+            if large is not None and (placed.failed or len(self._left_out(placed.corners)) > gone - WORTH):
+                self._letters, scene, placed = letters, drawn, large
         if placed.failed and (last := any(letter.stays and letter.spare for letter in self._letters.values())):
             scene = self._scene(scene, last)
             placed = self._settled(scene, last)

@@ -237,6 +237,21 @@ def test_letter_that_may_give_way_goes_into_the_notes_where_lines_leave_no_room(
     assert roles == {"heading": "heading", "h = 1": role, "O": "label"}
 
 
+@pytest.mark.parametrize(("count", "noted"), [(3, 3), (4, 2)])
+def test_letters_are_smaller_where_several_would_be_told_in_notes_else(count: int, noted: int) -> None:
+    canvas = Canvas(STYLE)
+    canvas.add(*(Line(6j * k - 60, 6j * k + 60, Pen.MAIN) for k in range(-12, 13)))
+    for k, letter in enumerate("ABCD"[:count]):
+        at = 6j * (2 * k - 2.5) - 20
+        canvas.label(f"{letter} = 1", (at - 1, at + 1), spare=f"{letter} = 1")
+
+    view = canvas.finish("crowded", ("heading",))
+
+    labels = [shape.height for shape in view.shapes if isinstance(shape, Text) and shape.role == "label"]
+    assert labels == [STYLE.text] * (count - noted)
+    assert sum(note.count("=") for note in view.notes) == noted
+
+
 @pytest.mark.parametrize(
     "mu", ["0.005", "0.01", *(pytest.param(mu, marks=pytest.mark.soak) for mu in ("0.008", "0.012"))]
 )
