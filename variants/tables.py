@@ -12,7 +12,7 @@ from abc import ABC, abstractmethod
 from base64 import b64encode
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
 from functools import cache
 from html import escape
@@ -47,6 +47,7 @@ _WIDEST, _PIXELS = 60, 7  # characters of a column, and how wide each is
 MANY = 5_000  # rows from which on writing them takes seconds
 # who is told how much more of a long table is written, and of how much
 watching: ContextVar[Callable[[int, int], None] | None] = ContextVar("watching", default=None)
+COPIES_ON_WRITE = 3  # the version of pandas from which on a frame that shares its arrays copies what is changed
 LONGEST = 32_000  # characters of a cell: programs take 32,767
 
 
@@ -211,6 +212,8 @@ class OfCase(Result):
 class Arrays(OfCase):
     """What has been found of many states: a `Series` by the name of each quantity, in SI."""
 
+    _frames: list[Any] = field(default_factory=list, init=False, repr=False, compare=False)  # of pandas, once asked for
+
     @abstractmethod
     def arrays(self, name: str = "") -> Iterable[Columned]:
         """Go through all columns in SI: of a vector its size, `.x` and `.y`; or find the one that is asked for."""
@@ -271,21 +274,23 @@ class Arrays(OfCase):
     def to_dataframe(self) -> Any:
         """Return a pandas data frame of all columns in SI, a row for each state, their units in `attrs["units"]`.
 
+        From pandas 3 on it shares what has been found, and pandas copies a column when it is first written into.
+
         Raises InputError: pandas is not installed.
         """
         try:
             pandas = import_module("pandas")  # the user's own, if there is one
         except ImportError:
             raise InputError("pandas-missing") from None
-        import numpy as np
-
-        columns = [*self.arrays()]
-        block = np.empty((len(columns), len(self)))  # filled once; pandas would copy columns, and copy them together
-        for row, column in zip(block, columns, strict=True):
-            row.reshape(column.values.shape)[...] = column.values
-        frame = pandas.DataFrame(block.T, columns=[column.name for column in columns], copy=False)
-        frame.attrs["units"] = {column.name: column.unit for column in columns}
-        return frame
+        sharing = int(pandas.__version__.partition(".")[0]) >= COPIES_ON_WRITE
+        if not (self._frames and sharing):
+            columns = [*self.arrays()]
+            arrays = {column.name: column.values.reshape(-1) for column in columns}
+            writable = {name: array if array.flags.writeable else array.copy() for name, array in arrays.items()}
+            self._frames[:] = [pandas.DataFrame(writable, copy=not sharing)]
+            self._frames[0].attrs["units"] = {column.name: column.unit for column in columns}
+        # as long as the first one is kept, pandas knows that its arrays are not those of another one alone
+        return self._frames[0].copy(deep=False) if sharing else self._frames.pop()
 
     def data(self, language: str | None = None) -> Table:
         """Return all columns, the number of the row before them, after them what is said of each row."""

@@ -246,24 +246,50 @@ def test_a_series_keeps_its_unit_where_it_is_still_the_same_quantity() -> None:
         speeds.to("N")
 
 
-def test_states_become_a_data_frame_where_pandas_is(monkeypatch: pytest.MonkeyPatch) -> None:
+class Frame:
+    """What is asked of a data frame, and the one that shares its columns."""
+
+    def __init__(self, columns: dict[str, NDArray[Any]], copy: bool, base: Frame | None = None) -> None:
+        self.columns = {name: np.array(column) if copy else column for name, column in columns.items()}
+        self.base, self.attrs = base, dict[str, Any]() if base is None else dict(base.attrs)
+
+    def copy(self, deep: bool) -> Frame:
+        return Frame(self.columns, deep, self)
+
+
+@pytest.mark.parametrize(("version", "sharing"), [("2.3.1", False), ("3.0.0", True)])
+def test_states_become_a_data_frame_where_pandas_is(
+    version: str, sharing: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
     states = solve_many(TASK, phi=[0.1, 0.2], names="V_B")
-    made: dict[str, Any] = {}
 
-    def data_frame(block: NDArray[Any], columns: list[str], copy: bool) -> SimpleNamespace:
-        made.update(zip(columns, block.T, strict=True))
-        return SimpleNamespace(attrs={})
-
-    monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=data_frame))
-    frame = states.to_dataframe()
+    monkeypatch.setitem(sys.modules, "pandas", SimpleNamespace(DataFrame=Frame, __version__=version))
+    frame, other = states.to_dataframe(), states.to_dataframe()
     assert frame.attrs["units"] == {"phi": "rad", "V_B": "m/s", "V_B.x": "m/s", "V_B.y": "m/s"}
-    assert made["phi"].tolist() == [0.1, 0.2]
-    assert made["V_B.x"].tolist() == states["V_B.x"].tolist()
-    assert not np.shares_memory(made["V_B.x"], states.values["V_B"])  # who changes the frame changes no states
+    assert frame.columns["phi"].tolist() == [0.1, 0.2]
+    assert all(frame.columns[name].tolist() == states[name].tolist() for name in states)
+    # who changes the frame changes no states: it has its own, or shares those of a frame that is kept
+    assert np.shares_memory(frame.columns["V_B.x"], states.values["V_B"]) == sharing
+    assert (frame.base is not None and frame.base is other.base) == sharing
+    assert all(column.flags.writeable for column in frame.columns.values())
 
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(KulmanError, match="pandas"):
         states.to_dataframe()
+
+
+def test_who_changes_a_data_frame_changes_neither_states_nor_other_frames() -> None:
+    pytest.importorskip("pandas")
+    states = solve_many(TASK, phi=[[0.1, 0.2], [0.3, 0.4]], names="V_B")
+    before = {name: states[name].copy() for name in states}
+
+    frame, other = states.to_dataframe(), states.to_dataframe()
+    for name in states:
+        frame.loc[0, name] = 7.0
+
+    assert all(states[name].tolist() == before[name].tolist() for name in states)
+    assert all(other[name].tolist() == before[name].ravel().tolist() for name in states)
+    assert all(frame[name].tolist()[0] == 7.0 for name in states)
 
 
 @pytest.mark.parametrize("language", ["en", "uk"])
