@@ -52,7 +52,7 @@ class LocatedError(InputError):
         return f"{spoken(self.place, language)}: {self.cause.text(language)}"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Given:
     """One given: a quantity with its unit, or a choice between words."""
 
@@ -61,6 +61,10 @@ class Given:
     choices: tuple[str, ...] = ()
     default: float | str | None = None
     bound: Bound = Bound.FREE
+
+    def __repr__(self) -> str:
+        """Return its name, and its unit or the words to choose between."""
+        return f"<Given {self.name}: {' | '.join(self.choices) if self.unit is None else self.unit.name}>"
 
     def read(self, value: object) -> float | str:
         """Return what was written for this given: a chosen word, or a number in SI.

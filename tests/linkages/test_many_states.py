@@ -165,6 +165,12 @@ def test_one_and_many_are_set_in_the_same_way() -> None:
             solve(TASK, set={"phi": several})  # type: ignore[dict-item]
 
 
+def test_givens_say_what_they_are() -> None:
+    givens = load_task(TASK).givens
+
+    assert [repr(givens[name]) for name in ("phi", "rotation")] == ["<Given phi: deg>", "<Given rotation: cw | ccw>"]
+
+
 def test_what_has_been_found_may_be_set() -> None:
     found = solve(TASK, "3")["l_OA"]
 
