@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import cache, lru_cache
 from itertools import chain, combinations, cycle, islice, pairwise, product, takewhile
 
 from ..scales.scale import Scale
@@ -46,6 +46,15 @@ def on_a_page(
     The title block stands in the lower right corner and, on the `first` page, column 26 in an upper one. A text stands
     beside the figure before it where that can be; `begins` are as of `Pages`, and `loose` as of `spread`.
     """
+    placed = _on_a_page(tuple(sizes), sheet, norm, tuple(begins), first, loose)
+    return None if placed is None else [*placed]
+
+
+@lru_cache(maxsize=256)
+def _on_a_page(
+    sizes: tuple[Size, ...], sheet: Format, norm: Norm, begins: tuple[int, ...], first: bool, loose: bool
+) -> tuple[Placement, ...] | None:
+    """Do the same; what was tried stays, as the ways to part views into pages and to set them in order ask it again."""
     page, (x0, y0), begun = _cuts(sizes, sheet, norm, begins, first)
     if not page.fits:
         return None
@@ -53,7 +62,7 @@ def on_a_page(
     edge = inset(cut, page.sizes, room[0])
     spots = spread(cut, page.sizes, (edge, room[1]), (room[0] - 2.0 * edge, room[1]), *corners, loose)
     places = {i: (x, y) for i, x, y in spots}
-    return [Placement(0, x0 + places[i + begun][0], y0 + places[i + begun][1]) for i in range(len(sizes))]
+    return tuple(Placement(0, x0 + places[i + begun][0], y0 + places[i + begun][1]) for i in range(len(sizes)))
 
 
 def _cuts(
