@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 from types import SimpleNamespace
 
 import numpy as np
@@ -386,6 +386,22 @@ def test_letters_of_guides_stand_at_the_ends_of_their_axes(task: str, variant: s
 
 def arm_to(foot: complex, along: complex = 1j) -> _Arm:
     return _Arm(["F"], ["h_F"], foot, along, foot)
+
+
+@pytest.mark.parametrize(
+    ("task", "variant", "figure"),
+    [("scheme-02-forging-press", "7", "group_23"), ("scheme-05-articulated-rod", "0", "group_23")],
+)
+def test_an_arm_beside_a_link_stands_clear_of_it(task: str, variant: str, figure: str) -> None:
+    view = motion_and_forces(task, variant).sheet[figure]
+    arms = [s for s in view.strokes if s.path and s.path[-1][0] == "arm" and s.role == "thin" and len(s.points) == 2]
+    links = [s for s in view.strokes if s.path and s.path[-1][0] == "link" and len(s.points) == 2]
+
+    assert arms
+    for arm, link in product(arms, links):
+        for (a, b), (c, d) in product((arm.points, arm.points[::-1]), (link.points, link.points[::-1])):
+            if abs(a - c) < 2.0 * STYLE.pair:  # from one joint
+                assert abs(math.degrees(cmath.phase((b - a) / (d - c)))) > 12.0
 
 
 def test_arms_side_by_side_are_staggered_away_from_the_figure() -> None:

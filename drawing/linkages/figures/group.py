@@ -39,8 +39,7 @@ REACH = 0.345  # lengths of an arrow: from a point farther within a block it beg
 # heights of a letter around the outer part of an arrow that are enough, and that are no better; what it costs that an
 # arrow pushes, that it stands beside its line, and there towards the middle of the figure, or far
 CLEAR, WIDE, PUSHED, ASIDE, INWARD = 0.56, 0.8, 0.08, 0.42, 0.1
-CLOSE = math.cos(math.radians(12.0))  # arms that make a smaller angle run into one another
-UPON = math.cos(math.radians(5.0))  # an arm that makes a smaller angle with a line from its centre lies upon it
+CLOSE = math.cos(math.radians(12.0))  # arms that make a smaller angle run into one another, or into a line there
 STEP, TRIES = 2.4, 6  # heights of an arm's letters between arms that are staggered; how often one is moved
 TURNING = 2.0  # rad, the arrow of a couple
 OF_FOOT = 2  # steps by which an arm is moved past the foot of a pivot
@@ -114,7 +113,7 @@ def _staggered(
     for reach, i in sorted((abs(own.foot - pole), i) for i, own in enumerate(arms) if abs(own.foot - pole) >= LEAST):
         way = (arms[i].foot - pole) * (1.0 / reach)
         first = next((other for other in bundles if (way.conjugate() * other).real > CLOSE), way)
-        if first not in bundles and any((way.conjugate() * ray).real > UPON for ray in rays):
+        if first not in bundles and any((way.conjugate() * ray).real > CLOSE for ray in rays):
             bundles[first] = past
         if first in bundles:
             shifts[i] = outward(arms[i], pole, middle) * STEP * style.text * bundles[first]
