@@ -443,7 +443,8 @@ def _obstacles(shapes: list[Shape], boxes: list[Box], style: Style) -> Obstacles
     def gather(shape: Shape, whole: bool = False) -> None:
         match shape:
             case Line() | Polyline() | Arc():
-                strokes[whole or shape.pen is Pen.MAIN or shape.role in UNBROKEN].extend(sides_of(shape))
+                filled = isinstance(shape, Polyline) and shape.fill not in (False, "white")
+                strokes[whole or filled or shape.pen is Pen.MAIN or shape.role in UNBROKEN].extend(sides_of(shape))
             case Circle(centre=centre, radius=radius):
                 circles.append((centre, radius))
             case Head(tip=tip, direction=direction):

@@ -237,6 +237,14 @@ def test_letter_that_may_give_way_goes_into_the_notes_where_lines_leave_no_room(
     assert roles == {"heading": "heading", "h = 1": role, "O": "label"}
 
 
+def test_no_letter_touches_the_filled_corner_of_a_rigid_link() -> None:
+    view = read(sheet("scheme-18-hydraulic-drive", "2", format="A1").svg())["group_23"]
+
+    corners = [stroke for stroke in view.strokes if stroke.role == "rigid"]
+    assert len(corners) == 3
+    assert not [text.string for text in view.texts for c in corners if shapely.intersects(text.area, c.ink)]
+
+
 @pytest.mark.parametrize(("count", "noted"), [(3, 3), (4, 2)])
 def test_letters_are_smaller_where_several_would_be_told_in_notes_else(count: int, noted: int) -> None:
     canvas = Canvas(STYLE)
