@@ -172,7 +172,7 @@ def _letter(axes: Axes, contest: Contest, kind: str, words: Words) -> None:
 def _setting(entry: Entry) -> str:
     """Return the setting of a method as its point has it.
 
-    >>> setting(Entry("plan", 1000, "velocity", None, None, "", 0.0, None, 1, 0.0))
+    >>> _setting(Entry("plan", 1000, "velocity", None, None, "", 0.0, None, 1, 0.0))
     '10³'
     """
     if entry.method in SECTIONED or isinstance(entry.setting, str):
