@@ -34,7 +34,7 @@ the next section line. All of it is drawn in millimetres of paper: scale factors
 
 Marks, on the plans `diagram_a`, `diagram_v`, `diagram_s`: `0` the origin, where the curve begins; `1`, `2`, ... the
 nodes of the curve on the section lines; `f1` the foot of a section line; on a diagram that is integrated `O` the pole,
-`m1` the mean ordinate of the first section, `p1` its projection; `ray(plan, 1)` names the direction of the ray.
+`m1` the mean ordinate of the first section, `p1` its projection; `_ray(plan, 1)` names the direction of the ray.
 
 Lengths on paper are metres of paper; scale factors are values in SI per millimetre.
 
