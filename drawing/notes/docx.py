@@ -362,7 +362,7 @@ def _title(document: Document) -> Iterator[str]:
     share = usual.size * usual.lines / (looks.size * looks.lines)
     names, date = (f'<w:spacing w:before="{round(mm * share * TWIPS)}"/>' for mm in _BEFORE)
     for name in ("student", "group", "teacher"):
-        value = _words(getattr(page, name) or "_" * 24)
+        value = _words(getattr(page, name)) or "<w:r><w:tab/></w:r>"  # to the right edge, over a line
         yield _paragraph("TitleName", f"{_words(said[f'title.{name}'])}<w:r><w:tab/></w:r>{value}", names)
         names = ""
     yield _paragraph("TitleLine", _words(page.date), date)
@@ -374,15 +374,17 @@ def _contents(document: Document) -> Iterator[str]:
     yield _paragraph("TOCHeading", _words(packaged(__package__, "texts", document.language)["contents"].upper()))
     before = _begun(r'TOC \o "1-2" \h \z \u')
     entries = [block for block in document.blocks if isinstance(block, Heading)]
+    ends = len(entries) if isinstance(document.blocks[0], Heading) else 0  # the last entry; a heading begins its page
     counted = accumulate(block.numbered for block in entries)
     for number, (block, place) in enumerate(zip(entries, counted, strict=True), 1):
         entry = f"{f'{place} ' if block.numbered else ''}{note.letters(block.text)}"
         page = _begun(rf"PAGEREF {_mark(number)} \h") + _END
         shown = f"{_words(entry)}<w:r><w:tab/></w:r>{page}"
         linked = f'<w:hyperlink w:anchor="{_mark(number)}" w:history="1">{shown}</w:hyperlink>'
-        yield _paragraph("TOC1", before + linked)
+        yield _paragraph("TOC1", before + linked + (_END if number == ends else ""))
         before = ""
-    yield _paragraph("TOC1", f'{before}{_END}<w:r><w:br w:type="page"/></w:r>')
+    if not ends:
+        yield _paragraph("TOC1", f'{before}{_END}<w:r><w:br w:type="page"/></w:r>')
 
 
 def blocks_in_word(document: Document, pictures: Sequence[Picture]) -> str:
@@ -410,7 +412,8 @@ def _block(
     match block:
         case Heading(text=text, numbered=numbered):
             marked = _bookmark(line(text), _mark(number), number)  # the contents lead there
-            yield _paragraph("Heading1", marked, "" if numbered else UNNUMBERED)
+            page = "<w:pageBreakBefore/>" if number == 1 else ""  # behind the contents, however full their page is
+            yield _paragraph("Heading1", marked, page + ("" if numbered else UNNUMBERED))
         case Sentences(texts=texts, leads=leads):
             yield _paragraph("", _words(" ").join(map(line, texts)), KEPT if leads else "")
         case Steps(texts=texts):

@@ -327,6 +327,18 @@ def test_pictures_are_as_large_as_the_figures() -> None:
         assert {etree.QName(element).localname for element in svg.iter()} & {"text", "style", "image"} == set()
 
 
+def test_names_that_are_missing_are_a_line_to_the_edge_and_the_text_begins_its_page_itself() -> None:
+    looks = note("nau-slider-crank", "3", only="velocity", lang="ru", student="І. Петренко").document
+
+    paragraphs = [*part(docx_bytes(looks), "document").iter(f"{W}p")]
+
+    names = [one for one in paragraphs if "TitleName" in [of.get(f"{W}val") for of in one.iter(f"{W}pStyle")]]
+    assert [len([*one.iter(f"{W}tab")]) for one in names] == [1, 2, 2]  # the student, group and teacher
+    assert not any("_" in text for one in names for text in one.itertext())
+    assert not any(True for one in paragraphs for _ in one.iter(f"{W}br") if _.get(f"{W}type") == "page")
+    assert sum(1 for one in paragraphs for _ in one.iter(f"{W}pageBreakBefore")) == 1
+
+
 @pytest.mark.parametrize("profile", ["plain", "dstu3008"])
 def test_the_title_is_one_page_under_a_title_of_two_lines(profile: str) -> None:
     looks = note("nau-slider-crank", "3", only="velocity", student="І. Петренко", profile=profile).document
