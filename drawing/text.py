@@ -7,7 +7,7 @@ twice: known by direction, known in full); it may be nested. `\{ \} \\ \_ \^` st
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass
@@ -114,6 +114,7 @@ class Ruling(NamedTuple):
 
 
 Piece: TypeAlias = str | Ruling | dict[str, list["Piece"]]  # plain characters, a ruled group, scripts by `_` and `^`
+Told: TypeAlias = Iterable[tuple[Piece, bool]]  # pieces, and whether each is a symbol or stands at one
 
 
 def read(markup: str) -> list[Piece]:
@@ -185,7 +186,7 @@ def lay_out(markup: str, height: float) -> _TextLayout:
 @lru_cache(maxsize=8192)
 def _lay_out(markup: str, height: float, lettering: _Lettering) -> _TextLayout:
     pen = _Pen(lettering)
-    width, top, bottom = pen.line(read(markup), 0.0, 0.0, height, height)
+    width, top, bottom = pen.line(_told(markup, lettering.latin_units), 0.0, 0.0, height, height)
     if top < bottom:
         top = bottom = 0.0
     left = [run.x - font(run.face).beyond(run.string[0])[0] * run.size for run in pen.runs]
@@ -194,6 +195,12 @@ def _lay_out(markup: str, height: float, lettering: _Lettering) -> _TextLayout:
     right += [rule[2] for rule in pen.rules]
     ends = min(left, default=0.0), max(right, default=0.0)
     return _TextLayout(tuple(pen.runs), tuple(pen.rules), width, top, bottom, *ends)
+
+
+@lru_cache(maxsize=8192)
+def _told(markup: str, latin_units: bool) -> list[tuple[Piece, bool]]:
+    """Return the pieces of a line, told apart: the same whatever its height."""
+    return [*told_apart(read(markup), latin_units)]
 
 
 def told_apart(pieces: list[Piece], latin_units: bool = True) -> Iterator[tuple[Piece, bool]]:
@@ -263,10 +270,10 @@ class _Pen:
         self.runs: list[Run] = []
         self.rules: list[Box] = []
 
-    def line(self, pieces: list[Piece], x: float, y: float, height: float, base: float, leaning: bool = False) -> _Span:
+    def line(self, pieces: Told, x: float, y: float, height: float, base: float, leaning: bool = False) -> _Span:
         """Lay out pieces one after the other; all of them lean that stand at a symbol, as its scripts do."""
         start, over, (top, bottom) = x, 0.0, _NO_INK
-        told = ((piece, leaning or is_symbol) for piece, is_symbol in told_apart(pieces, self.latin_units))
+        told = ((piece, leaning or is_symbol) for piece, is_symbol in pieces)
         for (plain, leans), alike in groupby(told, lambda one: (isinstance(one[0], str), one[1])):
             parts = [piece for piece, _ in alike]
             for piece in ("".join(map(str, parts)),) if plain else parts:
@@ -306,7 +313,7 @@ class _Pen:
 
     def ruled(self, group: Ruling, x: float, y: float, height: float, base: float, leans: bool) -> _Span:
         """Lay out a group with a vector bar over it, or one or two lines under it."""
-        width, top, bottom = self.line(group.pieces, x, y, height, base, leans)
+        width, top, bottom = self.line(told_apart(group.pieces, self.latin_units), x, y, height, base, leans)
         if top < bottom:
             top = bottom = y
         gap = GAP * height
@@ -330,7 +337,8 @@ class _Pen:
             if mark == "^":
                 shift = LIFT * height
                 aside = CLEAR * height + (SLOPE * shift if self.faces[leans] == SLANTED else 0.0)
-            wide, high, low = self.line(pieces, x + aside, y + shift, SCRIPT * base, base, leans)
+            told = told_apart(pieces, self.latin_units)
+            wide, high, low = self.line(told, x + aside, y + shift, SCRIPT * base, base, leans)
             width, top, bottom = max(width, aside + wide), max(top, high), min(bottom, low)
         return width + BEHIND * height, top, bottom
 
