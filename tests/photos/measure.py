@@ -148,7 +148,8 @@ def compared(figures: Figures, sheet: Sheet, truth: dict[str, Truth], marked: Ma
     read = marked.seen.recognised.vectors if marked and marked.seen else {}
     verdicts = {line.name: line.verdict for line in marked.lines} if marked else {}
     for name, one in truth.items():
-        if abs(one.tip - one.tail) < LONG or name not in sheet.keyed.key.questions:
+        question = sheet.keyed.key.questions.get(name)
+        if abs(one.tip - one.tail) < LONG or question is None or not question.vector:  # a moment's force is a number
             continue
         figures.vectors += 1
         if name not in read or read[name].plan != one.plan or not marked or not marked.sheets:

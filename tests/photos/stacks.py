@@ -46,7 +46,7 @@ def stack_of(
 ) -> Stack:
     """Draw and photograph a page of each of the students; the last ones have forgotten their names.
 
-    The `seed` is one of which something is asked of each student of the small stack.
+    The `seed` is one of which something is asked of the first student of the small stack.
     """
     random, truth, made = np.random.default_rng(seed), dict[str, dict[str, Truth]](), dict[str, bytes]()
     named, whose = len(students) - nameless, dict[str, int]()

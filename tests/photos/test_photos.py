@@ -591,6 +591,32 @@ def test_lines_are_read_as_they_are_drawn_not_as_they_should_be() -> None:
     assert errors.max() < 0.3
 
 
+def test_the_darker_line_of_a_neighbour_is_not_taken() -> None:
+    pole, end, beside, other = 20 + 20j, 90 + 20j, 88 + 21.1j, 88 + 45j
+    dark = pencil_of([(pole, end)], [(pole, end)]).dark
+    pale = pencil_of([(pole, beside), (other, beside)], [(pole, beside)]).dark * 0.75
+    way = plan_of([0j, end - pole, beside - pole, other - pole], (0, 1), (0, 2), (3, 2))
+
+    points, errors, _ = traced(
+        Pencil(np.maximum(dark, pale.astype(np.uint8))), way, pole + way.places, pole + way.places, pole
+    )
+
+    assert abs(points[1:3] - [end, beside]).max() < 0.3
+    assert errors[1:3].max() < 0.5
+
+
+def test_an_end_where_it_should_be_tells_of_lines_nearly_in_one_direction() -> None:
+    pole, end = 90 + 20j, 30 + 20j
+    beside = end - 1.7j
+    pencil = pencil_of([(pole, end), (end, beside), (beside, pole)], [(pole, end), (beside, pole)])
+    way = plan_of([0j, end - pole, beside - pole], (0, 1), (1, 2), (2, 0))
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert abs(points - [pole, end, beside]).max() < 0.4
+    assert errors.max() < 0.5
+
+
 def test_a_sheet_printed_smaller_is_noticed() -> None:
     sheet = sheet_for(TASK, only=PLANS)
     number, pole = sheet.poles["velocity"]

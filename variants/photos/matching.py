@@ -25,13 +25,13 @@ from .traced import Pencil, Traced, between, senses, traced
 LONG = 4.0  # mm of a vector whose line is sought
 OFF, SKEW, TURN = (3.0, 1.5), 1.0, 0.03  # mm a line may be off at first, and then; mm at its ends and sine besides
 COVER, FREE = 0.6, 1.5  # part of a vector that its line covers at the least; mm at its ends that it need not
-GOOD = 0.7  # mm off that count little
+GOOD, WORSE = 0.7, 4.0  # mm off that count little; times that at which a line counts half
 NEAR = 2.0  # mm from where a point should be within which an end or an arrow tells of it
 POLE = 0.15  # mm, error of a line that begins at a printed pole
 WHOLE, ENOUGH = 0.97, 0.75  # part of a plan: all of it; that must be there
 BETTER, ABSENT = 5.0, 0.5  # mm more of a plan with a mistake than of the right one; part that counts against it
-LIKELY = 4  # plans with a mistake that are looked at closely
-SURE = 0.5  # mm, error of an end from which a vector is not sure
+LIKELY = 8  # plans with a mistake that are looked at closely
+SURE = 0.7  # mm, error of an end from which a vector is not sure; those that end so are 0.3 mm off
 ALIKE = 0.7  # mm within which ends and arrows are those of one point
 STEEP = 0.2  # sine of lines between which a point is told by their crossing
 LOST = 99.0  # mm, error of a point of which nothing is known
@@ -144,6 +144,8 @@ def _traced(lines: _Lines, fit: _Fit, pole: complex, mu: float) -> _Fit:
     for begun in (wanted, np.where(near, fit.points, wanted)):
         points, errors, found = traced(lines.pencil, way, wanted, begun, pole)
         good = np.array([found[number].part if number in found else 0.0 for number in range(len(way.lines))])
+        off = np.clip(np.abs(points - wanted) - GOOD, 0.0, OFF[0])  # a line that ends elsewhere is another's
+        good /= 1.0 + np.maximum(off[way.tails[way.lines]], off[way.tips[way.lines]]) ** 2 / (GOOD * WORSE) ** 2
         own = replace(_fitted(way, mu, points, errors, fit.times, good), lines=found)
         if best is fit or own.quality > best.quality:
             best = own
@@ -190,7 +192,7 @@ def _lines(lines: _Lines, way: Way, wanted: Complex, within: float) -> tuple[NDA
     own = cost.argmin(axis=1)
     least = cost[np.arange(len(own)), own]
     found = np.isfinite(least)
-    good = np.where(found, 1.0 / (1.0 + np.where(found, least, 0.0) / 16.0), 0.0)
+    good = np.where(found, 1.0 / (1.0 + np.where(found, least, 0.0) / WORSE**2), 0.0)
     return np.where(found, own, -1), good
 
 

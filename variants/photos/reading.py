@@ -36,7 +36,7 @@ from ..marking.reading import Ends, Reply
 from ..marking.seen import Seen
 from ..sheets import PAPER, drawing_for_print, scan_code, scannable_of_case
 from .free import laid_flat, plans_on, quarters_of, turned, ways_of
-from .matching import lines_of, matched
+from .matching import WHOLE, lines_of, matched
 from .pictures import Photo, grey_of
 from .straight import ASTRAY, PER_MM, flat, framed, straightened
 from .strokes import Ink, Stroke, strokes
@@ -484,6 +484,9 @@ def _doubtful(
         return True
     right = complex(keyed.key[name]) / sheets.blank.mus[vector.plan] * sheets.printed
     if abs(way - right) <= OFF + ASTRAY_PART * abs(right):
+        return False
+    plan = found.plans[vector.plan]
+    if plan.mistake and plan.quality >= WHOLE:  # all of a plan tells more than what else lies on the right place
         return False
     if abs(right) < SHORT or page.covered(tail, tail + right) < COVERED:
         return False

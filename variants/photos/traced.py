@@ -28,8 +28,8 @@ ALONG, ACROSS = 0.25, 0.1  # mm between places along a line, and across it
 MOST = 160  # places along a line that is sought
 FAINT = 0.05  # darkness of a line at the least
 THERE = 0.75  # part of a line that must be dark
-STRAY = 0.15  # what a line loses that is as far aside as it may be
-FALL, ROUND = 0.5, 0.15  # part of its darkness at which a line ends; mm that ends are rounded
+FULL, STRAY = 0.7, 0.3  # of the darkest, from where a line is as good; what it loses as far aside as it may be
+FALL, ROUND = 0.5, 0.25  # part of its darkness at which a line ends; mm that its end is rounded, half its width
 REACH, CLEAR = 3.0, 1.2  # mm beside where a line should end, that it may; that must be clear beyond
 WINGS = tuple(math.radians(degrees) for degrees in (10.0, 13.0, 16.0, 20.0, 25.0))  # of arrowheads, half
 WING, APART = 3.2, 0.55  # mm of a wing at the most; mm from its line where it is told from that
@@ -39,15 +39,17 @@ POINTED, BARE = 0.55, 0.3  # parts of how dark their line is that wings must be,
 CLEARLY = 0.85  # the same of wings that must not be other lines
 DOUBTED = 0.2  # part by which wings at the wrong end are darker from which they make the sense doubtful
 TOUCHED, BESIDE, FEWEST = 0.95, 0.5, 5  # cosine, mm from which others may have wings, be these; places that tell
-POLE, ENDING, POINTING = 0.15, 0.35, 0.3  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
+POLE, ENDING, POINTING = 0.15, 0.2, 0.3  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
+PLACED = 0.2  # mm, error of a point that should lie on a line, and is put there by eye
 NEAR = 1.0  # mm that a point may be from where it should be, as far as nothing tells
 LIKELY = 2.5  # errors between a crossing and an end that is that of the point
 STRAYED = 1.2  # mm from where a point should be that an end or an arrowhead alone tells of it
 BESIDES = 1.4  # mm between a point and where the end of a line with its arrowhead has it
 ALIKE = 0.8  # mm within which ends and arrowheads are those of one point
 FLAT, TOLD = 0.6, 1.5  # mm, error of a crossing that ends must tell; from which a single end does not
-TIE = 0.1, 0.35  # mm, error of a short vector; part of it
+TIE = 0.2, 0.15  # mm, error of a short vector; part of it
 FAR = 3.0  # mm from where it should be that no point is
+ROUNDS, STRANGE = 6, 2.5  # of solving; errors off at which an equation counts half
 LOST = 99.0  # mm, error of a point of which nothing is known
 
 Complex = NDArray[np.complex128]
@@ -159,7 +161,7 @@ def _line(pencil: Pencil, tail: complex, tip: complex, aside: float, step: float
     if seen.sum() < max(4, 0.25 * count) or hidden.all(axis=0).any():
         return None
     level = max(float(np.median(strip[seen].max(axis=1))), FAINT)
-    strip = np.where(hidden, np.nan, np.minimum(strip / level, 1.0))
+    strip = np.where(hidden, np.nan, np.minimum(strip / (FULL * level), 1.0))
     offs = np.arange(-aside, aside + step / 2, step)
     first, last = (one.ravel() for one in np.meshgrid(offs, offs, indexing="ij"))
     part = along / size
@@ -369,7 +371,7 @@ def _solved(
         own = {n for n in found if mark in (way.tails[way.lines[n]], way.tips[way.lines[n]])}
         if own:
             for n in sorted(own | {n for n in np.flatnonzero(between(way, mark)).tolist() if n in found}):
-                rows.add(mark, 1j * found[n].unit, found[n].through, LINE)
+                rows.add(mark, 1j * found[n].unit, found[n].through, LINE if n in own else PLACED)
         if abs(way.places[mark]) <= 1e-9 * way.longest:
             rows.add(mark, 1.0, pole, POLE)
             rows.add(mark, 1j, pole, POLE)
@@ -379,10 +381,16 @@ def _solved(
             for unit in (1.0, 1j):
                 rows.tie(tail, tip, unit, span, TIE[0] + TIE[1] * abs(span))
     crossings, errors = rows.solved()
-    for mark, some in spots.items():
-        for spot in _telling(some, complex(crossings[mark]), float(errors[mark]), complex(wanted[mark])):
-            rows.add(mark, spot.unit, spot.place, spot.error)
-    return rows.solved()
+    left = {mark: [*some] for mark, some in spots.items()}
+    for _ in range(2):  # an end tells where its neighbours are that short vectors join
+        for mark, some in left.items():
+            told = _telling(some, complex(crossings[mark]), float(errors[mark]), complex(wanted[mark]))
+            for spot in told:
+                rows.add(mark, spot.unit, spot.place, spot.error)
+            if told:
+                left[mark] = []
+        crossings, errors = rows.solved()
+    return crossings, errors
 
 
 def _telling(spots: list[_Spot], crossing: complex, error: float, wanted: complex) -> list[_Spot]:
@@ -396,6 +404,7 @@ def _telling(spots: list[_Spot], crossing: complex, error: float, wanted: comple
         return near
     apart = max((abs(dot(one.unit, one.place - other.place)) for one in near for other in near), default=LOST)
     alone = len(near) < 2 and not any(spot.arrow for spot in near) and error > TOLD
+    alone &= any(abs(dot(spot.unit, spot.place - wanted)) > ALIKE for spot in near)
     strayed = any(abs(dot(spot.unit, spot.place - wanted)) > STRAYED for spot in near)
     return [] if apart > ALIKE or alone or strayed else near
 
@@ -424,10 +433,16 @@ class _Rows:
         self.right.append(float(dot(unit, span - self.points[tip] + self.points[tail])) / error)
 
     def solved(self) -> tuple[Complex, Floats]:
-        """Return the points and their errors; what nothing tells stays where it is, and its error is large."""
-        rows = np.array(self.rows).reshape(len(self.rows), -1)
-        own, free = rows.T @ rows, np.eye(2 * len(self.points))
-        x = np.linalg.solve(own + free / NEAR**2, rows.T @ np.array(self.right)) if len(rows) else np.zeros(len(free))
-        spread = np.diag(np.linalg.inv(own + free / LOST**2)) if len(rows) else np.full(len(free), LOST**2)
+        """Return the points and their errors; what nothing tells stays where it is, and its error is large.
+
+        An equation that most others contradict counts less and less: the line of a neighbour may have been taken.
+        """
+        rows, right = np.array(self.rows).reshape(len(self.rows), 2 * len(self.points)), np.array(self.right)
+        free, weight = np.eye(2 * len(self.points)), np.ones(len(rows))
+        for _ in range(ROUNDS):
+            own = (weight * rows.T) @ rows
+            x = np.linalg.solve(own + free / NEAR**2, (weight * rows.T) @ right)
+            weight = 1.0 / (1.0 + ((rows @ x - right) / STRANGE) ** 2)
+        spread = np.diag(np.linalg.inv(own + free / LOST**2))
         moved = x.reshape(-1, 2)
         return self.points + moved[:, 0] + 1j * moved[:, 1], np.sqrt(spread.reshape(-1, 2).sum(axis=1))
