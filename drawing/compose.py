@@ -19,7 +19,7 @@ from .view import View
 
 HELD, BESIDE = 9, 1  # bonds of the corners to the views beside them, of a text to the figure before it
 SOON = 5  # views from which one may stand on a page before its turn
-TRIES, NEARLY = 600, 1.2  # orders that are tried for the only page; how much more height than it has all may need
+TRIES, NEARLY = 60, 1.2  # orders that are tried for the only page; how much more height than it has all may need
 ALONE = 0.95  # part of the width of a page that leaves no room for a view beside
 FULL = 0.69  # part of a page that views should take at least before the next one begins
 TOLD, TEXT, FIGURE, GROUP, PART = range(-2, 3)  # what may begin with a view
@@ -120,9 +120,9 @@ def in_any_order(
 
     Views in the order of the work change places in pairs, those from wide to narrow move one at a time, as long as all
     need less height then, and once there is room as long as fewer stand before what comes before them. Texts with which
-    the page begins stay first; `begins` are as of `Pages`.
+    the page begins stay first, and the figure after them; `begins` are as of `Pages`.
     """
-    lead = _lead(begins)
+    lead = [*range(len(_lead(begins)) + 1)]
     rest = [*range(len(lead), len(sizes))]
 
     def high(order: Sequence[int]) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Mapping, Sized
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
@@ -88,7 +88,7 @@ class Given:
         elif isinstance(value, Real) and not isinstance(value, bool):
             number = plain_number(value, self.unit)
         else:
-            several = isinstance(value, Sized)
+            several = hasattr(value, "__array__")  # an array or a column of Python; a task file has lists alone
             raise InputError("type-quantities") if several else InputError("type-quantity", expected=self.unit.name)
         if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))

@@ -180,7 +180,7 @@ def test_the_drawing_of_a_cycle_has_a_title_block(folder: Path, run: Run) -> Non
     said = ("--student", "О. Бойко", "--group", "АТ-301", "--teacher", "І. Коваль")
 
     assert run("sweep", TASK, *said, "--positions", "6", "--only", "acceleration", "-o", "cycle.svg")[0] == 0
-    text = Path("cycle-1.svg").read_text(encoding="utf-8")
+    text = min(Path().glob("cycle*.svg")).read_text(encoding="utf-8")  # the first page, or the only one
     assert all(word in text for word in said[1::2])
 
 

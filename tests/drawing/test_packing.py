@@ -257,7 +257,8 @@ def test_views_of_the_only_page_stand_in_any_order_where_no_usual_one_has_room(h
     assert (places is not None) is (high < 400)  # more than the page holds
     if places:
         judge(views, places, "A1")
-        assert all(places[0].x <= place.x for place in places)  # what is given stays first
+        beside = [place.x + wide for place, (wide, _) in zip(places, views, strict=True)]
+        assert all(places[0].x < right for right in beside)  # nothing stands left of what is given
 
 
 def test_what_is_kept_long_becomes_smaller_after_the_others_and_nothing_could_be_larger():
