@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sized
 from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
@@ -88,8 +88,7 @@ class Given:
         elif isinstance(value, Real) and not isinstance(value, bool):
             number = plain_number(value, self.unit)
         else:
-            several = hasattr(value, "__array__")  # an array or a column of Python; a task file has lists alone
-            raise InputError("type-quantities") if several else InputError("type-quantity", expected=self.unit.name)
+            raise InputError("type-quantity", expected=self.unit.name)
         if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))
         return number
@@ -222,7 +221,8 @@ class Task:
             try:
                 resolved[name] = self.givens[name].read(value)
             except InputError as error:
-                raise LocatedError(name, error) from error
+                several = error.key == "type-quantity" and isinstance(value, Sized)
+                raise LocatedError(name, InputError("type-quantities") if several else error) from error
         return {name: value for name, value in resolved.items() if value is not None}
 
     def values(self, variant_id: str | None = None, settings: Settings | None = None) -> dict[str, float]:
