@@ -185,7 +185,7 @@ def solve_many(
         if name not in asked.givens:
             raise unknown("given-unknown", name, asked.givens, task=asked.id)
         of = asked.givens[name].unit
-        if isinstance(value, Quantity):
+        if isinstance(value, Quantity) and value.kind != "point":
             value = float(value), value.unit
         if of is None or (name not in givens and isinstance(value, str)):  # a word, or read with the data
             first[name] = value

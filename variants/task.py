@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sized
 from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, SupportsFloat, TypeAlias
+from typing import TYPE_CHECKING, SupportsFloat, TypeAlias, TypeGuard
 
 from ..plans.linkages.mechanism import ZERO, Mechanism
 from ..plans.quantities import Quantity
@@ -76,22 +76,26 @@ class Given:
             if value not in self.choices or not isinstance(value, str):
                 raise InputError("choice-unknown", text=quote(value), known=", ".join(self.choices))
             return value
-        if isinstance(value, Quantity):
+        if isinstance(value, Quantity) and value.kind != "point":
             value = float(value), value.unit
-        if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], Real) and isinstance(value[1], str):
+        if isinstance(value, tuple) and len(value) == 2 and _is_number(value[0]) and isinstance(value[1], str):
             value = f"{float(value[0])!r} {value[1]}"
         written = value.strip().lower().partition(" ")[0] if isinstance(value, str) else value
         if self.bound is Bound.RIGID and written in (*ENDLESS, math.inf):
             return math.inf
         if isinstance(value, str):
             number = parse(value, self.unit, self.unit)
-        elif isinstance(value, Real) and not isinstance(value, bool):
+        elif _is_number(value):
             number = plain_number(value, self.unit)
         else:
             raise InputError("type-quantity", expected=self.unit.name)
         if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))
         return number
+
+
+def _is_number(value: object) -> TypeGuard[Real]:
+    return isinstance(value, Real) and not isinstance(value, bool)
 
 
 def decoded(data: bytes) -> str:
@@ -221,7 +225,9 @@ class Task:
             try:
                 resolved[name] = self.givens[name].read(value)
             except InputError as error:
-                several = error.key == "type-quantity" and isinstance(value, Sized)
+                numbers = value[0] if isinstance(value, tuple) and value else value
+                several = error.key == "type-quantity" and isinstance(numbers, Sized)
+                several = several and not isinstance(numbers, (str, Mapping))
                 raise LocatedError(name, InputError("type-quantities") if several else error) from error
         return {name: value for name, value in resolved.items() if value is not None}
 

@@ -161,8 +161,11 @@ def test_one_and_many_are_set_in_the_same_way() -> None:
     with pytest.raises(KulmanError, match="unit"):
         solve(TASK, set={"phi": (75, "mm")})
     for several in ([0, 75], ([0, 75], "deg"), np.zeros(3)):
-        with pytest.raises(KulmanError, match="phi: several values at once are solved by"):
+        with pytest.raises(KulmanError, match="phi: for several values at once there is"):
             solve(TASK, set={"phi": several})  # type: ignore[dict-item]
+    for nothing in (solve(TASK)["A"], ("75", "deg"), (75,), {}, (True, "deg")):
+        with pytest.raises(KulmanError, match="phi: a quantity was expected"):
+            solve(TASK, set={"phi": nothing})  # type: ignore[dict-item]
 
 
 def test_givens_say_what_they_are() -> None:
