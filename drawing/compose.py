@@ -54,7 +54,7 @@ def on_a_page(
 def _on_a_page(
     sizes: tuple[Size, ...], sheet: Format, norm: Norm, begins: tuple[int, ...], first: bool, loose: bool
 ) -> tuple[Placement, ...] | None:
-    """Do the same; what was tried stays, as the ways to part views into pages and to set them in order ask it again."""
+    """Place them, as `on_a_page` says; what was tried is kept, since pages and orders that are tried ask it again."""
     page, (x0, y0), begun = _cuts(sizes, sheet, norm, begins, first)
     if not page.fits:
         return None
@@ -122,7 +122,7 @@ def in_any_order(
     need less height then, and once there is room as long as fewer stand before what comes before them. Texts with which
     the page begins stay first, and the figure after them; `begins` are as of `Pages`.
     """
-    lead = [*range(len(_lead(begins)) + 1)]
+    lead = [*range(min(len(_lead(begins)) + 1, len(sizes)))]
     rest = [*range(len(lead), len(sizes))]
 
     def high(order: Sequence[int]) -> int:

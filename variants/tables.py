@@ -450,7 +450,7 @@ def _csv_of(heads: Sequence[Cell], columns: Sequence[Sequence[Cell] | Array], co
 
 
 def _are_floats(column: Sequence[Cell] | Array) -> bool:
-    return not isinstance(column, Sequence) and column.dtype.kind == "f"
+    return not isinstance(column, Sequence) and column.dtype == "float64"
 
 
 def _watched(parts: Sequence[Item], rows: int) -> Iterator[Item]:

@@ -261,6 +261,11 @@ def test_views_of_the_only_page_stand_in_any_order_where_no_usual_one_has_room(h
         assert all(places[0].x < right for right in beside)  # nothing stands left of what is given
 
 
+def test_texts_alone_and_nothing_have_an_order_too():
+    assert in_any_order([], FORMATS["A1"], "gost") == []
+    assert in_any_order([(100, 50)], FORMATS["A1"], "gost", [-1]) is not None
+
+
 def test_what_is_kept_long_becomes_smaller_after_the_others_and_nothing_could_be_larger():
     ladder = Ladder((1.0, 1.25, 2.0, 2.5, 4.0, 5.0), 300.0, share=0.5)
     figures = [Extent("mu_l", (300.0, 300.0), (40.0, 40.0)), Extent("mu_V", (250.0, 300.0), (40.0, 40.0))]
