@@ -137,7 +137,6 @@ def main() -> None:
     from by_hand import slider_crank_moment
 
     import kulman
-    from kulman.plans.boards.batch import values_of
     from kulman.plans.boards.exact import run
     from kulman.plans.hands.shaky import Paper, draw, preset
     from kulman.plans.linkages.chain import construct
@@ -166,16 +165,13 @@ def main() -> None:
     _, program = construct(task.mechanism)
     givens = board_givens(task.mechanism, task.values("example"))
     values = task.values("example")
-    one, again, hand = in_turn(
+    one, hand = in_turn(
         lambda: [run(program, givens) for _ in range(200)],
-        lambda: [values_of(program, givens) for _ in range(200)],
         lambda: [slider_crank_moment(values["phi"], values) for _ in range(200)],
     )
     row(
         "one position, the full chain", one / 200 * 1e6, "us", 100, f"{one / hand:.1f} times a hand-written closed form"
     )
-    printed = f"{again / one:.2f} of the exact board"
-    row("the same from the second on, values and status", again / 200 * 1e6, "us", 25, printed)
     row("recording the construction", shortest(lambda: construct(task.mechanism)) * 1e3, "ms", 1, "")
     paper, shaky = Paper(program, givens, dict.fromkeys(program.plans, 1.0)), preset("normal").hand
     drawn = shortest(lambda: draw(paper, shaky, np.random.default_rng(1), 1000))

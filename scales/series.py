@@ -58,7 +58,7 @@ class Series(np.ndarray[Any, np.dtype[Any]]):
 
 
 def rows_of(columns: Sequence[Floats], between: str, comma: bool) -> list[str]:
-    """Return rows of numbers as text, in a third of the time that `repr` takes, and the same: nothing for no number.
+    """Return rows of numbers as text, in half the time that `repr` takes, and the same: nothing for no number.
 
     Parameters
     ----------

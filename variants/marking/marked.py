@@ -354,7 +354,7 @@ def _without_doubt(answers: Answers, key: Keyed, found: Seen, rubric: Rubric) ->
 
 
 def _plans_of(terms: Terms, answers: Answers) -> tuple[tuple[str, ...] | None, list[KulmanError]]:
-    """Return the plans that a form of some asks for, where none are named that are marked; and what is told of it."""
+    """Return the plans that a form says it is for, unless those named for marking are the same; and what is told."""
     written, marked = answers.about.get(PLANS, ""), terms.request.only
     try:
         plans = plans_wanted(written, terms.request.task) if written else None
