@@ -375,6 +375,6 @@ def serve(passwords: str | None, students: str | None, lang: str | None, **optio
     serve_pages(passwords, students or "forms", lang or "", tell, **options)
 
 
-of_students = list_tasks, solve, sheet, page, note, sweep, chart, new, show
-for command in (*of_students, handout, all_variants, batch, check, serve, show_guide, show_help):
+_of_students = list_tasks, solve, sheet, page, note, sweep, chart, new, show
+for command in (*_of_students, handout, all_variants, batch, check, serve, show_guide, show_help):
     commands.add_command(command)

@@ -50,7 +50,7 @@ def moving(scene: GearScene) -> Moving:
     ]
     for view in views:
         view |= {"symbol": "", "shapes": [{**shape} for shape in (*shapes, *own, *touches)]}
-    shown = {"crank": ["P", "action.K0"], "by": 1e3, "unit": words.unit("mm"), "digits": 2}
+    shown: Data = {"crank": ["P", "action.K0"], "by": 1e3, "unit": words.unit("mm"), "digits": 2}
     drive = driven("rho_1", "ρ_{1}", (first, last), (last - first) / SECONDS, again=course.pitch, **shown)
     return Moving(drive, views, points, SHOWN, FIRST, symbols={"pairs": words["moving.pairs"]}, opens="meshing")
 

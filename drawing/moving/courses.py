@@ -57,17 +57,17 @@ class Moving:
     measured: Mapping[str, Data] = field(default_factory=dict)
 
 
-def driven(name: str, symbol: str, ends: tuple[float, float], speed: float, **more: Any) -> Data:
+def driven(name: str, symbol: str, ends: tuple[float, float], speed: float, turns: bool = False, **more: Any) -> Data:
     """Return a drive that goes from one end to the other: its quantity, the symbol in markup, how fast, SI.
 
-    `more` are further fields, see `places.js`; a drive that turns has `turns` first among them.
+    `turns` tells whether it goes round; `more` are further fields, see `places.js`.
     """
     low, high = ends
-    turns = {"turns": more.pop("turns", False), "sense": 1}
     return {
         "name": name,
         "symbol": html(symbol),
-        **turns,
+        "turns": turns,
+        "sense": 1,
         "start": low,
         "low": low,
         "high": high,

@@ -220,11 +220,11 @@ def solve_cam(cam: Cam, values: Mapping[str, float], plans: Iterable[str] = PLAN
     wanted = with_needs(plans, construction.NEEDS)
     motion = _motion(cam, values)
     division = motion.division(cam.sections)
+    # a velocity that jumps is given: no acceleration has it
+    begins = construction.VELOCITY if motion.velocity_jumps else construction.ACCELERATION
     layout = construction.Layout(
         division,
-        construction.VELOCITY
-        if motion.velocity_jumps
-        else construction.ACCELERATION,  # a velocity that jumps is given: no acceleration has it
+        begins,
         int(abs(division.angles - motion.ds_max.phi).argmin()),
         ROCKER in cam.followers,
         *(_cams(cam, motion, values) if SIZES_PART in wanted else ()),
@@ -401,9 +401,8 @@ def _beyond(values: Mapping[str, Any], usual: Mapping[str, tuple[float, float]])
             yield name, float(value), least, most
 
 
-HEIGHTS = {
-    construction.EXACT[name]: construction.CHORD_OF[name] for name in construction.EXACT
-}  # ordinates that only a drawing shows keep its name
+# ordinates that only a drawing shows keep its name
+HEIGHTS = {construction.EXACT[name]: construction.CHORD_OF[name] for name in construction.EXACT}
 TANGENTS = {"r_0": "r_0_tangents", "e": "e_tangents", "r_0_flat_min": "r_0_flat_tangent"}
 GIVEN = ("r_0", "e")  # of a cam whose sizes are given none are drawn
 

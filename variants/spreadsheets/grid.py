@@ -95,9 +95,8 @@ class Grid:
         if found is None or (len(cells) == 2 and found["name"].split() != cells[1].split()):
             return ""
         sure = len(cells) == 1 or ":" in found["ends"] or _LETTERS_AND_DIGITS.search(found["name"])
-        return (
-            re.split("[,;(]", found["name"])[0].rstrip(" :.") if sure else ""
-        )  # what is behind a name is no part of it
+        # what is behind a name is no part of it
+        return re.split("[,;(]", found["name"])[0].rstrip(" :.") if sure else ""
 
     def students(self, header: int) -> Iterator[tuple[int, str]]:
         """Go through the rows of students below a header, each with the group in whose list it stands, if one is named.
