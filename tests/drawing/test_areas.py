@@ -1,6 +1,7 @@
 """Areas are hatched inside, lines clipped and broken, curves thinned; judged by what many places tell."""
 
 import cmath
+import itertools
 import math
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 import shapely
 
 from kulman.drawing.areas import beside, clipped, coarser, hatched, strokes, thinned
-from kulman.drawing.shapes import Group, Line, Pen, Polyline
+from kulman.drawing.shapes import Arc, Group, Line, Pen, Polyline, sides_of
 from kulman.drawing.view import left_of
 from kulman.tests.support.shapes import places, within
 
@@ -108,3 +109,17 @@ def test_only_curves_of_many_points_are_changed() -> None:
     group = coarser(Group((line, short, Polyline(CIRCLE, Pen.MAIN)), "curve", "s"), 0.1)
     assert isinstance(group, Group)
     assert group.shapes == (line, short, Polyline(thinned(CIRCLE, 0.1), Pen.MAIN))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_chords_that_stand_for_an_arc_are_a_tenth_of_a_millimetre_beside_it_at_most(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    centre, radius = complex(*rng.uniform(-300.0, 300.0, 2)), 10.0 ** rng.uniform(0.0, 4.0)
+    start, sweep = rng.uniform(-7.0, 7.0), rng.choice([-1.0, 1.0]) * rng.uniform(0.1, 2.0 * math.pi)
+
+    chords = list(sides_of(Arc(centre, radius, start, sweep)))
+
+    ends = chords[0][0], chords[-1][1]
+    assert ends == pytest.approx(tuple(centre + cmath.rect(radius, turn) for turn in (start, start + sweep)))
+    assert all(end == begin for (_, end), (begin, _) in itertools.pairwise(chords))
+    assert max(radius - abs((a + b) / 2.0 - centre) for a, b in chords) <= 0.1 + 1e-9 * radius
