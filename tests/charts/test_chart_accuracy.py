@@ -230,8 +230,11 @@ def test_newton_agrees_with_plans(name: str) -> None:
     ],
 )
 def test_newton_agrees_with_plans_of_random_mechanisms(mechanism: Mechanism, values: dict[str, float]) -> None:
-    found, exact = both(cycle(mechanism, values, PLANS), 1e-9)
-    assert differences(found, exact) < 1e-9
+    for size in (1.0, 1e6):  # some of a few metres, and the same in micrometres
+        lengths = {name: size * value for name, value in values.items() if name[0] in "lxye"}
+        found, exact = both(cycle(mechanism, values | lengths, PLANS), 1e-9)
+        assert differences(found, exact) < 1e-9
+        assert not any(np.isnan(found[name]).any() for name in exact)
 
 
 @pytest.mark.parametrize(
