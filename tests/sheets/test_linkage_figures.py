@@ -412,6 +412,22 @@ def test_an_arm_beside_a_link_stands_clear_of_it(task: str, variant: str, figure
                 assert abs(math.degrees(cmath.phase((b - a) / (d - c)))) > 12.0
 
 
+@pytest.mark.parametrize("of", [("nau-slider-crank", "3"), ("scheme-02-forging-press", "7")])
+def test_arms_end_in_arrowheads_where_two_have_room(of: tuple[str, str]) -> None:
+    case, seen = motion_and_forces(*of), set()
+    for view in case.sheet.views:
+        for line in (s for s in view.strokes if s.path and s.path[-1][0] == "arm" and len(s.points) == 2):
+            heads = [head for head in view.tips if line.path[-1] in head.path]
+            roomy = abs(line.points[1] - line.points[0]) > 2.2 * style_of(case).arrow
+            seen.add(roomy)
+            assert len(heads) == 2 * roomy
+            for head, end, other in zip(heads, line.points[::-1], line.points, strict=False):
+                back = sum(head.corners[1:]) / 2.0 - head.corners[0]
+                assert abs(head.corners[0] - end) < 0.01
+                assert abs(cmath.phase(back / (other - end))) < 0.01
+    assert True in seen
+
+
 def test_arms_side_by_side_are_staggered_away_from_the_figure() -> None:
     arms = [arm_to(40 + 0j), arm_to(20 + 0j), arm_to(60 + 0j), arm_to(-30 + 0j), arm_to(25j, 1 + 0j)]
 
