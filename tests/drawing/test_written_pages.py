@@ -1,6 +1,7 @@
 """SVG, PDF, tiles: what is written is read back as it was drawn, the same bytes again, files whole or not at all."""
 
 import math
+import random
 import re
 import sys
 from collections.abc import Callable, Sequence
@@ -15,7 +16,9 @@ from lxml import etree
 from pdfminer.high_level import extract_pages, extract_text
 from pdfminer.layout import LTChar, LTCurve, LTLine
 from pdfminer.pdfdocument import PDFDocument
+from pdfminer.pdfpage import PDFPage
 from pdfminer.pdfparser import PDFParser
+from pdfminer.pdftypes import resolve1
 from pypdfium2 import PdfDocument
 
 from kulman.drawing import writers
@@ -106,6 +109,20 @@ def test_a_vector_is_read_back_with_all_digits(tip: complex) -> None:
     assert group.findtext(f"{SVG}title") == "V_B = 4,53 м/с <B>"
     if tip == vector.tail:  # of zero: a dot that keeps its line
         assert up(dot.get("cx"), dot.get("cy")) == tip
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_pdf_says_pens_and_colours_only_where_they_change(seed: int) -> None:
+    rng = random.Random(seed)
+    pens = [(rng.choice([Pen.MAIN, Pen.THIN, Pen.AXIS]), rng.choice([None, "#0072B2"])) for _ in range(40)]
+    lines = [Line(20 + 1j * y, 80 + 1j * y, pen, colour=colour) for y, (pen, colour) in enumerate(pens)]
+    heads = [Head(100 + 4j * y, 1j, colour=colour) for y, (_, colour) in enumerate(pens)]
+    (one,) = PDFPage.create_pages(PDFDocument(PDFParser(pdf(page(*lines, *heads)))))
+    data = b"".join(resolve1(stream).get_data() for stream in one.contents).decode("latin-1")
+
+    for changing, said in ((pens, r".* RG"), ([colour for _, colour in pens], r".* rg")):
+        found = re.findall(f"^{said}$", data, re.MULTILINE)
+        assert len(found) == 1 + sum(before != after for before, after in pairwise(changing))
 
 
 @pytest.mark.parametrize("heads", [30.0, 2.1, 1.2, 0.4])
