@@ -344,9 +344,9 @@ def new(ctx: click.Context, file: str, kind: str, source: str | None, lang: str 
 @console.of_language
 def show(task: str, lang: str | None) -> None:
     """Print the task file of a bundled TASK."""
-    from .variants.shelf import text_of
+    from .variants.making.starter import shown
 
-    click.echo(text_of(task), nl=False)
+    click.echo(shown(task, lang or system_language()), nl=False)
 
 
 @console.command("kulman serve --open", "kulman serve --host 0.0.0.0 --password-file passwords.txt --students sheets")

@@ -367,13 +367,14 @@ class Kind(Generic[Subject, Answer]):
         from ..drawing.formats import STYLES
         from ..drawing.tables import givens_view
 
-        called = {name: words.texts.get(f"called.{self.table}.{name}", "") for name in case.givens}
+        called = {name: self.called(case.task.subject, words, name) for name in case.givens}
         found = givens_view(case.givens, words, STYLES["A4"], called=called).rows[1:]
-        own = (words.texts.get(f"given.{self.table}_{name}") for name in case.givens)
-        return [
-            (row[0], about[:1].upper() + about[1:], *row[2:]) if about else row
-            for about, row in zip(own, found, strict=True)
-        ]
+        return [(row[0], called[name], *row[2:]) for name, row in zip(case.givens, found, strict=True)]
+
+    def called(self, subject: Any, words: Words, name: str) -> str:
+        """Return what a given is, as markup; nothing where nothing tells it."""
+        chosen = words.texts.get(f"given.{self.table}_{name}", words.texts.get(f"given.{name}", ""))
+        return words.texts.get(f"called.{self.table}.{name}", chosen[:1].upper() + chosen[1:])
 
     def statements(self, case: Case, words: Words, aims: Sequence[str]) -> Iterator[list[View]]:
         """Go through the views of a task that stands alone, with ever smaller pictures: data, what is to be found."""

@@ -40,7 +40,7 @@ Told = tuple[str, dict[str, str]]
 NOTHING: Told = "", {}
 
 
-def _given_name(mechanism: Mechanism, words: Words, name: str) -> str:
+def given_name(mechanism: Mechanism, words: Words, name: str) -> str:
     """Return the words for a given of a mechanism, as markup; nothing for one whose use does not tell what it is."""
     key, said = _told(mechanism, words, name)
     return words[f"called.{key}"].format(**said) if key else ""
@@ -154,14 +154,14 @@ def rows_of(scene: Scene, plans: Collection[str], here: bool = False) -> Iterato
     needless = (set() if loaded else LOADED) | (set() if {"acceleration", *FORCES} & {*plans} else SPED_UP)
     needless |= DRAWN if here else set()
     kept = {name: given for name, given in scene.givens.items() if _use_of(mechanism, words, name) not in needless}
-    called = {name: _given_name(mechanism, words, name) for name in kept}
+    called = {name: given_name(mechanism, words, name) for name in kept}
     for symbol, said, value, of in givens_view(kept, words, scene.style, called=called).rows[1:]:
         yield symbol or "", said or "", value or "", of or ""
     for name in sorted((mechanism.givens | _rates(mechanism)) - scene.givens.keys() - {ZERO}):
         use = _use_of(mechanism, words, name)
         if use in OF_USES and use not in needless:
             value = words.short(round(unit(OF_USES[use]).from_si(scene.values[name]), 9), 9)
-            yield _symbol(words, name), _given_name(mechanism, words, name), value, words.unit(OF_USES[use])
+            yield _symbol(words, name), given_name(mechanism, words, name), value, words.unit(OF_USES[use])
     acting = [*_acting(scene, here)] if loaded else []
     more = [*_axes(scene), *_driven(scene, bool(needless & SPED_UP)), *acting]
     yield from sorted(more, key=lambda row: not row[2])  # sentences are last
@@ -223,7 +223,7 @@ def _acting(scene: Scene, here: bool) -> Iterator[Row]:
             continue
         if load.magnitude not in {*scene.givens, *drawn}:
             size, of = words.short(float(f"{found.value:.6g}")), words.unit(found.unit)
-            yield symbol, _given_name(mechanism, words, load.name), size, of
+            yield symbol, given_name(mechanism, words, load.name), size, of
         angle = math.degrees(math.atan2(found.y, found.x)) % 360.0
         if load.direction not in scene.givens:
             called = words["called.force_direction"].format(force=symbol)
@@ -235,7 +235,7 @@ def _acting(scene: Scene, here: bool) -> Iterator[Row]:
             continue
         if couple.magnitude not in {*scene.givens, *drawn}:
             size, of = words.short(float(f"{abs(found.value):.6g}")), words.unit(found.unit)
-            yield symbol, _given_name(mechanism, words, couple.name), size, of
+            yield symbol, given_name(mechanism, words, couple.name), size, of
         sense = words["choice.ccw" if found.value > 0.0 else "choice.cw"]
         yield "", words["stated.sense"].format(moment=symbol), sense, ""
 

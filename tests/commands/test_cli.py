@@ -20,6 +20,7 @@ from click.testing import CliRunner
 
 from kulman import __version__, cli
 from kulman.scales.errors import LANGUAGES, messages
+from kulman.tests.commands.test_languages import CYRILLIC, FOREIGN
 from kulman.tests.support.commands import Run
 from kulman.variants.case import kind_of
 from kulman.variants.kinds import MODULES
@@ -486,9 +487,9 @@ def filled(solution: Solution) -> Iterator[str]:
 
 
 def test_a_bundled_task_is_shown_and_copied_to_begin_with(folder: Path, run: Run) -> None:
-    text = bundled_text("scheme-09-shaper")
-
-    assert run("show", "scheme-09-shaper") == (0, text, "")
+    for language in LANGUAGES:
+        status, shown, _ = run("show", "scheme-09-shaper", "--lang", language)
+        assert (status, tomllib.loads(shown)) == (0, tomllib.loads(bundled_text("scheme-09-shaper")))
     assert run("new", "--from", "scheme-09-shaper", "my shaper") == (0, "my shaper.toml\n", "")
     assert run("new", "--from", "scheme-09-shaper", "my shaper.toml")[0] == 2  # it stays
     assert "did you mean scheme-09-shaper" in run("show", "scheme-09-shapr")[2]
@@ -512,7 +513,13 @@ def test_a_copied_task_is_the_users_own(task: str, folder: Path, run: Run) -> No
     assert own["id"] == "мій"
     assert "kulman solve мій.toml" in comments
     assert source["title"][language] in comments
-    assert not any(line in copied for line in bundled_text(task).split("\n") if "#" in line)
+    shown = run("show", task, "--lang", language)[1]
+    for words in (comments.replace("мій", ""), " ".join(re.findall(r"#(.*)", shown))):
+        assert language == "en" or not FOREIGN[language].search(words)
+        assert (language == "en") == (not CYRILLIC.search(words))
+    rows = re.search(r"(?<=^\[givens\]\n)(?:.+\n)+", copied, re.MULTILINE)
+    assert rows
+    assert all(re.search(r"\}  +# \w{2,}", row) for row in rows[0].splitlines())
     assert own.keys() ^ source.keys() <= {"number", "note"}
     assert "number" not in own
     assert all(own[key] == source[key] for key in own.keys() - {"id", "source"})

@@ -79,7 +79,11 @@ def test_a_file_to_begin_with_is_the_same_task_whatever_its_comments_say(file: P
 def test_a_bundled_task_says_what_it_is_in_every_language(task: str) -> None:
     raw = tomllib.loads(bundled_text(task))
 
-    for said in filter(None, (raw["title"], raw.get("note"))):
+    head = bundled_text(task).partition("\nid = ")[0]
+    about = dict(re.findall(r"^# (\w\w): ((?:.+(?:\n#     )?)+)$", head, re.MULTILINE))
+    assert [line for line in bundled_text(task).splitlines() if "#" in line] == head.splitlines()
+
+    for said in filter(None, (raw["title"], raw.get("note"), about)):
         assert said.keys() == {*LANGUAGES}
         assert len({*said.values()}) == len(LANGUAGES)
         assert not any(FOREIGN[language].search(said[language]) for language in FOREIGN)

@@ -250,6 +250,12 @@ class Linkages(Kind[Mechanism, SolvedLinkage]):
         told = data_table(scene, case.plans, here=True), task_text(scene, case.plans, case.variant, WIDTH)
         yield from ([self.pictured(case, words, part), *told] for part in PARTS)
 
+    def called(self, subject: Any, words: Words, name: str) -> str:
+        """Return what a given is: what the mechanism uses it for."""
+        from ...drawing.linkages.asking import given_name
+
+        return given_name(subject, words, name) or super().called(subject, words, name)
+
     def loaded(self, name: str) -> bool:
         """Whether a quantity hangs on loads and masses: all but motion and distances."""
         return role(name).kind not in {*KINEMATIC, "l"}

@@ -29,7 +29,7 @@ from ..tables import FILES, Cell, Result, Table, aligned
 from ..task import AnyTask
 from .new_variants import NewVariants, import_variants, make_variants
 from .questions import BY, Question, gift_bytes, html, questions_of, xml_bytes
-from .starter import called
+from .starter import called, spoken
 
 TASK_FILE = ".toml"
 PAGE = ".html"
@@ -110,7 +110,7 @@ class AllVariants(Result):
         if suffix == TASK_FILE:
             if self.new is None:
                 raise InputError("variants-new", file=quote(path))
-            return [(path, called(self.new.text, path).encode("utf-8"))]
+            return [(path, called(spoken(self.new.task, self.new.text, self._language), path).encode("utf-8"))]
         if suffix == PAGE:
             return [(path, self._page().encode("utf-8"))]
         if suffix in FILES:

@@ -7,14 +7,19 @@ import math
 import os
 import re
 import textwrap
+from dataclasses import replace
 from pathlib import Path
 
+from ...drawing.words import Words
 from ...scales.errors import LANGUAGES, InputError, messages
 from ...scales.numbers import SHOWN, quote
 from ...scales.packaged import home
 from ..case import kind_of
 from ..kinds import KINDS, MODULES, table_in
+from ..marking.wording import plain
+from ..reader import load_task
 from ..shelf import HEADS, summary, text_of
+from ..task import Task
 
 VARIANTS = (__package__ or "").rpartition(".")[0]
 SUFFIX = ".toml"
@@ -22,8 +27,15 @@ _OWN = re.compile(r'^id = "([^"]+)"', re.MULTILINE)  # what a template calls its
 _ID = re.compile(r"""^id\s*=\s*(?:"[^"\n]*"|'[^'\n]*')""", re.MULTILINE)
 _HOW = re.compile(r"^#\n(?:#     kulman.*\n)+(?:#.*\n)*", re.MULTILINE)  # how to check, solve and draw it
 _FIRST = re.compile(r"((?:-v|variant|варіанта|варианта) )1\b")
+_ABOUT = re.compile(r"^# (\w\w): (.+\n(?:#     .+\n)*)", re.MULTILINE)  # what a bundled file says of itself
+_ALIKE = r"title|givens|mechanism\.link|mechanism\.pair|cam|gear|hoist|variant"  # tables whose comments suit all tasks
+_TOLD = re.compile(rf"^((?:#.*\n)+)(\[+(?:{_ALIKE})\]+)\n", re.MULTILINE)
+_GIVENS = re.compile(r"(?<=^\[givens\]\n)(?:\w+ = .*\n)+", re.MULTILINE)
+_POINT = re.compile(r"\b[A-Z]\d+\b")
+_WIDE = 80  # columns from which on a given has its comment closely behind it
+_LABELLED = re.compile(r'^(id = "[^"]*") *(?=  # )', re.MULTILINE)  # as wide as the line below it
 _KEYS = [re.compile(rf"^{key} = .*\n", re.MULTILINE) for key in ("id", "source")]  # with their comments
-_FOREIGN = re.compile(r"^#.*\n|(?<=\]\])  #.*|^number = .*\n(?=source)|^\[note\]\n(?:.+\n)+\n", re.MULTILINE)
+_FOREIGN = re.compile(r"^number = .*\n(?=source)|^\[note\]\n(?:.+\n)+\n", re.MULTILINE)
 
 
 def _template(language: str, kind: str = KINDS[0]) -> str:
@@ -57,18 +69,54 @@ def _drafted(name: str) -> str:
     ))  # fmt: skip
 
 
+def shown(task: str, language: str) -> str:
+    """Return a bundled task with its comments in one language. Raises InputError: there is none of that name."""
+    text = text_of(task)
+    return spoken(load_task(task), text, language)
+
+
+def spoken(task: Task, text: str, language: str) -> str:
+    """Return the text of a bundled task with comments in one language: what it is, what parts and givens are.
+
+    That of a user stays as it is.
+    """
+    about = dict(_ABOUT.findall(text)).get(language)
+    if about is None:
+        return text
+    return _comment(about.replace("\n#     ", " ")) + _told(task, _ABOUT.sub("", text), language)
+
+
+def _comment(said: str) -> str:
+    return textwrap.fill(said, 120, initial_indent="# ", subsequent_indent="# ", break_on_hyphens=False) + "\n"
+
+
+def _usual(text: str, language: str) -> str:
+    return _template(language, MODULES[table_in(HEADS.findall(text))].rpartition(".")[2])
+
+
+def _told(task: Task, text: str, language: str) -> str:
+    """Return a text with comments: before the first table of each sort, behind each given."""
+    for said, head in reversed(_TOLD.findall(_usual(text, language))):
+        text = re.sub(rf"^(?:#.*\n)*{re.escape(head)}$", f"{said}{head}", text, count=1, flags=re.MULTILINE)
+    words = replace(Words.of(language, task.notation), letters={of: of for of in _POINT.findall(text)})
+    rows = _GIVENS.findall(text)[0].splitlines()
+    wide = max(len(row) for row in rows if len(row) < _WIDE)
+    called = (plain(kind_of(task.kind).called(task.subject, words, row.split()[0])) for row in rows)
+    told = (f"{row:{wide}}  # {name}".rstrip(" #") for row, name in zip(rows, called, strict=True))
+    return _GIVENS.sub(lambda _: "\n".join((*told, "")), text)
+
+
 def _copied(source: str, language: str) -> str:
     """Return a bundled task as one's own: comments in a language, no number, source or note of another's."""
-    whole = text_of(source)
-    usual = _template(language, MODULES[table_in(HEADS.findall(whole))].rpartition(".")[2])
-    about = summary(source)
+    whole = shown(source, language)
+    usual, about = _usual(whole, language), summary(source)
     said = messages(language)["task-copied"].format(task=source, title=about["title"][language])
-    head = [f"# {line}\n" for line in textwrap.wrap(said, 118)]
     how = _FIRST.sub(rf"\g<1>{about['variants'][0]}", "".join(_HOW.findall(usual)[:1]))
     text = _FOREIGN.sub("", whole)
     for key in _KEYS:
         text = text.replace(key.findall(text)[0], key.findall(usual)[0], 1)
-    return "".join((*head, how, "\n", text)).replace(_OWN.findall(usual)[0], source)
+    head, _, rest = text.partition("\nid = ")
+    return "".join((_comment(said), "#\n", head, "\n", how, "\nid = ", rest)).replace(_OWN.findall(usual)[0], source)
 
 
 def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0], source: str | None = None) -> Path:
@@ -91,6 +139,7 @@ def start(file: str | os.PathLike[str], language: str, kind: str = KINDS[0], sou
     text = _template(language, kind) if source is None else _copied(source, language)
     own = _OWN.findall(text)[0]
     text = text.replace(f'"{own}"', f'"{_label(path.stem) or own}"').replace(f"{own}{SUFFIX}", called)
+    text = _LABELLED.sub(lambda found: f"{found[1]:36}", text)
     try:
         with path.open("x", encoding="utf-8", newline="\n") as stream:
             stream.write(text)
