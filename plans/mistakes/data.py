@@ -292,11 +292,15 @@ def transposed(scene: Scene, name: str, written: float, meant: float) -> Broken:
     return Broken("M123", scene.paper, scaled(abs(written / meant), step, how=f"{meant:.4g}", at=name))
 
 
-def other_orders(number: float) -> Iterator[float]:
-    """Go through the numbers of four digits in which two neighbouring digits of a number are exchanged."""
+def other_orders(number: float) -> Iterator[tuple[float, float]]:
+    """Go through the numbers of four digits in which two neighbouring digits of a number are exchanged.
+
+    Half a unit of the second digit comes with each: a number that is meant is as near as that, any other by chance.
+    Zeros that end the number have not been written.
+    """
     mantissa, _, power = f"{abs(number):.3e}".partition("e")
-    digits = mantissa.replace(".", "")
+    digits = mantissa.replace(".", "").rstrip("0")
     for i in range(len(digits) - 1):
         if digits[i] != digits[i + 1]:
             swapped = digits[:i] + digits[i + 1] + digits[i] + digits[i + 2 :]
-            yield float(f"{swapped[0]}.{swapped[1:]}e{power}")
+            yield float(f"{swapped[0]}.{swapped[1:]}e{power}"), 0.5 * 10.0 ** (int(power) - i - 1)

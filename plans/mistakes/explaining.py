@@ -252,17 +252,23 @@ class _Search:
         key, last = self.book.key, chain[-1] if chain else None
         paper = Paper(last.broken.program, last.broken.givens, self.mus) if last else key.paper
         scene = Scene(paper, last.values if last else key.values)
-        orders = [other for other in other_orders(answer.value) if other and self._meant(line, answer, other)]
+        orders = [other for other, near in other_orders(answer.value) if self._meant(line, answer, other, near)]
         made = (transposed(scene, line.name, answer.value, other) for other in orders)
         return list(signatures(key, made, last))
 
-    def _meant(self, line: Line, answer: Answer, other: float) -> bool:
-        """Whether mm times mu gives another number than is written, or what is calculated from earlier numbers does."""
-        if answer.mm and any(abs(x - other) <= EXACT * other for x in answer.measured(self.mus.get(line.plan))):
+    def _meant(self, line: Line, answer: Answer, other: float, near: float) -> bool:
+        """Whether mm times mu gives another number than is written, or what is calculated from earlier numbers does.
+
+        It does so where it is as `near`.
+        """
+        if not other:
+            return False
+        exact = min(EXACT * other, near)
+        if answer.mm and any(abs(x - other) <= exact for x in answer.measured(self.mus.get(line.plan))):
             return True
         if line.follows != line.follows or not self._calculated(line.name):
             return False
-        return bool(abs(other - abs(line.follows)) <= min(line.allowed, CLOSE * other))
+        return bool(abs(other - abs(line.follows)) <= min(line.allowed, CLOSE * other, near))
 
     def _misses_of(self, place: int, table: Complex, most: Floats) -> Floats:
         """Return by how many tolerances the answer of one line misses a column of values."""

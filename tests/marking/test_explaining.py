@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import pytest
 
+from kulman import check, solve
 from kulman.plans.boards.exact import run
 from kulman.plans.hands.shaky import Paper
 from kulman.plans.marking.answers import Answer, Verdict
@@ -121,6 +122,23 @@ def test_scales_of_the_students_own_are_those_that_count() -> None:
 
     assert mark(of, inverted)["V_BA"].verdict is Verdict.SCALE
     assert "M14" in found.candidates[0].ids
+
+
+@pytest.mark.parametrize(
+    ("name", "by_chance", "exchanged"),
+    [("omega_2", 15.86, 17.5), ("F_i2", 1878.0, 1985.0), ("M_i2", 78.09, 87.8), ("F_i3", 857.0, 488.5)],
+)
+def test_digits_are_exchanged_where_the_other_order_is_the_number_that_was_meant(
+    name: str, by_chance: float, exchanged: float
+) -> None:
+    asked = check("nau-slider-crank", "3", lang="en")
+    solved = solve("nau-slider-crank", "3").quantities.values()
+    right = {one.name: float(f"{abs(one.value or 0.0):.4g}") for one in solved if one.name in asked.asked.names}
+
+    for value, ids in ((by_chance, []), (exchanged, ["M123"])):
+        marked = asked.mark({**right, name: value}).marked
+        assert marked.marking.first_wrong == name
+        assert [*(marked.candidates[0].ids if marked.candidates else ())] == ids
 
 
 def test_right_answers_have_no_explanation() -> None:
