@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cache
 from importlib import import_module
+from numbers import Real
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar, cast
 
 from ..drawing.words import Given, Words
@@ -26,7 +27,7 @@ from ..scales.units import UnitName
 from .checks.basics import Checker, Field, record
 from .checks.names import Names, check_numbers, word_or_choice
 from .kinds import MODULES
-from .task import WITH_FORCES, Instead, LocatedError, Task
+from .task import WITH_FORCES, Instead, LocatedError, Task, as_text
 from .task import Given as Stated
 from .task import Settings as Settings
 
@@ -456,7 +457,9 @@ def beside(task: Task, folder: str) -> Any:
 def _choosers(task: Task, scales: Settings, solved: Solved) -> dict[str, Chooser]:
     """Return how each scale factor is chosen: as the task says, unless the user says otherwise."""
     choosers = {symbol: chooser(symbol, text) for symbol, text in task.scales.items()}
-    for name, text in _by_symbol(scales, kind_of(task.kind).scale_symbols(solved), solved).items():
+    for name, said in _by_symbol(scales, kind_of(task.kind).scale_symbols(solved), solved).items():
+        text = as_text(said)
+        of_kind(name, text, (str, Real), "str | float | tuple[float, str]")
         _choosable(task, name, text, solved)
         try:
             symbol = name if role(name).kind == "mu" else segment_symbol(name)

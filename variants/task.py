@@ -76,10 +76,7 @@ class Given:
             if value not in self.choices or not isinstance(value, str):
                 raise InputError("choice-unknown", text=quote(value), known=", ".join(self.choices))
             return value
-        if isinstance(value, Quantity) and value.kind != "point":
-            value = float(value), value.unit
-        if isinstance(value, tuple) and len(value) == 2 and _is_number(value[0]) and isinstance(value[1], str):
-            value = f"{float(value[0])!r} {value[1]}"
+        value = as_text(value)
         written = value.strip().lower().partition(" ")[0] if isinstance(value, str) else value
         if self.bound is Bound.RIGID and written in (*ENDLESS, math.inf):
             return math.inf
@@ -92,6 +89,15 @@ class Given:
         if not self.bound.admits(number):
             raise InputError(self.bound.value, text=quote(value))
         return number
+
+
+def as_text(value: object) -> object:
+    """Return a number and its unit, or a quantity that `solve` has found, as the text that says it."""
+    if isinstance(value, Quantity) and value.kind != "point":
+        value = float(value), value.unit
+    if isinstance(value, tuple) and len(value) == 2 and _is_number(value[0]) and isinstance(value[1], str):
+        return f"{float(value[0])!r} {value[1]}"
+    return value
 
 
 def _is_number(value: object) -> TypeGuard[Real]:

@@ -44,6 +44,8 @@ WRONG: dict[str, tuple[dict[str, Any], str]] = {
     "set to no choice": ({"set": {"rotation": 3}}, "choice-unknown"),
     "scale of a text": ({"scales": {"pa": "abc"}}, "number-bad"),
     "scale below zero": ({"scales": {"mu_V": -1}}, "scale-not-positive"),
+    "scale of a list": ({"scales": {"pa": [80, "mm"]}}, "argument-type"),
+    "scale with the unit of another": ({"scales": {"mu_V": (0.05, "kg")}}, "unit-wrong"),
     "scale of an unknown segment": ({"scales": {"pz": 80}}, "scale-segment"),
     "scale of an unknown symbol": ({"scales": {"mu_F_9": 80}}, "scale-unknown-like"),
     "scale of a plan not drawn": ({"scales": {"mu_a": 80}, "only": "velocity"}, "scale-not-drawn"),
@@ -67,6 +69,8 @@ WRONG_SHEET: dict[str, tuple[dict[str, Any], str]] = {
 
 
 def test_a_scale_factor_as_the_sheet_has_it_is_that_of_all_plans_of_forces() -> None:
+    for same in ({"mu_V": (0.05, "(m/s)/mm")}, {"mu_V": (20, "mm/(m/s)")}, {"mu_V": "5 (cm/s)/mm"}, {"mu_V": 0.05}):
+        assert kulman.solve(TASK, "3", scales=same).scales["mu_V"].mu == pytest.approx(0.05)
     of = kulman.solve(TASK, "3", scales={"mu_F": 50, "mu_F_1": 20}).scales
     assert {name: scale.mu for name, scale in of.items() if name.startswith("mu_F")} == {"mu_F_23": 50, "mu_F_1": 20}
 
