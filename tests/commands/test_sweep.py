@@ -7,10 +7,12 @@ import math
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import kulman
-from kulman import KulmanError, sweep
+from kulman import KulmanError, solve_many, sweep
+from kulman.scales import series
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.support.commands import Run
 from kulman.variants import tables
@@ -197,6 +199,21 @@ def test_a_drawing_of_very_many_positions_shows_some_of_them_and_says_so(
     assert (status, err) == (0, "the drawing shows 4 of the 8 positions, spread evenly; tables and .csv have all\n")
     assert {int(name) for name in re.findall("position_([0-9]+)", drawing)} == {*range(4)}
     assert len(Path("x.csv").read_text(encoding="utf-8").splitlines()) == 9
+
+
+def test_of_many_states_no_more_is_told_to_be_written_than_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    written, told, characters = [0], [0], series._characters
+    monkeypatch.setattr(series, "_characters", lambda part: (written.append(len(part)), characters(part))[1])
+    states = solve_many(TASK, phi=np.linspace(0.0, 6.0, 2 * tables.MANY), names="V_B,omega_2")
+    ahead = [0]
+    token = tables.watching.set(lambda done, whole: (told.append(done), ahead.append(sum(told) - sum(written)))[0])
+    try:
+        states.save(tmp_path / "x.csv")
+    finally:
+        tables.watching.reset(token)
+    assert sum(told) == len(states) * len(states.columns)
+    assert max(ahead) <= 2 * len(states)  # numbers of states, and statuses
+    assert len(told) > 5
 
 
 def test_writing_a_long_table_is_told_of_part_by_part_and_a_short_one_is_not(tmp_path: Path) -> None:

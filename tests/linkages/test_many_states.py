@@ -327,7 +327,7 @@ def test_many_numbers_are_written_as_repr_writes_each() -> None:
     odd += [*(2.0 ** np.arange(-60, 80)), *(2.0**53 + np.arange(-9, 9)), *(np.arange(5000) / 8), 123456789012345.6]
     numbers = np.concatenate([sizes, *short, odd])
 
-    rows = rows_of([numbers, numbers[::-1]], ";", comma=False)
+    rows = [row for part in rows_of([numbers, numbers[::-1]], ";", comma=False) for row in part]
 
     told = [repr(number + 0.0) if math.isfinite(number) else "" for number in numbers.tolist()]
     assert rows == [f"{one};{other}" for one, other in zip(told, reversed(told), strict=True)]
