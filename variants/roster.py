@@ -13,7 +13,17 @@ from ..scales.errors import InputError, Written
 from ..scales.names import latin, of_kind, unknown
 from ..scales.numbers import SHOWN, quote
 from .spreadsheets.files import read_grid
-from .spreadsheets.grid import LOOKED_AT, ORDINALS, Grid, about_kind, quantity_part, split_unit, symbol, tidy
+from .spreadsheets.grid import (
+    LOOKED_AT,
+    ORDINALS,
+    Grid,
+    about_kind,
+    quantity_part,
+    several_groups,
+    split_unit,
+    symbol,
+    tidy,
+)
 from .task import LocatedError, Task
 
 WHO = ("student", "group", "book", "number", "email")
@@ -112,6 +122,16 @@ def shared_by_mistake(students: Iterable[tuple[Who, object]], possible: int) -> 
         for work, several in works.items():
             if work and len(several) > 1:
                 yield InputError("roster-variant-shared", text=quote(str(work)), students=named(several))
+
+
+def of_several_groups(students: Iterable[Who]) -> Iterator[InputError]:
+    """Go through what is written for a group and names several, of which a student has but one."""
+    groups = dict[str, list[Who]]()
+    for who in students:
+        groups.setdefault(who.group, []).append(who)
+    for group, those in groups.items():
+        if several_groups(group):
+            yield InputError("roster-groups", text=quote(group), students=named(those))
 
 
 def named(students: Iterable[Who]) -> Written:

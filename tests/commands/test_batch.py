@@ -17,7 +17,7 @@ from kulman.scales.errors import InputError, speaking
 from kulman.tests.support.commands import Run, files, roster, table
 from kulman.variants.batches.batch import Outcome, Student, _Making
 from kulman.variants.case import Request
-from kulman.variants.roster import Digits, Entry, Schemes, Who, read_roster, variant_of_book
+from kulman.variants.roster import Digits, Entry, Schemes, Who, of_several_groups, read_roster, variant_of_book
 from kulman.variants.sheets import card_of_case, drawing_for_print
 from kulman.variants.task import Task, Variant
 
@@ -130,6 +130,30 @@ def test_a_name_is_read_without_spaces_that_say_nothing_and_a_group_without_what
     (entry,) = read_roster(file, load_task(TASK)).entries
 
     assert (entry.who.student, entry.who.group) == ("Іваненко Іван", "АТ-301")
+    assert [*of_several_groups([entry.who])] == []
+
+
+@pytest.mark.parametrize(
+    ("title", "group"),
+    [
+        ("Групи АТ-301, АТ-302", ""),
+        ("Список студентів груп АТ-301 і 302 (осінь)", ""),
+        ("Группы АТ-301 и АТ-302, осень", ""),
+        ("Groups AT 301, AT 302", ""),
+        ("Список", "АТ-301, АТ-302"),
+    ],
+)
+def test_several_groups_over_a_list_or_in_a_cell_are_asked_about(folder: Path, title: str, group: str) -> None:
+    lines = [title, "ПІБ;варіант;група", f"Коваль Іван;3;{group}", "Лис Ян;4;АТ-302"]
+    (file := folder / "class.csv").write_text("\n".join(lines), encoding="utf-8")
+
+    entries = read_roster(file, load_task(TASK)).entries
+    (warning,) = of_several_groups(entry.who for entry in entries)
+
+    assert [entry.who.student for entry in entries] == ["Коваль Іван", "Лис Ян"]
+    assert {"301", "302"} <= {*re.findall(r"\d+", entries[0].who.group)}
+    assert "Коваль Іван" in warning.text("en")
+    assert "expected a column 'group'" in warning.text("en")
 
 
 @pytest.mark.parametrize("said", ["1", "01", "V01", "В01", "v1", "№1", "№ 01", "Варіант 1", "вар. 01", " 1 "])

@@ -37,7 +37,7 @@ from ..crew import Advance, Begin, Done, Journal, digest_of, on_cluster, remove_
 from ..marking.wording import texts
 from ..notes import body_of, title_page
 from ..reader import load_task
-from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, read_roster, shared_by_mistake
+from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, of_several_groups, read_roster, shared_by_mistake
 from ..sheets import PAPER, Sheet, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of, titled
 from ..spreadsheets.grid import SUFFIXES
 from ..tables import Cell, csv_table, table_bytes
@@ -425,9 +425,10 @@ def batch(
     # what was meant by columns that say nothing here has been left out
     error = InputError("roster-unread", file=quote(Path(roster).name, SHOWN), columns=unread)
     works = ((student.entry.who, "" if student.entry.settings else student.data[1]) for student in students)
+    groups = of_several_groups(student.entry.who for student in students)
     doubled = shared_by_mistake(works, len(once[0].variants)) if len(once) == 1 else ()
     twice = (InputError("batch-twice"),) if {*kinds} >= FOR_STUDENTS else ()
-    done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *twice))
+    done = Batch(students, outcomes, (*((error,) if listed.unread else ()), *doubled, *groups, *twice))
     for name, rows in _tables(done, once, lang):
         _put(place / (name if name == MANIFEST else f"{making.folder()}{name}"), csv_table(rows, lang))
     for kind in making.kinds if merge else ():

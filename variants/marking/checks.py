@@ -24,7 +24,7 @@ from ...scales.version import __version__
 from ..case import Request, Settings, Wanted, plans_wanted
 from ..crew import Advance, Journal, digest_of, remove_stale, shared_out
 from ..reader import load_task
-from ..roster import Digits, Entry, Who, collated, read_roster, shared_by_mistake
+from ..roster import Digits, Entry, Who, collated, of_several_groups, read_roster, shared_by_mistake
 from ..sheets import sheet_id
 from ..spreadsheets.grid import SUFFIXES as TABLES
 from ..tables import csv_table, table_bytes
@@ -137,7 +137,8 @@ class Check(Terms):
         wrong = (problem for entry in entries if (problem := self._problem(entry)) is not None)
         students = ((entry.who, "" if entry.settings else self._variant_of(entry)) for entry in entries)
         possible = 0 if self.request.variant else len(self.request.task.variants)
-        return (*wrong, *shared_by_mistake(students, possible))
+        groups = of_several_groups(entry.who for entry in entries)
+        return (*wrong, *shared_by_mistake(students, possible), *groups)
 
     def _problem(self, entry: Entry) -> InputError | None:
         """Return why the row of a student cannot be used, if it cannot: it harms nobody else."""

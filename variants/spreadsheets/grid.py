@@ -9,6 +9,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import takewhile
 from typing import Any, TypeAlias
 
 from ...scales.errors import InputError, RowOf, Written
@@ -39,6 +40,8 @@ _NUMBERED = re.compile(rf"\s*(?:{'|'.join(map(re.escape, _BEFORE))})\.?\s*№?\s
 _TOTAL = re.compile(rf"(?:{'|'.join(UNDERSTOOD['totals'])})\b")
 _SIGNED = re.compile(rf"(?:{'|'.join(UNDERSTOOD['signed'])})\b")
 _TITLE = re.compile(rf"(?:{'|'.join(UNDERSTOOD['titles'])})\b(?P<ends>\s*[.:№]*)\s*(?P<name>.*)", re.IGNORECASE)
+_BETWEEN_GROUPS = re.compile(rf"\s*[,;&+]\s*|\s+(?:{'|'.join(UNDERSTOOD['ands'])})\s+", re.IGNORECASE)
+_GROUP = re.compile(r"(?:[^\W\d_]{1,6}[-–.]?|[A-ZА-ЯЇІЄҐ]{1,6} )\d{1,4}\w{0,2}|\d{1,3}")
 _LETTERS_AND_DIGITS = re.compile(r"[^\W\d].*\d|\d.*[^\W\d]")
 _BESIDE = frozenset(UNDERSTOOD["beside"])
 _NUMBER_WORDS = frozenset(UNDERSTOOD["number_words"])
@@ -51,6 +54,18 @@ _LETTERS = {  # of Greek by their names
     for sign in map(chr, range(0x370, 0x400))
     if (found := _GREEK.match(unicodedata.name(sign, "")))
 }
+
+
+def several_groups(text: str) -> str:
+    """Return the groups that a text names where they are several; else nothing.
+
+    >>> several_groups("АТ-301, АТ-302 (денна форма)"), several_groups("АТ-301, осінній семестр")
+    ('АТ-301, АТ-302', '')
+    """
+    first, *others = _BETWEEN_GROUPS.split(text.partition("(")[0].rstrip(" :."))
+    more = list(takewhile(_GROUP.fullmatch, others))
+    return ", ".join((first, *more)) if more and _LETTERS_AND_DIGITS.search(first) else ""
+
 
 Merged: TypeAlias = Mapping[int, Sequence[tuple[int, int, int]]]
 
@@ -95,8 +110,8 @@ class Grid:
         if found is None or (len(cells) == 2 and found["name"].split() != cells[1].split()):
             return ""
         sure = len(cells) == 1 or ":" in found["ends"] or _LETTERS_AND_DIGITS.search(found["name"])
-        # what is behind a name is no part of it
-        return re.split("[,;(]", found["name"])[0].rstrip(" :.") if sure else ""
+        # what is behind a name is no part of it, unless it is the name of another group
+        return several_groups(found["name"]) or re.split("[,;(]", found["name"])[0].rstrip(" :.") if sure else ""
 
     def students(self, header: int) -> Iterator[tuple[int, str]]:
         """Go through the rows of students below a header, each with the group in whose list it stands, if one is named.
