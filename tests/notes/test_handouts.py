@@ -206,6 +206,9 @@ def test_what_a_task_fixes_stays_on_a_blank() -> None:
 
     assert [error.key for error in blank.warnings] == []
     assert {scale.mu for plan, scale in blank.scales.items() if plan in ("velocity", "acceleration")} == {0.189, 21.318}
+    (task,) = (leaves(view.shapes) for view in views_of(blank) if view.name == "task")
+    fixed = ", ".join(view.heading[-1] for view in blank.views if view.name in ("velocity", "acceleration"))
+    assert f"Масштабні коефіцієнти: {fixed}." in {text.markup for text in task if isinstance(text, Text)}
 
 
 def test_a_load_diagram_is_given() -> None:
