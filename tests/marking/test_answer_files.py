@@ -8,7 +8,9 @@ import pickle
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 import openpyxl
@@ -23,7 +25,9 @@ from kulman.scales.packaged import packaged
 from kulman.tests.support.answer_files import ASKED, HEAD, ROW, messages, one, read, table
 from kulman.tests.support.cases import some
 from kulman.tests.support.hostile_workbooks import HOSTILE, SMALL, good, hostile, zipped
+from kulman.variants.drawings.marks import handed_in
 from kulman.variants.marking.reading import _read_answers
+from kulman.variants.serving.safety import read_passwords
 from kulman.variants.spreadsheets.files import read_grid
 from kulman.variants.spreadsheets.grid import Grid, letters
 from kulman.variants.tables import _harmless, _xlsx_bytes, csv_table
@@ -47,6 +51,36 @@ def refused(file: Path) -> str:
         line = error.text("en")
     assert "\n" not in line
     return line
+
+
+@pytest.mark.parametrize(
+    ("name", "reader"),
+    [
+        ("answers.csv", read_grid),
+        ("roster.xlsx", read_grid),
+        ("drawing.dxf", partial(handed_in, largest=1)),
+        ("passwords.txt", read_passwords),
+        ("rubric.toml", lambda file: check("nau-slider-crank", rubric=file)),
+    ],
+)
+def test_a_file_that_nobody_may_read_is_refused_in_words(
+    name: str, reader: Callable[[Path], object], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def closed(*_: object, **__: object) -> None:
+        raise PermissionError
+
+    file = tmp_path / name
+    with pytest.raises(InputError) as missing:
+        reader(file)
+    file.write_text("x", encoding="utf-8")
+    with monkeypatch.context() as shut:
+        shut.setattr(Path, "open", closed)
+        shut.setattr(Path, "read_bytes", closed)
+        with pytest.raises(InputError) as refused:
+            reader(file)
+
+    assert (missing.value.key, refused.value.key) == ("file-missing", "file-unreadable")
+    assert all(file.name in refused.value.text(language) for language in LANGUAGES)
 
 
 def test_every_mistake_has_words() -> None:
