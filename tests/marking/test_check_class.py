@@ -27,7 +27,7 @@ from kulman.variants.marking.checks import Job, _mark_class, reported, slug
 from kulman.variants.marking.class_page import BAR, ClassPage
 from kulman.variants.marking.marked import Desk
 from kulman.variants.marking.reading import Answers, Reply, answers_of
-from kulman.variants.marking.result import Result, _Measured, _too_exact, measured, shared
+from kulman.variants.marking.result import Result, _Measured, _too_exact, class_lines, measured, shared
 from kulman.variants.marking.wording import mistake_texts, texts
 from kulman.variants.roster import Entry, Roster, Who
 
@@ -447,6 +447,15 @@ def test_who_has_answered_nothing_has_no_mark_and_who_copies_a_short_work_of_val
     assert lines["Student 5"] == "Student 5 – nothing handed in"
     assert ["the same millimetres" in lines[f"Student {n}"] for n in range(1, 5)] == [True, False, False, True]
     assert "students: 5, marked: 4" in out
+
+
+@pytest.mark.parametrize(
+    ("language", "said"), [("uk", "нічого не здано"), ("ru", "ничего не сдано"), ("en", "nothing handed in")]
+)
+def test_of_who_has_handed_in_nothing_the_console_tells_in_its_own_language(language: str, said: str) -> None:
+    first, _ = class_lines([Result("a.csv", Who("Коваль"))], language)
+
+    assert first == f"Коваль      –  {said}"
 
 
 def test_a_bar_counts_the_marks_of_its_tenth(tmp_path: Path) -> None:

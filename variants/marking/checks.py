@@ -379,7 +379,7 @@ def _mark_one(job: Job, desk: Desk, number: int, answers: Answers) -> Result:
     """Mark a student and write the reports; answers that cannot be marked are a result, too."""
     if not (answers.lines or answers.problems or answers.unread or answers.drawn or answers.photos):
         entry = job.terms.roster.find(answers.who) if job.terms.roster else None
-        return nothing(answers, entry, _variant(job.terms, answers), job.terms.request.language)
+        return nothing(answers, entry, _variant(job.terms, answers))
     try:
         report, result = reported(desk, answers)
     except KulmanError as error:

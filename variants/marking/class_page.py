@@ -102,13 +102,11 @@ class ClassPage:
                 cells, kind = (*about, "–", escape(said["class.absent"]), "", ""), "absent"
             else:
                 mark = "–" if line.mark is None else self._number(line.mark)
-                notes = () if line.mark is not None else line.notes  # why there is none
+                notes = () if line.mark is not None else line.noted(language)  # why there is none
                 told = "; ".join(line.explained(language, numbered=False))
                 cells = *about, mark, scripts(line.first), scripts(told), escape("; ".join((*flags, *notes)))
                 kind = "flag" if flags or notes else ""
-                kind = (
-                    kind if line.counts or line.mark is not None or line.notes != (said["class.absent"],) else "absent"
-                )
+                kind = "absent" if line.empty else kind
             shown = "".join(f"<td{' class=m' if at == 3 else ''}>{cell}</td>" for at, cell in enumerate(cells))
             rows.append(f'<tr class="{kind}"><td>{len(rows) + 1}</td>{shown}</tr>')
         return f"<table><tr><th>№</th>{heads}</tr>{''.join(rows)}</table>"

@@ -196,6 +196,15 @@ class Result:
     perhaps: tuple[str, ...] = ()
     slips: bool = False
 
+    @property
+    def empty(self) -> bool:
+        """Whether the student stands in the list of a class and has answered nothing."""
+        return self.mark is None and not self.notes
+
+    def noted(self, language: str) -> tuple[str, ...]:
+        """Return what is noted of this student, that nothing has been handed in, too."""
+        return (texts(language)["class.absent"],) if self.empty else self.notes
+
     def flags(self, language: str) -> list[str]:
         """Return what a teacher should check of this student alone."""
         said = texts(language)
@@ -264,11 +273,9 @@ def result_of(marked: Marked, language: str) -> Result:
     )
 
 
-def nothing(answers: Answers, entry: Entry | None, variant: str, language: str) -> Result:
+def nothing(answers: Answers, entry: Entry | None, variant: str) -> Result:
     """Return what is kept of a student who stands in the list of a class and has answered nothing."""
-    return Result(
-        answers.source, entry.who if entry else answers.who, variant, notes=(texts(language)["class.absent"],)
-    )
+    return Result(answers.source, entry.who if entry else answers.who, variant)
 
 
 def failed(answers: Answers, error: KulmanError, language: str) -> Result:
@@ -341,7 +348,7 @@ def class_rows(lines: Lines, language: str) -> Iterator[tuple[Cell, ...]]:
             )
             continue
         counts = tuple(line.counts.get(str(verdict)) for verdict in Verdict)
-        told = (line.first, "; ".join(line.explained(language)), "; ".join(flags), "; ".join(line.notes))
+        told = (line.first, "; ".join(line.explained(language)), "; ".join(flags), "; ".join(line.noted(language)))
         yield (
             *who,
             line.variant,
@@ -384,7 +391,7 @@ def class_lines(lines: Lines, language: str) -> Iterator[str]:
             yield f"{name:{width}}  {'–':>5}  {said['class.absent']}"
             continue
         mark = "–" if line.mark is None else f"{line.mark:g}".replace(".", sign)
-        missing, notes = line.counts.get(str(Verdict.MISSING), 0), line.notes
+        missing, notes = line.counts.get(str(Verdict.MISSING), 0), line.noted(language)
         told = [line.first and said["class.feedback_first"].format(symbol=line.first)]
         told += [f"{said['verdict.missing']} {missing}"] if missing else []
         if line.mark is not None:  # else they say why there is no mark
