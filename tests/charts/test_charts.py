@@ -9,7 +9,7 @@ import sys
 import time
 from dataclasses import replace
 from functools import cache, partial
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 from pathlib import Path
 from typing import Any
 
@@ -121,6 +121,25 @@ def test_pictures_and_tables_speak_every_language(task: str, language: str) -> N
     assert "normal" not in said or language == "en"
 
 
+@pytest.mark.parametrize("task", [TASK, *(pytest.param(task, marks=pytest.mark.soak) for task in (CAM, HOIST))])
+def test_pictures_name_what_they_show_and_headings_have_their_place(task: str) -> None:
+    words = made(task).words.speaking("en")
+    for name, one in made(task).charts.items():
+        figure = one.figure(words)
+        figure.draw_without_rendering()
+        inside = [text for axes in figure.axes for text in axes.get_children() if isinstance(text, Text)]
+        above, boxes = ([t.get_window_extent() for t in texts if t.get_text()] for texts in (figure.texts, inside))
+        scales = {axes: [label.get_text() for label in axes.get_yticklabels()] for axes in figure.axes}
+        left = min(filter(scales.get, scales), key=lambda axes: (axes.get_position().x0, -axes.get_position().y0))
+        named = left.get_ylabel() or re.search("[A-Za-z]", "".join(scales[left]))
+
+        assert not [name for first, second in product(above, boxes) if first.overlaps(second)]
+        assert all(box.y0 >= 0.0 and box.y1 <= figure.bbox.height for box in (*above, *boxes)), name
+        assert named or (task, name) == (TASK, "stability"), name
+    if task == HOIST:
+        assert f"{made(task).to_json()['roots']['own']['root']:.7g}" in made(task).table()
+
+
 def test_data_mark_what_no_other_beats_in_both_speed_and_accuracy() -> None:
     entries = [one for one in made(TASK).to_json()["accuracy"]["entries"] if None not in (one["seconds"], one["error"])]
 
@@ -143,6 +162,7 @@ def test_a_hand_stands_above_the_times_of_the_others() -> None:
         assert not [*band.get_yticks()]
         assert band.get_position().y0 == pytest.approx(field.get_position().y1)
         assert band.get_xlim() == field.get_xlim()
+        assert [text for text in field.texts if text.get_text()]  # points say what they are
     assert any("«звичайна»" in text.get_text().replace("\n", " ") for one in axes for text in one.texts)
 
 
