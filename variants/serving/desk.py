@@ -48,10 +48,10 @@ class Served:
 class Desk:
     """A server at work: its processes, and what it has made."""
 
-    def __init__(self, doors: Doors, allowed: str, language: str = "") -> None:
+    def __init__(self, doors: Doors, allowed: str, language: str = "", seats: int = 0) -> None:
         """Open it; the language is that of pages whose addresses say none."""
         self.doors, self.allowed, self.language = doors, allowed, language
-        self.cores = max(os.cpu_count() or 1, 2)
+        self.cores = seats or max(os.cpu_count() or 1, 2)
         self.kinds = _writable()
         self.home = Home()
         self.crew = Crew(self.cores, WAITING, SECONDS, self.home.path, "seat")
