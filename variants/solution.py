@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -195,11 +195,11 @@ class Solution(OfCase, Mapping[str, Quantity]):
             lines += ["", words[self.kind.judged], aligned(judged, (0, 1, 3))]
         return "\n".join(lines)
 
-    def scaled(self, words: Words) -> str:
-        """Return the format of the sheet and its scale factors, as a line."""
+    def scaled(self, words: Words, letters: Callable[[str], str] = str) -> str:
+        """Return the format of the sheet and its scale factors, as a line; `letters` spell their names."""
         shown = (words.display.scale(scale) for scale in self.scales.values())
-        units = ((one, words.spelled(one.per_mm_unit)) for one in shown)
-        return f"{self.format}: {', '.join(f'{one.symbol} = {words.short(one.mu, 6)} {unit}' for one, unit in units)}"
+        each = ((letters(one.symbol), words.short(one.mu, 6), words.spelled(one.per_mm_unit)) for one in shown)
+        return f"{self.format}: {', '.join(f'{name} = {mu} {unit}' for name, mu, unit in each)}"
 
 
 def _judged(checks: Iterable[Check], words: Words) -> list[list[str]]:

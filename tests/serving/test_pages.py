@@ -131,6 +131,15 @@ def test_a_form_asks_of_each_row_what_it_can_hold(client: TestClient) -> None:
     }
 
 
+def test_a_form_says_nothing_of_cells_that_it_does_not_have(client: TestClient) -> None:
+    told = re.findall("<p>(.*?)</p>", client.get(f"/task/{TASK}/check?v=3").text)
+    hints, scales = (line for line in told if line.endswith("."))
+
+    assert "Any cell may be left empty" in hints
+    assert "μ<sub>l</sub> = 0.001 m/mm" in scales
+    assert not {"student", "group", "sheet id"}.intersection(told)
+
+
 def test_answers_are_marked_as_the_command_marks_them(client: TestClient, tmp_path: Path) -> None:
     page = client.get(f"/task/{TASK}/check?v=3").text
     names = dict(re.findall(r'name="(a\.\d+\.5)"[^>]*aria-label="([^:"]+):', page))

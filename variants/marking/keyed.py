@@ -273,7 +273,7 @@ def form_rows(keyed: Keyed, about: Mapping[str, str], only: Collection[str] = ()
     notes = ["hint", *["directions"] * vectors, *(note for plan, note in kind.form_notes.items() if plan in plans)]
     yield (" ".join(said[f"form.{note}"] for note in notes),)
     if about.get("variant") and keyed.solution.scales:  # a wish, no answer: the rows of the factors stay the student's
-        yield (said["form.scales"].format(scales=keyed.solution.scaled(words)),)
+        yield (said["form.scales"].format(scales=keyed.solution.scaled(words, keyed.symbol)),)
     yield tuple(said[f"column.{column}"] for column in COLUMNS)
     letters = kind.vector_letters(keyed.solution.solved, words)
     for part in keyed.parts:

@@ -317,7 +317,7 @@ def form(
     said, parts = door.said, list[Html]()
     head = next(number for number, row in enumerate(rows) if len([text for text in row if text]) == len(COLUMNS))
     heads = dict(zip(COLUMNS, rows[head], strict=False))
-    hints = [row[0] for row in rows[:head] if row[0] and not any(row[1:])]
+    hints = [row[0] for row in rows[:head] if len(row) == 1]  # who it is has two cells
     body = list[Html]()
     for number, row in enumerate(rows[head + 1 :], head + 1):
         cells = dict(zip(COLUMNS, (*row, *[""] * len(COLUMNS)), strict=False))
@@ -342,7 +342,7 @@ def form(
         symbol = tag("th", scripted(cells["symbol"]), vector, scope="row")
         body.append(tag("tr", symbol, *inputs, tag("td", cells["unit"])))
     labels = (tag("th", heads[column], scope="col") for column in ("symbol", *ANSWERED, "unit"))
-    parts = [tag("p", hint) for hint in hints]
+    parts = [tag("p", scripted(hint)) for hint in hints]
     table = tag("table", tag("thead", tag("tr", *labels)), tag("tbody", *body), class_="answers")
 
     def asked(answers: Html, hand: str, **how: str) -> Html:
