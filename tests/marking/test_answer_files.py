@@ -137,11 +137,13 @@ def test_the_form_of_a_variant_says_the_sheets_scale_factors_and_answers_nothing
     own = read_grid(check("nau-slider-crank", "7", lang=language, format=format).write_form(tmp_path / name))
     blank = read_grid(form(tmp_path, "blank.csv", language))
 
-    [line] = [row[0] for row in own.rows if said in row[0]]
     factors = {row[0]: row[4] + row[5] for row in own.rows if row[0].startswith("mu_")}
-    assert scales <= set(re.findall(r"mu_\w+", line))
+    symbols = {row[0]: row[1] for row in own.rows if row[0] in factors} | {"mu_l": "μ_l"}
+    said = re.sub(r"mu_\w+", lambda found: symbols[found[0]], said)
+    [line] = [row[0] for row in own.rows if said in row[0]]
+    assert scales <= {name for name, symbol in symbols.items() if f"{symbol} = " in line}
     assert factors == dict.fromkeys(scales, "")
-    assert not any("mu_l = " in row[0] for row in blank.rows if row)
+    assert not any("μ_l = " in row[0] for row in blank.rows if row)
     with pytest.raises(InputError, match="the form is empty"):
         _read_answers(tmp_path / name, ASKED)
 
