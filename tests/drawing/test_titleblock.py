@@ -239,6 +239,8 @@ def test_blocks_and_frames_are_where_the_standard_has_them(name: str, norm: str,
     assert widths == {pens.main, pens.thin}
     assert boxes[0] == block_box(sheet, norm, first)
     assert boxes[0][1:3] == (y0, x1)
+    corner = (max(end[axis] for *ends, _ in table for end in ends) for axis in (0, 1))  # as large as what is drawn
+    assert (x1 - left, boxes[0][3] - y0) == pytest.approx((*corner,))
     for a, b, c, d in boxes:
         assert x0 <= a < c <= x1
         assert y0 <= b < d <= y1
