@@ -1,5 +1,6 @@
 """DXF read back in mm: vectors with their values, letters, blocks, fields of title blocks; outlines to cut."""
 
+import math
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -16,7 +17,7 @@ from shapely import LinearRing, Point
 import kulman
 from kulman.drawing.dxf import APP, FITTED, LACKING, STYLE
 from kulman.drawing.page import Page
-from kulman.drawing.shapes import Group, Text, Vector
+from kulman.drawing.shapes import Arc, Circle, Group, Text, Vector
 from kulman.drawing.text import lay_out, lettered
 from kulman.drawing.writers import WRITERS
 from kulman.scales.errors import InputError
@@ -104,6 +105,28 @@ def test_layers_patterns_and_blocks_are_named() -> None:
     assert inserted["PAIR"] > len([block for block in document.blocks if block.name.startswith("PAIR")]) >= 1
     assert {line.dxf.linetype for line in entities(document, "LINE")} == {"BYLAYER", "KULMAN_AXIS"}
     assert {line.dxf.lineweight for line in entities(document, "LINE")} == {30, 80}
+
+
+@pytest.mark.parametrize("fill", [False, True, "white"])
+def test_circles_and_arcs_are_read_back(fill: bool | str) -> None:
+    rng = np.random.default_rng(8)
+    round_ones = [Circle(complex(*rng.uniform(20.0, 180.0, 2)), rng.uniform(1.0, 20.0), fill=fill) for _ in range(9)]
+    turns = [(rng.uniform(-7.0, 7.0), rng.uniform(-6.0, 6.0)) for _ in range(9)] + [(0.3, math.tau), (0.3, -math.tau)]
+    arcs = [Arc(complex(*rng.uniform(20.0, 180.0, 2)), rng.uniform(1.0, 20.0), *turn) for turn in turns]
+    document = dxf(Page(210, 297, (*round_ones, *arcs), "x", "uk"))
+
+    found = [(*entity.dxf.center.vec2, entity.dxf.radius) for entity in entities(document, "CIRCLE")]
+    whole = [*round_ones, *(arc for arc in arcs if abs(arc.sweep) >= math.tau)]
+    parts = [arc for arc in arcs if arc not in whole]
+    right = sorted((one.centre.real, one.centre.imag, one.radius) for one in whole)
+    assert np.array(sorted(found)) == pytest.approx(np.array(right))
+    for entity, arc in zip(entities(document, "ARC"), parts, strict=True):
+        assert (*entity.dxf.center.vec2, entity.dxf.radius) == pytest.approx(
+            (arc.centre.real, arc.centre.imag, arc.radius)
+        )
+        ends = {arc.start, arc.start + arc.sweep}
+        assert [math.cos(math.radians(entity.dxf.start_angle) - min(ends))] == pytest.approx([1.0])
+        assert [math.cos(math.radians(entity.dxf.end_angle) - max(ends))] == pytest.approx([1.0])
 
 
 @pytest.mark.parametrize("norm", ["gost", "iso"])
