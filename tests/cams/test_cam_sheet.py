@@ -548,6 +548,9 @@ def test_pressure_angles_of_a_rocker_are_drawn_between_their_limits_over_the_sec
 
     steps = np.diff(feet)
 
+    limits = FREE.solved.rolling.limits
+    told = {f"[θ] = {90.0 - math.degrees(gamma):g}°" for gamma in (limits.gamma_rise, limits.gamma_fall)}
+    assert told == {text.string for text in view.texts if text.string.startswith("[")}
     assert max(heights) == pytest.approx(rise[0].points[0].imag, abs=NEAR)
     assert min(heights) == pytest.approx(fall[0].points[0].imag, abs=NEAR)
     assert steps == pytest.approx(np.diff(angles) * (steps[0] / (angles[1] - angles[0])), abs=NEAR)
