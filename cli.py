@@ -116,13 +116,14 @@ def show_help(ctx: click.Context, command: str | None, lang: str | None) -> None
 @console.of_language
 def show_guide(topic: str | None, lang: str | None) -> None:
     """Show a guide, page by page on a console; without TOPIC the list of them."""
-    from .variants.commands import guides
+    from .variants.commands.guides import guide, page
+    from .variants.shelf import guides
 
     if topic is None:
-        for name, heading in guides.contents(system_language()).items():
+        for name, heading in guides(system_language()).items():
             click.echo(f"{name:<15}{heading}")
         return
-    guides.page(guides.guide(topic, system_language()))
+    page(guide(topic, system_language()))
 
 
 @console.command("kulman list", "kulman list --json", name="list")
@@ -362,7 +363,7 @@ def serve(passwords: str | None, students: str | None, lang: str | None, **optio
     try:
         from .variants.serving.app import serve as serve_pages
     except ModuleNotFoundError as missing:
-        if missing.name not in ("starlette", "uvicorn"):
+        if missing.name not in ("markdown_it", "starlette", "uvicorn"):
             raise
         raise InputError("serve-extra") from None
 

@@ -1,4 +1,4 @@
-"""The tasks that come with the program: their ids, texts, what `list` shows of them."""
+"""What comes with the program: tasks, their ids, texts, what `list` shows of them; guides."""
 
 from __future__ import annotations
 
@@ -10,12 +10,15 @@ from ..scales.names import unknown
 from ..scales.packaged import home
 from .kinds import table_in
 
-_TASKS = home(__package__) / "tasks"
+_TASKS, _GUIDES = home(__package__) / "tasks", home(__package__) / "guides"
+# in the order of reading
+GUIDES = ("start", "install", "own-mechanism", "task-file", "subjects", "marking", "classes", "settings", "python")
 # what the files of the bundled tasks look like: a row of variants begins with its id, a given with unit or choices
 _ID = re.compile(r'^(?:  \{ )?id = "([^"]+)"', re.MULTILINE)
 _TABLE = re.compile(r"^variant = \[\n.*?^\]\n", re.MULTILINE | re.DOTALL)
 HEADS = re.compile(r"^\[+(\w+)", re.MULTILINE)  # of tables
 _GIVEN = re.compile(r'^(\w+) = \{ (?:unit = "([^"]+)"|choices = \[([^]]+)\])', re.MULTILINE)
+_COMMENT = re.compile(r"^<!--.*?-->\n", re.MULTILINE | re.DOTALL)
 
 
 def bundled(kind: str | None = None) -> tuple[str, ...]:
@@ -55,3 +58,15 @@ def summary(task: str) -> dict[str, Any]:
         "variants": _ID.findall(text)[1:],
         "givens": givens,
     }
+
+
+def guides(language: str) -> dict[str, str]:
+    """Return the headings of the guides by topic."""
+    return {topic: guide_text(topic, language).partition("\n")[0].lstrip("# ") for topic in GUIDES}
+
+
+def guide_text(topic: str, language: str) -> str:
+    """Return a guide as Markdown; `InputError` where there is no such topic."""
+    if topic not in GUIDES:
+        raise unknown("guide-unknown", topic, GUIDES)
+    return _COMMENT.sub("", (_GUIDES / f"{topic}.{language}.md").read_text(encoding="utf-8"))

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 import kulman
+from kulman.variants.shelf import GUIDES
 
 TASK = "nau-slider-crank"
 ROSTER = "student;group;variant\nІ. Петренко;АТ-301;3\nО. Коваль;АТ-301;7\n"
@@ -54,6 +55,14 @@ def saved(page: Any, selector: str) -> bytes:
     with page.expect_download() as download:
         page.keyboard.press("Enter")
     return Path(download.value.path()).read_bytes()
+
+
+def test_guides_are_read_without_a_terminal(page: Any) -> None:
+    followed(page, "header a[href*='/guide']")
+    for topic in GUIDES:
+        followed(page, f"main a[href$='/guide/{topic}'], main a[href*='/guide/{topic}?']")
+        fault_free(page)
+        followed(page, "main a[href*='/guide?'], main a[href$='/guide']")
 
 
 def test_a_student_chooses_sees_saves_and_is_checked(page: Any, tmp_path: Path) -> None:

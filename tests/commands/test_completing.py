@@ -9,9 +9,8 @@ import pytest
 from kulman import cli
 from kulman.scales.choices import SIZES
 from kulman.tests.support.commands import Run
-from kulman.variants.commands.guides import TOPICS
 from kulman.variants.commands.helping import told
-from kulman.variants.shelf import bundled, summary
+from kulman.variants.shelf import GUIDES, bundled, summary
 
 Offered = Callable[..., list[str]]  # to a line, and a shell: what it may go on with
 
@@ -53,7 +52,7 @@ def offered(run: Run, monkeypatch: pytest.MonkeyPatch) -> Offered:
         ("kulman solve nau-slider-crank --notation ba", ["bauman"]),
         ("kulman check nau-slider-crank --roster c", ["file,c"]),
         ("kulman batch nau-slider-crank --out c", ["dir,c"]),
-        ("kulman guide ", [*TOPICS]),
+        ("kulman guide ", [*GUIDES]),
         ("kulman help sw", ["sweep"]),
         ("kulman solve no-such-task -v ", []),
         ("kulman sovle ", sorted(cli.commands.commands)),

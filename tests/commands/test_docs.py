@@ -26,7 +26,6 @@ from kulman.variants import case, reader
 from kulman.variants.checks import basics as checks
 from kulman.variants.checks import mechanism as checks_mechanism
 from kulman.variants.checks import names as checks_names
-from kulman.variants.commands import guides
 from kulman.variants.commands.helping import told
 from kulman.variants.kinds import cam, gear, hoist
 from kulman.variants.making.starter import _template
@@ -35,7 +34,7 @@ from kulman.variants.solution import solve
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 DOCUMENTS = (*DOCS.rglob("*.md"), *refresh.GUIDES)
-TASK_FILES = [path.read_text(encoding="utf-8") for path in guides.FOLDER.glob("task-file.*")]
+TASK_FILES = [path.read_text(encoding="utf-8") for path in refresh.GUIDES if path.name.startswith("task-file.")]
 NOTATIONS = (DOCS / "notations.md").read_text(encoding="utf-8")
 TASK = "nau-slider-crank"
 

@@ -16,10 +16,9 @@ from kulman.scales.errors import LANGUAGES, messages
 from kulman.tests.support.cases import some
 from kulman.tests.support.documents import blocks, run_here
 from kulman.tests.support.sources import ROOT, files
-from kulman.variants.commands.guides import TOPICS
 from kulman.variants.making.starter import _template
 from kulman.variants.reader import read_text
-from kulman.variants.shelf import bundled_text
+from kulman.variants.shelf import GUIDES, bundled_text
 
 TEXTS = {path.stem: path.read_text(encoding="utf-8") for path in refresh.DOCUMENTS}
 COMMANDS = refresh.BLOCK.findall(TEXTS["commands"])
@@ -106,7 +105,7 @@ def test_the_page_of_commands_names_every_command_and_links_of_the_readme_lead_s
     for path in refresh.READMES:
         links = re.findall(r"\]\(([^)#:]+)\)", TEXTS[path.stem])
         assert [target for target in links if not (refresh.ROOT / target).exists()] == []
-        assert {f"variants/guides/{topic}.{refresh.language(path)}.md" for topic in TOPICS} <= {*links}
+        assert {f"variants/guides/{topic}.{refresh.language(path)}.md" for topic in GUIDES} <= {*links}
         assert len(TEXTS[path.stem].split()) <= LONGEST
 
 

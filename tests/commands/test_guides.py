@@ -13,8 +13,10 @@ import pytest
 from kulman.cli import commands
 from kulman.docs import refresh
 from kulman.scales.errors import LANGUAGES
+from kulman.scales.packaged import home
 from kulman.tests.support.commands import Run
 from kulman.variants.commands import guides
+from kulman.variants.shelf import GUIDES
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 TYPED = re.compile(r"\s*(kulman|py|python3?|source|uv|echo|_KULMAN\w*) ")  # lines of blocks that a user types
@@ -65,17 +67,17 @@ def test_commands_and_options_that_a_guide_names_are_there(path: Path) -> None:
 
 
 def test_every_file_is_a_guide_and_every_guide_is_listed_by_its_heading(run: Run) -> None:
-    assert {path.name for path in guides.FOLDER.iterdir()} == {
-        f"{of}.{to}.md" for of in guides.TOPICS for to in LANGUAGES
+    assert {path.name for path in (home("kulman.variants") / "guides").iterdir()} == {
+        f"{of}.{to}.md" for of in GUIDES for to in LANGUAGES
     }
     for language in LANGUAGES:
         lines = run("guide", "--lang", language)[1].splitlines()
-        assert [line.split()[0] for line in lines] == [*guides.TOPICS]
+        assert [line.split()[0] for line in lines] == [*GUIDES]
         assert all(len(line.split()) > 2 for line in lines)
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("topic", guides.TOPICS)
+@pytest.mark.parametrize("topic", GUIDES)
 def test_a_guide_is_shown_in_the_language(topic: str, language: str, run: Run) -> None:
     status, shown, warning = run("guide", topic, "--lang", language)
 

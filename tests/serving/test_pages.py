@@ -9,6 +9,7 @@ import zipfile
 from html import unescape
 from pathlib import Path
 from typing import Any
+from urllib.parse import unquote
 
 import pytest
 from starlette.testclient import TestClient
@@ -16,7 +17,7 @@ from starlette.testclient import TestClient
 import kulman
 from kulman.variants.marking.checks import write_tables
 from kulman.variants.marking.report import report_html
-from kulman.variants.shelf import bundled, bundled_text
+from kulman.variants.shelf import bundled, bundled_text, guide_text, guides
 
 TASK = "nau-slider-crank"
 ROSTER = "student;group;variant\nІ. Петренко;АТ-301;3\nО. Коваль;АТ-301;7\n".encode()
@@ -129,6 +130,33 @@ def test_a_form_asks_of_each_row_what_it_can_hold(client: TestClient) -> None:
         "a^n_BA": "357",
         "M_bal": "57",
     }
+
+
+@pytest.mark.parametrize("language", ["uk", "ru", "en"])
+def test_guides_are_pages_that_lead_to_one_another_and_to_tasks(language: str, client: TestClient) -> None:
+    headings, pages = guides(language), dict[str, str]()
+    listed = unescape(client.get(f"/guide?lang={language}").text)
+    assert all(heading in listed for heading in headings.values())
+    for topic, heading in headings.items():
+        pages[topic] = client.get(f"/guide/{topic}?lang={language}").text
+        text = unescape(re.sub("<[^>]*>", "", pages[topic]))
+        assert re.findall("<h1[^>]*>(.*?)</h1>", unescape(pages[topic])) == [heading]
+        assert not re.search(r" style=|<!--|\]\(|\.md\b(?=\))", pages[topic])
+        shown = [line for line in guide_text(topic, language).splitlines() if line.startswith("$ kulman")]
+        assert all(line in text for line in shown)
+    led = {to for page in pages.values() for to in re.findall('href="([^"]+)"', page)}
+    inside = {to.removeprefix(client.base_url.path.rstrip("/")) for to in led if not re.match("#|https:", to)}
+    assert {f"/task/scheme-09-shaper?lang={language}", f"/guide/marking?lang={language}"} <= inside
+    for to in inside:
+        path, _, part = to.partition("#")
+        if path.startswith("/guide/"):
+            assert not part or f'id="{unquote(part)}"' in pages[path.removeprefix("/guide/").partition("?")[0]]
+        elif path.startswith("/task/"):
+            assert path.removeprefix("/task/").partition("?")[0] in bundled()
+    for topic, page in pages.items():
+        for part in re.findall('href="#([^"]+)"', page):
+            assert part == "main" or f'id="{unquote(part)}"' in page, topic
+    assert client.get("/guide/none").status_code == 404
 
 
 def test_a_form_says_nothing_of_cells_that_it_does_not_have(client: TestClient) -> None:

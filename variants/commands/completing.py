@@ -109,6 +109,6 @@ def notations(ctx: click.Context) -> Iterable[str]:
 
 def topics(ctx: click.Context) -> Mapping[str, str]:
     """Return the guides with their headings."""
-    from .guides import contents
+    from ..shelf import guides
 
-    return contents(system_language())
+    return guides(system_language())

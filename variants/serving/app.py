@@ -33,7 +33,7 @@ from ..crew import digest_of
 from ..kinds import KINDS as SUBJECTS
 from ..kinds import MODULES
 from ..sheets import BLOCK
-from ..shelf import bundled, summary
+from ..shelf import GUIDES, bundled, summary
 from . import making, pages
 from .answering import Questions, marked_alone
 from .asking import Sitting
@@ -98,6 +98,8 @@ class _Answers:
             Route("/result/{name}", self.result),
             Route("/own", self.own_page, methods=["GET"]),
             Route("/own", self.own_checked, methods=["POST"]),
+            Route("/guide", self.guides_page),
+            Route("/guide/{topic}", self.guide_page),
             Route("/class", self.class_page, methods=["GET"]),
             Route("/class", self.class_begun, methods=["POST"]),
             Route("/marks", self.marks_page, methods=["GET"]),
@@ -236,6 +238,15 @@ class _Answers:
         if not judged.faults:
             self.desk.own.keep(name, data)
         return HTMLResponse(pages.own(door, SUBJECTS, judged.text, judged, door.link(f"/task/{name}")))
+
+    async def guides_page(self, request: Request) -> Response:
+        return HTMLResponse(pages.guides(self.desk.door(request)))
+
+    async def guide_page(self, request: Request) -> Response:
+        topic = request.path_params["topic"]
+        if topic not in GUIDES:
+            raise HTTPException(404)
+        return HTMLResponse(pages.guide(self.desk.door(request), topic))
 
     def listed(self, door: Door) -> list[tuple[str, str]]:
         return [(id_, summary(id_)["title"][door.language]) for id_ in bundled()]

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape
+from itertools import pairwise
 from urllib.parse import quote, urlencode
+
+from markdown_it import MarkdownIt
 
 from ...scales.choices import HANDS, SHEETS, SIZES
 from ...scales.errors import LANGUAGES, KulmanError
@@ -14,6 +18,8 @@ from ..batches.batch import FORMS
 from ..marking.keyed import COLUMNS
 from ..marking.report import scripts
 from ..sheets import BLOCK
+from ..shelf import GUIDES, bundled, guide_text
+from ..shelf import guides as listed_guides
 from .making import GivenField, Job, Judged, Rows, Shown
 from .safety import ALLOWED, STUDENT
 
@@ -94,6 +100,7 @@ def page(
     said = door.said
     places = [("/", "nav.tasks"), ("/own", "nav.own")]
     places += [("/class", "nav.class"), ("/marks", "nav.marks")] if door.role != STUDENT else []
+    places.append(("/guide", "nav.guides"))
     nav = (tag("a", said[key], href=door.link(to), aria_current="page" if to == at else None) for to, key in places)
     tongues = (
         tag(
@@ -373,15 +380,57 @@ def scripted(text: str) -> Html:
     return Html(scripts(text))
 
 
+def guides(door: Door) -> str:
+    """Return the page with the headings of all guides."""
+    links = (
+        tag("li", tag("a", heading, href=door.link(f"/guide/{topic}")))
+        for topic, heading in listed_guides(door.language).items()
+    )
+    return page(door, door.said["nav.guides"], tag("ul", *links, class_="files"), at="/guide")
+
+
+def guide(door: Door, topic: str) -> str:
+    """Return a guide as a page; `InputError` where there is no such topic."""
+    reader = MarkdownIt("commonmark", {"html": False}).enable("table")
+    _, title, _, *tokens = reader.parse(guide_text(topic, door.language))
+    deeper = 0
+    for before, token in pairwise(tokens):
+        if before.type.startswith("heading_"):
+            deeper |= before.tag == "h1"  # a part that holds what follows: a page has one title
+            before.tag = f"h{int(before.tag[1]) + deeper}"
+        if before.type == "heading_open":
+            before.attrSet("id", re.sub(r"[^\w\s-]", "", token.content.lower()).replace(" ", "-"))
+        before.attrs.pop("style", None)  # how a column is aligned: a page takes no style of its own
+        links = [link for link in token.children or () if link.type in ("link_open", "link_close")]
+        for opens, closes in zip(links[::2], links[1::2], strict=True):
+            target = _led_to(door, str(opens.attrGet("href")))
+            opens.attrSet("href", target)
+            opens.hidden = closes.hidden = not target
+    back = tag("p", tag("a", f"← {door.said['nav.guides']}", href=door.link("/guide")))
+    text = Html(reader.renderer.render(tokens, reader.options, {}))
+    return page(door, title.content, back, tag("div", text, class_="guide"), at=f"/guide/{topic}")
+
+
+def _led_to(door: Door, target: str) -> str:
+    """Return the address of what a guide leads to, nothing where that is no page here."""
+    path, mark, part = target.partition("#")
+    name = path.rpartition("/")[2].partition(".")[0]
+    if not path or "://" in path:
+        return target
+    if path.endswith(".toml"):
+        return door.link(f"/task/{name}") if name in bundled() else ""
+    return f"{door.link(f'/guide/{name}')}{mark}{part}" if path.endswith(".md") and name in GUIDES else ""
+
+
 def own(door: Door, kinds: Sequence[str], text: str, judged: Judged | None, to: str) -> str:
     """Return the page of a task file of one's own, with what the checker says of it; `to` is where it can be seen."""
     said = door.said
     begin = (
         tag("a", said[f"kind.{kind}"], href=door.link("/own", [("kind", kind)]), class_="button") for kind in kinds
     )
-    words = said["own.about"].split("`")  # a command stands between marks
-    about = (tag("code", word) if n % 2 else word for n, word in enumerate(words))
-    parts = [tag("p", *about), tag("p", said["own.begin"], " ", *begin, class_="buttons")]
+    before, _, after = said["own.about"].partition("{guide}")
+    explained = tag("a", listed_guides(door.language)["task-file"], href=door.link("/guide/task-file"))
+    parts = [tag("p", before, explained, after), tag("p", said["own.begin"], " ", *begin, class_="buttons")]
     if judged is not None:
         parts += _judged(door, judged, to)
     height = min(max(text.count("\n") + 2, 16), 40)
