@@ -10,7 +10,7 @@ import os
 import re
 from abc import ABC, abstractmethod
 from base64 import b64encode
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Container, Iterable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from datetime import datetime
@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, TypeAlias, cast
 from ..drawing.writers import WRITERS, Files, save_all
 from ..scales.errors import InputError
 from ..scales.names import of_kind, unknown
+from ..scales.numbers import SHOWN, quote
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -398,6 +399,26 @@ def plain(data: Any) -> Any:
 def table_bytes(path: Path, rows: Rows, language: str, title: str, bold: Iterable[int] = (), frozen: int = 0) -> bytes:
     """Return rows as the kind of file that the suffix of `path` picks."""
     return _xlsx_bytes(rows, title, bold, frozen) if path.suffix.lower() == ".xlsx" else csv_table(rows, language)
+
+
+def save_form(
+    file: str | os.PathLike[str],
+    known: Collection[str],
+    rows: Rows,
+    language: str,
+    title: str,
+    bold: Iterable[int] = (),
+    frozen: int = 0,
+) -> Path:
+    """Save rows to be filled in; a file of the name that holds anything else, as one that is filled in, stays."""
+
+    def made(path: Path) -> Files:
+        data = table_bytes(path, rows, language, title, bold, frozen)
+        if path.is_file() and path.read_bytes() != data:
+            raise InputError("output-exists", file=quote(path, SHOWN))
+        return [(path, data)]
+
+    return save_all((file,), known, made)[0]
 
 
 def csv_table(rows: Rows, language: str, separator: str | None = None) -> bytes:

@@ -379,3 +379,17 @@ def test_a_good_file_with_a_piece_cut_out_never_crashes(data: st.DataObject) -> 
 
     assert (task is None) == bool(faults)
     assert all(fault.text("ru").isprintable() for fault in faults)
+
+
+@pytest.mark.parametrize("suffix", ["csv", "xlsx"])
+@pytest.mark.parametrize("command", [("check", TASK, "-v", "3"), ("batch", TASK)], ids=["answers", "roster"])
+def test_a_form_that_has_been_filled_in_is_never_written_over(
+    command: tuple[str, ...], suffix: str, run: Run, refusal: Callable[..., str]
+) -> None:
+    form = Path(f"form.{suffix}")
+    assert [run(*command, "--form", form.name)[0] for _ in range(2)] == [0, 0]  # an empty one may be
+    filled = form.read_bytes() + b" "
+    form.write_bytes(filled)
+
+    assert "it is left as it is" in refusal(*command, "--form", form.name)
+    assert form.read_bytes() == filled

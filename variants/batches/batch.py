@@ -21,7 +21,7 @@ from ...drawing.notes.docx import Drawing, docx_bytes, drawings_of
 from ...drawing.notes.typst import Body, pdf_bytes
 from ...drawing.pdf import joined, on_leaves
 from ...drawing.words import Words
-from ...drawing.writers import WRITERS, folder_for, page_files, save_all, slug, sweep_parts, write_whole
+from ...drawing.writers import WRITERS, folder_for, page_files, slug, sweep_parts, write_whole
 from ...plans.quantities import measured
 from ...scales.choices import SHEETS
 from ...scales.errors import InputError, KulmanError, Written, spoken, system_language
@@ -40,7 +40,7 @@ from ..reader import load_task
 from ..roster import SCHEME, VARIANT, WHO, Digits, Entry, Schemes, of_several_groups, read_roster, shared_by_mistake
 from ..sheets import PAPER, Sheet, drawing_for_print, drawing_of, said_of, sheet_id, sheet_of, stamp_of, titled
 from ..spreadsheets.grid import SUFFIXES
-from ..tables import Cell, csv_table, table_bytes
+from ..tables import Cell, csv_table, save_form
 from ..task import AnyTask, Task
 
 MANIFEST, KEY = "manifest.csv", "key.csv"
@@ -482,7 +482,7 @@ def write_roster(task: Tasks, file: str | os.PathLike[str], lang: str = "uk") ->
     said, alone = texts(lang), len(tasks) == 1
     head = tuple(said[f"about.{key}"] for key in ("student", "group", *(() if alone else ("task",)), "variant"))
     rows = [head, *(("", "", *(() if alone else (one.id,)), name) for one in tasks for name in one.variants)]
-    return save_all((file,), SUFFIXES, lambda path: [(path, table_bytes(path, rows, lang, tasks[0].id, [0], 1))])[0]
+    return save_form(file, SUFFIXES, rows, lang, tasks[0].id, [0], 1)
 
 
 def _tables(batch: Batch, tasks: Sequence[Task], language: str) -> Iterator[tuple[str, list[tuple[Cell, ...]]]]:

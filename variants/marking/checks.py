@@ -27,7 +27,7 @@ from ..reader import load_task
 from ..roster import Digits, Entry, Who, collated, of_several_groups, read_roster, shared_by_mistake
 from ..sheets import sheet_id
 from ..spreadsheets.grid import SUFFIXES as TABLES
-from ..tables import csv_table, table_bytes
+from ..tables import csv_table, save_form, table_bytes
 from ..task import LocatedError, Task
 from .class_page import PAGE, ClassPage
 from .keyed import PLANS, asked_of, class_header, columns_of, form_rows, fullest, read_rubric, solved
@@ -85,8 +85,7 @@ class Check(Terms):
             head = next(number for number, row in enumerate(rows) if row[0] == columns)
             bold = [n for n, row in enumerate(rows) if n >= head and (len(row) == 1 or row[0] == columns)]
             frozen = head + 1
-        looks = rows, language, task.id, bold, frozen
-        return save_all((file,), TABLES, lambda path: [(path, table_bytes(path, *looks))])[0]
+        return save_form(file, TABLES, rows, language, task.id, bold, frozen)
 
     def read(self, *names: str, warn: Callable[[KulmanError], None] | None = None) -> list[Answers]:
         """Read the answers in files, folders, patterns.
