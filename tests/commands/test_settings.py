@@ -94,10 +94,11 @@ def test_a_folder_is_no_file_of_settings(file: Path, run: Run) -> None:
     assert run("list")[0] == 2
 
 
-def test_the_environment_names_another_file_or_none(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_environment_names_another_file_or_none(file: Path, monkeypatch: pytest.MonkeyPatch, run: Run) -> None:
     assert _settings_file() == file
     monkeypatch.setenv(PLACE, "other.toml")
     assert _settings_file() == Path("other.toml")
+    assert run("list") == (2, "", "KULMAN_CONFIG: other.toml: there is no such file\n")
     monkeypatch.setenv(PLACE, "")
     assert _settings_file() is None
 

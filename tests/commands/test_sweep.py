@@ -122,8 +122,8 @@ WRONG = {
     "unknown point of chords": (["--chords", "Q"], "neither a point nor a link"),
     "unknown suffix": (["-o", "cycle.xyz"], ".csv"),
     "a crank that stops": (["--to", "90"], "sliding drivers"),
-    "a place of another kind": (["--from", "3 mm"], "start: "),
-    "no place": (["--from", "x"], "start: "),
+    "a place of another kind": (["--from", "3 mm"], "--from: "),
+    "no place": (["--from", "x"], "--from: "),
 }
 
 

@@ -419,7 +419,7 @@ def _per_cent(tolerance: str | float) -> float:
     try:
         most = parse(tolerance, per_cent, per_cent) * 100.0 if isinstance(tolerance, str) else float(tolerance)
     except InputError as error:
-        raise LocatedError("tolerance", error) from error
+        raise LocatedError("--tolerance", error) from error
     if not (math.isfinite(most) and most >= 0.0):
-        raise LocatedError("tolerance", InputError("negative", text=quote(tolerance)))
+        raise LocatedError("--tolerance", InputError("negative", text=quote(tolerance)))
     return most

@@ -65,9 +65,13 @@ def settings() -> dict[str, str]:
         can have.
     """
     file = _settings_file()
-    if file is None or not file.exists():
+    if file is None:
         return {}
     shown, text = quote(file, SHOWN), ""
+    if not file.exists():
+        if os.environ.get(PLACE):
+            raise InputError("file-missing", file=f"{PLACE}: {shown}")
+        return {}
     try:
         if not file.is_file():
             raise InputError("file-not-regular", file=shown)

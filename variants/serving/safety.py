@@ -125,7 +125,7 @@ def doors_for(host: str, names: tuple[str, ...], passwords: Mapping[str, str] | 
         address = ipaddress.ip_address(host)
     loopback = host == "localhost" or (address is not None and address.is_loopback)
     if not (loopback and not names) and not passwords:
-        raise InputError("serve-open", host=quote(host))
+        raise InputError("serve-open", host=quote(names[0] if loopback else host))
     anywhere = address is not None and address.is_unspecified
     own = {socket.gethostname().lower(), socket.getfqdn().lower()} if anywhere else set[str]()
     return Doors(frozenset({*local, *own, host.lower(), *map(str.lower, names)}), anywhere, passwords=passwords or {})

@@ -221,7 +221,7 @@ def _place(task: Task, name: str, value: str | float | None) -> float | None:
     try:
         return parse(value, own, own) if isinstance(value, str) else plain_number(value, own)
     except InputError as error:
-        raise LocatedError(name, error) from error
+        raise LocatedError({"start": "--from", "end": "--to"}[name], error) from error
 
 
 def driver_name(cycle: Cycle) -> str:
