@@ -6,6 +6,7 @@ import math
 import os
 import re
 from collections.abc import Mapping, Sized
+from copy import copy
 from dataclasses import dataclass, field
 from numbers import Real
 from pathlib import Path
@@ -50,6 +51,12 @@ class LocatedError(InputError):
     def text(self, language: str = "en") -> str:
         """Return the place and the message as one line in `language`."""
         return f"{spoken(self.place, language)}: {self.cause.text(language)}"
+
+    def __str__(self) -> str:
+        """Return the message as any error does, the place, too, by the argument that the option is in Python."""
+        named = copy(self)
+        named.place = getattr(self.place, "argument", self.place)
+        return super(LocatedError, named).__str__()
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -326,6 +326,9 @@ def test_an_argument_that_a_note_lacks_is_compared_with_those_it_has() -> None:
     [
         ("sweep", {"end": "2 deg"}, "a crank makes a full turn: end is for sliding drivers only"),
         ("sweep", {"task": "madi-cam", "start": "2 deg"}, "madi-cam: start is not available for tasks of this kind"),
+        ("sweep", {"start": "x"}, "start: 'x' is not a number"),
+        ("sweep", {"end": "x"}, "end: 'x' is not a number"),
+        ("chart", {"tolerance": -1}, "tolerance: '-1': must not be negative"),
         ("handout", {"steps": 3, "key": True}, "steps without key"),
         ("all_variants", {"ranges": {"l_OA": "20..30/5 mm"}}, "ranges and seed go with make"),
         ("solve", {"scales": {"mu_v": 1}}, "no scale factor 'mu_v'; did you mean 'mu_V'"),

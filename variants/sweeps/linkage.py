@@ -20,7 +20,7 @@ from ...plans.linkages.strokes import Output, OutputMotion
 from ...plans.names import role
 from ...plans.quantities import BALANCES, unit_of
 from ...plans.solved import Columned
-from ...scales.errors import InputError, PositionError
+from ...scales.errors import InputError, Option, PositionError
 from ...scales.names import all_known, names_of, of_kind
 from ...scales.units import parse, unit
 from ..case import Case, positions_of
@@ -221,7 +221,7 @@ def _place(task: Task, name: str, value: str | float | None) -> float | None:
     try:
         return parse(value, own, own) if isinstance(value, str) else plain_number(value, own)
     except InputError as error:
-        raise LocatedError({"start": "--from", "end": "--to"}[name], error) from error
+        raise LocatedError(Option({"start": "--from", "end": "--to"}[name], name), error) from error
 
 
 def driver_name(cycle: Cycle) -> str:
