@@ -158,6 +158,26 @@ def test_what_is_read_from_a_plan_recomputes(case: tuple[str, str, Settings]) ->
         assert float(segment) * float(mu) == pytest.approx(float(value), abs=1.001 * half)
 
 
+@pytest.mark.parametrize("case", CASES)
+def test_circles_are_drawn_with_the_radii_that_were_found(case: tuple[str, str, Settings]) -> None:
+    found = cam(solved(*case))
+    told_of = re.findall(
+        r"circles? with the radi(?:us|i) (.+?)(?:;|\.(?!\d))", said(solved(*case), told(solved(*case)))
+    )
+
+    first = {"r_{0}": found.rolling.sizes.r_0} if found.rolling else {}
+    if found.rocker:
+        first["l_{OC}"] = found.values["l_OC"]
+    elif found.roller and abs(found.roller.sizes.e) > 1e-9:
+        first["e"] = abs(found.roller.sizes.e)
+    expected = [first, *([{"r_{0 pl}": found.plate.profile.r_0}] if found.plate else [])]
+    assert len(told_of) == len(expected)
+    for told_radii, radii in zip(told_of, expected, strict=True):
+        pairs = re.findall(r"(\S+(?: pl\})?) = ([\d.]+) mm", told_radii)
+        assert [name for name, _ in pairs] == [*radii]
+        assert [float(mm) for _, mm in pairs] == pytest.approx([1e3 * radius for radius in radii.values()], abs=0.0051)
+
+
 @pytest.mark.parametrize("task", [TASK, pytest.param(ROCKER, marks=pytest.mark.soak)])
 def test_parts_of_the_work_are_told_alone(task: str) -> None:
     every = solve_case(task)
