@@ -517,6 +517,7 @@ def z7_checks(case: GearCase, sheet: Sheet) -> Faults:
         yield from unless(("≥" if way > 0 else "≤") in row[1], f"the condition of {row}")
     yield from unless(not any("°" in cell or "рад" in cell for row in table for cell in row), "angles among checks")
     yield from _calculations(sheet)
+    yield from _laws_of_sliding(case, sheet)
 
 
 def _calculations(sheet: Sheet) -> Faults:
@@ -530,6 +531,18 @@ def _calculations(sheet: Sheet) -> Faults:
                 good = abs(again - number(result)) <= last_digit(result) * (1.0 + 1e-9)
                 yield from unless(good, f"{expression} = {result} comes out {again}")
     yield from unless(count > 40, f"only {count} calculations have numbers")
+
+
+def _laws_of_sliding(case: GearCase, sheet: Sheet) -> Faults:
+    """The laws of sliding are said with what they are at the ends of the active line, if both ends are there."""
+    said = " ".join(text.string for text in sorted(sheet["equations_quality"].of("line"), key=lambda t: -t.baseline))
+    for name in CURVES.values():
+        ends = sorted(case.sizes[f"{name}_{end}"] for end in ENDS)
+        found = re.search(rf"(\S+) ≤ θ_\{{{name[-2:]}\}} ≤ (\S+)", said)
+        good = (found is None) == (ends[-1] > 1.0)  # where a point of contact would lie beyond its N
+        for printed, end in zip(found.groups() if found else (), ends, strict=False):
+            good &= printed == "−∞" if math.isinf(end) else abs(number(printed) - end) <= 0.00501
+        yield from unless(good, f"{name} is within {ends}, printed: {found and found[0]}")
 
 
 def calculations(view: View) -> Iterator[tuple[str, str]]:
