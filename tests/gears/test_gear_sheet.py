@@ -151,6 +151,12 @@ def test_involutes_are_constructed_by_rolling() -> None:
             assert abs(end - foot) == pytest.approx(k * parts[1], abs=0.01)
             assert line.distance(shapely.Point(end.real, end.imag)) < 0.01
         assert len(crossings(curve.points, centre, abs(view.point("P") - centre))) == 1
+        (line_of_action,) = (
+            shapely.LineString([(p.real, p.imag) for p in s.points]) for s in view.lines("line-of-action", "N1N2")
+        )
+        ends = [shapely.Point(end.real, end.imag) for end in (places[f"D{i}_{last}"], view.point("P"))]
+        assert all(line_of_action.distance(end) < 0.01 for end in ends)  # it goes past what is laid off on it
+        assert all(line_of_action.boundary.distance(end) > 1.0 for end in ends)
 
 
 @pytest.mark.parametrize("m", [0.2e-3, 1e-3, 3e-3, 5e-3, 20e-3])
