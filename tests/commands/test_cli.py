@@ -50,8 +50,9 @@ def shell(arguments: list[str], folder: Path, **environment: str) -> subprocess.
 def examples(*command: str) -> list[list[str]]:
     """Return the commands that a help text shows."""
     text = CliRunner().invoke(cli.commands, [*command, "--help"]).output
-    shown = text.partition("Example:")[2]
-    return [shlex.split(line)[1:] for line in shown.splitlines() if line.strip().startswith("kulman ")]
+    shown = [shlex.split(line) for line in text.partition("Example:")[2].splitlines() if line.strip()]
+    assert {words[0] for words in shown} == {"kulman"}
+    return [words[1:] for words in shown]
 
 
 # of what takes long one example runs by default or none, all in the soak
