@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 from fontTools.pens.recordingPen import DecomposingRecordingPen
 from fontTools.ttLib import TTFont
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from kulman.drawing import letters
@@ -108,6 +108,16 @@ def test_bars_and_underlines_clear_the_ink(markup, rules):
 def test_escaped_text_shows_as_it_is(text):
     runs = lay_out(escape(text), 3.5).runs
     assert "".join(run.string for run in runs).replace(" ", "") == text.replace(" ", "")
+
+
+@example("")
+@example(r" \u{}")
+@given(markups)
+def test_every_text_is_as_high_as_its_ink_and_one_without_ink_has_no_height(markup: str) -> None:
+    layout = lay_out(markup, 3.5)
+    assert 0.0 <= layout.size[1] < math.inf
+    if not any(run.string.strip() for run in layout.runs) and not layout.rules:
+        assert layout.size[1] == 0.0
 
 
 @given(markups, markups)
