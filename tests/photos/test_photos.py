@@ -20,8 +20,9 @@ import zxingcpp
 from PIL import Image
 
 from kulman import check, handout, load_task
-from kulman.drawing.formats import drawing_area
-from kulman.drawing.markers import EACH, SIDE, fields, stands
+from kulman.drawing.formats import FORMATS, drawing_area
+from kulman.drawing.markers import EACH, SIDE, fields, scannable, stands
+from kulman.drawing.page import Page
 from kulman.drawing.shapes import shifted
 from kulman.plans.marking.answers import Verdict
 from kulman.plans.marking.drawn import Found, FoundPlan, Recognised
@@ -70,6 +71,18 @@ def honest(tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, dict[str, 
     file.write_bytes(photographed(ink, random, PHONE))
     ready = check(TASK, "0", only=PLANS, lang="en")
     return ready.mark(ready.read(str(file))[0]), truth
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_markers_of_an_empty_page_stand_in_its_corners_and_in_the_middle_of_its_sides(name: str) -> None:
+    paper = FORMATS[name]
+    page = scannable(Page(paper.width, paper.height, (), "x", "uk"), (), 1, "id", paper, "gost")
+    x, y = ((5.0, (size - SIDE) / 2.0, size - SIDE - 5.0) for size in (paper.width, paper.height))
+
+    wanted = [complex(x[i], y[k]) for i, k in ((0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1))]
+
+    assert [place.number for place in stands(page)] == [*range(EACH)]
+    assert all(abs(place.at - at) < 2.0 for place, at in zip(stands(page), wanted, strict=True))
 
 
 def test_markers_are_those_of_the_dictionary() -> None:
