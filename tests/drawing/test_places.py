@@ -13,6 +13,7 @@ import shapely
 from kulman.drawing.formats import STYLES
 from kulman.drawing.labels import Labels, Request, Scene, place
 from kulman.drawing.page import extent
+from kulman.drawing.raster import CELL, Cells, Convex
 from kulman.drawing.shapes import Arc, Circle, Group, Line, Pen, Text
 from kulman.drawing.spots import FINE, MAIN, Obstacles, Surroundings, first_clear
 from kulman.drawing.text import lay_out
@@ -630,3 +631,28 @@ def test_thin_lines_break_off_at_letters_that_they_would_strike_and_nowhere_else
             assert left.intersection(boxes).length < 1e-6, name
         gone += line.length - left.length > 1.0
     assert gone
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_cells_hold_all_of_boxes_and_circles_and_little_that_is_not_drawn(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    starts = rng.uniform(0.0, 150.0, (45, 2)) @ [1.0, 1j]
+    ends = starts + rng.uniform(-9.0, 9.0, (45, 2)) @ [1.0, 1j]
+    ends[:15] = starts[:15]
+    things = Convex.of(starts, ends, np.arange(45) >= 30)  # circles, strokes, boxes
+    things = things._replace(radius=np.where(np.arange(45) < 15, rng.uniform(0.3, 6.0, 45), 0.0))
+    cells = Cells.of(*things)
+
+    turns, out = rng.uniform(0.0, 2.0 * np.pi, (45, 400)), np.sqrt(rng.uniform(0.0, 1.0, (45, 400)))
+    out[:, :100] = 1.0  # on the edge, too
+    along, up = rng.uniform(-1.0, 1.0, (2, 45, 400))
+    along[:, :40], up[:, 40:80], up[:, 80:90] = 1.0, 1.0, -1.0
+    inside = things.middle[:, None] + things.radius[:, None] * out * np.exp(1j * turns)
+    inside += things.hx[:, None] * along + 1j * things.hy[:, None] * up
+    inside = inside[things.along == 0]  # of strokes cells may lack a corner
+    places = rng.uniform(-10.0, 160.0, (20_000, 2)) @ [1.0, 1j]
+    x, y = places.real[:, None], places.imag[:, None]
+    gaps = things.distance(x, y, np.zeros(1), np.zeros(1)).min(axis=1)
+
+    assert cells.at(inside.real.ravel(), inside.imag.ravel()).all()
+    assert not cells.at(places.real, places.imag)[gaps > 3.0 * CELL].any()
