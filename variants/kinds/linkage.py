@@ -375,7 +375,7 @@ def _turn(case: Case, plans: Plans = (), positions: int | None = None) -> Cycle:
 
 def _short(value: float) -> str:
     """Return a number with three digits, a large one with a power of ten."""
-    return f"{float(f'{value:.3g}'):g}" if value < 1e6 else f"{value:.1e}".replace("e+0", "e").replace("e+", "e")
+    return f"{float(f'{value:.3g}'):g}".replace("e+0", "e").replace("e+", "e")
 
 
 def _dead(case: Case) -> tuple[SolvedLinkage, ...]:
