@@ -414,7 +414,7 @@ def test_links_keep_their_lengths_on_the_way_into_line(power: int) -> None:
     assert np.array_equal(np.isnan(results["V_B"]), np.isin(statuses, ("singular", "no-assembly")))
 
 
-def test_statuses_of_links_in_line_are_the_same_alone_and_together() -> None:
+def test_statuses_of_links_in_line_are_the_same_alone_and_together_and_of_any_size() -> None:
     offs = np.concatenate([sign * 10.0 ** -np.arange(2.0, 17.0, 0.5) for sign in (-1.0, 1.0)])
     values = nearly_flat(len(offs), offs)
 
@@ -422,6 +422,10 @@ def test_statuses_of_links_in_line_are_the_same_alone_and_together() -> None:
 
     assert alone(FOUR_BAR, values) == statuses.tolist()
     assert set(statuses) == set(STATUSES)
+    for size in (2.0**-20, 2.0**20):  # micrometres or a thousand kilometres: nothing is rounded otherwise
+        lengths = {name: size * value for name, value in values.items() if name.startswith(("l_", "x_", "y_"))}
+        assert alone(FOUR_BAR, values | lengths) == statuses.tolist()
+        assert together(FOUR_BAR, values | lengths)[1].tolist() == statuses.tolist()
 
 
 @pytest.mark.parametrize("count", COUNTS)
