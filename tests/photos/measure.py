@@ -9,6 +9,7 @@ marking a page.
 
 from __future__ import annotations
 
+import math
 import sys
 import tempfile
 import time
@@ -189,7 +190,8 @@ def measured(tasks: list[str], count: int, seed: int = 1) -> Iterator[tuple[str,
     random = np.random.default_rng(seed)
     with tempfile.TemporaryDirectory() as folder:
         for number in range(count):
-            task, quality = tasks[number // len(QUALITIES) % len(tasks)], QUALITIES[number % len(QUALITIES)]
+            turn = number // math.lcm(len(tasks), len(QUALITIES))  # so that every task comes at every quality
+            task, quality = tasks[number % len(tasks)], QUALITIES[(number + turn) % len(QUALITIES)]
             sheet, mistake = sheet_for(task), RIGHT
             if random.random() < PLANTED and (some := mistakes_of(sheet)):
                 mistake = int(random.choice(some))

@@ -60,9 +60,12 @@ class Sheet:
     mus: Mapping[str, float]
     poles: dict[str, tuple[int, complex]] = field(default_factory=dict)
     printed: dict[int, np.ndarray] = field(default_factory=dict)
+    kept: dict[tuple[str, bool], tuple[Way, ...]] = field(default_factory=dict)
 
     def ways(self, plan: str, broken: bool) -> tuple[Way, ...]:
-        return shapes_of(self.keyed.key, self.keyed.book if broken else None, plan)
+        if (plan, broken) not in self.kept:
+            self.kept[plan, broken] = shapes_of(self.keyed.key, self.keyed.book if broken else None, plan)
+        return self.kept[plan, broken]
 
     @property
     def plans(self) -> list[str]:
@@ -152,10 +155,16 @@ class Paper:
 
     def letters(self, at: complex, text: str, dark: float, high: float) -> None:
         place = int(at.real * PX), int((self.height - at.imag) * PX)
-        layer = np.zeros_like(self.ink, np.uint8)
         fonts = cv2.FONT_HERSHEY_SCRIPT_SIMPLEX, cv2.FONT_HERSHEY_SIMPLEX, cv2.FONT_ITALIC
-        cv2.putText(layer, text, place, int(self.random.choice(fonts)), high * PX / 22, 255, 4, cv2.LINE_AA)
-        np.maximum(self.ink, layer.astype(np.float32) / 255 * dark * self.grain, out=self.ink)
+        font, scale = int(self.random.choice(fonts)), high * PX / 22
+        (wide, up), below = cv2.getTextSize(text, font, scale, 4)
+        left, top = max(place[0] - 20, 0), max(place[1] - up - 20, 0)
+        own = np.s_[top : max(place[1] + below + 20, 0), left : max(place[0] + wide + 20, 0)]
+        layer = np.zeros_like(window := self.ink[own], np.uint8)
+        if window.size:
+            inside = place[0] - left, place[1] - top
+            cv2.putText(layer, text, inside, font, scale, 255, 4, cv2.LINE_AA)
+            np.maximum(window, layer.astype(np.float32) / 255 * dark * self.grain[own], out=window)
 
 
 def drawn(
