@@ -53,7 +53,7 @@ from kulman.variants.photos import pictures
 from kulman.variants.photos.matching import lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import _print_scale, on_page
-from kulman.variants.photos.straight import PER_MM, _fitted, framed, straightened
+from kulman.variants.photos.straight import ASTRAY, PER_MM, _fitted, framed, straightened, without_worst
 from kulman.variants.photos.traced import Pencil, ends_at, senses, traced
 from kulman.variants.roster import Who
 from kulman.variants.sheets import drawing_for_print, scan_code
@@ -445,6 +445,18 @@ def test_corners_that_lie_badly_are_told() -> None:
 
     assert straightened(seen, places, 1000 - 1000j).error < 0.01
     assert straightened(moved, places, 1000 - 1000j).error > 0.3
+
+
+def test_a_marker_that_is_drawn_over_does_not_spoil_its_page() -> None:
+    places, centre = stands(sheet_for(TASK, only=PLANS).pages[1]), 1000 - 1000j
+    seen = {place.number: tuple(1000 + 10 * z.conjugate() for z in place.corners) for place in places}
+    moved = {**seen, places[2].number: tuple(z + 25 for z in seen[places[2].number])}
+
+    kept = without_worst(moved, places, centre)
+
+    assert straightened(moved, places, centre).error > ASTRAY
+    assert {*seen} - {*kept} == {places[2].number}
+    assert straightened(kept, places, centre).error < 0.01
 
 
 def test_the_frame_holds_a_page_flat_where_no_markers_are() -> None:

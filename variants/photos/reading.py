@@ -38,7 +38,7 @@ from ..sheets import PAPER, drawing_for_print, scan_code, scannable_of_case
 from .free import laid_flat, plans_on, quarters_of, turned, ways_of
 from .matching import WHOLE, lines_of, matched
 from .pictures import Photo, grey_of
-from .straight import ASTRAY, PER_MM, flat, framed, straightened
+from .straight import ASTRAY, PER_MM, flat, framed, straightened, without_worst
 from .strokes import Ink, Stroke, strokes
 from .traced import HIDES, Pencil, ends_at
 
@@ -367,13 +367,17 @@ def _read(photo: Photo, blank: _Blank) -> tuple[Flat, list[Stroke]]:
     place = {"file": quote(photo.source, SHOWN), "page": photo.number}
     if photo.number > len(blank.pages) or (photo.code and ":".join(photo.code) != blank.codes[photo.number - 1]):
         raise InputError("photo-other", **place)
-    way = straightened(photo.markers, blank.stands(photo.number), photo.centre)
+    markers, stands_at = photo.markers, blank.stands(photo.number)
+    way = straightened(markers, stands_at, photo.centre)
+    if way.error > ASTRAY:
+        markers = without_worst(markers, stands_at, photo.centre)
+        way = straightened(markers, stands_at, photo.centre)
     if way.error > ASTRAY:
         raise InputError("photo-crooked", **place)
     page = blank.pages[photo.number - 1]
     grey = grey_of(photo)
     edges = framed(grey, way, drawing_area(blank.formats[photo.number - 1], blank.case.norm))
-    way = straightened(photo.markers, blank.stands(photo.number), photo.centre, edges)
+    way = straightened(markers, stands_at, photo.centre, edges)
     picture = flat(grey, way, page.width, page.height)
     poles = [at for number, at in blank.poles.values() if number == photo.number]
     if not poles:

@@ -21,6 +21,7 @@ PER_MM = 10  # pixels of a straightened page
 ASTRAY = 0.3  # mm that corners of markers may lie beside where the map has them, root of the mean square
 BENDS = 6  # coefficients of the bend, after the eight of the homography, before the radial one
 STIFF = 0.003  # parts of the page's half diagonal that a bend shifts corners by, about
+ENOUGH = 6  # markers of which one may lie badly
 STEPS, STEP = 25, 1e-6
 FIXED = 1e6  # px a unit, of what stays as it was
 HUBER = 2.0  # of the middle error: from where a corner counts less
@@ -120,6 +121,17 @@ def straightened(
     values = _fitted(values, missed, held)
     error = float(np.sqrt(np.mean(np.abs(_seen(values, z) - on_picture) ** 2))) / per
     return Straight(values, middle, size, centre, error if np.isfinite(error) else np.inf)
+
+
+def without_worst(
+    markers: Mapping[int, tuple[complex, ...]], places: Sequence[Place], centre: complex
+) -> Mapping[int, tuple[complex, ...]]:
+    """Return markers of a page without the one that lies worst: what is drawn over it may have moved its corners."""
+    both = [place for place in places if place.number in markers]
+    if len(both) < ENOUGH:
+        return markers
+    ways = [{n: z for n, z in markers.items() if n != place.number} for place in both]
+    return min(ways, key=lambda way: straightened(way, places, centre).error)
 
 
 def by_squares(markers: Mapping[int, tuple[complex, ...]], side: float, centre: complex) -> tuple[Straight, Complex]:
