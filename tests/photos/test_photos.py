@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import cmath
 import io
+import math
 import struct
 import sys
 import time
@@ -50,7 +52,7 @@ from kulman.variants.marking.reading import Answers
 from kulman.variants.marking.report import Report, report_files
 from kulman.variants.marking.result import Result, result_of
 from kulman.variants.photos import pictures
-from kulman.variants.photos.matching import lines_of, matched
+from kulman.variants.photos.matching import _times, lines_of, matched
 from kulman.variants.photos.pictures import Photo, read_photos, together
 from kulman.variants.photos.reading import _print_scale, on_page
 from kulman.variants.photos.straight import ASTRAY, PER_MM, _fitted, framed, straightened, without_worst
@@ -526,6 +528,35 @@ def test_an_arrowhead_alone_tells_nothing_far_from_where_it_should_be() -> None:
     _, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
 
     assert errors[1] > 5.0
+
+
+def test_a_flat_bend_is_where_its_arrowhead_is_not_where_lines_part() -> None:
+    pole, bend = 20 + 20j, 60 + 20j
+    end = bend + cmath.rect(40.0, -math.radians(7.0))
+    pencil = pencil_of([(pole, bend), (bend, end)], [(pole, bend), (bend, end)])
+    way = plan_of([0j, 39.2 + 0j, end - pole], (0, 1), (1, 2))
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert abs(points[1] - bend) < 0.4
+    assert errors[1] < 0.5
+
+
+def test_a_line_ends_before_a_letter_that_stands_in_its_direction() -> None:
+    pole, end = 20 + 20j, 90 + 20j
+    way = plan_of([0j, 70 + 0j], (0, 1))
+    pencil = pencil_of([(pole, end), (end + 1.3, end + 3.3)], [(pole, end)])
+
+    points, errors, _ = traced(pencil, way, pole + way.places, pole + way.places, pole)
+
+    assert abs(points[1] - end) < 0.3
+    assert errors[1] < 0.5
+
+
+def test_one_point_that_is_taken_for_another_makes_no_plan_larger() -> None:
+    places = np.array([10 + 5j, 60 + 0j, 58 + 2j, 95 - 20j])
+
+    assert abs(_times(places, places + np.array([0.1, 4.0, -0.1j, 0.1])) - 1.0) < 0.003
 
 
 def test_an_end_and_an_arrowhead_that_differ_tell_nothing() -> None:

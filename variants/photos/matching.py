@@ -30,6 +30,7 @@ NEAR = 2.0  # mm from where a point should be within which an end or an arrow te
 POLE = 0.15  # mm, error of a line that begins at a printed pole
 WHOLE, ENOUGH = 0.97, 0.75  # part of a plan: all of it; that must be there
 BETTER, ABSENT = 5.0, 0.5  # mm more of a plan with a mistake than of the right one; part that counts against it
+RESIZED = 0.3  # mm by which the longest vector is measured anew
 LIKELY = 8  # plans with a mistake that are looked at closely
 SURE = 0.7  # mm, error of an end from which a vector is not sure; those that end so are 0.3 mm off
 ALIKE = 0.7  # mm within which ends and arrows are those of one point
@@ -128,9 +129,16 @@ def _laid(lines: _Lines, pole: complex, mu: float, way: Way) -> _Fit:
         points, errors = _points(lines, way, wanted, own, pole)
         known = (errors < SURE) & (np.abs(places) > LONG)
         if known.sum() >= 2:
-            ratio = dot(places[known], points[known] - pole).sum() / (np.abs(places[known]) ** 2).sum()
-            times = float(np.clip(ratio, 0.9, 1.1))
+            times = _times(places[known], points[known] - pole)
     return _fitted(way, mu, points, errors, times, good)
+
+
+def _times(places: Complex, drawn: Complex) -> float:
+    """Return how large a plan is drawn, from its pole: the middle of what its points tell, the far ones more."""
+    ratios, weights = dot(places, drawn) / np.abs(places) ** 2, np.abs(places)
+    order = np.argsort(ratios)
+    whole = np.cumsum(weights[order])
+    return float(np.clip(ratios[order][np.searchsorted(whole, whole[-1] / 2.0)], 0.9, 1.1))
 
 
 def _traced(lines: _Lines, fit: _Fit, pole: complex, mu: float) -> _Fit:
@@ -139,10 +147,16 @@ def _traced(lines: _Lines, fit: _Fit, pole: complex, mu: float) -> _Fit:
         return fit
     way = fit.way
     wanted = pole + fit.times * way.places / mu
+    first = traced(lines.pencil, way, wanted, wanted, pole)
+    known = (first[1] < SURE) & (np.abs(way.places) / mu > LONG)
+    times = _times(way.places[known] / mu, first[0][known] - pole) if known.sum() >= 2 else fit.times
     near = (fit.errors < SURE) & (np.abs(fit.points - wanted) < OFF[0])
+    if abs(times - fit.times) * way.longest / mu > RESIZED:
+        wanted, fit = pole + times * way.places / mu, replace(fit, times=times)
+        first = traced(lines.pencil, way, wanted, wanted, pole)
     best = fit
-    for begun in (wanted, np.where(near, fit.points, wanted)):
-        points, errors, found = traced(lines.pencil, way, wanted, begun, pole)
+    for begun in (None, np.where(near, fit.points, wanted)):
+        points, errors, found = first if begun is None else traced(lines.pencil, way, wanted, begun, pole)
         good = np.array([found[number].part if number in found else 0.0 for number in range(len(way.lines))])
         off = np.clip(np.abs(points - wanted) - GOOD, 0.0, OFF[0])  # a line that ends elsewhere is another's
         good /= 1.0 + np.maximum(off[way.tails[way.lines]], off[way.tips[way.lines]]) ** 2 / (GOOD * WORSE) ** 2

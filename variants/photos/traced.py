@@ -30,15 +30,21 @@ FAINT = 0.05  # darkness of a line at the least
 THERE = 0.75  # part of a line that must be dark
 FULL, STRAY = 0.7, 0.3  # of the darkest, from where a line is as good; what it loses as far aside as it may be
 FALL, ROUND = 0.5, 0.25  # part of its darkness at which a line ends; mm that its end is rounded, half its width
-REACH, CLEAR = 3.0, 1.2  # mm beside where a line should end, that it may; that must be clear beyond
+REACH, CLEAR = 3.0, 0.8  # mm beside where a line should end, that it may; that must be clear beyond
 WINGS = tuple(math.radians(degrees) for degrees in (10.0, 13.0, 16.0, 20.0, 25.0))  # of arrowheads, half
 WING, APART = 3.2, 0.55  # mm of a wing at the most; mm from its line where it is told from that
-LEAN = math.sin(math.radians(5.0))  # of a wing against its line at the least
+NIB, FLANK = 0.4, 0.4  # mm behind an arrowhead's point from where its wings are seen; mm beside them where paper is
+FORTH, BY = np.arange(-1.2, 1.21, 0.1), np.arange(-0.2, 0.21, 0.1)  # mm that the point is sought along and across
+TURNS = np.radians([-4.0, -2.0, 0.0, 2.0, 4.0])
+ASIDE = 0.15  # mm, half the width of a line
+CONTRAST, TOP = 0.5, 0.15  # of wings against the paper beside them, at the least; within which places are as good
 ARROWED = 9.0  # mm of a vector whose arrowhead can be told from its line
 POINTED, BARE = 0.55, 0.3  # parts of how dark their line is that wings must be, and where none is seen at the most
 CLEARLY = 0.85  # the same of wings that must not be other lines
 DOUBTED = 0.2  # part by which wings at the wrong end are darker from which they make the sense doubtful
 TOUCHED, BESIDE, FEWEST = 0.95, 0.5, 5  # cosine, mm from which others may have wings, be these; places that tell
+ONWARD = math.radians(40.0)  # of a line from where one ends: it leaves that gradually, and no end is seen
+LIKE, NEARER = math.radians(3.0), 0.5  # of lines that look like wings; mm by which ends are nearer to their points
 POLE, ENDING, POINTING = 0.15, 0.2, 0.3  # mm, errors of a printed pole, of where a line ends, of an arrowhead's point
 PLACED = 0.2  # mm, error of a point that should lie on a line, and is put there by eye
 NEAR = 1.0  # mm that a point may be from where it should be, as far as nothing tells
@@ -128,11 +134,16 @@ def traced(
 
 
 def _contradicted(spots: list[_Spot], point: complex) -> bool:
-    """Whether a line ends, and its arrowhead points, clearly beside where a point has been found."""
+    """Whether a line ends, and its arrowhead points, clearly beside where a point has been found.
+
+    Where two other lines end at the point, it is a letter that looks like both.
+    """
     ends = [(s.unit, s.place) for s in spots if not s.arrow]
     heads = [(s.unit, s.place) for s in spots if s.arrow]
     return any(
-        abs(dot(unit, end - head)) < ALIKE and abs(dot(unit, (end + head) / 2.0 - point)) > BESIDES
+        abs(dot(unit, end - head)) < ALIKE
+        and abs(dot(unit, (end + head) / 2.0 - point)) > BESIDES
+        and sum(abs(dot(way, place - point)) < ALIKE for way, place in ends if way != unit) < 2
         for (unit, end), (of, head) in product(ends, heads)
         if unit == of
     )
@@ -197,14 +208,24 @@ def _centred(pencil: Pencil, start: complex, stop: complex, along: Floats, level
 def _spots(pencil: Pencil, way: Way, points: Complex, found: dict[int, Traced]) -> dict[int, list[_Spot]]:
     """Return where lines end and arrowheads point to, by the points of the plan that they may be."""
     arrows = set(zip(way.tails.tolist(), way.tips.tolist(), strict=True))
+    ends = [(int(way.tails[at]), int(way.tips[at])) for at in way.lines]
     spots: dict[int, list[_Spot]] = {}
     for number, line in found.items():
-        ends = int(way.tails[way.lines[number]]), int(way.tips[way.lines[number]])
-        for tail, tip in (ends, ends[::-1]):
-            near = spots.setdefault(tip, [])
-            near += _ended(pencil, line, complex(points[tail]), complex(points[tip]))
-            if (tail, tip) in arrows:
+        for tail, tip in (ends[number], ends[number][::-1]):
+            near, span = spots.setdefault(tip, []), complex(points[tip] - points[tail])
+            others = [
+                points[b] - points[a] for n in found for a, b in (ends[n], ends[n][::-1]) if a == tip and b != tail
+            ]
+            turns = np.angle(np.array(others, complex) / span)
+            if not (np.abs(turns) < ONWARD).any():
+                near += _ended(pencil, line, complex(points[tail]), complex(points[tip]))
+            back = math.pi - np.abs(turns)
+            if (tail, tip) in arrows and not ((back > WINGS[0] - LIKE) & (back < WINGS[-1] + LIKE)).any():
                 near += _pointed(pencil, line, complex(points[tail]), complex(points[tip]))
+    for mark, some in spots.items():  # what is at another point is of that
+        others_at = np.delete(points, mark)
+        own = [s for s in some if np.abs(others_at - s.place).min() + NEARER > abs(points[mark] - s.place)]
+        spots[mark] = own
     return spots
 
 
@@ -325,7 +346,7 @@ def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Itera
     best, place, angle = 0.0, 0.0, 0.0
     for wing in WINGS:
         behind = _behind(wing, size)
-        if len(behind) < 5:
+        if len(behind) < FEWEST:
             continue
         legs = [foot + at[:, None] * unit - unit * np.exp(1j * side) * behind[None, :] for side in (wing, -wing)]
         score = np.minimum(*(pencil.at(leg)[0] for leg in legs)).mean(axis=1) / line.dark
@@ -333,25 +354,41 @@ def _pointed(pencil: Pencil, line: Traced, tail: complex, tip: complex) -> Itera
         if score[own] > best:
             best, place, angle = float(score[own]), float(at[own]), wing
     if best > POINTED and at[0] < place < at[-1]:
-        ends = [_wing(pencil, foot + place * unit, -unit * np.exp(1j * side), unit, size) for side in (angle, -angle)]
-        if abs(ends[0] - ends[1]) < ALIKE:
-            yield _Spot(complex(foot + (place + sum(ends) / 2) * unit), unit, arrow=True)
+        by = _apex(pencil, foot + place * unit, unit, angle, min(WING, 0.9 * size / 3))
+        if by is not None:
+            yield _Spot(complex(foot + (place + by) * unit), unit, arrow=True)
+
+
+def _apex(pencil: Pencil, apex: complex, unit: complex, angle: float, size: float) -> float | None:
+    """Return how far beyond a place an arrowhead has its point: where both wings are dark, and paper is beside them.
+
+    The line may lie beside the point by a little: both are sought together, with the angle of the wings.
+    """
+    back = np.arange(NIB, size, 0.15)
+    apart = back * math.sin(angle) > FLANK + ASIDE
+    shifts = (FORTH[:, None, None] + 1j * BY[None, :, None]) * unit
+    turns = np.exp(1j * (angle + TURNS))[None, None, :]
+    whole = np.zeros(np.broadcast_shapes(shifts.shape, turns.shape))
+    least = np.zeros(whole.shape)
+    for side in (1.0, -1.0):
+        leg = -unit * (turns if side > 0 else turns.conj())
+        place = (apex + shifts)[..., None] + leg[..., None] * back
+        dark, beside, inner = (pencil.at(place + 1j * side * leg[..., None] * off)[0] for off in (0.0, FLANK, -FLANK))
+        level = max(float(np.percentile(dark, 80)), FAINT)
+        contrast = (np.minimum(dark / level, 1.0) - np.minimum(beside / level, 1.0)).mean(axis=-1)
+        whole -= np.minimum(inner[..., apart] / level, 1.0).sum(axis=-1) / len(back)
+        whole += contrast
+        least = np.maximum(least, contrast)
+    top = whole.max()
+    if least[np.unravel_index(whole.argmax(), whole.shape)] < CONTRAST:
+        return None
+    good = np.maximum(whole - top + TOP, 0.0)
+    return float((good * FORTH[:, None, None]).sum() / good.sum())
 
 
 def _behind(wing: float, size: float) -> Floats:
     """Return how far from the point of an arrowhead a wing is looked at: apart from its line, and from its end."""
     return np.arange(APART / math.sin(wing), min(WING, 0.9 * size / 3), 1.0 / PER_MM)
-
-
-def _wing(pencil: Pencil, apex: complex, leg: complex, unit: complex, size: float) -> float:
-    """Return how far before an apex the middle of a wing, along a leg from there, meets its line."""
-    sine = float(cross(unit, leg))
-    along, across = _behind(abs(math.asin(sine)), size), np.arange(-0.2, 0.21, 0.05)
-    strip, _ = pencil.at(apex + along[:, None] * leg + 1j * leg * across[None, :])
-    base, slope = middles_of(along, across, strip, 1.0)
-    through, way = apex + 1j * leg * base, leg * (1 + 1j * slope)
-    lean = float(cross(unit, way))
-    return float(cross(through - apex, way)) / lean if abs(lean) > LEAN else LOST
 
 
 def _solved(
