@@ -296,10 +296,10 @@ def other_orders(number: float) -> Iterator[tuple[float, float]]:
     """Go through the numbers of four digits in which two neighbouring digits of a number are exchanged.
 
     Half a unit of the second digit comes with each: a number that is meant is as near as that, any other by chance.
-    Zeros that end the number have not been written.
+    Of zeros that end the number one may have been written.
     """
     mantissa, _, power = f"{abs(number):.3e}".partition("e")
-    digits = mantissa.replace(".", "").rstrip("0")
+    digits = (mantissa.replace(".", "").rstrip("0") + "0")[:4]
     for i in range(len(digits) - 1):
         if digits[i] != digits[i + 1]:
             swapped = digits[:i] + digits[i + 1] + digits[i] + digits[i + 2 :]
