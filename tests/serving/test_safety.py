@@ -6,6 +6,7 @@ import asyncio
 import os
 import time
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from kulman.scales.errors import InputError
 from kulman.tests.support.jobs import dies, dies_once, fails, sleeps, takes
 from kulman.tests.support.serving import asked
 from kulman.variants.serving import jobs
+from kulman.variants.serving.desk import Desk
 from kulman.variants.serving.jobs import BusyError, CrashError, Crew, Seat
 from kulman.variants.serving.pages import tag
 from kulman.variants.serving.safety import doors_for, read_passwords
@@ -159,6 +161,16 @@ def test_more_than_may_wait_is_told_to_come_again(tmp_path: Path, monkeypatch: p
     found = asyncio.run(several())
 
     assert [type(one) for one in found].count(BusyError) == 2
+
+
+@pytest.mark.parametrize(("cores", "seats"), [(None, 2), (1, 2), (2, 2), (6, 6)])
+def test_a_server_has_a_process_for_each_core_and_never_one_alone(
+    cores: int | None, seats: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(os, "cpu_count", lambda: cores)
+
+    with closing(Desk(doors_for("127.0.0.1", (), None), "forms")) as desk:
+        assert (len(desk.crew.seats), len(desk.photos.seats), len(desk.classes.seats)) == (seats, seats // 2, 1)
 
 
 def test_a_busy_server_says_so(client: TestClient, monkeypatch: pytest.MonkeyPatch) -> None:
