@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, lru_cache
 from itertools import chain, combinations, cycle, islice, pairwise, product, takewhile
@@ -13,7 +13,8 @@ from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
 from .packing import LEAST, STEPS, Placement, Size, Slicing, bare, inset, spread
 from .page import Page
 from .shapes import Group
-from .tables import after, larger, part_of
+from .tables import after, larger, narrower, part_of, roomier
+from .text import Box
 from .titleblock import Stamp, frame_shapes
 from .view import View
 
@@ -30,6 +31,14 @@ ROOMY = ENOUGH | {"A3": 0.69, "A2": 0.69, "A1": 0.69}  # part of a page below wh
 GROWN, CROWDED = 2.0, 0.85  # times as large as before texts are then; part of a page that such views never fill
 KEPT = 8  # parts of the views of a page that are tried in reading order
 BARE = 0.105  # part of a page that may be one bare rectangle
+EMPTY = 0.116  # the same, between lines
+INK = {FIGURE: 1.0, TEXT: 0.5, TOLD: 0.5}  # mm between the lines of a view and its box
+# heights of rows, mm, and the part of the width of a page that tables take, as wide as the widest of them or more
+ROWS = (6.5, 0.0), (8.0, 0.0), (8.0, 0.7), (1.0, 1.0), (8.0, 1.0)
+NARROWEST = 0.38  # part of the width of a page that texts beside a figure have at least
+PARTS, NUDGES = (0.25, 0.5, 0.75), 2  # of its free way that a view is moved, and how often each at most
+FAR = 2  # pages that a table may move
+ROUNDS, GAIN = 12, 1e-3  # moves of views to other pages, and parts of a page that each is worth
 PIECES = 2  # rows or lines at least on each page
 
 
@@ -324,12 +333,26 @@ class _Breaking:
         rest = end[0][0]
         if len(end) > 1 or not rest.pieces:
             return pages
+        parts = [
+            (k, i) for k, page in enumerate(before) for i, (view, _) in enumerate(page) if view.of == rest.of != ""
+        ]
         for number in reversed(range(len(before))):
-            own = [view for view, _ in before[number]]
-            joined = [after(view, rest) if rest.of and view.of == rest.of else view for view in own]
-            whole = [*own, rest] if joined == own else joined
-            if (placed := self._placed(whole, number)) is not None:
-                return [*before[:number], placed, *before[number + 1 :]]
+            changed = {number: [view for view, _ in before[number]]}
+            if parts and number < (k := parts[-1][0]):  # it begins there, and goes on where it began
+                (_, i), count = parts[-1], rest.pieces
+                other = changed[k] = [view for view, _ in before[k]]
+                whole = after(other[i], rest)
+                changed[number].append(part_of(whole, 0, count, "".join(other[i].heading)))
+                other[i] = part_of(whole, count, whole.pieces, "".join(rest.heading))
+                if len(parts) > 1:
+                    continue
+            elif parts and number == parts[-1][0]:
+                changed[number][parts[-1][1]] = after(changed[number][parts[-1][1]], rest)
+            else:
+                changed[number].append(rest)
+            placed = {k: page for k, views in changed.items() if (page := self._placed(views, k)) is not None}
+            if len(placed) == len(changed):
+                return [placed.get(k, page) for k, page in enumerate(before)]
         return pages
 
     def _is_empty(self, page: Sequence[Standing], number: int) -> bool:
@@ -405,6 +428,212 @@ def _as_read(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> li
     return page
 
 
+def _box_of(standing: Standing) -> Box:
+    """Return the box that a view fills where it stands."""
+    view, at = standing
+    return at.x, at.y, at.x + view.size[0], at.y + view.size[1]
+
+
+@dataclass(slots=True)
+class _Evening:
+    """Evens out pages that are too empty or have too large a bare rectangle: letters are larger there, tables roomier.
+
+    Where that is not enough, views move between pages; `order` has the names of all in reading order. Those of the
+    `lead`, with which the first page begins, stay there; what `goes_on` from a page before has its heading so.
+    """
+
+    sheet: Format
+    norm: Norm
+    order: Sequence[str]
+    lead: Collection[str]
+    goes_on: str
+    _parted: dict[tuple[int, int], tuple[View, list[View]]] = field(default_factory=dict)
+    _found: dict[tuple[int, ...], tuple[float, list[Standing]] | None] = field(default_factory=dict)
+    _made: dict[tuple[int, float, float], View] = field(default_factory=dict)
+
+    def short(self, page: Sequence[Standing], number: int) -> float:
+        """Return by which part of it a page is too empty, and its largest bare rectangle too large."""
+        room, boxes = drawing_area(self.sheet, self.norm), [*reserved_boxes(self.sheet, self.norm, first=number == 0)]
+        for (view, at), kind in zip(page, begins_of(view for view, _ in page), strict=True):
+            (left, low, right, high), edge = _box_of((view, at)), INK[kind]
+            boxes.append((left + edge, low + edge, right - edge, high - edge))
+        area = (room[2] - room[0]) * (room[3] - room[1])
+        fill = sum((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in boxes) / area
+        return max(0.0, ENOUGH[self.sheet.letters] - fill) + max(0.0, bare(room, boxes) / area - EMPTY)
+
+    def evened(
+        self, parted: Sequence[Sequence[Standing]], pages: Sequence[list[Standing]]
+    ) -> tuple[list[list[Standing]], float]:
+        """Return pages, made of those that are `parted`, and what they are short of: as little as can be."""
+        end, places = len(pages) - 1, [*pages]
+        costs = [self.short(page, number) if number < end else 0.0 for number, page in enumerate(pages)]
+        if not any(costs):
+            return places, 0.0
+        own = [self._sorted(view for view, _ in page) for page in parted]
+        for number in range(end):
+            if costs[number] and (found := self._best(own[number], number, end)) and found[0] < costs[number]:
+                costs[number], places[number] = found
+        for _ in range(ROUNDS if any(costs) else 0):
+            moves = (self._moved(own, costs, move) for move in self._moves(own, costs))
+            _, changed = max((move for move in moves if move), key=lambda move: move[0], default=(0.0, {}))
+            if not changed:
+                break
+            for number, (views, cost, page) in changed.items():
+                own[number], costs[number], places[number] = views, cost, page
+        return places, sum(costs)
+
+    def _moves(self, pages: Sequence[list[View]], costs: Sequence[float]) -> Iterator[tuple[int, int, int, int]]:
+        """Go through moves of a view to another page, one of both being short, or of so many of its pieces.
+
+        A figure keeps its turn, and leaves no page to texts alone; a part of a table keeps its turn, too.
+        """
+        for a, page in enumerate(pages):
+            begins = begins_of(page)
+            figures = [i for i, kind in enumerate(begins) if kind == FIGURE]
+            for i, b in product(range(len(page)), range(max(0, a - FAR), min(a + FAR + 1, len(pages)))):
+                kind, view = begins[i], page[i]
+                stays = len(page) == 1 or view.name in self.lead or (kind != TEXT and abs(a - b) > 1)
+                stays |= kind == FIGURE and (len(figures) == 1 or i != figures[-1 if b > a else 0])
+                if a == b or stays or not (costs[a] or costs[b]):
+                    continue
+                way = chain(*pages[min(a, b) : max(a, b) + 1])
+                if not (view.of and any(other.of == view.of and other is not view for other in way)):
+                    yield a, b, i, view.pieces
+                    if b < a and costs[b] and view.rows and not view.of:
+                        counts = {round(part * view.pieces) for part in PARTS}
+                        yield from ((a, b, i, n) for n in sorted(counts) if PIECES <= n <= view.pieces - PIECES)
+
+    def _moved(
+        self, pages: Sequence[list[View]], costs: Sequence[float], move: tuple[int, int, int, int]
+    ) -> tuple[float, dict[int, tuple[list[View], float, list[Standing]]]] | None:
+        """Return what a move gains, and the views of both pages with what these are short of then; None if nothing."""
+        (a, b, i, count), end = move, len(pages) - 1
+        moving, before = pages[a][i], costs[a] + costs[b]
+        goes, stays = self._parts(moving, count)
+        found = {}
+        for number, views in ((a, [*pages[a][:i], *stays, *pages[a][i + 1 :]]), (b, self._sorted([*pages[b], goes]))):
+            best = self._best(views, number, end)
+            if best is None or best[0] > before - GAIN:
+                return None
+            found[number] = views, *best
+            before -= best[0]
+        return before, found
+
+    def _parts(self, view: View, count: int) -> tuple[View, list[View]]:
+        """Return the first pieces of a view, so many, and what is left of it then."""
+        if count == view.pieces:
+            return view, []
+        key, said = (id(view), count), "".join(view.heading)
+        if key not in self._parted:
+            head = part_of(view, 0, count, said)
+            self._parted[key] = head, [part_of(view, count, view.pieces, self.goes_on.format(heading=said))]
+        return self._parted[key]
+
+    def _sorted(self, views: Iterable[View]) -> list[View]:
+        return sorted(views, key=lambda view: self.order.index(view.of or view.name))
+
+    def _best(self, views: list[View], number: int, end: int) -> tuple[float, list[Standing]] | None:
+        """Return what a page of these views is short of at least, and how it is laid out so; None without room."""
+        key = number, number == end, *map(id, views)
+        if key not in self._found:
+            begins, first = begins_of(views), number == 0
+            best: tuple[float, list[Standing]] | None = None
+            for again in self._written(views, begins) if number < end else [views]:
+                sizes, paper = [view.size for view in again], (self.sheet, self.norm, begins, first)
+                for placed in (on_one_page(sizes, *paper), on_a_page(sizes, *paper, loose=True)):
+                    page = [] if placed is None else [*zip(again, placed, strict=True)]
+                    cost = self.short(page, number) if page and number < end else 0.0
+                    if page and (best is None or cost < best[0]):
+                        best = cost, page
+                    if best is not None and not best[0]:
+                        break
+                if best is None or not best[0]:
+                    break
+            if best is not None and best[0]:
+                nudged = self._nudged(best[1], number)
+                best = self.short(nudged, number), nudged
+            self._found[key] = best
+        return self._found[key]
+
+    def _nudged(self, page: list[Standing], number: int) -> list[Standing]:
+        """Return a page with views a little aside, as long as that makes its largest bare rectangle smaller.
+
+        Of two that stand one above the other one goes to the left and one to the right where either alone is no help.
+        """
+        cost = self.short(page, number)
+        for _ in range(NUDGES * len(page) if cost else 0):
+            ways = [*self._ways(page, number)]
+            pairs = ((a, b) for a, b in combinations(ways, 2) if a[0] != b[0] and a[1] * b[1] < 0.0)
+            for moves in (([way] for way in ways), map(list, pairs)):
+                others = (self._aside(page, some) for some in moves)
+                found = [(self.short(other, number), k, other) for k, other in enumerate(others) if other]
+                least = min(found, key=lambda way: way[:2], default=(cost, 0, page))
+                if least[0] < cost:
+                    break
+            else:
+                break
+            cost, _, page = least
+            if not cost:
+                break
+        return page
+
+    def _ways(self, page: Sequence[Standing], number: int) -> Iterator[tuple[int, float, float]]:
+        """Go through views of a page, by number, and how far each may go to the right or up."""
+        x0, y0, x1, y1 = usable(self.sheet, self.norm)
+        blocks = reserved_boxes(self.sheet, self.norm, first=number == 0)
+        boxes = [_box_of(standing) for standing in page]
+        for i, (left, low, right, high) in enumerate(boxes):
+            others = [*boxes[:i], *boxes[i + 1 :], *blocks]
+            beside = [box for box in others if box[1] < high + LEAST and box[3] > low - LEAST]
+            along = [box for box in others if box[0] < right + LEAST and box[2] > left - LEAST]
+            for free, right_way, up in (
+                (left - max((box[2] + LEAST for box in beside if box[2] <= left), default=x0), -1.0, 0.0),
+                (min((box[0] - LEAST for box in beside if box[0] >= right), default=x1) - right, 1.0, 0.0),
+                (low - max((box[3] + LEAST for box in along if box[3] <= low), default=y0), 0.0, -1.0),
+                (min((box[1] - LEAST for box in along if box[1] >= high), default=y1) - high, 0.0, 1.0),
+            ):
+                yield from ((i, part * free * right_way, part * free * up) for part in PARTS if free > LEAST)
+
+    def _aside(self, page: Sequence[Standing], moves: Sequence[tuple[int, float, float]]) -> list[Standing]:
+        """Return a page with some of its views aside; nothing where they would come too near to each other."""
+        other = [*page]
+        for i, x, y in moves:
+            view, at = page[i]
+            other[i] = view, replace(at, x=at.x + x, y=at.y + y)
+        boxes = [_box_of(other[i]) for i, *_ in moves]
+        near = (
+            a[0] < b[2] + LEAST and b[0] < a[2] + LEAST and a[1] < b[3] + LEAST and b[1] < a[3] + LEAST
+            for a, b in combinations(boxes, 2)
+        )
+        return [] if any(near) else other
+
+    def _written(self, views: list[View], begins: Sequence[int]) -> Iterator[list[View]]:
+        """Go through the views with ever larger letters and roomier tables."""
+        x0, y0, x1, y1 = usable(self.sheet, self.norm)
+        parted = any(view.of for view in views)
+        texts = [*((view.style and not view.of and (view.lines or not parted)) for view in views)]
+        larger_ones = [self._once(view, 0.0, 0.0) if text else view for view, text in zip(views, texts, strict=True)]
+        tables = any(view.rows for view in views)
+        for (row, part), own in product(((0.0, 0.0), *ROWS[: len(ROWS) * tables]), (views, larger_ones)):
+            widest = max(part * (x1 - x0), *(view.size[0] for view in own if view.rows), 0.0)
+            again = [self._once(view, widest, row) if row and view.rows else view for view in own]
+            if sum(math.prod(view.size) for view in again) < (x1 - x0) * (y1 - y0):
+                yield again
+        figures = [view.size[0] for view, kind in zip(views, begins, strict=True) if kind == FIGURE]
+        for left in sorted({x1 - x0 - LEAST - wide for wide in figures}):
+            if left >= NARROWEST * (x1 - x0):
+                yield [self._once(view, left, 0.0) if view.lines and view.size[0] > left else view for view in views]
+
+    def _once(self, view: View, wide: float, row: float) -> View:
+        """Return a table with rows so high, a text no wider than that, or either with larger letters, once."""
+        key = id(view), wide, row
+        if key not in self._made:
+            inner = wide - 2.0 * INK[TEXT]
+            changed = roomier(view, inner, row) if row else narrower(view, inner) if wide else larger(view, True)
+            self._made[key] = changed
+        return self._made[key]
+
+
 def _without_holes(page: list[Standing], sheet: Format, norm: Norm, first: bool) -> list[Standing]:
     """Return a page with its views in the middle of their parts where that spares it a large bare rectangle.
 
@@ -413,8 +642,7 @@ def _without_holes(page: list[Standing], sheet: Format, norm: Norm, first: bool)
     room, blocks = drawing_area(sheet, norm), reserved_boxes(sheet, norm, first=first)
 
     def hole(page: list[Standing]) -> float:
-        boxes = [(at.x, at.y, at.x + view.size[0], at.y + view.size[1]) for view, at in page]
-        return bare(room, [*boxes, *blocks]) / ((room[2] - room[0]) * (room[3] - room[1]))
+        return bare(room, [*map(_box_of, page), *blocks]) / ((room[2] - room[0]) * (room[3] - room[1]))
 
     if (least := hole(page)) <= BARE:
         return page
@@ -447,7 +675,8 @@ class Drawn:
     """A sheet but for its title block: views in order of the work, and at their places, by page.
 
     `scales` are the scale factors that it has, by plan. `reduction` is what a millimetre of a drawing is there whose
-    lengths on paper the task has given. Unless it `begins` a work, its first page has the small title block, too.
+    lengths on paper the task has given. Unless it `begins` a work, its first page has the small title block, too. It is
+    `short` of what fills its pages, but the last one, by so much of a page.
     """
 
     views: tuple[View, ...]
@@ -457,6 +686,7 @@ class Drawn:
     norm: Norm
     reduction: float = 1.0
     begins: bool = True
+    short: float = 0.0
 
     @property
     def sheet(self) -> Format:
@@ -506,11 +736,19 @@ def compose(
             ) is not None:
                 sheets[-1], parted[-1] = less, [*zip(own, placed, strict=True)]
                 break
+    done = []
     for k, paper in enumerate(sheets):
         on = paper, norm, k == 0
         end = 0 < k == len(sheets) - 1
         read = _as_read(_legible(parted[k], *on, end=end), *on)
-        parted[k] = read if end else _without_holes(read, *on)
+        done.append(read if end else _without_holes(read, *on))
+    short = 0.0
+    if len(parted) > 1 and sheets[-1] is sheet is FORMATS[sheet.name]:  # on paper for printers there is less room
+        lead = [views[i].name for i in _lead(begins_of(views))]
+        evening = _Evening(sheet, norm, [view.of or view.name for view in views], lead, goes_on)
+        parted, short = evening.evened(parted, done)
+    else:
+        parted = done
     drawn = tuple(tuple(view.at(place.x, place.y) for view, place in page) for page in parted)
     shown = [view for page in parted for view, _ in page]
     whole = {view.name: view for view in shown if not view.of}
@@ -518,7 +756,7 @@ def compose(
         whole[view.of] = after(whole[view.of], view) if view.of in whole else replace(view, of="")
     begun = (view for view in views if view.of in ("", view.name))
     every_one = (*(whole.get(view.name, view) for view in begun), *(view for view in shown if view.of))
-    return Drawn(every_one, drawn, scales, tuple(sheets), norm, reduction)
+    return Drawn(every_one, drawn, scales, tuple(sheets), norm, reduction, short=short)
 
 
 def _legible(page: list[Standing], sheet: Format, norm: Norm, first: bool, end: bool) -> list[Standing]:

@@ -29,8 +29,8 @@ SURELY = 0.9  # part of the width of a text in which chunks surely have room tha
 LONG, DENOMINATOR, ROUNDING = 10, 100, 1e-11  # characters of a number that may be a simple fraction
 
 
-def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
-    """Return a ruled table; the first row is its head. A cell that is None belongs to the one on its left.
+def table(name: str, heading: str, rows: Sequence[Row], style: Style, least: float = 0.0) -> View:
+    """Return a ruled table at `least` so wide; the first row is its head. A None belongs to the cell on its left.
 
     Capitals stand in the middle of their row; numbers of a column with their commas under one another, sentences and
     the words above and below them from its left edge, all else in its middle.
@@ -40,10 +40,12 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
     alone = [{j: cell for j, own in enumerate(every) for k, end, cell in own if k == i == end - 1} for i in columns]
     placed = [_in_column(column, h) for column in alone]
     beside = 2.0 * max(0.5 * h, CELL)
-    widths = [wide + beside for wide, _ in placed]
+    widths = [wide + beside for wide, *_ in placed]
     for i, end, cell in (found for own in every for found in own if found[1] > found[0] + 1 and found[2]):
         short = lay_out(cell, h).width + beside - sum(widths[i:end])  # of what stands in several columns
         widths[i:end] = [wide + max(short, 0.0) / (end - i) for wide in widths[i:end]]
+    more = max(least - sum(widths), 0.0) / len(widths)  # each column has its share of it
+    widths = [wide + more for wide in widths]
     edges = [0.0, *accumulate(widths)]
     # scripts reach past the capitals in the middle of a row: it is as much higher on both sides
     reach = (max(top - h, -bottom) for top, bottom in (_span(row, h) for row in rows))
@@ -59,24 +61,29 @@ def table(name: str, heading: str, rows: Sequence[Row], style: Style) -> View:
         baseline = 0.5 * (levels[j] + levels[j + 1] - h)
         for i, end, cell in own:
             start = placed[i][1].get(j) if end == i + 1 else None
-            x = 0.5 * (edges[i] + edges[end]) if start is None else edges[i] + start
+            x = 0.5 * (edges[i] + edges[end]) if start is None else edges[i] + placed[i][2] * more + start
             if cell:
                 anchor: Anchor = "middle" if start is None else "left"
                 shapes.append(Text(complex(x, baseline), cell, h, anchor, role="cell"))
     view = _view(name, heading, shapes, (0.0, levels[-1], edges[-1], 0.0), style, role="table")
-    return replace(view, rows=tuple(tuple(row) for row in rows), style=style)
+    return replace(view, rows=tuple(tuple(row) for row in rows), style=style, width=least)
 
 
-def _in_column(column: Mapping[int, str], h: float) -> tuple[float, dict[int, float]]:
-    """Return how wide the texts of a column are, and where those begin that do not stand in its middle, by row."""
+def _in_column(column: Mapping[int, str], h: float) -> tuple[float, dict[int, float], float]:
+    """Return how wide the texts of a column are, and where those begin that do not stand in its middle, by row.
+
+    These stand by so much of what a column is wider than its texts farther to the right.
+    """
     wide = {j: lay_out(cell, h).width for j, cell in column.items()}
     widest = max(wide.values(), default=0.0)
     if any(SENTENCE.search(cell) for j, cell in column.items() if j):
-        return widest, {j: max(0.5 * h, CELL) for j, cell in column.items() if j and WORD.search(SCRIPTS.sub("", cell))}
+        said = (j for j, cell in column.items() if j and WORD.search(SCRIPTS.sub("", cell)))
+        return widest, dict.fromkeys(said, max(0.5 * h, CELL)), 0.0
     before = {j: lay_out(number[1], h).width for j, cell in column.items() if (number := NUMBER.fullmatch(cell))}
     left, right = max(before.values(), default=0.0), max((wide[j] - before[j] for j in before), default=0.0)
     widest = max(widest, left + right)
-    return widest, {j: max(0.5 * h, CELL) + 0.5 * (widest - left - right) + left - own for j, own in before.items()}
+    start = max(0.5 * h, CELL) + 0.5 * (widest - left - right) + left
+    return widest, {j: start - own for j, own in before.items()}, 0.5
 
 
 def cells(row: Row) -> Iterator[tuple[int, int, str]]:
@@ -202,8 +209,20 @@ def larger(view: View, wide: bool) -> View:
     style = view.style
     if style is None or style.row or style.text not in LARGER:
         return view
-    width = view.width * (LARGER[style.text] / style.text if wide else 1.0)
+    width = view.width * (LARGER[style.text] / style.text if wide and view.lines else 1.0)
     return _again(replace(view, width=width), replace(style, text=LARGER[style.text]))
+
+
+def roomier(view: View, wide: float, row: float) -> View:
+    """Return a table at least so wide and with rows at least so high; all else stays."""
+    if view.style is None or not view.rows:
+        return view
+    return _again(replace(view, width=max(view.width, wide)), replace(view.style, row=max(view.style.row, row)))
+
+
+def narrower(view: View, wide: float) -> View:
+    """Return a text whose lines are no longer, mm."""
+    return _again(replace(view, width=wide), view.style)
 
 
 def _again(view: View, style: Style | None) -> View:
@@ -212,7 +231,7 @@ def _again(view: View, style: Style | None) -> View:
         raise ValueError(f"{view.name} has no parts")
     heading = "".join(view.heading)
     if view.rows:
-        again = table(view.name, heading, view.rows, style)
+        again = table(view.name, heading, view.rows, style, view.width)
     else:
         again = text_block(view.name, heading, view.lines, style, view.width)
     return replace(again, of=view.of)

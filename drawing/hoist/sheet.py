@@ -89,9 +89,10 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
         return PARTS[rungs["part"]]
 
     def on_pages(self, sheet: Format) -> Found:
-        """Take several pages in reading order, with scheme and circle a step smaller where that spares one."""
+        """Take several pages in reading order, with scheme, circle and diagrams smaller where that spares one."""
         smaller = self.lower(self.lower(self.wanted, SCALES[SCHEME]), SCALES[CIRCLE])
-        return min((self.in_order(sheet, rungs) for rungs in (self.wanted, smaller)), key=lambda way: last(way[2]))
+        ways = (own | {"part": part} for part in range(len(PARTS)) for own in (self.wanted, smaller))
+        return min((self.in_order(sheet, rungs) for rungs in ways), key=lambda way: last(way[2]))
 
     def figures(self, scene: HoistScene, width: float) -> Iterator[HoistFigure]:
         """Go through the figures of a sheet in the order of the work."""

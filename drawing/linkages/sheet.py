@@ -249,6 +249,11 @@ def draw(contents: Contents, sheet: Format | None = None) -> Drawn:
     if fewest is None:
         raise InputError("sheet-too-small", format=way.name)
     way, (views, rungs, places) = fewest
+    if whole is not None and last(places) > 0:
+        found, drawn = _enlarged(fitting, whole, fewest[1])
+        if sheet == whole:
+            return drawn
+        rungs = found[1]
     if sheet is not None and sheet != whole:
         fitting = Fitting(contents, stated=True)
         stated = _stated(fitting, sheet, rungs)
@@ -262,6 +267,24 @@ def _composed(fitting: Fitting, found: Found, sheet: Format, smaller: bool = Fal
     contents, (views, rungs, places) = fitting.contents, found
     goes_on = contents.words["heading.continued"]
     return compose(views, places, fitting.scales(rungs), sheet, contents.norm, goes_on, smaller=smaller)
+
+
+def _enlarged(fitting: Fitting, sheet: Format, found: Found) -> tuple[Found, Drawn]:
+    """Draw several pages; where some are left too empty, plans are larger as long as that helps and spares no page."""
+    drawn = _composed(fitting, found, sheet)
+    ladders = fitting.extents.ladders
+    for symbol in (symbol for symbol, ladder in ladders.items() if ladder.free and not ladder.chosen):
+        while drawn.short and found[1][symbol] > 0:
+            rungs = found[1] | {symbol: found[1][symbol] - 1}
+            with suppress(InputError):
+                other = _on_pages(fitting, sheet, rungs, last(found[2]) + 1)
+                if other is not None and other[1] == rungs and last(other[2]) <= last(found[2]):
+                    again = _composed(fitting, other, sheet)
+                    if (len(again.sheets), again.short) < (len(drawn.sheets), drawn.short):
+                        found, drawn = other, again
+                        continue
+            break
+    return found, drawn
 
 
 def _as_blank(contents: Contents, sheet: Format) -> tuple[Fitting, Found] | None:

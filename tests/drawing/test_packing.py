@@ -26,7 +26,7 @@ from kulman.drawing.formats import FORMATS, MARGINS, STYLES, drawing_area, reser
 from kulman.drawing.packing import LEAST, STEPS, UNDER, Placement, Slicing, _size_of, bare, spread
 from kulman.drawing.page import extent
 from kulman.drawing.shapes import Line
-from kulman.drawing.tables import table, text_block
+from kulman.drawing.tables import part_of, table, text_block
 from kulman.drawing.view import View
 
 # Givens, structure, position, velocity, acceleration, equations, two tables; group, its forces, forces of the link,
@@ -373,6 +373,40 @@ def test_the_rest_of_a_table_has_no_page_of_its_own_where_one_has_room_for_it():
     ]
     first, rest = (part for part in drawn.views if part.of)
     assert (*first.rows, *rest.rows[1:]) == long.rows
+
+
+def test_a_table_goes_on_after_it_has_begun_where_a_page_before_has_room_for_its_rest():
+    style, paper = STYLES["A4"], FORMATS["A4"]
+    long = table("values", "Values", [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(30))], style)
+    begun, rest = (part_of(long, *rows, said) for rows, said in (((0, 20), "Values"), ((20, 30), "Values (continued)")))
+    figures = [View(name, (), (0.0, 0.0, 170.0, high)) for name, high in (("plan", 125.0), ("lever", 130.0))]
+    places = [Placement(page, 25.0, y) for page, y in ((0, 130.0), (1, 150.0), (1, 20.0), (2, 20.0))]
+
+    drawn = compose((*figures, begun, rest), places, {}, paper, "gost", "{heading} (continued)")
+
+    pages = [[group.name for group in page] for page in drawn.placed]
+    assert pages == [["plan", "values"], ["lever", "values_continued"]]
+    parts = [part for part in drawn.views if part.of]
+    assert [part.heading for part in parts] == [("Values",), ("Values (continued)",)]
+    assert (*parts[0].rows, *parts[1].rows[1:]) == long.rows
+
+
+def test_rows_and_columns_of_tables_take_what_figures_leave_of_a_page():
+    style, paper = STYLES["A4"], FORMATS["A4"]
+    small = table("values", "Values", [["quantity", "value"], *([f"V_{{{k}}}", f"{k}"] for k in range(12))], style)
+    sizes = ("plan", (110.0, 80.0)), ("lever", (170.0, 240.0))
+    figures = [View(name, (Line(0j, complex(*size)),), (0.0, 0.0, *size)) for name, size in sizes]
+    places = Placement(0, 25.0, 150.0), Placement(0, 25.0, 70.0), Placement(1, 25.0, 30.0)
+
+    drawn = compose((figures[0], small, figures[1]), places, {}, paper, "gost", "{heading} (continued)")
+
+    (found,) = (view for view in drawn.views if view.rows)
+    assert found.rows == small.rows
+    assert found.size[0] > 1.5 * small.size[0]
+    room = x0, y0, x1, y1 = drawing_area(paper)
+    boxes = [*(extent(group.shapes) for group in drawn.placed[0]), *reserved_boxes(paper)]
+    assert all(x0 < box[0] and box[2] < x1 for box in boxes[:2])
+    assert bare(room, boxes) < 0.12 * (x1 - x0) * (y1 - y0)
 
 
 def test_a_table_has_no_page_of_its_own_where_a_full_one_has_room_for_it():
