@@ -103,11 +103,15 @@ Rungs: TypeAlias = dict[str, int]
 
 @dataclass(frozen=True, slots=True)
 class Extents:
-    """The figures of a sheet, what its texts take in mm^2 on A1, and the ladders of its scale factors by symbol."""
+    """The figures of a sheet, what its texts take in mm^2 on A1, and the ladders of its scale factors by symbol.
+
+    On one page segments are at least `alone` times as long as other subjects have them there.
+    """
 
     figures: Sequence[Extent]
     texts: float
     ladders: Mapping[str, Ladder]
+    alone: float = 1.0
 
     def root(self, symbol: str) -> str:
         """Return the scale factor on whose rung this one stands: itself, or that of lengths where V = omega l."""
@@ -141,7 +145,7 @@ def ways(
     free, alone = any(ladder.free for ladder in extents.ladders.values()), ALONE * _page(sheet)
     count, fits = 0, False
     while count < MOST:
-        (least, most), tried = several if count else single, list[Rungs]()
+        (least, most), tried = several if count else (single[0] * extents.alone, single[1]), list[Rungs]()
         count += 1
         if count == 1 and free and not _shrunk(extents, _begun(extents, sheet, most), sheet, alone, least):
             continue

@@ -28,6 +28,9 @@ SEGMENTS = {
     "A3": ((45.0, 130.0), (45.0, 190.0)),
     "A4": ((40.0, 130.0), (40.0, 160.0)),
 }
+# moments on the lever of one group that one page holds; times as long plans are at least on one page where groups or
+# moments are more: else two pages have larger plans, and room for their letters
+FEW, CROWDED = 8, 1.8
 # those of other plans may be so many times as long, and are so many times as long at least
 WEIGHTS = {"l": 2.0, "V": 1.0, "a": 1.25, "F": 1.0, "h": 1.5}
 LARGER = {"l": 2.8, "V": 1.4, "a": 1.4, "F": 0.9, "h": 2.6}
@@ -83,7 +86,8 @@ def mus_of(extents: Extents, rungs: Rungs) -> dict[str, float]:
 def extents_of(solved: SolvedLinkage, choosers: Choosers, plans: Sequence[str]) -> Extents:
     """Return what the figures of a linkage take up, what its texts do, and the ladders of its scale factors."""
     figures = tuple(_figures(solved, plans)) if POSITION in solved.scale_of_plan else ()  # a structure has no extent
-    return Extents(figures, _texts(solved, plans), _ladders(solved, choosers, plans))
+    simple = len(solved.structure.groups) == 1 and _moments(solved) <= FEW
+    return Extents(figures, _texts(solved, plans), _ladders(solved, choosers, plans), 1.0 if simple else CROWDED)
 
 
 def scheme_only(plans: Collection[str]) -> bool:
@@ -114,7 +118,6 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
     longest = {symbol: _largest(solved, symbol) for symbol in dict.fromkeys([*solved.scale_of_plan.values(), *own])}
     ladders: dict[str, Ladder] = {}
     measured = any(step.verb == "measure" and is_shown(step.name) for step in solved.program)
-    moments = sum(step.verb == "moment" and role(step.operands[2]).plan == LEVER for step in solved.program)
     for symbol, size in longest.items():
         chooser, kind = choosers.get(symbol), role(symbol).of
         if symbol == "mu_l" and chooser is None and scheme_only(plans) and measured:
@@ -134,7 +137,7 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
             size,
             weight=WEIGHTS[kind],
             share=LARGER[kind],
-            kept=HUNG * moments if symbol == ARMS else KEPT.get(kind, 0.0),
+            kept=HUNG * _moments(solved) if symbol == ARMS else KEPT.get(kind, 0.0),
             root="mu_l" if isinstance(chooser, CrankScale) else "",
             # of what the task or the user has fixed several pages are better than a coarser one
             fixed=isinstance(chooser, Fixed) or (chooser is not None and chooser.firm),
@@ -148,6 +151,11 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
         alike = [s for s in forces if s != root and ladder.longest <= ALIKE * forces[s].longest]
         ladders |= {s: replace(forces[s], values=ladder.values, root=root) for s in alike}
     return ladders
+
+
+def _moments(solved: SolvedLinkage) -> int:
+    """Count the moments on Zhukovsky's lever."""
+    return sum(step.verb == "moment" and role(step.operands[2]).plan == LEVER for step in solved.program)
 
 
 def _figures(solved: SolvedLinkage, plans: Sequence[str]) -> Iterator[Extent]:

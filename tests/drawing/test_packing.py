@@ -300,6 +300,18 @@ def test_what_one_plan_gives_up_below_its_least_others_have():
     assert all(tried.count(rungs) == 1 for rungs in tried)
 
 
+@pytest.mark.parametrize(("alone", "pages"), [(1.0, 1), (1.8, 2)])
+def test_crowded_plans_are_larger_on_two_pages(alone, pages):
+    figures = [Extent("mu_V", (150.0, 150.0), (60.0, 90.0))] * 10
+    ladder = Ladder((0.5, 1.0, 1.5, 2.5, 4.0), 150.0, share=0.9)
+    segments = {"A1": ((45.0, 220.0), (40.0, 240.0))}
+
+    _, rungs, count = next(ways(Extents(figures, 150_000.0, {"mu_V": ladder}, alone), segments, [FORMATS["A1"]]))
+
+    assert count == pages
+    assert ladder.longest / ladder.values[rungs["mu_V"]] >= 0.9 * alone * 45.0
+
+
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_views_stand_on_as_many_pages_as_are_wanted_or_on_more(count):
     views = COURSEWORK["wide group"]
