@@ -23,6 +23,7 @@ ROUND = 48  # pieces of it, for the letters that keep clear of it
 SEVERAL, WORTH = 4, 2  # letters that notes would tell of; of these, how many must find room where letters are smaller
 EACH = 4  # letters left out that stand in one line of the notes
 NEAREST = (1, 4, 1000)  # letters that make room for one without a place; next time these, where it found none
+ASKED = 3  # names of vectors that are asked to make room for the letter of an end
 SHUT_IN = 8  # letters without a free place of their own: where they are more, not every one has ever found a place
 ELSEWHERE = " "  # of a letter that is left out: another figure has it
 NUMERAL = 2.5  # mm that letters keep away from the numeral of a detail
@@ -335,6 +336,11 @@ class Canvas:
             bad = {*placed.failed, *(name for name in placed.crossed if name in placed.leaders)}
             gone = {name for name in spare if name in bad and (cross or self._letters[name].stays)}
             gone = gone or {name for name in placed.failed if name in spare}
+            if gone and all(self._letters[name].stays for name in gone):  # the end of a vector says more than its name
+                sides = [name for name in spare if not self._letters[name].stays]
+                if (fewer := _given_way(scene, placed, out, gone, sides, cross)) is not None:
+                    out, placed = fewer
+                    continue
             # or numbers of arms that lines cross, which say the same under the heading
             gone = gone or {name for name in placed.crossed if self._letters[name].spare == self._letters[name].markup}
             if not gone:
@@ -356,6 +362,22 @@ def _near_failed(placed: Labels, spare: Sequence[str], most: int) -> set[str]:
     for failed in placed.failed:
         near.update(name for _, name in sorted((abs(at[name] - at[failed]), name) for name in spare)[:most])
     return near
+
+
+def _given_way(
+    scene: Scene, placed: Labels, out: set[str], gone: Collection[str], others: Sequence[str], cross: bool
+) -> tuple[set[str], Labels] | None:
+    """Return who is left out, and where all stand, where one or all of the nearest `others` make room for `gone` ones.
+
+    There is nothing to return where they do not.
+    """
+    at = placed.corners
+    near = sorted(others, key=lambda name: (min(abs(at[name] - at[other]) for other in gone), name))[:ASKED]
+    for aside in (*((name,) for name in near), near):
+        again = scene.place(out.union(aside), cross)
+        if len(again.failed) < len(placed.failed):
+            return out.union(aside), again
+    return None
 
 
 def left_of(shape: Shape, boxes: tuple[Box, ...]) -> list[Shape]:

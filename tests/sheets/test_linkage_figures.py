@@ -237,6 +237,18 @@ def test_letter_that_may_give_way_goes_into_the_notes_where_lines_leave_no_room(
     assert roles == {"heading": "heading", "h = 1": role, "O": "label"}
 
 
+def test_names_of_vectors_make_room_for_the_letters_of_their_ends() -> None:
+    scales = {"mu_a": "0.04 (m/s^2)/mm"}
+    found = sheet("scheme-15-lever-shears", "2", only="velocity,acceleration", format="A1", scales=scales)
+    view = next(view for view in found.views if view.name == "acceleration")
+
+    said = {shape.markup for shape in view.shapes if isinstance(shape, Text) and shape.role == "label"}
+    ends = {end for note in view.notes for end in re.findall(r"[a-z]′(?:_\{\d\})?$", note.replace("; ", "\n"), re.M)}
+
+    assert len(ends) > 3
+    assert ends <= said
+
+
 def test_no_letter_touches_the_filled_corner_of_a_rigid_link() -> None:
     view = read(sheet("scheme-18-hydraulic-drive", "2", format="A1").svg())["group_23"]
 
