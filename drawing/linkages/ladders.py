@@ -36,6 +36,7 @@ WEIGHTS = {"l": 2.0, "V": 1.0, "a": 1.25, "F": 1.0, "h": 1.5}
 LARGER = {"l": 2.8, "V": 1.4, "a": 1.4, "F": 0.9, "h": 2.6}
 # mm of A1 below which a plan becomes shorter only after the others
 KEPT = {"l": 200.0, "V": 100.0, "a": 100.0, "F": 80.0}
+SHORTEST = 60.0  # the same of the shortest of plans of forces that have one scale factor
 HUNG = 13.0  # mm that it is for each moment on Zhukovsky's lever: the more hang on it, the longer it is
 PROPORTION = 2.5  # times as fine as the velocity plan that a task fixes its lever may be
 ROUNDING = 1e-9  # part of a scale factor by which two that are one may differ
@@ -149,6 +150,8 @@ def _ladders(solved: SolvedLinkage, choosers: Choosers, plans: Collection[str]) 
     if forces:  # nearly as long as one another, they are drawn to one scale factor
         root, ladder = max(forces.items(), key=lambda item: item[1].longest)
         alike = [s for s in forces if s != root and ladder.longest <= ALIKE * forces[s].longest]
+        kept = max((SHORTEST * ladder.longest / forces[s].longest for s in alike), default=0.0)
+        ladders[root] = replace(ladder, kept=max(ladder.kept, kept))
         ladders |= {s: replace(forces[s], values=ladder.values, root=root) for s in alike}
     return ladders
 

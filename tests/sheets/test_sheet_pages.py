@@ -67,6 +67,22 @@ def test_a_lever_is_in_proportion_to_a_velocity_plan_whose_length_the_task_fixes
     assert 2.0 <= scales["mu_V"] / scales["mu_h"] < 2.501
 
 
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    [("scheme-04-v-engine", "5"), ("scheme-05-articulated-rod", "4"), ("scheme-07-two-stage-compressor", "5")],
+)
+def test_the_shortest_of_force_plans_with_one_scale_factor_can_be_read(task: str, variant: str) -> None:
+    solution = kulman.solve(task, variant)
+    longest: dict[str, float] = {}
+    for quantity in (solution[name] for name in solution if name.startswith(("R_", "F_"))):
+        if quantity.mm is not None and quantity.scale:
+            longest[quantity.scale] = max(longest.get(quantity.scale, 0.0), abs(quantity.mm))
+
+    assert {"mu_F_45", "mu_F_23", "mu_F_1"} == longest.keys()
+    assert len({solution.scales[symbol].mu for symbol in longest}) == 1
+    assert min(longest.values()) > 60.0
+
+
 @pytest.mark.parametrize("format", ["A3", pytest.param("A4", marks=pytest.mark.soak)])
 def test_a_sheet_with_other_scale_factors_names_them_and_solve_shows_its_numbers(format: str) -> None:
     usual, small = (kulman.solve("nau-slider-crank", "7", format=name) for name in (None, format))
