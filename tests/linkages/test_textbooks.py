@@ -116,7 +116,7 @@ def test_printed_values_of_the_note_are_right_or_follow_from_two_wrong_signs(not
         assert note[name].value == pytest.approx(right, rel=1e-4)
     assert [name for name in UNPRINTED.split() if name not in note] == []
     assert (note.status, note.checks["lever"]["ok"]) == ("ok", True)
-    scales = {"mu_l": 0.0025, "mu_V": 0.189, "mu_a": 21.318, "mu_h": 0.189, "mu_F_23": 33.154, "mu_F_1": 54.373}
+    scales = {"mu_l": 0.0025, "mu_V": 0.189, "mu_a": 21.318, "mu_h": 0.126, "mu_F_23": 33.154, "mu_F_1": 54.373}
     assert {name: scale.mu for name, scale in note.scales.items()} == scales
     assert note["F_bal"].scale == "mu_F_1"
 

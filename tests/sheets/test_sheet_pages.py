@@ -38,7 +38,7 @@ from kulman.variants.shelf import bundled, bundled_text
 TASKS = bundled()
 QUICK = ("nau-slider-crank",)
 EVERY = [task if task in QUICK else pytest.param(task, marks=pytest.mark.soak) for task in TASKS]
-MADI = {"mu_l": 0.0025, "mu_V": 0.189, "mu_a": 21.318, "mu_h": 0.189, "mu_F_23": 33.154, "mu_F_1": 54.373}
+MADI = {"mu_l": 0.0025, "mu_V": 0.189, "mu_a": 21.318, "mu_h": 0.126, "mu_F_23": 33.154, "mu_F_1": 54.373}
 KINEMATICS = {"givens", "structure", "position", "velocity", "acceleration", "equations_kinematics"}
 
 
