@@ -26,7 +26,7 @@ from kulman.drawing.compose import Drawn
 from kulman.drawing.figure import _family
 from kulman.drawing.formats import FORMATS
 from kulman.drawing.handouts import _begun_stages, _done
-from kulman.drawing.linkages.asking import _given_name
+from kulman.drawing.linkages.asking import given_name
 from kulman.drawing.notes.blocks import Figure, Steps
 from kulman.drawing.page import extent
 from kulman.drawing.pdf import MARGIN, _tiles, write_tiles
@@ -234,7 +234,7 @@ def test_every_given_of_a_bundled_linkage_has_a_name(lang: str) -> None:
     tasks = [*map(load_task, bundled("mechanism"))]
 
     named = {
-        (task.id, name): _given_name(task.mechanism, Words.of(lang, task.notation), name)
+        (task.id, name): given_name(task.mechanism, Words.of(lang, task.notation), name)
         for task in tasks
         for name, given in task.givens.items()
         if not given.choices
