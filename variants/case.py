@@ -362,11 +362,8 @@ class Kind(Generic[Subject, Answer]):
 
         for symbol, said, value, of in self.rows(case, words):
             yield symbol or "", said or "", with_unit(value or "", of or "")
-        yield from (("", sentence, "") for sentence in self._assumed(words))
-
-    def _assumed(self, words: Words) -> tuple[str, ...]:
-        """Return what holds besides the data, a sentence without its full stop, if anything does."""
-        return tuple(filter(None, [words.texts.get(f"stated.{self.table}")]))
+        if sentence := words.texts.get(f"stated.{self.table}"):  # what holds besides the data
+            yield "", sentence, ""
 
     def rows(self, case: Case, words: Words) -> Sequence[Row]:
         """Return the data as a table has them: symbol, what it is, value, unit."""
@@ -392,8 +389,7 @@ class Kind(Generic[Subject, Answer]):
         data = table(DATA, words["heading.givens"], [head, *self.rows(case, words)], STYLES["A4"])
         solved = cast("Answer", case.solved)
         wanted = [words.symbol(name) for name in solved.quantities if self.sought(solved, words, name)]
-        assumed = (f"{sentence}." for sentence in self._assumed(words))
-        lines = [*aims, *assumed, words["task.find"].format(names=", ".join(wanted))]
+        lines = [*aims, words["task.find"].format(names=", ".join(wanted))]
         heading = words["heading.task"].format(variant=case.variant)
         task = text_block(TASK, heading, [*map(words_of, lines)], STYLES["A4"], WIDTH)
         for part in PARTS:

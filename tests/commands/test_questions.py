@@ -160,16 +160,13 @@ def test_a_question_for_moodle_is_answered_from_itself_alone(
     ("key", "name", "sentence"),
     [("karpenko-hoist", "P_st", "треть веса каната"), ("madi-gear", "d_a1", "зубья укорочены")],
 )
-def test_what_schools_reckon_otherwise_is_said_in_a_question_and_on_a_card(
+def test_what_schools_reckon_otherwise_is_said_in_a_question(
     key: str, name: str, sentence: str, tmp_path: Path
 ) -> None:
     found = all_variants(key, [next(iter(load_task(key).variants))], quantities=name, lang="ru")
     (file,) = found.save(tmp_path / "q.xml")
-    case = next(iter(found.keys.values())).solution.case
 
     assert [sentence in one.text for one in questions_in(file)] == [True]
-    *_, task = next(iter(case.kind.statements(case, case.kind.lettered(case.words(), case.solved), ())))
-    assert sentence in " ".join(shape.markup for shape in leaves(task.shapes) if isinstance(shape, Text))
 
 
 def test_what_is_given_is_not_asked_for() -> None:
