@@ -94,13 +94,18 @@ def _cuts(
 
 
 def on_one_page(
-    sizes: Sequence[Size], sheet: Format, norm: Norm, begins: Sequence[int] = (), first: bool = True
+    sizes: Sequence[Size],
+    sheet: Format,
+    norm: Norm,
+    begins: Sequence[int] = (),
+    first: bool = True,
+    loose: bool = False,
 ) -> list[Placement] | None:
     """Place views of these sizes on the only page, or on the last one; return None if they do not fit.
 
     Where they do not fit as one reads them, high ones stand before low ones, so that rows have little empty room: first
     tables alone, behind the figures, then figures with what tells of them, texts alone, in the end all. Texts with
-    which the page begins, as what is given, stay first. `begins` are as of `Pages`.
+    which the page begins, as what is given, stay first. `begins` are as of `Pages`, and `loose` as of `spread`.
     """
     every, lead = range(len(sizes)), _lead(begins)
     rest = every[len(lead) :]
@@ -117,7 +122,7 @@ def on_one_page(
     ways = [*every], behind(TEXT), [*lead, *chain(*told)], behind(TOLD, TEXT), [*lead, *sorted(rest, key=low)]
     for order in dict.fromkeys(map(tuple, ways)):
         kinds = [begins[i] for i in order] if begins else ()
-        if (placed := on_a_page([sizes[i] for i in order], sheet, norm, kinds, first)) is not None:
+        if (placed := on_a_page([sizes[i] for i in order], sheet, norm, kinds, first, loose)) is not None:
             return [placed[order.index(i)] for i in every]
     return None
 
@@ -470,9 +475,10 @@ class _Evening:
         if not any(costs):
             return places, 0.0
         own = [self._sorted(view for view, _ in page) for page in parted]
-        for number in range(end):
-            if costs[number] and (found := self._best(own[number], number, end)) and found[0] < costs[number]:
-                costs[number], places[number] = found
+        for number in (number for number in range(end) if costs[number]):
+            page = self._nudged(places[number], number)  # it may have places that no order of its views gives
+            ways = (self.short(page, number), page), self._best(own[number], number, end)
+            costs[number], places[number] = min((way for way in ways if way), key=lambda way: way[0])
         for _ in range(ROUNDS if any(costs) else 0):
             moves = (self._moved(own, costs, move) for move in self._moves(own, costs))
             _, changed = max((move for move in moves if move), key=lambda move: move[0], default=(0.0, {}))
@@ -540,7 +546,8 @@ class _Evening:
             best: tuple[float, list[Standing]] | None = None
             for again in self._written(views, begins) if number < end else [views]:
                 sizes, paper = [view.size for view in again], (self.sheet, self.norm, begins, first)
-                for placed in (on_one_page(sizes, *paper), on_a_page(sizes, *paper, loose=True)):
+                for loose in (False, True):
+                    placed = on_one_page(sizes, *paper, loose)
                     page = [] if placed is None else [*zip(again, placed, strict=True)]
                     cost = self.short(page, number) if page and number < end else 0.0
                     if page and (best is None or cost < best[0]):

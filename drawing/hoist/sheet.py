@@ -13,7 +13,7 @@ from ...scales.scale import Choosers, From, Scale, steps
 from ..compose import last
 from ..extents import Rungs, smallest, visible
 from ..figure import Figure, Fitting, Found, SheetContents
-from ..formats import STYLES, Format
+from ..formats import FORMATS, STYLES, Format
 from .scene import UNITS, HoistScene, lettered, scale_of
 
 PARTS = 1.0, 0.8, 0.63, 0.5, 0.4  # of the usual size of diagrams
@@ -89,10 +89,19 @@ class HoistFitting(Fitting[SolvedHoist, HoistScene]):
         return PARTS[rungs["part"]]
 
     def on_pages(self, sheet: Format) -> Found:
-        """Take several pages in reading order, with scheme, circle and diagrams smaller where that spares one."""
-        smaller = self.lower(self.lower(self.wanted, SCALES[SCHEME]), SCALES[CIRCLE])
+        """Take several pages in reading order, with scheme, circle and diagrams smaller where that spares one.
+
+        A handout, with another frame, is drawn as the sheet is.
+        """
+        smaller, stated = self.lower(self.lower(self.wanted, SCALES[SCHEME]), SCALES[CIRCLE]), self.stated
         ways = (own | {"part": part} for part in range(len(PARTS)) for own in (self.wanted, smaller))
-        return min((self.in_order(sheet, rungs) for rungs in ways), key=lambda way: last(way[2]))
+        self.stated = False
+        found = min((self.in_order(FORMATS[sheet.name], rungs) for rungs in ways), key=lambda way: last(way[2]))
+        if not stated:
+            return found
+        self.stated = True
+        self._drawn.clear()
+        return self.in_order(sheet, found[0])
 
     def figures(self, scene: HoistScene, width: float) -> Iterator[HoistFigure]:
         """Go through the figures of a sheet in the order of the work."""
