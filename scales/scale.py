@@ -18,7 +18,6 @@ from .units import SYMBOLS, Unit, UnitName, parse, unit
 
 # GOST 2.302 and its reciprocals give the same customary mantissas
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
-SHORTER = 0.8  # of the length that is wished, what a round mu leaves of it at least
 EXACT, SEEN = 6, 0.005  # digits of a scale factor at most, for a segment that is so long to so many mm
 
 RUNGS = 16
@@ -123,10 +122,7 @@ class Segment:
     firm: bool = False
 
     def ladder(self, value: Callable[[str], float]) -> tuple[float, ...]:
-        """Return the mu of the customary series with the nearest length, then coarser ones.
-
-        Vectors are not much shorter, or names have no room beside them; lengths may be.
-        """
+        """Return the mu of the customary series with the nearest length, then coarser ones."""
         size = value(self.quantity)
         if self.firm:  # as few digits as the length needs
             rough = (rounded(size / self.millimetres, digits) for digits in range(3, EXACT))
@@ -134,9 +130,7 @@ class Segment:
             return (next((mu for mu in rough if abs(size / mu - self.millimetres) < SEEN), exact),)
         finer = [mu for mu in steps(size / self.millimetres / 10.0) if mu * self.millimetres < size * (1.0 - 1e-9)]
         series = (finer[-1], *steps(size / self.millimetres))
-        nearer = abs(size / series[1] - self.millimetres) < abs(size / series[0] - self.millimetres)
-        least = 0.0 if self.quantity.startswith("l_") else SHORTER * self.millimetres * (1.0 - 1e-9)
-        first = int(nearer and size / series[1] >= least)
+        first = int(abs(size / series[1] - self.millimetres) < abs(size / series[0] - self.millimetres))
         return series[first : first + RUNGS]
 
 

@@ -179,9 +179,8 @@ def test_a_class_is_printed_in_one_go_in_the_order_of_its_roster(tmp_path: Path)
     out, names = tmp_path / "out", ["Yana", "Bohdan", "Artem"]
     file = roster(tmp_path, *(f"{name};MM-21;{n};" for n, name in enumerate(names, 2)), "Всього: 3;;;")
 
-    asked = {"kinds": ["handout", "card", "pdf"], "only": "velocity", "scales": {"mu_V": "0.1 (m/s)/mm"}}
     for _ in range(2):  # the second time from what is there
-        done = batch(TASK, file, out, **asked, merge=True, jobs=1)
+        done = batch(TASK, file, out, kinds=["handout", "card", "pdf"], only="velocity", merge=True, jobs=1)
 
     merged = {name: list(extract_pages(out / name)) for name in ("handouts.pdf", "cards.pdf", "solutions/sheets.pdf")}
     texts = [
