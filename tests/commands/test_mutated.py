@@ -42,7 +42,7 @@ FOUND = {
     "a link beside which the others are points": Found("sheet scheme-13-toggle-press --set l_AS2=2.53e+10 -o x.svg",
         status=0),
     "a diagram of sliding that is a line": Found("sheet madi-gear --set mu_theta=643646 -o x.svg", "mu_theta = 643646"),
-    "a literal beyond all drawings": Found("solve x.toml", "x.toml:77:1: mechanism.pair.offset: '1e+154 m'",
+    "a literal beyond all drawings": Found("solve x.toml", "x.toml:85:1: mechanism.pair.offset: '1e+154 m'",
         changes=(('offset = "0 mm"', 'offset = "1e154 m"'),)),
     "a choice beyond all drawings": Found("list --check x.toml", "'1e+200 deg' is too large",
         changes=(('alpha_F3 = "180 deg"', 'alpha_F3 = "1e200 deg"'),)),

@@ -448,7 +448,7 @@ def test_arms_on_the_lever_are_asked_and_read_in_millimetres_and_those_of_couple
     arms = {"nau-slider-crank": ["F_i2", "F_i3", "F_3", "M_i2_B", "M_i2_A"]}
     arms["scheme-09-shaper"] = ["F_i3", "G_3", "F_i4", "G_4", "F_i5", "G_5", "F_5"]  # on the sheet a couple has one arm
     for task, names in arms.items():
-        rows = form(tmp_path, "form.csv", "uk", task).read_text(encoding="utf-8-sig").splitlines()
+        rows = form(tmp_path, f"{task}.csv", "uk", task).read_text(encoding="utf-8-sig").splitlines()
         lever = [row.split(";") for row in rows if row.startswith("h_lever")]
         assert [(row[0], row[6]) for row in lever] == [(f"h_lever_{name}", "мм") for name in names]
 

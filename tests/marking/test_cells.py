@@ -310,7 +310,7 @@ def test_the_form_of_a_class_asks_for_senses(tmp_path: Path) -> None:
     roster = write(tmp_path, [["student", "variant"], ["Student 1", "1"]], name="roster")
 
     with_senses, without = (
-        read_grid(check(TASK, roster=roster, directions=how).write_form(tmp_path / "form.csv")).rows[0]
+        read_grid(check(TASK, roster=roster, directions=how).write_form(tmp_path / f"{how}.csv")).rows[0]
         for how in (None, "ignored")
     )
 
