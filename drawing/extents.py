@@ -105,7 +105,7 @@ Rungs: TypeAlias = dict[str, int]
 class Extents:
     """The figures of a sheet, what its texts take in mm^2 on A1, and the ladders of its scale factors by symbol.
 
-    On one page segments are at least `alone` times as long as other subjects have them there.
+    Where one page would make segments shorter than `alone` times the least, two are taken.
     """
 
     figures: Sequence[Extent]
