@@ -270,7 +270,7 @@ def _composed(fitting: Fitting, found: Found, sheet: Format, smaller: bool = Fal
 
 
 def _enlarged(fitting: Fitting, sheet: Format, found: Found) -> tuple[Found, Drawn]:
-    """Draw several pages; where some are left too empty, plans are larger as long as that helps and takes no page more."""
+    """Draw several pages; where some are too empty plans are larger, as long as that helps and takes no page more."""
     drawn = _composed(fitting, found, sheet)
     ladders = fitting.extents.ladders
     for symbol in (symbol for symbol, ladder in ladders.items() if ladder.free and not ladder.chosen):
