@@ -231,11 +231,13 @@ def test_pages_of_small_formats_are_even(task: str, variant: str, format: str, m
 
 def test_figures_of_a_crowded_page_come_in_the_order_of_the_work() -> None:
     (page,) = sheet_of("madi-four-bar").pages
+    box = {view.name: view.box for view in page.views}
 
-    wanted = ["position", "velocity", "acceleration", "group_23"]
-    row = sorted((view for view in page.views if view.name in wanted), key=lambda view: view.box[0])
-    assert [view.name for view in row] == wanted
-    assert max(view.box[3] for view in row) - min(view.box[3] for view in row) < 1.0
+    for wanted in (["position", "velocity", "acceleration"], ["group_23", "forces_23", "driver"]):
+        assert sorted(wanted, key=lambda name: box[name][0]) == wanted
+        tops = [box[name][3] for name in wanted]
+        assert max(tops) - min(tops) < 1.0
+    assert box["group_23"][3] < box["position"][1]
 
 
 def pages_of(task: str, variant: str, languages: Iterable[str] = LANGUAGES) -> list[int]:
