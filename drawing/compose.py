@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 from itertools import chain, combinations, cycle, islice, pairwise, product, takewhile
 
 from ..scales.scale import Scale
-from .formats import FORMATS, Format, Norm, drawing_area, reserved_boxes, usable
+from .formats import FORMATS, STYLES, Format, Norm, drawing_area, reserved_boxes, usable
 from .packing import LEAST, STEPS, Placement, Size, Slicing, bare, inset, spread
 from .page import Page
 from .shapes import Group
@@ -28,11 +28,15 @@ TABLE, LEAD = range(2)  # kinds of texts that may have larger letters, beside wh
 MANY = 3  # pages on which views may come in another order
 ENOUGH = {"A4": 0.51, "A3": 0.66, "A2": 0.66, "A1": 0.66}  # part of a page below which tables and texts break for it
 ROOMY = ENOUGH | {"A3": 0.69, "A2": 0.69, "A1": 0.69}  # part of a page below which its letters are larger
-GROWN, CROWDED = 2.0, 0.85  # times as large as before texts are then; part of a page that such views never fill
+GROWN = 2.0  # times as large as before are texts with larger letters
+CROWDED = 0.85  # part of a page that views, with what is between them, never fill
+HIGH = 0.0, 6.5, 8.0  # mm of the rows of its tables at least
+LARGE = {TABLE, LEAD, TOLD}, {LEAD, TOLD}, {TABLE, TOLD}, {TOLD}, {TABLE, LEAD}, {TABLE}, {LEAD}, set[int]()
 KEPT = 8  # parts of the views of a page that are tried in reading order
 BARE = 0.105  # part of a page that may be one bare rectangle
 EMPTY = 0.116  # the same, between lines
 INK = {FIGURE: 1.0, TEXT: 0.5, TOLD: 0.5}  # mm between the lines of a view and its box
+OVER = 0.44  # heights of a heading between its letters and the box of its view
 # heights of rows, mm, and the part of the width of a page that tables take, as wide as the widest of them or more
 ROWS = (6.5, 0.0), (8.0, 0.0), (8.0, 0.7), (1.0, 1.0), (8.0, 1.0)
 NARROWEST = 0.38  # part of the width of a page that texts beside a figure have at least
@@ -439,6 +443,18 @@ def _box_of(standing: Standing) -> Box:
     return at.x, at.y, at.x + view.size[0], at.y + view.size[1]
 
 
+def _short(page: Sequence[Standing], sheet: Format, norm: Norm, first: bool) -> float:
+    """Return by which part of it a page is too empty, and its largest bare rectangle too large."""
+    room, boxes = drawing_area(sheet, norm), [*reserved_boxes(sheet, norm, first=first)]
+    over = OVER * STYLES[sheet.letters].heading
+    for standing, kind in zip(page, begins_of(view for view, _ in page), strict=True):
+        (left, low, right, high), edge = _box_of(standing), INK[kind]
+        boxes.append((left + edge, low + edge, right - edge, high - over))
+    area = (room[2] - room[0]) * (room[3] - room[1])
+    fill = sum((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in boxes) / area
+    return max(0.0, ENOUGH[sheet.letters] - fill) + max(0.0, bare(room, boxes) / area - EMPTY)
+
+
 @dataclass(slots=True)
 class _Evening:
     """Evens out pages that are too empty or have too large a bare rectangle: letters are larger there, tables roomier.
@@ -456,28 +472,21 @@ class _Evening:
     _found: dict[tuple[int, ...], tuple[float, list[Standing]] | None] = field(default_factory=dict)
     _made: dict[tuple[int, float, float], View] = field(default_factory=dict)
 
-    def short(self, page: Sequence[Standing], number: int) -> float:
-        """Return by which part of it a page is too empty, and its largest bare rectangle too large."""
-        room, boxes = drawing_area(self.sheet, self.norm), [*reserved_boxes(self.sheet, self.norm, first=number == 0)]
-        for (view, at), kind in zip(page, begins_of(view for view, _ in page), strict=True):
-            (left, low, right, high), edge = _box_of((view, at)), INK[kind]
-            boxes.append((left + edge, low + edge, right - edge, high - edge))
-        area = (room[2] - room[0]) * (room[3] - room[1])
-        fill = sum((x1 - x0) * (y1 - y0) for x0, y0, x1, y1 in boxes) / area
-        return max(0.0, ENOUGH[self.sheet.letters] - fill) + max(0.0, bare(room, boxes) / area - EMPTY)
+    def _short(self, page: Sequence[Standing], number: int) -> float:
+        return _short(page, self.sheet, self.norm, number == 0)
 
     def evened(
         self, parted: Sequence[Sequence[Standing]], pages: Sequence[list[Standing]]
     ) -> tuple[list[list[Standing]], float]:
         """Return pages, made of those that are `parted`, and what they are short of: as little as can be."""
         end, places = len(pages) - 1, [*pages]
-        costs = [self.short(page, number) if number < end else 0.0 for number, page in enumerate(pages)]
+        costs = [self._short(page, number) if number < end else 0.0 for number, page in enumerate(pages)]
         if not any(costs):
             return places, 0.0
         own = [self._sorted(view for view, _ in page) for page in parted]
         for number in (number for number in range(end) if costs[number]):
             page = self._nudged(places[number], number)  # it may have places that no order of its views gives
-            ways = (self.short(page, number), page), self._best(own[number], number, end)
+            ways = (self._short(page, number), page), self._best(own[number], number, end)
             costs[number], places[number] = min((way for way in ways if way), key=lambda way: way[0])
         for _ in range(ROUNDS if any(costs) else 0):
             moves = (self._moved(own, costs, move) for move in self._moves(own, costs))
@@ -549,7 +558,7 @@ class _Evening:
                 for loose in (False, True):
                     placed = on_one_page(sizes, *paper, loose)
                     page = [] if placed is None else [*zip(again, placed, strict=True)]
-                    cost = self.short(page, number) if page and number < end else 0.0
+                    cost = self._short(page, number) if page and number < end else 0.0
                     if page and (best is None or cost < best[0]):
                         best = cost, page
                     if best is not None and not best[0]:
@@ -558,7 +567,7 @@ class _Evening:
                     break
             if best is not None and best[0]:
                 nudged = self._nudged(best[1], number)
-                best = self.short(nudged, number), nudged
+                best = self._short(nudged, number), nudged
             self._found[key] = best
         return self._found[key]
 
@@ -567,13 +576,13 @@ class _Evening:
 
         Of two that stand one above the other one goes to the left and one to the right where either alone is no help.
         """
-        cost = self.short(page, number)
+        cost = self._short(page, number)
         for _ in range(NUDGES * len(page) if cost else 0):
             ways = [*self._ways(page, number)]
             pairs = ((a, b) for a, b in combinations(ways, 2) if a[0] != b[0] and a[1] * b[1] < 0.0)
             for moves in (([way] for way in ways), map(list, pairs)):
                 others = (self._aside(page, some) for some in moves)
-                found = [(self.short(other, number), k, other) for k, other in enumerate(others) if other]
+                found = [(self._short(other, number), k, other) for k, other in enumerate(others) if other]
                 least = min(found, key=lambda way: way[:2], default=(cost, 0, page))
                 if least[0] < cost:
                     break
@@ -767,11 +776,12 @@ def compose(
 
 
 def _legible(page: list[Standing], sheet: Format, norm: Norm, first: bool, end: bool) -> list[Standing]:
-    """Return a page with larger letters where figures leave it too empty else, and where they have room.
+    """Return a page with larger letters and roomier tables where figures leave it too empty else.
 
-    All its tables and texts have them, or all texts, or all but those with which it begins, as the structure: as one
-    reads them, or else in another order, but not on the last of several pages, at its `end`, which may be empty. Parts
-    of what stands on another page, too, stay as they are.
+    All its tables and texts have them, or some, or those with which it begins, as the structure: as many as have room
+    in reading order without leaving the page short of what fills it. Where none do, as many as have room in any order,
+    but not on the last of several pages, at its `end`, which may be empty. Parts of what stands on another page, too,
+    stay as they are.
     """
     views = [view for view, _ in page]
     begins, paper = begins_of(views), (sheet, norm)
@@ -780,15 +790,32 @@ def _legible(page: list[Standing], sheet: Format, norm: Norm, first: bool, end: 
         return page
     lead = len([*takewhile(lambda kind: kind == TEXT, begins)])
     of = [TABLE if view.rows else LEAD if i < lead else TOLD for i, view in enumerate(views)]
-    (x0, y0, x1, y1), enlarged = usable(*paper), cache(lambda i, wide: larger(views[i], wide))
-    for kinds in ({TABLE, LEAD, TOLD}, {LEAD, TOLD}, {TOLD}):
+    x0, y0, x1, y1 = usable(*paper)
+
+    @cache
+    def written(i: int, large: bool, wide: bool, row: float) -> View:
+        view = larger(views[i], wide) if large else views[i]
+        return roomier(view, 0.0, row) if row else view
+
+    room, without = (x1 - x0 + LEAST) * (y1 - y0 + LEAST), {on_a_page: CROWDED, on_one_page: CROWDED}
+    for place, kinds in product((on_a_page,) if end else (on_a_page, on_one_page), LARGE):
         areas = (
-            math.prod(view.size) * (GROWN if view.style and of[i] in kinds else 1.0) for i, view in enumerate(views)
+            math.prod(view.size) * (GROWN if view.style and k in kinds else 1.0)
+            for k, view in zip(of, views, strict=True)
         )
         if sum(areas) > CROWDED * (x1 - x0) * (y1 - y0):  # surely without room
             continue
-        for wide, place in product((True, False), (on_a_page,) if end else (on_a_page, on_one_page)):
-            again = [enlarged(i, wide) if kind in kinds else views[i] for i, kind in enumerate(of)]
-            if (placed := place([view.size for view in again], *paper, begins, first)) is not None:
-                return [*zip(again, placed, strict=True)]
+        for row, wide in product((0.0,) if end or place is on_one_page else HIGH, (True, False)):
+            again = [written(i, k in kinds, wide and k != TABLE, row * (k == TABLE)) for i, k in enumerate(of)]
+            area = sum((view.size[0] + LEAST) * (view.size[1] + LEAST) for view in again)
+            if area >= without[place] * room:  # hardly with room, where less had none
+                continue
+            for loose in (False,) if end or place is on_one_page else (False, True):
+                placed = place([view.size for view in again], *paper, begins, first, loose)
+                found = [] if placed is None else [*zip(again, placed, strict=True)]
+                if found and (end or place is on_one_page or not _short(found, *paper, first)):
+                    return found
+                if not found:
+                    without[place] = area / room
+                    break
     return page

@@ -6,7 +6,7 @@ import subprocess
 import sys
 from collections import Counter
 from collections.abc import Iterable
-from itertools import cycle
+from itertools import combinations, cycle
 from pathlib import Path
 
 import pytest
@@ -14,7 +14,7 @@ import pytest
 import kulman
 from kulman.scales.errors import LANGUAGES
 from kulman.tests.sheets.judge import KINDS, Finding, faults, judged
-from kulman.tests.support.cases import as_drawn, other_lengths, same_scales
+from kulman.tests.support.cases import as_drawn, other_lengths, same_scales, some
 from kulman.tests.support.linkage_cases import Linkage
 from kulman.tests.support.linkage_points import linkage_faults
 from kulman.tests.support.readback import Sheet, read
@@ -238,6 +238,29 @@ def test_figures_of_a_crowded_page_come_in_the_order_of_the_work() -> None:
         tops = [box[name][3] for name in wanted]
         assert max(tops) - min(tops) < 1.0
     assert box["group_23"][3] < box["position"][1]
+
+
+# where letters are larger for the fill of the page, and all are in this order nevertheless
+@pytest.mark.parametrize(
+    ("task", "variant"),
+    some(
+        [
+            ("nau-slider-crank", "4"),
+            *(("nau-slider-crank", variant) for variant in ("0", "1", "2", "5", "9")),
+            ("scheme-01-compressor", "7"),
+            ("scheme-02-forging-press", "1"),
+        ],
+        1,
+    ),
+)
+def test_figures_of_the_only_page_come_in_the_order_of_the_work(task: str, variant: str) -> None:
+    names = [view.name for view in kulman.sheet(task, variant, lang="uk").views if not (view.rows or view.lines)]
+    (page,) = sheet_of(task, variant).pages
+    box = {view.name: view.box for view in page.views}
+
+    assert len(names) > 8
+    for before, after in combinations(names, 2):
+        assert box[before][2] < box[after][0] or box[before][1] > box[after][3], (before, after)
 
 
 def pages_of(task: str, variant: str, languages: Iterable[str] = LANGUAGES) -> list[int]:
